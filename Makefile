@@ -1,0 +1,41 @@
+# Every target sets up what it needs: `make demo` and `make test` work alone and first on a fresh machine.
+PYTHON ?= python3
+VENV   := .venv
+BIN    := $(VENV)/bin
+READY  := $(VENV)/.ready
+
+.DEFAULT_GOAL := help
+.PHONY: help demo test lint fmu accuracy bench format clean
+
+help:            ## list the targets
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
+
+$(READY): pyproject.toml
+	@echo "Setting up $(VENV) (some minutes the first time) ..."
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "Python 3.11 or newer is needed; name one with PYTHON=..."; exit 1; }
+	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --editable '.[dev]'
+	@touch $@
+
+demo: $(READY)   ## build the FMUs, run the coupled wheelset, leave pictures and a CSV in out/
+	$(BIN)/python build_fmu.py
+	$(BIN)/contact demo --out out
+
+fmu: $(READY)    ## build the FMUs into dist/
+	$(BIN)/python build_fmu.py
+
+test: $(READY)   ## run the tests
+	$(BIN)/python -m pytest -n 2
+
+lint: $(READY)   ## ruff, mypy, import-linter
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+format: $(READY) ## put the code in shape
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+clean:           ## remove what was made
+	rm -rf dist out build .pytest_cache .mypy_cache .ruff_cache *.egg-info

@@ -1,0 +1,47 @@
+"""Where each number lives in the arrays that kernels share. Names, not indices, are written everywhere else."""
+
+# strips[ROW, i]: longitudinal strips of all patches, one panel of strips after the other
+STRIP_Y, STRIP_DY, STRIP_XC, STRIP_A, STRIP_P0, STRIP_ASPECT, STRIP_PATCH = range(7)
+N_STRIP_ROWS = 7
+
+# fields[ROW, strip, element]: element 0 is at the leading edge (x = x_c + a)
+FIELD_X, FIELD_DX, FIELD_P, FIELD_QX, FIELD_QY, FIELD_SX, FIELD_SY, FIELD_STICK = range(8)
+N_FIELD_ROWS = 8
+
+# case[...]: one contact problem besides its separation
+(
+    CASE_LOAD_KIND,  # LOAD or APPROACH
+    CASE_LOAD,  # [N] or [m]
+    CASE_VX,
+    CASE_VY,
+    CASE_PHI,
+    CASE_MU,
+    CASE_G,  # shear modulus
+    CASE_NU,
+    CASE_NORMAL,  # id of the normal method
+    CASE_TANGENTIAL,  # id of the tangential method
+) = range(10)
+N_CASE = 10
+LOAD, APPROACH = 0.0, 1.0
+
+# result[...]: what a solver says besides fields
+(
+    RES_FX,
+    RES_FY,
+    RES_MZ,
+    RES_N,
+    RES_APPROACH,
+    RES_PMAX,
+    RES_AREA,
+    RES_SLIP_AREA,
+    RES_POWER,  # dissipated energy per metre rolled [N], -∬ q·s dA
+    RES_STIFFNESS,  # dN/d(approach) [N/m]
+    RES_LENGTH,
+    RES_WIDTH,
+    RES_PATCHES,
+    RES_ITERATIONS,
+    RES_STATUS,
+) = range(15)
+N_RES = 15
+
+MAX_PATCHES = 4

@@ -1,0 +1,31 @@
+"""Rigid relative motion of wheel and rail in the contact plane."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from contact.errors import require_number
+
+
+@dataclass(frozen=True, slots=True)
+class Creepage:
+    """Velocity of the wheel relative to the rail at the origin of the separation, divided by the rolling speed V.
+
+    The rigid slip is (longitudinal - spin·y, lateral + spin·x), thesis Eq. 3.5-3.6; positive creepage gives negative force
+    on the wheel. The frame is x in the rolling direction, y lateral, z along the common normal, right-handed.
+
+    Parameters
+    ----------
+    longitudinal, lateral : float
+        Creepages [-].
+    spin : float
+        Spin creepage [1/m].
+    """
+
+    longitudinal: float = 0.0
+    lateral: float = 0.0
+    spin: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("longitudinal", "lateral", "spin"):
+            require_number(f"creepage.{name}", getattr(self, name))

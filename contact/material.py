@@ -1,0 +1,63 @@
+"""Elastic and strength constants of the wheel-rail pair."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from contact.errors import require_number
+
+
+@dataclass(frozen=True, slots=True)
+class Material:
+    """Quasi-identical pair of elastic half-spaces (no coupling of normal and tangential displacement).
+
+    Parameters
+    ----------
+    shear_modulus : float
+        Combined shear modulus G [Pa], 1/G = (1/G1 + 1/G2)/2.
+    poisson_ratio : float
+        Combined Poisson ratio nu [-], nu/G = (nu1/G1 + nu2/G2)/2, in [0, 0.5].
+    hardness : float
+        Hardness H of the softer body [Pa]; Archard's wear law. Default 2.7 GPa, about 275 HV (recalled, rail steel R260).
+    shear_yield : float
+        Yield stress k in shear [Pa]; fatigue and stress index. Default 300 MPa (order of R260: 211 at first
+        plasticity, 288 at high plastic work, torsion tests of Meyer et al. 2020, doi 10.1016/j.euromechsol.2020.103977).
+
+    Raises
+    ------
+    ContactError
+        For a constant outside its range.
+    """
+
+    shear_modulus: float
+    poisson_ratio: float
+    hardness: float = 2.7e9
+    shear_yield: float = 300e6
+
+    def __post_init__(self) -> None:
+        require_number("shear_modulus", self.shear_modulus, 0.0, open_minimum=True)
+        require_number("poisson_ratio", self.poisson_ratio, 0.0, 0.5)
+        require_number("hardness", self.hardness, 0.0, open_minimum=True)
+        require_number("shear_yield", self.shear_yield, 0.0, open_minimum=True)
+
+    @property
+    def contact_modulus(self) -> float:
+        """E* = G/(1 - nu) [Pa], 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2."""
+        return self.shear_modulus / (1.0 - self.poisson_ratio)
+
+    @classmethod
+    def from_pair(
+        cls, E1: float, nu1: float, E2: float, nu2: float, *, hardness: float = 2.7e9, shear_yield: float = 300e6
+    ) -> Material:
+        """Combine two bodies with Young's moduli `E1`, `E2` [Pa] and Poisson ratios `nu1`, `nu2` (Kalker 1990).
+
+        The normal problem of dissimilar bodies is exact; their normal-tangential coupling is left out.
+        """
+        G1 = require_number("E1", E1, 0.0, open_minimum=True) / (2.0 * (1.0 + require_number("nu1", nu1, 0.0, 0.5)))
+        G2 = require_number("E2", E2, 0.0, open_minimum=True) / (2.0 * (1.0 + require_number("nu2", nu2, 0.0, 0.5)))
+        G = 2.0 / (1.0 / G1 + 1.0 / G2)
+        return cls(G, 0.5 * G * (nu1 / G1 + nu2 / G2), hardness=hardness, shear_yield=shear_yield)
+
+
+#: Wheel steel on rail steel, the constants of the reference computations (G = 82 GPa, nu = 0.28).
+STEEL = Material(shear_modulus=82e9, poisson_ratio=0.28)

@@ -1,0 +1,85 @@
+"""The undeformed gap between wheel and rail: the only thing that the normal problem knows of geometry."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from contact.errors import ContactError, require_number
+
+
+class Separation:
+    """Undeformed distance z(x, y) = A(y)·(x - x_c(y))² + g(y) of the bodies at first touch.
+
+    Parameters
+    ----------
+    y : array_like, shape (n,), n >= 3
+        Lateral coordinate in the contact plane [m], strictly increasing.
+    g : array_like, shape (n,)
+        Undeformed gap on the contact locus [m]; the approach is measured from g = 0.
+    A : array_like, shape (n,) or float
+        Half curvature along the rolling direction [1/m], positive; cos(contact angle)/(2·rolling radius).
+    x_c : array_like, shape (n,) or float
+        Longitudinal position of the contact locus [m]; differs from 0 under yaw.
+
+    Raises
+    ------
+    ContactError
+        Wrong shapes, not finite, y not increasing, A not positive.
+    """
+
+    __slots__ = ("A", "g", "x_c", "y")
+
+    y: NDArray[np.float64]
+    g: NDArray[np.float64]
+    A: NDArray[np.float64]
+    x_c: NDArray[np.float64]
+
+    def __init__(self, y: ArrayLike, g: ArrayLike, A: ArrayLike, x_c: ArrayLike = 0.0) -> None:
+        self.y = _column("y", y, None)
+        n = self.y.size
+        if n < 3:
+            raise ContactError(f"y has {n} points; at least 3 are needed")
+        steps = np.diff(self.y)
+        if not (steps > 0.0).all():
+            i = int(np.argmax(steps <= 0.0))
+            raise ContactError(f"y must increase strictly; y[{i}] = {self.y[i]:g}, y[{i + 1}] = {self.y[i + 1]:g}")
+        self.g = _column("g", g, n)
+        self.A = _column("A", A, n)
+        if not (self.A > 0.0).all():
+            i = int(np.argmin(self.A))
+            raise ContactError(f"A[{i}] = {self.A[i]:g} is outside the allowed range ]0, inf[")
+        self.x_c = _column("x_c", x_c, n)
+        for array in (self.y, self.g, self.A, self.x_c):
+            array.setflags(write=False)
+
+    @classmethod
+    def hertzian(cls, A: float, B: float) -> Separation:
+        """Constant half curvatures [1/m]: z = A·x² + B·y², sampled out to a gap of 1 mm.
+
+        The parabola is reproduced exactly between the samples, so any patch inside is resolved.
+        """
+        A = require_number("A", A, 0.0, open_minimum=True)
+        B = require_number("B", B, 0.0, open_minimum=True)
+        y = np.sqrt(1e-3 / B) * np.linspace(-1.0, 1.0, 41)
+        return cls(y, B * y**2, A)
+
+    def __repr__(self) -> str:
+        return f"Separation({self.y.size} points, y = {self.y[0]:g} … {self.y[-1]:g} m, least gap {self.g.min():g} m)"
+
+
+def _column(name: str, values: ArrayLike, n: int | None) -> NDArray[np.float64]:
+    """Return a finite float64 copy of `values`, of length `n` (a scalar is repeated)."""
+    try:
+        array = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ContactError(f"{name} is not an array of numbers") from None
+    if array.ndim == 0 and n is not None:
+        array = np.full(n, float(array))
+    if array.ndim != 1 or (n is not None and array.size != n):
+        wanted = "(n,)" if n is None else f"({n},)"
+        raise ContactError(f"{name} has shape {array.shape}; {wanted} is needed")
+    if not np.isfinite(array).all():
+        i = int(np.argmin(np.isfinite(array)))
+        raise ContactError(f"{name}[{i}] = {array[i]} is outside the allowed range ]-inf, inf[")
+    return array

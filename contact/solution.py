@@ -1,0 +1,129 @@
+"""The one record that every solver returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import IntEnum
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from contact.creepage import Creepage
+from contact.material import Material
+
+Array = NDArray[np.float64]
+
+
+class Status(IntEnum):
+    """How a solution came about; the numbers are those of the FMU's `status`."""
+
+    OK = 1
+    NO_CONTACT = 2
+    SATURATED = 3  # full slip: |F| = mu N up to the effect of spin
+    OUT_OF_RANGE = 4  # the patch reaches the end of the separation: data are missing
+    NOT_CONVERGED = 5
+
+    @property
+    def message(self) -> str:
+        """One sentence for a log."""
+        return _MESSAGES[self]
+
+
+_MESSAGES = {
+    Status.OK: "solved",
+    Status.NO_CONTACT: "the bodies do not touch: all forces are zero",
+    Status.SATURATED: "solved; the whole patch slips",
+    Status.OUT_OF_RANGE: "the contact patch reaches the end of the given separation; extend y",
+    Status.NOT_CONVERGED: "the iteration stopped at its cap; the last iterate is returned",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Strips:
+    """Longitudinal strips of the patch, each with a semi-elliptic pressure. All arrays have shape (n,).
+
+    Attributes
+    ----------
+    y, dy : lateral position and width [m]
+    x_c, a : centre along x and half length [m]
+    p0 : peak pressure [Pa]
+    aspect : a/b of the local ellipse [-]
+    patch : label of the patch, 0, 1, …
+    """
+
+    y: Array
+    dy: Array
+    x_c: Array
+    a: Array
+    p0: Array
+    aspect: Array
+    patch: NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Solved contact of one wheel-rail pair in the frame of its separation.
+
+    Forces act on the wheel; x in the rolling direction, y lateral, z along the common normal. Two-dimensional fields have
+    shape (n_strips, n_elements), element 0 at the leading edge. With no contact they are empty and all numbers zero.
+
+    Attributes
+    ----------
+    Fx, Fy : tangential force on the wheel [N]
+    Mz : spin moment ∫(x q_y - y q_x) dA about the separation's origin [N m]
+    N : normal force [N]
+    approach : rigid approach of the bodies measured from g = 0 [m]
+    max_pressure : [Pa]
+    area, slip_area : [m²]
+    power_per_metre : exact frictional energy per metre rolled, -∬ q·s dA ≥ 0 [N]
+    normal_stiffness : dN/d(approach) [N/m]
+    length, width : extent of the patch along x and y [m]
+    n_patches, iterations : int
+    status : Status
+    x, y, p, qx, qy, sx, sy, stick, dA : fields: position [m], pressure and traction on the wheel [Pa], slip velocity
+        relative to V [-], stick flag, element area [m²]
+    """
+
+    Fx: float
+    Fy: float
+    Mz: float
+    N: float
+    approach: float
+    max_pressure: float
+    area: float
+    slip_area: float
+    power_per_metre: float
+    normal_stiffness: float
+    length: float
+    width: float
+    n_patches: int
+    iterations: int
+    status: Status
+    strips: Strips
+    x: Array
+    y: Array
+    p: Array
+    qx: Array
+    qy: Array
+    sx: Array
+    sy: Array
+    stick: NDArray[np.bool_]
+    dA: Array
+    creepage: Creepage
+    friction: float
+    material: Material
+    speed: float
+    normal: str
+    tangential: str
+    patch_edges: Array = field(repr=False)
+
+    @property
+    def converged(self) -> bool:
+        """True unless the iteration stopped at its cap."""
+        return self.status != Status.NOT_CONVERGED
+
+    @property
+    def slip_ratio(self) -> float:
+        """Slip area over contact area [-]; 0 without contact."""
+        return self.slip_area / self.area if self.area > 0.0 else 0.0
