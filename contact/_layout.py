@@ -41,7 +41,7 @@ LOAD, APPROACH = 0.0, 1.0
     RES_PATCHES,
     RES_ITERATIONS,
     RES_STATUS,
-) = range(15)
-N_RES = 15
-
+    RES_EDGES,  # first of 2·MAX_PATCHES lateral patch edges
+) = range(16)
 MAX_PATCHES = 4
+N_RES = RES_EDGES + 2 * MAX_PATCHES

@@ -127,3 +127,36 @@ class Solution:
     def slip_ratio(self) -> float:
         """Slip area over contact area [-]; 0 without contact."""
         return self.slip_area / self.area if self.area > 0.0 else 0.0
+
+    def pressure(self, x: ArrayLike, y: ArrayLike) -> Array:
+        """Evaluate the contact pressure [Pa] at points `x`, `y` [m] of the contact plane (broadcast); 0 outside.
+
+        Across the strips a² and p0·a, both of which vanish at the edges of a patch, are interpolated by the parabola through
+        the nearest three of strips and edges (exact for an ellipse); along a strip the pressure is semi-elliptic.
+        """
+        x, y = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64))
+        result = np.zeros(x.shape)
+        for k, (low, high) in enumerate(self.patch_edges):
+            own = self.strips.patch == k
+            knots = np.r_[low, self.strips.y[own], high]
+            a, p0 = self.strips.a[own], self.strips.p0[own]
+            inside = (y > low) & (y < high)
+            centre = np.interp(y[inside], self.strips.y[own], self.strips.x_c[own])
+            a2 = np.maximum(_parabolic(knots, np.r_[0.0, a**2, 0.0], y[inside]), 0.0)
+            load = np.maximum(_parabolic(knots, np.r_[0.0, p0 * a, 0.0], y[inside]), 0.0)
+            square = a2 - (x[inside] - centre) ** 2
+            result[inside] = np.where(square > 0.0, load * np.sqrt(np.maximum(square, 0.0)) / np.where(a2 > 0.0, a2, 1.0), 0.0)
+        return result
+
+
+def _parabolic(knots: Array, values: Array, at: Array) -> Array:
+    """Parabola through the three knots nearest to each point of `at`."""
+    i = np.clip(np.searchsorted(knots, at) - 1, 0, knots.size - 2)
+    closer = at - knots[i] > knots[i + 1] - at
+    i = np.clip(i + closer, 1, knots.size - 2)
+    u, v, w = knots[i - 1], knots[i], knots[i + 1]
+    return (
+        values[i - 1] * (at - v) * (at - w) / ((u - v) * (u - w))
+        + values[i] * (at - u) * (at - w) / ((v - u) * (v - w))
+        + values[i + 1] * (at - u) * (at - v) / ((w - u) * (w - v))
+    )

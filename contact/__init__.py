@@ -1,0 +1,33 @@
+"""Wheel-rail contact: non-elliptic patch and pressure (ANALYN), traction, stick and slip (FaStrip), forces and damage.
+
+After M. Sh. Sichani, "On Efficient Modelling of Wheel-Rail Contact in Vehicle Dynamics Simulation", KTH 2016. SI units;
+forces act on the wheel. Start with `solve`.
+"""
+
+from contact.creepage import Creepage
+from contact.errors import ContactError
+from contact.hertz import HertzContact, hertz
+from contact.material import STEEL, Material
+from contact.registry import Method, Methods, methods
+from contact.separation import Separation
+from contact.solution import Solution, Status, Strips
+from contact.solve import solve
+
+__all__ = [
+    "STEEL",
+    "ContactError",
+    "Creepage",
+    "HertzContact",
+    "Material",
+    "Method",
+    "Methods",
+    "Separation",
+    "Solution",
+    "Status",
+    "Strips",
+    "hertz",
+    "methods",
+    "solve",
+]
+
+__version__ = "0.1.0"

@@ -1,0 +1,1 @@
+"""Normal contact: separation and load in, strips with semi-elliptic pressure out. One method a file."""

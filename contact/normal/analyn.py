@@ -1,0 +1,201 @@
+"""ANALYN: the non-elliptic patch from an approximate surface deformation (theory.md 3; thesis section 9).
+
+On the edge of a Hertzian patch the displacement is a multiple of the separation: alpha·A a² at (a, 0), beta·B b² at (0, b).
+ANALYN uses these factors of the local A(y), B(y) on the true separation,
+
+    (1 + alpha) A (x - x_c)² + (1 + beta) g = delta,                                       (theory.md 3.1)
+
+so a strip is in contact where d(y) = delta - (1 + beta) g > 0, with half length a = √(d/((1 + alpha) A)) and the peak
+pressure of a Hertz contact (A, B) at approach d: p0 = (2 E*/pi) d/(n r a) (thesis Eq. 9.1, corrected).
+Its strip load (pi/2) p0 a = E* d/(n r) is linear in d: the load is a convex, monotone function of the approach.
+
+Departures from the thesis: B(y) is a second difference over a fixed width and floored (theory.md 3.3), since the thesis
+does not say how curvature jumps are treated; their effect is measured in docs/accuracy.md.
+"""
+
+import math
+
+from contact._jit import kernel
+from contact._layout import (
+    APPROACH,
+    CASE_G,
+    CASE_LOAD,
+    CASE_LOAD_KIND,
+    CASE_NU,
+    RES_APPROACH,
+    RES_EDGES,
+    RES_ITERATIONS,
+    RES_N,
+    RES_STATUS,
+    RES_STIFFNESS,
+    STRIP_A,
+    STRIP_ASPECT,
+    STRIP_P0,
+    STRIP_XC,
+    STRIP_Y,
+    STRIP_DY,
+)
+from contact.hertz import local_factors
+from contact.normal.lay import cubic, find_patches, lay_strips, least_point, locate, slopes
+
+#: Half base of the second difference that gives B(y) [m]: a triangular average of g'' with standard deviation 1 mm.
+CURVATURE_HALF_BASE = 2.45e-3
+#: Least half curvature B [1/m]; negative and vanishing curvature count as this flat (CONTACT's value; theory.md 3.3).
+CURVATURE_FLOOR = 0.1
+
+#: Rows of the work array that the caller provides, each as long as the separation.
+GAP_SLOPE, EFFECTIVE_GAP, EFFECTIVE_SLOPE, STRETCHED_A, NR, LOG_ASPECT = range(6)
+N_WORK_ROWS = 6
+
+_MAX_ITERATIONS = 60
+
+
+@kernel
+def floored(B):  # type: ignore[no-untyped-def]
+    """max(B, floor) with its corner rounded to a continuous slope; equal to B from twice the floor on."""
+    if B >= 2.0 * CURVATURE_FLOOR:
+        return B
+    if B <= 0.0:
+        return CURVATURE_FLOOR
+    return CURVATURE_FLOOR + B * B / (4.0 * CURVATURE_FLOOR)
+
+
+@kernel
+def lateral_curvature(y, g, m, n, i):  # type: ignore[no-untyped-def]
+    """B = g''/2 at sample i as a second difference of the interpolated gap over ±CURVATURE_HALF_BASE.
+
+    A second difference is g'' averaged with a triangle: it needs no second derivative of noisy profiles, has a fixed
+    physical width, and is exact for a parabola. At the ends of the data the base is shifted inwards.
+    """
+    base = max(CURVATURE_HALF_BASE, 0.5 * (y[min(i + 1, n - 1)] - y[max(i - 1, 0)]))
+    centre = min(max(y[i], y[0] + base), y[n - 1] - base)
+    if not y[0] < centre < y[n - 1]:  # data narrower than the base
+        centre = 0.5 * (y[0] + y[n - 1])
+        base = 0.5 * (y[n - 1] - y[0])
+    value = 0.0
+    k = i
+    for point in range(3):
+        at = min(max(centre + (point - 1.0) * base, y[0]), y[n - 1])
+        while k > 0 and y[k] > at:
+            k -= 1
+        k = locate(y, n, at, k)
+        h = y[k + 1] - y[k]
+        weight = -2.0 if point == 1 else 1.0
+        value += weight * cubic(h, g[k], m[k], g[k + 1], m[k + 1], (at - y[k]) / h)
+    return 0.5 * value / (base * base)
+
+
+@kernel
+def prepare(y, g, A, n, work):  # type: ignore[no-untyped-def]
+    """Local Hertz factors and the effective gap (1 + beta)(g - min g) at every sample; return the least point of g."""
+    slopes(y, g, n, work[GAP_SLOPE])
+    y_least, g_least = least_point(y, g, work[GAP_SLOPE], n)
+    for i in range(n):
+        B = floored(lateral_curvature(y, g, work[GAP_SLOPE], n, i))
+        one_alpha, one_beta, nr, log_aspect = local_factors(A[i], B)
+        work[EFFECTIVE_GAP, i] = one_beta * (g[i] - g_least)
+        work[STRETCHED_A, i] = one_alpha * A[i]
+        work[NR, i] = nr
+        work[LOG_ASPECT, i] = log_aspect
+    slopes(y, work[EFFECTIVE_GAP], n, work[EFFECTIVE_SLOPE])
+    return y_least, g_least
+
+
+@kernel
+def load_at(y, xc, n, delta, modulus, nodes, weights, work, strips, edges):  # type: ignore[no-untyped-def]
+    """Lay strips at approach `delta` above first touch; return load, stiffness dN/d(delta), strip count, end flag."""
+    G = work[EFFECTIVE_GAP]
+    m = work[EFFECTIVE_SLOPE]
+    count, touches_end = find_patches(y, G, m, n, delta, edges)
+    n_strips = lay_strips(edges, count, nodes, weights, strips)
+    N = 0.0
+    stiffness = 0.0
+    k = 0
+    for i in range(n_strips):
+        at = strips[STRIP_Y, i]
+        k = locate(y, n, at, k)
+        h = y[k + 1] - y[k]
+        t = (at - y[k]) / h
+        d = max(delta - cubic(h, G[k], m[k], G[k + 1], m[k + 1], t), 0.0)
+        nr = (1.0 - t) * work[NR, k] + t * work[NR, k + 1]
+        stretched = (1.0 - t) * work[STRETCHED_A, k] + t * work[STRETCHED_A, k + 1]
+        a = math.sqrt(d / stretched)
+        strips[STRIP_A, i] = a
+        strips[STRIP_P0, i] = 2.0 * modulus / math.pi * math.sqrt(d * stretched) / nr  # Eq. 9.1 with d/a = √(d (1+α) A)
+        strips[STRIP_XC, i] = (1.0 - t) * xc[k] + t * xc[k + 1]
+        strips[STRIP_ASPECT, i] = (1.0 - t) * work[LOG_ASPECT, k] + t * work[LOG_ASPECT, k + 1]
+        N += modulus * d / nr * strips[STRIP_DY, i]
+        if d > 0.0:
+            stiffness += modulus / nr * strips[STRIP_DY, i]
+    return N, stiffness, n_strips, touches_end
+
+
+@kernel
+def analyn(y, g, A, xc, case, nodes, weights, work, strips, result):  # type: ignore[no-untyped-def]
+    """Solve the normal problem; fill `strips` (STRIP_ASPECT holds ln(a/b)) and `result`; return the number of strips.
+
+    The status is 1 solved, 2 no contact, 4 the patch reaches the end of the separation, 5 not converged.
+    """
+    n = y.size
+    modulus = case[CASE_G] / (1.0 - case[CASE_NU])
+    edges = result[RES_EDGES:]
+    y_least, g_least = prepare(y, g, A, n, work)
+    result[RES_STATUS] = 1.0
+    result[RES_ITERATIONS] = 0.0
+    if case[CASE_LOAD_KIND] == APPROACH:
+        delta = case[CASE_LOAD] - g_least
+        if delta <= 0.0:
+            result[RES_STATUS] = 2.0
+            result[RES_APPROACH] = case[CASE_LOAD]
+            return 0
+        N, stiffness, n_strips, touches_end = load_at(
+            y, xc, n, delta, modulus, nodes, weights, work, strips, edges
+        )
+    else:
+        load = case[CASE_LOAD]
+        if load <= 0.0:
+            result[RES_STATUS] = 2.0
+            result[RES_APPROACH] = g_least
+            return 0
+        # N ~ delta^(3/2) in Hertz contact: Newton on N^(2/3), bracketed; start: unit Hertz stiffness at the least point
+        k = locate(y, n, y_least, 0)
+        delta = (load * work[NR, k] / modulus * 0.75 * math.sqrt(work[STRETCHED_A, k])) ** (2.0 / 3.0)
+        low, high = 0.0, math.inf
+        converged = False
+        N, stiffness, n_strips, touches_end = 0.0, 0.0, 0, False
+        for iteration in range(_MAX_ITERATIONS):
+            result[RES_ITERATIONS] = iteration + 1.0
+            N, stiffness, n_strips, touches_end = load_at(
+                y, xc, n, delta, modulus, nodes, weights, work, strips, edges
+            )
+            if abs(N - load) <= 1e-13 * load:
+                converged = True
+                break
+            if load > N:
+                low = delta
+            else:
+                high = delta
+            if N > 0.0 and stiffness > 0.0:
+                step = 1.5 * N / stiffness * (1.0 - (load / N) ** (2.0 / 3.0))
+                new = delta - step
+            else:
+                new = 2.0 * delta
+            if not low < new < high:
+                new = 0.5 * (low + high) if high < math.inf else 2.0 * delta
+            if new == delta or high - low <= 1e-15 * delta:
+                converged = True
+                break
+            delta = new
+        if not converged:
+            result[RES_STATUS] = 5.0
+        # what is left of round-off, or of the step at which two patches merge, is taken by the pressure
+        if N > 0.0:
+            for i in range(n_strips):
+                strips[STRIP_P0, i] *= load / N
+        N = load
+    if touches_end and result[RES_STATUS] == 1.0:
+        result[RES_STATUS] = 4.0
+    result[RES_N] = N
+    result[RES_APPROACH] = delta + g_least
+    result[RES_STIFFNESS] = stiffness
+    return n_strips

@@ -1,0 +1,149 @@
+"""Lay strips inside the patches where a penetration function is positive.
+
+The function is known at the samples of the separation; between them it is the cubic through values and three-point slopes,
+which reproduces a parabola exactly. Patches are found at any approach, also when they are narrower than a sample interval.
+"""
+
+import math
+
+from contact._jit import kernel
+from contact._layout import MAX_PATCHES, STRIP_DY, STRIP_PATCH, STRIP_Y
+
+
+@kernel
+def slopes(y, f, n, out):  # type: ignore[no-untyped-def]
+    """Three-point slopes of f over y, exact for a parabola; one-sided at the ends."""
+    for i in range(1, n - 1):
+        h0, h1 = y[i] - y[i - 1], y[i + 1] - y[i]
+        out[i] = (h1 * (f[i] - f[i - 1]) / h0 + h0 * (f[i + 1] - f[i]) / h1) / (h0 + h1)
+    out[0] = 2.0 * (f[1] - f[0]) / (y[1] - y[0]) - out[1]
+    out[n - 1] = 2.0 * (f[n - 1] - f[n - 2]) / (y[n - 1] - y[n - 2]) - out[n - 2]
+
+
+@kernel
+def cubic(h, f0, m0, f1, m1, t):  # type: ignore[no-untyped-def]
+    """Cubic Hermite interpolant on an interval of length h at t in [0, 1]."""
+    w = 1.0 - t
+    return w * w * ((1.0 + 2.0 * t) * f0 + h * t * m0) + t * t * ((1.0 + 2.0 * w) * f1 - h * w * m1)
+
+
+@kernel
+def interval_minimum(h, f0, m0, f1, m1):  # type: ignore[no-untyped-def]
+    """Position t in [0, 1] and value of the least point of the cubic on its interval."""
+    best_t, best = 0.0, f0
+    if f1 < f0:
+        best_t, best = 1.0, f1
+    if m0 < 0.0 and m1 > 0.0:  # derivative: a t² + b t + c with c < 0 < a + b + c, one root inside
+        a = 3.0 * (2.0 * (f0 - f1) + h * (m0 + m1))
+        b = 2.0 * (3.0 * (f1 - f0) - h * (2.0 * m0 + m1))
+        c = h * m0
+        root = math.sqrt(max(b * b - 4.0 * a * c, 0.0))
+        t = -2.0 * c / (b + root) if b + root > 0.0 else 0.5
+        if 0.0 < t < 1.0:
+            value = cubic(h, f0, m0, f1, m1, t)
+            if value < best:
+                best_t, best = t, value
+    return best_t, best
+
+
+@kernel
+def least_point(y, f, m, n):  # type: ignore[no-untyped-def]
+    """Position and value of the least point of the interpolant."""
+    k = 0
+    for i in range(1, n):
+        if f[i] < f[k]:
+            k = i
+    y_best, best = y[k], f[k]
+    for i in range(max(k - 1, 0), min(k + 1, n - 1)):
+        h = y[i + 1] - y[i]
+        t, value = interval_minimum(h, f[i], m[i], f[i + 1], m[i + 1])
+        if value < best:
+            y_best, best = y[i] + t * h, value
+    return y_best, best
+
+
+@kernel
+def _crossing(h, f0, m0, f1, m1, level, low, high):  # type: ignore[no-untyped-def]
+    """Position t where the cubic passes `level` between `low` and `high`: bisection-safeguarded secant, capped."""
+    f_low = cubic(h, f0, m0, f1, m1, low) - level
+    f_high = cubic(h, f0, m0, f1, m1, high) - level
+    for k in range(60):
+        if f_low == f_high:
+            break
+        t = low - f_low * (high - low) / (f_high - f_low)
+        if k % 3 == 2 or not low < t < high:
+            t = 0.5 * (low + high)
+        value = cubic(h, f0, m0, f1, m1, t) - level
+        if (value < 0.0) == (f_low < 0.0):
+            low, f_low = t, value
+        else:
+            high, f_high = t, value
+        if high - low < 1e-15:
+            break
+    return low - f_low * (high - low) / (f_high - f_low) if f_low != f_high else 0.5 * (low + high)
+
+
+@kernel
+def find_patches(y, G, m, n, delta, edges):  # type: ignore[no-untyped-def]
+    """Intervals of y on which G(y) < delta, into edges[2k], edges[2k+1]; at most MAX_PATCHES.
+
+    Returns
+    -------
+    count, touches_end
+        Further patches than MAX_PATCHES are merged into the last; `touches_end`: a patch reaches the end of the data.
+    """
+    count = 0
+    inside = G[0] < delta
+    touches_end = inside
+    if inside:
+        edges[0] = y[0]
+    for i in range(n - 1):
+        h = y[i + 1] - y[i]
+        below = G[i + 1] < delta
+        if below != inside:
+            at = y[i] + h * _crossing(h, G[i], m[i], G[i + 1], m[i + 1], delta, 0.0, 1.0)
+            if below:
+                if count < MAX_PATCHES:
+                    edges[2 * count] = at
+            else:
+                edges[2 * min(count, MAX_PATCHES - 1) + 1] = at
+                count += 1
+            inside = below
+        elif not below and m[i] < 0.0 and m[i + 1] > 0.0:  # a patch narrower than the sample interval
+            t, least = interval_minimum(h, G[i], m[i], G[i + 1], m[i + 1])
+            if least < delta:
+                if count < MAX_PATCHES:
+                    edges[2 * count] = y[i] + h * _crossing(h, G[i], m[i], G[i + 1], m[i + 1], delta, 0.0, t)
+                right = y[i] + h * _crossing(h, G[i], m[i], G[i + 1], m[i + 1], delta, t, 1.0)
+                edges[2 * min(count, MAX_PATCHES - 1) + 1] = right
+                count += 1
+    if inside:
+        edges[2 * min(count, MAX_PATCHES - 1) + 1] = y[n - 1]
+        count += 1
+        touches_end = True
+    return min(count, MAX_PATCHES), touches_end
+
+
+@kernel
+def lay_strips(edges, count, nodes, weights, strips):  # type: ignore[no-untyped-def]
+    """Write y, dy and the label of a panel of strips for every patch; return the number of strips."""
+    n = nodes.size
+    for k in range(count):
+        centre = 0.5 * (edges[2 * k] + edges[2 * k + 1])
+        half = 0.5 * (edges[2 * k + 1] - edges[2 * k])
+        for i in range(n):
+            strips[STRIP_Y, k * n + i] = centre + half * nodes[i]
+            strips[STRIP_DY, k * n + i] = half * weights[i]
+            strips[STRIP_PATCH, k * n + i] = k
+    return count * n
+
+
+@kernel
+def locate(y, n, at, start):  # type: ignore[no-untyped-def]
+    """Index i with y[i] <= at <= y[i+1], searched upwards from `start` (strips come in ascending order)."""
+    i = start
+    if at < y[i]:
+        i = 0
+    while i < n - 2 and y[i + 1] < at:
+        i += 1
+    return i

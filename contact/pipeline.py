@@ -1,0 +1,95 @@
+"""One contact problem from separation to forces: the kernel behind `contact.solve`, batches and FMUs."""
+
+import math
+
+from contact._jit import kernel
+from contact._layout import (
+    CASE_MU,
+    CASE_NORMAL,
+    CASE_TANGENTIAL,
+    FIELD_DX,
+    FIELD_P,
+    FIELD_X,
+    RES_AREA,
+    RES_LENGTH,
+    RES_PATCHES,
+    RES_PMAX,
+    RES_SLIP_AREA,
+    RES_STATUS,
+    RES_WIDTH,
+    STRIP_A,
+    STRIP_ASPECT,
+    STRIP_DY,
+    STRIP_P0,
+    STRIP_PATCH,
+    STRIP_XC,
+    STRIP_Y,
+)
+from contact._layout import RES_EDGES as EDGES
+from contact.normal.analyn import analyn
+from contact.normal.hertzian import hertzian
+from contact.registry import FASTSIM, HERTZ
+from contact.tangential.fastrip import fastrip
+from contact.tangential.fastsim import fastsim
+
+
+@kernel
+def peak_pressure(strips, n):  # type: ignore[no-untyped-def]
+    """Largest pressure: top of the parabola through p0² of the highest strip and its neighbours (exact for an ellipse)."""
+    k = 0
+    for i in range(1, n):
+        if strips[STRIP_P0, i] > strips[STRIP_P0, k]:
+            k = i
+    top = strips[STRIP_P0, k] ** 2
+    patch = strips[STRIP_PATCH, k]
+    if 0 < k < n - 1 and strips[STRIP_PATCH, k - 1] == patch and strips[STRIP_PATCH, k + 1] == patch:
+        h0 = strips[STRIP_Y, k] - strips[STRIP_Y, k - 1]
+        h1 = strips[STRIP_Y, k + 1] - strips[STRIP_Y, k]
+        d0 = (top - strips[STRIP_P0, k - 1] ** 2) / h0
+        d1 = (strips[STRIP_P0, k + 1] ** 2 - top) / h1
+        curvature = (d1 - d0) / (h0 + h1)
+        if curvature < 0.0:
+            slope = (h1 * d0 + h0 * d1) / (h0 + h1)
+            top -= 0.25 * slope * slope / curvature
+    return math.sqrt(top)
+
+
+@kernel
+def solve_case(y, g, A, xc, case, table, nodes, weights, angles, work, strips, fields, result):  # type: ignore[no-untyped-def]
+    """Solve one case; fill strips, fields and result (see `_layout`), all owned by the caller. Return the strip count.
+
+    `table` is `kalker.table(nu)`, `nodes`, `weights` are `quadrature.fejer(n_strips)`, `angles` are
+    `quadrature.element_angles(n_elements)`.
+    """
+    result[:] = 0.0
+    if case[CASE_NORMAL] == HERTZ:
+        n = hertzian(y, g, A, xc, case, nodes, weights, work, strips, result)
+    else:
+        n = analyn(y, g, A, xc, case, nodes, weights, work, strips, result)
+    if n == 0:
+        return 0
+
+    area, x_low, x_high = 0.0, math.inf, -math.inf
+    cell = math.pi / angles.size
+    for i in range(n):
+        a, xc_i, p0 = strips[STRIP_A, i], strips[STRIP_XC, i], strips[STRIP_P0, i]
+        area += 2.0 * a * strips[STRIP_DY, i]
+        x_low, x_high = min(x_low, xc_i - a), max(x_high, xc_i + a)
+        for k in range(angles.size):
+            sine = math.sin(angles[k])
+            fields[FIELD_X, i, k] = xc_i + a * math.cos(angles[k])
+            fields[FIELD_DX, i, k] = a * sine * cell
+            fields[FIELD_P, i, k] = p0 * sine
+    count = int(strips[STRIP_PATCH, n - 1]) + 1
+    result[RES_AREA], result[RES_PMAX], result[RES_PATCHES] = area, peak_pressure(strips, n), count
+    result[RES_LENGTH], result[RES_WIDTH] = x_high - x_low, result[EDGES + 2 * count - 1] - result[EDGES]
+
+    if case[CASE_TANGENTIAL] == FASTSIM:
+        fastsim(strips, n, case, table, angles, fields, result)
+    else:
+        fastrip(strips, n, case, table, angles, fields, result)
+    if result[RES_STATUS] == 1.0 and case[CASE_MU] > 0.0 and result[RES_SLIP_AREA] >= area * (1.0 - 1e-12):
+        result[RES_STATUS] = 3.0
+    for i in range(n):
+        strips[STRIP_ASPECT, i] = math.exp(strips[STRIP_ASPECT, i])
+    return n

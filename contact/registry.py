@@ -1,0 +1,74 @@
+"""The methods that `contact.solve` offers, with what each can do. Tests, documentation, command line and FMUs read this."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import NamedTuple
+
+from contact.errors import ContactError
+
+#: The methods of the thesis, used when none is named.
+DEFAULT_NORMAL, DEFAULT_TANGENTIAL = "analyn", "fastrip"
+
+
+@dataclass(frozen=True, slots=True)
+class Method:
+    """A registered method.
+
+    Attributes
+    ----------
+    name : what `contact.solve(normal=…, tangential=…)` is given
+    id : number by which kernels know it
+    title, source : for documentation
+    non_elliptic : follows a non-elliptic patch or pressure
+    several_patches : finds or serves separate patches
+    fields : returns traction, slip and stick over the patch (tangential) or pressure (normal)
+    spin : takes spin into account
+    """
+
+    name: str
+    id: int
+    title: str
+    source: str
+    non_elliptic: bool
+    several_patches: bool
+    fields: bool = True
+    spin: bool = True
+
+
+class Methods(NamedTuple):
+    """The registered normal and tangential methods by name, in order of registration."""
+
+    normal: MappingProxyType[str, Method]
+    tangential: MappingProxyType[str, Method]
+
+
+ANALYN, HERTZ = 0, 1
+FASTRIP, FASTSIM = 0, 1
+
+_NORMAL = (
+    Method("analyn", ANALYN, "ANALYN, approximate surface deformation", "Sichani 2016, ch. 9, Paper B", True, True),
+    Method("hertz", HERTZ, "Hertz's ellipse at the least point", "Hertz 1882; Johnson 1985", False, False),
+)
+_TANGENTIAL = (
+    Method("fastrip", FASTRIP, "FaStrip on local ellipses", "Sichani 2016, ch. 4 and 9, Papers D and E", True, True),
+    Method("fastsim", FASTSIM, "FASTSIM, three flexibilities, parabolic bound", "Kalker 1982", True, True),
+)
+_METHODS = Methods(
+    MappingProxyType({method.name: method for method in _NORMAL}),
+    MappingProxyType({method.name: method for method in _TANGENTIAL}),
+)
+
+
+def methods() -> Methods:
+    """Return the registered methods: ``methods().normal["analyn"]``, ``methods().tangential["fastrip"]``, …"""
+    return _METHODS
+
+
+def lookup(kind: str, name: str) -> Method:
+    """Return the method `name` of `kind` ("normal" or "tangential") or raise a ContactError that lists the known ones."""
+    known: MappingProxyType[str, Method] = getattr(_METHODS, kind)
+    if name not in known:
+        raise ContactError(f"{kind} = {name!r} is not a registered method; allowed: {', '.join(known)}")
+    return known[name]

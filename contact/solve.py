@@ -1,0 +1,210 @@
+"""`contact.solve`: validate, call the kernel, wrap the answer."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from contact import kalker, quadrature
+from contact._layout import (
+    APPROACH,
+    FIELD_DX,
+    FIELD_P,
+    FIELD_QX,
+    FIELD_QY,
+    FIELD_STICK,
+    FIELD_SX,
+    FIELD_SY,
+    FIELD_X,
+    LOAD,
+    MAX_PATCHES,
+    N_FIELD_ROWS,
+    N_RES,
+    N_STRIP_ROWS,
+    RES_APPROACH,
+    RES_AREA,
+    RES_EDGES,
+    RES_FX,
+    RES_FY,
+    RES_ITERATIONS,
+    RES_LENGTH,
+    RES_MZ,
+    RES_N,
+    RES_PATCHES,
+    RES_PMAX,
+    RES_POWER,
+    RES_SLIP_AREA,
+    RES_STATUS,
+    RES_STIFFNESS,
+    RES_WIDTH,
+    STRIP_A,
+    STRIP_ASPECT,
+    STRIP_DY,
+    STRIP_P0,
+    STRIP_PATCH,
+    STRIP_XC,
+    STRIP_Y,
+)
+from contact.creepage import Creepage
+from contact.errors import ContactError, require_number
+from contact.material import STEEL, Material
+from contact.normal.analyn import N_WORK_ROWS
+from contact.pipeline import solve_case
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
+from contact.separation import Separation
+from contact.solution import Solution, Status, Strips
+
+#: Resolution at which forces are within 0.002 mu N of their limit.
+N_STRIPS, N_ELEMENTS = 30, 30
+
+
+def solve(
+    separation: Separation,
+    creepage: Creepage,
+    *,
+    load: float | None = None,
+    approach: float | None = None,
+    friction: float = 0.3,
+    material: Material = STEEL,
+    speed: float = 20.0,
+    normal: str = DEFAULT_NORMAL,
+    tangential: str = DEFAULT_TANGENTIAL,
+    n_strips: int = N_STRIPS,
+    n_elements: int = N_ELEMENTS,
+    throw: bool = True,
+) -> Solution:
+    """Solve the contact of one wheel-rail pair in the plane of its separation.
+
+    Parameters
+    ----------
+    separation : Separation
+        Undeformed gap.
+    creepage : Creepage
+        Relative rigid motion, wheel minus rail over speed.
+    load, approach : float
+        Exactly one of them: normal force [N] ≥ 0, or rigid approach [m] measured from g = 0 (negative: apart).
+    friction : float
+        Coulomb's coefficient mu ≥ 0 [-].
+    material : Material
+    speed : float
+        Rolling speed [m/s] > 0; forces do not depend on it, sliding velocities and powers scale with it.
+    normal, tangential : str
+        Names from `contact.methods()`.
+    n_strips, n_elements : int
+        Strips per patch, 4 to 1000, and elements per strip, 4 to 1000.
+    throw : bool
+        Raise when the problem has no trustworthy answer (patch beyond the separation, not converged). With False the
+        `status` of the solution says so.
+
+    Returns
+    -------
+    Solution
+        Forces act on the wheel. No contact is an answer: zero forces, ``Status.NO_CONTACT``.
+
+    Raises
+    ------
+    ContactError
+        For input outside its range, and, with `throw`, for the status OUT_OF_RANGE or NOT_CONVERGED.
+    """
+    if not isinstance(separation, Separation):
+        raise ContactError(f"separation = {separation!r} is not a contact.Separation")
+    if not isinstance(creepage, Creepage):
+        raise ContactError(f"creepage = {creepage!r} is not a contact.Creepage")
+    if (load is None) == (approach is None):
+        raise ContactError(f"exactly one of load and approach is needed; load = {load}, approach = {approach}")
+    if load is not None:
+        kind, amount = LOAD, require_number("load", load, 0.0)
+    else:
+        kind, amount = APPROACH, require_number("approach", approach)
+    mu = require_number("friction", friction, 0.0)
+    speed = require_number("speed", speed, 0.0, open_minimum=True)
+    for name, number in (("n_strips", n_strips), ("n_elements", n_elements)):
+        if not isinstance(number, int | np.integer):
+            raise ContactError(f"{name} = {number!r} is not an integer; allowed range [4, 1000]")
+        require_number(name, number, 4, 1000)
+    case = np.array(
+        [
+            kind,
+            amount,
+            creepage.longitudinal,
+            creepage.lateral,
+            creepage.spin,
+            mu,
+            material.shear_modulus,
+            material.poisson_ratio,
+            lookup("normal", normal).id,
+            lookup("tangential", tangential).id,
+        ]
+    )
+    nodes, weights = quadrature.fejer(int(n_strips))
+    angles = quadrature.element_angles(int(n_elements))
+    capacity = MAX_PATCHES * nodes.size
+    strips = np.empty((N_STRIP_ROWS, capacity))
+    fields = np.empty((N_FIELD_ROWS, capacity, angles.size))
+    result = np.empty(N_RES)
+    work = np.empty((N_WORK_ROWS, separation.y.size))
+    table = kalker.table(material.poisson_ratio)
+    n = solve_case(
+        separation.y,
+        separation.g,
+        separation.A,
+        separation.x_c,
+        case,
+        table,
+        nodes,
+        weights,
+        angles,
+        work,
+        strips,
+        fields,
+        result,
+    )
+    status = Status(int(result[RES_STATUS]))
+    if throw and status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED):
+        what = "load" if load is not None else "approach"
+        raise ContactError(
+            f"{what} = {amount:g}: {status.message}; y = [{separation.y[0]:g}, {separation.y[-1]:g}] m "
+            f"(throw=False returns the solution with this status)"
+        )
+    strips, fields = strips[:, :n], fields[:, :n]
+    return Solution(
+        Fx=float(result[RES_FX]),
+        Fy=float(result[RES_FY]),
+        Mz=float(result[RES_MZ]),
+        N=float(result[RES_N]),
+        approach=float(result[RES_APPROACH]),
+        max_pressure=float(result[RES_PMAX]),
+        area=float(result[RES_AREA]),
+        slip_area=float(result[RES_SLIP_AREA]),
+        power_per_metre=float(result[RES_POWER]),
+        normal_stiffness=float(result[RES_STIFFNESS]),
+        length=float(result[RES_LENGTH]),
+        width=float(result[RES_WIDTH]),
+        n_patches=int(result[RES_PATCHES]),
+        iterations=int(result[RES_ITERATIONS]),
+        status=status,
+        strips=Strips(
+            y=strips[STRIP_Y],
+            dy=strips[STRIP_DY],
+            x_c=strips[STRIP_XC],
+            a=strips[STRIP_A],
+            p0=strips[STRIP_P0],
+            aspect=strips[STRIP_ASPECT],
+            patch=strips[STRIP_PATCH].astype(np.int64),
+        ),
+        x=fields[FIELD_X],
+        y=np.repeat(strips[STRIP_Y][:, None], angles.size, axis=1),
+        p=fields[FIELD_P],
+        qx=fields[FIELD_QX],
+        qy=fields[FIELD_QY],
+        sx=fields[FIELD_SX],
+        sy=fields[FIELD_SY],
+        stick=fields[FIELD_STICK] > 0.5,
+        dA=fields[FIELD_DX] * strips[STRIP_DY][:, None],
+        creepage=creepage,
+        friction=mu,
+        material=material,
+        speed=speed,
+        normal=normal,
+        tangential=tangential,
+        patch_edges=result[RES_EDGES : RES_EDGES + 2 * int(result[RES_PATCHES])].reshape(-1, 2).copy(),
+    )

@@ -1,0 +1,99 @@
+"""FASTSIM (Kalker 1982) on any patch, three flexibilities, parabolic bound (theory.md 2.5).
+
+The flexibilities are those of the equivalent ellipse: the patch's area with the longest strip as semi-axis a. The bound of
+a strip is the parabola with peak proportional to its p0·a, scaled so that the bounds carry the normal load: on an ellipse
+this is Kalker's paraboloid exactly, on any patch full slip gives mu N.
+"""
+
+import math
+
+from contact import kalker
+from contact._jit import kernel
+from contact._layout import (
+    CASE_G,
+    CASE_MU,
+    CASE_PHI,
+    CASE_VX,
+    CASE_VY,
+    FIELD_DX,
+    FIELD_QX,
+    FIELD_QY,
+    FIELD_STICK,
+    FIELD_SX,
+    FIELD_SY,
+    FIELD_X,
+    RES_FX,
+    RES_FY,
+    RES_MZ,
+    RES_N,
+    RES_POWER,
+    RES_SLIP_AREA,
+    STRIP_A,
+    STRIP_DY,
+    STRIP_P0,
+    STRIP_XC,
+    STRIP_Y,
+)
+from contact.tangential.march import PARABOLIC, march
+
+
+@kernel
+def equivalent_ellipse(strips, n):  # type: ignore[no-untyped-def]
+    """Semi-axes of the ellipse with the longest strip as a and the area of the patch."""
+    a = 0.0
+    area = 0.0
+    for i in range(n):
+        a = max(a, strips[STRIP_A, i])
+        area += 2.0 * strips[STRIP_A, i] * strips[STRIP_DY, i]
+    return a, (area / (math.pi * a) if a > 0.0 else 0.0)
+
+
+@kernel
+def fastsim(strips, n, case, table, angles, fields, result):  # type: ignore[no-untyped-def]
+    """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`."""
+    mu, G = case[CASE_MU], case[CASE_G]
+    vx, vy, phi = case[CASE_VX], case[CASE_VY], case[CASE_PHI]
+    Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
+    a0, b0 = equivalent_ellipse(strips, n)
+    if a0 > 0.0:
+        c11, c22, c23, _ = kalker.coefficients(table, math.log(a0 / b0))
+        L1 = 8.0 * a0 / (3.0 * G * c11)
+        L2 = 8.0 * a0 / (3.0 * G * c22)
+        L3 = math.pi * a0 * a0 / (4.0 * G * math.sqrt(a0 * b0) * c23)
+        spread = 0.0  # N of unit parabolas of peak p0·a, by the quadrature of the fields
+        for i in range(n):
+            for k in range(angles.size):
+                sine = math.sin(angles[k])
+                width = strips[STRIP_A, i] * sine * math.pi / angles.size
+                spread += strips[STRIP_P0, i] * strips[STRIP_A, i] * sine * sine * width * strips[STRIP_DY, i]
+        for i in range(n):
+            a, y = strips[STRIP_A, i], strips[STRIP_Y, i]
+            peak = mu * result[RES_N] / spread * strips[STRIP_P0, i] * a if a > 0.0 else 0.0
+            if peak <= 0.0:
+                fields[FIELD_STICK, i, :] = 1.0 if mu > 0.0 else 0.0
+                fields[FIELD_QX : FIELD_SY + 1, i, :] = 0.0
+                continue
+            # the march writes traction into qx, qy and the excess into sx; each is then scaled in place
+            scale = a / peak
+            tau_x, tau_y = fields[FIELD_QX, i], fields[FIELD_QY, i]
+            excess = fields[FIELD_SX, i]
+            X = scale * (vx / L1 - phi * y / L3)
+            Y = scale * (vy / L2 + phi * strips[STRIP_XC, i] / L3)
+            march(angles, X, Y, scale * a * phi / L3, PARABOLIC, tau_x, tau_y, excess)
+            for k in range(angles.size):
+                size = math.sqrt(tau_x[k] ** 2 + tau_y[k] ** 2)
+                slip = excess[k] / scale / size if size > 0.0 else 0.0
+                dA = fields[FIELD_DX, i, k] * strips[STRIP_DY, i]
+                stick = 1.0 if excess[k] == 0.0 else 0.0
+                qx, qy = peak * tau_x[k], peak * tau_y[k]
+                sx, sy = -L1 * slip * tau_x[k], -L2 * slip * tau_y[k]
+                fields[FIELD_QX, i, k], fields[FIELD_QY, i, k] = qx, qy
+                fields[FIELD_SX, i, k], fields[FIELD_SY, i, k] = sx, sy
+                fields[FIELD_STICK, i, k] = stick
+                Fx += qx * dA
+                Fy += qy * dA
+                Mz += (fields[FIELD_X, i, k] * qy - y * qx) * dA
+                power -= (qx * sx + qy * sy) * dA
+                slip_area += (1.0 - stick) * dA
+    result[RES_FX], result[RES_FY], result[RES_MZ] = Fx, Fy, Mz
+    result[RES_POWER], result[RES_SLIP_AREA] = power, slip_area

@@ -1,0 +1,44 @@
+"""Stick zone and traction of one strip by strip theory (theory.md 2.4; thesis Eqs. 4.14-4.26).
+
+All in units of the strip: s = (x - x_c)/a, traction over mu·p0. In stick, s > -1 + 2e,
+    q = (kappa, lambda) √(1 - s²) - (kappa, lambda') √((1 - e)² - (s - e)²),
+with e = D/(1 - nu) the half length of the slip zone over a.
+"""
+
+import math
+
+from contact._jit import kernel
+
+
+@kernel
+def stick_zone(xi, eta, psi, nu):  # type: ignore[no-untyped-def]
+    """Half slip length e and the directions kappa, lambda, lambda' of a strip; e = 1 if all of it slips.
+
+    `xi`, `eta`, `psi` are the strip's normalised creepages (thesis 4.16-4.19). D is written so that it neither divides
+    by zero at |psi| = 1 nor cancels: D = (xi² + eta²)/(√(eta² + (1 - psi²) xi²) - eta·psi) when eta·psi < 0.
+    """
+    xi2, eta2 = xi * xi, eta * eta
+    discriminant = eta2 + (1.0 - psi * psi) * xi2
+    if abs(psi) >= 1.0 or discriminant < 0.0:
+        return 1.0, 0.0, 0.0, 0.0
+    root = math.sqrt(discriminant)
+    if eta * psi < 0.0:
+        D = (xi2 + eta2) / (root - eta * psi)
+    else:
+        D = (eta * psi + root) / (1.0 - psi * psi)
+    e = D / (1.0 - nu)
+    if e >= 1.0:
+        return 1.0, 0.0, 0.0, 0.0
+    if D <= 0.0:
+        return 0.0, 0.0, psi, 0.0
+    return e, xi / D, eta / D + psi, eta / D
+
+
+@kernel
+def stick_resultants(e):  # type: ignore[no-untyped-def]
+    """∫√(1-s²), ∫√((1-e)²-(s-e)²) over the stick zone, and the same times s, in closed form (theory.md 4.1)."""
+    s = -1.0 + 2.0 * e
+    h2 = max(1.0 - s * s, 0.0)
+    outer = 0.5 * (0.5 * math.pi - s * math.sqrt(h2) - math.asin(s))
+    inner = 0.5 * math.pi * (1.0 - e) ** 2
+    return outer, inner, h2 * math.sqrt(h2) / 3.0, e * inner
