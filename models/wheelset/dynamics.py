@@ -1,0 +1,144 @@
+"""Kernels of the wheelset dynamics; the equation numbers are those of readme.md.
+
+A contact frame is a row (x, y, z, angle): origin relative to the wheelset's centre in track axes [m] and contact angle
+[rad]; row 0 is the right wheel, row 1 the left. Its forces on the wheel are a row (Fx, Fy, Mz) in contact axes [N, N,
+N m].
+"""
+
+from __future__ import annotations
+
+import math
+
+from contact._jit import kernel
+
+X, Y, Z, ANGLE = range(4)
+FX, FY, MZ = range(3)
+RIGHT, LEFT = range(2)
+
+# state[...]
+LATERAL, YAW, LATERAL_VELOCITY, YAW_RATE, SPIN = range(5)  # m, rad, m/s, rad/s, rad/s (positive when rolling forward)
+N_STATE = 5
+# constants[...]
+(
+    MASS,
+    YAW_INERTIA,
+    SPIN_INERTIA,
+    LATERAL_STIFFNESS,
+    YAW_STIFFNESS,
+    LATERAL_DAMPING,
+    YAW_DAMPING,
+    AXLE_LOAD,
+    SPEED,
+) = range(9)
+N_CONSTANTS = 9
+# energy[...] since start, all [J]
+INTERFACE, DRIVE, DAMPER = range(3)  # left through the contacts, delivered by the drive, spent in the suspension
+N_ENERGY = 3
+
+
+@kernel
+def arm(frame):
+    """Roll moment per unit of -N about the centre, y cos δ + z sin δ [m] (5)."""
+    return frame[Y] * math.cos(frame[ANGLE]) + frame[Z] * math.sin(frame[ANGLE])
+
+
+@kernel
+def normal_loads(frames, forces, axle_load, loads):
+    """Solve vertical and roll equilibrium (4, 5) for loads[side] [N]; a wheel that would pull is unloaded instead."""
+    vertical, roll = axle_load, 0.0
+    for side in range(2):
+        sine, cosine = math.sin(frames[side, ANGLE]), math.cos(frames[side, ANGLE])
+        vertical += forces[side, FY] * sine
+        roll += forces[side, FY] * (frames[side, Y] * sine - frames[side, Z] * cosine)
+    c_r, c_l = math.cos(frames[RIGHT, ANGLE]), math.cos(frames[LEFT, ANGLE])
+    a_r, a_l = arm(frames[RIGHT]), arm(frames[LEFT])
+    determinant = c_r * a_l - c_l * a_r
+    loads[RIGHT] = (vertical * a_l - c_l * roll) / determinant
+    loads[LEFT] = (c_r * roll - a_r * vertical) / determinant
+    for side in range(2):
+        if loads[side] < 0.0:  # the other wheel then carries the axle alone; roll equilibrium is lost
+            loads[side] = 0.0
+            loads[1 - side] = vertical / math.cos(frames[1 - side, ANGLE])
+
+
+@kernel
+def follow(frames, state, axle):
+    """Vertical velocity [m/s] and roll rate [rad/s] that keep both wheels on the rails (6): the transpose of (4, 5)."""
+    normal_velocity_r = _approach_velocity(frames[RIGHT], state, axle)
+    normal_velocity_l = _approach_velocity(frames[LEFT], state, axle)
+    c_r, c_l = math.cos(frames[RIGHT, ANGLE]), math.cos(frames[LEFT, ANGLE])
+    a_r, a_l = arm(frames[RIGHT]), arm(frames[LEFT])
+    determinant = c_r * a_l - c_l * a_r
+    z_rate = -(normal_velocity_r * a_l - normal_velocity_l * a_r) / determinant
+    roll_rate = -(c_r * normal_velocity_l - c_l * normal_velocity_r) / determinant
+    return z_rate, roll_rate
+
+
+@kernel
+def _approach_velocity(frame, state, axle):
+    """Velocity of the wheel into the rail at a contact origin [m/s] for fixed height and roll."""
+    sine, cosine = math.sin(frame[ANGLE]), math.cos(frame[ANGLE])
+    spinning = axle[0] * arm(frame) - frame[X] * (axle[1] * cosine + axle[2] * sine)
+    return -sine * (state[LATERAL_VELOCITY] + state[YAW_RATE] * frame[X]) - state[SPIN] * spinning
+
+
+@kernel
+def resultants(frames, forces, loads, axle, out):
+    """Generalised forces of both contacts: out = (lateral [N], yaw [N m], spin [N m], longitudinal [N]) (7)."""
+    out[:] = 0.0
+    for side in range(2):
+        x, y, z = frames[side, X], frames[side, Y], frames[side, Z]
+        sine, cosine = math.sin(frames[side, ANGLE]), math.cos(frames[side, ANGLE])
+        fx, fy, mz = forces[side, FX], forces[side, FY], forces[side, MZ]
+        track_y = fy * cosine + loads[side] * sine
+        track_z = fy * sine - loads[side] * cosine
+        moment_x = y * track_z - z * track_y
+        moment_y = z * fx - x * track_z - mz * sine
+        moment_z = x * track_y - y * fx + mz * cosine
+        out[0] += track_y
+        out[1] += moment_z
+        out[2] -= moment_x * axle[0] + moment_y * axle[1] + moment_z * axle[2]  # forward rolling turns about -axle
+        out[3] += fx
+
+
+@kernel
+def _kicked(velocity, mass, force, damping, h):
+    """Velocity after `h` under constant force and linear damping, and its mean over `h`; exact (8)."""
+    rate = damping * h / mass
+    if rate > 1e-3:
+        phi1 = -math.expm1(-rate) / rate
+        phi2 = (1.0 - phi1) / rate
+    else:  # the same by series, free of 0/0; the next term is below round-off of phi1
+        phi1 = 1.0 - rate / 2.0 * (1.0 - rate / 3.0 * (1.0 - rate / 4.0 * (1.0 - rate / 5.0)))
+        phi2 = 0.5 * (1.0 - rate / 3.0 * (1.0 - rate / 4.0 * (1.0 - rate / 5.0)))
+    gain = h * (force - damping * velocity) / mass
+    return velocity + phi1 * gain, velocity + phi2 * gain
+
+
+@kernel
+def kick(state, constants, Q, h, energy):
+    """Advance the velocities by `h` [s] with positions and contact forces `Q` held; book the work done."""
+    lateral, yaw = state[LATERAL], state[YAW]
+    spring_y = -constants[LATERAL_STIFFNESS] * lateral
+    spring_psi = -constants[YAW_STIFFNESS] * yaw
+    c_y, c_psi = constants[LATERAL_DAMPING], constants[YAW_DAMPING]
+    m, inertia, spin_inertia = constants[MASS], constants[YAW_INERTIA], constants[SPIN_INERTIA]
+    before = m * state[LATERAL_VELOCITY] ** 2 + inertia * state[YAW_RATE] ** 2
+    v, mean_v = _kicked(state[LATERAL_VELOCITY], m, Q[0] + spring_y, c_y, h)
+    w, mean_w = _kicked(state[YAW_RATE], inertia, Q[1] + spring_psi, c_psi, h)
+    spin_gain = Q[2] * h / spin_inertia
+    work = (Q[0] + spring_y) * mean_v * h + (Q[1] + spring_psi) * mean_w * h
+    energy[INTERFACE] -= (
+        Q[0] * mean_v + Q[1] * mean_w + Q[2] * (state[SPIN] + 0.5 * spin_gain) + Q[3] * constants[SPEED]
+    ) * h
+    energy[DRIVE] -= Q[3] * constants[SPEED] * h
+    energy[DAMPER] += work - 0.5 * (m * v * v + inertia * w * w - before)
+    state[LATERAL_VELOCITY], state[YAW_RATE] = v, w
+    state[SPIN] += spin_gain
+
+
+@kernel
+def drift(state, h):
+    """Advance the positions by `h` [s]."""
+    state[LATERAL] += h * state[LATERAL_VELOCITY]
+    state[YAW] += h * state[YAW_RATE]
