@@ -1,0 +1,1 @@
+"""From solver to FMU: tables of variables, descriptions made from them, and the packagings."""

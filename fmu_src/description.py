@@ -1,0 +1,141 @@
+"""modelDescription.xml (FMI 2.0), made from a table of variables.
+
+The order of everything is that of the table, numbers are written so that they read back exactly, and nothing depends on
+the time or place of the build: the same table gives the same bytes, and the guid is their hash.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Iterator, Mapping
+from uuid import UUID
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from contact import __version__
+from fmu_src.units import BASE_UNITS, UNITS
+from fmu_src.variables import Causality, Kind, Scalar, Table, Variable
+
+LOG_CATEGORIES = {
+    "logStatusWarning": "A result to be used with care",
+    "logStatusDiscard": "A step that was not done: a value is outside its range",
+    "logStatusError": "A call that is not allowed, or a defect of the FMU",
+}
+STOP_TIME = 1.0  # of the default experiment [s]
+
+#: FMI interface ("CoSimulation", "ModelExchange") → attributes of its element besides modelIdentifier
+Interfaces = Mapping[str, Mapping[str, str]]
+
+
+def model_description(table: Table, interfaces: Interfaces) -> tuple[str, str]:
+    """Return (guid, XML) of the FMU with this table that offers these interfaces."""
+    root = _root(table, interfaces)
+    guid = f"{{{UUID(bytes=hashlib.sha256(tostring(root)).digest()[:16])}}}"
+    root.set("guid", guid)
+    indent(root)
+    return guid, '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
+
+
+def number(value: float) -> str:
+    """Write a number such that it reads back exactly."""
+    return repr(value)
+
+
+def _root(table: Table, interfaces: Interfaces) -> Element:
+    root = Element(
+        "fmiModelDescription",
+        fmiVersion="2.0",
+        modelName=table.name,
+        guid="",
+        description=table.description,
+        version=__version__,
+        generationTool=f"wheelrail-contact {__version__}",
+        variableNamingConvention="structured",
+    )
+    for interface, attributes in interfaces.items():
+        SubElement(root, interface, {"modelIdentifier": table.name, **attributes})
+    _units(root, table)
+    _types(root, table)
+    categories = SubElement(root, "LogCategories")
+    for name, description in LOG_CATEGORIES.items():
+        SubElement(categories, "Category", name=name, description=description)
+    SubElement(root, "DefaultExperiment", startTime="0.0", stopTime=number(STOP_TIME), stepSize=number(table.step_size))
+    variables = SubElement(root, "ModelVariables")
+    for reference, scalar in enumerate(table.scalars):
+        variables.append(_variable(reference, scalar))
+    _structure(root, table)
+    return root
+
+
+def _units(root: Element, table: Table) -> None:
+    used = {scalar.unit for scalar in table.scalars if scalar.row.kind is Kind.REAL}
+    definitions = SubElement(root, "UnitDefinitions")
+    for name, exponents in UNITS.items():
+        if name in used:
+            unit = SubElement(definitions, "Unit", name=name)
+            SubElement(
+                unit, "BaseUnit", {base: str(e) for base, e in zip(BASE_UNITS, exponents, strict=True) if e != 0}
+            )
+
+
+def _types(root: Element, table: Table) -> None:
+    definitions = SubElement(root, "TypeDefinitions")
+    enumerations = {row.enumeration.name: row.enumeration for row in table.rows if row.enumeration}
+    for enumeration in enumerations.values():
+        simple = SubElement(definitions, "SimpleType", name=enumeration.name)
+        items = SubElement(simple, "Enumeration")
+        for value, (name, description) in enumerate(enumeration.items, start=1):
+            SubElement(items, "Item", name=name, value=str(value), description=description)
+
+
+def _variable(reference: int, scalar: Scalar) -> Element:
+    row = scalar.row
+    element = Element(
+        "ScalarVariable",
+        name=scalar.name,
+        valueReference=str(reference),
+        description=row.description,
+        causality=row.causality,
+        variability=row.variability,
+    )
+    if row.initial is not None:
+        element.set("initial", row.initial)
+    SubElement(element, row.kind, dict(_type_attributes(scalar)))
+    return element
+
+
+def _type_attributes(scalar: Scalar) -> Iterator[tuple[str, str]]:
+    row = scalar.row
+    if row.enumeration is not None:
+        yield "declaredType", row.enumeration.name
+    if row.kind is Kind.REAL:
+        yield "unit", scalar.unit
+    for name, bound in (("min", scalar.minimum), ("max", scalar.maximum)):
+        if math.isfinite(bound):
+            yield name, number(bound)
+    if row.nominal is not None:
+        yield "nominal", number(row.nominal)
+    if scalar.start is not None:
+        yield "start", number(scalar.start)
+
+
+def _structure(root: Element, table: Table) -> None:
+    """Outputs depend on inputs; their initial values depend on parameters too."""
+    structure = SubElement(root, "ModelStructure")
+    outputs = [row for row in table.rows if row.causality is Causality.OUTPUT]
+    if outputs:
+        element = SubElement(structure, "Outputs")
+        for row in outputs:
+            _unknown(element, table, row, [k for k in table.knowns(row) if k.causality is Causality.INPUT])
+    initial = [row for row in outputs if row.initial == "calculated"]
+    if initial:
+        element = SubElement(structure, "InitialUnknowns")
+        for row in initial:
+            _unknown(element, table, row, table.knowns(row))
+
+
+def _unknown(parent: Element, table: Table, row: Variable, knowns: list[Variable]) -> None:
+    """One element for each scalar of `row`; FMI counts variables from 1."""
+    dependencies = " ".join(str(reference + 1) for known in knowns for reference in table.references(known.name))
+    for reference in table.references(row.name):
+        SubElement(parent, "Unknown", index=str(reference + 1), dependencies=dependencies)

@@ -1,0 +1,1 @@
+"""The pythonfmu packaging: FMUs for hosts that have Python with this package installed."""

@@ -1,0 +1,88 @@
+"""An FMU file for hosts with Python: description, pythonfmu's library, pythonfmu itself and a script of a few lines.
+
+The solver is not bundled. Two FMUs in one process that bundle a package of the same name share the first one's code,
+and numba's cache never hits for code out of an unzipped FMU (both measured with pythonfmu 0.7.0): so the script imports
+the installed package, and its name carries the hash of its content.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib.metadata import distribution
+from pathlib import Path
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+import pythonfmu
+
+from contact import __version__
+from fmu_src.description import model_description
+from fmu_src.documentation import markdown
+from fmu_src.python.slave import INTERFACES
+from fmu_src.tables import wheel_rail_contact
+from fmu_src.variables import Table
+
+_SCRIPT = '''\
+"""Slave of the FMU {name}. The code is in the package wheelrail-contact {version}, installed in the host's Python."""
+
+try:
+    from {module} import {name}Slave
+except ImportError as error:
+    raise ImportError(
+        f"the FMU {name} needs the package wheelrail-contact {version} in the host's Python: {{error}}"
+    ) from error
+
+
+class {name}({name}Slave):
+    def __init__(self, **kwargs):
+        super().__init__(points={points}, guid="{guid}", **kwargs)
+'''
+
+
+@dataclass(frozen=True)
+class Model:
+    """What the packaging needs to know of an FMU."""
+
+    table: Table
+    module: str  # that has the class `<name>Slave`
+    points: int
+
+
+def models(points: int) -> tuple[Model, ...]:
+    """The FMUs, for separations of `points` samples."""
+    return (Model(wheel_rail_contact.table(points), "fmu_src.python.wheel_rail_contact", points),)
+
+
+def build(model: Model, folder: Path) -> Path:
+    """Write `folder`/<name>.fmu and return its path; the same sources give the same bytes."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / f"{model.table.name}.fmu"
+    with ZipFile(path, "w", ZIP_DEFLATED) as archive:
+        for name, content in sorted(_files(model)):
+            entry = ZipInfo(name)  # dated 1980
+            entry.compress_type = ZIP_DEFLATED
+            entry.external_attr = 0o644 << 16
+            archive.writestr(entry, content)
+    return path
+
+
+def _files(model: Model) -> Iterator[tuple[str, bytes]]:
+    name = model.table.name
+    guid, xml = model_description(model.table, INTERFACES)
+    yield "modelDescription.xml", xml.encode()
+    script = _SCRIPT.format(
+        name=name, version=__version__, module=model.module, points=model.points, guid=guid
+    ).encode()
+    module = f"{name.lower()}_{hashlib.sha256(script).hexdigest()[:16]}"
+    yield f"resources/{module}.py", script
+    yield "resources/slavemodule.txt", module.encode()
+    package = Path(pythonfmu.__file__).parent
+    for source in package.glob("*.py"):
+        yield f"resources/pythonfmu/{source.name}", source.read_bytes()
+    for library in (package / "resources" / "binaries").glob("*/*"):
+        yield f"binaries/{library.parent.name}/{name}{library.suffix}", library.read_bytes()
+    yield f"documentation/{name}.md", markdown(model.table).encode()
+    for licensed in ("wheelrail-contact", "pythonfmu"):
+        if text := distribution(licensed).read_text("licenses/LICENSE"):
+            yield f"documentation/licenses/{licensed}.txt", text.encode()

@@ -1,0 +1,334 @@
+"""The pythonfmu slave that a variable table drives; a model adds the function from inputs to outputs.
+
+pythonfmu 0.7.0 turns an exception out of a callback into fmi2Fatal, and the fifth one crashes the host (measured). So
+none leaves here: a doStep that cannot be done is Discarded with a message, any other refused call is logged.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from enum import StrEnum
+from functools import wraps
+from typing import Any
+
+import numpy as np
+from pythonfmu.enums import Fmi2Status
+from pythonfmu.fmi2slave import Fmi2Slave
+
+from contact import __version__
+from contact.errors import ContactError, require_number
+from fmu_src.description import LOG_CATEGORIES, model_description
+from fmu_src.variables import Causality, Kind, Table
+
+#: What this packaging can do; attributes of the element CoSimulation.
+INTERFACES = {
+    "CoSimulation": {
+        "needsExecutionTool": "true",
+        "canHandleVariableCommunicationStepSize": "true",
+        "canInterpolateInputs": "false",
+        "canBeInstantiatedOnlyOncePerProcess": "false",
+        "canNotUseMemoryManagementFunctions": "true",
+        "canGetAndSetFMUstate": "true",
+        "canSerializeFMUstate": "true",
+    }
+}
+
+
+#: FMI's get and set functions: those of Reals, those of Integers and Enumerations, those that no table has a use for.
+_CALLS: tuple[tuple[Kind, ...], ...] = ((Kind.REAL,), (Kind.INTEGER, Kind.ENUMERATION), ())
+_REAL, _INTEGER, _NONE = _CALLS
+
+
+class Phase(StrEnum):
+    """Where the instance is in FMI's state machine."""
+
+    INSTANTIATED = "before initialisation"
+    INITIALIZATION = "in initialisation"
+    STEPPING = "after initialisation"
+    TERMINATED = "after terminate"
+
+
+#: Some rows by name: a number, or a sequence for an array.
+Rows = Mapping[str, float | Sequence[float]]
+
+
+class Values:
+    """The values of all scalars, read by the name of the row: a number, or a list for an array."""
+
+    def __init__(self, table: Table, numbers: list[float]) -> None:
+        self.table = table
+        self.numbers = numbers
+
+    def __getitem__(self, name: str) -> Any:
+        span = self.table.span[name]
+        return self.numbers[span] if self.table.row[name].shape else self.numbers[span.start]
+
+    def item(self, name: str) -> str:
+        """Name of the current item of an enumeration."""
+        enumeration = self.table.row[name].enumeration
+        assert enumeration is not None
+        return enumeration.item(self.numbers[self.table.span[name].start])
+
+    def copy(self) -> Values:
+        """Values that later calls do not change."""
+        return Values(self.table, self.numbers.copy())
+
+    def updated(self, new: Rows) -> Values:
+        """A copy with some rows replaced; all of it must be finite."""
+        result = self.copy()
+        for name, value in new.items():
+            result.numbers[self.table.span[name]] = value if isinstance(value, Sequence) else (value,)
+        finite = np.isfinite(result.numbers)
+        if not finite.all():
+            scalar = self.table.scalars[int(np.argmin(finite))]
+            raise ContactError(f"{scalar.name} has no finite value for these inputs")
+        return result
+
+
+def guarded(method: Callable[..., Any]) -> Callable[..., Any]:
+    """Let no exception out of a callback: log it and answer False, which in `do_step` means Discard."""
+
+    @wraps(method)
+    def callback(self: TableSlave, *args: Any) -> Any:
+        try:
+            return method(self, *args)
+        except ContactError as error:
+            self.log(str(error), Fmi2Status.discard)
+        except Exception as error:  # noqa: BLE001 - whatever it is, it must not reach the host
+            self.log(f"{method.__name__}: {type(error).__name__}: {error}", Fmi2Status.error)
+        return False
+
+    return callback
+
+
+class TableSlave(Fmi2Slave):
+    """Co-simulation slave of the FMU with `table`.
+
+    A model implements `outputs` (and `on_demand` for outputs that are costly and seldom read). Everything that an
+    instance remembers is in its values: so saving and restoring them is saving and restoring the instance.
+
+    Parameters
+    ----------
+    table : Table
+    guid : str
+        That of the FMU's modelDescription.xml; the installed package must describe the FMU in the same way.
+
+    Raises
+    ------
+    RuntimeError
+        If the FMU was built with another version of this package.
+    """
+
+    log_categories = LOG_CATEGORIES
+
+    #: Rows that are computed when somebody reads them, by `on_demand`.
+    lazy: tuple[str, ...] = ()
+
+    def __init__(self, table: Table, guid: str, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        if self.resources in sys.path:
+            # pythonfmu adds it once for every instance and never takes it back; the script is imported by now.
+            sys.path.remove(self.resources)
+        if guid != model_description(table, INTERFACES)[0]:
+            raise RuntimeError(
+                f"this FMU {table.name} was built with another version of wheelrail-contact than the installed "
+                f"{__version__}: install that version, or build the FMU anew"
+            )
+        self.table = table
+        self.guid = guid
+        self.phase = Phase.INSTANTIATED
+        self.stop_time = math.inf
+        self.values = Values(table, [s.first for s in table.scalars])
+        self.solved = self.values.copy()  # the values that the lazy rows belong to
+        self.lazy_is_stale = False
+        self.inputs_are_new = True
+        self._index(table)
+
+    def _index(self, table: Table) -> None:
+        """Sort the value references by what may be done with them."""
+        every = list(enumerate(table.scalars))
+        inputs = frozenset(r for r, s in every if s.row.causality is Causality.INPUT)
+        exact = frozenset(r for r, s in every if s.row.initial == "exact")
+        settable = {
+            Phase.INSTANTIATED: inputs | exact,
+            Phase.INITIALIZATION: inputs | exact,
+            Phase.STEPPING: inputs,
+            Phase.TERMINATED: frozenset[int](),
+        }
+        self._readable = {kinds: frozenset(r for r, s in every if s.row.kind in kinds) for kinds in _CALLS}
+        self._settable = {(p, kinds): settable[p] & self._readable[kinds] for p in Phase for kinds in _CALLS}
+        self._lazy = frozenset(r for name in self.lazy for r in table.references(name))
+        self._checked = [r for r, s in every if s.row.initial == "exact" or r in inputs]
+        scalars = [table.scalars[r] for r in self._checked]
+        # FMI's ranges are closed; the next number stands for an open minimum, the largest for infinity.
+        self._least = np.array([np.nextafter(s.minimum, np.inf) if s.row.open_minimum else s.minimum for s in scalars])
+        self._greatest = np.minimum([s.maximum for s in scalars], sys.float_info.max)
+        self._least = np.maximum(self._least, -sys.float_info.max)
+
+    # ---------------------------------------------------------------- what a model adds
+
+    def outputs(self, values: Values, step_size: float) -> Rows:
+        """Return the outputs after a step; `step_size` is 0 during initialisation. Changes nothing.
+
+        Raises
+        ------
+        ContactError
+            If there is no answer; the step is discarded.
+        """
+        raise NotImplementedError
+
+    def on_demand(self, values: Values) -> Rows:
+        """Return the `lazy` rows that belong to `values`."""
+        raise NotImplementedError
+
+    # ---------------------------------------------------------------- life of an instance
+
+    @guarded
+    def setup_experiment(self, start_time: float, stop_time: float | None, tolerance: float | None) -> None:
+        """Remember the stop time."""
+        self.stop_time = math.inf if stop_time is None else stop_time
+
+    @guarded
+    def enter_initialization_mode(self) -> None:
+        """From now on outputs follow what is set."""
+        self.phase = Phase.INITIALIZATION
+
+    @guarded
+    def exit_initialization_mode(self) -> None:
+        """Fix the parameters and compute the outputs at the start."""
+        self.phase = Phase.STEPPING
+        self._update(0.0)
+
+    @guarded
+    def terminate(self) -> None:
+        """Nothing can be set any more."""
+        self.phase = Phase.TERMINATED
+
+    @guarded
+    def do_step(self, current_time: float, step_size: float) -> bool:
+        """Advance the outputs; False (Discard) leaves them as they were."""
+        if self.phase is not Phase.STEPPING:
+            raise ContactError(f"doStep is not allowed {self.phase}")
+        require_number("communicationStepSize", step_size, 0.0, open_minimum=True)
+        # a thousandth of a step: what masters that add up steps lose by rounding is less
+        require_number("end of the step", current_time + step_size, maximum=self.stop_time + 1e-3 * step_size)
+        self._update(step_size)
+        return True
+
+    def _update(self, step_size: float) -> None:
+        """Compute the outputs from values that are all within their ranges; keep the old ones if that fails."""
+        self.inputs_are_new = False
+        self._check_ranges()
+        self.values = self.values.updated(self.outputs(self.values, step_size))
+        if self.lazy:
+            self.solved, self.lazy_is_stale = self.values.copy(), True
+
+    def _check_ranges(self) -> None:
+        """Raise ContactError for the first parameter, input or state that is not finite or outside its range."""
+        numbers = np.array(self.values.numbers, dtype=np.float64)[self._checked]
+        allowed = (numbers >= self._least) & (numbers <= self._greatest)
+        if not allowed.all():
+            reference = self._checked[int(np.argmin(allowed))]
+            self.table.scalars[reference].check(self.values.numbers[reference])
+
+    # ---------------------------------------------------------------- get and set
+
+    def get_real(self, references: list[int]) -> list[float]:
+        """Values of Reals."""
+        return self._get(_REAL, references)
+
+    def get_integer(self, references: list[int]) -> list[int]:
+        """Values of Integers and Enumerations."""
+        return self._get(_INTEGER, references)
+
+    def get_boolean(self, references: list[int]) -> list[bool]:
+        """Refuse: no table has Booleans."""
+        return self._get(_NONE, references)
+
+    def get_string(self, references: list[int]) -> list[str]:
+        """Refuse: no table has Strings."""
+        return [""] * len(self._get(_NONE, references))
+
+    def set_real(self, references: list[int], values: list[float]) -> None:
+        """Set Reals."""
+        self._set(_REAL, references, values)
+
+    def set_integer(self, references: list[int], values: list[int]) -> None:
+        """Set Integers and Enumerations."""
+        self._set(_INTEGER, references, values)
+
+    def set_boolean(self, references: list[int], values: list[bool]) -> None:
+        """Refuse: no table has Booleans."""
+        self._set(_NONE, references, values)
+
+    def set_string(self, references: list[int], values: list[str]) -> None:
+        """Refuse: no table has Strings."""
+        self._set(_NONE, references, values)
+
+    def _get(self, kinds: tuple[Kind, ...], references: list[int]) -> list[Any]:
+        if self.phase is Phase.INITIALIZATION and self.inputs_are_new:
+            guarded(TableSlave._update)(self, 0.0)
+        if self.lazy_is_stale and not self._lazy.isdisjoint(references):
+            self.lazy_is_stale = False
+            guarded(TableSlave._compute_lazy)(self)
+        readable, numbers = self._readable[kinds], self.values.numbers
+        for reference in references:
+            if reference not in readable:
+                self._refuse("read", reference, kinds)
+        return [numbers[reference] if reference in readable else 0 for reference in references]
+
+    def _set(self, kinds: tuple[Kind, ...], references: list[int], values: list[Any]) -> None:
+        self.inputs_are_new = True
+        settable, numbers = self._settable[self.phase, kinds], self.values.numbers
+        for reference, value in zip(references, values, strict=True):
+            if reference in settable:
+                numbers[reference] = value
+            else:
+                self._refuse("set", reference, kinds)
+
+    def _compute_lazy(self) -> None:
+        self.values = self.values.updated(self.on_demand(self.solved))
+
+    def _refuse(self, verb: str, reference: int, kinds: tuple[Kind, ...]) -> None:
+        known = 0 <= reference < len(self.table.scalars)
+        name = self.table.scalars[reference].name if known else f"value reference {reference}"
+        words = " or ".join(kinds) or "Boolean or String"
+        self.log(f"{name} cannot be {verb} as {words} {self.phase}; the call is ignored", Fmi2Status.error)
+
+    # ---------------------------------------------------------------- state
+
+    def _get_fmu_state(self) -> dict[str, Any]:
+        return {
+            "guid": self.guid,
+            "phase": self.phase,
+            "stop_time": self.stop_time,
+            "values": self.values.numbers.copy(),
+            "solved": self.solved.numbers.copy(),
+            "lazy_is_stale": self.lazy_is_stale,
+            "inputs_are_new": self.inputs_are_new,
+        }
+
+    @guarded
+    def _set_fmu_state(self, state: dict[str, Any]) -> None:
+        if state.get("guid") != self.guid:
+            raise ValueError(f"this is not a state of the FMU {self.table.name}; the call is ignored")
+        self.phase = Phase(state["phase"])
+        self.stop_time = state["stop_time"]
+        self.values = Values(self.table, state["values"].copy())
+        self.solved = Values(self.table, state["solved"].copy())
+        self.lazy_is_stale = state["lazy_is_stale"]
+        self.inputs_are_new = state["inputs_are_new"]
+
+    @staticmethod
+    def _fmu_state_to_bytes(state: dict[str, Any]) -> bytes:
+        return json.dumps(state).encode()  # floats are written such that they read back exactly
+
+    @staticmethod
+    def _fmu_state_from_bytes(state: bytes) -> dict[str, Any]:
+        try:
+            return json.loads(state)
+        except ValueError:
+            return {}  # setting it is refused with a message

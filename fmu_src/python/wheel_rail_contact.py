@@ -1,0 +1,114 @@
+"""The slave of the FMU `WheelRailContact`: `contact.solve` behind its table."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from pythonfmu.enums import Fmi2Status
+
+import contact
+from contact import Creepage, Material, Separation, Solution, Status
+from fmu_src.python.slave import Rows, TableSlave, Values
+from fmu_src.tables.wheel_rail_contact import table
+
+_CREEPAGES = ("creepage.longitudinal", "creepage.lateral", "creepage.spin")
+
+
+class WheelRailContactSlave(TableSlave):
+    """One wheel-rail contact in the plane of its separation; forces act on the wheel."""
+
+    lazy = ("creep_stiffness",)
+
+    def __init__(self, points: int, guid: str, **kwargs: Any) -> None:
+        super().__init__(table(points), guid, **kwargs)
+
+    def outputs(self, values: Values, step_size: float) -> Rows:
+        """Solve for the present inputs; they are taken as constant over the step."""
+        solution = _solve(values, _creepage(values))
+        if solution.status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED) and solution.status != values["status"]:
+            self.log(f"status {solution.status.name}: {solution.status.message}", Fmi2Status.warning)
+        power = values["speed"] * solution.power_per_metre
+        return {
+            "force.x": solution.Fx,
+            "force.y": solution.Fy,
+            "force.n": solution.N,
+            "moment.z": solution.Mz,
+            "approach": solution.approach,
+            "pressure.max": solution.max_pressure,
+            "patch.area": solution.area,
+            "patch.length": solution.length,
+            "patch.width": solution.width,
+            "patch.count": solution.n_patches,
+            "slip.ratio": solution.slip_ratio,
+            "power.friction": power,
+            "stiffness.normal": solution.normal_stiffness,
+            "status": int(solution.status),
+            "total.energy": values["total.energy"] + power * step_size,
+        }
+
+    def on_demand(self, values: Values) -> Rows:
+        """Differentiate the forces by the creepages, with central differences."""
+        at = np.array([values[name] for name in _CREEPAGES])
+        stiffness = np.zeros((3, 3))
+        for j, step in enumerate(_difference_steps(values)):
+            change = np.zeros(3)
+            change[j] = step
+            ahead, behind = _solve(values, Creepage(*(at + change))), _solve(values, Creepage(*(at - change)))
+            stiffness[:, j] = (_resultants(ahead) - _resultants(behind)) / (2.0 * step)
+        return {"creep_stiffness": stiffness.ravel().tolist()}
+
+
+def _creepage(values: Values) -> Creepage:
+    return Creepage(*(values[name] for name in _CREEPAGES))
+
+
+def _solve(values: Values, creepage: Creepage) -> Solution:
+    """Solve the contact that `values` describe, with another creepage."""
+    material = Material(
+        values["material.shear_modulus"],
+        values["material.poisson_ratio"],
+        hardness=values["material.hardness"],
+        shear_yield=values["material.shear_yield"],
+    )
+    load_driven = values.item("load.kind") == "NormalForce"
+    return contact.solve(
+        _separation(values),
+        creepage,
+        load=values["load.normal_force"] if load_driven else None,
+        approach=None if load_driven else values["load.approach"],
+        friction=values["friction.coefficient"],
+        material=material,
+        speed=values["speed"],
+        normal=values.item("method.normal"),
+        tangential=values.item("method.tangential"),
+        n_strips=values["resolution.n_strips"],
+        n_elements=values["resolution.n_elements"],
+        throw=False,
+    )
+
+
+def _separation(values: Values) -> Separation:
+    if values.item("geometry.kind") == "Curvatures":
+        return Separation.hertzian(values["geometry.A0"], values["geometry.B0"])
+    g = values["geometry.g"]
+    return Separation(values["geometry.y0"] + values["geometry.dy"] * np.arange(len(g)), g, values["geometry.A"])
+
+
+def _resultants(solution: Solution) -> np.ndarray:
+    return np.array([solution.Fx, solution.Fy, solution.Mz])
+
+
+def _difference_steps(values: Values) -> tuple[float, float, float]:
+    """Steps of a thousandth of the creepages and the spin at which linear theory reaches mu N: mu N/(G a b C).
+
+    C is about 4, so with a b = area/π about mu N/(G area); spin counts by the size of the patch. Without contact or
+    friction any step is right, the forces are zero.
+    """
+    area = values["patch.area"]
+    creepage = values["friction.coefficient"] * values["force.n"]
+    if creepage == 0.0 or area == 0.0:
+        return 1e-6, 1e-6, 1e-3
+    creepage *= 1e-3 / (values["material.shear_modulus"] * area)
+    return creepage, creepage, creepage / math.sqrt(area / math.pi)

@@ -1,0 +1,1 @@
+"""The variable table of each FMU."""

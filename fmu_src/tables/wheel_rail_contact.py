@@ -1,0 +1,242 @@
+"""Interface of the FMU `WheelRailContact`: separation, creepages and load in; forces, moment and damage out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cache
+
+import contact
+from contact import Status, registry
+from contact.solve import N_ELEMENTS, N_STRIPS
+from fmu_src.variables import Enumeration, Table, Variable, output, parameter, signal
+
+GEOMETRY_KIND = Enumeration(
+    "GeometryKind",
+    (
+        ("Separation", "geometry.g and geometry.A at equidistant y"),
+        ("Curvatures", "geometry.A0 and geometry.B0: an elliptic contact"),
+    ),
+)
+LOAD_KIND = Enumeration(
+    "LoadKind", (("NormalForce", "load.normal_force is given"), ("Approach", "load.approach is given"))
+)
+NORMAL_METHOD = Enumeration("NormalMethod", tuple((m.name, m.title) for m in contact.methods().normal.values()))
+TANGENTIAL_METHOD = Enumeration(
+    "TangentialMethod", tuple((m.name, m.title) for m in contact.methods().tangential.values())
+)
+FRICTION_LAW = Enumeration("FrictionLaw", (("Coulomb", "constant coefficient of friction"),))
+_STATUS_NAMES = ("OK", "NoContact", "Saturated", "OutOfRange", "NotConverged")
+STATUS = Enumeration("Status", tuple(zip(_STATUS_NAMES, (status.message for status in Status), strict=True)))
+
+#: What the normal problem is a function of; forces depend on everything.
+_NORMAL_PROBLEM = (
+    "geometry.kind",
+    "geometry.y0",
+    "geometry.dy",
+    "geometry.g",
+    "geometry.A",
+    "geometry.A0",
+    "geometry.B0",
+    "load.kind",
+    "load.normal_force",
+    "load.approach",
+    "method.normal",
+    "material.shear_modulus",
+    "material.poisson_ratio",
+    "resolution.n_strips",
+)
+_HALF_WIDTH = 0.02  # of the separation that the FMU starts with [m]
+
+
+@cache
+def table(points: int = 41) -> Table:
+    """Table for a separation of `points` samples across the track (at least 3)."""
+    if points < 3:
+        raise ValueError(f"points = {points}: a separation has at least 3 points")
+    rows = [*_parameters(points), *_inputs(points), *_outputs()]
+    return Table(
+        "WheelRailContact",
+        "Elastic wheel-rail contact: non-elliptic patch and pressure, creep forces, spin moment and damage. "
+        "Forces act on the wheel; frame x in the rolling direction, y lateral, z from wheel into rail.",
+        rows,
+        step_size=1e-3,
+    )
+
+
+def _parameters(points: int) -> Iterable[Variable]:
+    steel = contact.STEEL
+    yield parameter("geometry.kind", "How the geometry is given", enumeration=GEOMETRY_KIND, start="Separation")
+    yield parameter("geometry.y0", "Lateral position of geometry.g[1]", unit="m", start=-_HALF_WIDTH)
+    yield parameter(
+        "geometry.dy",
+        "Lateral distance of two samples",
+        unit="m",
+        start=2.0 * _HALF_WIDTH / (points - 1),
+        minimum=0.0,
+        open_minimum=True,
+    )
+    yield parameter("load.kind", "How the load is given", enumeration=LOAD_KIND, start="NormalForce")
+    yield parameter(
+        "method.normal", "Method for the normal problem", enumeration=NORMAL_METHOD, start=registry.DEFAULT_NORMAL
+    )
+    yield parameter(
+        "method.tangential",
+        "Method for the tangential problem",
+        enumeration=TANGENTIAL_METHOD,
+        start=registry.DEFAULT_TANGENTIAL,
+    )
+    yield parameter(
+        "material.shear_modulus",
+        "Combined shear modulus of wheel and rail",
+        unit="Pa",
+        start=steel.shear_modulus,
+        minimum=0.0,
+        open_minimum=True,
+        nominal=1e11,
+    )
+    yield parameter(
+        "material.poisson_ratio",
+        "Combined Poisson ratio of wheel and rail",
+        start=steel.poisson_ratio,
+        minimum=0.0,
+        maximum=0.5,
+    )
+    yield parameter(
+        "material.hardness",
+        "Hardness of the softer body (wear)",
+        unit="Pa",
+        start=steel.hardness,
+        minimum=0.0,
+        open_minimum=True,
+        nominal=1e9,
+    )
+    yield parameter(
+        "material.shear_yield",
+        "Yield stress in shear (fatigue and stress index)",
+        unit="Pa",
+        start=steel.shear_yield,
+        minimum=0.0,
+        open_minimum=True,
+        nominal=1e8,
+    )
+    yield parameter("resolution.n_strips", "Strips per patch", integer=True, start=N_STRIPS, minimum=4, maximum=1000)
+    yield parameter(
+        "resolution.n_elements", "Elements per strip", integer=True, start=N_ELEMENTS, minimum=4, maximum=1000
+    )
+    yield parameter("friction.law", "Friction law", enumeration=FRICTION_LAW, start="Coulomb")
+    yield parameter(
+        "wheel.radius",
+        "Rolling radius (damage per revolution)",
+        unit="m",
+        start=0.46,
+        minimum=0.0,
+        open_minimum=True,
+    )
+
+
+def _inputs(points: int) -> Iterable[Variable]:
+    offsets = (_HALF_WIDTH * (2.0 * i / (points - 1) - 1.0) for i in range(points))
+    yield signal(
+        "geometry.g",
+        "Undeformed gap on the contact locus",
+        unit="m",
+        start=tuple(y * y for y in offsets),
+        shape=(points,),
+        nominal=1e-4,
+    )
+    yield signal(
+        "geometry.A",
+        "Half curvature in the rolling direction",
+        unit="1/m",
+        start=0.5 / 0.46,
+        minimum=0.0,
+        open_minimum=True,
+        shape=(points,),
+    )
+    for letter, axis, start in (("A", "in the rolling direction", 0.5 / 0.46), ("B", "across", 1.0)):
+        yield signal(
+            f"geometry.{letter}0",
+            f"Half curvature {axis}, used when geometry.kind = Curvatures",
+            unit="1/m",
+            start=start,
+            minimum=0.0,
+            open_minimum=True,
+        )
+    yield signal("creepage.longitudinal", "Longitudinal creepage, wheel minus rail", start=0.0, nominal=1e-3)
+    yield signal("creepage.lateral", "Lateral creepage, wheel minus rail", start=0.0, nominal=1e-3)
+    yield signal("creepage.spin", "Spin creepage, wheel minus rail", unit="rad/m", start=0.0, nominal=0.1)
+    yield signal(
+        "load.normal_force",
+        "Normal force, used when load.kind = NormalForce",
+        unit="N",
+        start=80e3,
+        minimum=0.0,
+        nominal=1e5,
+    )
+    yield signal(
+        "load.approach",
+        "Rigid approach from first touch, used when load.kind = Approach; negative: apart",
+        unit="m",
+        start=8e-5,
+        nominal=1e-4,
+    )
+    yield signal(
+        "speed",
+        "Rolling speed; scales rates only",
+        unit="m/s",
+        start=20.0,
+        minimum=0.0,
+        open_minimum=True,
+        nominal=10.0,
+    )
+    yield signal("friction.coefficient", "Coefficient of friction", start=0.3, minimum=0.0)
+
+
+def _damage() -> Iterable[Variable]:
+    yield output("damage.T_gamma", "Wear number |Fx ξ| + |Fy η|", unit="N", minimum=0.0, nominal=100.0)
+    yield output(
+        "damage.wear_rate_pearce_sherratt", "Tread area worn off, Pearce and Sherratt", unit="m2/m", minimum=0.0
+    )
+    yield output("damage.index_burstow", "Rolling contact fatigue index per axle pass, Burstow")
+    yield output(
+        "damage.wear_rate_usfd",
+        "Volume worn off a unit of contact area, Sheffield",
+        unit="m/m",
+        minimum=0.0,
+        nominal=1e-8,
+    )
+    yield output("damage.archard_depth_max", "Greatest wear depth, Archard", unit="m/m", minimum=0.0, nominal=1e-10)
+    yield output("damage.archard_volume", "Volume worn off, Archard", unit="m3/m", minimum=0.0, nominal=1e-12)
+    yield output("damage.fatigue_index_surface", "Surface fatigue index, Ekberg")
+    yield output("damage.stress_index_max", "Greatest stress index |q| - k", unit="Pa", nominal=1e8)
+    yield output("damage.energy_index_max", "Greatest energy index q.w", unit="Pa", nominal=1e6)
+
+
+def _outputs() -> Iterable[Variable]:
+    yield output("force.x", "Longitudinal creep force on the wheel", unit="N", nominal=1e4)
+    yield output("force.y", "Lateral creep force on the wheel", unit="N", nominal=1e4)
+    yield output("force.n", "Normal force", unit="N", minimum=0.0, nominal=1e5, depends=_NORMAL_PROBLEM)
+    yield output("moment.z", "Spin moment on the wheel about the origin of y", unit="N.m", nominal=100.0)
+    yield output("approach", "Rigid approach from first touch", unit="m", nominal=1e-4, depends=_NORMAL_PROBLEM)
+    for name, description, unit, nominal in (
+        ("pressure.max", "Greatest contact pressure", "Pa", 1e9),
+        ("patch.area", "Contact area", "m2", 1e-4),
+        ("patch.length", "Extent of the patch in the rolling direction", "m", 1e-2),
+        ("patch.width", "Extent of the patch across", "m", 1e-2),
+    ):
+        yield output(name, description, unit=unit, minimum=0.0, nominal=nominal, depends=_NORMAL_PROBLEM)
+    yield output("patch.count", "Number of separate patches", integer=True, minimum=0, depends=_NORMAL_PROBLEM)
+    yield output("slip.ratio", "Slip area over contact area", minimum=0.0, maximum=1.0)
+    yield output("power.friction", "Frictional power", unit="W", minimum=0.0, nominal=1e3)
+    yield from _damage()
+    yield output("stiffness.normal", "dN/d(approach)", unit="N/m", minimum=0.0, nominal=1e9, depends=_NORMAL_PROBLEM)
+    yield output(
+        "creep_stiffness",
+        "d(force.x, force.y, moment.z)/d(longitudinal, lateral, spin creepage); computed when it is asked for",
+        unit=("N", "N", "N.m", "N", "N", "N.m", "N.m", "N.m", "N.m2"),
+        shape=(3, 3),
+        nominal=1e6,
+    )
+    yield output("status", "How the solution came about", enumeration=STATUS)
+    yield output("total.energy", "Energy dissipated since start", unit="J", start=0.0, minimum=0.0, depends=())
+    yield output("total.worn_volume", "Volume worn off since start", unit="m3", start=0.0, minimum=0.0, depends=())

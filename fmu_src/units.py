@@ -1,0 +1,33 @@
+"""Units of the FMUs as exponents of SI base units."""
+
+BASE_UNITS = ("kg", "m", "s", "rad")
+
+#: name → exponents in the order of BASE_UNITS. The radian is kept where it tells an angle from a plain number.
+UNITS: dict[str, tuple[int, int, int, int]] = {
+    "1": (0, 0, 0, 0),
+    "m": (0, 1, 0, 0),
+    "m2": (0, 2, 0, 0),
+    "m3": (0, 3, 0, 0),
+    "1/m": (0, -1, 0, 0),
+    "s": (0, 0, 1, 0),
+    "m/s": (0, 1, -1, 0),
+    "m/s2": (0, 1, -2, 0),
+    "rad": (0, 0, 0, 1),
+    "rad/s": (0, 0, -1, 1),
+    "rad/m": (0, -1, 0, 1),
+    "kg": (1, 0, 0, 0),
+    "kg.m2": (1, 2, 0, 0),
+    "N": (1, 1, -2, 0),
+    "N.m": (1, 2, -2, 0),
+    "N.m2": (1, 3, -2, 0),
+    "N/m": (1, 0, -2, 0),
+    "N.s/m": (1, 0, -1, 0),
+    "N.m/rad": (1, 2, -2, -1),
+    "Pa": (1, -1, -2, 0),
+    "J": (1, 2, -2, 0),
+    "W": (1, 2, -3, 0),
+    # per metre rolled
+    "m/m": (0, 0, 0, 0),
+    "m2/m": (0, 1, 0, 0),
+    "m3/m": (0, 2, 0, 0),
+}
