@@ -1,0 +1,195 @@
+"""Contact search between one wheel and one rail: trace line, gap, lobes of interpenetration, patches.
+
+Everything here is the right side in track coordinates (x forward, y right, z down) and in metres. The wheel is shown to the
+rail by its trace line, the curve of points whose normal has no x component: for a rail that is a prism along x, contact
+can lie nowhere else (Wang's trace line, theory.md 9.4). With it the search is one in the y-z plane.
+"""
+
+import math
+
+from contact._jit import kernel
+from contact._layout import MAX_PATCHES
+from contact.geometry.curve import SLOPE, Y, Z, advance, at, hermite, least, root
+
+# line[ROW, node]: the trace line as a curve, and the vertical gap above it
+GAP, OPENING = 3, 4  # rail minus wheel at pose.z = 0 [m], its slope along y [-]
+N_LINE_ROWS = 5
+
+# lobe[k, ...]: runs of interpenetration, later whole patches; moments are weighted with the interpenetration
+LOBE_Y0, LOBE_Y1, LOBE_AREA, LOBE_MOMENT, LOBE_COS, LOBE_SIN = range(6)
+N_LOBE = 6
+MAX_LOBES = 16
+
+_GAUSS_T = 0.5 * math.sqrt(0.6)
+
+
+@kernel
+def trace(wheel, n: int, radius: float, tape: float, y: float, roll: float, yaw: float, line) -> int:
+    """Trace line of the wheel profile `wheel` [m] of a wheelset at (y, z = 0, roll, yaw); returns its first valid node.
+
+    A point of the profile turns on a circle of radius r about the axle direction l. Of that circle the point whose surface
+    normal e_r - r'·l has no x component is at l_x·(d + r r') (theory.md 9.4, with its height factor); d is the distance from
+    the wheelset's centre. Where a fillet narrower than the trace line's own curvature folds it back, the fold is left out.
+    """
+    lx, ly, lz = -math.sin(yaw) * math.cos(roll), math.cos(yaw) * math.cos(roll), math.sin(roll)
+    c2 = 1.0 - lx * lx
+    first = n
+    for j in range(n - 1, -1, -1):
+        d, r, rp = tape + wheel[Y, j], radius + wheel[Z, j], wheel[SLOPE, j]
+        h2 = c2 - (lx * rp) ** 2
+        if h2 <= 0.0:  # steeper than the axle's own yaw allows: the ring never faces the rail
+            continue
+        h = math.sqrt(h2)
+        py = y + d * ly - r * (rp * lx * lx * ly + h * lz) / c2
+        if first < n and py >= line[Y, first] - 1e-9:
+            continue
+        first -= 1
+        line[Y, first] = py
+        line[Z, first] = -radius + d * lz + r * (h * ly - rp * lx * lx * lz) / c2
+        line[SLOPE, first] = (rp * ly + h * lz) / (h * ly - rp * lz)
+    return first
+
+
+@kernel
+def on_wheel(slope: float, py: float, pz: float, lx: float, ly: float, lz: float) -> tuple[float, float, float]:
+    """x, axial distance and rolling radius of the trace point (py, pz), relative to the wheelset centre, of given slope.
+
+    The normal there is n = (0, -sin, cos) of the slope; e_r is its part across the axle, so both follow without the profile.
+    """
+    norm = 1.0 / math.sqrt(1.0 + slope * slope)
+    ny, nz = -slope * norm, norm
+    nl = ny * ly + nz * lz
+    across = 1.0 / math.sqrt(1.0 - nl * nl)
+    ey, ez = (ny - nl * ly) * across, (nz - nl * lz) * across
+    determinant = ly * ez - lz * ey
+    r = (ly * pz - lz * py) / determinant
+    d = (py * ez - pz * ey) / determinant
+    return lx * (d - r * nl * across), d, r
+
+
+@kernel
+def place(rail, n: int, y: float, z: float, roll: float, placed) -> None:
+    """The rail profile in track coordinates: turned by `roll` about its origin, which lies at (y, z)."""
+    c, s = math.cos(roll), math.sin(roll)
+    for j in range(n):
+        placed[Y, j] = y + c * rail[Y, j] - s * rail[Z, j]
+        placed[Z, j] = z + s * rail[Y, j] + c * rail[Z, j]
+        placed[SLOPE, j] = (s + c * rail[SLOPE, j]) / (c - s * rail[SLOPE, j])
+
+
+@kernel
+def vertical_gap(line, first: int, n: int, placed, n_rail: int) -> tuple[int, int]:
+    """Fill the gap rows of the trace line; returns the range of nodes that lie above the rail."""
+    start, i = n, 0
+    for j in range(first, n):
+        y = line[Y, j]
+        if y < placed[Y, 0]:
+            continue
+        if y > placed[Y, n_rail - 1]:
+            return min(start, j), j
+        start = min(start, j)
+        i = advance(placed, n_rail, i, y)
+        z, slope = at(placed, i, y)
+        line[GAP, j] = z - line[Z, j]
+        line[OPENING, j] = slope - line[SLOPE, j]
+    return start, n
+
+
+@kernel
+def touch(line, start: int, end: int) -> float:
+    """Least vertical gap at pose.z = 0: the z of the wheelset at which the rigid wheel just touches."""
+    lowest = line[GAP, start]
+    for j in range(start, end - 1):
+        lowest = min(lowest, line[GAP, j + 1])
+        if line[OPENING, j] < 0.0 < line[OPENING, j + 1]:
+            h = line[Y, j + 1] - line[Y, j]
+            t, g = least(line[GAP, j], line[GAP, j + 1], line[OPENING, j], line[OPENING, j + 1], h)
+            if t > 0.0:
+                lowest = min(lowest, g)
+    return lowest
+
+
+@kernel
+def _weigh(line, j: int, z: float, t0: float, t1: float, lobe, k: int) -> None:
+    """Add segment j between t0 and t1 to the moments of lobe k; three Gauss points are exact for the cubic gap times y."""
+    h = line[Y, j + 1] - line[Y, j]
+    for i in range(3):
+        t = 0.5 * (t0 + t1) + (i - 1) * (t1 - t0) * _GAUSS_T
+        weight = (4.0 / 9.0 if i == 1 else 5.0 / 18.0) * (t1 - t0) * h
+        g = hermite(line[GAP, j], line[GAP, j + 1], line[OPENING, j], line[OPENING, j + 1], h, t)[0] - z
+        w = -weight * g
+        wheel = line[SLOPE, j] + t * (line[SLOPE, j + 1] - line[SLOPE, j])
+        rail = wheel + line[OPENING, j] + t * (line[OPENING, j + 1] - line[OPENING, j])
+        cw, cr = 1.0 / math.sqrt(1.0 + wheel * wheel), 1.0 / math.sqrt(1.0 + rail * rail)
+        lobe[k, LOBE_AREA] += w
+        lobe[k, LOBE_MOMENT] += w * (line[Y, j] + t * h)
+        lobe[k, LOBE_COS] += w * (cw + cr)
+        lobe[k, LOBE_SIN] += w * (wheel * cw + rail * cr)
+
+
+@kernel
+def lobes(line, start: int, end: int, z: float, lobe) -> int:
+    """Runs of y in which the wheel, lowered by z, lies inside the rail; returns their number.
+
+    Their moments are those of the overlapping area, which no choice of frame changes: its centroid becomes the reference
+    point and the mean direction of both surfaces in it the contact angle, so both move smoothly with the pose.
+    """
+    k, inside = -1, False
+    for j in range(start, end - 1):
+        g0, g1 = line[GAP, j] - z, line[GAP, j + 1] - z
+        m0, m1, h = line[OPENING, j], line[OPENING, j + 1], line[Y, j + 1] - line[Y, j]
+        t0, t1 = 0.0, 1.0
+        if g0 >= 0.0 and g1 >= 0.0:
+            if not m0 < 0.0 < m1:
+                continue
+            t, g = least(g0, g1, m0, m1, h)
+            if t < 0.0 or g >= 0.0:
+                continue
+            t0, t1 = root(g0, g1, m0, m1, h, 0.0, t), root(g0, g1, m0, m1, h, t, 1.0)
+        elif g0 >= 0.0:
+            t0 = root(g0, g1, m0, m1, h, 0.0, 1.0)
+        elif g1 >= 0.0:
+            t1 = root(g0, g1, m0, m1, h, 0.0, 1.0)
+        if not inside:
+            if k == MAX_LOBES - 1:
+                return MAX_LOBES
+            k += 1
+            lobe[k, :] = 0.0
+            lobe[k, LOBE_Y0] = line[Y, j] + t0 * h
+        _weigh(line, j, z, t0, t1, lobe, k)
+        lobe[k, LOBE_Y1] = line[Y, j] + t1 * h
+        inside = g1 < 0.0
+    return k + 1
+
+
+@kernel
+def combine(lobe, n: int, distance: float, angle: float) -> int:
+    """Merge neighbouring lobes in place into patches; returns the number of patches.
+
+    Two lobes stay separate patches when they are further apart than `distance` [m] (along the mean of their tangents) and
+    their angles differ by more than `angle` [rad]; nearer ones share one plane, as with CONTACT's D_COMB.
+    """
+    k = 0
+    last = math.atan2(lobe[0, LOBE_SIN], lobe[0, LOBE_COS]) if n > 0 else 0.0
+    for i in range(1, n):
+        own = math.atan2(lobe[i, LOBE_SIN], lobe[i, LOBE_COS])
+        apart = (lobe[i, LOBE_Y0] - lobe[k, LOBE_Y1]) / math.cos(0.5 * (own + last)) > distance
+        if apart and abs(own - last) > angle and k < MAX_PATCHES - 1:
+            k += 1
+            lobe[k, :] = lobe[i, :]
+        else:
+            lobe[k, LOBE_Y1] = lobe[i, LOBE_Y1]
+            for row in range(LOBE_AREA, N_LOBE):
+                lobe[k, row] += lobe[i, row]
+        last = own
+    return k + 1 if n > 0 else 0
+
+
+@kernel
+def oppose(wheel, rail, y: float, roll: float, yaw: float, rail_y: float, rail_z: float, rail_roll: float,
+           radius: float, tape: float, line, placed) -> tuple[int, int]:  # fmt: skip
+    """Trace line, placed rail and the gap between; returns the range of trace nodes above the rail."""
+    n = wheel.shape[1]
+    first = trace(wheel, n, radius, tape, y, roll, yaw, line)
+    place(rail, rail.shape[1], rail_y, rail_z, rail_roll, placed)
+    return vertical_gap(line, first, n, placed, rail.shape[1])
