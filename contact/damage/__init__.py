@@ -1,0 +1,35 @@
+"""Wear and rolling-contact fatigue from one solution (thesis chapter 6): one model a file, `evaluate` for all of them.
+
+Constants carry the marks of their evidence: [T] thesis, [2+] two sources agree, [1] one source seen, [R] recalled only,
+[X] sources disagree.
+"""
+
+from contact.damage.archard import ArchardMap, wear_coefficient
+from contact.damage.assessment import ArchardWear, Damage, DamageParameters, IndexField, evaluate
+from contact.damage.burstow import Burstow, burstow
+from contact.damage.energy_index import energy_index
+from contact.damage.fatigue_index import fatigue_index
+from contact.damage.pearce_sherratt import PearceSherratt, pearce_sherratt
+from contact.damage.stress_index import stress_index
+from contact.damage.t_gamma import t_gamma
+from contact.damage.usfd import Usfd, usfd
+
+__all__ = [
+    "ArchardMap",
+    "ArchardWear",
+    "Burstow",
+    "Damage",
+    "DamageParameters",
+    "IndexField",
+    "PearceSherratt",
+    "Usfd",
+    "burstow",
+    "energy_index",
+    "evaluate",
+    "fatigue_index",
+    "pearce_sherratt",
+    "stress_index",
+    "t_gamma",
+    "usfd",
+    "wear_coefficient",
+]

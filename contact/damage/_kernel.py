@@ -1,0 +1,117 @@
+"""All damage models over the arrays of one solved case: one source for `evaluate`, batches and the native FMU."""
+
+import math
+
+from contact._jit import kernel
+from contact._layout import (
+    CASE_PHI,
+    CASE_VX,
+    CASE_VY,
+    FIELD_DX,
+    FIELD_P,
+    FIELD_QX,
+    FIELD_QY,
+    FIELD_SX,
+    FIELD_SY,
+    FIELD_X,
+    RES_AREA,
+    RES_FX,
+    RES_FY,
+    RES_MZ,
+    RES_N,
+    RES_PMAX,
+    RES_POWER,
+    STRIP_DY,
+    STRIP_Y,
+)
+from contact.damage.archard import wear_depth_kernel
+from contact.damage.burstow import burstow_kernel
+from contact.damage.energy_index import energy_index_kernel
+from contact.damage.fatigue_index import fatigue_index_kernel
+from contact.damage.pearce_sherratt import pearce_sherratt_kernel
+from contact.damage.stress_index import stress_index_kernel
+from contact.damage.t_gamma import t_gamma_kernel
+from contact.damage.usfd import usfd_kernel
+
+# parameters[...]: DamageParameters.array()
+PAR_SPEED, PAR_WHEEL_RADIUS, PAR_HARDNESS, PAR_SHEAR_YIELD, PAR_WITH_SPIN, PAR_PEARCE_SHERRATT = range(6)
+PAR_BURSTOW = PAR_PEARCE_SHERRATT + 7
+PAR_USFD = PAR_BURSTOW + 5
+PAR_ARCHARD = PAR_USFD + 7
+N_PAR = PAR_ARCHARD + 7
+
+# damage[...]: the numbers of `Damage`, in SI units
+(
+    DAMAGE_T_GAMMA,
+    DAMAGE_T_GAMMA_SPIN,
+    DAMAGE_DISSIPATION,
+    DAMAGE_PEARCE_SHERRATT,
+    DAMAGE_BURSTOW,
+    DAMAGE_USFD,
+    DAMAGE_ARCHARD_DEPTH,  # maximum [m per m rolled]
+    DAMAGE_ARCHARD_VOLUME,  # [m³ per m rolled]
+    DAMAGE_FATIGUE_INDEX,
+    DAMAGE_STRESS_INDEX,  # maximum [Pa]
+    DAMAGE_ENERGY_INDEX,  # maximum [Pa]
+) = range(11)
+N_DAMAGE = 11
+
+# damage_fields[ROW, strip, element]
+DFIELD_DEPTH, DFIELD_STRESS_INDEX, DFIELD_ENERGY_INDEX = range(3)
+N_DAMAGE_FIELDS = 3
+
+
+@kernel
+def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, damage):  # type: ignore[no-untyped-def]
+    """Fill `damage` and the first `n` strips of `damage_fields` from a solved case (see `contact._layout`).
+
+    The depth of an element is spread over the circumference, so it is metre per metre rolled; the volume is that of all
+    strips, ∬ k p |s|/H dA. With n = 0 everything is zero.
+    """
+    damage[:] = 0.0
+    damage_fields[:, :n] = 0.0
+    if n == 0 or result[RES_N] <= 0.0 or result[RES_AREA] <= 0.0 or result[RES_PMAX] <= 0.0:
+        return
+    vx, vy, phi = case[CASE_VX], case[CASE_VY], case[CASE_PHI]
+    Fx, Fy, Mz = result[RES_FX], result[RES_FY], result[RES_MZ]
+    radius, shear_yield = parameters[PAR_WHEEL_RADIUS], parameters[PAR_SHEAR_YIELD]
+    circumference = 2.0 * math.pi * radius
+
+    T_gamma = t_gamma_kernel(Fx, Fy, 0.0, vx, vy, 0.0)
+    T_gamma_spin = t_gamma_kernel(Fx, Fy, Mz, vx, vy, phi)
+    load = T_gamma_spin if parameters[PAR_WITH_SPIN] > 0.5 else T_gamma
+    damage[DAMAGE_T_GAMMA], damage[DAMAGE_T_GAMMA_SPIN] = T_gamma, T_gamma_spin
+    damage[DAMAGE_DISSIPATION] = result[RES_POWER]
+    damage[DAMAGE_PEARCE_SHERRATT] = pearce_sherratt_kernel(
+        load, 2.0 * radius, parameters[PAR_PEARCE_SHERRATT:PAR_BURSTOW]
+    )
+    damage[DAMAGE_BURSTOW] = burstow_kernel(load, parameters[PAR_BURSTOW:PAR_USFD])
+    damage[DAMAGE_USFD] = usfd_kernel(load, result[RES_AREA], parameters[PAR_USFD:PAR_ARCHARD])
+    utilisation = math.sqrt(Fx * Fx + Fy * Fy) / result[RES_N]
+    damage[DAMAGE_FATIGUE_INDEX] = fatigue_index_kernel(utilisation, result[RES_PMAX], shear_yield)
+
+    depth_max, volume, stress_max, energy_max = 0.0, 0.0, -math.inf, -math.inf
+    for i in range(n):
+        lost = 0.0  # by a particle that crosses the patch along this strip [m]
+        for j in range(fields.shape[2]):
+            qx, qy = fields[FIELD_QX, i, j], fields[FIELD_QY, i, j]
+            slip = math.sqrt(fields[FIELD_SX, i, j] ** 2 + fields[FIELD_SY, i, j] ** 2)
+            depth = wear_depth_kernel(
+                slip,
+                fields[FIELD_P, i, j],
+                fields[FIELD_DX, i, j],
+                parameters[PAR_SPEED],
+                parameters[PAR_HARDNESS],
+                parameters[PAR_ARCHARD:N_PAR],
+            )
+            stress = stress_index_kernel(qx, qy, shear_yield)
+            energy = energy_index_kernel(qx, qy, fields[FIELD_X, i, j], strips[STRIP_Y, i], vx, vy, phi)
+            lost += depth
+            stress_max, energy_max = max(stress_max, stress), max(energy_max, energy)
+            damage_fields[DFIELD_DEPTH, i, j] = depth / circumference
+            damage_fields[DFIELD_STRESS_INDEX, i, j] = stress
+            damage_fields[DFIELD_ENERGY_INDEX, i, j] = energy
+        depth_max = max(depth_max, lost / circumference)
+        volume += lost * strips[STRIP_DY, i]
+    damage[DAMAGE_ARCHARD_DEPTH], damage[DAMAGE_ARCHARD_VOLUME] = depth_max, volume
+    damage[DAMAGE_STRESS_INDEX], damage[DAMAGE_ENERGY_INDEX] = stress_max, energy_max

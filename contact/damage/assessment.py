@@ -1,0 +1,231 @@
+"""`evaluate`: every damage index of one solution."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact._layout import (
+    CASE_PHI,
+    CASE_VX,
+    CASE_VY,
+    FIELD_DX,
+    FIELD_P,
+    FIELD_QX,
+    FIELD_QY,
+    FIELD_SX,
+    FIELD_SY,
+    FIELD_X,
+    N_CASE,
+    N_FIELD_ROWS,
+    N_RES,
+    N_STRIP_ROWS,
+    RES_AREA,
+    RES_FX,
+    RES_FY,
+    RES_MZ,
+    RES_N,
+    RES_PMAX,
+    RES_POWER,
+    STRIP_DY,
+    STRIP_Y,
+)
+from contact.damage._kernel import (
+    DAMAGE_ARCHARD_DEPTH,
+    DAMAGE_ARCHARD_VOLUME,
+    DAMAGE_BURSTOW,
+    DAMAGE_DISSIPATION,
+    DAMAGE_ENERGY_INDEX,
+    DAMAGE_FATIGUE_INDEX,
+    DAMAGE_PEARCE_SHERRATT,
+    DAMAGE_STRESS_INDEX,
+    DAMAGE_T_GAMMA,
+    DAMAGE_T_GAMMA_SPIN,
+    DAMAGE_USFD,
+    DFIELD_DEPTH,
+    DFIELD_ENERGY_INDEX,
+    DFIELD_STRESS_INDEX,
+    N_DAMAGE,
+    N_DAMAGE_FIELDS,
+    damage_kernel,
+)
+from contact.damage.archard import ArchardMap
+from contact.damage.burstow import Burstow
+from contact.damage.pearce_sherratt import PearceSherratt
+from contact.damage.usfd import Usfd
+from contact.errors import require_number
+from contact.material import Material
+
+if TYPE_CHECKING:
+    from contact.solution import Solution
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class DamageParameters:
+    """Constants of all damage models; hardness and shear yield stress are those of the `Material`.
+
+    Parameters
+    ----------
+    pearce_sherratt, burstow, usfd, archard : the constants of the models, each adjustable and with its source.
+    with_spin : bool
+        Feed the laws that take T-gamma (Pearce-Sherratt, Burstow, USFD) with the variant that contains |Mz phi|.
+        Default False, thesis Eq. 6.1.
+    """
+
+    pearce_sherratt: PearceSherratt = field(default_factory=PearceSherratt)
+    burstow: Burstow = field(default_factory=Burstow)
+    usfd: Usfd = field(default_factory=Usfd)
+    archard: ArchardMap = field(default_factory=ArchardMap)
+    with_spin: bool = False
+
+    def array(self, material: Material, wheel_radius: float, speed: float) -> Array:
+        """Return `parameters` of `damage_kernel`; lengths in m, speed in m/s.
+
+        Raises
+        ------
+        ContactError
+            If wheel radius or speed is not positive.
+        """
+        head = [
+            require_number("speed", speed, 0.0, open_minimum=True),
+            require_number("wheel_radius", wheel_radius, 0.0, open_minimum=True),
+            material.hardness,
+            material.shear_yield,
+            float(self.with_spin),
+        ]
+        models = (self.pearce_sherratt, self.burstow, self.usfd, self.archard)
+        return np.concatenate([head, *(model.constants() for model in models)])
+
+
+@dataclass(frozen=True, slots=True)
+class IndexField:
+    """An index over the patch, shape (n_strips, n_elements) [Pa], and its maximum [Pa]."""
+
+    field: Array
+    max: float
+
+
+@dataclass(frozen=True, slots=True)
+class ArchardWear:
+    """Sliding wear, spread over the circumference of the wheel.
+
+    Attributes
+    ----------
+    depth : what each element takes off [m per m rolled], shape (n_strips, n_elements)
+    depth_per_strip : its sum along the rolling direction, the wear profile over the strips' y [m per m rolled]
+    depth_max : largest depth of a strip [m per m rolled]
+    volume : ∬ k p |s|/H dA = 2πr ∫ depth dy [m³ per m rolled]
+    wheel_radius : r [m]
+    """
+
+    depth: Array
+    depth_per_strip: Array
+    depth_max: float
+    volume: float
+    wheel_radius: float
+
+    @property
+    def depth_per_revolution(self) -> Array:
+        """Wear profile per revolution, also that of the rail per passage [m], shape (n_strips,)."""
+        return 2.0 * np.pi * self.wheel_radius * self.depth_per_strip
+
+
+@dataclass(frozen=True, slots=True)
+class Damage:
+    """Damage indices of one solution; everything is zero without contact.
+
+    Rates count per metre rolled, that is per metre of the wheel's way; times 2πr they count per revolution.
+
+    Attributes
+    ----------
+    T_gamma, T_gamma_spin : |Fx vx| + |Fy vy| and the same + |Mz phi| [N = J/m]
+    dissipation : frictional energy -∬ q·s dA [N = J/m]; times the speed it is a power
+    pearce_sherratt : tread cross-section lost [m² per m rolled]; 1 mm²/km as published is 1e-9 m²/m
+    burstow : fraction of RCF life used by one axle pass [-]; may be negative (see `Burstow.clip_negative`)
+    usfd : volume lost per contact area and metre rolled [m³/(m² m)]
+    archard : ArchardWear
+    fatigue_index : FI_surf [-]; surface fatigue is predicted where positive
+    stress_index : SI = |q| - k [Pa]; fatigue where positive
+    energy_index : EI [Pa], positive for dissipation
+    """
+
+    T_gamma: float
+    T_gamma_spin: float
+    dissipation: float
+    pearce_sherratt: float
+    burstow: float
+    usfd: float
+    archard: ArchardWear
+    fatigue_index: float
+    stress_index: IndexField
+    energy_index: IndexField
+
+
+def evaluate(solution: Solution, wheel_radius: float = 0.46, parameters: DamageParameters | None = None) -> Damage:
+    """Every damage index of a solution.
+
+    Archard's law and the stress index need the slip and traction fields of the tangential method; a method without them
+    (see `contact.methods`) wears nothing there.
+
+    Parameters
+    ----------
+    solution : Solution
+        Hardness and yield stress are those of its material, sliding velocities scale with its speed.
+    wheel_radius : float
+        Rolling radius r [m] > 0: Pearce-Sherratt's diameter, and the circumference over which Archard's wear is spread.
+    parameters : DamageParameters
+        Constants of the models.
+
+    Raises
+    ------
+    ContactError
+        If the wheel radius is not positive.
+    """
+    strips, fields, case, result = _arrays(solution)
+    shape = solution.p.shape
+    damage, damage_fields = np.zeros(N_DAMAGE), np.zeros((N_DAMAGE_FIELDS, *shape))
+    constants = (parameters or DamageParameters()).array(solution.material, wheel_radius, solution.speed)
+    damage_kernel(strips, shape[0], fields, case, result, constants, damage_fields, damage)
+    number = damage.tolist()
+    return Damage(
+        T_gamma=number[DAMAGE_T_GAMMA],
+        T_gamma_spin=number[DAMAGE_T_GAMMA_SPIN],
+        dissipation=number[DAMAGE_DISSIPATION],
+        pearce_sherratt=number[DAMAGE_PEARCE_SHERRATT],
+        burstow=number[DAMAGE_BURSTOW],
+        usfd=number[DAMAGE_USFD],
+        archard=ArchardWear(
+            depth=damage_fields[DFIELD_DEPTH],
+            depth_per_strip=damage_fields[DFIELD_DEPTH].sum(axis=1),
+            depth_max=number[DAMAGE_ARCHARD_DEPTH],
+            volume=number[DAMAGE_ARCHARD_VOLUME],
+            wheel_radius=wheel_radius,
+        ),
+        fatigue_index=number[DAMAGE_FATIGUE_INDEX],
+        stress_index=IndexField(damage_fields[DFIELD_STRESS_INDEX], number[DAMAGE_STRESS_INDEX]),
+        energy_index=IndexField(damage_fields[DFIELD_ENERGY_INDEX], number[DAMAGE_ENERGY_INDEX]),
+    )
+
+
+def _arrays(solution: Solution) -> tuple[Array, Array, Array, Array]:
+    """Lay the record out as the kernels' arrays (rows that the damage kernel does not read stay zero)."""
+    shape = solution.p.shape
+    strips = np.zeros((N_STRIP_ROWS, shape[0]))
+    strips[STRIP_Y], strips[STRIP_DY] = solution.strips.y, solution.strips.dy
+    fields = np.zeros((N_FIELD_ROWS, *shape))
+    fields[FIELD_X], fields[FIELD_P] = solution.x, solution.p
+    fields[FIELD_DX] = solution.dA / strips[STRIP_DY][:, None]
+    fields[FIELD_QX], fields[FIELD_QY] = solution.qx, solution.qy
+    fields[FIELD_SX], fields[FIELD_SY] = solution.sx, solution.sy
+    case, result = np.zeros(N_CASE), np.zeros(N_RES)
+    creepage = solution.creepage
+    case[CASE_VX], case[CASE_VY], case[CASE_PHI] = creepage.longitudinal, creepage.lateral, creepage.spin
+    result[RES_FX], result[RES_FY], result[RES_MZ], result[RES_N] = solution.Fx, solution.Fy, solution.Mz, solution.N
+    result[RES_PMAX], result[RES_AREA] = solution.max_pressure, solution.area
+    result[RES_POWER] = solution.power_per_metre
+    return strips, fields, case, result

@@ -1,0 +1,80 @@
+"""Rolling-contact-fatigue index of rails from T-gamma: Burstow's whole life rail model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from contact._jit import kernel
+from contact.damage._check import Array, elementwise, numbers
+from contact.errors import require_number
+
+
+@dataclass(frozen=True, slots=True)
+class Burstow:
+    """Constants of the piecewise linear damage function (constants.md 2).
+
+    Parameters
+    ----------
+    threshold : float
+        T-gamma where damage starts [N]. 15 [X]: recalled (Burstow 2004, 2009); 20 in Dutch work on R260Mn rail
+        (U. Twente).
+    peak_at : float
+        T-gamma of the largest damage [N]. 65 [2+].
+    zero_at : float
+        T-gamma where wear removes cracks as fast as they start [N]. 175 [2+].
+    peak : float
+        Largest damage per axle pass [-]. 10e-6 [2+].
+    clip_negative : bool
+        [X] False (recalled): the falling branch goes on below zero, wear removes cracks. True (U. Twente): 0 there.
+    """
+
+    threshold: float = 15.0
+    peak_at: float = 65.0
+    zero_at: float = 175.0
+    peak: float = 10e-6
+    clip_negative: bool = False
+
+    def __post_init__(self) -> None:
+        require_number("burstow.threshold", self.threshold, 0.0)
+        require_number("burstow.peak_at", self.peak_at, self.threshold, open_minimum=True)
+        require_number("burstow.zero_at", self.zero_at, self.peak_at, open_minimum=True)
+        require_number("burstow.peak", self.peak, 0.0)
+
+    def constants(self) -> NDArray[np.float64]:
+        """Return what `burstow_kernel` is given."""
+        floor = 0.0 if self.clip_negative else -np.inf
+        return np.array([self.threshold, self.peak_at, self.zero_at, self.peak, floor])
+
+
+@kernel
+def burstow_kernel(T_gamma, constants):  # type: ignore[no-untyped-def]
+    """Damage per axle pass [-] for T-gamma [N]."""
+    threshold, peak_at, zero_at, peak, floor = constants[0], constants[1], constants[2], constants[3], constants[4]
+    if T_gamma <= threshold:
+        return 0.0
+    if T_gamma <= peak_at:
+        return peak * (T_gamma - threshold) / (peak_at - threshold)
+    return max(floor, peak * (zero_at - T_gamma) / (zero_at - peak_at))
+
+
+def burstow(T_gamma: ArrayLike, parameters: Burstow | None = None) -> float | Array:
+    """Fraction of the rail's life to crack initiation that one axle pass uses [-]; the sum 1 is a visible crack.
+
+    Parameters
+    ----------
+    T_gamma : array_like
+        [N], not negative.
+    parameters : Burstow
+        Constants, rail grade R220/R260.
+
+    Raises
+    ------
+    ContactError
+        For values outside their range.
+    """
+    return elementwise(
+        burstow_kernel, numbers("T_gamma", T_gamma, 0.0), constants=((parameters or Burstow()).constants(),)
+    )

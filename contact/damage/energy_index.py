@@ -1,0 +1,54 @@
+"""Energy index: T-gamma of every point of the patch (thesis Eq. 6.2; Dirks & Enblom)."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from contact._jit import kernel
+from contact.damage._check import Array, elementwise, numbers
+
+
+@kernel
+def energy_index_kernel(qx: float, qy: float, x: float, y: float, vx: float, vy: float, phi: float) -> float:
+    """EI = -(qx (vx - phi y) + qy (vy + phi x)) [Pa]."""
+    return -(qx * (vx - phi * y) + qy * (vy + phi * x))
+
+
+def energy_index(
+    qx: ArrayLike,
+    qy: ArrayLike,
+    x: ArrayLike,
+    y: ArrayLike,
+    longitudinal: ArrayLike,
+    lateral: ArrayLike,
+    spin: ArrayLike = 0.0,
+) -> float | Array:
+    """EI = -(qx (vx - phi y) + qy (vy + phi x)), traction times rigid slip, energy per area and metre rolled [Pa].
+
+    Thesis Eq. 6.2 with the sign that makes dissipation positive for tractions on the wheel. The rigid slip counts, also
+    in the stick zone, so the index may be negative somewhere; its integral is -(Fx vx + Fy vy + Mz phi).
+
+    Parameters
+    ----------
+    qx, qy : array_like
+        Traction on the wheel [Pa].
+    x, y : array_like
+        Position [m].
+    longitudinal, lateral, spin : array_like
+        Creepages [-], [-], [1/m].
+
+    Raises
+    ------
+    ContactError
+        For values that are not finite or shapes that do not broadcast.
+    """
+    return elementwise(
+        energy_index_kernel,
+        numbers("qx", qx),
+        numbers("qy", qy),
+        numbers("x", x),
+        numbers("y", y),
+        numbers("longitudinal", longitudinal),
+        numbers("lateral", lateral),
+        numbers("spin", spin),
+    )

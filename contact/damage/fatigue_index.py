@@ -1,0 +1,43 @@
+"""Surface fatigue index of the shakedown map (thesis Eq. 6.6; Ekberg, Kabo & Andersson 2002)."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from contact._jit import kernel
+from contact.damage._check import Array, elementwise, numbers
+
+
+@kernel
+def fatigue_index_kernel(utilisation: float, max_pressure: float, shear_yield: float) -> float:
+    """FI_surf = utilisation - k/p0 [-]."""
+    return utilisation - shear_yield / max_pressure
+
+
+def fatigue_index(utilisation: ArrayLike, max_pressure: ArrayLike, shear_yield: ArrayLike = 300e6) -> float | Array:
+    """FI_surf = √(Fx² + Fy²)/N - k/p0 [-]; surface fatigue is predicted where it is positive.
+
+    Written with the peak pressure, the ordinate of the shakedown map, because a non-elliptic patch has no semi-axes; on
+    an ellipse it is the thesis' form with 2πabk/(3N).
+
+    Parameters
+    ----------
+    utilisation : array_like
+        Utilised friction √(Fx² + Fy²)/N [-], not negative.
+    max_pressure : array_like
+        p0 [Pa], positive.
+    shear_yield : array_like
+        k [Pa], positive. For R260 211 MPa at first plasticity, 288 at high plastic work [1] (Meyer et al. 2020); 300
+        is the order commonly used [R] (constants.md 5).
+
+    Raises
+    ------
+    ContactError
+        For values outside their range.
+    """
+    return elementwise(
+        fatigue_index_kernel,
+        numbers("utilisation", utilisation, 0.0),
+        numbers("max_pressure", max_pressure, 0.0, open_minimum=True),
+        numbers("shear_yield", shear_yield, 0.0, open_minimum=True),
+    )

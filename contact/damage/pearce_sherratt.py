@@ -1,0 +1,117 @@
+"""Tread wear from T-gamma after Pearce & Sherratt 1991."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from contact._jit import kernel
+from contact.damage._check import Array, elementwise, numbers
+from contact.errors import require_number
+
+MM2_PER_KM = 1e-9  # m² per m rolled
+
+
+@dataclass(frozen=True, slots=True)
+class PearceSherratt:
+    """Constants of the published law, area loss in mm²/km for T-gamma in N and wheel diameter D in mm.
+
+    ======================  ==========================  =====
+    T-gamma                 area loss                   mark
+    ======================  ==========================  =====
+    below 100 N             0.25 T-gamma/D              [R]
+    100 to 200 N            25/D                        [R]
+    above 200 N             (1.19 T-gamma - 154)/D      [R]
+    ======================  ==========================  =====
+
+    [R]: recalled from Pearce & Sherratt 1991 (Wear 144, 343-351), no second source found (constants.md 1).
+
+    Parameters
+    ----------
+    mild_slope, plateau, severe_slope, severe_offset : float
+        0.25, 25, 1.19, 154 above.
+    mild_limit, severe_limit : float
+        Breakpoints 100 and 200 [N].
+    jump : bool
+        True: as published, with a jump from 25 to 84 at 200 N. False: the severe branch starts where it meets the
+        plateau (150.4 N), which makes the law continuous and is no published variant.
+    """
+
+    mild_slope: float = 0.25
+    plateau: float = 25.0
+    severe_slope: float = 1.19
+    severe_offset: float = 154.0
+    mild_limit: float = 100.0
+    severe_limit: float = 200.0
+    jump: bool = True
+
+    def __post_init__(self) -> None:
+        for name in ("mild_slope", "plateau", "severe_slope", "severe_offset", "mild_limit"):
+            require_number(f"pearce_sherratt.{name}", getattr(self, name), 0.0)
+        require_number("pearce_sherratt.severe_limit", self.severe_limit, self.mild_limit)
+
+    def constants(self) -> NDArray[np.float64]:
+        """Return what `pearce_sherratt_kernel` is given."""
+        severe_from = self.severe_limit if self.jump else self.mild_limit
+        floor = 0.0 if self.jump else self.plateau
+        return np.array(
+            [
+                self.mild_slope,
+                self.plateau,
+                self.severe_slope,
+                self.severe_offset,
+                self.mild_limit,
+                severe_from,
+                floor,
+            ]
+        )
+
+
+@kernel
+def pearce_sherratt_kernel(T_gamma, diameter, constants):  # type: ignore[no-untyped-def]
+    """Area loss [m² per m rolled] for T-gamma [N] and wheel diameter [m]."""
+    mild_slope, plateau, severe_slope, severe_offset, mild_limit, severe_from, floor = (
+        constants[0],
+        constants[1],
+        constants[2],
+        constants[3],
+        constants[4],
+        constants[5],
+        constants[6],
+    )
+    if T_gamma < mild_limit:
+        loss = mild_slope * T_gamma
+    elif T_gamma <= severe_from:
+        loss = plateau
+    else:
+        loss = max(floor, severe_slope * T_gamma - severe_offset)
+    return MM2_PER_KM * loss / (1e3 * diameter)
+
+
+def pearce_sherratt(
+    T_gamma: ArrayLike, wheel_diameter: ArrayLike = 0.92, parameters: PearceSherratt | None = None
+) -> float | Array:
+    """Cross-section area that the tread loses per metre rolled [m²/m]; 1 mm²/km of the publication = 1e-9 m²/m.
+
+    Parameters
+    ----------
+    T_gamma : array_like
+        [N], not negative.
+    wheel_diameter : array_like
+        [m], positive.
+    parameters : PearceSherratt
+        Constants; default as published (recalled).
+
+    Raises
+    ------
+    ContactError
+        For values outside their range.
+    """
+    return elementwise(
+        pearce_sherratt_kernel,
+        numbers("T_gamma", T_gamma, 0.0),
+        numbers("wheel_diameter", wheel_diameter, 0.0, open_minimum=True),
+        constants=((parameters or PearceSherratt()).constants(),),
+    )

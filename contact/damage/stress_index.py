@@ -1,0 +1,40 @@
+"""Stress index: shear traction above the yield stress in shear (thesis Eq. 6.7; Dirks & Enblom)."""
+
+from __future__ import annotations
+
+import math
+
+from numpy.typing import ArrayLike
+
+from contact._jit import kernel
+from contact.damage._check import Array, elementwise, numbers
+
+
+@kernel
+def stress_index_kernel(qx: float, qy: float, shear_yield: float) -> float:
+    """SI = √(qx² + qy²) - k [Pa]."""
+    return math.sqrt(qx * qx + qy * qy) - shear_yield
+
+
+def stress_index(qx: ArrayLike, qy: ArrayLike, shear_yield: ArrayLike = 300e6) -> float | Array:
+    """SI = √(qx² + qy²) - k [Pa]; fatigue is predicted where it is positive.
+
+    Parameters
+    ----------
+    qx, qy : array_like
+        Traction [Pa].
+    shear_yield : array_like
+        k [Pa], positive; see `fatigue_index`. The limits and exponents of Dirks' crack-length model were not found
+        (constants.md 11), so the index itself is returned.
+
+    Raises
+    ------
+    ContactError
+        For values outside their range.
+    """
+    return elementwise(
+        stress_index_kernel,
+        numbers("qx", qx),
+        numbers("qy", qy),
+        numbers("shear_yield", shear_yield, 0.0, open_minimum=True),
+    )

@@ -1,0 +1,52 @@
+"""T-gamma: force times creepage, the global energy measure (thesis Eq. 6.1)."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from contact._jit import kernel
+from contact.damage._check import Array, elementwise, numbers
+
+
+@kernel
+def t_gamma_kernel(Fx: float, Fy: float, Mz: float, vx: float, vy: float, phi: float) -> float:
+    """|Fx vx| + |Fy vy| + |Mz phi| [N]; Mz = 0 gives thesis Eq. 6.1."""
+    return abs(Fx * vx) + abs(Fy * vy) + abs(Mz * phi)
+
+
+def t_gamma(
+    Fx: ArrayLike,
+    Fy: ArrayLike,
+    longitudinal: ArrayLike,
+    lateral: ArrayLike,
+    Mz: ArrayLike = 0.0,
+    spin: ArrayLike = 0.0,
+) -> float | Array:
+    """T-gamma = |Fx vx| + |Fy vy| (thesis Eq. 6.1), with `Mz` and `spin` also + |Mz phi|.
+
+    Energy per metre rolled [N = J/m]. With spin it is an upper bound of the dissipation -∬ q·s dA of the exact theory,
+    where the elastic part of the slip does no net work over a patch in steady rolling.
+
+    Parameters
+    ----------
+    Fx, Fy : array_like
+        Creep forces [N].
+    longitudinal, lateral : array_like
+        Creepages [-].
+    Mz, spin : array_like
+        Spin moment [N m] and spin creepage [1/m].
+
+    Raises
+    ------
+    ContactError
+        For values that are not finite or shapes that do not broadcast.
+    """
+    return elementwise(
+        t_gamma_kernel,
+        numbers("Fx", Fx),
+        numbers("Fy", Fy),
+        numbers("Mz", Mz),
+        numbers("longitudinal", longitudinal),
+        numbers("lateral", lateral),
+        numbers("spin", spin),
+    )
