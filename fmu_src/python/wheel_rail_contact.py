@@ -10,6 +10,7 @@ from pythonfmu.enums import Fmi2Status
 
 import contact
 from contact import Creepage, Material, Separation, Solution, Status
+from contact.damage import evaluate
 from fmu_src.python.slave import Rows, TableSlave, Values
 from fmu_src.tables.wheel_rail_contact import table
 
@@ -30,6 +31,8 @@ class WheelRailContactSlave(TableSlave):
         if solution.status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED) and solution.status != values["status"]:
             self.log(f"status {solution.status.name}: {solution.status.message}", Fmi2Status.warning)
         power = values["speed"] * solution.power_per_metre
+        damage = evaluate(solution, values["wheel.radius"])
+        worn = values["speed"] * damage.archard.volume * step_size
         return {
             "force.x": solution.Fx,
             "force.y": solution.Fy,
@@ -43,9 +46,19 @@ class WheelRailContactSlave(TableSlave):
             "patch.count": solution.n_patches,
             "slip.ratio": solution.slip_ratio,
             "power.friction": power,
+            "damage.T_gamma": damage.T_gamma,
+            "damage.wear_rate_pearce_sherratt": damage.pearce_sherratt,
+            "damage.index_burstow": damage.burstow,
+            "damage.wear_rate_usfd": damage.usfd,
+            "damage.archard_depth_max": damage.archard.depth_max,
+            "damage.archard_volume": damage.archard.volume,
+            "damage.fatigue_index_surface": damage.fatigue_index,
+            "damage.stress_index_max": damage.stress_index.max,
+            "damage.energy_index_max": damage.energy_index.max,
             "stiffness.normal": solution.normal_stiffness,
             "status": int(solution.status),
             "total.energy": values["total.energy"] + power * step_size,
+            "total.worn_volume": values["total.worn_volume"] + worn,
         }
 
     def on_demand(self, values: Values) -> Rows:

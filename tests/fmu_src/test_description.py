@@ -1,0 +1,144 @@
+"""What no installed validator checks of a modelDescription.xml (fmi.md, section 4), for every FMU."""
+
+import itertools
+import math
+import re
+from xml.etree import ElementTree
+
+import pytest
+
+import contact
+from fmu_src.description import model_description
+from fmu_src.documentation import markdown
+from fmu_src.python.packaging import models
+from fmu_src.python.slave import INTERFACES
+from fmu_src.tables import wheel_rail_contact
+from fmu_src.variables import Causality
+
+TABLES = [model.table for points in (41, 4) for model in models(points)]
+
+
+@pytest.fixture(params=TABLES, ids=[f"{t.name}-{len(t.scalars)}" for t in TABLES])
+def table(request):
+    return request.param
+
+
+@pytest.fixture
+def xml(table):
+    return ElementTree.fromstring(model_description(table, INTERFACES)[1])
+
+
+def variables(xml):
+    return xml.findall("ModelVariables/ScalarVariable")
+
+
+def test_arrays_count_from_one_without_holes(xml):
+    indices = {}
+    for variable in variables(xml):
+        if match := re.fullmatch(r"(.+)\[([\d,]+)\]", variable.get("name")):
+            indices.setdefault(match[1], []).append(tuple(map(int, match[2].split(","))))
+    assert indices
+    for name, found in indices.items():
+        shape = [max(i) for i in zip(*found, strict=True)]
+        assert found == list(itertools.product(*(range(1, n + 1) for n in shape))), name
+
+
+def test_value_references_are_the_positions(xml):
+    assert [int(v.get("valueReference")) for v in variables(xml)] == list(range(len(variables(xml))))
+
+
+def test_start_lies_within_min_and_max_and_where_it_must_be(xml):
+    for variable in variables(xml):
+        kind = variable[0]
+        must = variable.get("causality") in ("parameter", "input") or variable.get("initial") == "exact"
+        assert (kind.get("start") is not None) == must, variable.get("name")
+        if must:
+            start = float(kind.get("start"))
+            assert math.isfinite(start)
+            assert float(kind.get("min", "-inf")) <= start <= float(kind.get("max", "inf")), variable.get("name")
+
+
+def test_starts_read_back_exactly(table, xml):
+    for scalar, variable in zip(table.scalars, variables(xml), strict=True):
+        if scalar.start is not None:
+            assert float(variable[0].get("start")) == scalar.start, scalar.name
+
+
+def test_model_structure_is_complete_and_ordered(xml):
+    outputs = [i for i, v in enumerate(variables(xml), 1) if v.get("causality") == "output"]
+    calculated = [i for i in outputs if variables(xml)[i - 1].get("initial") == "calculated"]
+    assert [int(u.get("index")) for u in xml.findall("ModelStructure/Outputs/Unknown")] == outputs
+    assert [int(u.get("index")) for u in xml.findall("ModelStructure/InitialUnknowns/Unknown")] == calculated
+    assert calculated
+
+
+def test_dependencies_name_only_knowns_in_order(xml):
+    causality = [None, *(v.get("causality") for v in variables(xml))]
+    for section, allowed in (("Outputs", {"input"}), ("InitialUnknowns", {"input", "parameter"})):
+        for unknown in xml.findall(f"ModelStructure/{section}/Unknown"):
+            dependencies = [int(i) for i in unknown.get("dependencies").split()]
+            assert dependencies == sorted(set(dependencies))
+            assert {causality[i] for i in dependencies} <= allowed
+
+
+def test_declared_dependencies_exist(table):
+    for row in table.rows:
+        assert row.depends is None or len(table.knowns(row)) == len(row.depends), row.name
+
+
+def test_every_unit_is_defined_with_the_dimension_that_its_name_says(xml):
+    derived = {"N": "kg.m.s-2", "Pa": "kg.m-1.s-2", "J": "kg.m2.s-2", "W": "kg.m2.s-3"}
+
+    def dimension(name):
+        exponents = dict.fromkeys(("kg", "m", "s", "rad"), 0)
+        for sign, part in zip((1, -1), name.split("/"), strict=False):
+            for symbol, power in re.findall(r"([A-Za-z]+)(-?\d*)", part.strip("()")):
+                inner = re.findall(r"([A-Za-z]+)(-?\d*)", derived.get(symbol, symbol))
+                for base, exponent in inner:
+                    exponents[base] += sign * int(power or 1) * int(exponent or 1)
+        return {base: e for base, e in exponents.items() if e}
+
+    defined = {u.get("name"): u.find("BaseUnit").attrib for u in xml.findall("UnitDefinitions/Unit")}
+    for name, exponents in defined.items():
+        assert {base: int(e) for base, e in exponents.items()} == dimension(name), name
+    assert {v[0].get("unit") for v in variables(xml) if v[0].tag == "Real"} == set(defined)
+
+
+def test_only_reals_are_continuous(xml):
+    for variable in variables(xml):
+        assert (variable.get("variability") == "continuous") <= (variable[0].tag == "Real"), variable.get("name")
+
+
+def test_declared_types_exist(xml):
+    types = {t.get("name") for t in xml.findall("TypeDefinitions/SimpleType")}
+    assert {v[0].get("declaredType") for v in variables(xml) if v[0].tag == "Enumeration"} == types
+
+
+def test_inputs_and_parameters_precede_outputs_in_the_table(table):
+    order = [row.causality for row in table.rows]
+    assert order == sorted(order, key=[Causality.PARAMETER, Causality.INPUT, Causality.OUTPUT].index)
+
+
+def test_guid_follows_the_content():
+    guids = [model_description(wheel_rail_contact.table(n), INTERFACES)[0] for n in (41, 41, 42)]
+    assert guids[0] == guids[1] != guids[2]
+    assert model_description(wheel_rail_contact.table(41), {"CoSimulation": {}})[0] != guids[0]
+
+
+def test_status_and_methods_are_the_solvers():
+    assert [wheel_rail_contact.STATUS.number(n) for n in ("OK", "NoContact", "OutOfRange")] == [
+        contact.Status.OK,
+        contact.Status.NO_CONTACT,
+        contact.Status.OUT_OF_RANGE,
+    ]
+    assert len(wheel_rail_contact.STATUS.items) == len(contact.Status)
+    assert [name for name, _ in wheel_rail_contact.NORMAL_METHOD.items] == list(contact.methods().normal)
+    assert [name for name, _ in wheel_rail_contact.TANGENTIAL_METHOD.items] == list(contact.methods().tangential)
+
+
+def test_documentation_has_a_line_for_every_row(table):
+    lines = markdown(table).splitlines()
+    for row in table.rows:
+        pattern = re.compile(rf"\| `{re.escape(row.name)}(\[[\d.,]+\])?` \|")
+        assert sum(bool(pattern.match(line)) for line in lines) == 1, row.name
+    assert all(line.replace(r"\|", "").count("|") == 7 for line in lines if line.startswith("|"))

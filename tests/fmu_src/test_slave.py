@@ -1,0 +1,220 @@
+"""The slave that a table drives, called as pythonfmu calls it, with a model of one line."""
+
+import math
+import sys
+
+import pytest
+from pythonfmu.enums import Fmi2Status
+
+from contact import ContactError
+from fmu_src.description import model_description
+from fmu_src.python.slave import INTERFACES, TableSlave
+from fmu_src.variables import Enumeration, Table, output, parameter, signal
+
+TABLE = Table(
+    "Quotient",
+    "A quotient, for tests",
+    [
+        parameter(
+            "mode", "What to do", enumeration=Enumeration("Mode", (("Divide", ""), ("Fail", ""))), start="Divide"
+        ),
+        signal("x", "Dividend", unit="m", start=(1.0, 2.0), shape=(2,), maximum=100.0),
+        signal("y", "Divisor", unit="m", start=4.0, minimum=0.0),
+        output("q", "Quotient", shape=(2,)),
+        output("steps", "Number of steps", start=0, integer=True),
+        output("slow", "Twice the first quotient"),
+    ],
+    step_size=0.1,
+)
+MODE, X1, X2, Y, Q1, Q2, STEPS, SLOW = range(8)
+
+
+class Quotient(TableSlave):
+    lazy = ("slow",)
+    calls = 0
+
+    def __init__(self):
+        super().__init__(TABLE, model_description(TABLE, INTERFACES)[0], instance_name="q", resources="/nowhere")
+
+    def outputs(self, values, step_size):
+        if values.item("mode") == "Fail":
+            raise ZeroDivisionError("as asked")
+        if values["y"] == 3.0:
+            raise ContactError("y = 3 is not to our taste")
+        y = values["y"]
+        return {"q": [x / y if y else math.inf for x in values["x"]], "steps": values["steps"] + (step_size > 0.0)}
+
+    def on_demand(self, values):
+        self.calls += 1
+        return {"slow": 2.0 * values["q"][0]}
+
+
+def messages(slave, status):
+    found = [m.msg for m in slave.log_queue if m.status == status]
+    slave.log_queue.clear()
+    return found
+
+
+@pytest.fixture
+def slave():
+    slave = Quotient()
+    slave.setup_experiment(0.0, 10.0, None)
+    slave.enter_initialization_mode()
+    slave.exit_initialization_mode()
+    assert not slave.log_queue
+    return slave
+
+
+def test_outputs_follow_the_inputs_during_initialisation():
+    slave = Quotient()
+    slave.enter_initialization_mode()
+    assert slave.get_real([Q1, Q2]) == [0.25, 0.5]
+    slave.set_real([X1, Y], [3.0, 2.0])
+    assert slave.get_real([Q1, Q2]) == [1.5, 1.0]
+    slave.exit_initialization_mode()
+    assert slave.get_integer([STEPS]) == [0]
+
+
+def test_outputs_change_only_with_a_step_afterwards(slave):
+    slave.set_real([X1], [8.0])
+    assert slave.get_real([Q1]) == [0.25]
+    assert slave.do_step(0.0, 0.1) is True
+    assert (slave.get_real([Q1]), slave.get_integer([STEPS])) == ([2.0], [1])
+
+
+@pytest.mark.parametrize(
+    ("reference", "value", "message"),
+    [
+        (X2, math.nan, "x[2] = nan is outside the allowed range ]-inf, 100]"),
+        (X1, 100.5, "x[1] = 100.5 is outside the allowed range ]-inf, 100]"),
+        (X1, -math.inf, "x[1] = -inf is outside the allowed range ]-inf, 100]"),
+        (Y, -1.0, "y = -1 is outside the allowed range [0, inf["),
+        (Y, math.inf, "y = inf is outside the allowed range [0, inf["),
+        (Y, 0.0, "q[1] has no finite value for these inputs"),
+        (Y, 3.0, "y = 3 is not to our taste"),
+    ],
+)
+def test_a_bad_input_discards_the_step_and_keeps_the_outputs(slave, reference, value, message):
+    start = slave.get_real([reference])
+    slave.set_real([reference], [value])
+    assert slave.do_step(0.0, 0.1) is False
+    assert messages(slave, Fmi2Status.discard) == [message]
+    assert (slave.get_real([Q1, Q2]), slave.get_integer([STEPS])) == ([0.25, 0.5], [0])
+    slave.set_real([reference], start)
+    assert slave.do_step(0.0, 0.1) is True
+
+
+@pytest.mark.parametrize(
+    ("time", "step", "name"), [(0.0, 0.0, "Size"), (0.0, -1.0, "Size"), (0.0, math.nan, "Size"), (9.95, 0.1, "end of")]
+)
+def test_a_step_that_is_none_is_discarded(slave, time, step, name):
+    assert slave.do_step(time, step) is False
+    assert name in messages(slave, Fmi2Status.discard)[0]
+
+
+def test_the_last_step_may_end_at_the_stop_time_but_for_rounding(slave):
+    assert slave.do_step(9.9 + 1e-12, 0.1) is True
+
+
+def test_a_step_before_initialisation_is_discarded():
+    slave = Quotient()
+    assert slave.do_step(0.0, 0.1) is False
+    assert messages(slave, Fmi2Status.discard) == ["doStep is not allowed before initialisation"]
+
+
+def test_no_exception_of_the_model_escapes():
+    slave = Quotient()
+    slave.set_integer([MODE], [2])
+    slave.enter_initialization_mode()
+    slave.exit_initialization_mode()
+    assert slave.do_step(0.0, 0.1) is False
+    assert messages(slave, Fmi2Status.error)[-1] == "do_step: ZeroDivisionError: as asked"
+
+
+def test_an_enumeration_outside_its_items_is_discarded():
+    slave = Quotient()
+    slave.set_integer([MODE], [3])
+    slave.enter_initialization_mode()
+    slave.exit_initialization_mode()
+    assert slave.do_step(0.0, 0.1) is False
+    assert messages(slave, Fmi2Status.discard)[-1] == "mode = 3 is outside the allowed range [1, 2]"
+
+
+def test_what_cannot_be_set_is_refused_by_name(slave):
+    slave.set_integer([MODE], [2])
+    slave.set_real([Q1, 99], [7.0, 7.0])
+    slave.set_boolean([X1], [True])
+    assert messages(slave, Fmi2Status.error) == [
+        "mode cannot be set as Integer or Enumeration after initialisation; the call is ignored",
+        "q[1] cannot be set as Real after initialisation; the call is ignored",
+        "value reference 99 cannot be set as Real after initialisation; the call is ignored",
+        "x[1] cannot be set as Boolean or String after initialisation; the call is ignored",
+    ]
+    assert slave.get_integer([MODE]) == [1]
+
+
+def test_what_cannot_be_read_is_refused_by_name(slave):
+    assert slave.get_real([STEPS, Q1, -1]) == [0, 0.25, 0]
+    assert slave.get_string([X1]) == [""]
+    assert [m.split(";")[0] for m in messages(slave, Fmi2Status.error)] == [
+        "steps cannot be read as Real after initialisation",
+        "value reference -1 cannot be read as Real after initialisation",
+        "x[1] cannot be read as Boolean or String after initialisation",
+    ]
+
+
+def test_a_state_may_start_elsewhere_than_its_start():
+    slave = Quotient()
+    slave.set_integer([STEPS], [5])
+    slave.enter_initialization_mode()
+    slave.exit_initialization_mode()
+    slave.do_step(0.0, 0.1)
+    assert slave.get_integer([STEPS]) == [6]
+
+
+def test_a_lazy_row_is_computed_once_when_read_and_belongs_to_the_last_step(slave):
+    slave.do_step(0.0, 0.1)
+    assert slave.calls == 0
+    slave.set_real([X1], [40.0])  # for the next step
+    assert slave.get_real([SLOW]) == slave.get_real([SLOW]) == [0.5]
+    assert slave.calls == 1
+
+
+def test_state_survives_bytes_and_resumes_bit_by_bit(slave):
+    slave.set_real([X1], [1.0 / 3.0])
+    slave.do_step(0.0, 0.1)
+    state = Quotient._fmu_state_from_bytes(Quotient._fmu_state_to_bytes(slave._get_fmu_state()))
+    other = Quotient()
+    other._set_fmu_state(state)
+    for s in (slave, other):
+        s.do_step(0.1, 0.1)
+    assert other._get_fmu_state() == slave._get_fmu_state()
+    assert other.get_real([SLOW]) == [1.0 / 6.0]
+
+
+def test_a_saved_state_does_not_change_with_the_instance(slave):
+    state = slave._get_fmu_state()
+    slave.set_real([X1], [7.0])
+    slave._set_fmu_state(state)
+    slave.set_real([X1], [8.0])
+    slave._set_fmu_state(state)
+    assert slave.get_real([X1]) == [1.0]
+
+
+@pytest.mark.parametrize("state", [b"", b"nonsense", b"{}", b'{"guid": "another"}'])
+def test_a_foreign_state_is_refused(slave, state):
+    before = slave._get_fmu_state()
+    slave._set_fmu_state(Quotient._fmu_state_from_bytes(state))
+    assert "not a state of the FMU Quotient" in messages(slave, Fmi2Status.error)[0]
+    assert slave._get_fmu_state() == before
+
+
+def test_another_version_of_the_package_is_refused_at_instantiation():
+    with pytest.raises(RuntimeError, match="FMU Quotient was built with another version"):
+        TableSlave(TABLE, "{another}", instance_name="q", resources="/nowhere")
+
+
+def test_instances_leave_the_module_path_as_it_was(monkeypatch):
+    monkeypatch.setattr(sys, "path", ["/nowhere", *sys.path])  # what pythonfmu does before it instantiates
+    Quotient()
+    assert "/nowhere" not in sys.path

@@ -1,0 +1,338 @@
+"""The FMU `WheelRailContact` as a whole, through the C interface of FMI."""
+
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy.fmi1 import FMICallException
+from fmpy.validation import validate_fmu
+from fmu_instance import Instance
+
+import contact
+from contact import kalker
+
+ROOT = Path(__file__).parents[2]
+NAME = "WheelRailContact"
+DISCARD = 2
+CREEPAGES = {"creepage.longitudinal": 1.2e-3, "creepage.lateral": -0.8e-3, "creepage.spin": 0.25}
+
+
+def separation() -> contact.Separation:
+    """A head of changing curvature, off the centre of its window; curvature along the rail changes too."""
+    y = -0.02 + 0.001 * np.arange(41)
+    return contact.Separation(y, (y - 2e-3) ** 2 * (1.5 + 40.0 * y), 1.0 + 5.0 * y)
+
+
+def geometry() -> dict[str, float]:
+    s = separation()
+    return {
+        f"geometry.{row}[{i}]": value
+        for row, column in (("g", s.g), ("A", s.A))
+        for i, value in enumerate(column.tolist(), 1)
+    }
+
+
+@pytest.fixture
+def fmu(open_fmu):
+    """In the case of `separation` and CREEPAGES, ready to step."""
+    fmu = open_fmu(NAME)
+    fmu.update({**geometry(), **CREEPAGES, "geometry.y0": -0.02, "geometry.dy": 0.001, "speed": 30.0})
+    return fmu.initialize(stop_time=1.0)
+
+
+def discarded(fmu, time=0.0, h=1e-3) -> str:
+    """Step, see it discarded, return what the FMU says."""
+    fmu.log.clear()
+    with pytest.raises(FMICallException) as caught:
+        fmu.step(time, h)
+    assert caught.value.status == DISCARD
+    assert [status for status, _ in fmu.log] == [DISCARD]
+    return fmu.log[0][1]
+
+
+def test_fmpy_finds_no_problem(fmus):
+    assert validate_fmu(str(fmus / f"{NAME}.fmu")) == []
+
+
+def test_the_build_is_reproducible(fmus, tmp_path):
+    from fmu_src.python.packaging import build, models
+
+    for model in models(41):
+        path = build(model, tmp_path)
+        assert path.read_bytes() == (fmus / path.name).read_bytes()
+
+
+def test_simulates_with_fmpy_at_its_start_values(fmus):
+    result = fmpy.simulate_fmu(str(fmus / f"{NAME}.fmu"), stop_time=0.01, output=["force.n", "force.y", "total.energy"])
+    np.testing.assert_allclose(result["force.n"], 80e3, rtol=1e-9)
+    assert result["time"][-1] == pytest.approx(0.01)
+
+
+def test_equals_the_solver(fmu):
+    fmu.step()
+    solution = contact.solve(separation(), contact.Creepage(*CREEPAGES.values()), load=80e3, speed=30.0)
+    damage = contact.damage.evaluate(solution, 0.46)
+    expected = {
+        "force.x": solution.Fx,
+        "force.y": solution.Fy,
+        "force.n": solution.N,
+        "moment.z": solution.Mz,
+        "approach": solution.approach,
+        "pressure.max": solution.max_pressure,
+        "patch.area": solution.area,
+        "patch.length": solution.length,
+        "patch.width": solution.width,
+        "patch.count": solution.n_patches,
+        "slip.ratio": solution.slip_ratio,
+        "power.friction": 30.0 * solution.power_per_metre,
+        "damage.T_gamma": damage.T_gamma,
+        "damage.wear_rate_pearce_sherratt": damage.pearce_sherratt,
+        "damage.index_burstow": damage.burstow,
+        "damage.wear_rate_usfd": damage.usfd,
+        "damage.archard_depth_max": damage.archard.depth_max,
+        "damage.archard_volume": damage.archard.volume,
+        "damage.fatigue_index_surface": damage.fatigue_index,
+        "damage.stress_index_max": damage.stress_index.max,
+        "damage.energy_index_max": damage.energy_index.max,
+        "stiffness.normal": solution.normal_stiffness,
+        "status": solution.status,
+        "total.energy": 30e-3 * solution.power_per_metre,
+        "total.worn_volume": 30e-3 * damage.archard.volume,
+    }
+    outputs = fmu.all("output")
+    assert set(outputs) == {*expected, *(f"creep_stiffness[{i},{j}]" for i in (1, 2, 3) for j in (1, 2, 3))}
+    for name, value in expected.items():
+        np.testing.assert_allclose(outputs[name], value, rtol=1e-12, err_msg=name)
+    assert all(outputs[name] != 0.0 for name in outputs if name != "damage.index_burstow")
+
+
+def test_every_option_reaches_the_solver(open_fmu):
+    fmu = open_fmu(NAME)
+    fmu.update({"geometry.kind": 2, "geometry.A0": 0.9, "geometry.B0": 2.1, "load.kind": 2, "load.approach": 7e-5})
+    fmu.update({"method.normal": 2, "method.tangential": 2, "friction.coefficient": 0.4, **CREEPAGES})
+    fmu.update({"resolution.n_strips": 12, "resolution.n_elements": 14, "material.shear_modulus": 79e9})
+    fmu.update({"material.poisson_ratio": 0.3, "material.hardness": 3e9, "material.shear_yield": 25e7})
+    fmu.update({"wheel.radius": 0.5, "speed": 7.0})
+    fmu.initialize()
+    solution = contact.solve(
+        contact.Separation.hertzian(0.9, 2.1),
+        contact.Creepage(*CREEPAGES.values()),
+        approach=7e-5,
+        normal="hertz",
+        tangential="fastsim",
+        friction=0.4,
+        n_strips=12,
+        n_elements=14,
+        material=contact.Material(79e9, 0.3, hardness=3e9, shear_yield=25e7),
+        speed=7.0,
+    )
+    damage = contact.damage.evaluate(solution, 0.5)
+    for name, value in (
+        ("force.n", solution.N),
+        ("force.x", solution.Fx),
+        ("force.y", solution.Fy),
+        ("power.friction", 7.0 * solution.power_per_metre),
+        ("damage.archard_depth_max", damage.archard.depth_max),
+        ("damage.stress_index_max", damage.stress_index.max),
+    ):
+        np.testing.assert_allclose(fmu[name], value, rtol=1e-12, err_msg=name)
+
+
+def test_totals_add_up_power_over_steps_of_any_length(fmu):
+    fmu.step(0.0, 1e-3)
+    power, worn = fmu["power.friction"], fmu["damage.archard_volume"] * 30.0
+    fmu.update({"creepage.longitudinal": 3e-3})
+    fmu.step(1e-3, 2e-3)
+    assert fmu["total.energy"] == pytest.approx(power * 1e-3 + fmu["power.friction"] * 2e-3, rel=1e-12)
+    assert fmu["total.worn_volume"] == pytest.approx(worn * 1e-3 + fmu["damage.archard_volume"] * 60e-3, rel=1e-12)
+
+
+def test_creep_stiffness_of_an_ellipse_at_rest_is_kalkers(open_fmu):
+    fmu = open_fmu(NAME)
+    fmu.update({"geometry.kind": 2, "geometry.A0": 1.0, "geometry.B0": 2.0})
+    fmu.initialize()
+    fmu.step()
+    got = [[fmu[f"creep_stiffness[{i},{j}]"] for j in (1, 2, 3)] for i in (1, 2, 3)]
+    steel, ellipse = contact.STEEL, contact.hertz(1.0, 2.0, load=80e3)
+    a, b = ellipse.a, ellipse.b
+    C11, C22, C23, _ = kalker.coefficients(kalker.table(steel.poisson_ratio), math.log(a / b))
+    G, c = steel.shear_modulus, math.sqrt(a * b)
+    assert got[0][0] == pytest.approx(-G * c**2 * C11, rel=0.01)
+    assert got[1][1] == pytest.approx(-G * c**2 * C22, rel=0.01)
+    assert got[1][2] == pytest.approx(-G * c**3 * C23, rel=0.02)
+    np.testing.assert_allclose([got[0][1], got[0][2], got[1][0], got[2][0]], 0.0, atol=1e-6 * G * c**2)
+
+
+def test_creep_stiffness_is_the_slope_of_the_forces(fmu):
+    fmu.step()
+    slope = [fmu[f"creep_stiffness[{i},1]"] for i in (1, 2, 3)]
+    h, forces = 1e-6, []
+    for change in (h, -h):
+        fmu.update({"creepage.longitudinal": CREEPAGES["creepage.longitudinal"] + change})
+        fmu.step()
+        forces.append([fmu["force.x"], fmu["force.y"], fmu["moment.z"]])
+    np.testing.assert_allclose(slope, np.subtract(*forces) / (2.0 * h), rtol=1e-3)
+
+
+def test_lift_off_is_a_valid_result(fmu):
+    fmu.update({"load.normal_force": 0.0})
+    fmu.step()
+    outputs = fmu.all("output")
+    assert outputs["status"] == contact.Status.NO_CONTACT
+    assert not any(value for name, value in outputs.items() if name not in ("status", "approach"))
+    assert not fmu.log
+
+
+def test_a_patch_beyond_the_separation_is_reported_once(fmu):
+    narrow = {f"geometry.g[{i}]": 1e-9 * (i - 21) ** 2 for i in range(1, 42)}
+    fmu.update(narrow)
+    for k in range(3):
+        fmu.step(k * 1e-3)
+    assert fmu["status"] == contact.Status.OUT_OF_RANGE
+    assert all(math.isfinite(value) for value in fmu.all("output").values())
+    assert [message.split(":")[0] for _, message in fmu.log] == ["status OUT_OF_RANGE"]
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "allowed"),
+    [
+        ("geometry.g[7]", math.nan, "]-inf, inf["),
+        ("geometry.A[41]", 0.0, "]0, inf["),
+        ("geometry.A[1]", -1.0, "]0, inf["),
+        ("creepage.spin", math.inf, "]-inf, inf["),
+        ("load.normal_force", -1.0, "[0, inf["),
+        ("friction.coefficient", math.nan, "[0, inf["),
+        ("speed", 0.0, "]0, inf["),
+    ],
+)
+def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(fmu, name, value, allowed):
+    fmu.step()
+    before, good = fmu.all("output"), fmu[name]
+    fmu.update({name: value})
+    for _ in range(7):  # the fifth exception out of a pythonfmu callback would crash the host
+        assert discarded(fmu, 1e-3) == f"{name} = {value:g} is outside the allowed range {allowed}"
+    assert fmu.all("output") == before
+    fmu.update({name: good})
+    fmu.step(1e-3)
+    assert fmu["force.x"] == before["force.x"]
+    assert fmu["total.energy"] == pytest.approx(2.0 * before["total.energy"], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "allowed"),
+    [
+        ("geometry.dy", 0.0, "]0, inf["),
+        ("geometry.dy", -1e-3, "]0, inf["),
+        ("material.poisson_ratio", 0.6, "[0, 0.5]"),
+        ("resolution.n_strips", 3, "[4, 1000]"),
+        ("method.normal", 99, f"[1, {len(contact.methods().normal)}]"),
+    ],
+)
+def test_a_bad_parameter_is_discarded_by_name(open_fmu, name, value, allowed):
+    fmu = open_fmu(NAME)
+    fmu.update({name: value})
+    fmu.initialize()
+    assert discarded(fmu) == f"{name} = {value:g} is outside the allowed range {allowed}"
+    assert all(math.isfinite(v) for v in fmu.all("output").values())
+
+
+def test_a_step_that_is_none_is_discarded(fmu):
+    assert "communicationStepSize = 0 is outside" in discarded(fmu, 0.0, 0.0)
+    assert "communicationStepSize = -0.001 is outside" in discarded(fmu, 0.0, -1e-3)
+    assert "end of the step = 1.001 is outside" in discarded(fmu, 1.0, 1e-3)
+    fmu.step(0.999, 1e-3)
+
+
+def test_a_fixed_parameter_keeps_its_value_after_initialisation(fmu):
+    fmu.update({"geometry.dy": 0.002})
+    assert fmu["geometry.dy"] == 0.001
+    assert "geometry.dy cannot be set as Real after initialisation" in fmu.log[-1][1]
+
+
+def trajectory(fmu, start: int) -> list[dict[str, float]]:
+    """Five steps with changing inputs from step `start`."""
+    rows = []
+    for k in range(start, start + 5):
+        fmu.update({"creepage.lateral": 1e-3 * math.sin(k), "load.normal_force": 8e4 + 1e4 * math.cos(k)})
+        fmu.step(k * 1e-3)
+        rows.append(fmu.all("output"))
+    return rows
+
+
+def test_a_restored_state_continues_bit_by_bit(fmu):
+    trajectory(fmu, 0)
+    state = fmu.fmu.getFMUstate()
+    values = fmu.all("input", "output", "parameter")
+    expected = trajectory(fmu, 5)
+    fmu.fmu.setFMUstate(state)
+    assert fmu.all("input", "output", "parameter") == values
+    assert trajectory(fmu, 5) == expected
+    fmu.fmu.freeFMUstate(state)
+
+
+def test_a_serialised_state_continues_in_another_instance_bit_by_bit(fmu, open_fmu):
+    trajectory(fmu, 0)
+    state = fmu.fmu.getFMUstate()
+    content = fmu.fmu.serializeFMUstate(state)
+    fmu.fmu.freeFMUstate(state)
+    expected = trajectory(fmu, 5)
+    other = open_fmu(NAME).initialize()
+    copy = other.fmu.deSerializeFMUstate(content)
+    other.fmu.setFMUstate(copy)
+    other.fmu.freeFMUstate(copy)
+    assert trajectory(other, 5) == expected
+
+
+def test_reset_restores_every_start(fmu, open_fmu):
+    trajectory(fmu, 0)
+    fmu.fmu.reset()
+    assert fmu.all("input", "output", "parameter") == open_fmu(NAME).all("input", "output", "parameter")
+    fmu.initialize()
+    fmu.step()
+    assert fmu["force.n"] == pytest.approx(80e3)
+
+
+def test_instances_do_not_share_anything(open_fmu):
+    one, two = open_fmu(NAME), open_fmu(NAME)
+    one.update({"creepage.longitudinal": 1e-3})
+    for fmu in (one, two):
+        fmu.initialize()
+        fmu.step()
+    assert one["force.x"] < -1e3
+    assert two["force.x"] == 0.0
+
+
+def test_runs_from_a_folder_with_spaces(open_fmu):
+    fmu = open_fmu(NAME, "with some spaces").initialize()
+    fmu.step()
+    assert fmu["force.n"] == pytest.approx(80e3)
+
+
+def test_two_builds_and_two_versions_live_in_one_process(open_fmu, tmp_path):
+    """pythonfmu would run the first one's script for both if they had the same name."""
+    subprocess.run([sys.executable, ROOT / "build_fmu.py", "--out", tmp_path, "--points", "7"], check=True, timeout=120)
+    fmpy.extract(str(tmp_path / f"{NAME}.fmu"), str(tmp_path / "seven"))
+    large, small = open_fmu(NAME), Instance(tmp_path / "seven")
+    for fmu in (large, small):
+        fmu.initialize()
+        fmu.step()
+        assert fmu["force.n"] == pytest.approx(80e3)
+    assert "geometry.g[41]" in large.variables
+    assert "geometry.g[8]" not in small.variables
+    small.fmu.freeInstance()
+
+
+def test_an_fmu_of_another_version_is_refused_with_a_reason(open_fmu, fmus, tmp_path):
+    fmpy.extract(str(fmus / f"{NAME}.fmu"), str(tmp_path / "old"))
+    (script,) = (tmp_path / "old" / "resources").glob("wheelrailcontact_*.py")
+    old = script.with_name("wheelrailcontact_old.py")
+    old.write_text(script.read_text().replace('guid="{', 'guid="{old-'))
+    (tmp_path / "old" / "resources" / "slavemodule.txt").write_text(old.stem)
+    log: list = []
+    with pytest.raises(Exception, match="Failed to instantiate"):
+        Instance(tmp_path / "old", log=log)
+    assert "built with another version of wheelrail-contact" in log[0][1]
