@@ -17,9 +17,14 @@ class Creepage:
     Parameters
     ----------
     longitudinal, lateral : float
-        Creepages [-].
+        Creepages [-], within ±1e6.
     spin : float
-        Spin creepage [1/m].
+        Spin creepage [1/m], within ±1e6.
+
+    Raises
+    ------
+    ContactError
+        For a creepage that is not finite or out of range.
     """
 
     longitudinal: float = 0.0
@@ -28,4 +33,4 @@ class Creepage:
 
     def __post_init__(self) -> None:
         for name in ("longitudinal", "lateral", "spin"):
-            require_number(f"creepage.{name}", getattr(self, name))
+            require_number(f"creepage.{name}", getattr(self, name), -1e6, 1e6)

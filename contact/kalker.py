@@ -67,9 +67,7 @@ def _knots() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     published = np.array(_PUBLISHED.split(), dtype=np.float64).reshape(19, 4, 3)
     ratio = np.r_[np.arange(1, 11) / 10.0, 1.0 / (np.arange(9, 0, -1) / 10.0)]
     short = [[_short_asymptote(g, nu) for nu in _NU] for g in _BEYOND]
-    long = [
-        [(*_long_asymptote(g, nu), _C33_LONG[g][k]) for k, nu in enumerate(_NU)] for g in reversed(_BEYOND)
-    ]
+    long = [[(*_long_asymptote(g, nu), _C33_LONG[g][k]) for k, nu in enumerate(_NU)] for g in reversed(_BEYOND)]
     values = np.concatenate([np.swapaxes(short, 1, 2), published, np.swapaxes(long, 1, 2)])
     aspects = np.r_[_BEYOND, ratio, [1.0 / g for g in reversed(_BEYOND)]]
     return np.log(aspects), values
@@ -124,7 +122,7 @@ def table(poisson_ratio: float) -> NDArray[np.float64]:
 
 
 @kernel
-def coefficients(table, log_aspect):  # type: ignore[no-untyped-def]
+def coefficients(table, log_aspect):
     """C11, C22, C23, C33 at ln(a/b) from a `table`; C32 = -C23. The aspect ratio is clamped to [1/50, 50]."""
     u = (min(max(log_aspect, -LOG_ASPECT_MAX), LOG_ASPECT_MAX) + LOG_ASPECT_MAX) / _STEP
     i = min(int(u), _N_TABLE - 2)

@@ -28,13 +28,14 @@ from contact._layout import (
 from contact._layout import RES_EDGES as EDGES
 from contact.normal.analyn import analyn
 from contact.normal.hertzian import hertzian
+from contact.quadrature import EL_DX, EL_S, EL_SINE
 from contact.registry import FASTSIM, HERTZ
 from contact.tangential.fastrip import fastrip
 from contact.tangential.fastsim import fastsim
 
 
 @kernel
-def peak_pressure(strips, n):  # type: ignore[no-untyped-def]
+def peak_pressure(strips, n):
     """Largest pressure: top of the parabola through p0² of the highest strip and its neighbours (exact for an ellipse)."""
     k = 0
     for i in range(1, n):
@@ -55,11 +56,11 @@ def peak_pressure(strips, n):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def solve_case(y, g, A, xc, case, table, nodes, weights, angles, work, strips, fields, result):  # type: ignore[no-untyped-def]
+def solve_case(y, g, A, xc, case, table, nodes, weights, elements, work, strips, fields, result):
     """Solve one case; fill strips, fields and result (see `_layout`), all owned by the caller. Return the strip count.
 
-    `table` is `kalker.table(nu)`, `nodes`, `weights` are `quadrature.fejer(n_strips)`, `angles` are
-    `quadrature.element_angles(n_elements)`.
+    `table` is `kalker.table(nu)`, `nodes`, `weights` are `quadrature.fejer(n_strips)`, `elements` are
+    `quadrature.elements(n_elements)`.
     """
     result[:] = 0.0
     if case[CASE_NORMAL] == HERTZ:
@@ -70,24 +71,22 @@ def solve_case(y, g, A, xc, case, table, nodes, weights, angles, work, strips, f
         return 0
 
     area, x_low, x_high = 0.0, math.inf, -math.inf
-    cell = math.pi / angles.size
     for i in range(n):
         a, xc_i, p0 = strips[STRIP_A, i], strips[STRIP_XC, i], strips[STRIP_P0, i]
         area += 2.0 * a * strips[STRIP_DY, i]
         x_low, x_high = min(x_low, xc_i - a), max(x_high, xc_i + a)
-        for k in range(angles.size):
-            sine = math.sin(angles[k])
-            fields[FIELD_X, i, k] = xc_i + a * math.cos(angles[k])
-            fields[FIELD_DX, i, k] = a * sine * cell
-            fields[FIELD_P, i, k] = p0 * sine
+        for k in range(elements.shape[1]):
+            fields[FIELD_X, i, k] = xc_i + a * elements[EL_S, k]
+            fields[FIELD_DX, i, k] = a * elements[EL_DX, k]
+            fields[FIELD_P, i, k] = p0 * elements[EL_SINE, k]
     count = int(strips[STRIP_PATCH, n - 1]) + 1
     result[RES_AREA], result[RES_PMAX], result[RES_PATCHES] = area, peak_pressure(strips, n), count
     result[RES_LENGTH], result[RES_WIDTH] = x_high - x_low, result[EDGES + 2 * count - 1] - result[EDGES]
 
     if case[CASE_TANGENTIAL] == FASTSIM:
-        fastsim(strips, n, case, table, angles, fields, result)
+        fastsim(strips, n, case, table, elements, fields, result)
     else:
-        fastrip(strips, n, case, table, angles, fields, result)
+        fastrip(strips, n, case, table, elements, fields, result)
     if result[RES_STATUS] == 1.0 and case[CASE_MU] > 0.0 and result[RES_SLIP_AREA] >= area * (1.0 - 1e-12):
         result[RES_STATUS] = 3.0
     for i in range(n):

@@ -26,12 +26,43 @@ def fejer(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return nodes, weights
 
 
+# elements[ROW, k]: what kernels need of element k of a strip, from the leading edge, with x = x_c + a·s, s = cos(angle)
+(
+    EL_S,
+    EL_SINE,  # √(1 - s²), the semi-elliptic pressure over its peak
+    EL_DX,  # width over a
+    EL_STEP,  # s of the element before (or of the edge) minus s
+    EL_MIDDLE,  # s half-way to the element before
+    EL_ATANH,  # ∫ds/(1 - s²) from the element before; infinite from the edge
+    EL_ANGLE_END,  # angle of the trailing side of the element
+    EL_LOAD_END,  # ∫√(1 - s²) ds from the leading edge to the trailing side
+    EL_MOMENT_END,  # ∫s√(1 - s²) ds likewise
+) = range(9)
+
+
 @functools.lru_cache(maxsize=64)
-def element_angles(n: int) -> NDArray[np.float64]:
-    """Mid-angles theta of n elements along a strip, from the leading edge: x = x_c + a cos(theta), width a sin(theta) pi/n.
+def elements(n: int) -> NDArray[np.float64]:
+    """Rows of constants of n elements along a strip, cosine-spaced; shape (9, n), rows EL_… of this module.
 
     The semi-elliptic pressure summed over these elements is exact for n >= 2.
     """
     angle = (np.arange(n) + 0.5) * np.pi / n
-    angle.setflags(write=False)
-    return angle
+    end = np.arange(1, n + 1) * np.pi / n
+    s, sine = np.cos(angle), np.sin(angle)
+    before = np.r_[1.0, s[:-1]]
+    with np.errstate(divide="ignore"):
+        stretch = np.arctanh(before) - np.arctanh(s)
+    rows = (
+        s,
+        sine,
+        sine * np.pi / n,
+        before - s,
+        0.5 * (before + s),
+        stretch,
+        end,
+        0.5 * (end - np.sin(end) * np.cos(end)),
+        np.sin(end) ** 3 / 3.0,
+    )
+    result = np.ascontiguousarray(rows)
+    result.setflags(write=False)
+    return result

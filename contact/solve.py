@@ -136,10 +136,10 @@ def solve(
         ]
     )
     nodes, weights = quadrature.fejer(int(n_strips))
-    angles = quadrature.element_angles(int(n_elements))
+    elements = quadrature.elements(int(n_elements))
     capacity = MAX_PATCHES * nodes.size
     strips = np.empty((N_STRIP_ROWS, capacity))
-    fields = np.empty((N_FIELD_ROWS, capacity, angles.size))
+    fields = np.empty((N_FIELD_ROWS, capacity, elements.shape[1]))
     result = np.empty(N_RES)
     work = np.empty((N_WORK_ROWS, separation.y.size))
     table = kalker.table(material.poisson_ratio)
@@ -152,7 +152,7 @@ def solve(
         table,
         nodes,
         weights,
-        angles,
+        elements,
         work,
         strips,
         fields,
@@ -192,7 +192,7 @@ def solve(
             patch=strips[STRIP_PATCH].astype(np.int64),
         ),
         x=fields[FIELD_X],
-        y=np.repeat(strips[STRIP_Y][:, None], angles.size, axis=1),
+        y=np.repeat(strips[STRIP_Y][:, None], elements.shape[1], axis=1),
         p=fields[FIELD_P],
         qx=fields[FIELD_QX],
         qy=fields[FIELD_QY],

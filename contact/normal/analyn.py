@@ -30,10 +30,10 @@ from contact._layout import (
     RES_STIFFNESS,
     STRIP_A,
     STRIP_ASPECT,
+    STRIP_DY,
     STRIP_P0,
     STRIP_XC,
     STRIP_Y,
-    STRIP_DY,
 )
 from contact.hertz import local_factors
 from contact.normal.lay import cubic, find_patches, lay_strips, least_point, locate, slopes
@@ -51,7 +51,7 @@ _MAX_ITERATIONS = 60
 
 
 @kernel
-def floored(B):  # type: ignore[no-untyped-def]
+def floored(B):
     """max(B, floor) with its corner rounded to a continuous slope; equal to B from twice the floor on."""
     if B >= 2.0 * CURVATURE_FLOOR:
         return B
@@ -61,7 +61,7 @@ def floored(B):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def lateral_curvature(y, g, m, n, i):  # type: ignore[no-untyped-def]
+def lateral_curvature(y, g, m, n, i):
     """B = g''/2 at sample i as a second difference of the interpolated gap over ±CURVATURE_HALF_BASE.
 
     A second difference is g'' averaged with a triangle: it needs no second derivative of noisy profiles, has a fixed
@@ -86,7 +86,7 @@ def lateral_curvature(y, g, m, n, i):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def prepare(y, g, A, n, work):  # type: ignore[no-untyped-def]
+def prepare(y, g, A, n, work):
     """Local Hertz factors and the effective gap (1 + beta)(g - min g) at every sample; return the least point of g."""
     slopes(y, g, n, work[GAP_SLOPE])
     y_least, g_least = least_point(y, g, work[GAP_SLOPE], n)
@@ -102,7 +102,7 @@ def prepare(y, g, A, n, work):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def load_at(y, xc, n, delta, modulus, nodes, weights, work, strips, edges):  # type: ignore[no-untyped-def]
+def load_at(y, xc, n, delta, modulus, nodes, weights, work, strips, edges):
     """Lay strips at approach `delta` above first touch; return load, stiffness dN/d(delta), strip count, end flag."""
     G = work[EFFECTIVE_GAP]
     m = work[EFFECTIVE_SLOPE]
@@ -131,7 +131,7 @@ def load_at(y, xc, n, delta, modulus, nodes, weights, work, strips, edges):  # t
 
 
 @kernel
-def analyn(y, g, A, xc, case, nodes, weights, work, strips, result):  # type: ignore[no-untyped-def]
+def analyn(y, g, A, xc, case, nodes, weights, work, strips, result):
     """Solve the normal problem; fill `strips` (STRIP_ASPECT holds ln(a/b)) and `result`; return the number of strips.
 
     The status is 1 solved, 2 no contact, 4 the patch reaches the end of the separation, 5 not converged.
@@ -148,9 +148,7 @@ def analyn(y, g, A, xc, case, nodes, weights, work, strips, result):  # type: ig
             result[RES_STATUS] = 2.0
             result[RES_APPROACH] = case[CASE_LOAD]
             return 0
-        N, stiffness, n_strips, touches_end = load_at(
-            y, xc, n, delta, modulus, nodes, weights, work, strips, edges
-        )
+        N, stiffness, n_strips, touches_end = load_at(y, xc, n, delta, modulus, nodes, weights, work, strips, edges)
     else:
         load = case[CASE_LOAD]
         if load <= 0.0:
@@ -165,9 +163,7 @@ def analyn(y, g, A, xc, case, nodes, weights, work, strips, result):  # type: ig
         N, stiffness, n_strips, touches_end = 0.0, 0.0, 0, False
         for iteration in range(_MAX_ITERATIONS):
             result[RES_ITERATIONS] = iteration + 1.0
-            N, stiffness, n_strips, touches_end = load_at(
-                y, xc, n, delta, modulus, nodes, weights, work, strips, edges
-            )
+            N, stiffness, n_strips, touches_end = load_at(y, xc, n, delta, modulus, nodes, weights, work, strips, edges)
             if abs(N - load) <= 1e-13 * load:
                 converged = True
                 break

@@ -27,7 +27,7 @@ from contact.normal.lay import lay_strips, least_point, locate, slopes
 
 
 @kernel
-def hertzian(y, g, A, xc, case, nodes, weights, work, strips, result):  # type: ignore[no-untyped-def]
+def hertzian(y, g, A, xc, case, nodes, weights, work, strips, result):
     """Solve as if A and B were constant; same arguments and answers as `analyn`."""
     n = y.size
     modulus = case[CASE_G] / (1.0 - case[CASE_NU])

@@ -11,7 +11,7 @@ from contact._layout import MAX_PATCHES, STRIP_DY, STRIP_PATCH, STRIP_Y
 
 
 @kernel
-def slopes(y, f, n, out):  # type: ignore[no-untyped-def]
+def slopes(y, f, n, out):
     """Three-point slopes of f over y, exact for a parabola; one-sided at the ends."""
     for i in range(1, n - 1):
         h0, h1 = y[i] - y[i - 1], y[i + 1] - y[i]
@@ -21,14 +21,14 @@ def slopes(y, f, n, out):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def cubic(h, f0, m0, f1, m1, t):  # type: ignore[no-untyped-def]
+def cubic(h, f0, m0, f1, m1, t):
     """Cubic Hermite interpolant on an interval of length h at t in [0, 1]."""
     w = 1.0 - t
     return w * w * ((1.0 + 2.0 * t) * f0 + h * t * m0) + t * t * ((1.0 + 2.0 * w) * f1 - h * w * m1)
 
 
 @kernel
-def interval_minimum(h, f0, m0, f1, m1):  # type: ignore[no-untyped-def]
+def interval_minimum(h, f0, m0, f1, m1):
     """Position t in [0, 1] and value of the least point of the cubic on its interval."""
     best_t, best = 0.0, f0
     if f1 < f0:
@@ -47,7 +47,7 @@ def interval_minimum(h, f0, m0, f1, m1):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def least_point(y, f, m, n):  # type: ignore[no-untyped-def]
+def least_point(y, f, m, n):
     """Position and value of the least point of the interpolant."""
     k = 0
     for i in range(1, n):
@@ -63,7 +63,7 @@ def least_point(y, f, m, n):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _crossing(h, f0, m0, f1, m1, level, low, high):  # type: ignore[no-untyped-def]
+def _crossing(h, f0, m0, f1, m1, level, low, high):
     """Position t where the cubic passes `level` between `low` and `high`: bisection-safeguarded secant, capped."""
     f_low = cubic(h, f0, m0, f1, m1, low) - level
     f_high = cubic(h, f0, m0, f1, m1, high) - level
@@ -84,7 +84,7 @@ def _crossing(h, f0, m0, f1, m1, level, low, high):  # type: ignore[no-untyped-d
 
 
 @kernel
-def find_patches(y, G, m, n, delta, edges):  # type: ignore[no-untyped-def]
+def find_patches(y, G, m, n, delta, edges):
     """Intervals of y on which G(y) < delta, into edges[2k], edges[2k+1]; at most MAX_PATCHES.
 
     Returns
@@ -125,7 +125,7 @@ def find_patches(y, G, m, n, delta, edges):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def lay_strips(edges, count, nodes, weights, strips):  # type: ignore[no-untyped-def]
+def lay_strips(edges, count, nodes, weights, strips):
     """Write y, dy and the label of a panel of strips for every patch; return the number of strips."""
     n = nodes.size
     for k in range(count):
@@ -139,7 +139,7 @@ def lay_strips(edges, count, nodes, weights, strips):  # type: ignore[no-untyped
 
 
 @kernel
-def locate(y, n, at, start):  # type: ignore[no-untyped-def]
+def locate(y, n, at, start):
     """Index i with y[i] <= at <= y[i+1], searched upwards from `start` (strips come in ascending order)."""
     i = start
     if at < y[i]:

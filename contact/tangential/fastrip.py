@@ -4,9 +4,15 @@ Every strip is the central strip of a local ellipse with its own half length a(y
 the method needs no elliptic patch; on an ellipse it is the published method. Stick-zone forces are integrated in closed
 form; in the slip zone the magnitude mu·p is integrated exactly over each element and only the direction is the element's.
 
-Departures from the thesis, each measured on 695 elliptic cases against CONTACT (docs/accuracy.md):
-the longitudinal term of a strip is its C11-scaled local creepage vx - phi·y; the factor 1 + (1 - a/b)⁴ on N in the
-direction pass is left out (no measurable benefit, theory.md 4.2).
+Departures from the thesis, each measured on elliptic cases against CONTACT (mean force error over mu N; docs/accuracy.md; the
+published method has .0164):
+* the longitudinal term of a strip is its C11-scaled local creepage vx - phi·y (moment error .0138 → .0122);
+* the stick zone is continued through |psi| = 1 where lateral creepage opposes spin (`strip_theory.stick_zone`; .0175 → .0148);
+* the single flexibility of a slipping leading edge is Vollebregt's weighted mean, L = (vx² + vy² + c²phi²)/(vx²/L1 + …)
+  (theory.md 2.5, "crss"), blended in instead of switched, which removes a jump from strip to strip (.0148 → .0121);
+* the direction pass is of second order (`march`): .0136, and the result no longer depends on the number of elements, where
+  the first-order pass had gained the difference by its error;
+* the factor 1 + (1 - a/b)⁴ on N in the direction pass is left out (no measurable benefit, theory.md 4.2).
 """
 
 import math
@@ -38,37 +44,36 @@ from contact._layout import (
     STRIP_XC,
     STRIP_Y,
 )
-from contact.tangential.fastsim import equivalent_ellipse
-from contact.tangential.march import PARABOLIC, march
+from contact.quadrature import EL_ANGLE_END, EL_LOAD_END, EL_MOMENT_END, EL_S, EL_SINE
+from contact.tangential.fastsim import NO_FRICTION, equivalent_ellipse
+from contact.tangential.march import march
 from contact.tangential.strip_theory import stick_resultants, stick_zone
 
 
 @kernel
-def directions(angles, vx, vy, phi, L1, L2, L3, a, y, xc, c, tau_x, tau_y, excess):  # type: ignore[no-untyped-def]
-    """FASTSIM pass with three flexibilities, repeated with one when the leading element slips (thesis 4.4).
+def directions(elements, vx, vy, phi, L1, L2, L3, a, y, xc, c, tau_x, tau_y, excess):
+    """FASTSIM pass whose three stiffnesses pass into a single one as the leading edge comes to slip.
 
-    L1, L2, L3 are a/(flexibility·bound), the normalised stiffness of the strip; the single one is the thesis' mean
-    (4.31-4.32) of flexibilities weighted by |vx|, |vy| and |phi| c.
+    L1, L2, L3 are a/(flexibility·bound), the normalised stiffnesses of the strip. `edge` is the utilisation of the bound at
+    the leading edge, where both vanish; beyond 1 the edge slips and the thesis (4.4) repeats the strip with one flexibility.
     """
-    march(angles, vx * L1 - phi * y * L3, vy * L2 + phi * xc * L3, phi * a * L3, PARABOLIC, tau_x, tau_y, excess)
-    size = math.sqrt(vx * vx + vy * vy + (phi * c) ** 2)
-    if excess[0] > 0.0 and size > 0.0:
-        L = size / (abs(vx) / L1 + abs(vy) / L2 + abs(phi) * c / L3)
-        march(angles, (vx - phi * y) * L, (vy + phi * xc) * L, phi * a * L, PARABOLIC, tau_x, tau_y, excess)
+    x, z = vx * L1 - phi * y * L3, vy * L2 + phi * (xc + a) * L3
+    edge = 0.5 * math.sqrt(x * x + z * z)
+    if edge > 0.5:
+        w = min(2.0 * edge - 1.0, 1.0)
+        spin2 = (phi * c) ** 2
+        single = (vx * vx + vy * vy + spin2) / (vx * vx * L1 + vy * vy * L2 + spin2 * L3)
+        L1 = 1.0 / ((1.0 - w) / L1 + w * single)
+        L2 = 1.0 / ((1.0 - w) / L2 + w * single)
+        L3 = 1.0 / ((1.0 - w) / L3 + w * single)
+    march(elements, vx * L1 - phi * y * L3, vy * L2 + phi * xc * L3, phi * a * L3, tau_x, tau_y, excess)
 
 
 @kernel
-def load_to(angle):  # type: ignore[no-untyped-def]
-    """∫√(1-s²) ds from the leading edge to s = cos(angle)."""
-    return 0.5 * (angle - math.sin(angle) * math.cos(angle))
-
-
-@kernel
-def fastrip(strips, n, case, table, angles, fields, result):  # type: ignore[no-untyped-def]
+def fastrip(strips, n, case, table, elements, fields, result):
     """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`."""
     mu, G, nu = case[CASE_MU], case[CASE_G], case[CASE_NU]
-    m = angles.size
-    half_cell = 0.5 * math.pi / m
+    m = elements.shape[1]
     vx0, vy0, phi = case[CASE_VX], case[CASE_VY], case[CASE_PHI]
     a0, b0 = equivalent_ellipse(strips, n)
     c_patch = math.sqrt(a0 * b0)
@@ -76,7 +81,7 @@ def fastrip(strips, n, case, table, angles, fields, result):  # type: ignore[no-
     for i in range(n):
         a, dy, y, xc = strips[STRIP_A, i], strips[STRIP_DY, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
         bound = mu * strips[STRIP_P0, i]
-        if a <= 0.0 or bound <= 0.0:
+        if a <= 0.0 or bound <= NO_FRICTION * G:
             fields[FIELD_STICK, i, :] = 0.0
             fields[FIELD_QX : FIELD_SY + 1, i, :] = 0.0
             slip_area += 2.0 * a * dy
@@ -90,7 +95,7 @@ def fastrip(strips, n, case, table, angles, fields, result):  # type: ignore[no-
         tau_x, tau_y, excess = fields[FIELD_QX, i], fields[FIELD_QY, i], fields[FIELD_SX, i]
         unit = 0.75 * G / bound
         L1, L2, L3 = unit * 0.375 * c11, unit * 0.375 * c22, unit * 4.0 / math.pi * c23 / root_aspect
-        directions(angles, vx0, vy0, phi, L1, L2, L3, a, y, xc, c_patch, tau_x, tau_y, excess)
+        directions(elements, vx0, vy0, phi, L1, L2, L3, a, y, xc, c_patch, tau_x, tau_y, excess)
 
         # amended strip theory (theory.md 4.1)
         amended = -2.0 * (1.0 - nu) / math.pi**2 * G / bound
@@ -107,20 +112,19 @@ def fastrip(strips, n, case, table, angles, fields, result):  # type: ignore[no-
         flexibility_y = 0.5 * math.pi**2 * bound / (G * c22)
         boundary = -1.0 + 2.0 * e
         angle_boundary = math.acos(boundary)
+        load_from = outer  # integral of the pressure from the leading edge to the stick boundary
+        moment_from = outer_s
         for k in range(m):
-            s = math.cos(angles[k])
-            sine = math.sin(angles[k])
+            s, sine = elements[EL_S, k], elements[EL_SINE, k]
             size = math.sqrt(tau_x[k] ** 2 + tau_y[k] ** 2)
             direction_x = tau_x[k] / size if size > 0.0 else 0.0
             direction_y = tau_y[k] / size if size > 0.0 else 0.0
-            first, last = angles[k] - half_cell, angles[k] + half_cell
-            if last > angle_boundary:  # the part of this element that slips, magnitude mu·p
-                first = max(first, angle_boundary)
-                share = strip * (load_to(last) - load_to(first))
-                share_s = strip * a * (math.sin(last) ** 3 - math.sin(first) ** 3) / 3.0
-                fx += share * direction_x
-                fy += share * direction_y
-                mz += share_s * direction_y
+            if elements[EL_ANGLE_END, k] > angle_boundary:  # the part of this element that slips, magnitude mu·p
+                load_end, moment_end = elements[EL_LOAD_END, k], elements[EL_MOMENT_END, k]
+                fx += strip * (load_end - load_from) * direction_x
+                fy += strip * (load_end - load_from) * direction_y
+                mz += strip * a * (moment_end - moment_from) * direction_y
+                load_from, moment_from = load_end, moment_end
             if s > boundary:
                 S = math.sqrt((1.0 - e) ** 2 - (s - e) ** 2)
                 qx, qy = kappa * (sine - S), lam * sine - lam1 * S

@@ -34,11 +34,16 @@ from contact._layout import (
     STRIP_XC,
     STRIP_Y,
 )
-from contact.tangential.march import PARABOLIC, march
+from contact.quadrature import EL_DX, EL_SINE
+from contact.tangential.march import march
+
+
+#: A traction bound below this fraction of G is none: creepage over it would overflow.
+NO_FRICTION = 1e-15
 
 
 @kernel
-def equivalent_ellipse(strips, n):  # type: ignore[no-untyped-def]
+def equivalent_ellipse(strips, n):
     """Semi-axes of the ellipse with the longest strip as a and the area of the patch."""
     a = 0.0
     area = 0.0
@@ -49,7 +54,7 @@ def equivalent_ellipse(strips, n):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def fastsim(strips, n, case, table, angles, fields, result):  # type: ignore[no-untyped-def]
+def fastsim(strips, n, case, table, elements, fields, result):
     """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`."""
     mu, G = case[CASE_MU], case[CASE_G]
     vx, vy, phi = case[CASE_VX], case[CASE_VY], case[CASE_PHI]
@@ -62,15 +67,15 @@ def fastsim(strips, n, case, table, angles, fields, result):  # type: ignore[no-
         L3 = math.pi * a0 * a0 / (4.0 * G * math.sqrt(a0 * b0) * c23)
         spread = 0.0  # N of unit parabolas of peak p0·a, by the quadrature of the fields
         for i in range(n):
-            for k in range(angles.size):
-                sine = math.sin(angles[k])
-                width = strips[STRIP_A, i] * sine * math.pi / angles.size
-                spread += strips[STRIP_P0, i] * strips[STRIP_A, i] * sine * sine * width * strips[STRIP_DY, i]
+            for k in range(elements.shape[1]):
+                dA = strips[STRIP_A, i] * elements[EL_DX, k] * strips[STRIP_DY, i]
+                spread += strips[STRIP_P0, i] * strips[STRIP_A, i] * elements[EL_SINE, k] ** 2 * dA
         for i in range(n):
             a, y = strips[STRIP_A, i], strips[STRIP_Y, i]
             peak = mu * result[RES_N] / spread * strips[STRIP_P0, i] * a if a > 0.0 else 0.0
-            if peak <= 0.0:
-                fields[FIELD_STICK, i, :] = 1.0 if mu > 0.0 else 0.0
+            if peak <= NO_FRICTION * G:
+                fields[FIELD_STICK, i, :] = 0.0
+                slip_area += 2.0 * a * strips[STRIP_DY, i]
                 fields[FIELD_QX : FIELD_SY + 1, i, :] = 0.0
                 continue
             # the march writes traction into qx, qy and the excess into sx; each is then scaled in place
@@ -79,8 +84,8 @@ def fastsim(strips, n, case, table, angles, fields, result):  # type: ignore[no-
             excess = fields[FIELD_SX, i]
             X = scale * (vx / L1 - phi * y / L3)
             Y = scale * (vy / L2 + phi * strips[STRIP_XC, i] / L3)
-            march(angles, X, Y, scale * a * phi / L3, PARABOLIC, tau_x, tau_y, excess)
-            for k in range(angles.size):
+            march(elements, X, Y, scale * a * phi / L3, tau_x, tau_y, excess)
+            for k in range(elements.shape[1]):
                 size = math.sqrt(tau_x[k] ** 2 + tau_y[k] ** 2)
                 slip = excess[k] / scale / size if size > 0.0 else 0.0
                 dA = fields[FIELD_DX, i, k] * strips[STRIP_DY, i]

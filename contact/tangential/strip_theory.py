@@ -11,19 +11,25 @@ from contact._jit import kernel
 
 
 @kernel
-def stick_zone(xi, eta, psi, nu):  # type: ignore[no-untyped-def]
+def stick_zone(xi, eta, psi, nu):
     """Half slip length e and the directions kappa, lambda, lambda' of a strip; e = 1 if all of it slips.
 
-    `xi`, `eta`, `psi` are the strip's normalised creepages (thesis 4.16-4.19). D is written so that it neither divides
-    by zero at |psi| = 1 nor cancels: D = (xi² + eta²)/(√(eta² + (1 - psi²) xi²) - eta·psi) when eta·psi < 0.
+    `xi`, `eta`, `psi` are the strip's normalised creepages (thesis 4.16-4.19). Where lateral creepage opposes spin, the
+    stick zone does not end at |psi| = 1, where the thesis declares full slip: the formula, written without its 0/0, holds
+    as long as the leading edge sticks. This removes the jump at |psi| = 1 (measured on set A: mean force error .0175 →
+    .0148, docs/accuracy.md).
     """
-    xi2, eta2 = xi * xi, eta * eta
-    discriminant = eta2 + (1.0 - psi * psi) * xi2
-    if abs(psi) >= 1.0 or discriminant < 0.0:
+    square = xi * xi + eta * eta
+    discriminant = eta * eta + (1.0 - psi * psi) * xi * xi
+    if discriminant < 0.0:
         return 1.0, 0.0, 0.0, 0.0
     root = math.sqrt(discriminant)
     if eta * psi < 0.0:
-        D = (xi2 + eta2) / (root - eta * psi)
+        if abs(psi) > 1.0 and square <= (-eta * psi - root) * (1.0 - nu):
+            return 1.0, 0.0, 0.0, 0.0  # the leading edge slips
+        D = square / (root - eta * psi)
+    elif abs(psi) >= 1.0:
+        return 1.0, 0.0, 0.0, 0.0
     else:
         D = (eta * psi + root) / (1.0 - psi * psi)
     e = D / (1.0 - nu)
@@ -35,7 +41,7 @@ def stick_zone(xi, eta, psi, nu):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def stick_resultants(e):  # type: ignore[no-untyped-def]
+def stick_resultants(e):
     """∫√(1-s²), ∫√((1-e)²-(s-e)²) over the stick zone, and the same times s, in closed form (theory.md 4.1)."""
     s = -1.0 + 2.0 * e
     h2 = max(1.0 - s * s, 0.0)

@@ -1,0 +1,104 @@
+"""ANALYN: the Hertz limit, load and approach, separate patches, robustness of the patch search."""
+
+import numpy as np
+import pytest
+
+import contact
+
+STEEL = contact.STEEL
+NO_CREEP = contact.Creepage()
+
+
+@pytest.mark.parametrize("ratio", [0.28, 1.0, 3.0, 18.0])
+@pytest.mark.parametrize("load", [10.0, 8e4])
+def test_hertz_limit_is_exact(ratio, load):
+    separation = contact.Separation.hertzian(1.0, ratio)
+    sol = contact.solve(separation, NO_CREEP, load=load)
+    exact = contact.hertz(1.0, ratio, load=load)
+    at = np.sqrt(1.0 - (sol.strips.y / exact.b) ** 2)
+    np.testing.assert_allclose(sol.strips.a, exact.a * at, rtol=1e-6, err_msg="half length of strips (theory.md 3.2)")
+    np.testing.assert_allclose(sol.strips.p0, exact.p0 * at, rtol=1e-6, err_msg="pressure of strips")
+    assert sol.approach == pytest.approx(exact.approach, rel=1e-6)
+    assert sol.max_pressure == pytest.approx(exact.p0, rel=1e-6)
+    assert sol.normal_stiffness == pytest.approx(1.5 * load / exact.approach, rel=1e-5)
+    assert sol.width == pytest.approx(2 * exact.b, rel=1e-6)
+
+
+@pytest.mark.parametrize("normal", list(contact.methods().normal))
+def test_approach_gives_the_load_back(normal, ellipse):
+    by_load = contact.solve(ellipse, NO_CREEP, load=6e4, normal=normal)
+    by_approach = contact.solve(ellipse, NO_CREEP, approach=by_load.approach, normal=normal)
+    assert pytest.approx(6e4, rel=1e-9) == by_approach.N
+
+
+def test_a_patch_narrower_than_the_sampling_is_resolved():
+    # semi-width 0.01 mm between samples 1 mm apart, and off the samples
+    y = np.linspace(-20e-3, 20e-3, 41) + 0.37e-3
+    sol = contact.solve(contact.Separation(y, 3.0 * y**2, 1.0), NO_CREEP, load=1e-3)
+    exact = contact.hertz(1.0, 3.0, load=1e-3)
+    assert sol.width < 1e-4
+    assert sol.max_pressure == pytest.approx(exact.p0, rel=1e-5)
+
+
+def two_lobes(depth: float, spacing: float = 12e-3) -> contact.Separation:
+    """Two parabolas side by side, the second `depth` higher, with a ridge between."""
+    y = np.linspace(-25e-3, 25e-3, 501)
+    g = np.minimum(2.0 * (y + spacing / 2) ** 2, depth + 2.0 * (y - spacing / 2) ** 2)
+    return contact.Separation(y, g, 1.0)
+
+
+def test_separate_patches_are_labelled():
+    sol = contact.solve(two_lobes(0.0), NO_CREEP, load=4e4)
+    assert sol.n_patches == 2
+    assert set(sol.strips.patch) == {0, 1}
+    assert (sol.strips.y[sol.strips.patch == 0] < 0).all()
+    assert (sol.strips.y[sol.strips.patch == 1] > 0).all()
+    share = (0.5 * np.pi * sol.strips.p0 * sol.strips.a * sol.strips.dy)[sol.strips.patch == 0].sum() / sol.N
+    assert share == pytest.approx(0.5, rel=1e-9), "equal lobes carry equal loads"
+
+
+def test_load_is_continuous_where_patches_are_born_and_merge():
+    separation = two_lobes(10e-6, spacing=8e-3)
+    approaches = np.linspace(5e-6, 160e-6, 600)
+    solutions = [contact.solve(separation, NO_CREEP, approach=float(d)) for d in approaches]
+    loads = np.array([s.N for s in solutions])
+    assert {1, 2} <= {s.n_patches for s in solutions}
+    assert (np.diff(loads) > 0).all(), "N(approach) is monotone"
+    slope = np.diff(loads) / np.diff(approaches)
+    assert np.abs(np.diff(slope)).max() < 0.2 * slope.max(), "a step of 0.1 % of the load"
+
+
+def test_mirrored_separation_gives_the_mirrored_patch():
+    y = np.linspace(-15e-3, 15e-3, 301)
+    g = 2.0 * y**2 + 300.0 * y**3 * (y > 0) + 1e-6 * np.cos(900 * y)
+    one = contact.solve(contact.Separation(y, g, 1.0), NO_CREEP, load=5e4)
+    other = contact.solve(contact.Separation(-y[::-1], g[::-1], 1.0), NO_CREEP, load=5e4)
+    np.testing.assert_allclose(one.strips.p0, other.strips.p0[::-1], rtol=1e-9)
+    assert one.approach == pytest.approx(other.approach, rel=1e-12)
+
+
+def test_contact_locus_carries_the_strips():
+    y = np.linspace(-15e-3, 15e-3, 61)
+    shifted = contact.solve(contact.Separation(y, 2 * y**2, 1.0, x_c=0.1 * y), NO_CREEP, load=5e4)
+    np.testing.assert_allclose(shifted.strips.x_c, 0.1 * shifted.strips.y, atol=1e-15)
+    straight = contact.solve(contact.Separation(y, 2 * y**2, 1.0), NO_CREEP, load=5e4)
+    assert shifted.approach == straight.approach
+    np.testing.assert_allclose(shifted.x, straight.x + 0.1 * straight.y, atol=1e-15)
+
+
+def test_negative_curvature_is_floored_not_lost():
+    y = np.linspace(-12e-3, 12e-3, 241)
+    g = 5e-6 * (1 + np.cos(y / 12e-3 * 3 * np.pi)) + 2.0 * np.maximum(np.abs(y) - 8e-3, 0.0) ** 2
+    sol = contact.solve(contact.Separation(y, g, 1.0), NO_CREEP, load=1e5, throw=False)
+    assert sol.status in (contact.Status.OK, contact.Status.OUT_OF_RANGE)
+    assert np.isfinite(sol.p).all()
+
+
+def test_pressure_can_be_evaluated_anywhere(ellipse):
+    sol = contact.solve(ellipse, NO_CREEP, load=8e4)
+    exact = contact.hertz(1.0, 2.0, load=8e4)
+    x = np.linspace(-1.2, 1.2, 49)[:, None] * exact.a
+    y = np.linspace(-1.2, 1.2, 47)[None, :] * exact.b
+    p = exact.p0 * np.sqrt(np.maximum(1 - (x / exact.a) ** 2 - (y / exact.b) ** 2, 0))
+    np.testing.assert_allclose(sol.pressure(x, y), p, atol=1e-4 * exact.p0)
+    assert sol.pressure(0.0, 0.0) == pytest.approx(exact.p0, rel=1e-6)

@@ -1,0 +1,119 @@
+"""FaStrip and FASTSIM: exact limits, symmetries, published values."""
+
+import math
+
+import numpy as np
+import pytest
+
+import contact
+from contact import kalker
+
+TANGENTIAL = list(contact.methods().tangential)
+N, MU = 8e4, 0.3
+
+
+def force(separation, vx=0.0, vy=0.0, phi=0.0, **options):
+    """(Fx, Fy)/(mu N) and Mz/(mu N c)."""
+    sol = contact.solve(separation, contact.Creepage(vx, vy, phi), load=N, friction=MU, **options)
+    c = math.sqrt(sol.area / math.pi)
+    return np.array([sol.Fx / (MU * N), sol.Fy / (MU * N), sol.Mz / (MU * N * c)])
+
+
+def scales(separation):
+    """Creepages at which linear theory reaches mu N, and c."""
+    sol = contact.solve(separation, contact.Creepage(), load=N)
+    c = math.sqrt(sol.area / math.pi)
+    C = kalker.coefficients(kalker.table(0.28), math.log(sol.strips.aspect[0]))
+    G = contact.STEEL.shear_modulus
+    return MU * N / (G * c**2 * C[0]), MU * N / (G * c**2 * C[1]), MU * N / (G * c**3 * C[2]), C
+
+
+@pytest.mark.parametrize("B", [0.1, 0.5, 1.0, 4.0, 30.0])
+def test_slopes_at_small_creepage_are_kalkers_linear_theory(B):
+    """Thesis 4.20-4.22: Fx, Fy exactly C11, C22, C23 (theory.md 4.1)."""
+    separation = contact.Separation.hertzian(1.0, B) if B > 0.2 else contact.Separation.hertzian(10.0, 10 * B)
+    vx, vy, phi, _ = scales(separation)
+    tiny = 1e-5
+    np.testing.assert_allclose(force(separation, vx=tiny * vx)[0] / tiny, -1.0, rtol=2e-3, err_msg="C11")
+    np.testing.assert_allclose(force(separation, vy=tiny * vy)[1] / tiny, -1.0, rtol=2e-3, err_msg="C22")
+    np.testing.assert_allclose(force(separation, phi=tiny * phi)[1] / tiny, -1.0, rtol=2e-3, err_msg="C23")
+
+
+# theory.md 4.1: F/(mu N) of pure creepage in FaStrip, independent of a/b and nu
+PURE_CREEP = [(0.3, 0.2757), (0.7, 0.5686), (1.2, 0.8196), (2.0, 0.9901)]
+
+
+@pytest.mark.parametrize(("linear", "value"), PURE_CREEP)
+@pytest.mark.parametrize("B", [0.4, 1.0, 6.0])
+def test_pure_creepage_follows_the_closed_form(linear, value, B):
+    """Haines-Ollerton integral F = 1 - 3/2 [t - t³/3 - δ acos δ] (theory.md 2.4)."""
+    separation = contact.Separation.hertzian(1.0, B)
+    vx, vy, _, _ = scales(separation)
+    delta = 4.0 / (3.0 * math.pi) * linear
+    t = math.sqrt(1.0 - delta**2)
+    closed = 1.0 - 1.5 * (t - t**3 / 3.0 - delta * math.acos(delta))
+    assert closed == pytest.approx(value, abs=6e-5)
+    np.testing.assert_allclose(-force(separation, vx=linear * vx)[0], closed, atol=3e-4, err_msg="longitudinal")
+    np.testing.assert_allclose(-force(separation, vy=linear * vy)[1], closed, atol=3e-4, err_msg="lateral")
+
+
+@pytest.mark.parametrize("tangential", TANGENTIAL)
+def test_full_slip_gives_mu_N_against_the_creepage(tangential, ellipse):
+    sol = contact.solve(ellipse, contact.Creepage(-0.3, 0.4, 0.0), load=N, friction=MU, tangential=tangential)
+    assert sol.status is contact.Status.SATURATED
+    assert math.hypot(sol.Fx, sol.Fy) == pytest.approx(MU * N, rel=1e-6)
+    direction = (sol.Fx / (MU * N), sol.Fy / (MU * N))
+    # three flexibilities turn FASTSIM's traction towards the softer direction; FaStrip repeats with one (thesis 4.4)
+    assert direction == pytest.approx((0.6, -0.8), abs=1e-6 if tangential == "fastrip" else 0.03)
+    assert sol.slip_ratio == pytest.approx(1.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("tangential", TANGENTIAL)
+@pytest.mark.parametrize("creep", [(1e-3, 0.7e-3, 0.4), (-2e-3, 3e-3, -1.5), (0.0, 1e-4, 2.0), (5e-3, -1e-3, 0.02)])
+def test_sign_and_mirror_symmetries_hold_to_round_off(tangential, creep, ellipse):
+    """The two operations of theory.md 2.6."""
+    vx, vy, phi = creep
+    F = force(ellipse, vx, vy, phi, tangential=tangential)
+    np.testing.assert_allclose(force(ellipse, -vx, -vy, -phi, tangential=tangential), -F, atol=1e-13, err_msg="sign")
+    np.testing.assert_allclose(force(ellipse, vx, -vy, -phi, tangential=tangential), F * (1, -1, -1), atol=1e-12,
+                               err_msg="mirror")  # fmt: skip
+
+
+@pytest.mark.parametrize("tangential", TANGENTIAL)
+def test_no_friction_no_creepage_no_force(tangential, ellipse):
+    frictionless = contact.solve(
+        ellipse, contact.Creepage(1e-3, 1e-3, 1.0), load=N, friction=0.0, tangential=tangential
+    )
+    assert (frictionless.Fx, frictionless.Fy, frictionless.Mz) == (0.0, 0.0, 0.0)
+    at_rest = contact.solve(ellipse, contact.Creepage(), load=N, tangential=tangential)
+    assert (at_rest.Fx, at_rest.Fy, at_rest.Mz) == (0.0, 0.0, 0.0)
+    assert at_rest.slip_ratio == 0.0
+    assert at_rest.stick.all()
+
+
+def test_force_is_continuous_through_unit_spin_parameter(ellipse):
+    """|psi| = 1, where the published method declares full slip."""
+    _, vy, phi, _ = scales(ellipse)
+    for lateral in (-1.5, -0.7, 0.0, 0.7):
+        values = np.array([force(ellipse, vy=lateral * vy, phi=p * phi) for p in np.linspace(0.95, 1.05, 101)])
+        assert np.abs(np.diff(values, axis=0)).max() < 5e-3, f"jump near |psi| = 1 at lateral creepage {lateral} vy_c"
+
+
+def test_slip_of_a_partially_slipping_circle(ellipse):
+    """Closed form of theory.md 4.3 on the central strip of a circle at Fx_lin = 1.2 mu N."""
+    circle = contact.Separation.hertzian(1.0, 1.0)
+    vx, *_, C = scales(circle)
+    sol = contact.solve(circle, contact.Creepage(1.2 * vx, 0.0, 0.0), load=N, friction=MU, n_strips=31)
+    a, p0 = sol.strips.a[15], sol.strips.p0[15]
+    e = 4.0 / (3.0 * math.pi) * 1.2
+    s = sol.x[15] / a
+    W = np.sqrt(np.maximum((s - e) ** 2 - (1 - e) ** 2, 0.0)) * (s < -1 + 2 * e)
+    expected = math.pi**2 * MU * p0 / (2 * contact.STEEL.shear_modulus * C[0]) * W
+    np.testing.assert_allclose(sol.sx[15], expected, atol=1e-4 * expected.max())
+
+
+def test_fastsim_saturates_at_the_bound_of_the_strip_load(ellipse):
+    """The parabola must carry the strip load; with 4/3 p0 on every strip the total would be 1.13 mu N (theory.md 2.5)."""
+    sol = contact.solve(ellipse, contact.Creepage(0.5, 0, 0), load=N, friction=MU, tangential="fastsim")
+    centre = np.hypot(sol.qx, sol.qy).max() / (MU * sol.max_pressure)
+    assert centre == pytest.approx(4.0 / 3.0, rel=0.01), "Kalker's paraboloid is a third too high at the centre"

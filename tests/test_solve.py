@@ -1,0 +1,178 @@
+"""The public contract of `contact.solve`: fields, post-conditions, errors."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import contact
+
+NORMAL, TANGENTIAL = list(contact.methods().normal), list(contact.methods().tangential)
+FIELDS = ("x", "y", "p", "qx", "qy", "sx", "sy", "stick", "dA")
+LIMIT = 1 + 1e-9
+
+
+def assert_post_conditions(sol: contact.Solution) -> None:
+    """style.md 12: |F| ≤ μN, p ≥ 0, ∫p dA = N, |q| ≤ μp, dissipation ≥ 0, nothing but finite numbers."""
+    for name in FIELDS:
+        assert np.isfinite(getattr(sol, name)).all(), name
+    scalars = (
+        sol.Fx,
+        sol.Fy,
+        sol.Mz,
+        sol.N,
+        sol.approach,
+        sol.max_pressure,
+        sol.area,
+        sol.power_per_metre,
+        sol.slip_ratio,
+    )
+    assert np.isfinite(scalars).all()
+    assert (sol.p >= 0).all()
+    assert (sol.p * sol.dA).sum() == pytest.approx(sol.N, rel=1e-9, abs=1e-9), "Σ p dA = N"
+    assert math.hypot(sol.Fx, sol.Fy) <= sol.friction * sol.N * LIMIT + 1e-12, "|F| ≤ μN"
+    if sol.tangential != "fastsim":  # its parabola exceeds mu p at the centre by design (thesis 4.2)
+        assert (np.hypot(sol.qx, sol.qy) <= sol.friction * sol.p * LIMIT + 1e-6).all(), "|q| ≤ μp"
+    assert sol.power_per_metre >= 0, "dissipation"
+    assert -(sol.qx * sol.sx + sol.qy * sol.sy).min(initial=0.0) >= -1e-9 or sol.tangential == "fastsim"
+    assert -1e-12 <= sol.slip_ratio <= 1 + 2e-3
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    ratio=st.floats(-1.5, 3.0),
+    load=st.floats(0.0, 5.4),
+    creep=st.tuples(*[st.floats(-8, 0)] * 2, st.floats(-6, 1)),
+    signs=st.tuples(*[st.sampled_from([-1.0, 0.0, 1.0])] * 3),
+    mu=st.floats(0.0, 0.8),
+    normal=st.sampled_from(NORMAL),
+    tangential=st.sampled_from(TANGENTIAL),
+)
+def test_post_conditions_over_physical_input(ratio, load, creep, signs, mu, normal, tangential):
+    separation = contact.Separation.hertzian(1.0, 10.0**ratio)
+    vx, vy, phi = (sign * 10.0**c for sign, c in zip(signs, creep, strict=True))
+    sol = contact.solve(separation, contact.Creepage(vx, vy, phi), load=10.0**load, friction=mu,
+                        normal=normal, tangential=tangential, throw=False)  # fmt: skip
+    assert_post_conditions(sol)
+
+
+def test_solution_has_the_fields_of_the_contract(ellipse):
+    sol = contact.solve(ellipse, contact.Creepage(1e-3, 0, 0.1), load=8e4, n_strips=12, n_elements=16)
+    for name in FIELDS:
+        assert getattr(sol, name).shape == (12, 16), name
+    for name in ("y", "dy", "x_c", "a", "p0", "patch"):
+        assert getattr(sol.strips, name).shape == (12,), name
+    assert sol.converged
+    assert sol.status is contact.Status.OK
+
+
+@pytest.mark.parametrize("arguments", [{"load": 0.0}, {"approach": 0.0}, {"approach": -1e-3}])
+@pytest.mark.parametrize("normal", NORMAL)
+def test_no_contact_is_an_answer(ellipse, arguments, normal):
+    sol = contact.solve(ellipse, contact.Creepage(1e-3, 1e-3, 1.0), normal=normal, **arguments)
+    assert sol.status is contact.Status.NO_CONTACT
+    assert (sol.Fx, sol.Fy, sol.Mz, sol.N, sol.area, sol.max_pressure, sol.slip_ratio) == (0,) * 7
+    assert sol.p.size == 0
+    assert sol.pressure(0.0, 0.0) == 0.0
+
+
+def test_lengths_scale_as_the_equations_say(ellipse):
+    """Twice the length at the same pressure: N·4, F·4, Mz·8 for curvatures and spin halved."""
+    one = contact.solve(ellipse, contact.Creepage(1e-3, 2e-3, 0.5), load=5e4)
+    two = contact.solve(
+        contact.Separation(2 * ellipse.y, 2 * ellipse.g, ellipse.A / 2), contact.Creepage(1e-3, 2e-3, 0.25), load=2e5
+    )
+    # B's base has a fixed physical width, which a parabola does not feel
+    np.testing.assert_allclose((two.Fx, two.Fy, two.Mz), np.array([4, 4, 8]) * (one.Fx, one.Fy, one.Mz), rtol=1e-8)
+
+
+def test_forces_do_not_depend_on_the_unit_system(ellipse):
+    """mm and N/mm² in consistent use give the same forces; only fixed widths in metres would tell."""
+    si = contact.solve(ellipse, contact.Creepage(1e-3, 2e-3, 0.5), load=5e4, normal="hertz")
+    scaled = contact.solve(
+        contact.Separation(ellipse.y * 1e3, ellipse.g * 1e3, ellipse.A / 1e3), contact.Creepage(1e-3, 2e-3, 0.5e-3),
+        load=5e4, normal="hertz", material=contact.Material(82e3, 0.28),
+    )  # fmt: skip
+    if ellipse.A[0] / 1e3 > 0.2:
+        np.testing.assert_allclose((scaled.Fx, scaled.Fy, scaled.Mz / 1e3), (si.Fx, si.Fy, si.Mz), rtol=1e-8)
+
+
+@pytest.mark.parametrize("tangential", TANGENTIAL)
+def test_resolution_does_not_ripple(tangential, ellipse):
+    """Twice the strips and elements change forces by less than 0.2 % of mu N at the defaults (fastsim: 0.5 %)."""
+    limit = 0.002 if tangential == "fastrip" else 0.005
+    for creep in [(1e-3, 0, 0), (0, 1e-3, 0.3), (5e-4, -8e-4, 0.8), (2e-3, 1e-3, -0.5)]:
+        a = contact.solve(ellipse, contact.Creepage(*creep), load=8e4, tangential=tangential)
+        b = contact.solve(
+            ellipse, contact.Creepage(*creep), load=8e4, tangential=tangential, n_strips=60, n_elements=60
+        )
+        assert math.hypot(a.Fx - b.Fx, a.Fy - b.Fy) < limit * 0.3 * 8e4, creep
+
+
+BAD_SEPARATIONS = [
+    (([0, 1], [0, 0], 1.0), "y has 2 points"),
+    (([0, 1, 1], [0, 0, 0], 1.0), "y must increase"),
+    (([[0, 1, 2]], [0, 0, 0], 1.0), "y has shape"),
+    (([0, 1, 2], [0, 0], 1.0), "g has shape"),
+    (([0, 1, 2], [0, math.nan, 0], 1.0), r"g\[1\] = nan"),
+    (([0, 1, 2], [0, 0, 0], [1, 0, 1]), r"A\[1\] = 0"),
+    (([0, 1, 2], [0, 0, 0], "steep"), "A is not an array of numbers"),
+    (([0, 1, 2], [0, 0, 0], 1.0, [0, math.inf, 0]), r"x_c\[1\] = inf"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "message"), BAD_SEPARATIONS)
+def test_bad_separation_is_named(arguments, message):
+    with pytest.raises(contact.ContactError, match=message):
+        contact.Separation(*arguments)
+
+
+BAD_SOLVES = [
+    ({"load": -1.0}, "load = -1"),
+    ({"load": math.nan}, "load = nan"),
+    ({"load": 1.0, "approach": 1.0}, "exactly one"),
+    ({}, "exactly one"),
+    ({"approach": math.inf}, "approach = inf"),
+    ({"load": 1.0, "friction": -0.1}, r"friction = -0.1 .* \[0, inf\["),
+    ({"load": 1.0, "speed": 0.0}, r"speed = 0 .* \]0, inf\["),
+    ({"load": 1.0, "normal": "contact"}, "normal = 'contact' .* analyn"),
+    ({"load": 1.0, "tangential": "usetab"}, "tangential = 'usetab' .* fastrip"),
+    ({"load": 1.0, "n_strips": 2}, "n_strips = 2"),
+    ({"load": 1.0, "n_elements": 10.5}, "n_elements = 10.5"),
+    ({"load": "heavy"}, "load = 'heavy'"),
+    ({"load": 1e9}, "load = 1e\\+09: .*end of the given separation"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "message"), BAD_SOLVES)
+def test_bad_argument_is_named(ellipse, arguments, message):
+    with pytest.raises(contact.ContactError, match=message):
+        contact.solve(ellipse, contact.Creepage(), **arguments)
+
+
+def test_status_instead_of_error_when_asked(ellipse):
+    sol = contact.solve(ellipse, contact.Creepage(), load=1e9, throw=False)
+    assert sol.status is contact.Status.OUT_OF_RANGE
+    assert "extend y" in sol.status.message
+
+
+def test_contact_error_is_a_value_error():
+    assert issubclass(contact.ContactError, ValueError)
+
+
+@pytest.mark.parametrize("creep", [("fast", 0, 0), (0, math.nan, 0), (0, 0, math.inf)])
+def test_bad_creepage_is_named(creep):
+    with pytest.raises(contact.ContactError, match="creepage"):
+        contact.Creepage(*creep)
+
+
+def test_material_from_a_pair_of_equal_bodies_is_that_body():
+    E, nu = 210e9, 0.3
+    pair = contact.Material.from_pair(E, nu, E, nu)
+    assert pair.shear_modulus == pytest.approx(E / 2.6)
+    assert pair.poisson_ratio == pytest.approx(nu)
+    assert pair.contact_modulus == pytest.approx(E / (2 * (1 - nu**2)))
+    with pytest.raises(contact.ContactError, match="poisson_ratio"):
+        contact.Material(82e9, 0.6)
