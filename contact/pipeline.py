@@ -29,8 +29,9 @@ from contact._layout import RES_EDGES as EDGES
 from contact.normal.analyn import analyn
 from contact.normal.hertzian import hertzian
 from contact.quadrature import EL_DX, EL_S, EL_SINE
-from contact.registry import FASTSIM, HERTZ
+from contact.registry import FASTRIP_MAPPED, FASTSIM, HERTZ
 from contact.tangential.fastrip import fastrip
+from contact.tangential.fastrip_mapped import fastrip_mapped
 from contact.tangential.fastsim import fastsim
 
 
@@ -85,6 +86,8 @@ def solve_case(y, g, A, xc, case, table, nodes, weights, elements, work, strips,
 
     if case[CASE_TANGENTIAL] == FASTSIM:
         fastsim(strips, n, case, table, elements, fields, result)
+    elif case[CASE_TANGENTIAL] == FASTRIP_MAPPED:
+        fastrip_mapped(strips, n, case, table, elements, fields, result)
     else:
         fastrip(strips, n, case, table, elements, fields, result)
     if result[RES_STATUS] == 1.0 and case[CASE_MU] > 0.0 and result[RES_SLIP_AREA] >= area * (1.0 - 1e-12):

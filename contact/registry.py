@@ -45,7 +45,7 @@ class Methods(NamedTuple):
 
 
 ANALYN, HERTZ = 0, 1
-FASTRIP, FASTSIM = 0, 1
+FASTRIP, FASTSIM, FASTRIP_MAPPED = 0, 1, 2
 
 _NORMAL = (
     Method("analyn", ANALYN, "ANALYN, approximate surface deformation", "Sichani 2016, ch. 9, Paper B", True, True),
@@ -54,6 +54,7 @@ _NORMAL = (
 _TANGENTIAL = (
     Method("fastrip", FASTRIP, "FaStrip on local ellipses", "Sichani 2016, ch. 4 and 9, Papers D and E", True, True),
     Method("fastsim", FASTSIM, "FASTSIM, three flexibilities, parabolic bound", "Kalker 1982", True, True),
+    Method("fastrip_mapped", FASTRIP_MAPPED, "FaStrip in one march, mapped to the pressure", "this project", True, True),
 )
 _METHODS = Methods(
     MappingProxyType({method.name: method for method in _NORMAL}),
