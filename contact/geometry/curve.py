@@ -6,7 +6,12 @@ arcs stays where it is; a spline through the points would ring there.
 
 import math
 
+import numpy as np
+from numpy.typing import NDArray
+
 from contact._jit import kernel
+
+Array = NDArray[np.float64]
 
 Y, Z, SLOPE = range(3)  # curve[ROW, node]
 
@@ -59,7 +64,7 @@ def root(f0: float, f1: float, m0: float, m1: float, h: float, low: float, high:
 
 
 @kernel
-def advance(curve, n: int, j: int, y: float) -> int:
+def advance(curve: Array, n: int, j: int, y: float) -> int:
     """First node j of the segment that holds y, searched from node j up; curve[Y] increases."""
     while j < n - 2 and curve[Y, j + 1] <= y:
         j += 1
@@ -67,7 +72,7 @@ def advance(curve, n: int, j: int, y: float) -> int:
 
 
 @kernel
-def at(curve, j: int, y: float) -> tuple[float, float]:
+def at(curve: Array, j: int, y: float) -> tuple[float, float]:
     """Value and slope of the curve at y in segment j."""
     h = curve[Y, j + 1] - curve[Y, j]
     t = (y - curve[Y, j]) / h

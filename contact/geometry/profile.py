@@ -47,7 +47,7 @@ class Profile:
     kind: Kind
     y: Array
     z: Array
-    angle: Array = field(default=None, repr=False)  # type: ignore[assignment]
+    angle: Array = field(default=None, repr=False)  # type: ignore[arg-type]
     name: str = ""
 
     def __post_init__(self) -> None:
@@ -55,7 +55,9 @@ class Profile:
             raise ContactError(f"profile.kind = {self.kind!r} is neither 'wheel' nor 'rail'")
         y, z = _points("y", self.y), _points("z", self.z)
         if y.size != z.size or y.size < 4:
-            raise ContactError(f"profile has {y.size} values of y and {z.size} of z; equally many, at least 4, are needed")
+            raise ContactError(
+                f"profile has {y.size} values of y and {z.size} of z; equally many, at least 4, are needed"
+            )
         chord = np.hypot(np.diff(y), np.diff(z))
         if not (chord > 0.0).all():
             i = int(np.argmin(chord))
@@ -158,9 +160,9 @@ def s1002() -> Profile:
 
     The flange tip is cut where its inner face becomes steeper than 70° (theory.md 9.1, sections A to H).
     """
-    tread = (0.0, -3.358537058e-2, 1.565681624e-3, -2.810427944e-5, 5.844240864e-8, -1.562379023e-8)
+    tread: tuple[float, ...] = (0.0, -3.358537058e-2, 1.565681624e-3, -2.810427944e-5, 5.844240864e-8, -1.562379023e-8)
     tread += (5.309217349e-15, -5.957839843e-12, 2.646656573e-13)
-    root = (-4.320221063e3, -1.038384026e3, -1.065501873e2, -6.051367875, -2.054332446e-1)
+    root: tuple[float, ...] = (-4.320221063e3, -1.038384026e3, -1.065501873e2, -6.051367875, -2.054332446e-1)
     root += (-4.169739389e-3, -4.687195829e-5, -2.252755540e-7)
     return _sample(
         "wheel",

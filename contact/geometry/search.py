@@ -9,29 +9,38 @@ import math
 
 from contact._jit import kernel
 from contact._layout import MAX_PATCHES
-from contact.geometry.curve import SLOPE, Y, Z, advance, at, hermite, least, root
-
-# line[ROW, node]: the trace line as a curve, and the vertical gap above it
-GAP, OPENING = 3, 4  # rail minus wheel at pose.z = 0 [m], its slope along y [-]
-N_LINE_ROWS = 5
-
-# lobe[k, ...]: runs of interpenetration, later whole patches; moments are weighted with the interpenetration
-LOBE_Y0, LOBE_Y1, LOBE_AREA, LOBE_MOMENT, LOBE_COS, LOBE_SIN = range(6)
-N_LOBE = 6
-MAX_LOBES = 16
+from contact.geometry.curve import SLOPE, Array, Y, Z, advance, at, hermite, least, root
+from contact.geometry.layout import (
+    GAP,
+    LOBE_COS,
+    LOBE_MOMENT,
+    LOBE_SIN,
+    LOBE_WEIGHT,
+    LOBE_Y0,
+    LOBE_Y1,
+    MAX_LOBES,
+    N_LOBE,
+    OPENING,
+)
 
 _GAUSS_T = 0.5 * math.sqrt(0.6)
 
 
 @kernel
-def trace(wheel, n: int, radius: float, tape: float, y: float, roll: float, yaw: float, line) -> int:
+def axle(roll: float, yaw: float) -> tuple[float, float, float]:
+    """Direction of the axle, towards the right wheel."""
+    return -math.sin(yaw) * math.cos(roll), math.cos(yaw) * math.cos(roll), math.sin(roll)
+
+
+@kernel
+def trace(wheel: Array, n: int, radius: float, tape: float, y: float, roll: float, yaw: float, line: Array) -> int:
     """Trace line of the wheel profile `wheel` [m] of a wheelset at (y, z = 0, roll, yaw); returns its first valid node.
 
     A point of the profile turns on a circle of radius r about the axle direction l. Of that circle the point whose surface
     normal e_r - r'·l has no x component is at l_x·(d + r r') (theory.md 9.4, with its height factor); d is the distance from
     the wheelset's centre. Where a fillet narrower than the trace line's own curvature folds it back, the fold is left out.
     """
-    lx, ly, lz = -math.sin(yaw) * math.cos(roll), math.cos(yaw) * math.cos(roll), math.sin(roll)
+    lx, ly, lz = axle(roll, yaw)
     c2 = 1.0 - lx * lx
     first = n
     for j in range(n - 1, -1, -1):
@@ -68,7 +77,7 @@ def on_wheel(slope: float, py: float, pz: float, lx: float, ly: float, lz: float
 
 
 @kernel
-def place(rail, n: int, y: float, z: float, roll: float, placed) -> None:
+def place(rail: Array, n: int, y: float, z: float, roll: float, placed: Array) -> None:
     """The rail profile in track coordinates: turned by `roll` about its origin, which lies at (y, z)."""
     c, s = math.cos(roll), math.sin(roll)
     for j in range(n):
@@ -78,7 +87,7 @@ def place(rail, n: int, y: float, z: float, roll: float, placed) -> None:
 
 
 @kernel
-def vertical_gap(line, first: int, n: int, placed, n_rail: int) -> tuple[int, int]:
+def vertical_gap(line: Array, first: int, n: int, placed: Array, n_rail: int) -> tuple[int, int]:
     """Fill the gap rows of the trace line; returns the range of nodes that lie above the rail."""
     start, i = n, 0
     for j in range(first, n):
@@ -96,7 +105,7 @@ def vertical_gap(line, first: int, n: int, placed, n_rail: int) -> tuple[int, in
 
 
 @kernel
-def touch(line, start: int, end: int) -> float:
+def touch(line: Array, start: int, end: int) -> float:
     """Least vertical gap at pose.z = 0: the z of the wheelset at which the rigid wheel just touches."""
     lowest = line[GAP, start]
     for j in range(start, end - 1):
@@ -110,29 +119,31 @@ def touch(line, start: int, end: int) -> float:
 
 
 @kernel
-def _weigh(line, j: int, z: float, t0: float, t1: float, lobe, k: int) -> None:
-    """Add segment j between t0 and t1 to the moments of lobe k; three Gauss points are exact for the cubic gap times y."""
+def _weigh(line: Array, j: int, z: float, t0: float, t1: float, lobe: Array, k: int) -> None:
+    """Add segment j between t0 and t1 to the moments of lobe k, by three Gauss points."""
     h = line[Y, j + 1] - line[Y, j]
     for i in range(3):
         t = 0.5 * (t0 + t1) + (i - 1) * (t1 - t0) * _GAUSS_T
-        weight = (4.0 / 9.0 if i == 1 else 5.0 / 18.0) * (t1 - t0) * h
+        share = (4.0 / 9.0 if i == 1 else 5.0 / 18.0) * (t1 - t0) * h
         g = hermite(line[GAP, j], line[GAP, j + 1], line[OPENING, j], line[OPENING, j + 1], h, t)[0] - z
-        w = -weight * g
+        weight = share * g * g * math.sqrt(max(-g, 0.0))
         wheel = line[SLOPE, j] + t * (line[SLOPE, j + 1] - line[SLOPE, j])
-        rail = wheel + line[OPENING, j] + t * (line[OPENING, j + 1] - line[OPENING, j])
-        cw, cr = 1.0 / math.sqrt(1.0 + wheel * wheel), 1.0 / math.sqrt(1.0 + rail * rail)
-        lobe[k, LOBE_AREA] += w
-        lobe[k, LOBE_MOMENT] += w * (line[Y, j] + t * h)
-        lobe[k, LOBE_COS] += w * (cw + cr)
-        lobe[k, LOBE_SIN] += w * (wheel * cw + rail * cr)
+        slope = wheel + line[OPENING, j] + t * (line[OPENING, j + 1] - line[OPENING, j])
+        cosine = 1.0 / math.sqrt(1.0 + slope * slope)
+        lobe[k, LOBE_WEIGHT] += weight
+        lobe[k, LOBE_MOMENT] += weight * (line[Y, j] + t * h)
+        lobe[k, LOBE_COS] += weight * cosine
+        lobe[k, LOBE_SIN] += weight * slope * cosine
 
 
 @kernel
-def lobes(line, start: int, end: int, z: float, lobe) -> int:
+def lobes(line: Array, start: int, end: int, z: float, lobe: Array) -> int:
     """Runs of y in which the wheel, lowered by z, lies inside the rail; returns their number.
 
-    Their moments are those of the overlapping area, which no choice of frame changes: its centroid becomes the reference
-    point and the mean direction of both surfaces in it the contact angle, so both move smoothly with the pose.
+    Points are weighted with depth^(5/2), which is the square of the interpenetration integrated along x. The mean position
+    becomes the reference point and the mean direction of the rail the contact angle, so both move smoothly with the pose
+    and a new lobe enters without a jump. The weight is CONTACT's: with it, and with no other power, its printed reference
+    points come out (benchmarks/geometry_table.py).
     """
     k, inside = -1, False
     for j in range(start, end - 1):
@@ -163,7 +174,7 @@ def lobes(line, start: int, end: int, z: float, lobe) -> int:
 
 
 @kernel
-def combine(lobe, n: int, distance: float, angle: float) -> int:
+def combine(lobe: Array, n: int, distance: float, angle: float) -> int:
     """Merge neighbouring lobes in place into patches; returns the number of patches.
 
     Two lobes stay separate patches when they are further apart than `distance` [m] (along the mean of their tangents) and
@@ -179,17 +190,7 @@ def combine(lobe, n: int, distance: float, angle: float) -> int:
             lobe[k, :] = lobe[i, :]
         else:
             lobe[k, LOBE_Y1] = lobe[i, LOBE_Y1]
-            for row in range(LOBE_AREA, N_LOBE):
+            for row in range(LOBE_WEIGHT, N_LOBE):
                 lobe[k, row] += lobe[i, row]
         last = own
     return k + 1 if n > 0 else 0
-
-
-@kernel
-def oppose(wheel, rail, y: float, roll: float, yaw: float, rail_y: float, rail_z: float, rail_roll: float,
-           radius: float, tape: float, line, placed) -> tuple[int, int]:  # fmt: skip
-    """Trace line, placed rail and the gap between; returns the range of trace nodes above the rail."""
-    n = wheel.shape[1]
-    first = trace(wheel, n, radius, tape, y, roll, yaw, line)
-    place(rail, rail.shape[1], rail_y, rail_z, rail_roll, placed)
-    return vertical_gap(line, first, n, placed, rail.shape[1])

@@ -5,6 +5,8 @@ centre lies at (0, pose.y, pose.z - nominal_radius); at pose = 0 both tape circl
 yaw about z, right-handed: positive yaw steers to the right, positive roll lowers the right wheel. Spin is the rotation about
 the axle, negative when rolling forward. The contact frame is the track frame turned about x by the contact angle; its z axis
 points from the wheel into the rail, so the angle on the right wheel's tread is negative and on the left wheel's positive.
+Creepages are wheel minus rail over the forward speed: steering by a yaw angle psi gives the lateral creepage -psi/cos(angle),
+a rolling radius r the longitudinal creepage 1 - r/r0, a contact angle the spin creepage sin(angle)/r0.
 
 The left side is computed as the mirror image of the right, so both agree to the last bit.
 """
@@ -12,19 +14,26 @@ The left side is computed as the mirror image of the right, so both agree to the
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact._layout import MAX_PATCHES
+from contact import quadrature
+from contact._layout import CASE_G, CASE_NU, MAX_PATCHES, N_CASE, N_RES, N_STRIP_ROWS
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
-from contact.geometry import frame, search
+from contact.geometry import layout
+from contact.geometry.curve import hermite
 from contact.geometry.profile import Profile
-from contact.geometry.search import MAX_LOBES, N_LINE_ROWS, N_LOBE
+from contact.geometry.records import Irregularity, Patch, Pose, Velocity
+from contact.geometry.settle import GIVEN_Z, LOAD, NO_OVERLAP, NOT_SETTLED, PENETRATION, first_touch, settle
+from contact.material import STEEL, Material
+from contact.normal.analyn import N_WORK_ROWS
 from contact.separation import Separation
+from contact.solve import N_STRIPS
+
+__all__ = ["Irregularity", "Pair", "Patch", "Pose", "Velocity", "contacts"]
 
 Array = NDArray[np.float64]
 Side = Literal["right", "left"]
@@ -34,106 +43,36 @@ STEEPEST = math.radians(80.0)  # steeper parts of a profile take no part in the 
 SAMPLES = 41
 
 
-@dataclass(frozen=True, slots=True)
-class Pose:
-    """Where the wheelset is: lateral and vertical displacement [m], roll and yaw [rad]."""
-
-    y: float = 0.0
-    z: float = 0.0
-    roll: float = 0.0
-    yaw: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Velocity:
-    """How the wheelset moves: forward, y, z [m/s]; roll, yaw, spin rates [rad/s].
-
-    `spin` is the rotation about the axle; None rolls freely at the nominal radius, -forward/nominal_radius.
-    """
-
-    forward: float = 1.0
-    y: float = 0.0
-    z: float = 0.0
-    roll: float = 0.0
-    yaw: float = 0.0
-    spin: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Irregularity:
-    """Displacement of one rail from its place [m], its roll [rad] and their rates, in track coordinates."""
-
-    y: float = 0.0
-    z: float = 0.0
-    roll: float = 0.0
-    y_rate: float = 0.0
-    z_rate: float = 0.0
-    roll_rate: float = 0.0
-
-
-@dataclass(frozen=True)
-class Patch:
-    """One contact patch. All vectors are in track coordinates, all of the actual side.
-
-    Attributes
-    ----------
-    separation : Separation
-        Gap in the contact plane, y from the reference point; min g = 0.
-    creepage : Creepage
-        Wheel minus rail at the wheel's point opposite the reference point, over the forward speed, in the contact frame.
-    angle : float
-        Contact angle [rad]; the contact frame is the track frame turned by it about x.
-    position : tuple of float
-        Reference point (x, y, z) on the rail [m]: centroid of the overlap of the undeformed profiles.
-    on_rail, on_wheel : tuple of float
-        (y, z) of the reference point in rail and of its opposite in wheel profile coordinates (right-side convention) [m].
-    rolling_radius : float
-        Distance of the wheel's point from the axle [m].
-    approach : float
-        Depth of the overlap along the normal of the contact plane [m]: the approach that belongs to pose.z.
-    overlap : float
-        Area of that overlap [m²].
-    edges : tuple of float
-        Where the overlap begins and ends along the separation's y [m].
-    load : float or None
-        Normal force [N], when the pose was found from a load.
-    """
-
-    separation: Separation
-    creepage: Creepage
-    angle: float
-    position: tuple[float, float, float]
-    on_rail: tuple[float, float]
-    on_wheel: tuple[float, float]
-    rolling_radius: float
-    approach: float
-    overlap: float
-    edges: tuple[float, float]
-    load: float | None = None
-
-
 class Pair:
     """One wheel on one rail with everything prepared: what a model calls at each time step.
 
     Parameters
     ----------
     wheel, rail : Profile
-        Right-side convention for either side.
+        In the right-side convention, for either side.
     side : {"right", "left"}
     nominal_radius : float
-        Radius of the tape circle [m].
+        Radius of the tape circle [m], 0.05 to 2.
     gauge : float
-        Distance of the rails' gauge points [m].
+        Distance of the rails' gauge points [m], 0.1 to 3.
     flange_back : float
-        Distance between the backs of both flanges [m].
+        Distance between the backs of both flanges [m], 0.1 to 3.
     gauge_point : float
         Depth below the top of the rail at which the gauge is measured [m].
     combine_distance, combine_angle : float
-        Lobes of overlap further apart than this [m] and differing in angle by more than this [rad] are separate patches.
+        Lobes of interpenetration further apart than this [m] and differing in angle by more than this [rad] become
+        separate patches with frames of their own; others share one plane.
     samples : int or array_like
-        Number of samples of each separation, 5 to 2001, spread over the overlap and a margin; or their positions in the
-        contact plane [m], increasing, for a model whose separation has a fixed grid. There the gap opens at 45° beyond
-        the ends of the profiles and of the patch.
+        Number of samples of each separation, 5 to 2001, spread over the interpenetration and a margin; or their
+        increasing positions in the contact plane [m], for a model whose separation lies on a fixed grid. There the gap
+        opens at 45° beyond the ends of the profiles and of the patch's own range.
+    material : Material
+        For a search under a load.
+
+    Attributes
+    ----------
+    patches, separations : ndarray
+        What the last search found, in the rows of `contact.geometry.layout` (right side). Only one thread may search.
 
     Raises
     ------
@@ -154,121 +93,149 @@ class Pair:
         combine_distance: float = 8e-3,
         combine_angle: float = math.radians(20.0),
         samples: int | ArrayLike = SAMPLES,
+        material: Material = STEEL,
     ) -> None:
-        for name, given, kind in (("wheel", wheel, "wheel"), ("rail", rail, "rail")):
-            if not isinstance(given, Profile) or given.kind != kind:
-                raise ContactError(f"{name} = {given!r} is not a profile of a {kind}")
+        for name, given in (("wheel", wheel), ("rail", rail)):
+            if not isinstance(given, Profile) or given.kind != name:
+                raise ContactError(f"{name} = {given!r} is not a profile of a {name}")
         if side not in ("right", "left"):
             raise ContactError(f"side = {side!r} is neither 'right' nor 'left'")
         self.side: Side = side
-        self.nominal_radius = require_number("nominal_radius", nominal_radius, 0.05, 2.0)
         self._mirror = 1.0 if side == "right" else -1.0
-        self._combine = (
+        self.nominal_radius = require_number("nominal_radius", nominal_radius, 0.05, 2.0)
+        self._rail_origin = _rail_origin(rail, require_number("gauge", gauge, 0.1, 3.0), gauge_point)
+        self._grid, n = _grid(samples)
+        sizes = (
+            self.nominal_radius,
+            0.5 * require_number("flange_back", flange_back, 0.1, 3.0) + TAPE_FROM_FLANGE_BACK,
             require_number("combine_distance", combine_distance, 0.0),
             require_number("combine_angle", combine_angle, 0.0),
         )
-        self._tape = 0.5 * require_number("flange_back", flange_back, 0.1, 3.0) + TAPE_FROM_FLANGE_BACK
-        self._rail_origin = _rail_origin(rail, require_number("gauge", gauge, 0.1, 3.0), gauge_point)
-        self._wheel, self._rail = _facing(wheel), _facing(rail)
-        self._grid, n = _grid(samples)
-        self._motion = np.zeros(frame.N_MOTION)
-        self._motion[frame.RADIUS], self._motion[frame.TAPE] = self.nominal_radius, self._tape
-        n_wheel, n_rail = self._wheel.shape[1], self._rail.shape[1]
-        self._line = np.empty((N_LINE_ROWS, n_wheel))
-        self._placed = np.empty((3, n_rail))
-        self._lobe = np.empty((MAX_LOBES, N_LOBE))
-        self._planes = np.empty((3, n_wheel)), np.empty((3, n_rail))
-        self.patches = np.empty((MAX_PATCHES, frame.N_PATCH))
-        self.separations = np.empty((MAX_PATCHES, frame.N_SEP_ROWS, n))
-
-    def _pose(self, pose: Pose, velocity: Velocity | None, irregularity: Irregularity | None) -> tuple[int, int]:
-        """Take over the motion, mirrored to the right side; find the trace line and its gap over the rail."""
-        m, motion = self._mirror, self._motion
-        velocity, rail = velocity or _ROLLING, irregularity or _IDEAL
-        for record in (pose, velocity, rail):
-            _require_finite(record)
-        if not velocity.forward > 0.0:
-            raise ContactError(f"velocity.forward = {velocity.forward:g} is outside the allowed range ]0, inf[")
-        spin = -velocity.forward / self.nominal_radius if velocity.spin is None else velocity.spin
-        require_number("pose.roll", pose.roll, -0.2, 0.2)
-        require_number("pose.yaw", pose.yaw, -0.2, 0.2)
-        motion[: frame.RADIUS] = (
-            m * pose.y, pose.z, m * pose.roll, m * pose.yaw,
-            velocity.forward, m * velocity.y, velocity.z, m * velocity.roll, m * velocity.yaw, spin,
-            self._rail_origin[0] + m * rail.y, self._rail_origin[1] + rail.z, m * rail.roll,
-            m * rail.y_rate, rail.z_rate, m * rail.roll_rate,
-        )  # fmt: skip
-        start, end = search.oppose(
-            self._wheel, self._rail, motion[frame.POSE_Y], motion[frame.POSE_ROLL], motion[frame.POSE_YAW],
-            motion[frame.RAIL_Y], motion[frame.RAIL_Z], motion[frame.RAIL_ROLL], self.nominal_radius, self._tape,
-            self._line, self._placed,
-        )  # fmt: skip
-        if end - start < 3:
-            raise ContactError(
-                f"pose.y = {pose.y:g}: the {self.side} wheel and rail profiles do not overlap; the allowed range is where "
-                f"the wheel at y = {self._line[0, 0]:g} … {self._line[0, -1]:g} m lies above the rail at "
-                f"{self._placed[0, 0]:g} … {self._placed[0, -1]:g} m (right side)"
-            )
-        return start, end
-
-    def touch(self, pose: Pose, irregularity: Irregularity | None = None) -> float:
-        """z [m] at which the rigid wheel just touches the rail, the other coordinates as in `pose`."""
-        return float(search.touch(self._line, *self._pose(pose, None, irregularity)))
+        self._motion = np.zeros(layout.N_MOTION)
+        self._motion[layout.RADIUS :] = sizes
+        wheel_curve, rail_curve = _facing(wheel), _facing(rail)
+        n_wheel, n_rail = wheel_curve.shape[1], rail_curve.shape[1]
+        line, placed = np.zeros((layout.N_LINE_ROWS, n_wheel)), np.zeros((3, n_rail))
+        self.patches = np.zeros((MAX_PATCHES, layout.N_PATCH))
+        self.separations = np.zeros((MAX_PATCHES, layout.N_SEP_ROWS, n))
+        case = np.zeros(N_CASE)
+        case[CASE_G], case[CASE_NU] = material.shear_modulus, material.poisson_ratio
+        nodes, weights = quadrature.fejer(N_STRIPS)
+        self._curves = wheel_curve, rail_curve, self._motion
+        self._lines = line, placed
+        self._work = (
+            np.zeros((layout.MAX_LOBES, layout.N_LOBE)),
+            np.zeros((3, n_wheel)),
+            np.zeros((3, n_rail)),
+            self.patches,
+            self.separations,
+            case,
+            nodes,
+            weights,
+            np.zeros((N_WORK_ROWS, n)),
+            np.zeros((N_STRIP_ROWS, MAX_PATCHES * N_STRIPS)),
+            np.zeros(N_RES),
+        )
 
     def locate(
         self,
         pose: Pose,
         velocity: Velocity | None = None,
         *,
+        load: float | None = None,
         penetration: float | None = None,
         irregularity: Irregularity | None = None,
     ) -> int:
-        """Fill `patches[k]` and `separations[k]` (right-side rows of `contact.geometry.frame`); returns their number.
-
-        This is the path without objects. `penetration` [m] replaces pose.z by that depth below first touch.
-        """
-        start, end = self._pose(pose, velocity, irregularity)
-        if penetration is not None:
-            depth = require_number("penetration", penetration, 0.0)
-            self._motion[frame.POSE_Z] = search.touch(self._line, start, end) + depth
-        return self._describe(start, end)
-
-    def _describe(self, start: int, end: int) -> int:
-        return int(
-            frame.describe_all(
-                self._line, start, end, self._placed, self._lobe, *self._combine, self._motion, self._grid,
-                *self._planes, self.patches, self.separations,
-            )  # fmt: skip
-        )
+        """Fill `patches` and `separations` without making objects; returns the number of patches. Else like `contacts`."""
+        if load is not None and penetration is not None:
+            raise ContactError(f"load = {load} and penetration = {penetration} exclude each other")
+        mode, amount = GIVEN_Z, 0.0
+        if load is not None:
+            mode, amount = LOAD, require_number("load", load, 0.0)
+        elif penetration is not None:
+            mode, amount = PENETRATION, require_number("penetration", penetration, 0.0)
+        self._move(pose, velocity or _ROLLING, irregularity or _IDEAL)
+        n = settle(mode, amount, *self._curves, self._grid, *self._lines, *self._work)
+        if n == NO_OVERLAP:
+            raise self._apart(pose)
+        if n == NOT_SETTLED:
+            raise ContactError(
+                f"load = {load:g}: no z was found at which the {self.side} wheel carries it on this rail"
+            )
+        return int(n)
 
     def contacts(
         self,
         pose: Pose,
         velocity: Velocity | None = None,
         *,
+        load: float | None = None,
         penetration: float | None = None,
         irregularity: Irregularity | None = None,
     ) -> tuple[Patch, ...]:
-        """The patches as records, from the field side to the flange; see `contacts`."""
-        n = self.locate(pose, velocity, penetration=penetration, irregularity=irregularity)
-        return tuple(self._patch(k) for k in range(n))
+        """Every patch, from the field side to the flange; see the function `contacts`."""
+        n = self.locate(pose, velocity, load=load, penetration=penetration, irregularity=irregularity)
+        return tuple(self._patch(k, load is not None) for k in range(n))
 
-    def _patch(self, k: int, load: float | None = None) -> Patch:
+    def touch(self, pose: Pose, irregularity: Irregularity | None = None) -> float:
+        """z [m] at which the rigid wheel just touches the rail, the other coordinates as in `pose`."""
+        self._move(pose, _ROLLING, irregularity or _IDEAL)
+        overlap, z = first_touch(*self._curves, *self._lines)
+        if not overlap:
+            raise self._apart(pose)
+        return float(z)
+
+    @property
+    def z(self) -> float:
+        """pose.z of the last search [m]: as given, or as found for a load or a penetration."""
+        return float(self._motion[layout.POSE_Z])
+
+    def _move(self, pose: Pose, velocity: Velocity, rail: Irregularity) -> None:
+        """Take over the motion, mirrored to the right side."""
+        m = self._mirror
+        spin = -velocity.forward / self.nominal_radius if velocity.spin is None else velocity.spin
+        self._motion[: layout.RADIUS] = (
+            m * pose.y,
+            pose.z,
+            m * pose.roll,
+            m * pose.yaw,
+            velocity.forward,
+            m * velocity.y,
+            velocity.z,
+            m * velocity.roll,
+            m * velocity.yaw,
+            spin,
+            self._rail_origin[0] + m * rail.y,
+            self._rail_origin[1] + rail.z,
+            m * rail.roll,
+            m * rail.y_rate,
+            rail.z_rate,
+            m * rail.roll_rate,
+        )
+
+    def _patch(self, k: int, loaded: bool) -> Patch:
         m, p = self._mirror, self.patches[k].tolist()
         y, g, A, x_c = self.separations[k] if m > 0.0 else self.separations[k][:, ::-1]
-        edges = (p[frame.PATCH_FROM], p[frame.PATCH_TO])
+        edges = (p[layout.PATCH_FROM], p[layout.PATCH_TO])
         return Patch(
             separation=Separation(m * y, g, A, x_c),
-            creepage=Creepage(p[frame.PATCH_VX], m * p[frame.PATCH_VY], m * p[frame.PATCH_PHI]),
-            angle=m * p[frame.PATCH_ANGLE],
-            position=(p[frame.PATCH_X], m * p[frame.PATCH_Y], p[frame.PATCH_Z]),
-            on_rail=(p[frame.PATCH_RAIL_Y], p[frame.PATCH_RAIL_Z]),
-            on_wheel=(p[frame.PATCH_WHEEL_Y], p[frame.PATCH_WHEEL_Z]),
-            rolling_radius=p[frame.PATCH_RADIUS],
-            approach=p[frame.PATCH_APPROACH],
-            overlap=p[frame.PATCH_AREA],
+            creepage=Creepage(p[layout.PATCH_VX], m * p[layout.PATCH_VY], m * p[layout.PATCH_PHI]),
+            angle=m * p[layout.PATCH_ANGLE],
+            position=(p[layout.PATCH_X], m * p[layout.PATCH_Y], p[layout.PATCH_Z]),
+            on_rail=(p[layout.PATCH_RAIL_Y], p[layout.PATCH_RAIL_Z]),
+            on_wheel=(p[layout.PATCH_WHEEL_Y], p[layout.PATCH_WHEEL_Z]),
+            rolling_radius=p[layout.PATCH_RADIUS],
+            approach=p[layout.PATCH_APPROACH],
             edges=edges if m > 0.0 else (-edges[1], -edges[0]),
-            load=load,
+            load=p[layout.PATCH_LOAD] if loaded else None,
+        )
+
+    def _apart(self, pose: Pose) -> ContactError:
+        wheel, rail = self._curves[0][0] + self._motion[layout.TAPE], self._curves[1][0] + self._rail_origin[0]
+        low, high = sorted((self._mirror * (rail[0] - wheel[-1]), self._mirror * (rail[-1] - wheel[0])))
+        return ContactError(
+            f"pose.y = {pose.y:g}: the {self.side} wheel and rail profiles do not overlap; "
+            f"they do within about ]{low:g}, {high:g}["
         )
 
 
@@ -278,25 +245,32 @@ def contacts(
     pose: Pose,
     velocity: Velocity | None = None,
     *,
+    load: float | None = None,
     penetration: float | None = None,
     irregularity: Irregularity | None = None,
-    **options: object,
+    **options: Any,
 ) -> tuple[Patch, ...]:
     """Every contact patch of one wheel-rail pair; an empty tuple when the wheel does not touch.
+
+    A model that asks at every time step makes a `Pair` once and calls its method of the same name.
 
     Parameters
     ----------
     wheel, rail : Profile
     pose : Pose
-        Of the wheelset in track coordinates.
+        Of the wheelset in track coordinates; pose.z counts unless `load` or `penetration` is given.
     velocity : Velocity, optional
-        Default: steady rolling without creepage at the nominal radius.
+        Default: steady rolling at the nominal radius.
+    load : float, optional
+        Vertical force of this wheel on its rail [N]: z is found so that the normal forces of all patches (ANALYN, without
+        friction) add up to it, sum of N cos(angle) = load.
     penetration : float, optional
-        Depth below first touch [m] that replaces pose.z.
+        Depth below first touch [m], vertically.
     irregularity : Irregularity, optional
         Displacement of this rail.
     **options
-        As for `Pair`: side, nominal_radius, gauge, flange_back, gauge_point, combine_distance, combine_angle, samples.
+        As for `Pair`: side, nominal_radius, gauge, flange_back, gauge_point, combine_distance, combine_angle, samples,
+        material.
 
     Returns
     -------
@@ -306,20 +280,13 @@ def contacts(
     Raises
     ------
     ContactError
-        For input outside its range, and where the profiles do not lie above each other.
+        For input outside its range, where the profiles do not lie above each other, and for a load that no z carries.
     """
-    pair = Pair(wheel, rail, **options)  # type: ignore[arg-type]
-    return pair.contacts(pose, velocity, penetration=penetration, irregularity=irregularity)
+    pair = Pair(wheel, rail, **options)
+    return pair.contacts(pose, velocity, load=load, penetration=penetration, irregularity=irregularity)
 
 
 _ROLLING, _IDEAL = Velocity(), Irregularity()
-
-
-def _require_finite(record: Pose | Velocity | Irregularity) -> None:
-    for entry in fields(record):
-        value = getattr(record, entry.name)
-        if value is not None:
-            require_number(f"{type(record).__name__.lower()}.{entry.name}", value)
 
 
 def _facing(profile: Profile) -> Array:
@@ -328,7 +295,7 @@ def _facing(profile: Profile) -> Array:
     fair[:-1] &= np.diff(profile.y) > 0.0
     centre = int(np.argmin(np.abs(profile.y)) if profile.kind == "wheel" else np.argmin(profile.z))
     if not fair[centre]:
-        raise ContactError(f"{profile!r} is steep at its centre, y = {profile.y[centre]:g} m; is its unit or side wrong?")
+        raise ContactError(f"{profile!r} is steep at y = {profile.y[centre]:g} m; is its unit or its side wrong?")
     low = centre - int(np.argmin(np.append(fair[centre::-1], False))) + 1
     high = centre + int(np.argmin(np.append(fair[centre:], False)))
     part = slice(low, high)
@@ -344,11 +311,14 @@ def _rail_origin(rail: Profile, gauge: float, gauge_point: float) -> tuple[float
     if below.size == 0:
         raise ContactError(
             f"gauge_point = {gauge_point:g} is outside the allowed range ]0, {depth.max():g}]: "
-            f"{rail!r} does not reach deeper on its gauge side"
+            f"{rail!r} reaches no deeper on its gauge side"
         )
-    i = int(below[0])
-    y = np.interp(gauge_point, depth[i - 1 : i + 1], rail.y[top::-1][i - 1 : i + 1])
-    return 0.5 * gauge - float(y), -float(rail.z[top])
+    i = top - int(below[0])  # the gauge face is steep: y is interpolated over z there
+    h = rail.z[i + 1] - rail.z[i]
+    cot = 1.0 / np.tan(rail.angle[i : i + 2])
+    t = (rail.z[top] + gauge_point - rail.z[i]) / h
+    y, _ = hermite(rail.y[i], rail.y[i + 1], cot[0], cot[1], h, t)
+    return 0.5 * gauge - y, -float(rail.z[top])
 
 
 def _grid(samples: int | ArrayLike) -> tuple[Array, int]:
@@ -356,7 +326,10 @@ def _grid(samples: int | ArrayLike) -> tuple[Array, int]:
     if isinstance(samples, int | np.integer):
         require_number("samples", samples, 5, 2001)
         return np.empty(0), int(samples)
-    grid = np.array(samples, dtype=np.float64)
-    if grid.ndim != 1 or grid.size < 5 or not (np.diff(grid) > 0.0).all() or not np.isfinite(grid).all():
-        raise ContactError("samples must be a number or at least 5 increasing positions [m]")
+    try:
+        grid = np.array(samples, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ContactError(f"samples = {samples!r} is neither an integer nor an array of positions [m]") from None
+    if grid.ndim != 1 or grid.size < 5 or not np.isfinite(grid).all() or not (np.diff(grid) > 0.0).all():
+        raise ContactError(f"samples of shape {grid.shape}: at least 5 finite, increasing positions [m] are needed")
     return grid, grid.size

@@ -1,0 +1,116 @@
+"""How deep the wheel sits on the rail: at a given z, at a given penetration, or under a given vertical load.
+
+These are the entry kernels of the geometry. They return the number of patches, NO_OVERLAP or NOT_SETTLED.
+"""
+
+import math
+
+from contact._jit import kernel
+from contact._layout import APPROACH, CASE_LOAD, CASE_LOAD_KIND, RES_N
+from contact.geometry.curve import Array
+from contact.geometry.frame import describe_all
+from contact.geometry.layout import (
+    PATCH_ANGLE,
+    PATCH_APPROACH,
+    PATCH_LOAD,
+    POSE_ROLL,
+    POSE_Y,
+    POSE_YAW,
+    POSE_Z,
+    RADIUS,
+    RAIL_ROLL,
+    RAIL_Y,
+    RAIL_Z,
+    SEP_A,
+    SEP_G,
+    SEP_XC,
+    SEP_Y,
+    TAPE,
+)
+from contact.geometry.search import place, touch, trace, vertical_gap
+from contact.normal.analyn import analyn
+
+NO_OVERLAP, NOT_SETTLED = -1, -2
+GIVEN_Z, PENETRATION, LOAD = 0, 1, 2
+
+_MAX_ITERATIONS = 60
+_TOLERANCE = 1e-9  # of the load
+_DEEPEST = 5e-3  # [m] below first touch: far beyond any load that steel carries
+
+
+@kernel
+def oppose(wheel: Array, rail: Array, motion: Array, line: Array, placed: Array) -> tuple[int, int]:
+    """Trace line, placed rail and the gap between; returns the range of trace nodes above the rail."""
+    n = wheel.shape[1]
+    first = trace(wheel, n, motion[RADIUS], motion[TAPE], motion[POSE_Y], motion[POSE_ROLL], motion[POSE_YAW], line)
+    place(rail, rail.shape[1], motion[RAIL_Y], motion[RAIL_Z], motion[RAIL_ROLL], placed)
+    return vertical_gap(line, first, n, placed, rail.shape[1])
+
+
+@kernel
+def first_touch(wheel: Array, rail: Array, motion: Array, line: Array, placed: Array) -> tuple[bool, float]:
+    """Do the profiles lie above each other, and the z at which the rigid wheel just touches."""
+    start, end = oppose(wheel, rail, motion, line, placed)
+    if end - start < 3:
+        return False, 0.0
+    return True, touch(line, start, end)
+
+
+@kernel
+def carried(n: int, patches: Array, separations: Array, case: Array, nodes: Array, weights: Array, work: Array,
+            strips: Array, result: Array) -> float:  # fmt: skip
+    """Vertical force of the pressures of n patches by ANALYN at their approaches, sum of N cos(angle); fills PATCH_LOAD."""
+    total = 0.0
+    case[CASE_LOAD_KIND] = APPROACH
+    for k in range(n):
+        case[CASE_LOAD] = patches[k, PATCH_APPROACH]
+        sep = separations[k]
+        result[:] = 0.0
+        analyn(sep[SEP_Y], sep[SEP_G], sep[SEP_A], sep[SEP_XC], case, nodes, weights, work, strips, result)
+        patches[k, PATCH_LOAD] = result[RES_N]
+        total += result[RES_N] * math.cos(patches[k, PATCH_ANGLE])
+    return total
+
+
+@kernel
+def settle(mode: int, amount: float, wheel: Array, rail: Array, motion: Array, grid: Array, line: Array, placed: Array,
+           lobe: Array, wheel_plane: Array, rail_plane: Array, patches: Array, separations: Array, case: Array,
+           nodes: Array, weights: Array, work: Array, strips: Array, result: Array) -> int:  # fmt: skip
+    """Find z as `mode` says, leave it in motion[POSE_Z] and describe the patches there.
+
+    Under a load, F^(2/3) is nearly linear in the penetration (Hertz); its root is bracketed and found by the Illinois
+    variant of regula falsi.
+    """
+    start, end = oppose(wheel, rail, motion, line, placed)
+    if end - start < 3:
+        return NO_OVERLAP
+    if mode == GIVEN_Z:
+        return describe_all(line, start, end, placed, lobe, motion, grid, wheel_plane, rail_plane, patches, separations)
+    z0 = touch(line, start, end)
+    if mode == PENETRATION or amount <= 0.0:
+        motion[POSE_Z] = z0 + amount
+        return describe_all(line, start, end, placed, lobe, motion, grid, wheel_plane, rail_plane, patches, separations)
+    target = amount ** (2.0 / 3.0)
+    low, high, f_low, f_high = 0.0, math.inf, -target, 0.0
+    p = 1e-4 * (amount / 1e5) ** (2.0 / 3.0)
+    side = 0
+    for _ in range(_MAX_ITERATIONS):
+        motion[POSE_Z] = z0 + p
+        n = describe_all(line, start, end, placed, lobe, motion, grid, wheel_plane, rail_plane, patches, separations)
+        force = carried(n, patches, separations, case, nodes, weights, work, strips, result)
+        if abs(force - amount) <= _TOLERANCE * amount or high - low <= 1e-15:
+            return n
+        f = max(force, 0.0) ** (2.0 / 3.0) - target
+        if f > 0.0:
+            f_low = 0.5 * f_low if side > 0 else f_low
+            high, f_high, side = p, f, 1
+        else:
+            f_high = 0.5 * f_high if side < 0 else f_high
+            low, f_low, side = p, f, -1
+        if high < math.inf:
+            p = low - f_low * (high - low) / (f_high - f_low)
+        else:  # extrapolate the line, a little beyond
+            p = min(1.05 * p * target / (f + target), 3.0 * p) if f > -target else 3.0 * p
+            if p > _DEEPEST:
+                return NOT_SETTLED
+    return NOT_SETTLED
