@@ -79,8 +79,10 @@ def _units(root: Element, table: Table) -> None:
 
 
 def _types(root: Element, table: Table) -> None:
-    definitions = SubElement(root, "TypeDefinitions")
     enumerations = {row.enumeration.name: row.enumeration for row in table.rows if row.enumeration}
+    if not enumerations:
+        return
+    definitions = SubElement(root, "TypeDefinitions")
     for enumeration in enumerations.values():
         simple = SubElement(definitions, "SimpleType", name=enumeration.name)
         items = SubElement(simple, "Enumeration")

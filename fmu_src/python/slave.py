@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import math
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from enum import StrEnum
 from functools import wraps
 from typing import Any
@@ -51,8 +51,8 @@ class Phase(StrEnum):
     TERMINATED = "after terminate"
 
 
-#: Some rows by name: a number, or a sequence for an array.
-Rows = Mapping[str, float | Sequence[float]]
+#: Some rows by name: a number, or a list for an array.
+Rows = Mapping[str, float | list[float]]
 
 
 class Values:
@@ -80,7 +80,7 @@ class Values:
         """A copy with some rows replaced; all of it must be finite."""
         result = self.copy()
         for name, value in new.items():
-            result.numbers[self.table.span[name]] = value if isinstance(value, Sequence) else (value,)
+            result.numbers[self.table.span[name]] = value if isinstance(value, list) else (value,)
         finite = np.isfinite(result.numbers)
         if not finite.all():
             scalar = self.table.scalars[int(np.argmin(finite))]
@@ -107,8 +107,8 @@ def guarded(method: Callable[..., Any]) -> Callable[..., Any]:
 class TableSlave(Fmi2Slave):
     """Co-simulation slave of the FMU with `table`.
 
-    A model implements `outputs` (and `on_demand` for outputs that are costly and seldom read). Everything that an
-    instance remembers is in its values: so saving and restoring them is saving and restoring the instance.
+    A model implements `outputs`, and `on_demand` for outputs that are costly and seldom read. What an instance remembers
+    is in its values, so that they are its state; a model that remembers more adds `memory` and `recall`.
 
     Parameters
     ----------
@@ -171,18 +171,25 @@ class TableSlave(Fmi2Slave):
     # ---------------------------------------------------------------- what a model adds
 
     def outputs(self, values: Values, step_size: float) -> Rows:
-        """Return the outputs after a step; `step_size` is 0 during initialisation. Changes nothing.
+        """Return the outputs after a step; `step_size` is 0 during initialisation.
 
         Raises
         ------
         ContactError
-            If there is no answer; the step is discarded.
+            If there is no answer. The step is discarded; a model that has a `memory` has kept it.
         """
         raise NotImplementedError
 
     def on_demand(self, values: Values) -> Rows:
         """Return the `lazy` rows that belong to `values`."""
         raise NotImplementedError
+
+    def memory(self) -> str | None:
+        """Return what the model remembers besides its values, as text."""
+        return None
+
+    def recall(self, memory: str | None) -> None:
+        """Take the model, whose values are restored already, back to a `memory`."""
 
     # ---------------------------------------------------------------- life of an instance
 
@@ -309,6 +316,7 @@ class TableSlave(Fmi2Slave):
             "solved": self.solved.numbers.copy(),
             "lazy_is_stale": self.lazy_is_stale,
             "inputs_are_new": self.inputs_are_new,
+            "memory": self.memory(),
         }
 
     @guarded
@@ -321,6 +329,7 @@ class TableSlave(Fmi2Slave):
         self.solved = Values(self.table, state["solved"].copy())
         self.lazy_is_stale = state["lazy_is_stale"]
         self.inputs_are_new = state["inputs_are_new"]
+        self.recall(state["memory"])
 
     @staticmethod
     def _fmu_state_to_bytes(state: dict[str, Any]) -> bytes:

@@ -336,3 +336,22 @@ def test_an_fmu_of_another_version_is_refused_with_a_reason(open_fmu, fmus, tmp_
     with pytest.raises(Exception, match="Failed to instantiate"):
         Instance(tmp_path / "old", log=log)
     assert "built with another version of wheelrail-contact" in log[0][1]
+
+
+def test_runs_in_libcosim(fmus):
+    """An independent XML parser and host; of the FMU it takes Reals and Integers alone."""
+    host = subprocess.run(
+        [sys.executable, Path(__file__).with_name("cosim_host.py"), fmus / f"{NAME}.fmu"],
+        check=True,
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    lines = [line.split()[1:] for line in host.stdout.splitlines() if line.startswith("result")]
+    rows = [[float.fromhex(number) for number in line] for line in lines]
+    y = -0.02 + 0.001 * np.arange(41)
+    energy = 0.0
+    for load, (N, Fx, total) in zip((80e3, 50e3), rows, strict=True):
+        solution = contact.solve(contact.Separation(y, y**2, 0.5 / 0.46), contact.Creepage(1e-3), load=load)
+        energy += 2e-3 * 20.0 * solution.power_per_metre
+        assert [N, Fx, total] == pytest.approx([solution.N, solution.Fx, energy], rel=1e-9)
