@@ -5,8 +5,11 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from fmu_src.documentation import markdown
-from fmu_src.python.packaging import build, models
+try:
+    from fmu_src.documentation import markdown
+    from fmu_src.python.packaging import build, models
+except ModuleNotFoundError as error:
+    raise SystemExit(f"{error}: install what building needs with  pip install '.[fmu]'") from None
 
 
 def main() -> None:
@@ -14,7 +17,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Build the FMUs of wheelrail-contact.")
     parser.add_argument("--packaging", choices=["python", "all"], default="all", help="kind of FMU (default: all)")
     parser.add_argument("--out", type=Path, default=Path("dist"), metavar="FOLDER", help="where to (default: dist)")
-    parser.add_argument("--points", type=int, default=41, help="samples of the separation, at least 3 (default: 41)")
+    parser.add_argument(
+        "--points",
+        type=int,
+        default=41,
+        help="samples of the separation of WheelRailContact, at least 3 (default: 41, what Wheelset gives)",
+    )
     parser.add_argument("--describe", action="store_true", help="print the variables as Markdown and build nothing")
     arguments = parser.parse_args()
     if arguments.points < 3:

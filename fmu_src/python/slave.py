@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import math
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from enum import StrEnum
 from functools import wraps
 from typing import Any
@@ -21,6 +21,7 @@ from pythonfmu.fmi2slave import Fmi2Slave
 from contact import __version__
 from contact.errors import ContactError, require_number
 from fmu_src.description import LOG_CATEGORIES, model_description
+from fmu_src.python.values import Rows, Values
 from fmu_src.variables import Causality, Kind, Table
 
 #: What this packaging can do; attributes of the element CoSimulation.
@@ -36,7 +37,6 @@ INTERFACES = {
     }
 }
 
-
 #: FMI's get and set functions: those of Reals, those of Integers and Enumerations, those that no table has a use for.
 _CALLS: tuple[tuple[Kind, ...], ...] = ((Kind.REAL,), (Kind.INTEGER, Kind.ENUMERATION), ())
 _REAL, _INTEGER, _NONE = _CALLS
@@ -49,43 +49,6 @@ class Phase(StrEnum):
     INITIALIZATION = "in initialisation"
     STEPPING = "after initialisation"
     TERMINATED = "after terminate"
-
-
-#: Some rows by name: a number, or a list for an array.
-Rows = Mapping[str, float | list[float]]
-
-
-class Values:
-    """The values of all scalars, read by the name of the row: a number, or a list for an array."""
-
-    def __init__(self, table: Table, numbers: list[float]) -> None:
-        self.table = table
-        self.numbers = numbers
-
-    def __getitem__(self, name: str) -> Any:
-        span = self.table.span[name]
-        return self.numbers[span] if self.table.row[name].shape else self.numbers[span.start]
-
-    def item(self, name: str) -> str:
-        """Name of the current item of an enumeration."""
-        enumeration = self.table.row[name].enumeration
-        assert enumeration is not None
-        return enumeration.item(self.numbers[self.table.span[name].start])
-
-    def copy(self) -> Values:
-        """Values that later calls do not change."""
-        return Values(self.table, self.numbers.copy())
-
-    def updated(self, new: Rows) -> Values:
-        """A copy with some rows replaced; all of it must be finite."""
-        result = self.copy()
-        for name, value in new.items():
-            result.numbers[self.table.span[name]] = value if isinstance(value, list) else (value,)
-        finite = np.isfinite(result.numbers)
-        if not finite.all():
-            scalar = self.table.scalars[int(np.argmin(finite))]
-            raise ContactError(f"{scalar.name} has no finite value for these inputs")
-        return result
 
 
 def guarded(method: Callable[..., Any]) -> Callable[..., Any]:
@@ -163,10 +126,10 @@ class TableSlave(Fmi2Slave):
         self._lazy = frozenset(r for name in self.lazy for r in table.references(name))
         self._checked = [r for r, s in every if s.row.initial == "exact" or r in inputs]
         scalars = [table.scalars[r] for r in self._checked]
-        # FMI's ranges are closed; the next number stands for an open minimum, the largest for infinity.
-        self._least = np.array([np.nextafter(s.minimum, np.inf) if s.row.open_minimum else s.minimum for s in scalars])
+        # Closed ranges of finite numbers: the next number stands for an open minimum, the largest for infinity.
+        least = [np.nextafter(s.minimum, np.inf) if s.row.open_minimum else s.minimum for s in scalars]
+        self._least = np.maximum(least, -sys.float_info.max)
         self._greatest = np.minimum([s.maximum for s in scalars], sys.float_info.max)
-        self._least = np.maximum(self._least, -sys.float_info.max)
 
     # ---------------------------------------------------------------- what a model adds
 
@@ -233,6 +196,17 @@ class TableSlave(Fmi2Slave):
         if self.lazy:
             self.solved, self.lazy_is_stale = self.values.copy(), True
 
+    @guarded
+    def _update_at_start(self) -> None:
+        """Compute the outputs for what has been set so far."""
+        self._update(0.0)
+
+    @guarded
+    def _update_lazy(self) -> None:
+        """Compute the lazy rows that belong to the other outputs."""
+        self.lazy_is_stale = False
+        self.values = self.values.updated(self.on_demand(self.solved))
+
     def _check_ranges(self) -> None:
         """Raise ContactError for the first parameter, input or state that is not finite or outside its range."""
         numbers = np.array(self.values.numbers, dtype=np.float64)[self._checked]
@@ -277,10 +251,9 @@ class TableSlave(Fmi2Slave):
 
     def _get(self, kinds: tuple[Kind, ...], references: list[int]) -> list[Any]:
         if self.phase is Phase.INITIALIZATION and self.inputs_are_new:
-            guarded(TableSlave._update)(self, 0.0)
+            self._update_at_start()
         if self.lazy_is_stale and not self._lazy.isdisjoint(references):
-            self.lazy_is_stale = False
-            guarded(TableSlave._compute_lazy)(self)
+            self._update_lazy()
         readable, numbers = self._readable[kinds], self.values.numbers
         for reference in references:
             if reference not in readable:
@@ -295,9 +268,6 @@ class TableSlave(Fmi2Slave):
                 numbers[reference] = value
             else:
                 self._refuse("set", reference, kinds)
-
-    def _compute_lazy(self) -> None:
-        self.values = self.values.updated(self.on_demand(self.solved))
 
     def _refuse(self, verb: str, reference: int, kinds: tuple[Kind, ...]) -> None:
         known = 0 <= reference < len(self.table.scalars)

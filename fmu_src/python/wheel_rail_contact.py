@@ -11,7 +11,8 @@ from pythonfmu.enums import Fmi2Status
 import contact
 from contact import Creepage, Material, Separation, Solution, Status
 from contact.damage import evaluate
-from fmu_src.python.slave import Rows, TableSlave, Values
+from fmu_src.python.slave import TableSlave
+from fmu_src.python.values import Rows, Values
 from fmu_src.tables.wheel_rail_contact import table
 
 _CREEPAGES = ("creepage.longitudinal", "creepage.lateral", "creepage.spin")

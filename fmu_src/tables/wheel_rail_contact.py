@@ -57,7 +57,8 @@ def table(points: int = 41) -> Table:
     return Table(
         "WheelRailContact",
         "Elastic wheel-rail contact: non-elliptic patch and pressure, creep forces, spin moment and damage. "
-        "Forces act on the wheel; frame x in the rolling direction, y lateral, z from wheel into rail.",
+        "Forces act on the wheel; frame x in the rolling direction, y lateral, z from wheel into rail. As co-simulation has "
+        "no feedthrough, the outputs after a step belong to the inputs before it: one communication step late.",
         rows,
         step_size=1e-3,
     )
