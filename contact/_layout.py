@@ -41,7 +41,8 @@ LOAD, APPROACH = 0.0, 1.0
     RES_PATCHES,
     RES_ITERATIONS,
     RES_STATUS,
+    RES_TOUCH,  # approach at which the bodies first touch: the least gap [m]
     RES_EDGES,  # first of 2·MAX_PATCHES lateral patch edges
-) = range(16)
+) = range(17)
 MAX_PATCHES = 4
 N_RES = RES_EDGES + 2 * MAX_PATCHES

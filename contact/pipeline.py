@@ -28,8 +28,9 @@ from contact._layout import (
 from contact._layout import RES_EDGES as EDGES
 from contact.normal.analyn import analyn
 from contact.normal.hertzian import hertzian
+from contact.normal.strip_halfspace import strip_halfspace
 from contact.quadrature import EL_DX, EL_S, EL_SINE
-from contact.registry import FASTRIP_MAPPED, FASTSIM, HERTZ
+from contact.registry import FASTRIP_MAPPED, FASTSIM, HERTZ, STRIP_HALFSPACE
 from contact.tangential.fastrip import fastrip
 from contact.tangential.fastrip_mapped import fastrip_mapped
 from contact.tangential.fastsim import fastsim
@@ -57,20 +58,22 @@ def peak_pressure(strips, n):
 
 
 @kernel
-def solve_case(y, g, A, xc, case, table, nodes, weights, elements, work, strips, fields, result):
-    """Solve one case; fill strips, fields and result (see `_layout`), all owned by the caller. Return the strip count.
+def solve_case(y, g, A, xc, case, rule, tables, space, strips, fields, result):
+    """Solve one case; fill strips, fields and result (see `_layout`). Return the strip count.
 
-    `table` is `kalker.table(nu)`, `nodes`, `weights` are `quadrature.fejer(n_strips)`, `elements` are
-    `quadrature.elements(n_elements)`.
+    All arrays are the caller's: `workspace.allocate` makes a fitting set.
     """
     result[:] = 0.0
     if case[CASE_NORMAL] == HERTZ:
-        n = hertzian(y, g, A, xc, case, nodes, weights, work, strips, result)
+        n = hertzian(y, g, A, xc, case, rule.nodes, rule.weights, space.grid, strips, result)
+    elif case[CASE_NORMAL] == STRIP_HALFSPACE:
+        n = strip_halfspace(y, g, A, xc, case, rule, tables, space, strips, result)
     else:
-        n = analyn(y, g, A, xc, case, nodes, weights, work, strips, result)
+        n = analyn(y, g, A, xc, case, rule.nodes, rule.weights, space.grid, strips, result)
     if n == 0:
         return 0
 
+    elements, table = rule.elements, tables.kalker
     area, x_low, x_high = 0.0, math.inf, -math.inf
     for i in range(n):
         a, xc_i, p0 = strips[STRIP_A, i], strips[STRIP_XC, i], strips[STRIP_P0, i]

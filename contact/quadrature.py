@@ -41,6 +41,17 @@ def fejer(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 @functools.lru_cache(maxsize=64)
+def panel(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Edges, shape (n + 1,), of n cosine-spaced strips on [-1, 1] and ln|edge - middle|, shape (n, n + 1)."""
+    edges = -np.cos(np.arange(n + 1) * np.pi / n)
+    edges = 0.5 * (edges - edges[::-1])
+    logs = np.log(np.abs(edges - 0.5 * (edges[1:] + edges[:-1])[:, None]))
+    for array in (edges, logs):
+        array.setflags(write=False)
+    return edges, logs
+
+
+@functools.lru_cache(maxsize=64)
 def elements(n: int) -> NDArray[np.float64]:
     """Rows of constants of n elements along a strip, cosine-spaced; shape (9, n), rows EL_… of this module.
 

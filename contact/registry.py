@@ -25,6 +25,7 @@ class Method:
     several_patches : finds or serves separate patches
     fields : returns traction, slip and stick over the patch (tangential) or pressure (normal)
     spin : takes spin into account
+    interacting : every strip feels the pressure of all others (normal)
     """
 
     name: str
@@ -35,6 +36,7 @@ class Method:
     several_patches: bool
     fields: bool = True
     spin: bool = True
+    interacting: bool = False
 
 
 class Methods(NamedTuple):
@@ -44,17 +46,28 @@ class Methods(NamedTuple):
     tangential: MappingProxyType[str, Method]
 
 
-ANALYN, HERTZ = 0, 1
+ANALYN, HERTZ, STRIP_HALFSPACE = 0, 1, 2
 FASTRIP, FASTSIM, FASTRIP_MAPPED = 0, 1, 2
 
 _NORMAL = (
     Method("analyn", ANALYN, "ANALYN, approximate surface deformation", "Sichani 2016, ch. 9, Paper B", True, True),
     Method("hertz", HERTZ, "Hertz's ellipse at the least point", "Hertz 1882; Johnson 1985", False, False),
+    Method(
+        "strip_halfspace",
+        STRIP_HALFSPACE,
+        "interacting strips with semi-elliptic pressure on a half space",
+        "this project, after Knothe and Le The 1984",
+        True,
+        True,
+        interacting=True,
+    ),
 )
 _TANGENTIAL = (
     Method("fastrip", FASTRIP, "FaStrip on local ellipses", "Sichani 2016, ch. 4 and 9, Papers D and E", True, True),
     Method("fastsim", FASTSIM, "FASTSIM, three flexibilities, parabolic bound", "Kalker 1982", True, True),
-    Method("fastrip_mapped", FASTRIP_MAPPED, "FaStrip in one march, mapped to the pressure", "this project", True, True),
+    Method(
+        "fastrip_mapped", FASTRIP_MAPPED, "FaStrip in one march, mapped to the pressure", "this project", True, True
+    ),
 )
 _METHODS = Methods(
     MappingProxyType({method.name: method for method in _NORMAL}),

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import IntEnum
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.creepage import Creepage
 from contact.material import Material
+
+if TYPE_CHECKING:
+    from contact.damage import Damage
 
 Array = NDArray[np.float64]
 
@@ -116,6 +121,7 @@ class Solution:
     normal: str
     tangential: str
     patch_edges: Array = field(repr=False)
+    memory: Array = field(repr=False)
 
     @property
     def converged(self) -> bool:
@@ -126,6 +132,13 @@ class Solution:
     def slip_ratio(self) -> float:
         """Slip area over contact area [-]; 0 without contact."""
         return self.slip_area / self.area if self.area > 0.0 else 0.0
+
+    @cached_property
+    def damage(self) -> Damage:
+        """Wear and fatigue indices with the default parameters; `contact.damage.evaluate` takes others."""
+        from contact.damage import evaluate
+
+        return evaluate(self)
 
     def pressure(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Evaluate the contact pressure [Pa] at points `x`, `y` [m] of the contact plane (broadcast); 0 outside.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from contact import kalker, quadrature
+from contact import workspace
 from contact._layout import (
     APPROACH,
     FIELD_DX,
@@ -16,10 +16,6 @@ from contact._layout import (
     FIELD_SY,
     FIELD_X,
     LOAD,
-    MAX_PATCHES,
-    N_FIELD_ROWS,
-    N_RES,
-    N_STRIP_ROWS,
     RES_APPROACH,
     RES_AREA,
     RES_EDGES,
@@ -47,7 +43,6 @@ from contact._layout import (
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
 from contact.material import STEEL, Material
-from contact.normal.analyn import N_WORK_ROWS
 from contact.pipeline import solve_case
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.separation import Separation
@@ -70,6 +65,7 @@ def solve(
     tangential: str = DEFAULT_TANGENTIAL,
     n_strips: int = N_STRIPS,
     n_elements: int = N_ELEMENTS,
+    start: Solution | None = None,
     throw: bool = True,
 ) -> Solution:
     """Solve the contact of one wheel-rail pair in the plane of its separation.
@@ -91,6 +87,9 @@ def solve(
         Names from `contact.methods()`.
     n_strips, n_elements : int
         Strips per patch, 4 to 1000, and elements per strip, 4 to 1000.
+    start : Solution
+        Solution of a neighbouring problem at the same resolution, from which an iterative normal method may start. It changes
+        the time that is taken, and the result within the method's tolerance.
     throw : bool
         Raise when the problem has no trustworthy answer (patch beyond the separation, not converged). With False the
         `status` of the solution says so.
@@ -121,6 +120,7 @@ def solve(
         if not isinstance(number, int | np.integer):
             raise ContactError(f"{name} = {number!r} is not an integer; allowed range [4, 1000]")
         require_number(name, number, 4, 1000)
+    method = lookup("normal", normal)
     case = np.array(
         [
             kind,
@@ -131,33 +131,15 @@ def solve(
             mu,
             material.shear_modulus,
             material.poisson_ratio,
-            lookup("normal", normal).id,
+            method.id,
             lookup("tangential", tangential).id,
         ]
     )
-    nodes, weights = quadrature.fejer(int(n_strips))
-    elements = quadrature.elements(int(n_elements))
-    capacity = MAX_PATCHES * nodes.size
-    strips = np.empty((N_STRIP_ROWS, capacity))
-    fields = np.empty((N_FIELD_ROWS, capacity, elements.shape[1]))
-    result = np.empty(N_RES)
-    work = np.empty((N_WORK_ROWS, separation.y.size))
-    table = kalker.table(material.poisson_ratio)
-    n = solve_case(
-        separation.y,
-        separation.g,
-        separation.A,
-        separation.x_c,
-        case,
-        table,
-        nodes,
-        weights,
-        elements,
-        work,
-        strips,
-        fields,
-        result,
-    )
+    own = workspace.allocate(method, material.poisson_ratio, int(n_strips), int(n_elements), separation.y.size)
+    if start is not None and start.memory.size == own.space.memory.size:
+        own.space.memory[:] = start.memory
+    n = solve_case(separation.y, separation.g, separation.A, separation.x_c, case, *own)
+    result = own.result
     status = Status(int(result[RES_STATUS]))
     if throw and status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED):
         what = "load" if load is not None else "approach"
@@ -165,7 +147,7 @@ def solve(
             f"{what} = {amount:g}: {status.message}; y = [{separation.y[0]:g}, {separation.y[-1]:g}] m "
             f"(throw=False returns the solution with this status)"
         )
-    strips, fields = strips[:, :n], fields[:, :n]
+    strips, fields = own.strips[:, :n], own.fields[:, :n]
     return Solution(
         Fx=float(result[RES_FX]),
         Fy=float(result[RES_FY]),
@@ -192,7 +174,7 @@ def solve(
             patch=strips[STRIP_PATCH].astype(np.int64),
         ),
         x=fields[FIELD_X],
-        y=np.repeat(strips[STRIP_Y][:, None], elements.shape[1], axis=1),
+        y=np.repeat(strips[STRIP_Y][:, None], fields.shape[2], axis=1),
         p=fields[FIELD_P],
         qx=fields[FIELD_QX],
         qy=fields[FIELD_QY],
@@ -207,4 +189,5 @@ def solve(
         normal=normal,
         tangential=tangential,
         patch_edges=result[RES_EDGES : RES_EDGES + 2 * int(result[RES_PATCHES])].reshape(-1, 2).copy(),
+        memory=own.space.memory,
     )

@@ -28,6 +28,7 @@ from contact._layout import (
     RES_N,
     RES_STATUS,
     RES_STIFFNESS,
+    RES_TOUCH,
     STRIP_A,
     STRIP_ASPECT,
     STRIP_DY,
@@ -142,6 +143,7 @@ def analyn(y, g, A, xc, case, nodes, weights, work, strips, result):
     y_least, g_least = prepare(y, g, A, n, work)
     result[RES_STATUS] = 1.0
     result[RES_ITERATIONS] = 0.0
+    result[RES_TOUCH] = g_least
     if case[CASE_LOAD_KIND] == APPROACH:
         delta = case[CASE_LOAD] - g_least
         if delta <= 0.0:

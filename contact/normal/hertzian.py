@@ -15,6 +15,7 @@ from contact._layout import (
     RES_N,
     RES_STATUS,
     RES_STIFFNESS,
+    RES_TOUCH,
     STRIP_A,
     STRIP_ASPECT,
     STRIP_P0,
@@ -44,6 +45,7 @@ def hertzian(y, g, A, xc, case, nodes, weights, work, strips, result):
     unit = 4.0 / 3.0 * modulus / (nr * math.sqrt(one_beta * B0))
     result[RES_STATUS] = 1.0
     result[RES_ITERATIONS] = 0.0
+    result[RES_TOUCH] = g_least
     if case[CASE_LOAD_KIND] == APPROACH:
         delta = case[CASE_LOAD] - g_least
         result[RES_APPROACH] = case[CASE_LOAD]

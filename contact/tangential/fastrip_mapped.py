@@ -198,7 +198,9 @@ def fastrip_mapped(strips, n, case, table, elements, fields, result):
                     stick_share = 1.0
             if slips:
                 qx, qy = ex, ey
-                slip = max(-2.0 * s * (r * ex * ex + ey * ey) - (Xs * ex + (Ys + 2.0 * spin * s) * ey), 0.0) * slip_scale
+                slip = (
+                    max(-2.0 * s * (r * ex * ex + ey * ey) - (Xs * ex + (Ys + 2.0 * spin * s) * ey), 0.0) * slip_scale
+                )
                 fields[FIELD_SX, i, k], fields[FIELD_SY, i, k] = -slip * ex, -slip * ey
                 power += bound * sine * slip * a * elements[EL_DX, k] * dy
                 fields[FIELD_STICK, i, k] = 0.0

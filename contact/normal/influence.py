@@ -1,0 +1,127 @@
+"""Normal displacement by a strip with semi-elliptic pressure: tables and their lookup (strip_halfspace.md 1).
+
+A strip |x| <= a with p = p0·√(1 - (x/a)²) between lateral distances t1·a and t2·a displaces the surface at x = X·a by
+    u = p0 a/(pi E*)·[U(X, t2) - U(X, t1)],   U(X, t) = ∫√(1-s²) asinh(t/|X-s|) ds over [-1, 1],
+odd in t, even in X, finite everywhere: the strip itself needs no special case. On the centre line dU/dt has the closed form
+2√(1+t²)(K(m) - E(m)), m = 1/(1+t²).
+"""
+
+import functools
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact._jit import kernel
+from contact.hertz import elliptic_integrals
+
+_LN_T_MIN, _LN_T_MAX = math.log(1e-5), math.log(1e5)
+_N_CENTRE = 401
+_CENTRE_STEP = (_LN_T_MAX - _LN_T_MIN) / (_N_CENTRE - 1)
+
+_X_MAX, _N_X = 4.0, 201
+_X_STEP = _X_MAX / (_N_X - 1)
+_LN_T_LOW, _LN_T_HIGH, _N_T = math.log(1e-3), math.log(1e2), 385
+_T_STEP = (_LN_T_HIGH - _LN_T_LOW) / (_N_T - 1)
+
+_GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(6)
+
+
+@kernel
+def centre_slope(t):
+    """DU/dt on the centre line, X = 0 (closed form)."""
+    root = math.sqrt(1.0 + t * t)
+    K, E, B, _ = elliptic_integrals(t / root)  # complementary modulus; K - E = k² D
+    return 2.0 * root * (K - E)
+
+
+@kernel
+def _panel(X, t, low, high):
+    """∫sin² asinh(t/|X - cos|) over a range of the angle, six Gauss points."""
+    total = 0.0
+    for i in range(6):
+        angle = 0.5 * (low + high + (high - low) * _GAUSS_X[i])
+        sine = math.sin(angle)
+        distance = abs(X - math.cos(angle))
+        total += _GAUSS_W[i] * sine * sine * math.asinh(t / max(distance, 1e-300))
+    return 0.5 * (high - low) * total
+
+
+@kernel
+def quadrature(X, t):
+    """U(X, t) by Gauss panels graded geometrically towards the singular angle; relative error 1e-5 or less."""
+    singular = math.acos(min(X, 1.0))
+    total = 0.0
+    for side in range(2):
+        length = singular if side == 0 else math.pi - singular
+        sign = -1.0 if side == 0 else 1.0
+        outer = 1.0
+        for _ in range(18):
+            inner = 0.5 * outer
+            total += _panel(X, t, singular + sign * outer * length, singular + sign * inner * length) * -sign
+            outer = inner
+        total += _panel(X, t, singular + sign * outer * length, singular) * -sign
+    return total
+
+
+@kernel
+def _fill(centre, plane):
+    value = math.exp(_LN_T_MIN) * 2.0 * (math.log(4.0) - _LN_T_MIN)  # U ~ 2t ln(4/t)
+    for i in range(_N_CENTRE):
+        t = math.exp(_LN_T_MIN + i * _CENTRE_STEP)
+        if i > 0:  # three-point Gauss of dU/d(ln t) = t U' over the last interval
+            before = _LN_T_MIN + (i - 1) * _CENTRE_STEP
+            for k in range(6):
+                at = math.exp(before + 0.5 * _CENTRE_STEP * (1.0 + _GAUSS_X[k]))
+                value += 0.5 * _CENTRE_STEP * _GAUSS_W[k] * at * centre_slope(at)
+        centre[i, 0], centre[i, 1] = value, t * centre_slope(t) * _CENTRE_STEP
+    for i in range(_N_X):
+        for k in range(_N_T):
+            plane[i, k] = quadrature(i * _X_STEP, math.exp(_LN_T_LOW + k * _T_STEP))
+
+
+@functools.cache
+def tables() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Tables of U on the centre line, shape (401, 2), and over (X, ln t), shape (201, 385); made once a process (0.2 s)."""
+    centre, plane = np.empty((_N_CENTRE, 2)), np.empty((_N_X, _N_T))
+    _fill(centre, plane)
+    return centre, plane
+
+
+@kernel
+def at_centre(centre, log_t):
+    """U(0, t) for t > 0 given by its logarithm; error below 1e-7."""
+    u = (log_t - _LN_T_MIN) / _CENTRE_STEP
+    if u <= 0.0:
+        t = math.exp(log_t)
+        return 2.0 * t * (math.log(4.0) - log_t)
+    if u >= _N_CENTRE - 1:
+        return centre[_N_CENTRE - 1, 0] + 0.5 * math.pi * (log_t - _LN_T_MAX)
+    i = int(u)
+    v = u - i
+    w = 1.0 - v
+    p, q = centre[i], centre[i + 1]
+    return w * w * ((1.0 + 2.0 * v) * p[0] + v * p[1]) + v * v * ((1.0 + 2.0 * w) * q[0] - w * q[1])
+
+
+@kernel
+def anywhere(plane, X, log_t):
+    """U(X, t) for X >= 0, t > 0: bilinear in the table, asymptotes beyond it; error below 1e-3."""
+    if X >= _X_MAX:
+        t = math.exp(log_t)
+        x2, t2 = X * X, t * t
+        return 0.5 * math.pi * math.asinh(t / X) + math.pi / 16.0 * t * (2.0 * x2 + t2) / (x2 * (x2 + t2) ** 1.5)
+    scale = 1.0
+    extra = 0.0
+    if log_t < _LN_T_LOW:  # U is nearly proportional to t there
+        scale = math.exp(log_t - _LN_T_LOW)
+        log_t = _LN_T_LOW
+    elif log_t > _LN_T_HIGH:
+        extra = 0.5 * math.pi * (log_t - _LN_T_HIGH)
+        log_t = _LN_T_HIGH
+    u, v = X / _X_STEP, (log_t - _LN_T_LOW) / _T_STEP
+    i, k = min(int(u), _N_X - 2), min(int(v), _N_T - 2)
+    u, v = u - i, v - k
+    low = plane[i, k] + v * (plane[i, k + 1] - plane[i, k])
+    high = plane[i + 1, k] + v * (plane[i + 1, k + 1] - plane[i + 1, k])
+    return scale * (low + u * (high - low)) + extra

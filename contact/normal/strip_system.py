@@ -1,0 +1,178 @@
+"""The linear system of interacting strips: influence matrix, active-set solution, displacement at strip edges."""
+
+import math
+
+from contact._jit import kernel
+from contact.normal.influence import anywhere, at_centre
+
+# vectors[ROW, i]: per strip of all panels
+V_Y, V_HALF, V_GAP, V_A, V_CURVATURE, V_XC, V_P, V_Q1, V_Q2, V_R, V_R_OLD, V_LN_A, V_LN_A_OLD, V_ACTIVE, V_INDEX = (
+    range(15)
+)
+N_VECTOR_ROWS = 15
+
+
+@kernel
+def distances(panels, n_panels, cosines, cosine_logs, vectors, logs):
+    """ln|Y_k - y_i| of every strip i to every panel edge k, into logs[i, k]; n + 1 edges a panel.
+
+    Within a panel the strips sit at fixed cosines, so this is a constant table plus ln of the panel's half width.
+    """
+    n = cosines.size - 1
+    for p in range(n_panels):
+        half = 0.5 * (panels[2 * p + 1] - panels[2 * p])
+        ln_half = math.log(half)
+        for q in range(n_panels):
+            centre = 0.5 * (panels[2 * q] + panels[2 * q + 1])
+            half_q = 0.5 * (panels[2 * q + 1] - panels[2 * q])
+            for i in range(n):
+                row = p * n + i
+                for k in range(n + 1):
+                    if p == q:
+                        logs[row, q * (n + 1) + k] = ln_half + cosine_logs[i, k]
+                    else:
+                        distance = abs(centre + half_q * cosines[k] - vectors[V_Y, row])
+                        logs[row, q * (n + 1) + k] = math.log(max(distance, 1e-12 * half))
+
+
+@kernel
+def assemble(n, n_panels, vectors, logs, centre, plane, skewed, modulus, matrix):
+    """Displacement at the centre of strip i by unit peak pressure on strip j, into matrix[i, j]."""
+    total = n * n_panels
+    for j in range(total):
+        a = vectors[V_A, j]
+        ln_a = math.log(a)
+        scale = a / (math.pi * modulus)
+        edge = j + j // n  # first of its two edges
+        for i in range(total):
+            left, right = logs[i, edge] - ln_a, logs[i, edge + 1] - ln_a
+            X = abs(vectors[V_XC, i] - vectors[V_XC, j]) / a if skewed else 0.0
+            if X > 1e-9:
+                low, high = anywhere(plane, X, left), anywhere(plane, X, right)
+            else:
+                low, high = at_centre(centre, left), at_centre(centre, right)
+            if vectors[V_Y, i] == vectors[V_Y, j]:
+                matrix[i, j] = scale * (low + high)
+            else:
+                matrix[i, j] = scale * abs(high - low)
+
+
+@kernel
+def edge_displacement(i, n, n_panels, vectors, logs, plane, skewed, modulus):
+    """Displacement at the ends of strip i by the pressure of all strips (mean of both ends under yaw)."""
+    u = 0.0
+    for j in range(n * n_panels):
+        p = vectors[V_P, j]
+        if p == 0.0:
+            continue
+        a = vectors[V_A, j]
+        ln_a = math.log(a)
+        edge = j + j // n
+        left, right = logs[i, edge] - ln_a, logs[i, edge + 1] - ln_a
+        own = vectors[V_Y, i] == vectors[V_Y, j]
+        value = 0.0
+        sides = 2 if skewed else 1
+        for side in range(sides):
+            sign = 1.0 if side == 0 else -1.0
+            X = abs(sign * vectors[V_A, i] + vectors[V_XC, i] - vectors[V_XC, j]) / a
+            low, high = anywhere(plane, X, left), anywhere(plane, X, right)
+            value += low + high if own else abs(high - low)
+        u += p * a / (math.pi * modulus) * value / sides
+    return u
+
+
+@kernel
+def displacement_outside(at, n, n_panels, panels, cosines, vectors, centre, modulus):
+    """Displacement at a point of the centre line that lies in no panel."""
+    u = 0.0
+    for p in range(n_panels):
+        middle = 0.5 * (panels[2 * p] + panels[2 * p + 1])
+        half = 0.5 * (panels[2 * p + 1] - panels[2 * p])
+        for k in range(n):
+            j = p * n + k
+            if vectors[V_P, j] == 0.0:
+                continue
+            a = vectors[V_A, j]
+            near = max(abs(middle + half * cosines[k] - at), 1e-12 * half)
+            far = max(abs(middle + half * cosines[k + 1] - at), 1e-12 * half)
+            low, high = at_centre(centre, math.log(near / a)), at_centre(centre, math.log(far / a))
+            u += vectors[V_P, j] * a / (math.pi * modulus) * abs(high - low)
+    return u
+
+
+@kernel
+def _eliminate(lu, m, first, second):
+    """Solve lu·x = first and = second in place by Gaussian elimination; the influence matrix needs no pivoting."""
+    for k in range(m):
+        inverse = 1.0 / lu[k, k]
+        for i in range(k + 1, m):
+            factor = lu[i, k] * inverse
+            if factor != 0.0:
+                for j in range(k + 1, m):
+                    lu[i, j] -= factor * lu[k, j]
+                first[i] -= factor * first[k]
+                second[i] -= factor * second[k]
+    for k in range(m - 1, -1, -1):
+        x, z = first[k], second[k]
+        for j in range(k + 1, m):
+            x -= lu[k, j] * first[j]
+            z -= lu[k, j] * second[j]
+        first[k], second[k] = x / lu[k, k], z / lu[k, k]
+
+
+@kernel
+def solve_active(n, n_panels, vectors, matrix, lu, by_load, amount, may_activate):
+    """Peak pressures that close the gap of every loaded strip; return the approach above first touch.
+
+    p = delta·q1 + q2 with q1 the answer to a unit approach, so load- and approach-prescribed differ in one line. Strips under
+    tension leave the active set, separated strips that would overlap enter it; at most 20 rounds.
+    """
+    total = n * n_panels
+    delta = 0.0
+    for _ in range(20):
+        m = 0
+        for i in range(total):
+            if vectors[V_ACTIVE, i] != 0.0:
+                vectors[V_INDEX, m] = i
+                m += 1
+        for r in range(m):
+            i = int(vectors[V_INDEX, r])
+            vectors[V_Q1, r], vectors[V_Q2, r] = 1.0, -vectors[V_GAP, i]
+            for c in range(m):
+                lu[r, c] = matrix[i, int(vectors[V_INDEX, c])]
+        _eliminate(lu, m, vectors[V_Q1], vectors[V_Q2])
+        stiffness, offset = 0.0, 0.0
+        for r in range(m):
+            i = int(vectors[V_INDEX, r])
+            w = math.pi * vectors[V_A, i] * vectors[V_HALF, i]  # pi/2 a times the full width
+            stiffness += w * vectors[V_Q1, r]
+            offset += w * vectors[V_Q2, r]
+        delta = (amount - offset) / stiffness if by_load and stiffness > 0.0 else amount
+        vectors[V_P, :total] = 0.0
+        for r in range(m):
+            vectors[V_P, int(vectors[V_INDEX, r])] = delta * vectors[V_Q1, r] + vectors[V_Q2, r]
+        changed = False
+        for i in range(total):
+            place = i % n
+            if vectors[V_ACTIVE, i] != 0.0:
+                neighbour = i + 1 if place == 0 else i - 1
+                at_end = place in (0, n - 1) and vectors[V_P, neighbour] > 0.0
+                if vectors[V_P, i] < 0.0 and not at_end:
+                    vectors[V_ACTIVE, i] = 0.0
+                    changed = True
+            elif may_activate:
+                u = 0.0
+                for r in range(m):
+                    j = int(vectors[V_INDEX, r])
+                    u += matrix[i, j] * vectors[V_P, j]
+                if delta - vectors[V_GAP, i] - u > 1e-4 * delta:
+                    vectors[V_ACTIVE, i] = 1.0
+                    changed = True
+        if not changed:
+            break
+        if m == 0:
+            break
+    for i in range(total):  # ends kept in the set for smoothness do not pull
+        if vectors[V_P, i] < 0.0:
+            vectors[V_P, i] = 0.0
+    return delta

@@ -1,0 +1,93 @@
+"""The arrays that kernels read and write, allocated once by their owner: a call, a batch thread or an FMU instance."""
+
+from __future__ import annotations
+
+import functools
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact import kalker, quadrature
+from contact._layout import MAX_PATCHES, N_FIELD_ROWS, N_RES, N_STRIP_ROWS
+from contact.normal import influence
+from contact.normal.analyn import N_WORK_ROWS
+from contact.normal.strip_halfspace import MEM_LN_A
+from contact.normal.strip_system import N_VECTOR_ROWS
+from contact.registry import Method
+
+Array = NDArray[np.float64]
+
+
+class Rule(NamedTuple):
+    """Where strips and elements lie in a patch (`quadrature`): constant for a resolution, read-only."""
+
+    nodes: Array
+    weights: Array
+    elements: Array
+    cosines: Array
+    cosine_logs: Array
+
+
+class Tables(NamedTuple):
+    """Interpolated functions: Kalker's coefficients for one Poisson ratio, influence of strips. Read-only."""
+
+    kalker: Array
+    centre: Array
+    plane: Array
+
+
+class Space(NamedTuple):
+    """Scratch arrays of the normal methods, and `memory`, from which the next call may start."""
+
+    grid: Array
+    vectors: Array
+    logs: Array
+    matrix: Array
+    lu: Array
+    memory: Array
+
+
+class Workspace(NamedTuple):
+    """Everything that `pipeline.solve_case` needs besides the problem."""
+
+    rule: Rule
+    tables: Tables
+    space: Space
+    strips: Array
+    fields: Array
+    result: Array
+
+
+@functools.lru_cache(maxsize=64)
+def rule(n_strips: int, n_elements: int) -> Rule:
+    """Return the (cached) rule of one resolution."""
+    return Rule(*quadrature.fejer(n_strips), quadrature.elements(n_elements), *quadrature.panel(n_strips))
+
+
+@functools.lru_cache(maxsize=64)
+def tables(poisson_ratio: float, interacting: bool) -> Tables:
+    """Return the (cached) tables; those of the strips' influence only for methods with `interacting` strips."""
+    empty = np.zeros((1, 2)), np.zeros((1, 1))
+    return Tables(kalker.table(poisson_ratio), *(influence.tables() if interacting else empty))
+
+
+def allocate(normal: Method, poisson_ratio: float, n_strips: int, n_elements: int, n_samples: int) -> Workspace:
+    """Allocate a workspace for separations of `n_samples` points."""
+    capacity = MAX_PATCHES * n_strips
+    size = capacity if normal.interacting else 1
+    return Workspace(
+        rule(n_strips, n_elements),
+        tables(poisson_ratio, normal.interacting),
+        Space(
+            grid=np.empty((N_WORK_ROWS, n_samples)),
+            vectors=np.empty((N_VECTOR_ROWS, size)),
+            logs=np.empty((size, size + MAX_PATCHES)),
+            matrix=np.empty((size, size)),
+            lu=np.empty((size, size)),
+            memory=np.zeros(MEM_LN_A + size),
+        ),
+        np.empty((N_STRIP_ROWS, capacity)),
+        np.empty((N_FIELD_ROWS, capacity, n_elements)),
+        np.empty(N_RES),
+    )

@@ -1,0 +1,117 @@
+"""Strip half space: its closed forms, the Hertz limit, published and computed references, warm start, several patches."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+import contact
+from contact.normal import influence
+from tests.normal.test_analyn import two_lobes
+
+NO_CREEP = contact.Creepage()
+CENTRE, PLANE = influence.tables()
+
+
+def exact_U(X, t):
+    """U(X, t) of strip_halfspace.md Eq. 1 by adaptive quadrature."""
+    singular = math.acos(min(X, 1.0))
+
+    def integrand(angle):
+        return math.sin(angle) ** 2 * math.asinh(t / max(abs(X - math.cos(angle)), 1e-300))
+
+    parts = [
+        quad(integrand, low, high, limit=200, epsabs=1e-13)[0] for low, high in ((0, singular), (singular, math.pi))
+    ]
+    return sum(parts)
+
+
+@pytest.mark.parametrize("t", [1e-4, 3e-3, 0.1, 1.0, 20.0, 1e3])
+def test_centre_line_table_equals_quadrature(t):
+    assert influence.at_centre(CENTRE, math.log(t)) == pytest.approx(exact_U(0.0, t), rel=2e-5)
+
+
+@pytest.mark.parametrize("X", [0.0, 0.513, 1.0, 1.507, 3.9, 6.0])
+@pytest.mark.parametrize("t", [2e-3, 0.1, 1.0, 20.0, 300.0])
+def test_plane_table_equals_quadrature(X, t):
+    assert influence.anywhere(PLANE, X, math.log(t)) == pytest.approx(exact_U(X, t), rel=1e-3)
+
+
+@pytest.mark.parametrize("ratio", [0.1, 0.3, 1.0, 4.0, 30.0])
+def test_hertz_limit(ratio):
+    """strip_halfspace.md 6: at 40 strips approach 5e-4, pressure and area 2e-3."""
+    separation = contact.Separation.hertzian(3.0, 3.0 * ratio)
+    sol = contact.solve(separation, NO_CREEP, load=8e4, normal="strip_halfspace", n_strips=40)
+    exact = contact.hertz(3.0, 3.0 * ratio, load=8e4)
+    assert sol.approach == pytest.approx(exact.approach, rel=5e-4)
+    assert sol.max_pressure == pytest.approx(exact.p0, rel=2e-3)
+    assert sol.area == pytest.approx(math.pi * exact.a * exact.b, rel=2e-3)
+    assert sol.normal_stiffness == pytest.approx(1.5 * 8e4 / exact.approach, rel=1e-3)
+
+
+def test_load_and_approach_agree():
+    y = np.linspace(-15e-3, 15e-3, 301)
+    separation = contact.Separation(y, 1.5 * y**2 + 4e3 * np.maximum(y, 0) ** 4, 1.0)
+    by_load = contact.solve(separation, NO_CREEP, load=7e4, normal="strip_halfspace")
+    by_approach = contact.solve(separation, NO_CREEP, approach=by_load.approach, normal="strip_halfspace")
+    assert by_approach.N == pytest.approx(7e4, rel=3e-4)
+    assert by_approach.max_pressure == pytest.approx(by_load.max_pressure, rel=1e-3)
+
+
+def test_mirrored_separation_gives_the_mirrored_patch():
+    y = np.linspace(-15e-3, 15e-3, 301)
+    g = 1.5 * y**2 + 4e3 * np.maximum(y, 0) ** 4
+    one = contact.solve(contact.Separation(y, g, 1.0), NO_CREEP, load=5e4, normal="strip_halfspace")
+    other = contact.solve(contact.Separation(-y[::-1], g[::-1], 1.0), NO_CREEP, load=5e4, normal="strip_halfspace")
+    np.testing.assert_allclose(one.strips.p0, other.strips.p0[::-1], rtol=1e-6)
+    assert one.approach == pytest.approx(other.approach, rel=1e-7)
+
+
+def test_distant_lobes_interact():
+    """Each of two equal lobes feels the other as a point force: it lies deeper by N/2/(pi E* distance)."""
+    spacing, load = 30e-3, 2e3
+    y = np.linspace(-25e-3, 25e-3, 1001)
+    g = np.minimum(20.0 * (y + spacing / 2) ** 2, 20.0 * (y - spacing / 2) ** 2)
+    both = contact.solve(contact.Separation(y, g, 20.0), NO_CREEP, load=load, normal="strip_halfspace", n_strips=40)
+    alone = contact.hertz(20.0, 20.0, load=load / 2)
+    assert both.n_patches == 2
+    expected = load / 2 / (math.pi * contact.STEEL.contact_modulus * spacing)
+    assert both.approach - alone.approach == pytest.approx(expected, rel=0.02)
+
+
+def test_a_patch_that_the_start_misses_is_found():
+    """The second lobe lies 8 % of the approach deeper than ANALYN's factor 1 + beta admits: the ghost check opens a panel."""
+    separation = two_lobes(38e-6, spacing=20e-3)
+    start = contact.solve(separation, NO_CREEP, load=3e4)
+    sol = contact.solve(separation, NO_CREEP, load=3e4, normal="strip_halfspace")
+    assert start.n_patches == 1
+    assert sol.n_patches == 2
+    assert (sol.strips.patch == 1).sum() >= 5
+
+
+def test_warm_start_gives_the_same_answer_in_fewer_iterations():
+    y = np.linspace(-15e-3, 15e-3, 301)
+
+    def pair(shift):
+        return contact.Separation(y, 1.5 * (y - shift) ** 2 + 4e3 * np.maximum(y - shift, 0) ** 4, 1.0)
+
+    start = contact.solve(pair(0.0), NO_CREEP, load=7e4, normal="strip_halfspace")
+    warm = contact.solve(pair(2e-5), NO_CREEP, load=7e4, normal="strip_halfspace", start=start)
+    cold = contact.solve(pair(2e-5), NO_CREEP, load=7e4, normal="strip_halfspace")
+    assert warm.iterations < cold.iterations
+    assert warm.approach == pytest.approx(cold.approach, rel=1e-4)
+    assert warm.max_pressure == pytest.approx(cold.max_pressure, rel=1e-3)
+
+
+def test_yaw_shears_the_patch_without_losing_load():
+    """A skewed locus x_c = k·y of a circular contact: the ellipse of the sheared quadratic form, by exact Hertz."""
+    k, A = 0.15, 4.0
+    y = np.linspace(-12e-3, 12e-3, 241)
+    skewed = contact.Separation(y, A * (1.0 - k * k) * y**2, A, x_c=k * y)
+    sol = contact.solve(skewed, NO_CREEP, load=4e4, normal="strip_halfspace", n_strips=40)
+    # z = A (x - k y)² + A (1 - k²) y² has principal curvatures A(1 ± k)
+    exact = contact.hertz(A * (1 + k), A * (1 - k), load=4e4)
+    assert sol.approach == pytest.approx(exact.approach, rel=2e-3)
+    assert sol.max_pressure == pytest.approx(exact.p0, rel=5e-3)
+    assert sol.area == pytest.approx(math.pi * exact.a * exact.b, rel=5e-3)
