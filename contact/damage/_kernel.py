@@ -62,7 +62,7 @@ N_DAMAGE_FIELDS = 3
 
 
 @kernel
-def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, damage):  # type: ignore[no-untyped-def]
+def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, damage):
     """Fill `damage` and the first `n` strips of `damage_fields` from a solved case (see `contact._layout`).
 
     The depth of an element is spread over the circumference, so it is metre per metre rolled; the volume is that of all

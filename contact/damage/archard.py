@@ -64,7 +64,7 @@ class ArchardMap:
 
 
 @kernel
-def wear_coefficient_kernel(velocity, pressure, hardness, constants):  # type: ignore[no-untyped-def]
+def wear_coefficient_kernel(velocity, pressure, hardness, constants):
     """Archard's k [-] for sliding velocity [m/s], pressure and hardness [Pa]."""
     if pressure > constants[6] * hardness:
         return constants[3]
@@ -76,7 +76,7 @@ def wear_coefficient_kernel(velocity, pressure, hardness, constants):  # type: i
 
 
 @kernel
-def wear_depth_kernel(slip, pressure, dx, speed, hardness, constants):  # type: ignore[no-untyped-def]
+def wear_depth_kernel(slip, pressure, dx, speed, hardness, constants):
     """Depth [m] that a particle loses on its way dx [m] through an element: k p Δs/H, Δs = slip·dx (Eq. 6.4).
 
     `slip` is the sliding velocity relative to the rolling speed, so it takes dx/V to pass and slides slip·V·dx/V.

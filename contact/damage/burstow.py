@@ -50,7 +50,7 @@ class Burstow:
 
 
 @kernel
-def burstow_kernel(T_gamma, constants):  # type: ignore[no-untyped-def]
+def burstow_kernel(T_gamma, constants):
     """Damage per axle pass [-] for T-gamma [N]."""
     threshold, peak_at, zero_at, peak, floor = constants[0], constants[1], constants[2], constants[3], constants[4]
     if T_gamma <= threshold:

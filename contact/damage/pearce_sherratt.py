@@ -70,7 +70,7 @@ class PearceSherratt:
 
 
 @kernel
-def pearce_sherratt_kernel(T_gamma, diameter, constants):  # type: ignore[no-untyped-def]
+def pearce_sherratt_kernel(T_gamma, diameter, constants):
     """Area loss [m² per m rolled] for T-gamma [N] and wheel diameter [m]."""
     mild_slope, plateau, severe_slope, severe_offset, mild_limit, severe_from, floor = (
         constants[0],

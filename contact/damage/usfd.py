@@ -74,7 +74,7 @@ class Usfd:
 
 
 @kernel
-def usfd_kernel(T_gamma, area, constants):  # type: ignore[no-untyped-def]
+def usfd_kernel(T_gamma, area, constants):
     """Volume lost per contact area and metre rolled [m] for T-gamma [N] and contact area [m²]."""
     mild_slope, mild_limit, plateau, severe_limit, severe_slope, intercept, density = (
         constants[0],

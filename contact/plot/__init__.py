@@ -1,0 +1,16 @@
+"""Pictures of solutions, in the manner of the thesis' figures. Only this package imports matplotlib.
+
+No function touches pyplot's global state: each returns a `matplotlib.figure.Figure` (``figure.savefig("patch.png")``) or
+draws on what it is given.
+"""
+
+try:
+    import matplotlib as _matplotlib  # noqa: F401
+except ImportError as missing:
+    raise ImportError("contact.plot needs matplotlib: pip install 'wheelrail-contact[plot]'") from missing
+
+from contact.plot.lines import curve, time_histories
+from contact.plot.patches import patch
+from contact.plot.position import Wheel, position
+
+__all__ = ["Wheel", "curve", "patch", "position", "time_histories"]

@@ -1,0 +1,112 @@
+"""Creep curves and time histories."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, FigureBase
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import ArrayLike, NDArray
+
+from contact.errors import ContactError
+from contact.plot.style import DPI, FAINT, colours, style
+
+Lines = Mapping[str, ArrayLike]
+
+
+def curve(
+    creepage: ArrayLike,
+    curves: Lines,
+    *,
+    xlabel: str = "creepage [-]",
+    ylabel: str = "creep force over normal force [-]",
+    limit: float | None = None,
+    ax: Axes | None = None,
+) -> FigureBase:
+    """Draw creep curves.
+
+    Parameters
+    ----------
+    creepage : array_like, shape (n,)
+        Abscissa.
+    curves : mapping of str to array_like, shape (n,)
+        Ordinates by name.
+    limit : float, optional
+        Friction limit, a dashed line on each side of zero where there are curves.
+    ax : matplotlib Axes, optional
+        Draw there; default a new figure.
+
+    Raises
+    ------
+    ContactError
+        A curve that is not as long as the abscissa.
+    """
+    abscissa = np.asarray(creepage, dtype=np.float64)
+    with style():
+        if ax is None:
+            ax = Figure(figsize=(5.6, 3.6), dpi=DPI, layout="constrained").subplots()
+        sides = set()  # of zero on which there are curves
+        for (name, values), colour in zip(curves.items(), colours(len(curves)), strict=True):
+            ordinate = _ordinate(name, values, abscissa)
+            ax.plot(abscissa, ordinate, color=colour, lw=1.6, label=name)
+            sides.update(np.sign(ordinate[ordinate != 0.0]).tolist())
+        if limit is not None:
+            for side in sides:
+                ax.axhline(side * limit, color=FAINT, lw=0.9, ls="--", zorder=0)
+        ax.axhline(0.0, color=FAINT, lw=0.6, zorder=0)
+        ax.set(xlabel=xlabel, ylabel=ylabel)
+        ax.margins(x=0.0)
+        ax.legend()
+    return ax.figure
+
+
+def time_histories(
+    time: ArrayLike, panels: Mapping[str, Lines], *, xlabel: str = "time [s]", title: str = ""
+) -> Figure:
+    """Draw time histories, one panel above the other over a common abscissa.
+
+    Parameters
+    ----------
+    time : array_like, shape (n,)
+    panels : mapping of str to mapping of str to array_like
+        Label of the ordinate with its unit → name of the line → values, shape (n,). Lines of one name have one colour.
+
+    Raises
+    ------
+    ContactError
+        No panel, or a line that is not as long as the abscissa.
+    """
+    if not panels:
+        raise ContactError("panels is empty; at least one is needed")
+    abscissa = np.asarray(time, dtype=np.float64)
+    names = list(dict.fromkeys(name for lines in panels.values() for name in lines))
+    colour = dict(zip(names, colours(len(names)), strict=True))
+    with style():
+        figure = Figure(figsize=(7.4, 0.9 + 1.5 * len(panels)), dpi=DPI, layout="constrained")
+        axes = figure.subplots(len(panels), 1, squeeze=False, sharex=True)[:, 0]
+        for ax, (label, lines) in zip(axes, panels.items(), strict=True):
+            for name, values in lines.items():
+                ax.plot(abscissa, _ordinate(name, values, abscissa), color=colour[name], lw=1.2, label=name)
+            ax.set_ylabel(label)
+            ax.yaxis.set_major_locator(MaxNLocator(4))
+            ax.grid(visible=True)
+            ax.margins(x=0.0)
+            if len(lines) > 1:
+                ax.legend(loc="lower right", bbox_to_anchor=(1.0, 0.96), borderaxespad=0.0, ncols=len(lines))
+        axes[-1].set_xlabel(xlabel)
+        figure.align_ylabels(axes)
+        if title:
+            figure.suptitle(title, x=0.01, ha="left", fontsize=10.0)
+    return figure
+
+
+def _ordinate(name: str, values: ArrayLike, abscissa: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return `values` as an array as long as the abscissa."""
+    ordinate = np.asarray(values, dtype=np.float64)
+    if ordinate.shape != abscissa.shape:
+        raise ContactError(
+            f"line {name!r} has shape {ordinate.shape}; that of the abscissa, {abscissa.shape}, is needed"
+        )
+    return ordinate

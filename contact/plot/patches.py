@@ -1,0 +1,207 @@
+"""Contact patches seen from above: the rolling direction x points up, y to the right; millimetres and MPa."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib import patheffects
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Colormap, Normalize
+from matplotlib.figure import Figure, FigureBase
+from matplotlib.ticker import MultipleLocator
+from numpy.typing import NDArray
+
+from contact.damage import evaluate
+from contact.errors import ContactError
+from contact.plot.mesh import PatchMesh
+from contact.plot.style import DPI, FAINT, INK, colour_map, nice, style
+from contact.solution import Solution
+
+Array = NDArray[np.float64]
+
+
+def patch(
+    solution: Solution | Sequence[Solution],
+    titles: str | Sequence[str] = (),
+    *,
+    ax: Axes | None = None,
+    figure: FigureBase | None = None,
+) -> FigureBase:
+    """Draw contact patches: pressure with stick/slip boundary and traction arrows, and below them the energy index.
+
+    All patches share one length scale, one scale per colour and one scale of arrows.
+
+    Parameters
+    ----------
+    solution : Solution or sequence of Solution
+        One column each.
+    titles : str or sequence of str
+        One a column.
+    ax : matplotlib Axes, optional
+        Draw the pressure of one solution there and nothing else.
+    figure : matplotlib Figure or SubFigure, optional
+        Draw into this empty figure; default a new one whose size fits.
+
+    Returns
+    -------
+    Figure
+        That of `ax`, `figure` or the new one.
+
+    Raises
+    ------
+    ContactError
+        No solution, a number of titles that is not that of the solutions, or `ax` with several solutions.
+    """
+    solutions = [solution] if isinstance(solution, Solution) else list(solution)
+    titles = [titles] if isinstance(titles, str) else list(titles)
+    if not solutions:
+        raise ContactError("solution is empty; at least one is needed")
+    if titles and len(titles) != len(solutions):
+        raise ContactError(f"titles has {len(titles)} entries for {len(solutions)} solutions")
+    if ax is not None and len(solutions) > 1:
+        raise ContactError(f"ax takes one solution; {len(solutions)} are given")
+    titles = titles or [""] * len(solutions)
+    scale = Scale(solutions)
+    with style():
+        if ax is not None:
+            figure = ax.figure
+            figure.colorbar(_pressure(ax, solutions[0], titles[0], scale), ax=ax, label="pressure [MPa]", pad=0.02)
+            ax.set(xlabel="y [mm]", ylabel="x [mm], rolling ↑")
+            return figure
+        if figure is None:
+            figure = Figure(figsize=scale.figure_size(len(solutions)), dpi=DPI, layout="compressed")
+        grid = figure.subplots(2, len(solutions), squeeze=False, sharex="col", sharey=True)
+        for column, solved, title in zip(grid.T, solutions, titles, strict=True):
+            pressure = _pressure(column[0], solved, title, scale)
+            energy = _energy(column[1], solved, scale)
+            column[1].set_xlabel("y [mm]")
+        for row, colours, label in zip(
+            grid, (pressure, energy), ("pressure [MPa]", f"energy index [{scale.energy_unit}]"), strict=True
+        ):
+            row[0].set_ylabel("x [mm], rolling ↑")
+            figure.colorbar(colours, ax=list(row), label=label, pad=0.02)
+        figure.supxlabel(scale.caption, fontsize=8.0, color=FAINT)
+    return figure
+
+
+class Scale:
+    """What the panels of one figure have in common."""
+
+    def __init__(self, solutions: Sequence[Solution]) -> None:
+        touching = [s for s in solutions if s.p.size]
+        meshes = [PatchMesh(s, k) for s in touching for k in range(s.n_patches)]
+        self.pressure = 0.0, nice(max((s.max_pressure for s in touching), default=1e6) * 1e-6)
+        self.traction = max((float(np.hypot(s.qx, s.qy).max()) for s in touching), default=0.0)
+        energies = [evaluate(s).energy_index.field for s in touching]
+        top = max((float(e.max()) for e in energies), default=0.0)
+        bottom = min((float(e.min()) for e in energies), default=0.0)
+        self.energy_unit, self.energy_factor = ("MPa", 1e-6) if top >= 0.1e6 else ("kPa", 1e-3)
+        high, low = (nice(max(e, 1.0) * self.energy_factor) for e in (top, -bottom))
+        self.energy = (-low if bottom < -0.01 * top else 0.0, high)
+        # a window that holds every solution with a margin, half its size [mm]
+        boxes = [box(s) for s in solutions]
+        sizes = np.array([(y1 - y0, x1 - x0) for y0, y1, x0, x1 in boxes])
+        self.half_y, self.half_x = 0.5 * sizes.max(axis=0) + 0.1 * sizes.max()
+        narrowest = min((min(np.ptp(m.edges), 2.0 * m.a.max()) for m in meshes), default=1.0)
+        self.spacing = max(min(0.17 * max(self.half_x, self.half_y), 0.25 * narrowest), 0.06 * self.half_y)
+
+    def figure_size(self, n: int) -> tuple[float, float]:
+        """Width and height [inch] for n columns."""
+        inch = min(1.8 / max(self.half_y, self.half_x), 5.5 / (n * self.half_y), 0.25)  # per mm
+        width, height = max(2.0 * self.half_y * inch, 2.2), max(2.0 * self.half_x * inch, 1.6)
+        return n * (width + 0.15) + 1.6, 2.0 * height + 1.75
+
+    @property
+    def caption(self) -> str:
+        """What lines and arrows mean."""
+        longest = f"longest arrow: traction on the wheel {self.traction * 1e-6:.3g} MPa"
+        return f"{longest if self.traction else 'no traction'}  ·  dashed: boundary of stick and slip"
+
+
+def _pressure(ax: Axes, solution: Solution, title: str, scale: Scale) -> ScalarMappable:
+    """Pressure and tractions of one solution; returns what the colour bar needs."""
+    numbers = "no contact"
+    if solution.p.size:
+        numbers = (
+            f"N = {solution.N * 1e-3:.3g} kN,  $p_0$ = {solution.max_pressure * 1e-6:.4g} MPa\n"
+            f"area {solution.area * 1e6:.3g} mm²,  slip {100.0 * solution.slip_ratio:.0f} %"
+        )
+    ax.set_title(numbers, loc="left", fontsize=8.0, linespacing=1.35)
+    ax.annotate(title, (0.0, 1.0), (0.0, 32.0), xycoords="axes fraction", textcoords="offset points", weight="bold")
+    colours = _window(ax, solution, solution.p * 1e-6, colour_map("Blues", 0.75), scale.pressure, scale)
+    for k in range(solution.n_patches):
+        y, x, qy, qx = PatchMesh(solution, k).arrows(scale.spacing)
+        seen = np.hypot(qx, qy) > 0.1 * scale.traction  # shorter ones would be dots
+        if seen.any():
+            ax.quiver(
+                *(row[seen] for row in (y, x, qy, qx)),
+                angles="xy",
+                scale_units="xy",
+                scale=scale.traction / (1.25 * scale.spacing),
+                pivot="mid",
+                color=INK,
+                width=0.055 * scale.spacing,
+                units="xy",
+                headwidth=4.0,
+                headlength=5.0,
+                headaxislength=4.5,
+                zorder=3,
+            )
+    return colours
+
+
+def _energy(ax: Axes, solution: Solution, scale: Scale) -> ScalarMappable:
+    """Energy index of one solution and the names of its zones; returns what the colour bar needs."""
+    values = evaluate(solution).energy_index.field * scale.energy_factor
+    colours = _window(ax, solution, values, colour_map("YlOrRd", 0.85, *scale.energy), scale.energy, scale)
+    halo = [patheffects.withStroke(linewidth=2.5, foreground="white", alpha=0.8)]
+    for k in range(solution.n_patches):
+        for name, place in PatchMesh(solution, k).labels().items():
+            ax.text(*place, name, ha="center", va="center", fontsize=8.0, clip_on=True, path_effects=halo)
+    return colours
+
+
+def _window(
+    ax: Axes, solution: Solution, values: Array, colours: Colormap, limits: tuple[float, float], scale: Scale
+) -> ScalarMappable:
+    """A field, the outline and the stick/slip boundary of every patch in the common window."""
+    norm = Normalize(*limits)
+    for k in range(solution.n_patches):
+        mesh = PatchMesh(solution, k)
+        ax.pcolormesh(
+            *mesh.closed(mesh.of(values), edge=0.0),
+            shading="gouraud",
+            cmap=colours,
+            norm=norm,
+            rasterized=True,
+        )
+        if mesh.stick.any() and not mesh.stick.all():
+            ax.contour(*mesh.closed(mesh.slip_distance()), levels=[0.0], colors=INK, linewidths=1.1, linestyles="--")
+        ax.plot(*mesh.outline(), color=INK, lw=1.0)
+    low_y, high_y, low_x, high_x = box(solution)
+    centre_y, centre_x = 0.5 * (low_y + high_y), 0.5 * (low_x + high_x)
+    ax.set(
+        xlim=(centre_y - scale.half_y, centre_y + scale.half_y),
+        ylim=(centre_x - scale.half_x, centre_x + scale.half_x),
+        aspect="equal",
+    )
+    step = 5.0 if max(scale.half_x, scale.half_y) > 6.0 else 2.0
+    ax.xaxis.set_major_locator(MultipleLocator(step))
+    ax.yaxis.set_major_locator(MultipleLocator(step))
+    ax.grid(visible=True)
+    return ScalarMappable(norm, colours)
+
+
+def box(solution: Solution) -> tuple[float, float, float, float]:
+    """Lowest and highest y, lowest and highest x of all patches [mm]; ±5 mm without contact."""
+    if not solution.p.size:
+        return -5.0, 5.0, -5.0, 5.0
+    meshes = [PatchMesh(solution, k) for k in range(solution.n_patches)]
+    return (
+        min(float(m.edges[0]) for m in meshes),
+        max(float(m.edges[1]) for m in meshes),
+        min(float((m.centre - m.a).min()) for m in meshes),
+        max(float((m.centre + m.a).max()) for m in meshes),
+    )

@@ -1,0 +1,64 @@
+"""Colours, type and scales that all pictures share."""
+
+from __future__ import annotations
+
+from contextlib import AbstractContextManager
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.colors import Colormap, LinearSegmentedColormap
+
+MM = 1e3  # per metre
+INK, FAINT, GRID = "#22262b", "#8a9099", "#eceef1"
+LINES = ("#1f5fa8", "#d1602c", "#2b8a57", "#8a4fa3", "#b8911f", "#5b6770")
+DPI = 150.0
+
+_STYLE: Any = {
+    "font.size": 9.0,
+    "axes.titlesize": 9.0,
+    "axes.labelsize": 9.0,
+    "axes.edgecolor": FAINT,
+    "axes.labelcolor": INK,
+    "text.color": INK,
+    "xtick.color": FAINT,
+    "ytick.color": FAINT,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.axisbelow": True,
+    "grid.color": GRID,
+    "grid.linewidth": 0.6,
+    "legend.frameon": False,
+    "legend.fontsize": 8.0,
+}
+
+
+def style() -> AbstractContextManager[None]:
+    """Within this context new axes get the project's style; the user's settings stay as they are."""
+    return mpl.rc_context(_STYLE)
+
+
+def colours(n: int) -> list[str]:
+    """n line colours, repeated when there are more lines than colours."""
+    return [LINES[i % len(LINES)] for i in range(n)]
+
+
+def colour_map(name: str, to: float, low: float = 0.0, high: float = 1.0) -> Colormap:
+    """White at zero to the part `to` of a sequential map at `high`, so that dark arrows stay readable on all of it.
+
+    From zero down to `low` it runs from white into violet.
+    """
+    positive = [(0.0, "white"), *((s, mpl.colormaps[name](0.1 + (to - 0.1) * s)) for s in np.linspace(0.1, 1.0, 12))]
+    stops = [((s * high - low) / (high - low), colour) for s, colour in positive]
+    if low < 0.0:
+        stops.insert(0, (0.0, mpl.colormaps["Purples"](min(1.0, 0.25 - low / high))))
+    return LinearSegmentedColormap.from_list(name, stops, N=512)
+
+
+def nice(top: float) -> float:
+    """Upper end of a scale: the next of 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten, for `top` > 0."""
+    power = 10.0 ** np.floor(np.log10(top))
+    steps = np.array([1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0])
+    return float(power * steps[np.searchsorted(steps, top / power * (1.0 - 1e-9))])

@@ -1,0 +1,188 @@
+"""Pictures: what is drawn lies where the solution says, scales are common, nothing global is touched."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import contact
+
+mpl = pytest.importorskip("matplotlib")
+
+from contact import plot  # noqa: E402
+from contact.plot.mesh import PatchMesh  # noqa: E402
+from contact.plot.style import nice  # noqa: E402
+
+NO_CREEPAGE = contact.Creepage()
+
+
+@pytest.fixture(scope="module")
+def solution():
+    wheel = contact.Separation.hertzian(A=1.1, B=0.8)
+    return contact.solve(wheel, contact.Creepage(2e-3, 1e-3, 0.4), load=80e3)
+
+
+@pytest.fixture(scope="module")
+def apart():
+    return contact.solve(contact.Separation.hertzian(A=1.1, B=0.8), NO_CREEPAGE, approach=-1e-5)
+
+
+@pytest.fixture(scope="module")
+def two_patches():
+    y = np.linspace(-25e-3, 25e-3, 201)
+    g = np.minimum(6.0 * (y + 12e-3) ** 2, 2.0 * (y - 9e-3) ** 2 + 3e-5)
+    separation = contact.Separation(y, g - g.min(), 1.1)
+    solved = contact.solve(separation, contact.Creepage(-1e-3, -5e-4, 0.15), load=120e3)
+    assert solved.n_patches == 2
+    return solved
+
+
+def colour_limits(ax):
+    """Of the field on these axes."""
+    return next(part.get_clim() for part in ax.collections if isinstance(part, mpl.collections.QuadMesh))
+
+
+def test_outline_encloses_the_contact_area(solution, two_patches):
+    for solved in (solution, two_patches):
+        area = 0.0
+        for k in range(solved.n_patches):
+            y, x = PatchMesh(solved, k).outline()
+            area += 0.5 * abs(np.dot(x, np.roll(y, 1)) - np.dot(y, np.roll(x, 1)))
+        assert area == pytest.approx(1e6 * solved.area, rel=5e-3), "polygon through 30 strips"
+
+
+def test_drawn_boundary_is_the_leading_edge_shifted_back_by_strip_theory(ellipse):
+    solved = contact.solve(ellipse, contact.Creepage(1.5e-3, 0.0, 0.0), load=80e3, tangential="fastrip")
+    mesh = PatchMesh(solved, 0)
+    partly = mesh.stick.any(axis=1) & ~mesh.stick.all(axis=1)
+    boundary = np.array(
+        [np.interp(0.0, d, x) for d, x in zip(mesh.slip_distance()[partly], mesh.x[partly], strict=True)]
+    )
+    shift = boundary + mesh.a[partly]  # 2d, the same on all strips (theory.md 2.4)
+    assert partly.sum() > 10
+    assert np.ptp(shift) < 0.03 * mesh.a.max(), "sub-element: one element here is 0.1 a"
+
+
+def test_zone_names_stand_in_their_own_zones(solution, two_patches):
+    for solved in (solution, two_patches):
+        for k in range(solved.n_patches):
+            mesh = PatchMesh(solved, k)
+            labels = mesh.labels()
+            assert set(labels) == {"stick", "slip"}
+            for name, (y, x) in labels.items():
+                nearest = np.argmin((mesh.x - x) ** 2 + (mesh.y[:, None] - y) ** 2)
+                assert mesh.stick.ravel()[nearest] == (name == "stick")
+
+
+def test_arrows_are_the_tractions_at_their_feet(solution):
+    mesh = PatchMesh(solution, 0)
+    y, x, qy, qx = mesh.arrows(1.0)
+    assert 60 < y.size < 250, "about one per square millimetre of 134"
+    half = np.interp(y, mesh.y, mesh.a)
+    assert (np.abs(x) <= half).all()
+    for point in range(0, y.size, 7):
+        i, k = np.unravel_index(np.argmin((mesh.x - x[point]) ** 2 + (mesh.y[:, None] - y[point]) ** 2), mesh.x.shape)
+        near = np.hypot(solution.qx[i, k] - qx[point], solution.qy[i, k] - qy[point])
+        assert near < 0.15 * np.hypot(solution.qx, solution.qy).max()
+
+
+def test_patches_of_one_figure_share_their_scales(solution, two_patches):
+    figure = plot.patch([solution, two_patches], ["one", "two"])
+    pressure, energy = figure.axes[:2], figure.axes[2:4]
+    spans = {tuple(np.round([np.ptp(ax.get_xlim()), np.ptp(ax.get_ylim())], 9)) for ax in pressure + energy}
+    assert len(spans) == 1, "one length scale"
+    for row, top in ((pressure, max(solution.max_pressure, two_patches.max_pressure) * 1e-6), (energy, None)):
+        limits = {colour_limits(ax) for ax in row}
+        assert len(limits) == 1, "one colour scale a row"
+        if top is not None:
+            assert limits.pop()[1] >= top
+    assert two_patches.length * 1e3 < np.ptp(pressure[1].get_ylim())
+
+
+def test_negative_energy_is_shown_and_not_cut_off(solution):
+    field = contact.damage.evaluate(solution).energy_index.field
+    assert field.min() < -0.01 * field.max(), "this case must gain energy somewhere"
+    figure = plot.patch(solution)
+    low, high = colour_limits(figure.axes[1])
+    assert low <= field.min() * 1e-6
+    assert high >= field.max() * 1e-6
+
+
+def test_pictures_are_written_and_not_blank(tmp_path, solution, apart, two_patches):
+    blank = tmp_path / "blank.png"
+    mpl.figure.Figure(figsize=(2.0, 2.0)).savefig(blank)
+    for k, solved in enumerate((solution, apart, [two_patches, apart])):
+        path = tmp_path / f"{k}.png"
+        plot.patch(solved, "case" if k < 2 else ["two", "apart"]).savefig(path)
+        image = mpl.image.imread(path)
+        assert image.shape[0] > 300
+        assert image.std() > 0.01
+    assert plot.patch(apart).axes[0].get_title(loc="left") == "no contact"
+
+
+def test_given_axes_get_the_pressure_alone(solution):
+    figure = mpl.figure.Figure()
+    ax = figure.subplots()
+    assert plot.patch(solution, ax=ax) is figure
+    assert len(figure.axes) == 2, "the axes and their colour bar"
+
+
+def test_the_users_matplotlib_settings_stay(solution, apart):
+    before = dict(mpl.rcParams)
+    plot.patch([solution, apart])
+    plot.curve([0.0, 1.0], {"a": [0.0, 1.0]})
+    assert dict(mpl.rcParams) == before
+    assert "matplotlib.pyplot" not in sys.modules or not mpl.pyplot.get_fignums()
+
+
+def test_friction_limit_is_drawn_where_the_curves_are():
+    figure = plot.curve([0.0, 0.5, 1.0], {"fastrip": [0.0, -0.2, -0.3], "fastsim": [0.0, -0.1, -0.25]}, limit=0.3)
+    dashed = [line for line in figure.axes[0].lines if line.get_linestyle() == "--"]
+    assert [line.get_ydata()[0] for line in dashed] == [-0.3]
+    assert [t.get_text() for t in figure.axes[0].get_legend().get_texts()] == ["fastrip", "fastsim"]
+
+
+def test_time_histories_keep_one_colour_for_one_name():
+    t = np.linspace(0.0, 1.0, 50)
+    figure = plot.time_histories(t, {"y [mm]": {"left": t, "right": -t}, "F [kN]": {"right": t**2}})
+    first, second = figure.axes
+    assert first.lines[1].get_color() == second.lines[0].get_color() != first.lines[0].get_color()
+    assert [ax.get_ylabel() for ax in figure.axes] == ["y [mm]", "F [kN]"]
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda s: plot.patch([]), "solution is empty"),
+        (lambda s: plot.patch(s, ["a", "b"]), "titles has 2 entries for 1 solutions"),
+        (lambda s: plot.patch([s, s], ax=object()), "ax takes one solution"),
+        (lambda s: plot.curve([0.0, 1.0], {"short": [1.0]}), r"'short' has shape \(1,\)"),
+        (lambda s: plot.time_histories([0.0], {}), "panels is empty"),
+        (lambda s: plot.position([]), "wheels holds no contact patch"),
+        (lambda s: plot.Wheel("middle", None, None, (), ()), "side = 'middle'"),
+    ],
+)
+def test_bad_input_is_refused(solution, call, message):
+    with pytest.raises(contact.ContactError, match=message):
+        call(solution)
+
+
+@pytest.mark.parametrize(
+    ("top", "end"), [(893.0, 1000.0), (1000.0, 1000.0), (1001.0, 1200.0), (0.26, 0.3), (8.1, 10.0)]
+)
+def test_scales_end_at_round_numbers(top, end):
+    assert nice(top) == pytest.approx(end, rel=1e-12)
+
+
+def test_matplotlib_is_loaded_by_contact_plot_alone_and_its_absence_names_the_extra():
+    code = (
+        "import sys, contact, contact.damage, contact.geometry\n"
+        "assert not {'matplotlib', 'typer', 'rich'} & set(sys.modules), 'the core loads an extra'\n"
+        "sys.modules['matplotlib'] = None\n"
+        "try:\n    import contact.plot\n"
+        "except ImportError as error:\n    assert 'wheelrail-contact[plot]' in str(error), error\n"
+        "else:\n    raise SystemExit('contact.plot imported without matplotlib')\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
