@@ -56,11 +56,10 @@ from contact.geometry.layout import (
     VEL_YAW,
     VEL_Z,
 )
-from contact.geometry.plane import Frame, along, depth, project, track_slope
+from contact.geometry.plane import Frame, along, normal_gap, project, spread, track_slope
 from contact.geometry.search import axle, combine, lobes, on_wheel
 
-# Samples extend beyond the interpenetration by this [m] and this part of its width: the room of a second difference there.
-MARGIN, MARGIN_RATIO = 3e-3, 0.15
+MARGIN = 3e-3  # [m] by which samples extend beyond the interpenetration: the room of a second difference there
 _OPENING = 1.0  # slope at which the gap opens where a profile, or the patch's own range, ends
 
 
@@ -114,16 +113,19 @@ def sample(
     patch: Array,
     out: Array,
 ) -> None:
-    """Fill the separation: at the positions `grid`, or, when that is empty, evenly over low … high.
+    """Fill the separation: at the positions `grid`, or, when that is empty, over low … high, dense where the gap is small.
 
     Beyond low … high, where a profile or the patch's own range ends, the gap opens at 45°.
     """
     y0, z0, c, s = frame
     lx, ly, lz = axle(motion[POSE_ROLL], motion[POSE_YAW])
-    n = out.shape[1]
+    if grid.size > 0:
+        out[SEP_Y] = grid
+    else:
+        spread(wheel, n_wheel, low, high, out[SEP_Y])
     i, j = 0, 0
-    for k in range(n):
-        u = grid[k] if grid.size > 0 else low + (high - low) * k / (n - 1.0)
+    for k in range(out.shape[1]):
+        u = out[SEP_Y, k]
         v = min(max(u, low), high)
         i, j = advance(rail, n_rail, i, v), advance(wheel, n_wheel, j, v)
         height, slope = at(wheel, j, v)
@@ -132,7 +134,6 @@ def sample(
         pz = z0 + v * s + height * c - motion[POSE_Z] + motion[RADIUS]
         x, _, r = on_wheel(tilt, py, pz, lx, ly, lz)
         gap = at(rail, i, v)[0] - height + patch[PATCH_APPROACH]
-        out[SEP_Y, k] = u
         out[SEP_G, k] = max(gap, 0.0) + _OPENING * abs(u - v)
         # curvature cos/(2 r) of the ring along its own normal, seen along the plane's: cos(angle)/(2 r cos(angle - plane))
         out[SEP_A, k] = 0.5 / r * math.sqrt((1.0 + slope * slope) / (1.0 + tilt * tilt))
@@ -142,6 +143,7 @@ def sample(
 @kernel
 def describe(
     line: Array,
+    first_node: int,
     start: int,
     end: int,
     placed: Array,
@@ -170,8 +172,7 @@ def describe(
     first = along(frame, lobe[LOBE_Y0], at(placed, i, lobe[LOBE_Y0])[0])
     i = advance(placed, n_placed, i, lobe[LOBE_Y1])
     last = along(frame, lobe[LOBE_Y1], at(placed, i, lobe[LOBE_Y1])[0])
-    margin = MARGIN + MARGIN_RATIO * (last - first)
-    low, high = first - margin, last + margin
+    low, high = first - MARGIN, last + MARGIN
     if grid.size > 0:
         low, high = min(low, grid[0]), max(high, grid[grid.size - 1])
     if before > -math.inf:
@@ -182,18 +183,14 @@ def describe(
     j = start
     while j < end - 2 and line[Y, j + 1] <= y0:
         j += 1
-    n_wheel = project(line, start, end, j, motion[POSE_Z], frame, low, high, wheel)
-    n_rail = project(placed, 0, n_placed, centre, 0.0, frame, low, high, rail)
-    if n_wheel < 3 or n_rail < 3:
-        return False
-    low = max(low, wheel[Y, 0], rail[Y, 0])
-    high = min(high, wheel[Y, n_wheel - 1], rail[Y, n_rail - 1])
+    n_wheel, low, high = project(line, first_node, line.shape[1], j, motion[POSE_Z], frame, low, high, wheel)
+    n_rail, low, high = project(placed, 0, n_placed, centre, 0.0, frame, low, high, rail)
     first, last = max(first, low), min(last, high)
-    if not first < last:
+    if n_wheel < 3 or n_rail < 3 or not first < last:
         return False
 
     patch[PATCH_ANGLE], patch[PATCH_FROM], patch[PATCH_TO], patch[PATCH_LOAD] = angle, first, last, 0.0
-    patch[PATCH_APPROACH] = depth(wheel, n_wheel, rail, n_rail, first, last)
+    patch[PATCH_APPROACH] = -normal_gap(wheel, n_wheel, rail, n_rail, first, last)
     positions(motion, frame, wheel, n_wheel, patch)
     sample(motion, frame, wheel, n_wheel, rail, n_rail, low, high, grid, patch, separation)
     return True
@@ -202,6 +199,7 @@ def describe(
 @kernel
 def describe_all(
     line: Array,
+    first_node: int,
     start: int,
     end: int,
     placed: Array,
@@ -220,7 +218,7 @@ def describe_all(
         before = 0.5 * (lobe[k - 1, LOBE_Y1] + lobe[k, LOBE_Y0]) if k > 0 else -math.inf
         after = 0.5 * (lobe[k, LOBE_Y1] + lobe[k + 1, LOBE_Y0]) if k < n - 1 else math.inf
         if describe(
-            line, start, end, placed, lobe[k], before, after, motion, grid, wheel, rail,
+            line, first_node, start, end, placed, lobe[k], before, after, motion, grid, wheel, rail,
             patches[found], separations[found],
         ):  # fmt: skip
             found += 1

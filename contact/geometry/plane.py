@@ -4,12 +4,17 @@ A frame is (y0, z0, c, s): origin in track coordinates, cosine and sine of the c
 u = (y - y0) c + (z - z0) s; the height along its normal, from the wheel into the rail, is v = (z - z0) c - (y - y0) s.
 """
 
+import math
+
 from contact._jit import kernel
 from contact.geometry.curve import SLOPE, Array, Y, Z, advance, at, least
+from contact.geometry.layout import GAP, OPENING
 
 Frame = tuple[float, float, float, float]
 
 _STEEPEST = 0.17  # cosine of the largest angle between a surface and the contact plane, 80°
+_NEAR = 50e-6  # [m] gap at which samples become half as dense
+_SPARSEST = 0.05  # least density of samples, relative to that in contact
 
 
 @kernel
@@ -27,57 +32,106 @@ def track_slope(frame: Frame, slope: float) -> float:
 
 
 @kernel
-def faces(frame: Frame, slope: float) -> bool:
-    """Does a surface of slope dz/dy face the plane, within 80°?"""
-    cosine = frame[2] + slope * frame[3]
-    return cosine > 0.0 and cosine * cosine > _STEEPEST**2 * (1.0 + slope * slope)
+def cosine(frame: Frame, slope: float) -> float:
+    """Cosine of the angle between a surface of slope dz/dy and the plane."""
+    return (frame[2] + slope * frame[3]) / math.sqrt(1.0 + slope * slope)
+
+
+@kernel
+def _walk(
+    curve: Array, start: int, end: int, j: int, ahead: int, dz: float, frame: Frame, limit: float
+) -> tuple[int, float]:
+    """Last node and last u of the part of `curve` that faces the plane, from node j in the direction `ahead` (±1) to `limit`.
+
+    Where the curve turns away from the plane, the last u lies between two nodes, so that it moves smoothly with the frame.
+    """
+    own = cosine(frame, curve[SLOPE, j])
+    while True:
+        u = along(frame, curve[Y, j], curve[Z, j] + dz)
+        if (u - limit) * ahead >= 0.0:
+            return j, limit
+        if not start <= j + ahead < end:
+            return j, u
+        following = cosine(frame, curve[SLOPE, j + ahead])
+        if following < _STEEPEST:
+            if following < 0.5 * _STEEPEST:  # a corner: no use to interpolate to the next node
+                return j, u
+            beyond = along(frame, curve[Y, j + ahead], curve[Z, j + ahead] + dz)
+            return j + ahead, u + (beyond - u) * (own - _STEEPEST) / (own - following)
+        j, own = j + ahead, following
 
 
 @kernel
 def project(
     curve: Array, start: int, end: int, centre: int, dz: float, frame: Frame, low: float, high: float, out: Array
-) -> int:
+) -> tuple[int, float, float]:
     """Nodes of `curve`, lowered by dz, in the plane: those around node `centre` that face it, out to just beyond low … high.
 
-    Returns their number; `out` is then a curve v(u) with u increasing.
+    Returns their number and the range of u, within low … high, in which they face it; `out` is then a curve v(u) with u
+    increasing.
     """
+    if cosine(frame, curve[SLOPE, centre]) < _STEEPEST:
+        return 0, 0.0, 0.0
+    first, low = _walk(curve, start, end, centre, -1, dz, frame, low)
+    last, high = _walk(curve, start, end, centre, 1, dz, frame, high)
     y0, z0, c, s = frame
-    first = last = centre
-    while first > start and along(frame, curve[Y, first], curve[Z, first] + dz) > low:
-        if not faces(frame, curve[SLOPE, first - 1]):
-            break
-        first -= 1
-    while last < end - 1 and along(frame, curve[Y, last], curve[Z, last] + dz) < high:
-        if not faces(frame, curve[SLOPE, last + 1]):
-            break
-        last += 1
     for j in range(first, last + 1):
         y, z, m = curve[Y, j] - y0, curve[Z, j] + dz - z0, curve[SLOPE, j]
         out[Y, j - first] = y * c + z * s
         out[Z, j - first] = z * c - y * s
         out[SLOPE, j - first] = (m * c - s) / (c + m * s)
-    return last + 1 - first
+    return last + 1 - first, low, high
 
 
 @kernel
-def depth(wheel: Array, n_wheel: int, rail: Array, n_rail: int, low: float, high: float) -> float:
-    """Greatest depth of the wheel in the rail along the normal between `low` and `high`; both curves are in the plane."""
-    i, j = advance(rail, n_rail, 0, low), advance(wheel, n_wheel, 0, low)
-    u = low
-    r, rm = at(rail, i, u)
-    w, wm = at(wheel, j, u)
-    g0, m0 = r - w, rm - wm
-    lowest = g0
-    while u < high:
-        v = min(wheel[Y, j + 1], high) if j < n_wheel - 2 else high
-        i = advance(rail, n_rail, i, v)
-        r, rm = at(rail, i, v)
-        w, wm = at(wheel, j, v)
-        g1, m1 = r - w, rm - wm
-        lowest = min(lowest, g1)
-        if m0 < 0.0 < m1:
-            t, g = least(g0, g1, m0, m1, v - u)
-            if t > 0.0:
+def normal_gap(wheel: Array, n_wheel: int, rail: Array, n_rail: int, low: float, high: float) -> float:
+    """Fill the gap rows of the wheel's curve with rail minus wheel along the normal; return its least value in low … high.
+
+    Both curves are in the plane. Nodes beyond the rail's curve take the gap at its end.
+    """
+    i = 0
+    for j in range(n_wheel):
+        u = min(max(wheel[Y, j], rail[Y, 0]), rail[Y, n_rail - 1])
+        i = advance(rail, n_rail, i, u)
+        v, m = at(rail, i, u)
+        wheel[GAP, j] = v - wheel[Z, j]
+        wheel[OPENING, j] = m - wheel[SLOPE, j]
+    lowest = 0.0
+    for j in range(n_wheel - 1):
+        if low <= wheel[Y, j] <= high:
+            lowest = min(lowest, wheel[GAP, j])
+        if wheel[OPENING, j] < 0.0 < wheel[OPENING, j + 1] and wheel[Y, j] < high and wheel[Y, j + 1] > low:
+            h = wheel[Y, j + 1] - wheel[Y, j]
+            t, g = least(wheel[GAP, j], wheel[GAP, j + 1], wheel[OPENING, j], wheel[OPENING, j + 1], h)
+            if low <= wheel[Y, j] + t * h <= high and t > 0.0:
                 lowest = min(lowest, g)
-        u, g0, m0, j = v, g1, m1, min(j + 1, n_wheel - 2)
-    return max(-lowest, 0.0)
+    return lowest
+
+
+@kernel
+def _share(wheel: Array, j: int, low: float, high: float) -> tuple[float, float, float]:
+    """Ends of segment j within low … high and its share of the samples, width times density."""
+    u0, u1 = max(wheel[Y, j], low), min(wheel[Y, j + 1], high)
+    gap = max(0.5 * (wheel[GAP, j] + wheel[GAP, j + 1]), 0.0)
+    return u0, u1, max(u1 - u0, 0.0) * max(_NEAR / (_NEAR + gap), _SPARSEST)
+
+
+@kernel
+def spread(wheel: Array, n_wheel: int, low: float, high: float, out: Array) -> None:
+    """Sample positions `out` over low … high, dense where the gap is small.
+
+    Curvature jumps and narrow lobes may lie anywhere in a patch, but what is far from contact needs few samples.
+    """
+    n = out.size
+    total = 0.0
+    for j in range(n_wheel - 1):
+        total += _share(wheel, j, low, high)[2]
+    step = total / (n - 1.0)
+    passed, k = 0.0, 1
+    for j in range(n_wheel - 1):
+        u0, u1, share = _share(wheel, j, low, high)
+        while k < n - 1 and k * step <= passed + share:
+            out[k] = u0 + (u1 - u0) * (k * step - passed) / share
+            k += 1
+        passed += share
+    out[0], out[n - 1] = low, high

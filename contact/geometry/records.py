@@ -9,13 +9,13 @@ from contact.creepage import Creepage
 from contact.errors import require_number
 from contact.separation import Separation
 
-#: Roll and yaw beyond which the search, made for a wheelset on a track, is not meant to work [rad].
-LARGEST_ANGLE = 0.2
+#: Roll and yaw of a wheelset and roll of a rail [rad] up to which the search is made to work.
+LARGEST_ANGLE, LARGEST_RAIL_ROLL = 0.1, 0.05
 
 
 @dataclass(frozen=True, slots=True)
 class Pose:
-    """Where the wheelset is: lateral and vertical displacement [m], roll and yaw [rad, within ±0.2]."""
+    """Where the wheelset is: lateral and vertical displacement [m], roll and yaw [rad, within ±0.1]."""
 
     y: float = 0.0
     z: float = 0.0
@@ -51,7 +51,7 @@ class Velocity:
 
 @dataclass(frozen=True, slots=True)
 class Irregularity:
-    """Displacement of one rail from its place [m], its roll [rad, within ±0.2] and their rates, in track coordinates."""
+    """Displacement of one rail from its place [m], its roll [rad, within ±0.05] and their rates, in track coordinates."""
 
     y: float = 0.0
     z: float = 0.0
@@ -63,7 +63,7 @@ class Irregularity:
     def __post_init__(self) -> None:
         for name in ("y", "z", "y_rate", "z_rate", "roll_rate"):
             require_number(f"irregularity.{name}", getattr(self, name))
-        require_number("irregularity.roll", self.roll, -LARGEST_ANGLE, LARGEST_ANGLE)
+        require_number("irregularity.roll", self.roll, -LARGEST_RAIL_ROLL, LARGEST_RAIL_ROLL)
 
 
 @dataclass(frozen=True, slots=True)

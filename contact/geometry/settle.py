@@ -39,18 +39,19 @@ _DEEPEST = 5e-3  # [m] below first touch: far beyond any load that steel carries
 
 
 @kernel
-def oppose(wheel: Array, rail: Array, motion: Array, line: Array, placed: Array) -> tuple[int, int]:
-    """Trace line, placed rail and the gap between; returns the range of trace nodes above the rail."""
+def oppose(wheel: Array, rail: Array, motion: Array, line: Array, placed: Array) -> tuple[int, int, int]:
+    """Trace line, placed rail and the gap between; returns the first trace node and the range of those above the rail."""
     n = wheel.shape[1]
     first = trace(wheel, n, motion[RADIUS], motion[TAPE], motion[POSE_Y], motion[POSE_ROLL], motion[POSE_YAW], line)
     place(rail, rail.shape[1], motion[RAIL_Y], motion[RAIL_Z], motion[RAIL_ROLL], placed)
-    return vertical_gap(line, first, n, placed, rail.shape[1])
+    start, end = vertical_gap(line, first, n, placed, rail.shape[1])
+    return first, start, end
 
 
 @kernel
 def first_touch(wheel: Array, rail: Array, motion: Array, line: Array, placed: Array) -> tuple[bool, float]:
     """Do the profiles lie above each other, and the z at which the rigid wheel just touches."""
-    start, end = oppose(wheel, rail, motion, line, placed)
+    _, start, end = oppose(wheel, rail, motion, line, placed)
     if end - start < 3:
         return False, 0.0
     return True, touch(line, start, end)
@@ -81,22 +82,28 @@ def settle(mode: int, amount: float, wheel: Array, rail: Array, motion: Array, g
     Under a load, F^(2/3) is nearly linear in the penetration (Hertz); its root is bracketed and found by the Illinois
     variant of regula falsi.
     """
-    start, end = oppose(wheel, rail, motion, line, placed)
+    first, start, end = oppose(wheel, rail, motion, line, placed)
     if end - start < 3:
         return NO_OVERLAP
     if mode == GIVEN_Z:
-        return describe_all(line, start, end, placed, lobe, motion, grid, wheel_plane, rail_plane, patches, separations)
+        return describe_all(
+            line, first, start, end, placed, lobe, motion, grid, wheel_plane, rail_plane, patches, separations
+        )
     z0 = touch(line, start, end)
     if mode == PENETRATION or amount <= 0.0:
         motion[POSE_Z] = z0 + amount
-        return describe_all(line, start, end, placed, lobe, motion, grid, wheel_plane, rail_plane, patches, separations)
+        return describe_all(
+            line, first, start, end, placed, lobe, motion, grid, wheel_plane, rail_plane, patches, separations
+        )
     target = amount ** (2.0 / 3.0)
     low, high, f_low, f_high = 0.0, math.inf, -target, 0.0
     p = 1e-4 * (amount / 1e5) ** (2.0 / 3.0)
     side = 0
     for _ in range(_MAX_ITERATIONS):
         motion[POSE_Z] = z0 + p
-        n = describe_all(line, start, end, placed, lobe, motion, grid, wheel_plane, rail_plane, patches, separations)
+        n = describe_all(
+            line, first, start, end, placed, lobe, motion, grid, wheel_plane, rail_plane, patches, separations
+        )
         force = carried(n, patches, separations, case, nodes, weights, work, strips, result)
         if abs(force - amount) <= _TOLERANCE * amount or high - low <= 1e-15:
             return n

@@ -39,8 +39,9 @@ Array = NDArray[np.float64]
 Side = Literal["right", "left"]
 
 TAPE_FROM_FLANGE_BACK = 0.070  # [m] EN 13715: the tape circle lies 70 mm outside the back of the flange
-STEEPEST = math.radians(80.0)  # steeper parts of a profile take no part in the search
-SAMPLES = 41
+#: Steeper parts of the profiles take no part in the search, whatever roll is allowed on top [rad].
+STEEPEST = {"wheel": math.radians(80.0), "rail": math.radians(86.0)}
+SAMPLES = 81
 
 
 class Pair:
@@ -125,7 +126,7 @@ class Pair:
         self._lines = line, placed
         self._work = (
             np.zeros((layout.MAX_LOBES, layout.N_LOBE)),
-            np.zeros((3, n_wheel)),
+            np.zeros((layout.N_LINE_ROWS, n_wheel)),
             np.zeros((3, n_rail)),
             self.patches,
             self.separations,
@@ -291,7 +292,7 @@ _ROLLING, _IDEAL = Velocity(), Irregularity()
 
 def _facing(profile: Profile) -> Array:
     """Rows y, z, dz/dy of the part around the tape circle or crown that is less steep than `STEEPEST` and has rising y."""
-    fair = np.cos(profile.angle) > math.cos(STEEPEST)
+    fair = np.cos(profile.angle) > math.cos(STEEPEST[profile.kind])
     fair[:-1] &= np.diff(profile.y) > 0.0
     centre = int(np.argmin(np.abs(profile.y)) if profile.kind == "wheel" else np.argmin(profile.z))
     if not fair[centre]:
