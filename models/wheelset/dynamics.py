@@ -58,7 +58,7 @@ def normal_loads(frames, forces, axle_load, loads):
     for side in range(2):
         if loads[side] < 0.0:  # the other wheel then carries the axle alone; roll equilibrium is lost
             loads[side] = 0.0
-            loads[1 - side] = vertical / math.cos(frames[1 - side, ANGLE])
+            loads[1 - side] = max(vertical / math.cos(frames[1 - side, ANGLE]), 0.0)
 
 
 @kernel
@@ -83,8 +83,24 @@ def _approach_velocity(frame, state, axle):
 
 
 @kernel
+def creepages(frame, state, axle, z_rate, roll_rate, speed, out):
+    """Creepages of the rigid motion at one contact origin, wheel minus rail: out = (ξ, η [-], spin [1/m]) (7)."""
+    sine, cosine = math.sin(frame[ANGLE]), math.cos(frame[ANGLE])
+    omega_x = roll_rate - state[SPIN] * axle[0]
+    omega_y = -state[SPIN] * axle[1]
+    omega_z = state[YAW_RATE] - state[SPIN] * axle[2]
+    v_x = speed + omega_y * frame[Z] - omega_z * frame[Y]
+    v_y = state[LATERAL_VELOCITY] + omega_z * frame[X] - omega_x * frame[Z]
+    v_z = z_rate + omega_x * frame[Y] - omega_y * frame[X]
+    out[0] = v_x / speed
+    out[1] = (v_y * cosine + v_z * sine) / speed
+    out[2] = (omega_z * cosine - omega_y * sine) / speed
+
+
+@kernel
 def resultants(frames, forces, loads, axle, out):
-    """Generalised forces of both contacts: out = (lateral [N], yaw [N m], spin [N m], longitudinal [N]) (7)."""
+    """Generalised forces of both contacts: out = (lateral [N], yaw, spin [N m], longitudinal [N],
+    roll [N m]) (7). The last is zero while both wheels carry."""
     out[:] = 0.0
     for side in range(2):
         x, y, z = frames[side, X], frames[side, Y], frames[side, Z]
@@ -99,6 +115,7 @@ def resultants(frames, forces, loads, axle, out):
         out[1] += moment_z
         out[2] -= moment_x * axle[0] + moment_y * axle[1] + moment_z * axle[2]  # forward rolling turns about -axle
         out[3] += fx
+        out[4] += moment_x
 
 
 @kernel

@@ -1,0 +1,185 @@
+"""Example master: one wheelset coupled with a contact at each wheel, whatever the components are made of.
+
+Over one communication step the creep forces are held. What is exchanged when is the scheme:
+
+* ``gauss_seidel``: the contacts are solved for the creepages of now, the wheelset then runs with these forces. First
+  order; stable for h < 2 m/c, c = 2 f/V (fmi.md 2).
+* ``jacobi``: all run at the same time with the values of the step before. First order; stable for h < m/c.
+* ``iterated``: a Gauss–Seidel step as a predictor, the contacts at its end, and the step again from the saved state with
+  the mean of both forces (Heun). Second order, at twice the cost.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from os import PathLike
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.errors import ContactError, require_number
+from models.wheelset.components import Component
+from models.wheelset.ports import CREEPAGE, ENERGY, FRAME, LOAD, MOTION, PROBLEM, REACTION, REPORT, SIDES
+
+Array = NDArray[np.float64]
+Scheme = Literal["gauss_seidel", "jacobi", "iterated"]
+
+_EXCHANGED = (*PROBLEM[CREEPAGE], PROBLEM[LOAD], *REACTION, *REPORT, *FRAME)
+COLUMNS = ("time", *MOTION, *ENERGY, *(f"{side}.{name}" for side in SIDES for name in _EXCHANGED))
+
+
+@dataclass(frozen=True, eq=False)
+class History:
+    """What was exchanged at each communication point, the motion at that time beside the forces it gave rise to.
+
+    Attributes
+    ----------
+    values : ndarray, shape (n, len(COLUMNS))
+    speed, step : float
+        [m/s], [s].
+    """
+
+    values: Array
+    speed: float
+    step: float
+
+    def __getitem__(self, column: str) -> Array:
+        return self.values[:, COLUMNS.index(column)]
+
+    @property
+    def distance(self) -> Array:
+        """Distance run [m]."""
+        return self.speed * self["time"]
+
+    @property
+    def creep_power(self) -> Array:
+        """Power of the creep forces on the creepages, both wheels, positive when dissipated [W]."""
+        pairs = zip(PROBLEM[CREEPAGE], REACTION, strict=False)
+        return -self.speed * sum(self[f"{s}.{c}"] * self[f"{s}.{f}"] for c, f in pairs for s in SIDES)
+
+    @property
+    def friction_power(self) -> Array:
+        """Frictional power that the contacts report from their slip fields [W]."""
+        return sum(self[f"{side}.power.friction"] for side in SIDES)
+
+    @property
+    def elastic_energy(self) -> Array:
+        """Energy stored in both contacts [J]: 2/5 of load times approach, exact for Hertz."""
+        return 0.4 * sum(self[f"{side}.load.normal_force"] * self[f"{side}.approach"] for side in SIDES)
+
+    @property
+    def power_residual(self) -> Array:
+        """Energy since start [J] that left the wheelset and is neither dissipated by creep nor stored in the contacts."""
+        dissipated = np.concatenate(([0.0], np.cumsum(self.creep_power[:-1]) * self.step))
+        left, stored = self["energy.interface"], self.elastic_energy
+        return left - left[0] - dissipated - (stored - stored[0])
+
+    def write_csv(self, path: str | PathLike[str], columns: Sequence[str] = COLUMNS, every: int = 1) -> None:
+        """Write every `every`-th communication point, with a header of names."""
+        with open(path, "w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file)
+            writer.writerow(columns)
+            writer.writerows([f"{v:.9g}" for v in row] for row in zip(*(self[c][::every] for c in columns), strict=True))
+
+
+def run(
+    wheelset: Component,
+    contacts: Sequence[Component],
+    *,
+    speed: float,
+    step: float,
+    duration: float,
+    scheme: Scheme = "gauss_seidel",
+    irregularity: Callable[[float], tuple[float, float]] | None = None,
+    watch: Callable[[int, int], None] | None = None,
+) -> History:
+    """Run the coupled system from time 0.
+
+    Parameters
+    ----------
+    wheelset : Component
+        Freshly initialised.
+    contacts : two Components
+        Right and left.
+    speed : float
+        The wheelset's speed [m/s]; the power balance needs it.
+    step, duration : float
+        Communication step and end time [s].
+    scheme : {"gauss_seidel", "jacobi", "iterated"}
+    irregularity : callable, optional
+        Time [s] → lateral position [m] and slope [-] of the track's centre line.
+    watch : callable, optional
+        Called after each step with the number of steps done and of all; for a progress bar.
+
+    Raises
+    ------
+    ContactError
+        For an unknown scheme, or a step or duration that is not positive.
+    """
+    if scheme not in get_args(Scheme):
+        raise ContactError(f"scheme = {scheme!r} is none of {', '.join(get_args(Scheme))}")
+    h = require_number("step", step, 0.0, open_minimum=True)
+    n = max(1, round(require_number("duration", duration, 0.0, open_minimum=True) / h))
+    pairs = list(zip(SIDES, contacts, strict=True))
+    values = np.empty((n, len(COLUMNS)))
+    held = [np.zeros(len(REACTION)) for _ in pairs]
+    for k in range(n):
+        time = k * h
+        if irregularity is not None:
+            wheelset.write("irregularity", irregularity(time))
+        problems = [wheelset.read(f"{side}.problem") for side in SIDES]
+        reactions = _solve(pairs, problems, time, h)
+        values[k] = _row(time, wheelset, pairs, problems, reactions)
+        if scheme == "jacobi":
+            reactions, held = held, reactions
+        elif scheme == "iterated":
+            reactions = _mean_over_step(wheelset, pairs, reactions, time, h)
+        _advance(wheelset, reactions, time, h)
+        if watch is not None:
+            watch(k + 1, n)
+    return History(values, speed, h)
+
+
+def _solve(pairs: Sequence[tuple[str, Component]], problems: Sequence[Array], time: float, h: float) -> list[Array]:
+    for (_, contact), problem in zip(pairs, problems, strict=True):
+        contact.write("problem", problem)
+        contact.step(time, h)
+    return [contact.read("reaction") for _, contact in pairs]
+
+
+def _advance(wheelset: Component, reactions: Sequence[Array], time: float, h: float) -> None:
+    for side, reaction in zip(SIDES, reactions, strict=True):
+        wheelset.write(f"{side}.reaction", reaction)
+    wheelset.step(time, h)
+
+
+def _mean_over_step(
+    wheelset: Component, pairs: Sequence[tuple[str, Component]], reactions: Sequence[Array], time: float, h: float
+) -> list[Array]:
+    """Mean of the reactions now and at the predicted end of the step; everybody is left as found."""
+    start = wheelset.save()
+    _advance(wheelset, reactions, time, h)
+    problems = [wheelset.read(f"{side}.problem") for side in SIDES]
+    wheelset.restore(start)
+    clocks = [contact.save() for _, contact in pairs]
+    predicted = _solve(pairs, problems, time + h, h)
+    for (_, contact), clock in zip(pairs, clocks, strict=True):
+        contact.restore(clock)
+    return [0.5 * (a + b) for a, b in zip(reactions, predicted, strict=True)]
+
+
+def _row(
+    time: float,
+    wheelset: Component,
+    pairs: Sequence[tuple[str, Component]],
+    problems: Sequence[Array],
+    reactions: Sequence[Array],
+) -> Array:
+    """One line of the history."""
+    row = [[time], wheelset.read("motion"), wheelset.read("energy")]
+    for (side, contact), problem, reaction in zip(pairs, problems, reactions, strict=True):
+        row += [problem[CREEPAGE], [problem[LOAD]], reaction, contact.read("report"), wheelset.read(f"{side}.frame")]
+    return np.concatenate(row)

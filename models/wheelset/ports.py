@@ -1,0 +1,45 @@
+"""What is exchanged between the wheelset and a wheel-rail contact, in which order and under which FMU names.
+
+The wheelset's outputs of one side carry the names of the contact's inputs behind the side, and the other way round.
+"""
+
+from __future__ import annotations
+
+#: Sides in the order of every array.
+SIDES = ("right", "left")
+#: Samples of the separation, a build option of `WheelRailContact`.
+POINTS = 41
+
+#: Inputs of a contact: gap [m], half curvature [1/m], creepages [-], [-], [rad/m], normal force [N].
+PROBLEM = (
+    *(f"geometry.g[{i}]" for i in range(1, POINTS + 1)),
+    *(f"geometry.A[{i}]" for i in range(1, POINTS + 1)),
+    "creepage.longitudinal",
+    "creepage.lateral",
+    "creepage.spin",
+    "load.normal_force",
+)
+GAP, CURVATURE = slice(0, POINTS), slice(POINTS, 2 * POINTS)
+CREEPAGE = slice(2 * POINTS, 2 * POINTS + 3)
+LOAD = 2 * POINTS + 3
+
+#: Outputs of a contact that act on the wheelset [N], [N], [N m], [m].
+REACTION = ("force.x", "force.y", "moment.z", "approach")
+#: Further outputs of a contact that are recorded [W], [Pa], [-], [-], [N].
+REPORT = ("power.friction", "pressure.max", "slip.ratio", "status", "damage.T_gamma")
+
+#: Motion of the wheelset: m, rad, m/s, rad/s, rad/s, m, rad.
+MOTION = ("lateral", "yaw", "lateral_velocity", "yaw_rate", "spin", "vertical", "roll")
+#: Energies of the wheelset since start [J].
+ENERGY = ("energy.interface", "energy.drive", "energy.damper", "energy.mechanical")
+#: Contact frame of one side relative to the wheelset's centre [m], [m], [m], [rad].
+FRAME = ("contact.x", "contact.y", "contact.z", "contact.angle")
+#: Lateral position of the track's centre line [m] and its slope along the track [-].
+IRREGULARITY = ("irregularity.lateral", "irregularity.slope")
+
+CONTACT_PORTS = {"problem": PROBLEM, "reaction": REACTION, "report": REPORT}
+WHEELSET_PORTS = {"motion": MOTION, "energy": ENERGY, "irregularity": IRREGULARITY} | {
+    f"{side}.{port}": tuple(f"{side}.{name}" for name in names)
+    for side in SIDES
+    for port, names in (("problem", PROBLEM), ("reaction", REACTION), ("frame", FRAME))
+}

@@ -1,0 +1,92 @@
+"""Linear stability of the coupled system as it is: the equations of motion differentiated numerically.
+
+Unlike `linear.py` this holds for any profiles, with Kalker's coefficients of the true patches, spin creepage and
+gravitational stiffness. By symmetry the spin of the axle stays out of the lateral motion.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from models.wheelset.components import Component, DirectContact, DirectWheelset
+from models.wheelset.model import WheelsetModel
+from models.wheelset.parameters import WheelsetParameters
+from models.wheelset.ports import SIDES
+
+_MOTION = ("lateral", "yaw", "lateral_velocity", "yaw_rate")
+_ROUNDS = 4  # exchanges of load and lateral force until they agree to many digits
+
+
+def state_matrix(
+    parameters: WheelsetParameters, friction: float = 0.3, amplitude: float = 1e-4
+) -> NDArray[np.float64]:
+    """State matrix, shape (4, 4), of (lateral, yaw, lateral_velocity, yaw_rate) about the centre of the track.
+
+    Parameters
+    ----------
+    parameters : WheelsetParameters
+        Its initial motion is not used.
+    friction : float
+        Coefficient of friction [-].
+    amplitude : float
+        Lateral displacement of the central difference [m]; the others follow from a kinematic motion of that size. A large
+        one gives an equivalent linearisation as conicity does.
+    """
+    p = parameters
+    contacts = [
+        DirectContact(
+            window_start=p.window_start, window_step=p.window_step, friction=friction, speed=p.speed
+        )
+        for _ in SIDES
+    ]
+    frequency = p.speed * math.sqrt(0.1 / (p.radius * 0.5 * p.gauge))
+    sizes = amplitude * np.array([1.0, frequency / p.speed, frequency, frequency**2 / p.speed])
+    columns = []
+    for name, size in zip(_MOTION, sizes, strict=True):
+        plus, minus = (_rates(p, contacts, name, sign * size) for sign in (1.0, -1.0))
+        columns.append((plus - minus) / (2.0 * size))
+    return np.array(columns).T
+
+
+def _rates(p: WheelsetParameters, contacts: Sequence[Component], name: str, value: float) -> NDArray[np.float64]:
+    motion = dict.fromkeys(_MOTION, 0.0) | {name: value}
+    model = WheelsetModel(dataclasses.replace(p, **motion))
+    wheelset = DirectWheelset(model)
+    for _ in range(_ROUNDS):
+        for side, contact in zip(SIDES, contacts, strict=True):
+            contact.write("problem", wheelset.read(f"{side}.problem"))
+            contact.step(0.0, 0.0)
+            wheelset.write(f"{side}.reaction", contact.read("reaction"))
+        rates = model.rates()
+    return rates[:4]
+
+
+def growth(parameters: WheelsetParameters, friction: float = 0.3, amplitude: float = 1e-4) -> float:
+    """Largest real part of the eigenvalues [1/s]; negative: a small motion decays."""
+    return float(np.linalg.eigvals(state_matrix(parameters, friction, amplitude)).real.max())
+
+
+def critical_speed(
+    parameters: WheelsetParameters,
+    friction: float = 0.3,
+    amplitude: float = 1e-4,
+    bounds: tuple[float, float] = (2.0, 150.0),
+    tolerance: float = 0.01,
+) -> float:
+    """Speed [m/s] within `bounds` at which `growth` changes sign, by bisection to `tolerance`; nan if it does not."""
+    low, high = bounds
+
+    def unstable(speed: float) -> bool:
+        return growth(dataclasses.replace(parameters, speed=speed), friction, amplitude) > 0.0
+
+    if unstable(low) or not unstable(high):
+        return math.nan
+    while high - low > tolerance:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if unstable(middle) else (middle, high)
+    return 0.5 * (low + high)
