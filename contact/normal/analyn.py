@@ -62,44 +62,84 @@ def floored(B):
 
 
 @kernel
-def lateral_curvature(y, g, m, n, i):
+def lateral_curvature(y, g, m, n, i, below, above):
     """B = g''/2 at sample i as a second difference of the interpolated gap over ±CURVATURE_HALF_BASE.
 
     A second difference is g'' averaged with a triangle: it needs no second derivative of noisy profiles, has a fixed
-    physical width, and is exact for a parabola. At the ends of the data the base is shifted inwards.
+    physical width, and is exact for a parabola. At the ends of the data the base is shifted inwards. `below` and `above` are
+    indices to search from, any; those found are returned for the neighbouring sample.
     """
     base = max(CURVATURE_HALF_BASE, 0.5 * (y[min(i + 1, n - 1)] - y[max(i - 1, 0)]))
+    base = min(base, 0.5 * (y[n - 1] - y[0]))
     centre = min(max(y[i], y[0] + base), y[n - 1] - base)
-    if not y[0] < centre < y[n - 1]:  # data narrower than the base
-        centre = 0.5 * (y[0] + y[n - 1])
-        base = 0.5 * (y[n - 1] - y[0])
-    value = 0.0
-    k = i
-    for point in range(3):
-        at = min(max(centre + (point - 1.0) * base, y[0]), y[n - 1])
-        while k > 0 and y[k] > at:
-            k -= 1
-        k = locate(y, n, at, k)
+    middle = g[i]
+    if centre != y[i]:
+        k = locate(y, n, centre, 0)
         h = y[k + 1] - y[k]
-        weight = -2.0 if point == 1 else 1.0
-        value += weight * cubic(h, g[k], m[k], g[k + 1], m[k + 1], (at - y[k]) / h)
-    return 0.5 * value / (base * base)
+        middle = cubic(h, g[k], m[k], g[k + 1], m[k + 1], (centre - y[k]) / h)
+    below = locate(y, n, centre - base, below)
+    h = y[below + 1] - y[below]
+    left = cubic(h, g[below], m[below], g[below + 1], m[below + 1], (centre - base - y[below]) / h)
+    above = locate(y, n, centre + base, above)
+    h = y[above + 1] - y[above]
+    right = cubic(h, g[above], m[above], g[above + 1], m[above + 1], (centre + base - y[above]) / h)
+    return 0.5 * (left - 2.0 * middle + right) / (base * base), below, above
 
 
 @kernel
-def prepare(y, g, A, n, work):
-    """Local Hertz factors and the effective gap (1 + beta)(g - min g) at every sample; return the least point of g."""
-    slopes(y, g, n, work[GAP_SLOPE])
-    y_least, g_least = least_point(y, g, work[GAP_SLOPE], n)
+def prepare(y, g, A, n, y_least, g_least, reach, work):
+    """Local Hertz factors and the effective gap (1 + beta)(g - min g) at the samples where g - min g < `reach`.
+
+    Their two neighbours and those of the least point are prepared as well; elsewhere the effective gap is the lower bound
+    1.2 (g - min g), which no approach below `reach` gets to.
+    """
+    least = locate(y, n, y_least, 0)
+    done = -1  # last sample that is prepared
+    below, above = 0, 0
     for i in range(n):
-        B = floored(lateral_curvature(y, g, work[GAP_SLOPE], n, i))
-        one_alpha, one_beta, nr, log_aspect = local_factors(A[i], B)
-        work[EFFECTIVE_GAP, i] = one_beta * (g[i] - g_least)
-        work[STRETCHED_A, i] = one_alpha * A[i]
-        work[NR, i] = nr
-        work[LOG_ASPECT, i] = log_aspect
+        if i > done:
+            work[EFFECTIVE_GAP, i] = 1.2 * (g[i] - g_least)
+            work[STRETCHED_A, i], work[NR, i], work[LOG_ASPECT, i] = A[i], 1.0, 0.0
+        if g[i] - g_least < reach or least - 1 <= i <= least + 2:
+            for k in range(max(done + 1, i - 2), min(i + 3, n)):
+                B, below, above = lateral_curvature(y, g, work[GAP_SLOPE], n, k, below, above)
+                _prepare_sample(A, B, g, g_least, k, work)
+                done = k
     slopes(y, work[EFFECTIVE_GAP], n, work[EFFECTIVE_SLOPE])
-    return y_least, g_least
+
+
+@kernel
+def _prepare_sample(A, B, g, g_least, i, work):
+    one_alpha, one_beta, nr, log_aspect = local_factors(A[i], floored(B))
+    work[EFFECTIVE_GAP, i] = one_beta * (g[i] - g_least)
+    work[STRETCHED_A, i] = one_alpha * A[i]
+    work[NR, i] = nr
+    work[LOG_ASPECT, i] = log_aspect
+
+
+@kernel
+def estimated_approach(y, g, n, g_least, load, modulus, hertz):
+    """Approach at which a virtual penetration with the factors of a circle (beta = 0.8, n r = 0.95) carries the load.
+
+    Newton on a convex, piecewise linear function of the samples, started from Hertz's approach at the least point; that is
+    also the answer when the patch is narrower than the samples.
+    """
+    delta = hertz
+    for _ in range(12):
+        N, width = 0.0, 0.0
+        for i in range(1, n - 1):
+            d = delta - 1.8 * (g[i] - g_least)
+            if d > 0.0:
+                cell = 0.5 * (y[i + 1] - y[i - 1])
+                N += d * cell
+                width += cell
+        if width == 0.0:
+            return hertz
+        change = (load * 0.95 / modulus - N) / width
+        delta = max(delta + change, 0.3 * delta)
+        if abs(change) < 0.01 * delta:
+            break
+    return delta
 
 
 @kernel
@@ -140,7 +180,8 @@ def analyn(y, g, A, xc, case, nodes, weights, work, strips, result):
     n = y.size
     modulus = case[CASE_G] / (1.0 - case[CASE_NU])
     edges = result[RES_EDGES:]
-    y_least, g_least = prepare(y, g, A, n, work)
+    slopes(y, g, n, work[GAP_SLOPE])
+    y_least, g_least = least_point(y, g, work[GAP_SLOPE], n)
     result[RES_STATUS] = 1.0
     result[RES_ITERATIONS] = 0.0
     result[RES_TOUCH] = g_least
@@ -150,6 +191,7 @@ def analyn(y, g, A, xc, case, nodes, weights, work, strips, result):
             result[RES_STATUS] = 2.0
             result[RES_APPROACH] = case[CASE_LOAD]
             return 0
+        prepare(y, g, A, n, y_least, g_least, delta, work)
         N, stiffness, n_strips, touches_end = load_at(y, xc, n, delta, modulus, nodes, weights, work, strips, edges)
     else:
         load = case[CASE_LOAD]
@@ -157,16 +199,21 @@ def analyn(y, g, A, xc, case, nodes, weights, work, strips, result):
             result[RES_STATUS] = 2.0
             result[RES_APPROACH] = g_least
             return 0
-        # N ~ delta^(3/2) in Hertz contact: Newton on N^(2/3), bracketed; start: unit Hertz stiffness at the least point
+        # N ~ delta^(3/2) in Hertz contact: Newton on N^(2/3), bracketed
         k = locate(y, n, y_least, 0)
-        delta = (load * work[NR, k] / modulus * 0.75 * math.sqrt(work[STRETCHED_A, k])) ** (2.0 / 3.0)
+        B, _, _ = lateral_curvature(y, g, work[GAP_SLOPE], n, k, 0, 0)
+        _prepare_sample(A, B, g, g_least, k, work)
+        hertz = (0.75 * load / modulus * work[NR, k] * math.sqrt(work[STRETCHED_A, k])) ** (2.0 / 3.0)
+        delta = estimated_approach(y, g, n, g_least, load, modulus, hertz)
+        reach = 2.0 * max(delta, hertz)
+        prepare(y, g, A, n, y_least, g_least, reach, work)
         low, high = 0.0, math.inf
         converged = False
         N, stiffness, n_strips, touches_end = 0.0, 0.0, 0, False
         for iteration in range(_MAX_ITERATIONS):
             result[RES_ITERATIONS] = iteration + 1.0
             N, stiffness, n_strips, touches_end = load_at(y, xc, n, delta, modulus, nodes, weights, work, strips, edges)
-            if abs(N - load) <= 1e-13 * load:
+            if abs(N - load) <= 1e-11 * load:
                 converged = True
                 break
             if load > N:

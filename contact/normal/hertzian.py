@@ -39,7 +39,9 @@ def hertzian(y, g, A, xc, case, nodes, weights, work, strips, result):
     k = locate(y, n, y_least, 0)
     t = (y_least - y[k]) / (y[k + 1] - y[k])
     A0 = (1.0 - t) * A[k] + t * A[k + 1]
-    B0 = floored((1.0 - t) * lateral_curvature(y, g, m, n, k) + t * lateral_curvature(y, g, m, n, k + 1))
+    B_left, below, above = lateral_curvature(y, g, m, n, k, 0, 0)
+    B_right, _, _ = lateral_curvature(y, g, m, n, k + 1, below, above)
+    B0 = floored((1.0 - t) * B_left + t * B_right)
     one_alpha, one_beta, nr, log_aspect = local_factors(A0, B0)
     # at approach delta: a² = delta/((1+alpha)A), b² = delta/((1+beta)B), p0 = 2 E* delta/(pi n r a), N = 2/3 pi a b p0
     unit = 4.0 / 3.0 * modulus / (nr * math.sqrt(one_beta * B0))

@@ -31,7 +31,7 @@ _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(6)
 def centre_slope(t):
     """DU/dt on the centre line, X = 0 (closed form)."""
     root = math.sqrt(1.0 + t * t)
-    K, E, B, _ = elliptic_integrals(t / root)  # complementary modulus; K - E = k² D
+    K, E, _, _ = elliptic_integrals(t / root)  # complementary modulus; K - E = k² D
     return 2.0 * root * (K - E)
 
 

@@ -64,23 +64,31 @@ def least_point(y, f, m, n):
 
 @kernel
 def _crossing(h, f0, m0, f1, m1, level, low, high):
-    """Position t where the cubic passes `level` between `low` and `high`: bisection-safeguarded secant, capped."""
-    f_low = cubic(h, f0, m0, f1, m1, low) - level
-    f_high = cubic(h, f0, m0, f1, m1, high) - level
-    for k in range(60):
-        if f_low == f_high:
-            break
-        t = low - f_low * (high - low) / (f_high - f_low)
-        if k % 3 == 2 or not low < t < high:
-            t = 0.5 * (low + high)
-        value = cubic(h, f0, m0, f1, m1, t) - level
-        if (value < 0.0) == (f_low < 0.0):
-            low, f_low = t, value
+    """Position t where the cubic passes `level` between `low` and `high`: bracketed Newton, capped."""
+    # coefficients of the cubic in t
+    d = f1 - f0
+    c3, c2, c1 = h * (m0 + m1) - 2.0 * d, 3.0 * d - h * (2.0 * m0 + m1), h * m0
+    c0 = f0 - level
+    low_is_negative = c0 + low * (c1 + low * (c2 + low * c3)) < 0.0
+    t = 0.5 * (low + high)
+    if c1 != 0.0 or d != 0.0:
+        guess = -c0 / d if d != 0.0 else t
+        if low < guess < high:
+            t = guess
+    for _ in range(60):
+        value = c0 + t * (c1 + t * (c2 + t * c3))
+        if (value < 0.0) == low_is_negative:
+            low = t
         else:
-            high, f_high = t, value
-        if high - low < 1e-15:
-            break
-    return low - f_low * (high - low) / (f_high - f_low) if f_low != f_high else 0.5 * (low + high)
+            high = t
+        slope = c1 + t * (2.0 * c2 + 3.0 * t * c3)
+        new = t - value / slope if slope != 0.0 else 0.5 * (low + high)
+        if not low <= new <= high:
+            new = 0.5 * (low + high)
+        if abs(new - t) < 1e-15:
+            return new
+        t = new
+    return t
 
 
 @kernel
@@ -140,10 +148,10 @@ def lay_strips(edges, count, nodes, weights, strips):
 
 @kernel
 def locate(y, n, at, start):
-    """Index i with y[i] <= at <= y[i+1], searched upwards from `start` (strips come in ascending order)."""
+    """Index i with y[i] <= at <= y[i+1], found by walking from `start`; clamped to the first and last interval."""
     i = start
-    if at < y[i]:
-        i = 0
+    while i > 0 and y[i] > at:
+        i -= 1
     while i < n - 2 and y[i + 1] < at:
         i += 1
     return i

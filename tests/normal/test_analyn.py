@@ -28,7 +28,8 @@ def test_hertz_limit_is_exact(ratio, load):
 def test_approach_gives_the_load_back(normal, ellipse):
     by_load = contact.solve(ellipse, NO_CREEP, load=6e4, normal=normal)
     by_approach = contact.solve(ellipse, NO_CREEP, approach=by_load.approach, normal=normal)
-    assert pytest.approx(6e4, rel=1e-9) == by_approach.N
+    iterative = contact.methods().normal[normal].interacting
+    np.testing.assert_allclose(by_approach.N, 6e4, rtol=1e-4 if iterative else 1e-9)
 
 
 def test_a_patch_narrower_than_the_sampling_is_resolved():
