@@ -20,7 +20,7 @@ from contact import __version__
 from fmu_src.description import model_description
 from fmu_src.documentation import markdown
 from fmu_src.python.slave import INTERFACES
-from fmu_src.tables import wheel_rail_contact
+from fmu_src.tables import wheel_rail_contact, wheelset
 from fmu_src.variables import Table
 
 _SCRIPT = '''\
@@ -36,22 +36,25 @@ except ImportError as error:
 
 class {name}({name}Slave):
     def __init__(self, **kwargs):
-        super().__init__(points={points}, guid="{guid}", **kwargs)
+        super().__init__(**{options!r}, guid="{guid}", **kwargs)
 '''
 
 
 @dataclass(frozen=True)
 class Model:
-    """What the packaging needs to know of an FMU."""
+    """What the packaging needs to know of an FMU: the module has a class `<name>Slave`, made with these options."""
 
     table: Table
-    module: str  # that has the class `<name>Slave`
-    points: int
+    module: str
+    options: dict[str, int]
 
 
 def models(points: int) -> tuple[Model, ...]:
-    """The FMUs, for separations of `points` samples."""
-    return (Model(wheel_rail_contact.table(points), "fmu_src.python.wheel_rail_contact", points),)
+    """The FMUs, the contact for separations of `points` samples; those of the wheelset have `ports.POINTS`."""
+    return (
+        Model(wheel_rail_contact.table(points), "fmu_src.python.wheel_rail_contact", {"points": points}),
+        Model(wheelset.table(), "fmu_src.python.wheelset", {}),
+    )
 
 
 def build(model: Model, folder: Path) -> Path:
@@ -72,7 +75,7 @@ def _files(model: Model) -> Iterator[tuple[str, bytes]]:
     guid, xml = model_description(model.table, INTERFACES)
     yield "modelDescription.xml", xml.encode()
     script = _SCRIPT.format(
-        name=name, version=__version__, module=model.module, points=model.points, guid=guid
+        name=name, version=__version__, module=model.module, options=model.options, guid=guid
     ).encode()
     module = f"{name.lower()}_{hashlib.sha256(script).hexdigest()[:16]}"
     yield f"resources/{module}.py", script

@@ -1,0 +1,205 @@
+"""The FMU `Wheelset` as a whole, through the C interface of FMI."""
+
+import math
+
+import numpy as np
+import pytest
+from fmpy.fmi1 import FMICallException
+from fmpy.validation import validate_fmu
+
+from models.wheelset.model import WheelsetModel
+from models.wheelset.parameters import WheelsetParameters
+from models.wheelset.ports import CONTACT_PORTS, PROBLEM, REACTION, SIDES, WHEELSET_PORTS
+
+NAME = "Wheelset"
+DISCARD = 2
+
+
+@pytest.fixture
+def fmu(open_fmu):
+    return open_fmu(NAME).initialize()
+
+
+def reactions(k: int) -> dict[str, dict[str, float]]:
+    """Some forces of step `k`, side by side."""
+    return {
+        side: dict(zip(REACTION, (900.0 * m * math.sin(k), -1500.0 + 300.0 * k, 5.0 * m, 7e-5 + 1e-6 * k), strict=True))
+        for side, m in zip(SIDES, (1.0, -1.0), strict=True)
+    }
+
+
+def trajectory(fmu, start: int) -> list[dict[str, float]]:
+    """Three steps with changing forces from step `start`."""
+    rows = []
+    for k in range(start, start + 3):
+        fmu.update({f"{side}.{name}": v for side, forces in reactions(k).items() for name, v in forces.items()})
+        fmu.step(k * 1e-3)
+        rows.append(fmu.all("output"))
+    return rows
+
+
+def ports(model: WheelsetModel) -> dict[str, float]:
+    """All outputs of the model by their names."""
+    values = {"motion": model.motion(), "energy": model.energy()}
+    for side in SIDES:
+        values |= {f"{side}.problem": model.problem(side), f"{side}.frame": model.frame(side)}
+    return {n: v for port, column in values.items() for n, v in zip(WHEELSET_PORTS[port], column.tolist(), strict=True)}
+
+
+def test_fmpy_finds_no_problem(fmus):
+    assert validate_fmu(str(fmus / f"{NAME}.fmu")) == []
+
+
+def test_every_port_of_the_model_is_a_variable_and_connects_to_the_contact(fmu, open_fmu):
+    assert {name for names in WHEELSET_PORTS.values() for name in names} <= set(fmu.variables)
+    contact = open_fmu("WheelRailContact")
+    assert {name for names in CONTACT_PORTS.values() for name in names} <= set(contact.variables)
+    for side in SIDES:
+        for source, target in (
+            *((fmu.variables[f"{side}.{name}"], contact.variables[name]) for name in PROBLEM),
+            *((contact.variables[name], fmu.variables[f"{side}.{name}"]) for name in REACTION),
+        ):
+            assert (source.causality, target.causality) == ("output", "input")
+            assert source.unit == target.unit
+    for name in ("geometry.y0", "geometry.dy", "wheel.radius"):
+        assert float(fmu.variables[name].start) == float(contact.variables[name].start)
+
+
+def test_is_where_the_parameters_say_before_the_first_step(open_fmu):
+    fmu = open_fmu(NAME)
+    fmu.update({"initial.lateral": -2e-3, "initial.yaw": 1e-3, "speed": 25.0})
+    assert fmu.initialize().all("output") == ports(
+        WheelsetModel(WheelsetParameters(lateral=-2e-3, yaw=1e-3, speed=25.0))
+    )
+
+
+def test_equals_the_model_bit_by_bit(fmu):
+    model = WheelsetModel(WheelsetParameters())
+    rows = trajectory(fmu, 0)
+    for k, row in enumerate(rows):
+        for side, forces in reactions(k).items():
+            model.set_forces(side, *forces.values())
+        model.step(1e-3)
+        assert row == ports(model)
+    assert rows[-1]["lateral"] != rows[0]["lateral"]
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("mass", 900.0),
+        ("yaw_inertia", 700.0),
+        ("spin_inertia", 90.0),
+        ("axle_load", 9e4),
+        ("suspension.lateral_stiffness", 3e6),
+        ("suspension.yaw_stiffness", 3e6),
+        ("suspension.lateral_damping", 1e5),
+        ("suspension.yaw_damping", 1e5),
+        ("initial.lateral_velocity", 0.1),
+        ("initial.yaw_rate", 0.1),
+        ("initial.approach", 1e-4),
+        ("wheel.radius", 0.5),
+        ("wheel.flange_back", 1.363),
+        ("track.gauge", 1.433),
+        ("geometry.y0", -0.021),
+        ("geometry.dy", 0.9e-3),
+        ("rail.inclination", 1.0 / 20.0),
+        ("resolution.substeps", 3),
+    ],
+)
+def test_every_parameter_reaches_the_model(fmu, open_fmu, name, value):
+    other = open_fmu(NAME)
+    other.update({name: value, "initial.yaw": 1e-3})
+    reference = open_fmu(NAME)
+    reference.update({"initial.yaw": 1e-3})
+    assert trajectory(other.initialize(), 0)[-1] != trajectory(reference.initialize(), 0)[-1]
+    assert not other.log
+
+
+def test_the_irregularity_reaches_the_model(fmu):
+    model = WheelsetModel(WheelsetParameters())
+    fmu.update({"irregularity.lateral": 1e-3, "irregularity.slope": 2e-3})
+    fmu.step()
+    for side in SIDES:
+        model.set_forces(side, 0.0, 0.0, 0.0, WheelsetParameters().approach)
+    model.set_irregularity(1e-3, 2e-3)
+    model.step(1e-3)
+    assert fmu.all("output") == ports(model)
+
+
+def discarded(fmu) -> str:
+    fmu.log.clear()
+    with pytest.raises(FMICallException) as caught:
+        fmu.step()
+    assert caught.value.status == DISCARD
+    return fmu.log[0][1]
+
+
+@pytest.mark.parametrize("name", ["right.force.y", "left.approach", "irregularity.slope"])
+def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(fmu, name):
+    before = fmu.all("output")
+    good = fmu[name]
+    fmu.update({name: math.nan})
+    assert discarded(fmu) == f"{name} = nan is outside the allowed range ]-inf, inf["
+    assert fmu.all("output") == before
+    fmu.update({name: good})
+    fmu.step()
+
+
+def test_a_derailment_is_discarded_and_leaves_the_wheelset_where_it_was(fmu):
+    trajectory(fmu, 0)
+    before = fmu.all("output")
+    fmu.update({"right.force.y": 1e9})
+    assert "wheel" in discarded(fmu) or "rails" in discarded(fmu)
+    assert fmu.all("output") == before
+    assert trajectory(fmu, 3)[-1]["lateral"] == pytest.approx(before["lateral"], abs=1e-4)
+
+
+def test_a_start_off_the_rails_is_discarded_with_its_reason(open_fmu):
+    fmu = open_fmu(NAME)
+    fmu.update({"initial.lateral": 0.2})
+    fmu.initialize()
+    assert "0.2" in discarded(fmu)
+    assert all(math.isfinite(v) for v in fmu.all("output").values())
+
+
+def test_a_restored_state_continues_bit_by_bit(fmu):
+    trajectory(fmu, 0)
+    state = fmu.fmu.getFMUstate()
+    expected = trajectory(fmu, 3)
+    fmu.fmu.setFMUstate(state)
+    assert trajectory(fmu, 3) == expected
+    fmu.fmu.freeFMUstate(state)
+
+
+def test_a_serialised_state_continues_in_another_instance_bit_by_bit(open_fmu):
+    fmu = open_fmu(NAME)
+    fmu.update({"initial.lateral": 1e-3})
+    trajectory(fmu.initialize(), 0)
+    state = fmu.fmu.getFMUstate()
+    content = fmu.fmu.serializeFMUstate(state)
+    fmu.fmu.freeFMUstate(state)
+    expected = trajectory(fmu, 3)
+    other = open_fmu(NAME).initialize()
+    copy = other.fmu.deSerializeFMUstate(content)
+    other.fmu.setFMUstate(copy)
+    other.fmu.freeFMUstate(copy)
+    assert trajectory(other, 3) == expected
+
+
+def test_reset_returns_to_the_start(fmu):
+    first = fmu.all("output")
+    trajectory(fmu, 0)
+    fmu.fmu.reset()
+    assert fmu.initialize().all("output") == first
+
+
+def test_two_fmus_that_share_code_run_in_one_process(fmu, open_fmu):
+    """One step of a wheelset and its right contact."""
+    contact = open_fmu("WheelRailContact").initialize()
+    contact.update({name: fmu[f"right.{name}"] for name in PROBLEM})
+    contact.step()
+    fmu.update({f"right.{name}": contact[name] for name in REACTION})
+    fmu.step()
+    assert contact["force.n"] == pytest.approx(fmu["right.load.normal_force"], rel=0.05)
+    assert np.hypot(contact["force.x"], contact["force.y"]) > 100.0
