@@ -1,0 +1,243 @@
+"""The commands: `solve`, `patch`, `curve`, `methods`, and those of plug-ins. All input is in SI units."""
+
+from __future__ import annotations
+
+import functools
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Annotated, Any, TypeVar
+
+import numpy as np
+import typer
+from rich.console import Console
+
+import contact
+from contact.cli import options as opt
+from contact.cli import problem, report
+from contact.cli.output import drawing, stop, write_csv, write_picture
+from contact.cli.plugins import add_plugins
+from contact.cli.problem import Position, Touch
+from contact.creepage import Creepage
+from contact.errors import ContactError, require_number
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, methods
+
+Command = TypeVar("Command", bound=Callable[..., None])
+PICTURE_RESOLUTION = {"n_strips": 60, "n_elements": 60}
+
+app = typer.Typer(
+    name="contact",
+    help="Wheel-rail contact: patches, pressure, creep forces and damage. All input and JSON are in SI units; "
+    "forces act on the wheel.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def reported(command: Command) -> Command:
+    """Let a command end with a message on stderr and exit code 2 when it gets bad input."""
+
+    @functools.wraps(command)
+    def wrapper(*args: Any, **kwargs: Any) -> None:
+        try:
+            command(*args, **kwargs)
+        except ContactError as error:
+            stop(str(error), 2)
+
+    return wrapper  # type: ignore[return-value]
+
+
+@app.command()
+@reported
+def solve(
+    wheel: opt.WheelName = "s1002",
+    rail: opt.RailName = "60e1",
+    inclination: opt.Inclination = 0.025,
+    unit: opt.Unit = None,
+    drawn_side: opt.Drawn = None,
+    radius: opt.Radius = 0.46,
+    side: opt.Sides = opt.Side.right,
+    y: opt.Y = 0.0,
+    roll: opt.Roll = 0.0,
+    yaw: opt.Yaw = 0.0,
+    speed: opt.Speed = 20.0,
+    load: opt.Load = None,
+    penetration: opt.Penetration = None,
+    friction: opt.Friction = 0.3,
+    creepage: opt.Creep = None,
+    curvatures: opt.Curvatures = None,
+    normal: opt.Normal = DEFAULT_NORMAL,
+    tangential: opt.Tangential = DEFAULT_TANGENTIAL,
+    as_json: opt.Json = False,
+    plot: opt.Plot = None,
+) -> None:
+    """Solve the contact of a wheel on a rail, or of two curvatures: patch, forces, damage.
+
+    Examples:  contact solve --y 3e-3 --load 80e3   ·   contact solve --curvatures 1.1 0.8 --creepage 1e-3 0 0.1
+    """
+    options = {"friction": friction, "normal": normal, "tangential": tangential}
+    options |= PICTURE_RESOLUTION if plot else {}
+    given = None if creepage is None else Creepage(*creepage)
+    if curvatures is not None:
+        touches = [problem.solve_hertzian(curvatures, load, penetration, given, options | {"speed": speed})]
+        title = f"Half curvatures {curvatures[0]:g} and {curvatures[1]:g} 1/m"
+    else:
+        case = _position(wheel, rail, inclination, unit, drawn_side, radius, side, y, roll, yaw, speed)
+        touches = problem.solve_position(case, load, penetration, given, options)
+        title = _title(case)
+    if as_json:
+        patches = [report.data(touch, radius) for touch in touches]
+        typer.echo(json.dumps({"version": contact.__version__, "patches": patches}, indent=2))
+    else:
+        report.show(touches, title, radius, Console())
+    if plot is not None:
+        _draw(plot, touches, lambda drawn: drawn.patch([t.solution for t in touches], [t.name for t in touches]))
+
+
+@app.command()
+@reported
+def patch(
+    wheel: opt.WheelName = "s1002",
+    rail: opt.RailName = "60e1",
+    inclination: opt.Inclination = 0.025,
+    unit: opt.Unit = None,
+    drawn_side: opt.Drawn = None,
+    radius: opt.Radius = 0.46,
+    side: opt.Sides = opt.Side.both,
+    y: opt.Y = 0.0,
+    roll: opt.Roll = 0.0,
+    yaw: opt.Yaw = 0.0,
+    speed: opt.Speed = 20.0,
+    load: opt.Load = None,
+    penetration: opt.Penetration = None,
+    friction: opt.Friction = 0.3,
+    creepage: opt.Creep = None,
+    normal: opt.Normal = DEFAULT_NORMAL,
+    tangential: opt.Tangential = DEFAULT_TANGENTIAL,
+    out: opt.Out = Path("patch.png"),
+) -> None:
+    """Draw the contact patches of a wheelset position: profiles, pressure, stick and slip, tractions, energy index.
+
+    Example:  contact patch --y 6e-3 --yaw 2e-3 --out flange.png
+    """
+    case = _position(wheel, rail, inclination, unit, drawn_side, radius, side, y, roll, yaw, speed)
+    options = {"friction": friction, "normal": normal, "tangential": tangential, **PICTURE_RESOLUTION}
+    touches = problem.solve_position(
+        case, load, penetration, None if creepage is None else Creepage(*creepage), options
+    )
+    report.show(touches, _title(case), radius, Console())
+    sides = {name: [t for t in touches if t.side == name] for name in case.sides}
+    _draw(
+        out,
+        touches,
+        lambda drawn: drawn.position(
+            [
+                drawn.Wheel(name, case.wheel, case.rail, [t.patch for t in own], [t.solution for t in own])
+                for name, own in sides.items()
+            ],
+            roll,
+        ),
+    )
+
+
+@app.command()
+@reported
+def curve(
+    over: opt.Over = opt.Motion.longitudinal,
+    largest: opt.Largest = None,
+    points: opt.Points = 21,
+    curvatures: opt.Ellipse = (1.09, 0.83),
+    creepage: opt.Creep = None,
+    load: opt.Load = None,
+    friction: opt.Friction = 0.3,
+    normal: opt.Normal = DEFAULT_NORMAL,
+    tangential: opt.Tangentials = [DEFAULT_TANGENTIAL],  # noqa: B006 (typer copies it)
+    table: opt.Csv = None,
+    plot: opt.Plot = None,
+) -> None:
+    """Creep curves: force over one creepage, the others held at --creepage; several tangential methods side by side.
+
+    Example:  contact curve --over lateral --tangential fastrip --tangential fastsim --plot curve.png
+    """
+    end = largest if largest is not None else (1.0 if over is opt.Motion.spin else 0.01)
+    start = Creepage() if creepage is None else Creepage(*creepage)
+    values = np.linspace(0.0, require_number("max", end), points).tolist()
+    options = {"friction": friction, "normal": normal}
+    rows = problem.sweep(over.value, values, start, curvatures, load, tangential, options)
+    force, unit = ("Fx" if over is opt.Motion.longitudinal else "Fy"), ("1/m" if over is opt.Motion.spin else "-")
+    axis, ordinate = f"{over} creepage [{unit}]", f"−{force}/N"
+    curves = {
+        method: [0.0 - row[force] / max(row["N"], 1e-300) for row in rows if row["tangential"] == method]
+        for method in tangential
+    }
+    report.show_curve(values, curves, axis, ordinate, Console())
+    if table is not None:
+        write_csv(rows, table)
+    if plot is not None:
+        write_picture(drawing().curve(values, curves, xlabel=axis, ylabel=f"{ordinate} [-]", limit=friction), plot)
+
+
+@app.command("methods")
+def list_methods() -> None:
+    """List the normal and tangential methods and what each can do."""
+    report.show_methods(methods(), Console())
+
+
+@app.callback(invoke_without_command=True)
+def version(
+    show: Annotated[bool, typer.Option("--version", help="print the version", is_eager=True)] = False,
+) -> None:
+    """Nothing but the options that precede a command."""
+    if show:
+        typer.echo(contact.__version__)
+        raise typer.Exit
+
+
+def run(arguments: Sequence[str]) -> None:
+    """Run the command; plug-ins are loaded unless a command of our own is named, so they cost nothing then."""
+    own = {command.name or command.callback.__name__ for command in app.registered_commands if command.callback}
+    if next((word for word in arguments if not word.startswith("-")), None) not in own:
+        for problem_line in add_plugins(app):
+            typer.echo(f"contact: {problem_line}", err=True)
+    app(args=list(arguments), prog_name="contact")
+
+
+def _position(
+    wheel: str,
+    rail: str,
+    inclination: float,
+    unit: str | None,
+    drawn: str | None,
+    radius: float,
+    side: opt.Side,
+    y: float,
+    roll: float,
+    yaw: float,
+    speed: float,
+) -> Position:
+    return Position(
+        problem.profile_named(wheel, "wheel", inclination, unit, drawn),
+        problem.profile_named(rail, "rail", inclination, unit, drawn),
+        ("left", "right") if side is opt.Side.both else (side.value,),
+        problem.Pose(y=y, roll=roll, yaw=yaw),
+        speed,
+        radius,
+    )
+
+
+def _title(case: Position) -> str:
+    pose = case.pose
+    return (
+        f"{case.wheel.name or 'wheel'} on {case.rail.name or 'rail'}: y = {1e3 * pose.y:g} mm, "
+        f"roll {1e3 * pose.roll:g} mrad, yaw {1e3 * pose.yaw:g} mrad, {case.speed:g} m/s"
+    )
+
+
+def _draw(path: Path, touches: Sequence[Touch], picture: Callable[[Any], Any]) -> None:
+    """Write what `picture` makes with `contact.plot`, if there is anything to be seen."""
+    if touches:
+        write_picture(picture(drawing()), path)
+    else:
+        typer.echo("no contact: no picture is written", err=True)

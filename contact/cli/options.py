@@ -1,0 +1,88 @@
+"""The options of the commands: what typer reads off their signatures. Square brackets would be rich markup here."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from contact.cli.problem import STANDARD_LOAD
+
+
+class Side(StrEnum):
+    """Which wheel."""
+
+    left = "left"
+    right = "right"
+    both = "both"
+
+
+class Motion(StrEnum):
+    """Which creepage a creep curve runs over."""
+
+    longitudinal = "longitudinal"
+    lateral = "lateral"
+    spin = "spin"
+
+
+PROFILES, POSITION, LOADING, METHOD, OUTPUT = "Profiles", "Wheelset position", "Loading", "Method", "Output"
+WheelName = Annotated[str, typer.Option("--wheel", help="s1002 or a profile file", rich_help_panel=PROFILES)]
+RailName = Annotated[str, typer.Option("--rail", help="60e1 or a profile file", rich_help_panel=PROFILES)]
+Inclination = Annotated[float, typer.Option(help="of the rail 60e1", rich_help_panel=PROFILES)]
+Unit = Annotated[str | None, typer.Option(help="unit of profile files: mm or m", rich_help_panel=PROFILES)]
+Drawn = Annotated[str | None, typer.Option(help="side shown by profile files: right or left", rich_help_panel=PROFILES)]
+Radius = Annotated[float, typer.Option(help="nominal rolling radius in m", rich_help_panel=PROFILES)]
+Sides = Annotated[Side, typer.Option(help="which wheel", rich_help_panel=POSITION)]
+Y = Annotated[float, typer.Option("--y", help="lateral displacement, to the right, in m", rich_help_panel=POSITION)]
+Roll = Annotated[float, typer.Option(help="positive lowers the right wheel, in rad", rich_help_panel=POSITION)]
+Yaw = Annotated[float, typer.Option(help="positive steers to the right, in rad", rich_help_panel=POSITION)]
+Speed = Annotated[float, typer.Option(help="rolling speed in m/s", rich_help_panel=POSITION)]
+Load = Annotated[
+    float | None,
+    typer.Option(
+        help=f"vertical load of a wheel (normal force with --curvatures) in N; default {STANDARD_LOAD:g}",
+        rich_help_panel=LOADING,
+    ),
+]
+Penetration = Annotated[
+    float | None,
+    typer.Option(help="instead of a load: depth below first touch, or approach in m", rich_help_panel=LOADING),
+]
+Friction = Annotated[float, typer.Option(help="coefficient of friction", rich_help_panel=LOADING)]
+Creep = Annotated[
+    tuple[float, float, float] | None,
+    typer.Option(
+        "--creepage",
+        help="longitudinal, lateral and spin creepage (in 1/m); else they follow from the wheelset's rolling",
+        metavar="VX VY PHI",
+        rich_help_panel=LOADING,
+    ),
+]
+Curvatures = Annotated[
+    tuple[float, float] | None,
+    typer.Option(
+        help="half curvatures along x and y in 1/m, in place of wheel, rail and position",
+        metavar="A B",
+        rich_help_panel=LOADING,
+    ),
+]
+Normal = Annotated[str, typer.Option(help="normal method, see `contact methods`", rich_help_panel=METHOD)]
+Tangential = Annotated[str, typer.Option(help="tangential method", rich_help_panel=METHOD)]
+Tangentials = Annotated[
+    list[str], typer.Option("--tangential", help="tangential method; repeat to compare", rich_help_panel=METHOD)
+]
+Json = Annotated[bool, typer.Option("--json", help="print JSON instead of a table", rich_help_panel=OUTPUT)]
+Plot = Annotated[Path | None, typer.Option(help="write a picture: .png, .pdf or .svg", rich_help_panel=OUTPUT)]
+Over = Annotated[Motion, typer.Option(help="creepage that is varied", rich_help_panel=LOADING)]
+Largest = Annotated[
+    float | None, typer.Option("--max", help="its last value; default 0.01, or 1 for spin", rich_help_panel=LOADING)
+]
+Points = Annotated[int, typer.Option(min=2, max=10001, help="number of creepages", rich_help_panel=LOADING)]
+Ellipse = Annotated[
+    tuple[float, float],
+    typer.Option("--curvatures", help="half curvatures along x and y in 1/m", metavar="A B", rich_help_panel=LOADING),
+]
+Out = Annotated[Path, typer.Option(help="the picture: .png, .pdf or .svg", rich_help_panel=OUTPUT)]
+Csv = Annotated[Path | None, typer.Option("--csv", help="write all forces to this file", rich_help_panel=OUTPUT)]

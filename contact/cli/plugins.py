@@ -1,0 +1,26 @@
+"""Commands of other packages: entry points of the group `contact.commands`, each a function that typer can read.
+
+`contact` must not import `models`, so `contact demo` comes to the command line this way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from importlib.metadata import EntryPoint, entry_points
+
+import typer
+
+GROUP = "contact.commands"
+
+
+def add_plugins(app: typer.Typer, found: Iterable[EntryPoint] | None = None) -> list[str]:
+    """Register every command of the group with `app`; return one line for each that cannot be loaded."""
+    problems = []
+    for point in sorted(entry_points(group=GROUP) if found is None else found, key=lambda p: p.name):
+        try:
+            command = point.load()
+        except (ImportError, AttributeError) as error:
+            problems.append(f"the command {point.name!r} of {point.value} cannot be loaded: {error}")
+        else:
+            app.command(point.name, rich_help_panel="Models")(command)
+    return problems

@@ -1,0 +1,122 @@
+"""From what the command line is given to solved contact patches."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from contact.creepage import Creepage
+from contact.errors import ContactError
+from contact.geometry import profile, wheelset
+from contact.geometry.profile import Profile
+from contact.geometry.wheelset import Patch, Pose, Velocity
+from contact.separation import Separation
+from contact.solution import Solution
+from contact.solve import solve
+
+STANDARD_LOAD = 80e3  # [N] when neither load nor penetration is given
+
+
+@dataclass(frozen=True)
+class Touch:
+    """One solved contact patch; `side` and `patch` are None for a problem without wheel and rail."""
+
+    solution: Solution
+    side: str | None = None
+    patch: Patch | None = None
+    number: int = 1
+
+    @property
+    def name(self) -> str:
+        """What tables and pictures call it; patches are numbered from the field side to the flange."""
+        return f"{self.side} {self.number}" if self.side else "patch"
+
+
+@dataclass(frozen=True)
+class Position:
+    """A wheelset on its rails: profiles in the right-side convention, the sides asked for, pose and speed."""
+
+    wheel: Profile
+    rail: Profile
+    sides: Sequence[str]
+    pose: Pose
+    speed: float
+    radius: float
+
+
+def profile_named(name: str, kind: str, inclination: float, unit: str | None, drawn: str | None) -> Profile:
+    """The standard profile of that name, or the profile in the file of that name."""
+    if kind == "wheel" and name.lower() == "s1002":
+        return profile.s1002()
+    if kind == "rail" and name.lower() == "60e1":
+        return profile.rail_60e1(inclination)
+    if not Path(name).is_file():
+        standard = {"wheel": "s1002", "rail": "60e1"}[kind]
+        raise ContactError(f"{kind} = {name!r} is neither a standard profile ({standard}) nor a file")
+    return profile.read(name, kind=kind, unit=unit, side=drawn)  # type: ignore[arg-type]
+
+
+def solve_position(
+    case: Position, load: float | None, penetration: float | None, creepage: Creepage | None, options: dict[str, Any]
+) -> list[Touch]:
+    """Every patch of the wheels asked for; `load` [N] is the vertical load of each wheel."""
+    load = _load(load, penetration)
+    motion = Velocity(forward=case.speed)
+    touches = []
+    for side in case.sides:
+        found = wheelset.contacts(
+            case.wheel,
+            case.rail,
+            case.pose,
+            motion,
+            load=load,
+            penetration=penetration,
+            side=side,
+            nominal_radius=case.radius,
+        )
+        for number, patch in enumerate(found, 1):
+            amount = {"approach": patch.approach} if load is None else {"load": patch.load}
+            solution = solve(patch.separation, creepage or patch.creepage, speed=case.speed, **amount, **options)
+            touches.append(Touch(solution, side, patch, number))
+    return touches
+
+
+def solve_hertzian(
+    curvatures: tuple[float, float],
+    load: float | None,
+    approach: float | None,
+    creepage: Creepage | None,
+    options: dict[str, Any],
+) -> Touch:
+    """The patch of two constant half curvatures [1/m] under a normal load."""
+    load = _load(load, approach)
+    separation = Separation.hertzian(*curvatures)
+    return Touch(solve(separation, creepage or Creepage(), load=load, approach=approach, **options))
+
+
+def sweep(
+    over: str,
+    values: Iterable[float],
+    start: Creepage,
+    curvatures: tuple[float, float],
+    load: float | None,
+    tangential: Sequence[str],
+    options: dict[str, Any],
+) -> list[dict[str, Any]]:
+    """Forces of every tangential method with the creepage named `over` running through `values`, the others as `start`."""
+    rows = []
+    for method in tangential:
+        for value in values:
+            creepage = replace(start, **{over: float(value)})
+            s = solve_hertzian(curvatures, load, None, creepage, options | {"tangential": method}).solution
+            forces = {"N": s.N, "Fx": s.Fx, "Fy": s.Fy, "Mz": s.Mz, "slip_ratio": s.slip_ratio}
+            rows.append({"tangential": method, **asdict(creepage), **forces})
+    return rows
+
+
+def _load(load: float | None, penetration: float | None) -> float | None:
+    if load is not None and penetration is not None:
+        raise ContactError(f"load = {load:g} and penetration = {penetration:g} exclude each other")
+    return STANDARD_LOAD if load is None and penetration is None else load

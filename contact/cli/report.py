@@ -1,0 +1,150 @@
+"""Solved patches as tables for the terminal and as plain data for JSON."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+from contact.cli.problem import Touch
+from contact.damage import Damage, evaluate
+from contact.geometry.wheelset import Patch
+from contact.registry import Method, Methods
+from contact.solution import Solution
+
+PLACE: Sequence[tuple[str, str, Callable[[Patch], float]]] = (
+    ("contact angle", "°", lambda p: math.degrees(p.angle)),
+    ("position y", "mm", lambda p: 1e3 * p.position[1]),
+    ("position z", "mm", lambda p: 1e3 * p.position[2]),
+    ("rolling radius", "mm", lambda p: 1e3 * p.rolling_radius),
+)
+CONTACT: Sequence[tuple[str, str, Callable[[Solution], float]]] = (
+    ("longitudinal creepage", "‰", lambda s: 1e3 * s.creepage.longitudinal),
+    ("lateral creepage", "‰", lambda s: 1e3 * s.creepage.lateral),
+    ("spin creepage", "1/m", lambda s: s.creepage.spin),
+    ("normal force", "kN", lambda s: 1e-3 * s.N),
+    ("approach", "µm", lambda s: 1e6 * s.approach),
+    ("peak pressure", "MPa", lambda s: 1e-6 * s.max_pressure),
+    ("contact area", "mm²", lambda s: 1e6 * s.area),
+    ("length along x", "mm", lambda s: 1e3 * s.length),
+    ("width along y", "mm", lambda s: 1e3 * s.width),
+    ("Fx on the wheel", "kN", lambda s: 1e-3 * s.Fx),
+    ("Fy on the wheel", "kN", lambda s: 1e-3 * s.Fy),
+    ("Mz on the wheel", "N m", lambda s: s.Mz),
+    ("utilised friction", "-", lambda s: math.hypot(s.Fx, s.Fy) / s.N if s.N > 0.0 else 0.0),
+    ("slip area", "%", lambda s: 100.0 * s.slip_ratio),
+)
+DAMAGE: Sequence[tuple[str, str, Callable[[Damage], float]]] = (
+    ("T-gamma", "N", lambda d: d.T_gamma),
+    ("T-gamma with spin", "N", lambda d: d.T_gamma_spin),
+    ("dissipation", "N", lambda d: d.dissipation),
+    ("Pearce-Sherratt", "mm²/km", lambda d: 1e9 * d.pearce_sherratt),
+    ("USFD", "mm/km", lambda d: 1e6 * d.usfd),
+    ("Archard volume", "mm³/km", lambda d: 1e12 * d.archard.volume),
+    ("Archard depth", "µm/km", lambda d: 1e9 * d.archard.depth_max),
+    ("Burstow", "1e-6/axle", lambda d: 1e6 * d.burstow),
+    ("surface fatigue index", "-", lambda d: d.fatigue_index),
+    ("largest stress index", "MPa", lambda d: 1e-6 * d.stress_index.max),
+    ("largest energy index", "MPa", lambda d: 1e-6 * d.energy_index.max),
+)
+
+
+def show(touches: Sequence[Touch], title: str, wheel_radius: float, console: Console) -> None:
+    """Print the patches side by side: place, contact, damage."""
+    if not touches:
+        console.print(f"[bold]{title}[/bold]\nno contact: all forces are zero")
+        return
+    table = Table(title=title, title_justify="left", title_style="bold", header_style="bold")
+    table.add_column("quantity")
+    table.add_column("unit", style="dim")
+    for touch in touches:
+        table.add_column(touch.name, justify="right")
+    if touches[0].patch is not None:
+        for label, unit, value in PLACE:
+            table.add_row(label, unit, *(_number(value(t.patch)) for t in touches if t.patch is not None))
+        table.add_section()
+    for label, unit, of_solution in CONTACT:
+        table.add_row(label, unit, *(_number(of_solution(t.solution)) for t in touches))
+    table.add_row("status", "", *(t.solution.status.name.lower().replace("_", " ") for t in touches))
+    table.add_section()
+    damages = [evaluate(t.solution, wheel_radius) for t in touches]
+    for label, unit, of_damage in DAMAGE:
+        table.add_row(label, unit, *(_number(of_damage(d)) for d in damages))
+    console.print(table)
+
+
+def data(touch: Touch, wheel_radius: float) -> dict[str, Any]:
+    """Everything but the fields, in SI units, under the names of the Python API."""
+    s, damage = touch.solution, evaluate(touch.solution, wheel_radius)
+    c = s.creepage
+    content: dict[str, Any] = {}
+    if touch.patch is not None:
+        p = touch.patch
+        content = {
+            "side": touch.side,
+            "angle": p.angle,
+            "position": list(p.position),
+            "rolling_radius": p.rolling_radius,
+        }
+    names = "N Fx Fy Mz approach max_pressure area slip_ratio length width normal_stiffness power_per_metre n_patches"
+    content |= {name: getattr(s, name) for name in names.split()}
+    content["status"] = s.status.name
+    content["creepage"] = {"longitudinal": c.longitudinal, "lateral": c.lateral, "spin": c.spin}
+    content |= {"friction": s.friction, "speed": s.speed, "normal": s.normal, "tangential": s.tangential}
+    numbers = "T_gamma T_gamma_spin dissipation pearce_sherratt burstow usfd fatigue_index"
+    content["damage"] = {name: getattr(damage, name) for name in numbers.split()} | {
+        "archard_depth_max": damage.archard.depth_max,
+        "archard_volume": damage.archard.volume,
+        "stress_index_max": damage.stress_index.max,
+        "energy_index_max": damage.energy_index.max,
+    }
+    return content
+
+
+def show_methods(methods: Methods, console: Console) -> None:
+    """Print the registry."""
+    for kind, known in methods._asdict().items():
+        table = Table(title=f"{kind} methods", title_justify="left", title_style="bold", header_style="bold")
+        table.add_column("name", no_wrap=True)
+        for heading in ("method", "source", "can do"):
+            table.add_column(heading)
+        for method in known.values():
+            table.add_row(method.name, method.title, method.source, ", ".join(_abilities(method, kind)))
+        console.print(table)
+
+
+def _abilities(method: Method, kind: str) -> Iterator[str]:
+    """What the method can do and others of its kind perhaps cannot."""
+    if method.non_elliptic:
+        yield "non-elliptic"
+    if method.several_patches:
+        yield "several patches"
+    if kind == "tangential" and method.spin:
+        yield "spin"
+    if kind == "tangential" and method.fields:
+        yield "slip field"
+    if method.interacting:
+        yield "interacting strips"
+
+
+def show_curve(
+    values: Iterable[float], relative: Mapping[str, Sequence[float]], axis: str, force: str, console: Console
+) -> None:
+    """Print creep curves, one column a method."""
+    table = Table(title=f"{force} over {axis}", title_justify="left", title_style="bold", header_style="bold")
+    for heading in (axis, *relative):
+        table.add_column(heading, justify="right")
+    for k, value in enumerate(values):
+        table.add_row(f"{value:.5g}", *(f"{column[k]:.4f}" for column in relative.values()))
+    console.print(table)
+
+
+def _number(value: float) -> str:
+    """Four significant digits, without exponent where a reader can do without."""
+    if value == 0.0 or 1e-3 <= abs(value) < 1e5:
+        digits = 3 if value == 0.0 else max(0, 3 - math.floor(math.log10(abs(value))))
+        return f"{value:.{min(digits, 6)}f}" if value else "0"
+    return f"{value:.3e}"

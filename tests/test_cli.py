@@ -1,0 +1,245 @@
+"""The command line: the same numbers as the Python API, clear refusals, pictures, plug-ins."""
+
+import csv
+import json
+import subprocess
+import sys
+from importlib.metadata import EntryPoint
+
+import numpy as np
+import pytest
+
+import contact
+from contact import damage
+from contact.geometry import profile, wheelset
+
+typer = pytest.importorskip("typer")
+
+from typer.testing import CliRunner  # noqa: E402
+
+from contact.cli import app as cli  # noqa: E402
+from contact.cli.plugins import GROUP, add_plugins  # noqa: E402
+
+
+def call(*words, code=0):
+    """Run one command; return its result after a look at the exit code."""
+    result = CliRunner().invoke(cli.app, [str(word) for word in words])
+    assert result.exit_code == code, f"{result.output}\n{result.exception!r}"
+    return result
+
+
+def test_solve_gives_the_numbers_of_the_python_api():
+    words = ("--curvatures", 1.1, 0.8, "--creepage", -1e-3, 2e-3, 0.1, "--load", 60e3, "--friction", 0.4)
+    answer = json.loads(call("solve", *words, "--json").stdout)["patches"]
+    s = contact.solve(
+        contact.Separation.hertzian(1.1, 0.8), contact.Creepage(-1e-3, 2e-3, 0.1), load=60e3, friction=0.4
+    )
+    d = damage.evaluate(s)
+    assert len(answer) == 1
+    for name in ("N", "Fx", "Fy", "Mz", "approach", "max_pressure", "area", "slip_ratio"):
+        assert answer[0][name] == getattr(s, name), name
+    assert answer[0]["status"] == "OK"
+    assert answer[0]["damage"]["T_gamma"] == d.T_gamma
+    assert answer[0]["damage"]["archard_volume"] == d.archard.volume
+
+
+def test_solve_on_rails_gives_the_numbers_of_the_geometry_and_the_solver():
+    words = ("--y", 2e-3, "--yaw", 1e-3, "--load", 70e3, "--side", "left", "--speed", 30.0)
+    answer = json.loads(call("solve", *words, "--json").stdout)["patches"]
+    found = wheelset.contacts(
+        profile.s1002(),
+        profile.rail_60e1(),
+        wheelset.Pose(y=2e-3, yaw=1e-3),
+        wheelset.Velocity(forward=30.0),
+        side="left",
+        load=70e3,
+    )
+    assert [p["angle"] for p in answer] == [p.angle for p in found]
+    for p, a in zip(found, answer, strict=True):
+        s = contact.solve(p.separation, p.creepage, load=p.load, speed=30.0)
+        assert (a["N"], a["Fx"], a["Fy"], a["Mz"]) == (s.N, s.Fx, s.Fy, s.Mz)
+        assert a["creepage"]["lateral"] == p.creepage.lateral
+        assert a["side"] == "left"
+
+
+def test_table_shows_the_solution_in_the_engineers_units():
+    output = call("solve", "--curvatures", 1.1, 0.8, "--creepage", 1e-3, 0, 0).output
+    s = contact.solve(contact.Separation.hertzian(1.1, 0.8), contact.Creepage(1e-3, 0.0, 0.0), load=80e3)
+    line = next(row for row in output.splitlines() if "peak pressure" in row)
+    assert f"{s.max_pressure * 1e-6:.1f}" in line
+    assert "MPa" in line
+    for word in ("normal force", "T-gamma", "Burstow", "Archard", "status"):
+        assert word in output
+
+
+def test_both_wheels_are_shown_side_by_side():
+    output = call("solve", "--side", "both", "--y", 1e-3).output
+    assert "left 1" in output
+    assert "right 1" in output
+
+
+def test_no_contact_is_an_answer():
+    assert "no contact" in call("solve", "--penetration", 0.0).output
+    answer = json.loads(call("solve", "--curvatures", 1.0, 1.0, "--penetration", -1e-5, "--json").stdout)
+    assert answer["patches"][0]["status"] == "NO_CONTACT"
+    assert answer["patches"][0]["N"] == 0.0
+
+
+def test_no_contact_draws_nothing_and_says_so(tmp_path):
+    result = call("patch", "--penetration", 0.0, "--out", tmp_path / "none.png")
+    assert "no picture" in result.stderr
+    assert not (tmp_path / "none.png").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("solve", "--load", "-1"), "load = -1 is outside the allowed range [0, inf["),
+        (("solve", "--friction", "nan"), "friction = nan"),
+        (("solve", "--curvatures", "0", "1"), "A = 0 is outside the allowed range ]0, inf["),
+        (("solve", "--normal", "magic"), "normal = 'magic' is not a registered method"),
+        (("solve", "--wheel", "round"), "wheel = 'round' is neither a standard profile (s1002) nor a file"),
+        (("solve", "--load", "1", "--penetration", "1e-5"), "exclude each other"),
+        (("solve", "--y", "1.0"), "pose.y = 1"),
+        (("solve", "--penetration", "-1e-5"), "penetration = -1e-05"),
+        (("solve", "--curvatures", "1", "1", "--plot", "nowhere/at/all.png"), "all.png cannot be written"),
+        (("solve", "--curvatures", "1", "1", "--plot", "picture.nonsense"), "picture.nonsense cannot be written"),
+        (("curve", "--csv", "nowhere/at/all.csv"), "all.csv cannot be written"),
+        (("curve", "--max", "inf"), "max = inf is outside the allowed range"),
+        (("curve", "--tangential", "magic"), "tangential = 'magic'"),
+        (("patch", "--yaw", "3"), "pose.yaw = 3"),
+    ],
+)
+def test_bad_input_ends_with_a_message_on_stderr_and_code_2(words, message):
+    result = call(*words, code=2)
+    assert message in result.stderr
+    assert "Traceback" not in result.output
+
+
+def test_unknown_commands_and_options_end_with_code_2():
+    assert "No such command" in call("solv", code=2).output
+    assert "No such option" in call("solve", "--lode", "1", code=2).output
+
+
+def test_patch_draws_both_wheels(tmp_path):
+    mpl = pytest.importorskip("matplotlib")
+    path = tmp_path / "flange.png"
+    result = call("patch", "--y", 6e-3, "--yaw", 2e-3, "--out", path)
+    image = mpl.image.imread(path)
+    assert image.shape[0] > 600
+    assert image.std() > 0.05
+    assert str(path) in result.stderr
+    assert "left 1" in result.output
+
+
+def test_solve_draws_what_it_solved(tmp_path):
+    mpl = pytest.importorskip("matplotlib")
+    path = tmp_path / "patch.png"
+    result = call("solve", "--curvatures", 1, 1, "--creepage", 1e-3, 0, 0, "--plot", path, "--json")
+    assert json.loads(result.stdout), "JSON alone on stdout"
+    assert mpl.image.imread(path).std() > 0.05
+
+
+def test_curve_is_odd_in_creepage_ends_at_the_friction_limit_and_is_written(tmp_path):
+    pytest.importorskip("matplotlib")
+    paths = [tmp_path / name for name in ("curve.csv", "curve.png")]
+    words = ("--points", 5, "--max", 0.02, "--tangential", "fastrip", "--tangential", "fastsim", "--friction", 0.25)
+    result = call("curve", *words, "--csv", paths[0], "--plot", paths[1])
+    rows = list(csv.DictReader(paths[0].open(encoding="utf-8")))
+    assert [row["tangential"] for row in rows] == ["fastrip"] * 5 + ["fastsim"] * 5
+    force = np.array([float(row["Fx"]) / float(row["N"]) for row in rows]).reshape(2, 5)
+    assert force[:, 0] == pytest.approx(0.0, abs=1e-12)
+    assert force[:, -1] == pytest.approx(-0.25, rel=2e-3), "full slip"
+    assert (np.diff(force) <= 1e-9).all(), "positive creepage, negative force"
+    s = contact.solve(contact.Separation.hertzian(1.09, 0.83), contact.Creepage(0.005), load=80e3, friction=0.25)
+    assert float(rows[1]["Fx"]) == s.Fx
+    assert "0.2500" in result.output
+    assert paths[1].stat().st_size > 5000
+
+
+def test_curve_over_spin_holds_the_other_creepages(tmp_path):
+    path = tmp_path / "spin.csv"
+    call("curve", "--over", "spin", "--points", 3, "--creepage", 1e-3, -2e-3, 9.0, "--csv", path)
+    rows = list(csv.DictReader(path.open(encoding="utf-8")))
+    assert [float(row["spin"]) for row in rows] == [0.0, 0.5, 1.0]
+    assert {(float(row["longitudinal"]), float(row["lateral"])) for row in rows} == {(1e-3, -2e-3)}
+
+
+def test_methods_lists_the_whole_registry():
+    output = call("methods").output
+    for known in contact.methods():
+        for name in known:
+            assert name in output
+
+
+@pytest.mark.parametrize(
+    "words", [("--help",), ("solve", "--help"), ("patch", "-h"), ("curve", "-h"), ("methods", "-h")]
+)
+def test_help_explains_every_option(words):
+    output = call(*words).output
+    assert "Usage: " in output
+    assert all("--creepage" in output for _ in range(words[0] in ("solve", "patch", "curve")))
+
+
+def test_version_is_that_of_the_package():
+    assert call("--version").output.strip() == contact.__version__
+
+
+def test_plug_in_becomes_a_command(tmp_path, monkeypatch):
+    (tmp_path / "a_plug_in.py").write_text("def greet(name: str = 'nobody'):\n    print('hello', name)\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    app = typer.Typer()
+    app.command("other")(lambda: None)
+    assert add_plugins(app, [EntryPoint("greet", "a_plug_in:greet", GROUP)]) == []
+    result = CliRunner().invoke(app, ["greet", "--name", "rail"])
+    assert result.output == "hello rail\n"
+
+
+def test_plug_in_that_cannot_be_loaded_is_named_and_harms_nothing():
+    app = typer.Typer()
+    app.command("one")(lambda: None)
+    app.command("two")(lambda: None)
+    problems = add_plugins(app, [EntryPoint("broken", "no_such_module:f", GROUP), EntryPoint("bare", "json:no", GROUP)])
+    assert [("bare" in line or "broken" in line) for line in problems] == [True, True]
+    assert "no_such_module" in " ".join(problems)
+    assert CliRunner().invoke(app, ["one"]).exit_code == 0
+
+
+def test_own_commands_do_not_load_plug_ins(monkeypatch):
+    loaded = []
+    monkeypatch.setattr(cli, "add_plugins", lambda app: loaded.append(app) or [])
+    monkeypatch.setattr(cli, "app", FakeApp(cli.app))
+    cli.run(["solve", "--y", "0"])
+    assert loaded == []
+    cli.run(["--help"])
+    cli.run(["demo"])
+    assert len(loaded) == 2
+
+
+class FakeApp:
+    """The commands of an app, without running them."""
+
+    def __init__(self, app):
+        self.registered_commands = app.registered_commands
+
+    def __call__(self, args, prog_name):
+        assert prog_name == "contact"
+
+
+def test_missing_extra_is_named_and_ends_with_code_1():
+    code = (
+        "import sys; sys.modules['typer'] = None; sys.argv = ['contact', 'methods']; import contact.cli as c; c.main()"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert "pip install 'wheelrail-contact[cli]'" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_missing_matplotlib_ends_a_plot_with_code_1(monkeypatch, tmp_path):
+    for name in [name for name in sys.modules if name.startswith("contact.plot")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.delattr(contact, "plot", raising=False)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    result = call("solve", "--curvatures", 1, 1, "--plot", tmp_path / "no.png", code=1)
+    assert "wheelrail-contact[plot]" in result.stderr
