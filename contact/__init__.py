@@ -6,6 +6,7 @@ forces act on the wheel. Start with `solve`.
 
 from contact.creepage import Creepage
 from contact.errors import ContactError
+from contact.forces import Forces, forces
 from contact.hertz import HertzContact, hertz
 from contact.material import STEEL, Material
 from contact.registry import Method, Methods, methods
@@ -17,6 +18,7 @@ __all__ = [
     "STEEL",
     "ContactError",
     "Creepage",
+    "Forces",
     "HertzContact",
     "Material",
     "Method",
@@ -25,6 +27,7 @@ __all__ = [
     "Solution",
     "Status",
     "Strips",
+    "forces",
     "hertz",
     "methods",
     "solve",

@@ -61,7 +61,8 @@ def peak_pressure(strips, n):
 def solve_case(y, g, A, xc, case, rule, tables, space, strips, fields, result):
     """Solve one case; fill strips, fields and result (see `_layout`). Return the strip count.
 
-    All arrays are the caller's: `workspace.allocate` makes a fitting set.
+    All arrays are the caller's: `workspace.allocate` makes a fitting set. With a single row of fields only strips and result
+    are meant to be read.
     """
     result[:] = 0.0
     if case[CASE_NORMAL] == HERTZ:
@@ -79,7 +80,7 @@ def solve_case(y, g, A, xc, case, rule, tables, space, strips, fields, result):
         a, xc_i, p0 = strips[STRIP_A, i], strips[STRIP_XC, i], strips[STRIP_P0, i]
         area += 2.0 * a * strips[STRIP_DY, i]
         x_low, x_high = min(x_low, xc_i - a), max(x_high, xc_i + a)
-        for k in range(elements.shape[1]):
+        for k in range(elements.shape[1] if i < fields.shape[1] else 0):
             fields[FIELD_X, i, k] = xc_i + a * elements[EL_S, k]
             fields[FIELD_DX, i, k] = a * elements[EL_DX, k]
             fields[FIELD_P, i, k] = p0 * elements[EL_SINE, k]
@@ -98,3 +99,25 @@ def solve_case(y, g, A, xc, case, rule, tables, space, strips, fields, result):
     for i in range(n):
         strips[STRIP_ASPECT, i] = math.exp(strips[STRIP_ASPECT, i])
     return n
+
+
+@kernel
+def solve_cases(first, last, y, g, A, xc, bounds, which, cases, rule, tables, space, strips, fields, results):
+    """Solve cases[first:last] one after the other; separation k lies at y[bounds[k]:bounds[k+1]], case c uses which[c]."""
+    for c in range(first, last):
+        low, high = bounds[which[c]], bounds[which[c] + 1]
+        if space.memory.size > 1:
+            space.memory[0] = 0.0  # no case starts from another one: the order of cases does not matter
+        solve_case(
+            y[low:high],
+            g[low:high],
+            A[low:high],
+            xc[low:high],
+            cases[c],
+            rule,
+            tables,
+            space,
+            strips,
+            fields,
+            results[c],
+        )

@@ -52,6 +52,14 @@ from contact.solution import Solution, Status, Strips
 N_STRIPS, N_ELEMENTS = 30, 30
 
 
+def require_resolution(n_strips: object, n_elements: object) -> tuple[int, int]:
+    """Return both as integers in [4, 1000], or raise a ContactError."""
+    for name, number in (("n_strips", n_strips), ("n_elements", n_elements)):
+        if not isinstance(number, int | np.integer) or not 4 <= number <= 1000:
+            raise ContactError(f"{name} = {number!r} is not an integer in the allowed range [4, 1000]")
+    return int(n_strips), int(n_elements)  # type: ignore[call-overload]
+
+
 def solve(
     separation: Separation,
     creepage: Creepage,
@@ -116,10 +124,7 @@ def solve(
         kind, amount = APPROACH, require_number("approach", approach)
     mu = require_number("friction", friction, 0.0)
     speed = require_number("speed", speed, 0.0, open_minimum=True)
-    for name, number in (("n_strips", n_strips), ("n_elements", n_elements)):
-        if not isinstance(number, int | np.integer):
-            raise ContactError(f"{name} = {number!r} is not an integer; allowed range [4, 1000]")
-        require_number(name, number, 4, 1000)
+    n_strips, n_elements = require_resolution(n_strips, n_elements)
     method = lookup("normal", normal)
     case = np.array(
         [
@@ -135,7 +140,7 @@ def solve(
             lookup("tangential", tangential).id,
         ]
     )
-    own = workspace.allocate(method, material.poisson_ratio, int(n_strips), int(n_elements), separation.y.size)
+    own = workspace.allocate(method, material.poisson_ratio, n_strips, n_elements, separation.y.size)
     if start is not None and start.memory.size == own.space.memory.size:
         own.space.memory[:] = start.memory
     n = solve_case(separation.y, separation.g, separation.A, separation.x_c, case, *own)

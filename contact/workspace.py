@@ -72,8 +72,10 @@ def tables(poisson_ratio: float, interacting: bool) -> Tables:
     return Tables(kalker.table(poisson_ratio), *(influence.tables() if interacting else empty))
 
 
-def allocate(normal: Method, poisson_ratio: float, n_strips: int, n_elements: int, n_samples: int) -> Workspace:
-    """Allocate a workspace for separations of `n_samples` points."""
+def allocate(
+    normal: Method, poisson_ratio: float, n_strips: int, n_elements: int, n_samples: int, *, fields: bool = True
+) -> Workspace:
+    """Allocate a workspace for separations of at most `n_samples` points; without `fields`, for forces alone."""
     capacity = MAX_PATCHES * n_strips
     size = capacity if normal.interacting else 1
     return Workspace(
@@ -88,6 +90,6 @@ def allocate(normal: Method, poisson_ratio: float, n_strips: int, n_elements: in
             memory=np.zeros(MEM_LN_A + size),
         ),
         np.empty((N_STRIP_ROWS, capacity)),
-        np.empty((N_FIELD_ROWS, capacity, n_elements)),
+        np.empty((N_FIELD_ROWS, capacity if fields else 1, n_elements)),
         np.empty(N_RES),
     )

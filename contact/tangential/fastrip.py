@@ -26,7 +26,6 @@ from contact._layout import (
     CASE_PHI,
     CASE_VX,
     CASE_VY,
-    FIELD_DX,
     FIELD_QX,
     FIELD_QY,
     FIELD_STICK,
@@ -44,7 +43,7 @@ from contact._layout import (
     STRIP_XC,
     STRIP_Y,
 )
-from contact.quadrature import EL_ANGLE_END, EL_LOAD_END, EL_MOMENT_END, EL_S, EL_SINE
+from contact.quadrature import EL_ANGLE_END, EL_DX, EL_LOAD_END, EL_MOMENT_END, EL_S, EL_SINE
 from contact.tangential.fastsim import NO_FRICTION, equivalent_ellipse
 from contact.tangential.march import march
 from contact.tangential.strip_theory import stick_resultants, stick_zone
@@ -80,10 +79,11 @@ def fastrip(strips, n, case, table, elements, fields, result):
     Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(n):
         a, dy, y, xc = strips[STRIP_A, i], strips[STRIP_DY, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
+        row = min(i, fields.shape[1] - 1)  # one row serves all strips when only forces are asked for
         bound = mu * strips[STRIP_P0, i]
         if a <= 0.0 or bound <= NO_FRICTION * G:
-            fields[FIELD_STICK, i, :] = 0.0
-            fields[FIELD_QX : FIELD_SY + 1, i, :] = 0.0
+            fields[FIELD_STICK, row, :] = 0.0
+            fields[FIELD_QX : FIELD_SY + 1, row, :] = 0.0
             slip_area += 2.0 * a * dy
             continue
         c11, c22, c23, _ = kalker.coefficients(table, strips[STRIP_ASPECT, i])
@@ -92,7 +92,7 @@ def fastrip(strips, n, case, table, elements, fields, result):
         vx, vy = vx0 - phi * y, vy0 + phi * xc
 
         # directions from the parabola of peak 4/3 mu p0 (theory.md 4.4)
-        tau_x, tau_y, excess = fields[FIELD_QX, i], fields[FIELD_QY, i], fields[FIELD_SX, i]
+        tau_x, tau_y, excess = fields[FIELD_QX, row], fields[FIELD_QY, row], fields[FIELD_SX, row]
         unit = 0.75 * G / bound
         L1, L2, L3 = unit * 0.375 * c11, unit * 0.375 * c22, unit * 4.0 / math.pi * c23 / root_aspect
         directions(elements, vx0, vy0, phi, L1, L2, L3, a, y, xc, c_patch, tau_x, tau_y, excess)
@@ -132,7 +132,7 @@ def fastrip(strips, n, case, table, elements, fields, result):
                 if excess_traction > 1.0:  # the field stays admissible; the closed-form resultants do not need it
                     qx, qy = qx / excess_traction, qy / excess_traction
                 slip = 0.0
-                fields[FIELD_STICK, i, k] = 1.0
+                fields[FIELD_STICK, row, k] = 1.0
             else:
                 qx, qy = direction_x * sine, direction_y * sine
                 if e < 1.0:
@@ -142,10 +142,10 @@ def fastrip(strips, n, case, table, elements, fields, result):
                     sx = vx + flexibility_x * direction_x * s
                     sy = vy + phi * a * s + flexibility_y * direction_y * s
                     slip = max(0.0, -(sx * direction_x + sy * direction_y))
-                fields[FIELD_STICK, i, k] = 0.0
-                power += bound * sine * slip * fields[FIELD_DX, i, k] * dy
-            fields[FIELD_QX, i, k], fields[FIELD_QY, i, k] = bound * qx, bound * qy
-            fields[FIELD_SX, i, k], fields[FIELD_SY, i, k] = -slip * direction_x, -slip * direction_y
+                fields[FIELD_STICK, row, k] = 0.0
+                power += bound * sine * slip * a * elements[EL_DX, k] * dy
+            fields[FIELD_QX, row, k], fields[FIELD_QY, row, k] = bound * qx, bound * qy
+            fields[FIELD_SX, row, k], fields[FIELD_SY, row, k] = -slip * direction_x, -slip * direction_y
         Fx += fx
         Fy += fy
         Mz += mz + xc * fy - y * fx

@@ -123,10 +123,11 @@ def fastrip_mapped(strips, n, case, table, elements, fields, result):
         y_c, y_spin, rho33 = elastic_centre(strips, n, table, math.log(a_e / b_e))
     for i in range(n):
         a, dy, y, xc = strips[STRIP_A, i], strips[STRIP_DY, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
+        row = min(i, fields.shape[1] - 1)  # one row serves all strips when only forces are asked for
         bound = mu * strips[STRIP_P0, i]
         if a <= 0.0 or bound <= NO_FRICTION * G:
-            fields[FIELD_STICK, i, :] = 0.0
-            fields[FIELD_QX : FIELD_SY + 1, i, :] = 0.0
+            fields[FIELD_STICK, row, :] = 0.0
+            fields[FIELD_QX : FIELD_SY + 1, row, :] = 0.0
             slip_area += 2.0 * a * dy
             continue
         log_aspect = strips[STRIP_ASPECT, i]
@@ -201,19 +202,19 @@ def fastrip_mapped(strips, n, case, table, elements, fields, result):
                 slip = (
                     max(-2.0 * s * (r * ex * ex + ey * ey) - (Xs * ex + (Ys + 2.0 * spin * s) * ey), 0.0) * slip_scale
                 )
-                fields[FIELD_SX, i, k], fields[FIELD_SY, i, k] = -slip * ex, -slip * ey
+                fields[FIELD_SX, row, k], fields[FIELD_SY, row, k] = -slip * ex, -slip * ey
                 power += bound * sine * slip * a * elements[EL_DX, k] * dy
-                fields[FIELD_STICK, i, k] = 0.0
+                fields[FIELD_STICK, row, k] = 0.0
             else:
                 qx, qy = mapped(tau_x / g, tau_y / g, pole, m)
-                fields[FIELD_SX, i, k], fields[FIELD_SY, i, k] = 0.0, 0.0
-                fields[FIELD_STICK, i, k] = 1.0
+                fields[FIELD_SX, row, k], fields[FIELD_SY, row, k] = 0.0, 0.0
+                fields[FIELD_STICK, row, k] = 1.0
             slip_area += (1.0 - stick_share) * a * elements[EL_DX, k] * dy
             weight = sine * elements[EL_DX, k]
             sum_x += weight * qx
             sum_y += weight * qy
             sum_m += weight * s * qy
-            fields[FIELD_QX, i, k], fields[FIELD_QY, i, k] = bound * sine * qx, bound * sine * qy
+            fields[FIELD_QX, row, k], fields[FIELD_QY, row, k] = bound * sine * qx, bound * sine * qy
         load = bound * a * dy
         Fx += load * sum_x
         Fy += load * sum_y

@@ -1,0 +1,53 @@
+"""`contact.forces`: equal to `contact.solve`, broadcasting, independent of threads."""
+
+import numpy as np
+import pytest
+
+import contact
+
+NAMES = ("Fx", "Fy", "Mz", "N", "approach", "max_pressure", "area", "slip_ratio", "power_per_metre", "status")
+
+
+@pytest.mark.parametrize("normal", list(contact.methods().normal))
+@pytest.mark.parametrize("tangential", list(contact.methods().tangential))
+def test_equals_solve_case_by_case(normal, tangential, ellipse):
+    other = contact.Separation.hertzian(2.0, 0.7)
+    creep = np.linspace(-2e-3, 2e-3, 5)
+    many = contact.forces([ellipse, other], (creep[:, None], 1e-3, 0.4), load=7e4, normal=normal, tangential=tangential)
+    assert many.Fx.shape == (5, 2)
+    for i, vx in enumerate(creep):
+        for k, separation in enumerate((ellipse, other)):
+            one = contact.solve(
+                separation, contact.Creepage(vx, 1e-3, 0.4), load=7e4, normal=normal, tangential=tangential
+            )
+            for name in NAMES:
+                assert getattr(many, name)[i, k] == getattr(one, name), name
+
+
+def test_answer_does_not_depend_on_the_number_of_threads(ellipse):
+    rng = np.random.default_rng(7)
+    creep = tuple(rng.normal(0, 1e-3, 3000) for _ in range(2)) + (rng.normal(0, 0.3, 3000),)
+    one = contact.forces(ellipse, creep, load=7e4, threads=1)
+    two = contact.forces(ellipse, creep, load=7e4, threads=2)
+    for name in NAMES:
+        np.testing.assert_array_equal(getattr(one, name), getattr(two, name), err_msg=name)
+
+
+def test_scalars_give_scalars_and_no_contact_is_an_answer(ellipse):
+    none = contact.forces(ellipse, contact.Creepage(1e-3), load=0.0)
+    assert none.Fx.shape == ()
+    assert none.status == contact.Status.NO_CONTACT
+    assert (none.Fx, none.slip_ratio) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize(("arguments", "message"), [
+    ({"load": [1.0, -2.0]}, r"load\[1\] = -2 is outside the allowed range \[0, inf\]"),
+    ({"load": [1.0, np.nan]}, r"load\[1\] = nan"),
+    ({"load": 1.0, "friction": [[0.1], [-1.0]]}, r"friction\[1, 0\] = -1"),
+    ({"load": [1.0, 2.0], "friction": [0.1, 0.2, 0.3]}, r"do not broadcast: \(2,\)"),
+    ({}, "exactly one"),
+    ({"load": "heavy"}, "load is not an array of numbers"),
+])  # fmt: skip
+def test_bad_input_is_named(arguments, message, ellipse):
+    with pytest.raises(contact.ContactError, match=message):
+        contact.forces(ellipse, contact.Creepage(), **arguments)
