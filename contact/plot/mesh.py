@@ -74,8 +74,11 @@ class PatchMesh:
                 found.append(np.clip(zero, x[j + 1], x[j]))
         return float(np.mean(found)) if found else 0.5 * float(x[j] + x[j + 1])
 
-    def labels(self, least_share: float = 0.15) -> dict[str, tuple[float, float]]:
-        """Where (y, x) to write "stick" and "slip": the widest place of each zone that has `least_share` of the area."""
+    def labels(self, least_room: float = 0.0, least_share: float = 0.15) -> dict[str, tuple[float, float]]:
+        """Where (y, x) to write "stick" and "slip": the widest place of each zone.
+
+        Zones with less than `least_share` of the area, or nowhere further than `least_room` from their edge, get none.
+        """
         points = np.stack([np.repeat(self.y, self.x.shape[1]), self.x.ravel()])
         few = slice(None, None, 1 + points.shape[1] // 1000)
         stick, dA = self.stick.ravel(), self.dA.ravel()
@@ -85,8 +88,9 @@ class PatchMesh:
                 inside = points[:, zone][:, few]
                 around = np.hstack([points[:, ~zone][:, few], self.outline()])
                 room = np.hypot(*(inside[:, :, None] - around[:, None, :])).min(axis=1)
-                y, x = inside[:, room.argmax()].tolist()
-                places[name] = (y, x)
+                if room.max() >= least_room:
+                    y, x = inside[:, room.argmax()].tolist()
+                    places[name] = (y, x)
         return places
 
     def arrows(self, spacing: float) -> Array:

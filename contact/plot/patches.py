@@ -81,8 +81,9 @@ def patch(
             grid, (pressure, energy), ("pressure [MPa]", f"energy index [{scale.energy_unit}]"), strict=True
         ):
             row[0].set_ylabel("x [mm], rolling ↑")
-            figure.colorbar(colours, ax=list(row), label=label, pad=0.02)
-        figure.supxlabel(scale.caption, fontsize=8.0, color=FAINT)
+            slender = max(20.0, 8.0 * scale.half_x / (len(row) * scale.half_y))
+            figure.colorbar(colours, ax=list(row), label=label, pad=0.02, aspect=slender)
+        figure.supxlabel(scale.caption(len(solutions)), fontsize=8.0, color=FAINT)
     return figure
 
 
@@ -104,20 +105,23 @@ class Scale:
         boxes = [box(s) for s in solutions]
         sizes = np.array([(y1 - y0, x1 - x0) for y0, y1, x0, x1 in boxes])
         self.half_y, self.half_x = 0.5 * sizes.max(axis=0) + 0.1 * sizes.max()
-        narrowest = min((min(np.ptp(m.edges), 2.0 * m.a.max()) for m in meshes), default=1.0)
-        self.spacing = max(min(0.17 * max(self.half_x, self.half_y), 0.25 * narrowest), 0.06 * self.half_y)
+        largest = max((m.dA.sum() for m in meshes), default=0.0)
+        main = [m for m in meshes if m.dA.sum() > 0.1 * largest]
+        narrowest = min((min(np.ptp(m.edges), 2.0 * m.a.max()) for m in main), default=1.0)
+        window = max(self.half_x, self.half_y)
+        self.spacing = max(min(0.17 * window, 0.25 * narrowest), 0.06 * window)
 
     def figure_size(self, n: int) -> tuple[float, float]:
         """Width and height [inch] for n columns."""
         inch = min(1.8 / max(self.half_y, self.half_x), 5.5 / (n * self.half_y), 0.25)  # per mm
         width, height = max(2.0 * self.half_y * inch, 2.2), max(2.0 * self.half_x * inch, 1.6)
-        return n * (width + 0.15) + 1.6, 2.0 * height + 1.75
+        return max(n * (width + 0.15) + 1.6, 4.6), 2.0 * height + 1.75
 
-    @property
-    def caption(self) -> str:
-        """What lines and arrows mean."""
-        longest = f"longest arrow: traction on the wheel {self.traction * 1e-6:.3g} MPa"
-        return f"{longest if self.traction else 'no traction'}  ·  dashed: boundary of stick and slip"
+    def caption(self, n: int) -> str:
+        """What lines and arrows mean, in two lines below a single column."""
+        longest = f"longest arrow: traction on the wheel {self.traction * 1e-6:.4g} MPa"
+        separator = "\n" if n == 1 else "  ·  "
+        return separator.join((longest if self.traction else "no traction", "dashed: boundary of stick and slip"))
 
 
 def _pressure(ax: Axes, solution: Solution, title: str, scale: Scale) -> ScalarMappable:
@@ -158,7 +162,7 @@ def _energy(ax: Axes, solution: Solution, scale: Scale) -> ScalarMappable:
     colours = _window(ax, solution, values, colour_map("YlOrRd", 0.85, *scale.energy), scale.energy, scale)
     halo = [patheffects.withStroke(linewidth=2.5, foreground="white", alpha=0.8)]
     for k in range(solution.n_patches):
-        for name, place in PatchMesh(solution, k).labels().items():
+        for name, place in PatchMesh(solution, k).labels(least_room=0.04 * scale.half_y).items():
             ax.text(*place, name, ha="center", va="center", fontsize=8.0, clip_on=True, path_effects=halo)
     return colours
 
