@@ -33,6 +33,12 @@ lint: $(READY)   ## ruff, mypy, import-linter
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 
+accuracy: $(READY) ## the accuracy tables, beside CONTACT's, into docs/accuracy.md
+	$(BIN)/python benchmarks/accuracy.py --write docs/accuracy.md
+
+bench: $(READY)  ## the speed table
+	$(BIN)/python benchmarks/speed.py
+
 format: $(READY) ## put the code in shape
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .

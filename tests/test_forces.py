@@ -26,7 +26,7 @@ def test_equals_solve_case_by_case(normal, tangential, ellipse):
 
 def test_answer_does_not_depend_on_the_number_of_threads(ellipse):
     rng = np.random.default_rng(7)
-    creep = tuple(rng.normal(0, 1e-3, 3000) for _ in range(2)) + (rng.normal(0, 0.3, 3000),)
+    creep = tuple(rng.normal(0, scale, 3000) for scale in (1e-3, 1e-3, 0.3))
     one = contact.forces(ellipse, creep, load=7e4, threads=1)
     two = contact.forces(ellipse, creep, load=7e4, threads=2)
     for name in NAMES:

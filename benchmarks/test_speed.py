@@ -1,0 +1,81 @@
+"""Speed of kernels and of the public functions; run by `make bench`, never by `make test`."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+import contact
+from benchmarks import accuracy
+from contact import workspace
+from contact._layout import N_CASE
+from contact.pipeline import solve_case
+
+PATCH = next(case for case in accuracy.patches() if case["name"].startswith("c40_dy+0"))
+SEPARATION = contact.Separation(np.array(PATCH["y"]) * 1e-3, np.array(PATCH["g"]) * 1e-3, np.array(PATCH["A"]) * 1e3)
+METHODS = contact.methods()
+CREEP = contact.Creepage(1e-3, 5e-4, 0.1)
+
+
+def kernel_call(normal: str, tangential: str, n_strips: int, n_elements: int, *, fields: bool, warm: bool = False):
+    """A call of the kernel itself, load-prescribed, on the patch c40_dy+0; 64 calls in one so that Python hardly counts."""
+    method = METHODS.normal[normal]
+    own = workspace.allocate(method, 0.28, n_strips, n_elements, SEPARATION.y.size, fields=fields)
+    case = np.array([0, 8e4, *(CREEP.longitudinal, CREEP.lateral, CREEP.spin), 0.3, 82e9, 0.28,
+                     method.id, METHODS.tangential[tangential].id], dtype=np.float64)  # fmt: skip
+    assert case.size == N_CASE
+    arguments = (SEPARATION.y, SEPARATION.g, SEPARATION.A, SEPARATION.x_c, case, *own)
+
+    def call() -> None:
+        if not warm:
+            own.space.memory[0] = 0.0
+        solve_case(*arguments)
+
+    call()
+    return call
+
+
+@pytest.mark.parametrize("fields", [True, False], ids=["fields", "forces"])
+@pytest.mark.parametrize(("n_strips", "n_elements"), [(40, 40), (30, 20)])
+@pytest.mark.parametrize("tangential", list(METHODS.tangential))
+@pytest.mark.parametrize("normal", ["hertz", "analyn"])
+def test_kernel(benchmark, normal, tangential, n_strips, n_elements, fields):
+    benchmark(kernel_call(normal, tangential, n_strips, n_elements, fields=fields))
+
+
+@pytest.mark.parametrize("warm", [False, True], ids=["cold", "warm"])
+@pytest.mark.parametrize("n_strips", [20, 30, 40])
+def test_strip_halfspace_kernel(benchmark, n_strips, warm):
+    benchmark(kernel_call("strip_halfspace", "fastrip_mapped", n_strips, 20, fields=False, warm=warm))
+
+
+def test_solve(benchmark):
+    benchmark(contact.solve, SEPARATION, CREEP, load=8e4)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_forces_of_2000_cases(benchmark, threads):
+    creep = tuple(np.random.default_rng(1).normal(0, scale, 2000) for scale in (1e-3, 1e-3, 0.2))
+    benchmark(contact.forces, SEPARATION, creep, load=8e4, threads=threads)
+
+
+def test_import_of_contact(benchmark):
+    def fresh() -> None:
+        subprocess.run([sys.executable, "-c", "import contact"], check=True, env=os.environ)
+
+    benchmark.pedantic(fresh, rounds=5)
+
+
+def test_first_solution_with_a_warm_cache(benchmark):
+    def fresh() -> None:
+        code = "import contact; contact.solve(contact.Separation.hertzian(1.0, 2.0), contact.Creepage(1e-3), load=8e4)"
+        subprocess.run([sys.executable, "-c", code], check=True, env=os.environ)
+
+    fresh()
+    time.sleep(0.1)
+    benchmark.pedantic(fresh, rounds=5)
