@@ -181,7 +181,7 @@ def s1002() -> Profile:
 
 
 #: Half widths of the tangent points R300/R80 and R80/R13 of the 60E1 head [mm] (constants.md 12.2 and 14).
-BREAKPOINTS = {"EN 13674": (20.456 / 2.0, 52.053 / 2.0), "UIC 519": (10.5006, 25.9881)}
+BREAKPOINTS = {"EN 13674": (20.456 / 2.0, 52.053 / 2.0), "UIC 519": (10.5, 25.988)}
 
 
 def rail_60e1(inclination: float = 1.0 / 40.0, breakpoints: str = "EN 13674") -> Profile:
@@ -192,8 +192,8 @@ def rail_60e1(inclination: float = 1.0 / 40.0, breakpoints: str = "EN 13674") ->
     inclination : float
         Tangent of the angle between the rail's axis and the vertical, 0 ... 0.1.
     breakpoints : {"EN 13674", "UIC 519"}
-        Where R300 meets R80 and R80 meets R13: the widths 20.456 and 52.053 mm of EN 13674-1, or the 10.5006 and
-        25.9881 mm on either side of the axis of the rail of EN 15302 and of the Manchester contact benchmark.
+        Where R300 meets R80 and R80 meets R13: the widths 20.456 and 52.053 mm of EN 13674-1, or the 10.5 and
+        25.988 mm on either side of the axis of the rail of EN 15302 and of the Manchester contact benchmark.
 
     Notes
     -----

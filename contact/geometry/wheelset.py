@@ -24,7 +24,7 @@ from contact._layout import CASE_G, CASE_NU, MAX_PATCHES, N_CASE, N_RES, N_STRIP
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
 from contact.geometry import layout
-from contact.geometry.curve import hermite
+from contact.geometry.curve import hermite, least
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Patch, Pose, Velocity
 from contact.geometry.settle import GIVEN_Z, LOAD, NO_OVERLAP, NOT_SETTLED, PENETRATION, first_touch, settle
@@ -305,21 +305,24 @@ def _facing(profile: Profile) -> Array:
 
 def _rail_origin(rail: Profile, gauge: float, gauge_point: float) -> tuple[float, float]:
     """(y, z) of the origin of the right rail's profile: its top at z = 0, its gauge face at half the gauge."""
-    top = int(np.argmin(rail.z))
-    depth = rail.z[top::-1] - rail.z[top]
+    highest = int(np.argmin(rail.z))
+    top = float(rail.z[highest])
+    for i in range(max(highest - 1, 0), min(highest + 1, rail.y.size - 1)):  # the crest lies between two points
+        t, z = least(*rail.z[i : i + 2], *np.tan(rail.angle[i : i + 2]), rail.y[i + 1] - rail.y[i])
+        top = min(top, z) if t > 0.0 else top
     require_number("gauge_point", gauge_point, 0.0, open_minimum=True)
+    depth = rail.z[highest::-1] - top
     below = np.flatnonzero(depth >= gauge_point)
     if below.size == 0:
         raise ContactError(
             f"gauge_point = {gauge_point:g} is outside the allowed range ]0, {depth.max():g}]: "
             f"{rail!r} reaches no deeper on its gauge side"
         )
-    i = top - int(below[0])  # the gauge face is steep: y is interpolated over z there
+    i = highest - int(below[0])  # the gauge face is steep: y is interpolated over z there
     h = rail.z[i + 1] - rail.z[i]
     cot = 1.0 / np.tan(rail.angle[i : i + 2])
-    t = (rail.z[top] + gauge_point - rail.z[i]) / h
-    y, _ = hermite(rail.y[i], rail.y[i + 1], cot[0], cot[1], h, t)
-    return 0.5 * gauge - y, -float(rail.z[top])
+    y, _ = hermite(rail.y[i], rail.y[i + 1], cot[0], cot[1], h, (top + gauge_point - rail.z[i]) / h)
+    return 0.5 * gauge - y, -top
 
 
 def _grid(samples: int | ArrayLike) -> tuple[Array, int]:

@@ -1,0 +1,115 @@
+"""Standard profiles: their formulas, tangents and sampling."""
+
+import math
+
+import numpy as np
+import pytest
+
+from contact import ContactError
+from contact.geometry import curve, profile
+
+# y, z [mm] copied from MBench_S1002_v3.prw (y turned to the field side) and MBench_UIC60_v3.prr, the profile files of the
+# Manchester contact benchmark in the examples of CONTACT 25.1 (Apache-2.0).
+S1002_FILE = np.array(
+    [
+        (-57.991469, 27.62115), (-47.919797, 25.770735), (-41.528095, 19.321641), (-40.151629, 16.657551),
+        (-36.043389, 7.9420277), (-29.514778, 3.7481586), (-21.26435, 1.7950104), (-11.608701, 0.64945529),
+        (-0.7830606, 0.027272952), (10.720527, -0.21622827), (21.79952, -0.3434092), (31.411948, -0.73100733),
+        (40.476452, -1.3341065), (49.540957, -1.9384068), (58.605461, -2.5427071),
+    ]
+)  # fmt: skip
+RAIL_FILE = np.array(
+    [
+        (-42.536707, 11.696774), (-40.525335, 7.769531), (-37.197807, 4.663638), (-32.255133, 2.7017034),
+        (-25.499721, 1.3491745), (-16.838143, 0.47324606), (-6.3314414, 0.066945096), (3.8279707, 0.02741739),
+        (12.13044, 0.62867441), (18.559752, 1.6998989), (23.250518, 3.7072984), (26.437748, 6.8238663),
+        (28.422032, 10.966405),
+    ]
+)  # fmt: skip
+
+
+def height(shape: profile.Profile, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """z and dz/dy [mm] of a profile at y [mm], between its points."""
+    table = np.stack((shape.y, shape.z, np.tan(shape.angle)))
+    segments = np.clip(np.searchsorted(shape.y, 1e-3 * y) - 1, 0, shape.y.size - 2)
+    values = [curve.at(table, int(j), 1e-3 * v) for j, v in zip(segments, y, strict=True)]
+    return 1e3 * np.array([v[0] for v in values]), np.array([v[1] for v in values])
+
+
+def test_s1002_is_the_benchmark_file_to_its_printed_digits():
+    z, _ = height(profile.s1002(), S1002_FILE[:, 0])
+    np.testing.assert_allclose(z, S1002_FILE[:, 1], rtol=0, atol=2e-6)
+
+
+def test_60e1_with_the_uic_519_breakpoints_is_the_benchmark_file():
+    rail = profile.rail_60e1(1 / 40, breakpoints="UIC 519")
+    # the file's origin: its rail axis is at y = -7.491699, its crown at z = 0 (theory.md 9.2)
+    z, slope = height(rail, RAIL_FILE[:, 0] + 7.491699)
+    np.testing.assert_allclose((z + 0.093717 - RAIL_FILE[:, 1]) / np.hypot(1, slope), 0, atol=4e-5)
+
+
+def test_60e1_reaches_the_head_width_of_the_standard():
+    rail = profile.rail_60e1(0.0)
+    flank = np.argmax(rail.angle > math.atan(20.0) - 1e-9)
+    assert rail.y[flank] == pytest.approx(36.0e-3, abs=2e-6)  # 72 mm, constants.md 14
+    assert rail.z[flank] == pytest.approx(14.3e-3, abs=2e-6)
+    np.testing.assert_allclose(rail.y, -rail.y[::-1], atol=1e-15)
+
+
+@pytest.mark.parametrize("inclination", [1 / 40, 1 / 20])
+def test_inclination_turns_the_crown_towards_the_track(inclination):
+    rail = profile.rail_60e1(inclination)
+    upright = profile.rail_60e1(0.0)
+    assert rail.angle[0] - upright.angle[0] == pytest.approx(-math.atan(inclination))
+    assert rail.y[np.argmin(rail.z)] > 5e-3  # leaning to the gauge side it is highest on the field side of its axis
+
+
+@pytest.mark.parametrize("shape", [profile.s1002(), profile.rail_60e1(), profile.rail_60e1(breakpoints="UIC 519")])
+def test_points_and_tangents_of_an_analytic_profile_agree(shape):
+    chord = np.arctan2(np.diff(shape.z), np.diff(shape.y))
+    turn = np.diff(shape.angle)
+    # the chord of an arc halves the turn; what is left are joints (curvature jumps) and the -0.12 µm step of S1002 at -35 mm
+    assert np.abs(chord - 0.5 * (shape.angle[1:] + shape.angle[:-1])).max() < 1.5e-3
+    assert np.abs(turn).max() < 0.25e-3 / 12e-3 * 1.01  # smallest radius 12 mm: no corner anywhere
+    assert np.hypot(np.diff(shape.y), np.diff(shape.z)).max() < 1.001 * profile.SPACING
+
+
+def test_a_cone_falls_by_its_conicity():
+    wheel = profile.cone(0.05)
+    np.testing.assert_allclose(wheel.z, -0.05 * wheel.y, atol=1e-15)
+    np.testing.assert_allclose(np.tan(wheel.angle), -0.05, rtol=1e-14)
+
+
+def test_spline_tangents_of_points_converge_with_third_order_or_better():
+    errors = []
+    for n in (20, 40, 80):
+        t = np.linspace(-1.0, 1.0, n)
+        shape = profile.Profile("rail", 0.05 * np.sin(t), 0.05 * (1 - np.cos(t)))
+        errors.append(np.abs(shape.angle - t)[2:-2].max())
+    assert errors[1] < errors[0] / 8
+    assert errors[2] < errors[1] / 8
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("hub", [0, 1, 2, 3], [0, 0, 0, 0]), "kind = 'hub'"),
+        (("rail", [0, 1, 2], [0, 0, 0]), "at least 4"),
+        (("rail", [0, 1, 2, 3], [0, 0, 0]), "equally many"),
+        (("rail", [0, 1, 1, 3], [0, 0, 0, 0]), "coincide"),
+        (("rail", [0, 1, float("nan"), 3], [0, 0, 0, 0]), "finite"),
+        (("rail", ["a", 1, 2, 3], [0, 0, 0, 0]), "not an array of numbers"),
+    ],
+)
+def test_bad_points_are_named(arguments, message):
+    with pytest.raises(ContactError, match=message):
+        profile.Profile(*arguments)
+
+
+def test_bad_parameters_of_standard_profiles_are_named():
+    with pytest.raises(ContactError, match=r"inclination = 0\.5"):
+        profile.rail_60e1(0.5)
+    with pytest.raises(ContactError, match="breakpoints = 'EN'"):
+        profile.rail_60e1(breakpoints="EN")
+    with pytest.raises(ContactError, match="conicity = -1"):
+        profile.cone(-1)

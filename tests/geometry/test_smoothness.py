@@ -1,0 +1,62 @@
+"""Small changes of the pose make small changes of the patch, from the field side to full flange contact."""
+
+import numpy as np
+import pytest
+
+from contact.geometry import profile
+from contact.geometry.wheelset import Pair, Pose
+
+#: One plane whatever the pose: no births of patches to except.
+ONE_PLANE = {"combine_distance": 1.0}
+
+WHEEL = profile.s1002()
+RAILS = {"1:40": profile.rail_60e1(), "1:20": profile.rail_60e1(1 / 20, breakpoints="UIC 519")}
+
+
+def sweep(pair, y, yaw, how):
+    rows = []
+    for value in y:
+        (patch,) = pair.contacts(Pose(y=value, yaw=yaw), **how)
+        creepage = patch.creepage
+        rows.append((patch.angle, 10 * patch.position[1], 1e3 * patch.approach, *(100 * c for c in (
+            creepage.longitudinal, creepage.lateral, 0.01 * creepage.spin))))  # fmt: skip
+    return np.array(rows)
+
+
+@pytest.mark.parametrize("rail", ["1:40", "1:20"])
+@pytest.mark.parametrize("yaw", [0.0, 0.01])
+@pytest.mark.parametrize("how", [{"penetration": 8e-5}, {"load": 80e3}], ids=["penetration", "load"])
+def test_every_output_is_continuous_over_sixteen_millimetres(rail, yaw, how):
+    pair = Pair(WHEEL, RAILS[rail], **ONE_PLANE)
+    step = 1e-5
+    y = np.arange(-8e-3, 8e-3 + step / 2, step)
+    change = np.abs(np.diff(sweep(pair, y, yaw, how), axis=0))
+    # steep is allowed (the step from tread to flange), a jump is not: it would not shrink with the step
+    for column in range(change.shape[1]):
+        i = int(change[:, column].argmax())
+        fine = np.abs(np.diff(sweep(pair, np.linspace(y[i], y[i + 1], 41), yaw, how), axis=0))[:, column].max()
+        assert fine < 0.2 * change[i, column] + 1e-7, f"output {column} jumps at y = {y[i]:g} m"
+    assert np.median(change[:, 0]) < 2e-3
+
+
+def test_patches_of_their_own_are_born_without_moving_the_others():
+    pair = Pair(WHEEL, RAILS["1:20"])
+    y = np.arange(6.2e-3, 6.5e-3, 1e-6)
+    counts, last, births = [], None, 0
+    for value in y:
+        patches = pair.contacts(Pose(y=value), load=80e3)
+        counts.append(len(patches))
+        if last is not None and len(patches) != len(last):
+            births += 1
+        last = patches
+    assert max(counts) == 2
+    assert births <= 2  # one range of two patches: they do not flicker
+
+
+def test_a_nascent_patch_carries_nothing():
+    pair = Pair(WHEEL, RAILS["1:40"])
+    for depth in (1e-6, 1e-8, 1e-10):
+        (patch,) = pair.contacts(Pose(y=1e-3), penetration=depth)
+        assert 0.0 < patch.approach <= depth
+        assert patch.edges[1] - patch.edges[0] < 20 * np.sqrt(depth)
+        assert np.isfinite(patch.separation.g).all()
