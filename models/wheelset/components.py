@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 import contact
 from models.wheelset.model import WheelsetModel
-from models.wheelset.ports import CREEPAGE, CURVATURE, GAP, LOAD, POINTS
+from models.wheelset.parameters import WheelsetParameters
+from models.wheelset.ports import CREEPAGE, CURVATURE, GAP, LOAD, POINTS, REPORT, SIDES
 
 Array = NDArray[np.float64]
 
@@ -38,19 +39,17 @@ class DirectContact:
 
     Parameters
     ----------
-    window_start, window_step : float
-        First sample and distance of the samples of the separation [m].
-    friction, speed : float
-        [-], [m/s].
-    options
+    parameters : WheelsetParameters
+        Of the wheelset that it belongs to: speed, and where the separation is sampled.
+    friction : float
+        Coefficient of friction [-].
+    **options
         Further keywords of `contact.solve`.
     """
 
-    def __init__(
-        self, *, window_start: float, window_step: float, friction: float, speed: float, **options: object
-    ) -> None:
-        self._y = window_start + window_step * np.arange(POINTS)
-        self._options = {"friction": friction, "speed": speed, **options}
+    def __init__(self, parameters: WheelsetParameters, friction: float = 0.3, **options: object) -> None:
+        self._y = parameters.window_start + parameters.window_step * np.arange(POINTS)
+        self._options = {"friction": friction, "speed": parameters.speed, "throw": False, **options}
         self._problem = np.zeros(LOAD + 1)
         self.solution: contact.Solution | None = None
 
@@ -63,7 +62,6 @@ class DirectContact:
             contact.Separation(self._y, problem[GAP], problem[CURVATURE]),
             contact.Creepage(*problem[CREEPAGE].tolist()),
             load=problem[LOAD],
-            throw=False,
             **self._options,
         )
 
@@ -80,6 +78,39 @@ class DirectContact:
 
     def restore(self, state: object) -> None:
         self._problem, self.solution = state
+
+
+class LinearContact:
+    """Creep forces proportional to the creepages, the same both ways; no spin, no limit: the law of the linear theory.
+
+    Parameters
+    ----------
+    creep_coefficient : float
+        f [N], force = -f·creepage.
+    approach : float
+        What is reported as approach [m].
+    """
+
+    def __init__(self, creep_coefficient: float, approach: float = 6e-5) -> None:
+        self._coefficient, self._approach = creep_coefficient, approach
+        self._creepage = np.zeros(3)
+
+    def write(self, port: str, values: ArrayLike) -> None:
+        self._creepage = np.array(values, dtype=np.float64)[CREEPAGE]
+
+    def step(self, time: float, h: float) -> None:
+        """Nothing: there is no memory."""
+
+    def read(self, port: str) -> Array:
+        if port == "reaction":
+            return np.array([*(-self._coefficient * self._creepage[:2]), 0.0, self._approach])
+        return np.zeros(len(REPORT))
+
+    def save(self) -> object:
+        return self._creepage
+
+    def restore(self, state: object) -> None:
+        self._creepage = state
 
 
 class DirectWheelset:
@@ -106,3 +137,10 @@ class DirectWheelset:
 
     def restore(self, state: object) -> None:
         self.model.restore(state)
+
+
+def direct(
+    parameters: WheelsetParameters, friction: float = 0.3, **options: object
+) -> tuple[DirectWheelset, list[DirectContact]]:
+    """The wheelset and its right and left contact, ready for `master.run`."""
+    return DirectWheelset(WheelsetModel(parameters)), [DirectContact(parameters, friction, **options) for _ in SIDES]

@@ -43,6 +43,15 @@ def arm(frame):
 
 
 @kernel
+def locus(frame, axle):
+    """x of the contact origin [m]: where on the wheel's circle the normal has no x component, l_x a/(l_y cos δ + l_z sin δ).
+
+    There the spin moves the wheel along the rail's surface only (theory.md 9.4, the contact locus under yaw).
+    """
+    return axle[0] * arm(frame) / (axle[1] * math.cos(frame[ANGLE]) + axle[2] * math.sin(frame[ANGLE]))
+
+
+@kernel
 def normal_loads(frames, forces, axle_load, loads):
     """Solve vertical and roll equilibrium (4, 5) for loads[side] [N]; a wheel that would pull is unloaded instead."""
     vertical, roll = axle_load, 0.0
@@ -62,24 +71,19 @@ def normal_loads(frames, forces, axle_load, loads):
 
 
 @kernel
-def follow(frames, state, axle):
+def follow(frames, state):
     """Vertical velocity [m/s] and roll rate [rad/s] that keep both wheels on the rails (6): the transpose of (4, 5)."""
-    normal_velocity_r = _approach_velocity(frames[RIGHT], state, axle)
-    normal_velocity_l = _approach_velocity(frames[LEFT], state, axle)
+    sliding_r, sliding_l = _into_surface(frames[RIGHT], state), _into_surface(frames[LEFT], state)
     c_r, c_l = math.cos(frames[RIGHT, ANGLE]), math.cos(frames[LEFT, ANGLE])
     a_r, a_l = arm(frames[RIGHT]), arm(frames[LEFT])
     determinant = c_r * a_l - c_l * a_r
-    z_rate = -(normal_velocity_r * a_l - normal_velocity_l * a_r) / determinant
-    roll_rate = -(c_r * normal_velocity_l - c_l * normal_velocity_r) / determinant
-    return z_rate, roll_rate
+    return (sliding_r * a_l - sliding_l * a_r) / determinant, (c_r * sliding_l - c_l * sliding_r) / determinant
 
 
 @kernel
-def _approach_velocity(frame, state, axle):
-    """Velocity of the wheel into the rail at a contact origin [m/s] for fixed height and roll."""
-    sine, cosine = math.sin(frame[ANGLE]), math.cos(frame[ANGLE])
-    spinning = axle[0] * arm(frame) - frame[X] * (axle[1] * cosine + axle[2] * sine)
-    return -sine * (state[LATERAL_VELOCITY] + state[YAW_RATE] * frame[X]) - state[SPIN] * spinning
+def _into_surface(frame, state):
+    """Velocity out of the rail's surface of a contact origin that moves with y and yaw alone [m/s]."""
+    return math.sin(frame[ANGLE]) * (state[LATERAL_VELOCITY] + state[YAW_RATE] * frame[X])
 
 
 @kernel

@@ -38,11 +38,14 @@ class History:
     Attributes
     ----------
     values : ndarray, shape (n, len(COLUMNS))
+    problems : ndarray, shape (n, 2, len(PROBLEM))
+        What each contact was given.
     speed, step : float
         [m/s], [s].
     """
 
     values: Array
+    problems: Array
     speed: float
     step: float
 
@@ -72,17 +75,22 @@ class History:
 
     @property
     def power_residual(self) -> Array:
-        """Energy since start [J] that left the wheelset and is neither dissipated by creep nor stored in the contacts."""
+        """Energy [J] that left the wheelset and was neither dissipated by creep nor stored in the contacts.
+
+        It counts from the second communication point: before it the wheels stand on an assumed approach.
+        """
         dissipated = np.concatenate(([0.0], np.cumsum(self.creep_power[:-1]) * self.step))
-        left, stored = self["energy.interface"], self.elastic_energy
-        return left - left[0] - dissipated - (stored - stored[0])
+        residual = self["energy.interface"] - dissipated - self.elastic_energy
+        return residual - residual[min(1, residual.size - 1)]
 
     def write_csv(self, path: str | PathLike[str], columns: Sequence[str] = COLUMNS, every: int = 1) -> None:
         """Write every `every`-th communication point, with a header of names."""
         with open(path, "w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file)
             writer.writerow(columns)
-            writer.writerows([f"{v:.9g}" for v in row] for row in zip(*(self[c][::every] for c in columns), strict=True))
+            writer.writerows(
+                [f"{v:.9g}" for v in row] for row in zip(*(self[c][::every] for c in columns), strict=True)
+            )
 
 
 def run(
@@ -124,7 +132,7 @@ def run(
     h = require_number("step", step, 0.0, open_minimum=True)
     n = max(1, round(require_number("duration", duration, 0.0, open_minimum=True) / h))
     pairs = list(zip(SIDES, contacts, strict=True))
-    values = np.empty((n, len(COLUMNS)))
+    values, given = np.empty((n, len(COLUMNS))), np.empty((n, len(SIDES), len(PROBLEM)))
     held = [np.zeros(len(REACTION)) for _ in pairs]
     for k in range(n):
         time = k * h
@@ -132,7 +140,7 @@ def run(
             wheelset.write("irregularity", irregularity(time))
         problems = [wheelset.read(f"{side}.problem") for side in SIDES]
         reactions = _solve(pairs, problems, time, h)
-        values[k] = _row(time, wheelset, pairs, problems, reactions)
+        values[k], given[k] = _row(time, wheelset, pairs, problems, reactions), problems
         if scheme == "jacobi":
             reactions, held = held, reactions
         elif scheme == "iterated":
@@ -140,7 +148,7 @@ def run(
         _advance(wheelset, reactions, time, h)
         if watch is not None:
             watch(k + 1, n)
-    return History(values, speed, h)
+    return History(values, given, speed, h)
 
 
 def _solve(pairs: Sequence[tuple[str, Component]], problems: Sequence[Array], time: float, h: float) -> list[Array]:

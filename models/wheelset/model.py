@@ -84,6 +84,7 @@ class WheelsetModel:
                 side=side,
                 nominal_radius=p.radius,
                 gauge=p.gauge,
+                gauge_point=p.gauge_point,
                 flange_back=p.flange_back,
                 combine_distance=1.0,  # all lobes of a wheel share one plane
                 samples=samples if side == "right" else -samples[::-1],
@@ -108,7 +109,10 @@ class WheelsetModel:
 
     def set_irregularity(self, lateral: float, slope: float) -> None:
         """Lateral position [m] of the track's centre line below the wheelset, and its slope dy/dx [-]."""
-        self._irregularity[:] = require_number("irregularity.lateral", lateral), require_number("irregularity.slope", slope)
+        self._irregularity[:] = (
+            require_number("irregularity.lateral", lateral),
+            require_number("irregularity.slope", slope),
+        )
 
     # motion
 
@@ -174,12 +178,11 @@ class WheelsetModel:
             if pair.locate(pose) == 0:
                 raise ContactError(f"the {SIDES[i]} wheel finds no contact at y = {y:g} m, yaw = {yaw:g} rad")
             patch, separation = pair.patches[0], pair.separations[0]
-            self._frames[i] = (
-                patch[patch_rows.PATCH_X],
-                m * patch[patch_rows.PATCH_Y] - y,
-                patch[patch_rows.PATCH_Z] - (z - self.parameters.radius),
-                m * patch[patch_rows.PATCH_ANGLE],
-            )
+            frame = self._frames[i]
+            frame[dynamics.Y] = m * patch[patch_rows.PATCH_Y] - y
+            frame[dynamics.Z] = patch[patch_rows.PATCH_Z] - (z - self.parameters.radius)
+            frame[dynamics.ANGLE] = m * patch[patch_rows.PATCH_ANGLE]
+            frame[dynamics.X] = dynamics.locus(frame, self._axle)
             order = slice(None, None, int(m))
             self._problems[i, GAP] = separation[patch_rows.SEP_G, order]
             self._problems[i, CURVATURE] = separation[patch_rows.SEP_A, order]
@@ -190,17 +193,16 @@ class WheelsetModel:
         The difference of heights falls with roll while tan δ < 2 b0/r0 (73°), so a secant is kept in a bracket.
         """
         right, left = self._pairs
-        depth = np.maximum(self._approach, LEAST_APPROACH)
-        sink, unequal = float(depth[0]), float(depth[0] - depth[1])
+        sink_right, sink_left = np.maximum(self._approach, LEAST_APPROACH).tolist()
         low, high = roll - _ROLL_RANGE, roll + _ROLL_RANGE
         slope = -2.0 * abs(self._frames[0, dynamics.Y] or 0.75)
         last: tuple[float, float] | None = None
         for _ in range(60):
             pose = Pose(y, 0.0, roll, yaw)
-            z = right.touch(pose)
-            f = z - left.touch(pose) + unequal
+            z_right, z_left = right.touch(pose) + sink_right, left.touch(pose) + sink_left
+            f = z_right - z_left
             if abs(f) <= _ROLL_TOLERANCE or high - low <= _ROLL_TOLERANCE:
-                return roll, z + sink
+                return roll, 0.5 * (z_right + z_left)
             low, high = (roll, high) if f > 0.0 else (low, roll)
             if last is not None and f != last[1]:
                 slope = (f - last[1]) / (roll - last[0])
@@ -220,7 +222,7 @@ class WheelsetModel:
         speed = self.parameters.speed
         relative = self._state.copy()
         relative[dynamics.LATERAL_VELOCITY] -= speed * self._irregularity[1]
-        z_rate, roll_rate = dynamics.follow(self._frames, relative, self._axle)
+        z_rate, roll_rate = dynamics.follow(self._frames, relative)
         for frame, problem, load in zip(self._frames, self._problems, self._loads, strict=True):
             dynamics.creepages(frame, relative, self._axle, z_rate, roll_rate, speed, problem[CREEPAGE])
             problem[LOAD] = load

@@ -34,8 +34,9 @@ class WheelsetParameters:
         Initial motion [m], [rad], [m/s], [rad/s]; the spin starts with V/radius.
     wheel, rail : Profile
         Of the right side; the left side is the mirror image.
-    radius, gauge, flange_back : float
-        Nominal rolling radius, track gauge, distance of the backs of the flanges [m].
+    radius, gauge, gauge_point, flange_back : float
+        Nominal rolling radius, track gauge, depth below the top of the rail at which it is measured, distance of the
+        backs of the flanges [m].
     window_start, window_step : float
         First sample of a separation and distance of samples [m]: `geometry.y0` and `geometry.dy` of the contact's FMU.
     approach : float
@@ -66,6 +67,7 @@ class WheelsetParameters:
     rail: Profile = field(default_factory=profile.rail_60e1)
     radius: float = 0.46
     gauge: float = 1.435
+    gauge_point: float = 0.014
     flange_back: float = 1.360
     window_start: float = -0.02
     window_step: float = 1e-3

@@ -22,9 +22,7 @@ _MOTION = ("lateral", "yaw", "lateral_velocity", "yaw_rate")
 _ROUNDS = 4  # exchanges of load and lateral force until they agree to many digits
 
 
-def state_matrix(
-    parameters: WheelsetParameters, friction: float = 0.3, amplitude: float = 1e-4
-) -> NDArray[np.float64]:
+def state_matrix(parameters: WheelsetParameters, friction: float = 0.3, amplitude: float = 1e-4) -> NDArray[np.float64]:
     """State matrix, shape (4, 4), of (lateral, yaw, lateral_velocity, yaw_rate) about the centre of the track.
 
     Parameters
@@ -34,16 +32,10 @@ def state_matrix(
     friction : float
         Coefficient of friction [-].
     amplitude : float
-        Lateral displacement of the central difference [m]; the others follow from a kinematic motion of that size. A large
-        one gives an equivalent linearisation as conicity does.
+        Lateral displacement of the central difference [m]; the others follow from a kinematic motion of that size.
     """
     p = parameters
-    contacts = [
-        DirectContact(
-            window_start=p.window_start, window_step=p.window_step, friction=friction, speed=p.speed
-        )
-        for _ in SIDES
-    ]
+    contacts = [DirectContact(p, friction) for _ in SIDES]
     frequency = p.speed * math.sqrt(0.1 / (p.radius * 0.5 * p.gauge))
     sizes = amplitude * np.array([1.0, frequency / p.speed, frequency, frequency**2 / p.speed])
     columns = []
