@@ -73,7 +73,11 @@ def advance(curve: Array, n: int, j: int, y: float) -> int:
 
 @kernel
 def at(curve: Array, j: int, y: float) -> tuple[float, float]:
-    """Value and slope of the curve at y in segment j."""
+    """Value and slope of the curve at y in segment j.
+
+    The slope stays between those of the nodes: where two branches of an outline meet in a corner, a cubic would overshoot.
+    """
     h = curve[Y, j + 1] - curve[Y, j]
-    t = (y - curve[Y, j]) / h
-    return hermite(curve[Z, j], curve[Z, j + 1], curve[SLOPE, j], curve[SLOPE, j + 1], h, t)
+    m0, m1 = curve[SLOPE, j], curve[SLOPE, j + 1]
+    value, slope = hermite(curve[Z, j], curve[Z, j + 1], m0, m1, h, (y - curve[Y, j]) / h)
+    return value, min(max(slope, min(m0, m1)), max(m0, m1))

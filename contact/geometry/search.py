@@ -23,6 +23,7 @@ from contact.geometry.layout import (
     OPENING,
 )
 
+_COINCIDENT = 1e-9  # [m]
 _GAUSS_T = 0.5 * math.sqrt(0.6)
 
 
@@ -38,7 +39,8 @@ def trace(wheel: Array, n: int, radius: float, tape: float, y: float, roll: floa
 
     A point of the profile turns on a circle of radius r about the axle direction l. Of that circle the point whose surface
     normal e_r - r'·l has no x component is at l_x·(d + r r') (theory.md 9.4, with its height factor); d is the distance from
-    the wheelset's centre. Where a fillet narrower than the trace line's own curvature folds it back, the fold is left out.
+    the wheelset's centre. In a fillet too narrow for the yaw the trace line folds back on itself: there the lower of its
+    branches is the outline of the wheel, and nodes above it are left out.
     """
     lx, ly, lz = axle(roll, yaw)
     c2 = 1.0 - lx * lx
@@ -50,11 +52,19 @@ def trace(wheel: Array, n: int, radius: float, tape: float, y: float, roll: floa
             continue
         h = math.sqrt(h2)
         py = y + d * ly - r * (rp * lx * lx * ly + h * lz) / c2
-        if first < n and py >= line[Y, first] - 1e-9:
-            continue
+        pz = -radius + d * lz + r * (h * ly - rp * lx * lx * lz) / c2
+        if first < n and py >= line[Y, first] - _COINCIDENT:
+            k = first
+            while k < n - 1 and line[Y, k + 1] <= py:
+                k += 1
+            slope = (line[Z, k + 1] - line[Z, k]) / (line[Y, k + 1] - line[Y, k]) if k < n - 1 else 0.0
+            if pz <= line[Z, k] + slope * (py - line[Y, k]):
+                continue
+            while first < n and line[Y, first] <= py + _COINCIDENT:
+                first += 1
         first -= 1
         line[Y, first] = py
-        line[Z, first] = -radius + d * lz + r * (h * ly - rp * lx * lx * lz) / c2
+        line[Z, first] = pz
         line[SLOPE, first] = (rp * ly + h * lz) / (h * ly - rp * lz)
     return first
 
