@@ -80,7 +80,7 @@ def settle(mode: int, amount: float, wheel: Array, rail: Array, motion: Array, g
     """Find z as `mode` says, leave it in motion[POSE_Z] and describe the patches there.
 
     Under a load, F^(2/3) is nearly linear in the penetration (Hertz); its root is bracketed and found by the Illinois
-    variant of regula falsi.
+    variant of regula falsi, usually at the fifth force, by bisection when that is slow.
     """
     first, start, end = oppose(wheel, rail, motion, line, placed)
     if end - start < 3:
@@ -99,7 +99,7 @@ def settle(mode: int, amount: float, wheel: Array, rail: Array, motion: Array, g
     low, high, f_low, f_high = 0.0, math.inf, -target, 0.0
     p = 1e-4 * (amount / 1e5) ** (2.0 / 3.0)
     side = 0
-    for _ in range(_MAX_ITERATIONS):
+    for iteration in range(_MAX_ITERATIONS):
         motion[POSE_Z] = z0 + p
         n = describe_all(
             line, first, start, end, placed, lobe, motion, grid, wheel_plane, rail_plane, patches, separations
@@ -115,7 +115,7 @@ def settle(mode: int, amount: float, wheel: Array, rail: Array, motion: Array, g
             f_high = 0.5 * f_high if side < 0 else f_high
             low, f_low, side = p, f, -1
         if high < math.inf:
-            p = low - f_low * (high - low) / (f_high - f_low)
+            p = low - f_low * (high - low) / (f_high - f_low) if iteration < 15 else 0.5 * (low + high)
         else:  # extrapolate the line, a little beyond
             p = min(1.05 * p * target / (f + target), 3.0 * p) if f > -target else 3.0 * p
             if p > _DEEPEST:
