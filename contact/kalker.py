@@ -41,8 +41,8 @@ _C33_LONG = {0.02: (0.780, 0.450, 0.104), 0.05: (0.783, 0.482, 0.157)}
 
 #: Range of ln(a/b) covered; the aspect ratio is clamped to [1/50, 50] beyond it.
 LOG_ASPECT_MAX = math.log(50.0)
-_N_TABLE = 129
-_STEP = 2.0 * LOG_ASPECT_MAX / (_N_TABLE - 1)
+N_TABLE = 129
+_STEP = 2.0 * LOG_ASPECT_MAX / (N_TABLE - 1)
 
 
 def _short_asymptote(g: float, nu: float) -> tuple[float, float, float, float]:
@@ -84,23 +84,17 @@ def _monotone_slopes(x: NDArray[np.float64], f: NDArray[np.float64]) -> NDArray[
     return np.concatenate([d[:1], inner, d[-1:]])
 
 
-@functools.lru_cache(maxsize=64)
-def table(poisson_ratio: float) -> NDArray[np.float64]:
-    """Tabulate C11, C22, C23, C33 over ln(a/b) for one Poisson ratio, for `coefficients`.
+@functools.cache
+def published() -> NDArray[np.float64]:
+    """C11, C22, C23, C33 at Poisson's ratios 0, 1/4, 1/2 over equidistant ln(a/b), for `fill_table`; shape (129, 4, 3).
 
     Between published rows: monotone cubic of ln C in ln(a/b), so that no slope jumps where CONTACT's piecewise table has
-    jumps up to 5 %. In nu: parabola through 1/C for C11, C22, C23 and through C for C33 (theory.md 1.2).
-
-    Returns
-    -------
-    ndarray, shape (129, 8)
-        ln C of the four coefficients and their slopes times the step, on equidistant ln(a/b). Read-only and cached.
+    jumps up to 5 %.
     """
-    nu = require_number("poisson_ratio", poisson_ratio, 0.0, 0.5)
     x, values = _knots()
     logs = np.log(values).reshape(x.size, 12)
     slopes = _monotone_slopes(x, logs)
-    grid = np.linspace(-LOG_ASPECT_MAX, LOG_ASPECT_MAX, _N_TABLE)
+    grid = np.linspace(-LOG_ASPECT_MAX, LOG_ASPECT_MAX, N_TABLE)
     i = np.clip(np.searchsorted(x, grid, side="right") - 1, 0, x.size - 2)
     h = (x[i + 1] - x[i])[:, None]
     t = (grid - x[i])[:, None] / h
@@ -110,13 +104,40 @@ def table(poisson_ratio: float) -> NDArray[np.float64]:
         + t**2 * (3 - 2 * t) * logs[i + 1]
         - t**2 * (1 - t) * h * slopes[i + 1]
     )
-    C = np.exp(smooth).reshape(_N_TABLE, 4, 3)
-    lagrange = np.array([(4 * nu - 1) * (2 * nu - 1), 8 * nu * (1 - 2 * nu), nu * (8 * nu - 2)])
-    at_nu = np.empty((_N_TABLE, 4))
-    at_nu[:, :3] = 1.0 / ((1.0 / C[:, :3]) @ lagrange)
-    at_nu[:, 3] = C[:, 3] @ lagrange
-    result = np.log(at_nu)
-    result = np.ascontiguousarray(np.hstack([result, np.gradient(result, axis=0)]))
+    result = np.ascontiguousarray(np.exp(smooth).reshape(N_TABLE, 4, 3))
+    result.setflags(write=False)
+    return result
+
+
+@kernel
+def fill_table(published, nu, table):
+    """Fill `table` of `coefficients` for one Poisson ratio: parabola in nu through 1/C for C11, C22, C23, through C for C33."""
+    p, q, r = (4.0 * nu - 1.0) * (2.0 * nu - 1.0), 8.0 * nu * (1.0 - 2.0 * nu), nu * (8.0 * nu - 2.0)
+    for c in range(4):
+        for i in range(N_TABLE):
+            C = published[i, c]
+            if c < 3:
+                table[i, c] = -math.log(p / C[0] + q / C[1] + r / C[2])
+            else:
+                table[i, c] = math.log(p * C[0] + q * C[1] + r * C[2])
+        for i in range(1, N_TABLE - 1):
+            table[i, 4 + c] = 0.5 * (table[i + 1, c] - table[i - 1, c])
+        table[0, 4 + c] = table[1, c] - table[0, c]
+        table[N_TABLE - 1, 4 + c] = table[N_TABLE - 1, c] - table[N_TABLE - 2, c]
+
+
+@functools.lru_cache(maxsize=64)
+def table(poisson_ratio: float) -> NDArray[np.float64]:
+    """Tabulate C11, C22, C23, C33 over ln(a/b) for one Poisson ratio, for `coefficients` (theory.md 1.2).
+
+    Returns
+    -------
+    ndarray, shape (129, 8)
+        ln C of the four coefficients and their slopes times the step, on equidistant ln(a/b). Read-only and cached.
+    """
+    nu = require_number("poisson_ratio", poisson_ratio, 0.0, 0.5)
+    result = np.empty((N_TABLE, 8))
+    fill_table(published(), nu, result)
     result.setflags(write=False)
     return result
 
@@ -125,7 +146,7 @@ def table(poisson_ratio: float) -> NDArray[np.float64]:
 def coefficients(table, log_aspect):
     """C11, C22, C23, C33 at ln(a/b) from a `table`; C32 = -C23. The aspect ratio is clamped to [1/50, 50]."""
     u = (min(max(log_aspect, -LOG_ASPECT_MAX), LOG_ASPECT_MAX) + LOG_ASPECT_MAX) / _STEP
-    i = min(int(u), _N_TABLE - 2)
+    i = min(int(u), N_TABLE - 2)
     t = u - i
     w = 1.0 - t
     h00, h10, h01, h11 = (1.0 + 2.0 * t) * w * w, t * w * w, t * t * (3.0 - 2.0 * t), -t * t * w

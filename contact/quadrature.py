@@ -3,9 +3,26 @@
 from __future__ import annotations
 
 import functools
+import math
 
 import numpy as np
 from numpy.typing import NDArray
+
+from contact._jit import kernel
+
+
+@kernel
+def fill_fejer(nodes, weights):
+    """Fill both with `fejer` of their length."""
+    n = nodes.size
+    for i in range((n + 1) // 2):  # the other half mirrors it: symmetric to round-off
+        angle = (i + 0.5) * math.pi / n
+        total = 0.0
+        for k in range(1, n // 2 + 1):
+            total += math.cos(2.0 * k * angle) / (4.0 * k * k - 1.0)
+        nodes[i] = -math.cos(angle) if 2 * i + 1 != n else 0.0
+        weights[i] = 2.0 / n * (1.0 - 2.0 * total)
+        nodes[n - 1 - i], weights[n - 1 - i] = -nodes[i], weights[i]
 
 
 @functools.lru_cache(maxsize=64)
@@ -15,12 +32,8 @@ def fejer(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     The nodes are the mid-angles of n cosine-spaced cells and the weights add up to 2, so strips with these widths fill the
     patch; the load of a Hertzian patch, a parabola across the strips, is integrated exactly.
     """
-    angle = (np.arange(n) + 0.5) * np.pi / n
-    k = np.arange(1, n // 2 + 1)
-    weights = 2.0 / n * (1.0 - 2.0 * (np.cos(2.0 * np.outer(angle, k)) / (4.0 * k**2 - 1.0)).sum(axis=1))
-    nodes = -np.cos(angle)
-    nodes = 0.5 * (nodes - nodes[::-1])  # symmetric to round-off
-    weights = 0.5 * (weights + weights[::-1])
+    nodes, weights = np.empty(n), np.empty(n)
+    fill_fejer(nodes, weights)
     for array in (nodes, weights):
         array.setflags(write=False)
     return nodes, weights
@@ -38,14 +51,42 @@ def fejer(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     EL_LOAD_END,  # ∫√(1 - s²) ds from the leading edge to the trailing side
     EL_MOMENT_END,  # ∫s√(1 - s²) ds likewise
 ) = range(9)
+N_EL = 9
+
+
+@kernel
+def fill_panel(edges, logs):
+    """Fill both with `panel` of the length of `logs`."""
+    n = logs.shape[0]
+    for k in range(n // 2 + 1):
+        edges[k] = -math.cos(k * math.pi / n) if 2 * k != n else 0.0
+        edges[n - k] = -edges[k]
+    for i in range(n):
+        for k in range(n + 1):
+            logs[i, k] = math.log(abs(edges[k] - 0.5 * (edges[i + 1] + edges[i])))
+
+
+@kernel
+def fill_elements(rows):
+    """Fill the rows with `elements` of their length."""
+    n = rows.shape[1]
+    before = 1.0
+    for k in range(n):
+        angle, end = (k + 0.5) * math.pi / n, (k + 1) * math.pi / n
+        s, sine = math.cos(angle), math.sin(angle)
+        rows[EL_S, k], rows[EL_SINE, k], rows[EL_DX, k] = s, sine, sine * math.pi / n
+        rows[EL_STEP, k], rows[EL_MIDDLE, k] = before - s, 0.5 * (before + s)
+        rows[EL_ATANH, k] = math.atanh(before) - math.atanh(s) if k > 0 else math.inf
+        rows[EL_ANGLE_END, k], rows[EL_LOAD_END, k] = end, 0.5 * (end - math.sin(end) * math.cos(end))
+        rows[EL_MOMENT_END, k] = math.sin(end) ** 3 / 3.0
+        before = s
 
 
 @functools.lru_cache(maxsize=64)
 def panel(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Edges, shape (n + 1,), of n cosine-spaced strips on [-1, 1] and ln|edge - middle|, shape (n, n + 1)."""
-    edges = -np.cos(np.arange(n + 1) * np.pi / n)
-    edges = 0.5 * (edges - edges[::-1])
-    logs = np.log(np.abs(edges - 0.5 * (edges[1:] + edges[:-1])[:, None]))
+    edges, logs = np.empty(n + 1), np.empty((n, n + 1))
+    fill_panel(edges, logs)
     for array in (edges, logs):
         array.setflags(write=False)
     return edges, logs
@@ -57,23 +98,7 @@ def elements(n: int) -> NDArray[np.float64]:
 
     The semi-elliptic pressure summed over these elements is exact for n >= 2.
     """
-    angle = (np.arange(n) + 0.5) * np.pi / n
-    end = np.arange(1, n + 1) * np.pi / n
-    s, sine = np.cos(angle), np.sin(angle)
-    before = np.r_[1.0, s[:-1]]
-    with np.errstate(divide="ignore"):
-        stretch = np.arctanh(before) - np.arctanh(s)
-    rows = (
-        s,
-        sine,
-        sine * np.pi / n,
-        before - s,
-        0.5 * (before + s),
-        stretch,
-        end,
-        0.5 * (end - np.sin(end) * np.cos(end)),
-        np.sin(end) ** 3 / 3.0,
-    )
-    result = np.ascontiguousarray(rows)
+    result = np.empty((N_EL, n))
+    fill_elements(result)
     result.setflags(write=False)
     return result

@@ -2,10 +2,25 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from contact._jit import kernel
 from contact.errors import ContactError, require_number
+
+#: Samples of a separation with constant curvatures, and the gap that it reaches to [m].
+HERTZIAN_POINTS, _HERTZIAN_GAP = 41, 1e-3
+
+
+@kernel
+def fill_hertzian(B, y, g):
+    """Fill with samples of g = B·y² out to a gap of 1 mm."""
+    n = y.size
+    for i in range(n):
+        y[i] = math.sqrt(_HERTZIAN_GAP / B) * (2.0 * i / (n - 1) - 1.0)
+        g[i] = B * y[i] * y[i]
 
 
 class Separation:
@@ -61,8 +76,9 @@ class Separation:
         """
         A = require_number("A", A, 0.0, open_minimum=True)
         B = require_number("B", B, 0.0, open_minimum=True)
-        y = np.sqrt(1e-3 / B) * np.linspace(-1.0, 1.0, 41)
-        return cls(y, B * y**2, A)
+        y, g = np.empty(HERTZIAN_POINTS), np.empty(HERTZIAN_POINTS)
+        fill_hertzian(B, y, g)
+        return cls(y, g, A)
 
     def __repr__(self) -> str:
         return f"Separation({self.y.size} points, y = {self.y[0]:g} … {self.y[-1]:g} m, least gap {self.g.min():g} m)"
