@@ -44,6 +44,9 @@ CURVATURE_HALF_BASE = 2.45e-3
 #: Least half curvature B [1/m]; negative and vanishing curvature count as this flat (CONTACT's value; theory.md 3.3).
 CURVATURE_FLOOR = 0.1
 
+#: An overlap below this fraction of the separation's width is round-off, not contact.
+NO_OVERLAP = 1e-14
+
 #: Rows of the work array that the caller provides, each as long as the separation.
 GAP_SLOPE, EFFECTIVE_GAP, EFFECTIVE_SLOPE, STRETCHED_A, NR, LOG_ASPECT = range(6)
 N_WORK_ROWS = 6
@@ -187,7 +190,7 @@ def analyn(y, g, A, xc, case, nodes, weights, work, strips, result):
     result[RES_TOUCH] = g_least
     if case[CASE_LOAD_KIND] == APPROACH:
         delta = case[CASE_LOAD] - g_least
-        if delta <= 0.0:
+        if delta <= NO_OVERLAP * (y[n - 1] - y[0]):
             result[RES_STATUS] = 2.0
             result[RES_APPROACH] = case[CASE_LOAD]
             return 0

@@ -23,7 +23,7 @@ from contact._layout import (
     STRIP_Y,
 )
 from contact.hertz import local_factors
-from contact.normal.analyn import GAP_SLOPE, floored, lateral_curvature
+from contact.normal.analyn import GAP_SLOPE, NO_OVERLAP, floored, lateral_curvature
 from contact.normal.lay import lay_strips, least_point, locate, slopes
 
 
@@ -54,7 +54,7 @@ def hertzian(y, g, A, xc, case, nodes, weights, work, strips, result):
     else:
         delta = (max(case[CASE_LOAD], 0.0) / unit) ** (2.0 / 3.0)
         result[RES_APPROACH] = g_least + delta
-    if delta <= 0.0:
+    if delta <= NO_OVERLAP * (y[n - 1] - y[0]):
         result[RES_STATUS] = 2.0
         return 0
     b2 = delta / (one_beta * B0)

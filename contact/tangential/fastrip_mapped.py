@@ -90,6 +90,23 @@ def mapped(ux, uy, o, m):
 
 
 @kernel
+def slid(s, ex, ey, r, pole, Xs, Ys, spin, from_edge):
+    """Slip of a particle at s that slides along (ex, ey), over the lateral flexibility; 0 or more.
+
+    Where the strip slips from its edge this is the march's own slip. Behind a stick zone that ends at s_b the march has
+    (1 - s) + (s_b - s), which belongs to the parabola, and strip theory 2√((1 - s)(s_b - s)), both times the traction
+    without its spin part e - o (theory.md 4.3); the two agree, with their slopes, where the strip comes to slip as a whole.
+    """
+    fx, fy = ex, ey - pole
+    stiffness = r * fx * fx + fy * fy
+    ahead = -(Xs * fx + Ys * fy)
+    if from_edge or ahead >= 2.0 * stiffness:  # s_b >= 1
+        return max(-(Xs * ex + (Ys + 2.0 * spin * s) * ey) - 2.0 * s * (r * ex * ex + ey * ey), 0.0)
+    back = ahead / stiffness - 1.0 - s if stiffness > 0.0 else 0.0
+    return 2.0 * math.sqrt((1.0 - s) * max(back, 0.0)) * max(r * ex * fx + ey * fy, 0.0)
+
+
+@kernel
 def elastic_centre(strips, n, table, log_equivalent):
     """Blend the aspect ratios in place; return the centres of longitudinal stiffness and of spin, and the C33 factor.
 
@@ -160,7 +177,8 @@ def fastrip_mapped(strips, n, case, table, elements, fields, result):
 
         tau_x, tau_y, ex, ey, g = 0.0, 0.0, 0.0, 0.0, 0.0
         used = 0.0  # |u|² at the element before
-        slips = 0.25 * X * X + (0.5 * Y + P) ** 2 > 1.0
+        from_edge = 0.25 * X * X + (0.5 * Y + P) ** 2 > 1.0
+        slips = from_edge
         sum_x, sum_y, sum_m = 0.0, 0.0, 0.0
         slip_scale = 1.0 / (stretch * k22)
         for k in range(n_el):
@@ -199,9 +217,7 @@ def fastrip_mapped(strips, n, case, table, elements, fields, result):
                     stick_share = 1.0
             if slips:
                 qx, qy = ex, ey
-                slip = (
-                    max(-2.0 * s * (r * ex * ex + ey * ey) - (Xs * ex + (Ys + 2.0 * spin * s) * ey), 0.0) * slip_scale
-                )
+                slip = slip_scale * slid(s, ex, ey, r, pole, Xs, Ys, spin, from_edge)
                 fields[FIELD_SX, row, k], fields[FIELD_SY, row, k] = -slip * ex, -slip * ey
                 power += bound * sine * slip * a * elements[EL_DX, k] * dy
                 fields[FIELD_STICK, row, k] = 0.0
