@@ -6,7 +6,8 @@ Over one communication step the creep forces are held. What is exchanged when is
   order; stable for h < 2 m/c, c = 2 f/V (fmi.md 2).
 * ``jacobi``: all run at the same time with the values of the step before. First order; stable for h < m/c.
 * ``iterated``: a Gauss–Seidel step as a predictor, the contacts at its end, and the step again from the saved state with
-  the mean of both forces (Heun). Second order, at twice the cost.
+  the mean of both forces (Heun). Second order, at twice the cost, until what answers a step late anyway (the load to
+  the lateral force, the height to the approach) shows.
 """
 
 from __future__ import annotations

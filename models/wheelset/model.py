@@ -92,9 +92,12 @@ class WheelsetModel:
             for side in SIDES
         )
         self._axle = np.array([0.0, 1.0, 0.0])
-        self._state[:] = p.lateral, p.yaw, p.lateral_velocity, p.yaw_rate, p.speed / p.radius
+        self._state[: dynamics.SPIN] = p.lateral, p.yaw, p.lateral_velocity, p.yaw_rate
         self._approach[:] = p.approach
         self._meet_rails()
+        y, z = self._frames[:, dynamics.Y], self._frames[:, dynamics.Z]
+        rolling_radius = float((self._axle[1] * z - self._axle[2] * y).mean())
+        self._state[dynamics.SPIN] = p.speed / rolling_radius
         self._balance()
         self._report()
 

@@ -31,7 +31,7 @@ class WheelsetParameters:
         Primary suspension between the wheelset's centre and a frame on the ideal centre line
         [N/m], [N m/rad], [N s/m], [N m s/rad].
     lateral, yaw, lateral_velocity, yaw_rate : float
-        Initial motion [m], [rad], [m/s], [rad/s]; the spin starts with V/radius.
+        Initial motion [m], [rad], [m/s], [rad/s]; the spin starts with V over the mean of both rolling radii.
     wheel, rail : Profile
         Of the right side; the left side is the mirror image.
     radius, gauge, gauge_point, flange_back : float
