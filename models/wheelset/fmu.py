@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from os import PathLike
+from typing import Any
 
 import fmpy
 import numpy as np
-from fmpy.fmi2 import FMU2Slave
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 from numpy.typing import ArrayLike, NDArray
+
+from contact.errors import ContactError
+
+_DISCARD = 2  # the statuses of FMI from here on: Discard, Error, Fatal
 
 
 class FmuComponent:
@@ -22,6 +28,11 @@ class FmuComponent:
         Name of a port → names of its variables.
     start : mapping
         Name of a variable → value of the parameter or input before initialisation.
+
+    Raises
+    ------
+    ContactError
+        What the FMU refuses, with the message that it logs; also from every method.
     """
 
     def __init__(
@@ -39,27 +50,34 @@ class FmuComponent:
             modelIdentifier=description.coSimulation.modelIdentifier,
             instanceName=description.modelName,
         )
-        self._fmu.instantiate()
-        # A port of one type is read in one call; the few that mix types (a status among numbers) variable by variable.
-        self._ports = {port: [(variables[n].type, variables[n].valueReference) for n in ports[port]] for port in ports}
+        self._objections: list[str] = []
+        self._callbacks = fmi2CallbackFunctions()
+        self._callbacks.logger = fmi2CallbackLoggerTYPE(self._log)
+        self._callbacks.allocateMemory = defaultCallbacks.allocateMemory
+        self._callbacks.freeMemory = defaultCallbacks.freeMemory
+        self._fmu.instantiate(callbacks=self._callbacks, loggingOn=True)
+        self._references = {port: [variables[n].valueReference for n in names] for port, names in ports.items()}
+        self._types = {port: [variables[n].type for n in names] for port, names in ports.items()}
+        self._mixed = {port for port, types in self._types.items() if set(types) != {"Real"}}
         self._fmu.setupExperiment(startTime=0.0)
         for name, value in (start or {}).items():
-            self._set(variables[name].type, [variables[name].valueReference], [value])
-        self._fmu.enterInitializationMode()
-        self._fmu.exitInitializationMode()
+            self._set(variables[name].type, variables[name].valueReference, value)
+        self._call(self._fmu.enterInitializationMode)
+        self._call(self._fmu.exitInitializationMode)
 
     def write(self, port: str, values: ArrayLike) -> None:
-        references = self._ports[port]
-        self._fmu.setReal([r for _, r in references], np.asarray(values, dtype=np.float64).tolist())
+        self._call(self._fmu.setReal, self._references[port], np.asarray(values, dtype=np.float64).tolist())
 
     def read(self, port: str) -> NDArray[np.float64]:
-        references = self._ports[port]
-        if all(kind == "Real" for kind, _ in references):
-            return np.array(self._fmu.getReal([r for _, r in references]))
-        return np.array([self._get(kind, [r])[0] for kind, r in references], dtype=np.float64)
+        references = self._references[port]
+        if port not in self._mixed:
+            return np.array(self._fmu.getReal(references))
+        # a status among numbers: variable by variable
+        values = [self._get(kind, r) for kind, r in zip(self._types[port], references, strict=True)]
+        return np.array(values, dtype=np.float64)
 
     def step(self, time: float, h: float) -> None:
-        self._fmu.doStep(currentCommunicationPoint=time, communicationStepSize=h)
+        self._call(self._fmu.doStep, time, h)
 
     def save(self) -> object:
         return self._fmu.getFMUState()
@@ -76,11 +94,25 @@ class FmuComponent:
         self._fmu.freeInstance()
         shutil.rmtree(self._directory, ignore_errors=True)
 
-    def _set(self, kind: str, references: list[int], values: list[float]) -> None:
+    def _set(self, kind: str, reference: int, value: float) -> None:
         if kind == "Real":
-            self._fmu.setReal(references, [float(v) for v in values])
+            self._call(self._fmu.setReal, [reference], [float(value)])
         else:
-            self._fmu.setInteger(references, [int(v) for v in values])
+            self._call(self._fmu.setInteger, [reference], [int(value)])
 
-    def _get(self, kind: str, references: list[int]) -> list[float]:
-        return self._fmu.getReal(references) if kind == "Real" else self._fmu.getInteger(references)
+    def _get(self, kind: str, reference: int) -> float:
+        return (self._fmu.getReal if kind == "Real" else self._fmu.getInteger)([reference])[0]
+
+    def _call(self, function: Callable[..., Any], *arguments: object) -> None:
+        """Call and raise what the FMU objects to; pythonfmu answers OK to some calls that the FMU logs as refused."""
+        self._objections.clear()
+        try:
+            function(*arguments)
+        except FMICallException as error:
+            raise ContactError("; ".join(self._objections) or str(error)) from None
+        if self._objections:
+            raise ContactError("; ".join(self._objections))
+
+    def _log(self, environment: object, name: bytes, status: int, category: bytes, message: bytes) -> None:
+        if status >= _DISCARD:
+            self._objections.append(message.decode())

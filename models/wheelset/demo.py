@@ -1,0 +1,212 @@
+"""`contact demo`: a wheelset runs on S1002 wheels and 60E1 rails through FMUs, and leaves pictures of its contacts."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Table
+
+from contact.cli.output import drawing, stop
+from contact.errors import ContactError
+from contact.geometry.wheelset import Pair, Pose
+from contact.solution import Solution
+from models.wheelset import master
+from models.wheelset.components import Component, DirectContact, direct
+from models.wheelset.master import History, Scheme
+from models.wheelset.parameters import WheelsetParameters
+from models.wheelset.ports import CONTACT_PORTS, SIDES, WHEELSET_PORTS
+from models.wheelset.stability import critical_speed
+
+FMUS = ("Wheelset", "WheelRailContact", "WheelRailContact")
+PICTURE = {"n_strips": 60, "n_elements": 60}  # finer than the run: the pictures show single elements
+
+
+@dataclass(frozen=True)
+class Moment:
+    """A communication point that is worth a picture."""
+
+    name: str
+    title: str
+    index: int
+
+
+def demo(
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("out"),
+    seconds: Annotated[float, typer.Option(help="Simulated time in s.")] = 5.0,
+    speed: Annotated[float, typer.Option(help="Speed in m/s.")] = 28.0,
+    lateral: Annotated[float, typer.Option(help="Lateral offset at the start in m.")] = 5e-3,
+    step: Annotated[float, typer.Option(help="Communication step in s.")] = 1e-3,
+    friction: Annotated[float, typer.Option(help="Coefficient of friction.")] = 0.3,
+    scheme: Annotated[str, typer.Option(help="gauss_seidel, jacobi or iterated.")] = "gauss_seidel",
+    fmus: Annotated[Path, typer.Option(help="Folder with the FMUs that build_fmu.py made.")] = Path("dist"),
+    python: Annotated[bool, typer.Option("--python", help="Couple Python objects instead of FMUs.")] = False,
+) -> None:
+    """Run a wheelset above its critical speed into flange contact: one Wheelset FMU and two WheelRailContact FMUs."""
+    plot = drawing()
+    console = Console()
+    try:
+        parameters = WheelsetParameters(speed=speed, lateral=lateral)
+        began = time.perf_counter()
+        with ExitStack() as stack:
+            wheelset, contacts = direct(parameters, friction) if python else _fmus(stack, fmus, parameters, friction)
+            history = _run(console, wheelset, contacts, parameters, step, seconds, scheme)
+        elapsed = time.perf_counter() - began
+        out.mkdir(parents=True, exist_ok=True)
+        history.write_csv(out / "wheelset.csv")
+        _histories(plot, history).savefig(out / "time_histories.png")
+        files = ["wheelset.csv", "time_histories.png"]
+        for moment in moments(history):
+            _picture(plot, history, moment, parameters, friction).savefig(out / f"{moment.name}.png")
+            files.append(f"{moment.name}.png")
+        console.print(_summary(history, parameters, friction, elapsed))
+        console.print("wrote " + ", ".join(str(out / name) for name in files))
+    except ContactError as error:
+        stop(str(error), 2)
+    except OSError as error:
+        stop(f"{error.filename}: {error.strerror}", 1)
+
+
+def _fmus(
+    stack: ExitStack, folder: Path, parameters: WheelsetParameters, friction: float
+) -> tuple[Component, list[Component]]:
+    """The three FMUs, initialised; `stack` frees them."""
+    try:
+        from models.wheelset.fmu import FmuComponent
+    except ImportError as missing:
+        stop(f"{missing}; pip install 'wheelrail-contact[fmu]', or use --python", 1)
+    paths = [folder / f"{name}.fmu" for name in FMUS]
+    for path in paths:
+        if not path.is_file():
+            stop(f"{path} is missing; make it with  python build_fmu.py --out {folder}  or use --python", 1)
+    wheelset = {"speed": parameters.speed, "initial.lateral": parameters.lateral}
+    contact = {"speed": parameters.speed, "friction.coefficient": friction, "wheel.radius": parameters.radius}
+    first, *others = (
+        stack.enter_context(FmuComponent(path, ports, start))
+        for path, ports, start in (
+            (paths[0], WHEELSET_PORTS, wheelset),
+            (paths[1], CONTACT_PORTS, contact),
+            (paths[2], CONTACT_PORTS, contact),
+        )
+    )
+    return first, others
+
+
+def _run(
+    console: Console,
+    wheelset: Component,
+    contacts: Sequence[Component],
+    parameters: WheelsetParameters,
+    step: float,
+    seconds: float,
+    scheme: Scheme,
+) -> History:
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console) as progress:
+        task = progress.add_task(f"wheelset at {parameters.speed:g} m/s, steps", total=None)
+
+        def watch(done: int, total: int) -> None:
+            if done % 20 == 0 or done == total:
+                progress.update(task, completed=done, total=total)
+
+        return master.run(
+            wheelset, contacts, speed=parameters.speed, step=step, duration=seconds, scheme=scheme, watch=watch
+        )
+
+
+def moments(history: History) -> list[Moment]:
+    """The first passage of the centre, and the steepest contact of the right wheel."""
+    y = history["lateral"]
+    passage = int(np.argmax(np.diff(np.sign(y)) != 0.0)) if (np.diff(np.sign(y)) != 0.0).any() else 0
+    steepest = int(np.argmin(history["right.contact.angle"]))
+    return [
+        Moment("contacts_tread", "through the centre of the track", passage),
+        Moment("contacts_flange", "steepest contact of the right wheel", steepest),
+    ]
+
+
+def _solutions(history: History, index: int, parameters: WheelsetParameters, friction: float) -> list[Solution]:
+    """Both contacts at a communication point, solved again with the elements of a picture."""
+    solutions = []
+    for problem in history.problems[index]:
+        contact = DirectContact(parameters, friction, **PICTURE)
+        contact.write("problem", problem)
+        contact.step(0.0, 0.0)
+        solutions.append(contact.solution)
+    return solutions
+
+
+def _picture(plot: Any, history: History, moment: Moment, parameters: WheelsetParameters, friction: float) -> Any:
+    """Both wheels on their rails from behind, and both patches from above."""
+    p, k = parameters, moment.index
+    y, yaw, z, roll = (float(history[name][k]) for name in ("lateral", "yaw", "vertical", "roll"))
+    wheels = []
+    for side, solution in zip(SIDES, _solutions(history, k, p, friction), strict=True):
+        pair = Pair(
+            p.wheel,
+            p.rail,
+            side=side,
+            nominal_radius=p.radius,
+            gauge=p.gauge,
+            gauge_point=p.gauge_point,
+            flange_back=p.flange_back,
+            combine_distance=1.0,
+        )
+        wheels.append(plot.Wheel(side, p.wheel, p.rail, pair.contacts(Pose(y, z, roll, yaw)), [solution]))
+    figure = plot.position(wheels[::-1], roll)
+    figure.suptitle(
+        f"{history['time'][k]:.3f} s, y = {1e3 * y:+.2f} mm: {moment.title}", x=0.01, ha="left", fontsize=10.0
+    )
+    return figure
+
+
+def _histories(plot: Any, history: History) -> Any:
+    sides = {side: side for side in SIDES}
+
+    def both(name: str, factor: float) -> dict[str, Any]:
+        return {side: factor * history[f"{side}.{name}"] for side in sides}
+
+    panels = {
+        "y [mm]": {"lateral": 1e3 * history["lateral"]},
+        "ψ [mrad]": {"yaw": 1e3 * history["yaw"]},
+        "contact angle [°]": both("contact.angle", math.degrees(1.0)),
+        "N [kN]": both("load.normal_force", 1e-3),
+        "$F_y$ [kN]": both("force.y", 1e-3),
+        "friction [kW]": both("power.friction", 1e-3),
+    }
+    return plot.time_histories(history["time"], panels, title=f"wheelset S1002 on 60E1 at {history.speed:g} m/s")
+
+
+def _summary(history: History, parameters: WheelsetParameters, friction: float, elapsed: float) -> Table:
+    y, t = 1e3 * np.abs(history["lateral"]), history["time"]
+    first, last = t <= min(0.5, t[-1]), t >= t[-1] - min(0.5, t[-1])
+    angle = max(np.abs(history[f"{side}.contact.angle"]).max() for side in SIDES)
+    load = [history[f"{side}.load.normal_force"] for side in SIDES]
+    pressure = max(history[f"{side}.pressure.max"].max() for side in SIDES)
+    dissipated = float(history.creep_power.sum() * history.step)
+    residual = float(np.abs(history.power_residual).max())
+    table = Table("quantity", "value", title="wheelset S1002 on 60E1")
+    table.columns[1].justify = "right"
+    for name, value in (
+        ("speed", f"{history.speed:.4g} m/s"),
+        ("linear critical speed", f"{critical_speed(parameters, friction):.3g} m/s"),
+        ("amplitude, first half second", f"{y[first].max():.3g} mm"),
+        ("amplitude, last half second", f"{y[last].max():.3g} mm"),
+        ("steepest contact angle", f"{math.degrees(angle):.3g}°"),
+        ("normal load", f"{np.min(load) * 1e-3:.3g} … {np.max(load) * 1e-3:.3g} kN"),
+        ("greatest pressure", f"{pressure * 1e-6:.4g} MPa"),
+        ("energy dissipated by friction", f"{dissipated:.4g} J"),
+        ("power residual of the coupling", f"{residual:.2g} J ({100.0 * residual / dissipated:.2g} %)"),
+        ("time per coupled step", f"{1e3 * elapsed / history['time'].size:.2g} ms"),
+    ):
+        table.add_row(name, value)
+    return table
