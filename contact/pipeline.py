@@ -89,11 +89,11 @@ def solve_case(y, g, A, xc, case, rule, tables, space, strips, fields, result):
     result[RES_LENGTH], result[RES_WIDTH] = x_high - x_low, result[EDGES + 2 * count - 1] - result[EDGES]
 
     if case[CASE_TANGENTIAL] == FASTSIM:
-        fastsim(strips, n, case, table, elements, fields, result)
+        fastsim(strips, n, case, table, elements, space.lanes, space.trace, fields, result)
     elif case[CASE_TANGENTIAL] == FASTRIP_MAPPED:
-        fastrip_mapped(strips, n, case, table, elements, fields, result)
+        fastrip_mapped(strips, n, case, table, elements, space.lanes, space.trace, fields, result)
     else:
-        fastrip(strips, n, case, table, elements, fields, result)
+        fastrip(strips, n, case, table, elements, space.lanes, space.trace, fields, result)
     if result[RES_STATUS] == 1.0 and case[CASE_MU] > 0.0 and result[RES_SLIP_AREA] >= area * (1.0 - 1e-12):
         result[RES_STATUS] = 3.0
     for i in range(n):

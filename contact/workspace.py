@@ -15,6 +15,7 @@ from contact.normal.analyn import N_WORK_ROWS
 from contact.normal.strip_halfspace import MEM_LN_A
 from contact.normal.strip_system import N_VECTOR_ROWS
 from contact.registry import Method
+from contact.tangential.lanes import LANES, N_LANE_ROWS, N_TRACE
 
 Array = NDArray[np.float64]
 
@@ -38,7 +39,7 @@ class Tables(NamedTuple):
 
 
 class Space(NamedTuple):
-    """Scratch arrays of the normal methods, and `memory`, from which the next call may start."""
+    """Scratch arrays: of the normal methods, `memory`, from which the next call may start, and of the tangential ones."""
 
     grid: Array
     vectors: Array
@@ -46,6 +47,8 @@ class Space(NamedTuple):
     matrix: Array
     lu: Array
     memory: Array
+    lanes: Array
+    trace: Array
 
 
 class Workspace(NamedTuple):
@@ -88,6 +91,8 @@ def allocate(
             matrix=np.empty((size, size)),
             lu=np.empty((size, size)),
             memory=np.zeros(MEM_LN_A + size),
+            lanes=np.empty(N_LANE_ROWS * LANES),
+            trace=np.empty((n_elements, N_TRACE * LANES)),
         ),
         np.empty((N_STRIP_ROWS, capacity)),
         np.empty((N_FIELD_ROWS, capacity if fields else 1, n_elements)),

@@ -45,13 +45,34 @@ from contact._layout import (
 )
 from contact.quadrature import EL_ANGLE_END, EL_DX, EL_LOAD_END, EL_MOMENT_END, EL_S, EL_SINE
 from contact.tangential.fastsim import NO_FRICTION, equivalent_ellipse
-from contact.tangential.march import march
+from contact.tangential.lanes import LANES, NOW_SLIP, NOW_X, NOW_Y, keep, recall
+from contact.tangential.march import FREE_BEHIND_MARCH, ROW_X, ROW_Y, ROW_Z, march
 from contact.tangential.strip_theory import stick_resultants, stick_zone
 
 
+# rows of `lanes` behind those of the march
+(
+    _E,  # half length of the slip zone over a
+    _KAPPA,
+    _LAMBDA,
+    _LAMBDA1,
+    _LOAD,  # ∫√(1-s²) over the stick zone, and ∫s√(1-s²)
+    _MOMENT,
+    _FLEXIBILITY_X,  # strain over s of a traction mu·p (theory.md 4.3)
+    _FLEXIBILITY_Y,
+    _VX,
+    _VY,
+    _SPIN,  # phi·a
+    _FX,  # sums over the slip zone, over mu p0
+    _FY,
+    _MZ,
+    _POWER,
+) = (FREE_BEHIND_MARCH + row * LANES for row in range(15))
+
+
 @kernel
-def directions(elements, vx, vy, phi, L1, L2, L3, a, y, xc, c, tau_x, tau_y, excess):
-    """FASTSIM pass whose three stiffnesses pass into a single one as the leading edge comes to slip.
+def direction_pass(vx, vy, phi, L1, L2, L3, a, y, xc, c):
+    """X, Y, Z of the FASTSIM pass; its three stiffnesses pass into a single one as the leading edge comes to slip.
 
     L1, L2, L3 are a/(flexibility·bound), the normalised stiffnesses of the strip. `edge` is the utilisation of the bound at
     the leading edge, where both vanish; beyond 1 the edge slips and the thesis (4.4) repeats the strip with one flexibility.
@@ -65,89 +86,133 @@ def directions(elements, vx, vy, phi, L1, L2, L3, a, y, xc, c, tau_x, tau_y, exc
         L1 = 1.0 / ((1.0 - w) / L1 + w * single)
         L2 = 1.0 / ((1.0 - w) / L2 + w * single)
         L3 = 1.0 / ((1.0 - w) / L3 + w * single)
-    march(elements, vx * L1 - phi * y * L3, vy * L2 + phi * xc * L3, phi * a * L3, tau_x, tau_y, excess)
+    return vx * L1 - phi * y * L3, vy * L2 + phi * xc * L3, phi * a * L3
 
 
 @kernel
-def fastrip(strips, n, case, table, elements, fields, result):
+def _set_strip(strips, i, case, table, c_patch, lanes, l):
+    """Amended strip theory of strip i (theory.md 4.1) and the set-up of its march, into lane l; return mu p0, or 0."""
+    G, nu = case[CASE_G], case[CASE_NU]
+    a, y, xc = strips[STRIP_A, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
+    bound = case[CASE_MU] * strips[STRIP_P0, i]
+    if a <= 0.0 or bound <= NO_FRICTION * G:
+        for row in (ROW_X, ROW_Y, ROW_Z, _KAPPA, _LAMBDA, _LAMBDA1, _FLEXIBILITY_X, _FLEXIBILITY_Y, _VX, _VY, _SPIN):
+            lanes[row + l] = 0.0
+        lanes[_E + l], lanes[_LOAD + l], lanes[_MOMENT + l] = 1.0, 0.0, 0.0
+        return 0.0
+    c11, c22, c23, _ = kalker.coefficients(table, strips[STRIP_ASPECT, i])
+    root_aspect = math.exp(0.5 * strips[STRIP_ASPECT, i])  # √(a/b) = a/c
+    phi = case[CASE_PHI]
+    vx, vy = case[CASE_VX] - phi * y, case[CASE_VY] + phi * xc
+
+    # directions from the parabola of peak 4/3 mu p0 (theory.md 4.4)
+    unit = 0.75 * G / bound
+    L1, L2, L3 = unit * 0.375 * c11, unit * 0.375 * c22, unit * 4.0 / math.pi * c23 / root_aspect
+    X, Y, Z = direction_pass(case[CASE_VX], case[CASE_VY], phi, L1, L2, L3, a, y, xc, c_patch)
+    lanes[ROW_X + l], lanes[ROW_Y + l], lanes[ROW_Z + l] = X, Y, Z
+
+    amended = -2.0 * (1.0 - nu) / math.pi**2 * G / bound
+    psi = -1.5 * a / root_aspect * c23 / math.pi * G * phi / bound
+    e, kappa, lam, lam1 = stick_zone(amended * c11 * vx, amended * c22 * vy, psi, nu)
+    outer, _, outer_s, _ = stick_resultants(e)
+    lanes[_E + l], lanes[_KAPPA + l], lanes[_LAMBDA + l], lanes[_LAMBDA1 + l] = e, kappa, lam, lam1
+    lanes[_LOAD + l], lanes[_MOMENT + l] = outer, outer_s
+    lanes[_FLEXIBILITY_X + l] = 0.5 * math.pi**2 * bound / (G * c11)
+    lanes[_FLEXIBILITY_Y + l] = 0.5 * math.pi**2 * bound / (G * c22)
+    lanes[_VX + l], lanes[_VY + l], lanes[_SPIN + l] = vx, vy, phi * a
+    return bound
+
+
+@kernel
+def _slip_zone(elements, lanes, trace):
+    """Sum the slip zones of a block: magnitude mu·p, exact over each element, direction of the march; leave the slip."""
+    for l in range(LANES):
+        lanes[_FX + l], lanes[_FY + l], lanes[_MZ + l], lanes[_POWER + l] = 0.0, 0.0, 0.0, 0.0
+    load_before, moment_before = 0.0, 0.0
+    for k in range(elements.shape[1]):
+        s, sine, dx = elements[EL_S, k], elements[EL_SINE, k], elements[EL_DX, k]
+        load_end, moment_end = elements[EL_LOAD_END, k], elements[EL_MOMENT_END, k]
+        recall(lanes, trace[k])
+        for l in range(LANES):
+            load_from, ex, ey = lanes[_LOAD + l], lanes[NOW_X + l], lanes[NOW_Y + l]
+            first = load_before if load_before > load_from else load_from
+            last = load_end if load_end > load_from else load_from
+            moment_from = lanes[_MOMENT + l]
+            moment_start = moment_before if load_before > load_from else moment_from
+            share, share_s = last - first, moment_end - moment_start
+            share_s = share_s if load_end > load_from else 0.0
+            lanes[_FX + l] += share * ex
+            lanes[_FY + l] += share * ey
+            lanes[_MZ + l] += share_s * ey
+            # behind a stick zone: strip theory; in a strip that slips as a whole: rigid and elastic slip against the traction
+            e, flex_x, flex_y = lanes[_E + l], lanes[_FLEXIBILITY_X + l], lanes[_FLEXIBILITY_Y + l]
+            W2 = (s - e) * (s - e) - (1.0 - e) * (1.0 - e)
+            W2 = W2 if W2 > 0.0 else 0.0
+            px, py = flex_x * lanes[_KAPPA + l], flex_y * lanes[_LAMBDA1 + l]
+            behind = math.sqrt(W2 * (px * px + py * py))
+            sx = lanes[_VX + l] + flex_x * ex * s
+            sy = lanes[_VY + l] + lanes[_SPIN + l] * s + flex_y * ey * s
+            whole = -(sx * ex + sy * ey)
+            whole = whole if whole > 0.0 else 0.0
+            slip = behind if e < 1.0 else whole
+            slip = slip if s <= 2.0 * e - 1.0 else 0.0
+            lanes[_POWER + l] += sine * dx * slip
+            lanes[NOW_SLIP + l] = slip
+        keep(lanes, trace[k])
+        load_before, moment_before = load_end, moment_end
+
+
+@kernel
+def _write_fields(elements, bound, l, lanes, trace, fields, row):
+    """Traction, slip and stick flag of one strip."""
+    e, kappa, lam, lam1 = lanes[_E + l], lanes[_KAPPA + l], lanes[_LAMBDA + l], lanes[_LAMBDA1 + l]
+    for k in range(elements.shape[1]):
+        s, sine = elements[EL_S, k], elements[EL_SINE, k]
+        ex, ey, slip = trace[k, NOW_X + l], trace[k, NOW_Y + l], trace[k, NOW_SLIP + l]
+        qx, qy, stick = ex * sine, ey * sine, 0.0
+        if s > 2.0 * e - 1.0:
+            stick = 1.0
+            S = math.sqrt((1.0 - e) ** 2 - (s - e) ** 2)
+            qx, qy = kappa * (sine - S), lam * sine - lam1 * S
+            used = math.sqrt(qx * qx + qy * qy) / sine
+            if used > 1.0:  # the field stays admissible; the closed-form resultants do not need it
+                qx, qy = qx / used, qy / used
+        fields[FIELD_QX, row, k], fields[FIELD_QY, row, k] = bound * qx, bound * qy
+        fields[FIELD_SX, row, k], fields[FIELD_SY, row, k] = -slip * ex, -slip * ey
+        fields[FIELD_STICK, row, k] = stick
+
+
+@kernel
+def fastrip(strips, n, case, table, elements, lanes, trace, fields, result):
     """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`."""
-    mu, G, nu = case[CASE_MU], case[CASE_G], case[CASE_NU]
-    m = elements.shape[1]
-    vx0, vy0, phi = case[CASE_VX], case[CASE_VY], case[CASE_PHI]
     a0, b0 = equivalent_ellipse(strips, n)
     c_patch = math.sqrt(a0 * b0)
     Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
-    for i in range(n):
-        a, dy, y, xc = strips[STRIP_A, i], strips[STRIP_DY, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
-        row = min(i, fields.shape[1] - 1)  # one row serves all strips when only forces are asked for
-        bound = mu * strips[STRIP_P0, i]
-        if a <= 0.0 or bound <= NO_FRICTION * G:
-            fields[FIELD_STICK, row, :] = 0.0
-            fields[FIELD_QX : FIELD_SY + 1, row, :] = 0.0
-            slip_area += 2.0 * a * dy
-            continue
-        c11, c22, c23, _ = kalker.coefficients(table, strips[STRIP_ASPECT, i])
-        root_aspect = math.exp(0.5 * strips[STRIP_ASPECT, i])  # √(a/b) = a/c
-        c = a / root_aspect
-        vx, vy = vx0 - phi * y, vy0 + phi * xc
-
-        # directions from the parabola of peak 4/3 mu p0 (theory.md 4.4)
-        tau_x, tau_y, excess = fields[FIELD_QX, row], fields[FIELD_QY, row], fields[FIELD_SX, row]
-        unit = 0.75 * G / bound
-        L1, L2, L3 = unit * 0.375 * c11, unit * 0.375 * c22, unit * 4.0 / math.pi * c23 / root_aspect
-        directions(elements, vx0, vy0, phi, L1, L2, L3, a, y, xc, c_patch, tau_x, tau_y, excess)
-
-        # amended strip theory (theory.md 4.1)
-        amended = -2.0 * (1.0 - nu) / math.pi**2 * G / bound
-        psi = -1.5 * c * c23 / math.pi * G * phi / bound
-        e, kappa, lam, lam1 = stick_zone(amended * c11 * vx, amended * c22 * vy, psi, nu)
-        outer, inner, outer_s, inner_s = stick_resultants(e)
-        strip = bound * a * dy
-        fx = strip * kappa * (outer - inner)
-        fy = strip * (lam * outer - lam1 * inner)
-        mz = strip * a * (lam * outer_s - lam1 * inner_s)
-        slip_area += 2.0 * a * e * dy
-
-        flexibility_x = 0.5 * math.pi**2 * bound / (G * c11)  # strain over s of a traction mu·p (theory.md 4.3)
-        flexibility_y = 0.5 * math.pi**2 * bound / (G * c22)
-        boundary = -1.0 + 2.0 * e
-        angle_boundary = math.acos(boundary)
-        load_from = outer  # integral of the pressure from the leading edge to the stick boundary
-        moment_from = outer_s
-        for k in range(m):
-            s, sine = elements[EL_S, k], elements[EL_SINE, k]
-            size = math.sqrt(tau_x[k] ** 2 + tau_y[k] ** 2)
-            direction_x = tau_x[k] / size if size > 0.0 else 0.0
-            direction_y = tau_y[k] / size if size > 0.0 else 0.0
-            if elements[EL_ANGLE_END, k] > angle_boundary:  # the part of this element that slips, magnitude mu·p
-                load_end, moment_end = elements[EL_LOAD_END, k], elements[EL_MOMENT_END, k]
-                fx += strip * (load_end - load_from) * direction_x
-                fy += strip * (load_end - load_from) * direction_y
-                mz += strip * a * (moment_end - moment_from) * direction_y
-                load_from, moment_from = load_end, moment_end
-            if s > boundary:
-                S = math.sqrt((1.0 - e) ** 2 - (s - e) ** 2)
-                qx, qy = kappa * (sine - S), lam * sine - lam1 * S
-                excess_traction = math.sqrt(qx * qx + qy * qy) / sine
-                if excess_traction > 1.0:  # the field stays admissible; the closed-form resultants do not need it
-                    qx, qy = qx / excess_traction, qy / excess_traction
-                slip = 0.0
-                fields[FIELD_STICK, row, k] = 1.0
-            else:
-                qx, qy = direction_x * sine, direction_y * sine
-                if e < 1.0:
-                    W = math.sqrt(max((s - e) ** 2 - (1.0 - e) ** 2, 0.0))
-                    slip = W * math.sqrt((flexibility_x * kappa) ** 2 + (flexibility_y * lam1) ** 2)
-                else:
-                    sx = vx + flexibility_x * direction_x * s
-                    sy = vy + phi * a * s + flexibility_y * direction_y * s
-                    slip = max(0.0, -(sx * direction_x + sy * direction_y))
-                fields[FIELD_STICK, row, k] = 0.0
-                power += bound * sine * slip * a * elements[EL_DX, k] * dy
-            fields[FIELD_QX, row, k], fields[FIELD_QY, row, k] = bound * qx, bound * qy
-            fields[FIELD_SX, row, k], fields[FIELD_SY, row, k] = -slip * direction_x, -slip * direction_y
-        Fx += fx
-        Fy += fy
-        Mz += mz + xc * fy - y * fx
+    for block in range(0, n, LANES):
+        for l in range(LANES):
+            _set_strip(strips, min(block + l, n - 1), case, table, c_patch, lanes, l)
+        march(elements, lanes, trace)
+        _slip_zone(elements, lanes, trace)
+        for l in range(min(LANES, n - block)):
+            i = block + l
+            a, dy, y, xc = strips[STRIP_A, i], strips[STRIP_DY, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
+            bound = case[CASE_MU] * strips[STRIP_P0, i]
+            e = lanes[_E + l]
+            slip_area += 2.0 * a * e * dy
+            if lanes[_LOAD + l] == 0.0 and bound <= NO_FRICTION * case[CASE_G]:
+                if i < fields.shape[1]:
+                    fields[FIELD_QX : FIELD_STICK + 1, i, :] = 0.0
+                continue
+            outer, inner, outer_s, inner_s = stick_resultants(e)
+            strip = bound * a * dy
+            fx = strip * (lanes[_KAPPA + l] * (outer - inner) + lanes[_FX + l])
+            fy = strip * (lanes[_LAMBDA + l] * outer - lanes[_LAMBDA1 + l] * inner + lanes[_FY + l])
+            mz = strip * a * (lanes[_LAMBDA + l] * outer_s - lanes[_LAMBDA1 + l] * inner_s + lanes[_MZ + l])
+            Fx += fx
+            Fy += fy
+            Mz += mz + xc * fy - y * fx
+            power += strip * lanes[_POWER + l]
+            if i < fields.shape[1]:
+                _write_fields(elements, bound, l, lanes, trace, fields, i)
     result[RES_FX], result[RES_FY], result[RES_MZ] = Fx, Fy, Mz
     result[RES_POWER], result[RES_SLIP_AREA] = power, slip_area

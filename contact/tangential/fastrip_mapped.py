@@ -85,7 +85,10 @@ def mapped(ux, uy, o, m):
         return m * dx, o + m * dy
     along = o * dy
     t = min(square / (-along + math.sqrt(along * along + square * (1.0 - o * o))), 1.0)
-    f = (1.0 - (1.0 - t) ** m) / t if t > 1e-8 else m
+    n = m - 0.5
+    above = 1.0 - 0.5 * (2.0 + n) * t + (2.0 + n) * (1.0 + n) / 12.0 * t * t
+    below = 1.0 - 0.5 * (2.0 - n) * t + (2.0 - n) * (1.0 - n) / 12.0 * t * t
+    f = (1.0 - math.sqrt(1.0 - t) * above / below) / t if t > 1e-8 else m
     return dx * f, o + dy * f
 
 
@@ -128,7 +131,7 @@ def elastic_centre(strips, n, table, log_equivalent):
 
 
 @kernel
-def fastrip_mapped(strips, n, case, table, elements, fields, result):
+def fastrip_mapped(strips, n, case, table, elements, lanes, trace, fields, result):
     """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`."""
     mu, G = case[CASE_MU], case[CASE_G]
     vx, phi = case[CASE_VX], case[CASE_PHI]

@@ -33,7 +33,8 @@ from contact._layout import (
     STRIP_Y,
 )
 from contact.quadrature import EL_DX, EL_S, EL_SINE
-from contact.tangential.march import march
+from contact.tangential.lanes import LANES, NOW_SLIP, NOW_USED, NOW_X, NOW_Y
+from contact.tangential.march import ROW_X, ROW_Y, ROW_Z, march
 
 #: A traction bound below this fraction of G is none: creepage over it would overflow.
 NO_FRICTION = 1e-15
@@ -51,52 +52,57 @@ def equivalent_ellipse(strips, n):
 
 
 @kernel
-def fastsim(strips, n, case, table, elements, fields, result):
+def fastsim(strips, n, case, table, elements, lanes, trace, fields, result):
     """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`."""
     mu, G = case[CASE_MU], case[CASE_G]
     vx, vy, phi = case[CASE_VX], case[CASE_VY], case[CASE_PHI]
     Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
     a0, b0 = equivalent_ellipse(strips, n)
+    L1, L2, L3, spread = 1.0, 1.0, 1.0, 1.0
     if a0 > 0.0:
         c11, c22, c23, _ = kalker.coefficients(table, math.log(a0 / b0))
         L1 = 8.0 * a0 / (3.0 * G * c11)
         L2 = 8.0 * a0 / (3.0 * G * c22)
         L3 = math.pi * a0 * a0 / (4.0 * G * math.sqrt(a0 * b0) * c23)
-        spread = 0.0  # N of unit parabolas of peak p0·a, by the quadrature of the fields
+        cubes = 0.0
+        for k in range(elements.shape[1]):
+            cubes += elements[EL_SINE, k] ** 2 * elements[EL_DX, k]
+        spread = 0.0  # load of parabolas of peak p0·a, by the quadrature of the fields
         for i in range(n):
-            for k in range(elements.shape[1]):
-                dA = strips[STRIP_A, i] * elements[EL_DX, k] * strips[STRIP_DY, i]
-                spread += strips[STRIP_P0, i] * strips[STRIP_A, i] * elements[EL_SINE, k] ** 2 * dA
-        for i in range(n):
-            a, y = strips[STRIP_A, i], strips[STRIP_Y, i]
+            spread += cubes * strips[STRIP_P0, i] * strips[STRIP_A, i] ** 2 * strips[STRIP_DY, i]
+    for block in range(0, n, LANES):
+        for l in range(LANES):
+            i = min(block + l, n - 1)
+            a = strips[STRIP_A, i]
+            peak = mu * result[RES_N] / spread * strips[STRIP_P0, i] * a
+            scale = a / peak if peak > NO_FRICTION * G else 0.0
+            lanes[ROW_X + l] = scale * (vx / L1 - phi * strips[STRIP_Y, i] / L3)
+            lanes[ROW_Y + l] = scale * (vy / L2 + phi * strips[STRIP_XC, i] / L3)
+            lanes[ROW_Z + l] = scale * a * phi / L3
+        march(elements, lanes, trace)
+        for l in range(min(LANES, n - block)):
+            i = block + l
             row = min(i, fields.shape[1] - 1)  # one row serves all strips when only forces are asked for
-            peak = mu * result[RES_N] / spread * strips[STRIP_P0, i] * a if a > 0.0 else 0.0
-            if peak <= NO_FRICTION * G:
-                fields[FIELD_STICK, row, :] = 0.0
-                slip_area += 2.0 * a * strips[STRIP_DY, i]
-                fields[FIELD_QX : FIELD_SY + 1, row, :] = 0.0
-                continue
-            # the march writes traction into qx, qy and the excess into sx; each is then scaled in place
-            scale = a / peak
-            tau_x, tau_y = fields[FIELD_QX, row], fields[FIELD_QY, row]
-            excess = fields[FIELD_SX, row]
-            X = scale * (vx / L1 - phi * y / L3)
-            Y = scale * (vy / L2 + phi * strips[STRIP_XC, i] / L3)
-            march(elements, X, Y, scale * a * phi / L3, tau_x, tau_y, excess)
+            a, y, dy = strips[STRIP_A, i], strips[STRIP_Y, i], strips[STRIP_DY, i]
+            peak = mu * result[RES_N] / spread * strips[STRIP_P0, i] * a
+            frictionless = peak <= NO_FRICTION * G
+            if frictionless:
+                peak = 0.0
             for k in range(elements.shape[1]):
-                size = math.sqrt(tau_x[k] ** 2 + tau_y[k] ** 2)
-                slip = excess[k] / scale / size if size > 0.0 else 0.0
-                dA = a * elements[EL_DX, k] * strips[STRIP_DY, i]
-                x = strips[STRIP_XC, i] + a * elements[EL_S, k]
-                stick = 1.0 if excess[k] == 0.0 else 0.0
-                qx, qy = peak * tau_x[k], peak * tau_y[k]
-                sx, sy = -L1 * slip * tau_x[k], -L2 * slip * tau_y[k]
+                ex, ey = trace[k, NOW_X + l], trace[k, NOW_Y + l]
+                used, slip = trace[k, NOW_USED + l], trace[k, NOW_SLIP + l]
+                size = peak * used * elements[EL_SINE, k] ** 2
+                qx, qy = size * ex, size * ey
+                slip *= peak / a if a > 0.0 else 0.0
+                sx, sy = -L1 * slip * ex, -L2 * slip * ey
+                stick = 0.0 if used >= 1.0 or frictionless else 1.0
                 fields[FIELD_QX, row, k], fields[FIELD_QY, row, k] = qx, qy
                 fields[FIELD_SX, row, k], fields[FIELD_SY, row, k] = sx, sy
                 fields[FIELD_STICK, row, k] = stick
+                dA = a * elements[EL_DX, k] * dy
                 Fx += qx * dA
                 Fy += qy * dA
-                Mz += (x * qy - y * qx) * dA
+                Mz += ((strips[STRIP_XC, i] + a * elements[EL_S, k]) * qy - y * qx) * dA
                 power -= (qx * sx + qy * sy) * dA
                 slip_area += (1.0 - stick) * dA
     result[RES_FX], result[RES_FY], result[RES_MZ] = Fx, Fy, Mz
