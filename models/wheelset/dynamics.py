@@ -104,7 +104,7 @@ def creepages(frame, state, axle, z_rate, roll_rate, speed, out):
 @kernel
 def resultants(frames, forces, loads, axle, out):
     """Generalised forces of both contacts: out = (lateral [N], yaw, spin [N m], longitudinal [N],
-    roll [N m]) (7). The last is zero while both wheels carry."""
+    roll [N m]) (2, 3). The last is zero while both wheels carry (5)."""
     out[:] = 0.0
     for side in range(2):
         x, y, z = frames[side, X], frames[side, Y], frames[side, Z]
