@@ -48,8 +48,8 @@ CURVATURE_FLOOR = 0.1
 NO_OVERLAP = 1e-14
 
 #: Rows of the work array that the caller provides, each as long as the separation.
-GAP_SLOPE, EFFECTIVE_GAP, EFFECTIVE_SLOPE, STRETCHED_A, NR, LOG_ASPECT = range(6)
-N_WORK_ROWS = 6
+GAP_SLOPE, EFFECTIVE_GAP, EFFECTIVE_SLOPE, STRETCHED_A, ONE_BETA, NR, LOG_ASPECT = range(7)
+N_WORK_ROWS = 7
 
 _MAX_ITERATIONS = 60
 
@@ -93,27 +93,53 @@ def lateral_curvature(y, g, m, n, i, below, above):
 def prepare(y, g, A, n, y_least, g_least, reach, work):
     """Local Hertz factors and the effective gap (1 + beta)(g - min g) at the samples where g - min g < `reach`.
 
-    Their two neighbours and those of the least point are prepared as well; elsewhere the effective gap is the lower bound
-    1.2 (g - min g), which no approach below `reach` gets to.
+    Beyond them, except for neighbours, the effective gap is the lower bound 1.2 (g - min g), which no approach below `reach`
+    gets to.
     """
     least = locate(y, n, y_least, 0)
-    done = -1  # last sample that is prepared
-    below, above = 0, 0
+    first, last = least - 1, least + 2
     for i in range(n):
-        if i > done:
-            work[EFFECTIVE_GAP, i] = 1.2 * (g[i] - g_least)
-            work[STRETCHED_A, i], work[NR, i], work[LOG_ASPECT, i] = A[i], 1.0, 0.0
-        if g[i] - g_least < reach or least - 1 <= i <= least + 2:
-            for k in range(max(done + 1, i - 2), min(i + 3, n)):
-                B, below, above = lateral_curvature(y, g, work[GAP_SLOPE], n, k, below, above)
-                _prepare_sample(A, B, g, g_least, k, work)
-                done = k
+        work[EFFECTIVE_GAP, i] = 1.2 * (g[i] - g_least)
+        work[STRETCHED_A, i], work[NR, i], work[LOG_ASPECT, i] = A[i], 1.0, 0.0
+        if g[i] - g_least < reach:
+            first, last = min(first, i), max(last, i)
+    # The factors follow B, an average over the base: a fifth of it apart they are as good as linear, in constant B exactly. The
+    # samples chosen must not depend on `reach`, or the load would not be a smooth function of the approach.
+    stride = max(1, int(0.2 * CURVATURE_HALF_BASE * (n - 1) / (y[n - 1] - y[0])))
+    first = max(first - 2, 0) // stride * stride
+    last = min(last + 2, n - 1)
+    below, above, i, i_step = 0, 0, first, 0
+    while True:
+        B, below, above = lateral_curvature(y, g, work[GAP_SLOPE], n, i, below, above)
+        _prepare_sample(A, B, g, g_least, i, work)
+        if i > first:
+            _between(y, g, A, g_least, i - i_step, i, work)
+        if i >= last:
+            break
+        i_step = min(stride, n - 1 - i)
+        i += i_step
     slopes(y, work[EFFECTIVE_GAP], n, work[EFFECTIVE_SLOPE])
+
+
+@kernel
+def _between(y, g, A, g_least, left, right, work):
+    """Interpolate the local factors of the samples between two that are known."""
+    h = y[right] - y[left]
+    beta_left = work[ONE_BETA, left]
+    for i in range(left + 1, right):
+        t = (y[i] - y[left]) / h
+        work[ONE_BETA, i] = beta_left + t * (work[ONE_BETA, right] - beta_left)
+        work[EFFECTIVE_GAP, i] = work[ONE_BETA, i] * (g[i] - g_least)
+        alpha = work[STRETCHED_A, left] / A[left]
+        work[STRETCHED_A, i] = A[i] * (alpha + t * (work[STRETCHED_A, right] / A[right] - alpha))
+        for row in (NR, LOG_ASPECT):
+            work[row, i] = work[row, left] + t * (work[row, right] - work[row, left])
 
 
 @kernel
 def _prepare_sample(A, B, g, g_least, i, work):
     one_alpha, one_beta, nr, log_aspect = local_factors(A[i], floored(B))
+    work[ONE_BETA, i] = one_beta
     work[EFFECTIVE_GAP, i] = one_beta * (g[i] - g_least)
     work[STRETCHED_A, i] = one_alpha * A[i]
     work[NR, i] = nr

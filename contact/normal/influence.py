@@ -24,6 +24,9 @@ _X_STEP = _X_MAX / (_N_X - 1)
 _LN_T_LOW, _LN_T_HIGH, _N_T = math.log(1e-3), math.log(1e2), 385
 _T_STEP = (_LN_T_HIGH - _LN_T_LOW) / (_N_T - 1)
 
+#: Shapes of the two tables.
+CENTRE, PLANE = (_N_CENTRE, 2), (_N_X, _N_T)
+
 _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(6)
 
 
@@ -83,7 +86,7 @@ def _fill(centre, plane):
 @functools.cache
 def tables() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Tables of U on the centre line, shape (401, 2), and over (X, ln t), shape (201, 385); made once a process (0.2 s)."""
-    centre, plane = np.empty((_N_CENTRE, 2)), np.empty((_N_X, _N_T))
+    centre, plane = np.empty(CENTRE), np.empty(PLANE)
     _fill(centre, plane)
     return centre, plane
 

@@ -41,10 +41,12 @@ def turned(ex, ey, wx, wy, w, rest):
     """
     along = -(wx * ex + wy * ey)
     across = wy * ex - wx * ey
-    t = across * rest / (w + along + 1e-14 * w)
+    t = across * rest / (w + along + 1e-300)
     scale = 1.0 / (w * (1.0 + t * t))
     c, d = (1.0 - t * t) * scale, 2.0 * t * scale
-    return wy * d - wx * c, -wy * c - wx * d
+    new_x, new_y = wy * d - wx * c, -wy * c - wx * d
+    opposite = w + along < 1e-14 * w
+    return ex if opposite else new_x, ey if opposite else new_y
 
 
 @kernel
