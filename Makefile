@@ -18,7 +18,7 @@ $(READY): pyproject.toml
 	@touch $@
 
 demo: $(READY)   ## build the FMUs, run the coupled wheelset, leave pictures and a CSV in out/
-	$(BIN)/python build_fmu.py
+	$(BIN)/python build_fmu.py --packaging python
 	$(BIN)/contact demo --out out
 
 fmu: $(READY)    ## build the FMUs into dist/

@@ -1,21 +1,30 @@
-"""Build the FMUs: python build_fmu.py [--out dist] [--points 41] [--describe]."""
+"""Build the FMUs: python build_fmu.py [--packaging python|native|all] [--out dist] [--points 41] [--describe]."""
 
 from __future__ import annotations
 
 import argparse
+import time
 from pathlib import Path
 
 try:
     from fmu_src.documentation import markdown
-    from fmu_src.python.packaging import build, models
+    from fmu_src.python import packaging as python
 except ModuleNotFoundError as error:
-    raise SystemExit(f"{error}: install what building needs with  pip install '.[fmu]'") from None
+    raise SystemExit(f"{error}: install what building needs with  pip install '.[fmu,native]'") from None
+
+#: Where compiled kernels are kept from one build to the next.
+OBJECTS = Path(__file__).parent / "build" / "native"
 
 
 def main() -> None:
     """Build what the command line asks for, and say so."""
     parser = argparse.ArgumentParser(description="Build the FMUs of wheelrail-contact.")
-    parser.add_argument("--packaging", choices=["python", "all"], default="all", help="kind of FMU (default: all)")
+    parser.add_argument(
+        "--packaging",
+        choices=["python", "native", "all"],
+        default="all",
+        help="for hosts with Python, into FOLDER; without Python, into FOLDER/native (default: all)",
+    )
     parser.add_argument("--out", type=Path, default=Path("dist"), metavar="FOLDER", help="where to (default: dist)")
     parser.add_argument(
         "--points",
@@ -28,16 +37,33 @@ def main() -> None:
     if arguments.points < 3:
         parser.error(f"--points {arguments.points}: a separation has at least 3 samples")
 
-    chosen = models(arguments.points)
+    chosen = python.models(arguments.points)
     if arguments.describe:
         print("\n".join(markdown(model.table) for model in chosen))
         return
-    for model in chosen:
-        print(
-            f"{model.table.name}: {len(model.table.scalars)} variables, for hosts with Python ... ", end="", flush=True
-        )
-        path = build(model, arguments.out)
-        print(f"{path} ({path.stat().st_size / 1024:.0f} kB)")
+    if arguments.packaging != "native":
+        for model in chosen:
+            print(f"{model.table.name}, for hosts with Python ... ", end="", flush=True)
+            print(_size(python.build(model, arguments.out)))
+    if arguments.packaging != "python":
+        build_native(arguments.points, arguments.out / "native")
+
+
+def build_native(points: int, folder: Path) -> None:
+    """Build the FMU that needs no Python, telling how far it has come."""
+    from fmu_src.native import packaging as native
+
+    begin = time.monotonic()
+
+    def say(what: str) -> None:
+        print(f"  {time.monotonic() - begin:3.0f} s  {what}", flush=True)
+
+    print("WheelRailContact, native:")
+    say(_size(native.build(points, folder, OBJECTS, say)))
+
+
+def _size(path: Path) -> str:
+    return f"{path} ({path.stat().st_size / 1024:.0f} kB)"
 
 
 if __name__ == "__main__":

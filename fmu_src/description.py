@@ -27,10 +27,10 @@ STOP_TIME = 1.0  # of the default experiment [s]
 Interfaces = Mapping[str, Mapping[str, str]]
 
 
-def model_description(table: Table, interfaces: Interfaces) -> tuple[str, str]:
-    """Return (guid, XML) of the FMU with this table that offers these interfaces."""
+def model_description(table: Table, interfaces: Interfaces, code: bytes = b"") -> tuple[str, str]:
+    """Return (guid, XML) of the FMU with this table that offers these interfaces; the guid tells `code` apart too."""
     root = _root(table, interfaces)
-    guid = f"{{{UUID(bytes=hashlib.sha256(tostring(root)).digest()[:16])}}}"
+    guid = f"{{{UUID(bytes=hashlib.sha256(tostring(root) + code).digest()[:16])}}}"
     root.set("guid", guid)
     indent(root)
     return guid, '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"

@@ -12,11 +12,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.metadata import distribution
 from pathlib import Path
-from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 import pythonfmu
 
 from contact import __version__
+from fmu_src import archive
 from fmu_src.description import model_description
 from fmu_src.documentation import markdown
 from fmu_src.python.slave import INTERFACES
@@ -59,15 +59,7 @@ def models(points: int) -> tuple[Model, ...]:
 
 def build(model: Model, folder: Path) -> Path:
     """Write `folder`/<name>.fmu and return its path; the same sources give the same bytes."""
-    folder.mkdir(parents=True, exist_ok=True)
-    path = folder / f"{model.table.name}.fmu"
-    with ZipFile(path, "w", ZIP_DEFLATED) as archive:
-        for name, content in sorted(_files(model)):
-            entry = ZipInfo(name)  # dated 1980
-            entry.compress_type = ZIP_DEFLATED
-            entry.external_attr = 0o644 << 16
-            archive.writestr(entry, content)
-    return path
+    return archive.write(folder / f"{model.table.name}.fmu", _files(model))
 
 
 def _files(model: Model) -> Iterator[tuple[str, bytes]]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
@@ -11,6 +10,7 @@ from pythonfmu.enums import Fmi2Status
 import contact
 from contact import Creepage, Material, Separation, Solution, Status
 from contact.damage import evaluate
+from fmu_src.differences import creepage_steps
 from fmu_src.python.slave import TableSlave
 from fmu_src.python.values import Rows, Values
 from fmu_src.tables.wheel_rail_contact import table
@@ -66,7 +66,8 @@ class WheelRailContactSlave(TableSlave):
         """Differentiate the forces by the creepages, with central differences."""
         at = np.array([values[name] for name in _CREEPAGES])
         stiffness = np.zeros((3, 3))
-        for j, step in enumerate(_difference_steps(values)):
+        mu, G = values["friction.coefficient"], values["material.shear_modulus"]
+        for j, step in enumerate(creepage_steps(mu, values["force.n"], G, values["patch.area"])):
             change = np.zeros(3)
             change[j] = step
             ahead, behind = _solve(values, Creepage(*(at + change))), _solve(values, Creepage(*(at - change)))
@@ -112,17 +113,3 @@ def _separation(values: Values) -> Separation:
 
 def _resultants(solution: Solution) -> np.ndarray:
     return np.array([solution.Fx, solution.Fy, solution.Mz])
-
-
-def _difference_steps(values: Values) -> tuple[float, float, float]:
-    """Steps of a thousandth of the creepages and the spin at which linear theory reaches mu N: mu N/(G a b C).
-
-    C is about 4, so with a b = area/π about mu N/(G area); spin counts by the size of the patch. Without contact or
-    friction any step is right, the forces are zero.
-    """
-    area = values["patch.area"]
-    creepage = values["friction.coefficient"] * values["force.n"]
-    if creepage == 0.0 or area == 0.0:
-        return 1e-6, 1e-6, 1e-3
-    creepage *= 1e-3 / (values["material.shear_modulus"] * area)
-    return creepage, creepage, creepage / math.sqrt(area / math.pi)

@@ -1,5 +1,7 @@
 """FMUs as a user gets them: built by the command, driven by fmpy."""
 
+import fcntl
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -13,10 +15,49 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.fixture(scope="session")
 def fmus(tmp_path_factory) -> Path:
-    """Folder with the FMUs that `python build_fmu.py` makes."""
+    """Folder with the FMUs that `python build_fmu.py --packaging python` makes."""
     folder = tmp_path_factory.mktemp("fmus")
-    subprocess.run([sys.executable, ROOT / "build_fmu.py", "--out", folder], check=True, cwd=folder, timeout=120)
+    _build("python", folder)
     return folder
+
+
+@pytest.fixture(scope="session")
+def native(tmp_path_factory) -> Path:
+    """File of the native WheelRailContact; the first process that wants it builds it for all."""
+    shared = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        shared = shared.parent
+    path = shared / "native" / "WheelRailContact.fmu"
+    with (shared / "native.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not path.exists():
+            _build("native", shared)
+    return path
+
+
+@pytest.fixture(scope="session")
+def native_folder(native, tmp_path_factory) -> Path:
+    """The native WheelRailContact unzipped."""
+    return Path(fmpy.extract(str(native), str(tmp_path_factory.mktemp("unzipped"))))
+
+
+@pytest.fixture
+def open_native(native_folder):
+    """Instantiate the native WheelRailContact; all are freed at the end."""
+    instances = []
+
+    def open_native(kind: str = "CoSimulation") -> Instance:
+        instances.append(Instance(native_folder, kind=kind))
+        return instances[-1]
+
+    yield open_native
+    for instance in instances:
+        instance.free()
+
+
+def _build(packaging: str, folder: Path) -> None:
+    command = [sys.executable, ROOT / "build_fmu.py", "--packaging", packaging, "--out", folder]
+    subprocess.run(command, check=True, cwd=ROOT, timeout=300)
 
 
 @pytest.fixture

@@ -3,13 +3,13 @@
 from pathlib import Path
 
 import fmpy
-from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+from fmpy.fmi2 import FMU2Model, FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
 
 class Instance:
     """An instance that is driven by names and keeps what it logs."""
 
-    def __init__(self, directory: Path, log: list[tuple[int, str]] | None = None) -> None:
+    def __init__(self, directory: Path, log: list[tuple[int, str]] | None = None, kind: str = "CoSimulation") -> None:
         description = fmpy.read_model_description(str(directory))
         self.variables = {v.name: v for v in description.modelVariables}
         self.log = [] if log is None else log
@@ -17,13 +17,17 @@ class Instance:
         self.callbacks.logger = fmi2CallbackLoggerTYPE(self._log)
         self.callbacks.allocateMemory = defaultCallbacks.allocateMemory
         self.callbacks.freeMemory = defaultCallbacks.freeMemory
-        self.fmu = FMU2Slave(
+        self.fmu = (FMU2Slave if kind == "CoSimulation" else FMU2Model)(
             guid=description.guid,
             unzipDirectory=str(directory),
             modelIdentifier=description.coSimulation.modelIdentifier,
             instanceName="instance",
         )
         self.fmu.instantiate(callbacks=self.callbacks, loggingOn=True)
+
+    def free(self) -> None:
+        """Free the instance alone: fmpy's call unloads the library too, under the feet of other instances."""
+        self.fmu.fmi2FreeInstance(self.fmu.component)
 
     def _log(self, environment, name, status, category, message) -> None:
         self.log.append((status, message.decode()))

@@ -8,6 +8,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+from contact_case import CREEPAGES, NAME, geometry, separation
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 from fmu_instance import Instance
@@ -16,24 +17,7 @@ import contact
 from contact import kalker
 
 ROOT = Path(__file__).parents[2]
-NAME = "WheelRailContact"
 DISCARD = 2
-CREEPAGES = {"creepage.longitudinal": 1.2e-3, "creepage.lateral": -0.8e-3, "creepage.spin": 0.25}
-
-
-def separation() -> contact.Separation:
-    """A head of changing curvature, off the centre of its window; curvature along the rail changes too."""
-    y = -0.02 + 0.001 * np.arange(41)
-    return contact.Separation(y, (y - 2e-3) ** 2 * (1.5 + 40.0 * y), 1.0 + 5.0 * y)
-
-
-def geometry() -> dict[str, float]:
-    s = separation()
-    return {
-        f"geometry.{row}[{i}]": value
-        for row, column in (("g", s.g), ("A", s.A))
-        for i, value in enumerate(column.tolist(), 1)
-    }
 
 
 @pytest.fixture
@@ -314,7 +298,8 @@ def test_runs_from_a_folder_with_spaces(open_fmu):
 
 def test_two_builds_and_two_versions_live_in_one_process(open_fmu, tmp_path):
     """pythonfmu would run the first one's script for both if they had the same name."""
-    subprocess.run([sys.executable, ROOT / "build_fmu.py", "--out", tmp_path, "--points", "7"], check=True, timeout=120)
+    command = [sys.executable, ROOT / "build_fmu.py", "--packaging", "python", "--out", tmp_path, "--points", "7"]
+    subprocess.run(command, check=True, timeout=120)
     fmpy.extract(str(tmp_path / f"{NAME}.fmu"), str(tmp_path / "seven"))
     large, small = open_fmu(NAME), Instance(tmp_path / "seven")
     for fmu in (large, small):

@@ -1,0 +1,132 @@
+/* From values to outputs: ranges, working memory, and the model's entries behind checks of what comes out. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "instance.h"
+
+bool in_range(const Variable *variable, double value)
+{
+    if (!isfinite(value) || value > variable->maximum) return false;
+    return variable->open_minimum ? value > variable->minimum : value >= variable->minimum;
+}
+
+fmi2Status check_ranges(const Instance *instance)
+{
+    for (size_t i = 0; i < N_VALUES; i++) {
+        const Variable *v = &variables[i];
+        if (v->role == OUTPUT || in_range(v, instance->is.values[i])) continue;
+        return report(instance, LOG_DISCARD, "%s = %g is outside the allowed range %s%g, %g%s", v->name,
+                      instance->is.values[i], v->open_minimum || isinf(v->minimum) ? "]" : "[", v->minimum, v->maximum,
+                      isinf(v->maximum) ? "[" : "]");
+    }
+    return fmi2OK;
+}
+
+/* Lay out and fill working memory for the parameters, which are within their ranges. The warm start of other parameters is
+ * given up. */
+fmi2Status prepare(Instance *instance)
+{
+    double *values = instance->is.values;
+    if (instance->work && !memcmp(values, instance->prepared, N_PARAMETERS * sizeof(double))) return fmi2OK;
+    int64_t memory_size = model_memory(values);
+    double *work = malloc((size_t)model_size(values) * sizeof(double));
+    double *memory = memory_size == instance->memory_size ? instance->memory : calloc((size_t)memory_size, sizeof(double));
+    if (!work || !memory) {
+        free(work);
+        if (memory != instance->memory) free(memory);
+        instance->is.phase = BROKEN;
+        return report(instance, LOG_ERROR, "out of memory: this resolution takes %lld bytes",
+                      (long long)model_size(values) * (long long)sizeof(double));
+    }
+    free(instance->work);
+    if (memory != instance->memory) free(instance->memory);
+    instance->work = work;
+    instance->memory = memory;
+    instance->memory_size = memory_size;
+    model_prepare(values, work);
+    memcpy(instance->prepared, values, N_PARAMETERS * sizeof(double));
+    return fmi2OK;
+}
+
+/* NaN and infinity do not leave the FMU: put `before` back if there is one among the outputs. */
+static fmi2Status keep_finite(Instance *instance, const double *before)
+{
+    double *values = instance->is.values;
+    for (size_t i = 0; i < N_VALUES; i++) {
+        if (!isfinite(values[i])) {
+            memcpy(values, before, sizeof instance->is.values);
+            return report(instance, LOG_DISCARD, "%s has no finite value for these inputs", variables[i].name);
+        }
+    }
+    return fmi2OK;
+}
+
+static double rate(const Total *t, const double *values)
+{
+    return t->other == ALONE ? values[t->factor] : values[t->other] * values[t->factor];
+}
+
+/* Compute the outputs for what is set and add a step of length h to the totals; `warm` goes on from the last step. */
+fmi2Status update(Instance *instance, double h, bool warm)
+{
+    double before[N_VALUES];
+    double *values = instance->is.values;
+    size_t memory_bytes;
+    fmi2Status status = instance->is.is_new ? check_ranges(instance) : fmi2OK;
+    if (status == fmi2OK) status = prepare(instance);
+    if (status != fmi2OK) return status;
+    memory_bytes = (size_t)instance->memory_size * sizeof(double);
+    memcpy(before, values, sizeof before);
+    if (warm)
+        memcpy(instance->work, instance->memory, memory_bytes);
+    else
+        memset(instance->work, 0, memory_bytes);
+    model_outputs(values, instance->work);
+    for (size_t i = 0; i < N_TOTALS; i++) values[totals[i].total] += rate(&totals[i], values) * h;
+    status = keep_finite(instance, before);
+    if (status != fmi2OK) return status;
+    if (warm) memcpy(instance->memory, instance->work, memory_bytes);
+    memcpy(instance->is.solved, values, sizeof instance->is.solved);
+    instance->is.is_new = false;
+    instance->is.lazy_stale = true;
+    const char *warning = status_warnings[(int)values[V_status]];
+    if (warning && values[V_status] != before[V_status]) return report(instance, LOG_WARNING, "status %s", warning);
+    return fmi2OK;
+}
+
+/* Compute the lazy outputs that belong to the others. */
+fmi2Status update_lazy(Instance *instance)
+{
+    double solved[N_VALUES];
+    if (!instance->is.lazy_stale || prepare(instance) != fmi2OK) return fmi2OK;
+    memcpy(solved, instance->is.solved, sizeof solved);
+    model_lazy(solved, instance->work);
+    for (size_t i = 0; i < N_VALUES; i++)
+        if (variables[i].lazy) {
+            if (!isfinite(solved[i]))
+                return report(instance, LOG_DISCARD, "%s has no finite value for these inputs", variables[i].name);
+            instance->is.values[i] = solved[i];
+        }
+    instance->is.lazy_stale = false;
+    return fmi2OK;
+}
+
+/* Outputs follow inputs at once in initialisation and in model exchange; in co-simulation they wait for the next step. */
+fmi2Status refresh(Instance *instance)
+{
+    return instance->is.is_new ? update(instance, 0.0, false) : fmi2OK;
+}
+
+/* Model exchange: add the time since the last accepted step to the totals, by the trapezoidal rule over their rates. */
+void accumulate(Instance *instance)
+{
+    Content *is = &instance->is;
+    double h = is->time - is->accepted_time;
+    for (size_t i = 0; i < N_TOTALS; i++) {
+        double now = rate(&totals[i], is->values);
+        if (h > 0.0) is->values[totals[i].total] += 0.5 * h * (is->accepted[i] + now);
+        is->accepted[i] = now;
+    }
+    is->accepted_time = is->time;
+}

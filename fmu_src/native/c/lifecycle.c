@@ -1,0 +1,187 @@
+/* From fmi2Instantiate to fmi2FreeInstance, and what the instance has to say on its way. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "instance.h"
+
+static const struct {
+    Category category;
+    const char *name;
+    fmi2Status status;
+} categories[] = {
+    {LOG_WARNING, "logStatusWarning", fmi2Warning},
+    {LOG_DISCARD, "logStatusDiscard", fmi2Discard},
+    {LOG_ERROR, "logStatusError", fmi2Error},
+};
+#define N_CATEGORIES (sizeof categories / sizeof *categories)
+
+const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
+const char *fmi2GetVersion(void) { return fmi2Version; }
+
+/* Log a message of a category that is switched on; return the category's status. */
+fmi2Status report(const Instance *instance, Category category, const char *format, ...)
+{
+    size_t i = 0;
+    while (categories[i].category != category) i++;
+    if (instance->logger && (instance->categories & category)) {
+        char message[512];
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(message, sizeof message, format, arguments);
+        va_end(arguments);
+        instance->logger(instance->environment, instance->name, categories[i].status, categories[i].name, "%s", message);
+    }
+    return categories[i].status;
+}
+
+static const char *phase_name(int64_t phase)
+{
+    switch (phase) {
+    case INSTANTIATED: return "before initialisation";
+    case INITIALIZATION: return "in initialisation mode";
+    case EVENT: return "in event mode";
+    case CONTINUOUS: return "in continuous-time mode";
+    case STEP_COMPLETE: return "after initialisation";
+    case STEP_FAILED: return "after a discarded step";
+    case TERMINATED: return "after terminate";
+    default: return "after an error";
+    }
+}
+
+/* The answer to a call that is not legal now; it has changed nothing. */
+fmi2Status refuse(const Instance *instance, const char *function)
+{
+    const char *kind = instance->type == fmi2CoSimulation ? "co-simulation" : "model exchange";
+    return report(instance, LOG_ERROR, "%s is not allowed in %s %s; the call is ignored", function, kind,
+                  phase_name(instance->is.phase));
+}
+
+fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const fmi2String names[])
+{
+    Instance *instance = c;
+    int chosen = n == 0 ? LOG_WARNING | LOG_DISCARD | LOG_ERROR : 0;
+    REQUIRE(instance, "fmi2SetDebugLogging", ANY);
+    for (size_t k = 0; k < n; k++) {
+        size_t i = 0;
+        while (i < N_CATEGORIES && (!names || !names[k] || strcmp(names[k], categories[i].name))) i++;
+        if (i == N_CATEGORIES)
+            return report(instance, LOG_ERROR, "log category %s is unknown", names && names[k] ? names[k] : "NULL");
+        chosen |= categories[i].category;
+    }
+    instance->categories = on ? chosen : 0;
+    return fmi2OK;
+}
+
+static void restart(Instance *instance)
+{
+    memset(&instance->is, 0, sizeof instance->is);
+    for (size_t i = 0; i < N_VALUES; i++) instance->is.values[i] = variables[i].start;
+    memcpy(instance->is.solved, instance->is.values, sizeof instance->is.solved);
+    instance->is.stop_time = INFINITY;
+    instance->is.phase = INSTANTIATED;
+    instance->is.is_new = true;
+    if (instance->memory) memset(instance->memory, 0, (size_t)instance->memory_size * sizeof(double));
+}
+
+fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
+                              const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging)
+{
+    Instance *instance;
+    Instance caller = {.categories = LOG_ERROR, .name = (char *)(name ? name : "")};
+    (void)resources; /* all data are in the binary, so any location will do, even none */
+    (void)visible;
+    if (!functions) return NULL;
+    caller.logger = functions->logger;
+    caller.environment = functions->componentEnvironment;
+    if (!name || !*name) {
+        report(&caller, LOG_ERROR, "the instance has no name");
+        return NULL;
+    }
+    if (type != fmi2CoSimulation && type != fmi2ModelExchange) {
+        report(&caller, LOG_ERROR, "fmuType %d is neither co-simulation nor model exchange", (int)type);
+        return NULL;
+    }
+    if (!guid || strcmp(guid, MODEL_GUID)) {
+        report(&caller, LOG_ERROR, "guid %s is not that of this binary, %s: description and binary are of different builds",
+               guid ? guid : "NULL", MODEL_GUID);
+        return NULL;
+    }
+    instance = calloc(1, sizeof *instance);
+    if (instance) instance->name = malloc(strlen(name) + 1);
+    if (!instance || !instance->name) {
+        report(&caller, LOG_ERROR, "out of memory");
+        free(instance);
+        return NULL;
+    }
+    strcpy(instance->name, name);
+    instance->type = type;
+    instance->logger = caller.logger;
+    instance->environment = caller.environment;
+    instance->categories = logging ? LOG_WARNING | LOG_DISCARD | LOG_ERROR : LOG_DISCARD | LOG_ERROR;
+    restart(instance);
+    return instance;
+}
+
+void fmi2FreeInstance(fmi2Component c)
+{
+    Instance *instance = c;
+    if (!instance) return;
+    free(instance->work);
+    free(instance->memory);
+    free(instance->name);
+    free(instance);
+}
+
+fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean has_tolerance, fmi2Real tolerance, fmi2Real start,
+                               fmi2Boolean has_stop, fmi2Real stop)
+{
+    Instance *instance = c;
+    (void)has_tolerance; /* nothing is integrated here */
+    (void)tolerance;
+    REQUIRE(instance, "fmi2SetupExperiment", INSTANTIATED);
+    if (!isfinite(start) || (has_stop && !(stop >= start)))
+        return report(instance, LOG_ERROR, "startTime = %g, stopTime = %g: stop must not lie before start", start, stop);
+    instance->is.time = instance->is.accepted_time = start;
+    instance->is.stop_time = has_stop ? stop : INFINITY;
+    return fmi2OK;
+}
+
+fmi2Status fmi2EnterInitializationMode(fmi2Component c)
+{
+    Instance *instance = c;
+    REQUIRE(instance, "fmi2EnterInitializationMode", INSTANTIATED);
+    instance->is.phase = INITIALIZATION;
+    return fmi2OK;
+}
+
+/* Discard leaves the instance in initialisation mode, where the value that was complained of can be set anew. */
+fmi2Status fmi2ExitInitializationMode(fmi2Component c)
+{
+    Instance *instance = c;
+    fmi2Status status;
+    REQUIRE(instance, "fmi2ExitInitializationMode", INITIALIZATION);
+    status = refresh(instance);
+    if (status > fmi2Warning) return status;
+    instance->is.phase = instance->type == fmi2CoSimulation ? STEP_COMPLETE : EVENT;
+    if (instance->type == fmi2ModelExchange) accumulate(instance);
+    return status;
+}
+
+fmi2Status fmi2Terminate(fmi2Component c)
+{
+    Instance *instance = c;
+    REQUIRE(instance, "fmi2Terminate", RUNNING);
+    instance->is.phase = TERMINATED;
+    return fmi2OK;
+}
+
+fmi2Status fmi2Reset(fmi2Component c)
+{
+    Instance *instance = c;
+    REQUIRE(instance, "fmi2Reset", ANY);
+    restart(instance);
+    return fmi2OK;
+}

@@ -1,0 +1,187 @@
+"""From kernels to object files: numba's IR, freed of everything that is Python, compiled for each platform.
+
+Run as a program, ``python -m fmu_src.native.emit POINTS FOLDER``, since numba must be told before it is imported
+not to optimise and not to know this machine: loops that arrive unrolled vectorise badly later, and code for this very CPU
+would not run on another. numba's conventions used here (the prefix `cfunc.`, the arguments of a function's body, the names
+of its runtime) are not documented; pyproject.toml pins numba's version for the build, and tests compare results.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+#: Environment of the process that emits, before numba is imported.
+ENVIRONMENT = {
+    "NUMBA_CPU_NAME": "generic",
+    "NUMBA_CPU_FEATURES": "",
+    "NUMBA_OPT": "0",
+    "NUMBA_LOOP_VECTORIZE": "0",
+    "NUMBA_SLP_VECTORIZE": "0",
+    "NUMBA_DISABLE_INTEL_SVML": "1",
+}
+
+#: Platform of FMI 2.0 → triple of LLVM.
+TRIPLES = {"linux64": "x86_64-unknown-linux-gnu", "win64": "x86_64-w64-windows-gnu"}
+CPU = "x86-64-v2"
+
+#: What the objects may need from outside: libm and memory functions. Nothing of Python or numba, so nothing allocates, no
+#: reference is counted and no exception raised (its pickled message would remain).
+_LIBM = {"acos", "asin", "asinh", "atan", "atan2", "atanh", "cos", "exp", "log", "pow", "sin", "sqrt", "fabs"}
+ALLOWED = _LIBM | {"memset", "memcpy", "memmove"}
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A function that C calls: types of its result and arguments, and the Python function that numba compiles."""
+
+    result: Any
+    arguments: tuple[Any, ...]
+    function: Callable[..., Any]
+
+
+def emit(entries: Mapping[str, Entry], data: Iterable[Any], folder: Path) -> dict[str, Path]:
+    """Write `folder`/<platform>.o for every platform and return the paths.
+
+    Raises
+    ------
+    RuntimeError
+        If the kernels need something that is not ALLOWED.
+    """
+    from llvmlite import binding as llvm
+
+    llvm.initialize_all_targets()
+    llvm.initialize_all_asmprinters()
+    module = _linked(entries, list(data))
+    text = _without_origin(str(module))
+    paths = {}
+    for platform, triple in TRIPLES.items():
+        target = llvm.Target.from_triple(triple)
+        machine = target.create_target_machine(cpu=CPU, opt=3, reloc="pic", codemodel="default")
+        compiled = llvm.parse_assembly(text)
+        compiled.triple, compiled.data_layout = triple, str(machine.target_data)
+        _optimise(compiled, machine)
+        _refuse_the_rest(compiled, platform)
+        paths[platform] = folder / f"{platform}.o"
+        paths[platform].write_bytes(machine.emit_object(compiled))
+    return paths
+
+
+def _linked(entries: Mapping[str, Entry], data: list[Any]) -> Any:
+    """One module of all entries, in which these alone are visible."""
+    from llvmlite import binding as llvm
+    from numba import cfunc
+
+    from fmu_src.native.memory import Doubles
+
+    module, glue = None, _Glue(data)
+    for name, entry in entries.items():
+        arguments = (*entry.arguments, *(Doubles for _ in data))
+        compiled = cfunc(entry.result(*arguments), error_model="numpy")(entry.function)
+        text = re.sub(r"^target .*$", "", compiled.inspect_llvm(), flags=re.MULTILINE)
+        glue.add(name, entry, compiled.native_name.removeprefix("cfunc."))
+        part = llvm.parse_assembly(text)
+        if module is None:
+            module = part
+        else:
+            module.link_in(part)
+    for function in module.functions:  # numba's runtime: see `_Glue.text`
+        if function.name in ("NRT_incref", "NRT_decref") and not function.is_declaration:
+            function.linkage = "weak_any"
+    module.link_in(llvm.parse_assembly(glue.text()))
+    for symbol in (*module.functions, *module.global_variables):
+        if not symbol.is_declaration and symbol.name not in entries:
+            symbol.linkage = "internal"
+    return module
+
+
+class _Glue:
+    """IR of functions with C's conventions around numba's, and of the constant data that these are given."""
+
+    def __init__(self, data: list[Any]) -> None:
+        self.data = data
+        # Arrays of kernels belong to the caller and have no reference count; that numba's runtime is needed for nothing
+        # else is what the list of allowed symbols proves.
+        self.lines = ["define void @NRT_incref(ptr %0) { ret void }", "define void @NRT_decref(ptr %0) { ret void }"]
+        for i, array in enumerate(data):
+            content = "".join(f"\\{byte:02X}" for byte in array.tobytes())
+            self.lines.append(f'@data{i} = internal constant [{array.nbytes} x i8] c"{content}", align 64')
+
+    def add(self, name: str, entry: Entry, body: str) -> None:
+        """A function `name` that calls numba's `body`, i32 body(result*, exception**, arguments…), which never fails."""
+        names = [f"{_TYPES[str(a)]} %a{i}" for i, a in enumerate(entry.arguments)]
+        constants = [f"ptr @data{i}" for i in range(len(self.data))]
+        kind = _TYPES[str(entry.result)]
+        types = ", ".join(["ptr", "ptr", *(n.split()[0] for n in names), *("ptr" for _ in constants)])
+        self.lines += [
+            f'declare i32 @"{body}"({types})',
+            f"define {kind} @{name}({', '.join(names)}) {{",
+            f"  %result = alloca {kind}",
+            "  %exception = alloca ptr",
+            f"  store {kind} zeroinitializer, ptr %result",
+            f'  call i32 @"{body}"({", ".join(["ptr %result", "ptr %exception", *names, *constants])})',
+            f"  %value = load {kind}, ptr %result",
+            f"  ret {kind} %value",
+            "}",
+        ]
+
+    def text(self) -> str:
+        return "\n".join(self.lines)
+
+
+_TYPES = {"int64": "i64", "float64": "double", "float64*": "ptr"}
+
+
+def _without_origin(text: str) -> str:
+    """Blank the pickled messages of exceptions, which name source files of this machine; nothing reads them."""
+    return re.sub(
+        r'^(@"?\.const\.pickledata\S* = .*constant \[\d+ x i8\]) c".*?"',
+        r"\1 zeroinitializer",
+        text,
+        flags=re.MULTILINE,
+    )
+
+
+def _optimise(module: Any, machine: Any) -> None:
+    from llvmlite import binding as llvm
+
+    options = llvm.create_pipeline_tuning_options(speed_level=3)
+    builder = llvm.create_pass_builder(machine, options)
+    builder.getModulePassManager().run(module, builder)
+
+
+def _refuse_the_rest(module: Any, platform: str) -> None:
+    needed = {f.name for f in module.functions if f.is_declaration and not f.name.startswith("llvm.")}
+    needed |= {g.name for g in module.global_variables if g.is_declaration}
+    needed |= {g.name for g in module.global_variables if g.name.startswith((".const.pickle", "numba.dynamic"))}
+    if needed - ALLOWED:
+        raise RuntimeError(
+            f"the kernels need more than the {platform} FMU may have: {', '.join(sorted(needed - ALLOWED))}"
+        )
+
+
+def main() -> None:
+    """Emit the objects of one table's model."""
+    if any(os.environ.get(name) != value for name, value in ENVIRONMENT.items()):
+        os.execve(
+            sys.executable, [sys.executable, "-m", "fmu_src.native.emit", *sys.argv[1:]], os.environ | ENVIRONMENT
+        )
+    import warnings
+
+    from numba.core.errors import NumbaWarning
+
+    warnings.simplefilter("ignore", NumbaWarning)  # unoptimised code cannot be cached
+    from fmu_src.native import wheel_rail_contact as model
+    from fmu_src.tables.wheel_rail_contact import table
+
+    points, folder = int(sys.argv[1]), Path(sys.argv[2])
+    emit(model.entries(table(points)), model.data(), folder)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,134 @@
+"""An FMU file with binaries for every platform: kernels, wrapper and table compiled and linked, with nothing to install."""
+
+from __future__ import annotations
+
+import hashlib
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from importlib.metadata import distribution, version
+from importlib.util import find_spec
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import fmpy
+
+import contact
+from contact import Status
+from fmu_src import archive
+from fmu_src.description import model_description
+from fmu_src.documentation import markdown
+from fmu_src.native import source
+from fmu_src.native.emit import TRIPLES
+from fmu_src.tables.wheel_rail_contact import table as contact_table
+from fmu_src.variables import Table
+
+_COMMON = {
+    "needsExecutionTool": "false",
+    "canBeInstantiatedOnlyOncePerProcess": "false",
+    "canNotUseMemoryManagementFunctions": "true",
+    "canGetAndSetFMUstate": "true",
+    "canSerializeFMUstate": "true",
+    "providesDirectionalDerivative": "true",
+}
+#: What this packaging can do; attributes of the elements ModelExchange and CoSimulation.
+INTERFACES = {
+    "ModelExchange": {**_COMMON, "completedIntegratorStepNotNeeded": "false"},
+    "CoSimulation": {
+        **_COMMON,
+        "canHandleVariableCommunicationStepSize": "true",
+        "canInterpolateInputs": "false",
+        "maxOutputDerivativeOrder": "0",
+    },
+}
+#: A status that the wrapper warns of, with what it says.
+WARNINGS = {int(s): f"{s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)}
+
+WRAPPER = Path(__file__).parent / "c"
+HEADERS = Path(fmpy.__file__).parent / "c-code"  # the FMI project's own, under the 2-clause BSD licence
+#: Contraction to fused operations would make results differ between processors.
+FLAGS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-Wall", "-Wextra", "-shared", "-s")
+_LINKED_AS = {"linux64": ".so", "win64": ".dll"}
+_ZIG = {"linux64": "x86_64-linux-gnu.2.17", "win64": "x86_64-windows-gnu"}
+_GCC = {"linux64": "gcc", "win64": "x86_64-w64-mingw32-gcc"}
+
+
+def build(points: int, folder: Path, objects: Path, say: Callable[[str], None]) -> Path:
+    """Write `folder`/WheelRailContact.fmu for separations of `points` samples and return its path.
+
+    Parameters
+    ----------
+    objects : Path
+        Folder in which compiled kernels are kept from one build to the next.
+    say : callable
+        Told what is being done, as this takes a minute the first time.
+    """
+    from fmu_src.native.wheel_rail_contact import LAZY, TOTALS
+
+    table = contact_table(points)
+    kernels = _kernels(points, objects, say)
+    code = b"".join(path.read_bytes() for path in (*kernels.values(), *sorted(WRAPPER.iterdir())))
+    guid, xml = model_description(table, INTERFACES, code)
+    with TemporaryDirectory() as directory:
+        generated = Path(directory)
+        (generated / "model.h").write_text(source.header(table, guid, WARNINGS, TOTALS))
+        (generated / "model.c").write_text(source.body(table, WARNINGS, LAZY, TOTALS))
+        files = [
+            ("modelDescription.xml", xml.encode()),
+            (f"documentation/{table.name}.md", markdown(table).encode()),
+            *((f"documentation/licenses/{name}.txt", text.encode()) for name, text in _licences()),
+        ]
+        for platform, kernel in kernels.items():
+            say(f"linking for {platform}")
+            library = link(platform, table, kernel, generated)
+            files.append((f"binaries/{platform}/{library.name}", library.read_bytes()))
+        return archive.write(folder / f"{table.name}.fmu", files)
+
+
+def link(platform: str, table: Table, kernel: Path, generated: Path) -> Path:
+    """Compile the wrapper with the model.h and model.c in `generated`, link it with the kernels; return the library."""
+    library = generated / platform / (table.name + _LINKED_AS[platform])
+    library.parent.mkdir(exist_ok=True)
+    sources = [*sorted(WRAPPER.glob("*.c")), generated / "model.c"]
+    run(
+        *compiler(platform), *FLAGS, f"-I{generated}", f"-I{WRAPPER}", f"-I{HEADERS}", *sources, kernel, "-o", library,
+        *(["-fPIC", "-Wl,-z,defs", "-lm"] if platform == "linux64" else []),
+    )  # fmt: skip
+    return library
+
+
+def compiler(platform: str) -> list[str]:
+    """Command of a C compiler for a platform: zig from PyPI, or Debian's gcc and mingw-w64."""
+    if find_spec("ziglang"):
+        return [sys.executable, "-m", "ziglang", "cc", "-target", _ZIG[platform], "-fno-sanitize=undefined"]
+    if shutil.which(_GCC[platform]):
+        return [_GCC[platform]]
+    raise RuntimeError(f"no C compiler for {platform}: pip install '.[native]', or install {_GCC[platform]}")
+
+
+def run(*command: str | Path) -> None:
+    """Run a command; if it fails, raise with what it said."""
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+    if done.returncode:
+        raise RuntimeError(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
+
+
+def _kernels(points: int, objects: Path, say: Callable[[str], None]) -> dict[str, Path]:
+    """Object files of the kernels, compiled anew only if their sources or numba have changed."""
+    fingerprint = hashlib.sha256(f"{points} {version('numba')} {version('llvmlite')}".encode())
+    for package in (Path(contact.__file__).parent, Path(__file__).parents[1]):
+        for path in sorted(package.rglob("*.py")):
+            fingerprint.update(path.read_bytes())
+    folder = objects / fingerprint.hexdigest()[:16]
+    paths = {platform: folder / f"{platform}.o" for platform in TRIPLES}
+    if not all(path.exists() for path in paths.values()):
+        say("compiling the kernels (half a minute)")
+        folder.mkdir(parents=True, exist_ok=True)
+        run(sys.executable, "-m", "fmu_src.native.emit", str(points), folder)
+    return paths
+
+
+def _licences() -> list[tuple[str, str]]:
+    found = ((name, distribution(name).read_text("licenses/LICENSE")) for name in ("wheelrail-contact",))
+    return [(name, text) for name, text in found if text]

@@ -1,0 +1,303 @@
+"""The contact behind the native FMU's table: what C calls, over one array of all values and one of working memory.
+
+The solver's own kernels do the work; here values become their arguments and results become values.
+"""
+
+from __future__ import annotations
+
+from collections import namedtuple
+from typing import NamedTuple
+
+import numpy as np
+from numba import carray, types
+
+import contact
+from contact import kalker, quadrature
+from contact._layout import (
+    APPROACH,
+    CASE_G,
+    CASE_LOAD,
+    CASE_LOAD_KIND,
+    CASE_MU,
+    CASE_NORMAL,
+    CASE_NU,
+    CASE_PHI,
+    CASE_TANGENTIAL,
+    CASE_VX,
+    CASE_VY,
+    LOAD,
+    MAX_PATCHES,
+    N_CASE,
+    N_FIELD_ROWS,
+    N_RES,
+    N_STRIP_ROWS,
+    RES_APPROACH,
+    RES_AREA,
+    RES_FX,
+    RES_FY,
+    RES_LENGTH,
+    RES_MZ,
+    RES_N,
+    RES_PATCHES,
+    RES_PMAX,
+    RES_POWER,
+    RES_SLIP_AREA,
+    RES_STATUS,
+    RES_STIFFNESS,
+    RES_WIDTH,
+)
+from contact.damage import DamageParameters
+from contact.damage._kernel import (
+    DAMAGE_ARCHARD_DEPTH,
+    DAMAGE_ARCHARD_VOLUME,
+    DAMAGE_BURSTOW,
+    DAMAGE_ENERGY_INDEX,
+    DAMAGE_FATIGUE_INDEX,
+    DAMAGE_PEARCE_SHERRATT,
+    DAMAGE_STRESS_INDEX,
+    DAMAGE_T_GAMMA,
+    DAMAGE_USFD,
+    N_DAMAGE,
+    N_DAMAGE_FIELDS,
+    N_PAR,
+    PAR_HARDNESS,
+    PAR_SHEAR_YIELD,
+    PAR_SPEED,
+    PAR_WHEEL_RADIUS,
+    damage_kernel,
+)
+from contact.normal import influence
+from contact.normal.analyn import N_WORK_ROWS
+from contact.normal.strip_halfspace import MEM_LN_A
+from contact.normal.strip_system import N_VECTOR_ROWS
+from contact.pipeline import solve_case
+from contact.separation import HERTZIAN_POINTS, fill_hertzian
+from contact.tangential.lanes import LANES, N_LANE_ROWS, N_TRACE
+from contact.workspace import Rule, Space, Tables
+from fmu_src.differences import creepage_steps
+from fmu_src.native.emit import Entry
+from fmu_src.native.memory import Doubles, compiled, cube, matrix, vector
+from fmu_src.tables.wheel_rail_contact import GEOMETRY_KIND, LOAD_KIND
+from fmu_src.variables import Table
+
+_METHODS = contact.methods()
+_NORMAL_IDS = np.array([float(method.id) for method in _METHODS.normal.values()])
+_TANGENTIAL_IDS = np.array([float(method.id) for method in _METHODS.tangential.values()])
+_INTERACTING = np.array([method.interacting for method in _METHODS.normal.values()])
+_CURVATURES, _NORMAL_FORCE = GEOMETRY_KIND.number("Curvatures"), LOAD_KIND.number("NormalForce")
+_DAMAGE_PARAMETERS = DamageParameters().array(contact.STEEL, 1.0, 1.0)
+_steps = compiled(creepage_steps)
+
+#: Rows that `model_lazy` computes, and outputs that add up: name → one or two values whose product is their rate.
+LAZY = ("creep_stiffness",)
+TOTALS = {"total.energy": ("power.friction",), "total.worn_volume": ("damage.archard_volume", "speed")}
+
+
+class Problem(NamedTuple):
+    """What `solve_case` is given of the problem."""
+
+    y: object
+    g: object
+    A: object
+    xc: object
+    case: object
+
+
+class Solved(NamedTuple):
+    """What `solve_case` and `damage_kernel` fill."""
+
+    strips: object
+    fields: object
+    result: object
+    damage_parameters: object
+    damage_fields: object
+    damage: object
+
+
+def data() -> tuple[np.ndarray, ...]:
+    """What kernels read and the builder computes: Kalker's coefficients, influence of strips on the centre line and off it."""
+    return kalker.published(), *influence.tables()
+
+
+def entries(table: Table) -> dict[str, Entry]:
+    """Return what C calls, by name; each function also takes the arrays of `data`. None of them fails.
+
+    `model_memory` and `model_size` count the numbers of the warm start, with which working memory begins, and of all
+    working memory, for the parameters in `values`; `model_prepare` fills what depends on parameters alone. `model_outputs`
+    computes the outputs, `model_lazy` those that are seldom read (LAZY); the totals (TOTALS) are added up by who knows the
+    time. `model_difference` is a fitting change of one variable for difference quotients.
+    """
+    at = namedtuple("References", [name.replace(".", "_") for name in table.span])(
+        *(span.start for span in table.span.values())
+    )
+    n_values, points = len(table.scalars), table.row["geometry.g"].size
+    samples = max(points, HERTZIAN_POINTS)
+
+    @compiled
+    def memory_size(v):
+        interacting = _INTERACTING[int(v[at.method_normal]) - 1]
+        return MEM_LN_A + (MAX_PATCHES * int(v[at.resolution_n_strips]) if interacting else 1)
+
+    @compiled
+    def arrange(v, work):
+        """Lay all arrays into `work`; return them and how many numbers they are."""
+        n_strips, n_elements = int(v[at.resolution_n_strips]), int(v[at.resolution_n_elements])
+        capacity = MAX_PATCHES * n_strips
+        size = memory_size(v) - MEM_LN_A
+        memory, end = vector(work, 0, memory_size(v))
+        nodes, end = vector(work, end, n_strips)
+        weights, end = vector(work, end, n_strips)
+        elements, end = matrix(work, end, quadrature.N_EL, n_elements)
+        cosines, end = vector(work, end, n_strips + 1)
+        cosine_logs, end = matrix(work, end, n_strips, n_strips + 1)
+        coefficients, end = matrix(work, end, kalker.N_TABLE, 8)
+        grid, end = matrix(work, end, N_WORK_ROWS, samples)
+        vectors, end = matrix(work, end, N_VECTOR_ROWS, size)
+        logs, end = matrix(work, end, size, size + MAX_PATCHES)
+        influences, end = matrix(work, end, size, size)
+        lu, end = matrix(work, end, size, size)
+        lanes, end = vector(work, end, N_LANE_ROWS * LANES)
+        trace, end = matrix(work, end, n_elements, N_TRACE * LANES)
+        y, end = vector(work, end, samples)
+        g, end = vector(work, end, samples)
+        A, end = vector(work, end, samples)
+        xc, end = vector(work, end, samples)
+        case, end = vector(work, end, N_CASE)
+        strips, end = matrix(work, end, N_STRIP_ROWS, capacity)
+        fields, end = cube(work, end, N_FIELD_ROWS, capacity, n_elements)
+        result, end = vector(work, end, N_RES)
+        parameters, end = vector(work, end, N_PAR)
+        damage_fields, end = cube(work, end, N_DAMAGE_FIELDS, capacity, n_elements)
+        damage, end = vector(work, end, N_DAMAGE)
+        rule = Rule(nodes, weights, elements, cosines, cosine_logs)
+        space = Space(grid, vectors, logs, influences, lu, memory, lanes, trace)
+        problem = Problem(y, g, A, xc, case)
+        return (
+            rule,
+            coefficients,
+            space,
+            problem,
+            Solved(strips, fields, result, parameters, damage_fields, damage),
+            end,
+        )
+
+    @compiled
+    def pose(v, problem):
+        """Fill the problem from values; return how many samples its separation has."""
+        case, n = problem.case, points
+        if v[at.geometry_kind] == _CURVATURES:
+            n = HERTZIAN_POINTS
+            fill_hertzian(v[at.geometry_B0], problem.y[:n], problem.g[:n])
+        for i in range(n):
+            problem.xc[i] = 0.0
+            if v[at.geometry_kind] == _CURVATURES:
+                problem.A[i] = v[at.geometry_A0]
+            else:
+                problem.y[i] = v[at.geometry_y0] + v[at.geometry_dy] * i
+                problem.g[i], problem.A[i] = v[at.geometry_g + i], v[at.geometry_A + i]
+        by_load = v[at.load_kind] == _NORMAL_FORCE
+        case[CASE_LOAD_KIND] = LOAD if by_load else APPROACH
+        case[CASE_LOAD] = v[at.load_normal_force] if by_load else v[at.load_approach]
+        case[CASE_VX], case[CASE_VY] = v[at.creepage_longitudinal], v[at.creepage_lateral]
+        case[CASE_PHI], case[CASE_MU] = v[at.creepage_spin], v[at.friction_coefficient]
+        case[CASE_G], case[CASE_NU] = v[at.material_shear_modulus], v[at.material_poisson_ratio]
+        case[CASE_NORMAL] = _NORMAL_IDS[int(v[at.method_normal]) - 1]
+        case[CASE_TANGENTIAL] = _TANGENTIAL_IDS[int(v[at.method_tangential]) - 1]
+        return n
+
+    @compiled
+    def solve(n, rule, tables, space, problem, solved):
+        """Solve what `pose` has left."""
+        y, g, A, xc = problem.y[:n], problem.g[:n], problem.A[:n], problem.xc[:n]
+        return solve_case(y, g, A, xc, problem.case, rule, tables, space, solved.strips, solved.fields, solved.result)
+
+    def model_memory(values, published, centre, plane):
+        return memory_size(carray(values, (n_values,)))
+
+    def model_size(values, published, centre, plane):
+        return arrange(carray(values, (n_values,)), values)[5]
+
+    def model_prepare(values, work, published, centre, plane):
+        v = carray(values, (n_values,))
+        rule, coefficients, _, _, solved, _ = arrange(v, work)
+        quadrature.fill_fejer(rule.nodes, rule.weights)
+        quadrature.fill_elements(rule.elements)
+        quadrature.fill_panel(rule.cosines, rule.cosine_logs)
+        grid = carray(published, (kalker.N_TABLE, 4, 3))
+        kalker.fill_table(grid, v[at.material_poisson_ratio], coefficients)
+        for i in range(N_PAR):
+            solved.damage_parameters[i] = _DAMAGE_PARAMETERS[i]
+        return 0
+
+    def model_outputs(values, work, published, centre, plane):
+        v = carray(values, (n_values,))
+        rule, coefficients, space, problem, solved, _ = arrange(v, work)
+        tables = Tables(coefficients, carray(centre, influence.CENTRE), carray(plane, influence.PLANE))
+        n = solve(pose(v, problem), rule, tables, space, problem, solved)
+        parameters, result, damage = solved.damage_parameters, solved.result, solved.damage
+        speed = v[at.speed]
+        parameters[PAR_SPEED], parameters[PAR_WHEEL_RADIUS] = speed, v[at.wheel_radius]
+        parameters[PAR_HARDNESS], parameters[PAR_SHEAR_YIELD] = v[at.material_hardness], v[at.material_shear_yield]
+        damage_kernel(solved.strips, n, solved.fields, problem.case, result, parameters, solved.damage_fields, damage)
+        power = speed * result[RES_POWER]
+        v[at.force_x], v[at.force_y], v[at.force_n] = result[RES_FX], result[RES_FY], result[RES_N]
+        v[at.moment_z], v[at.approach], v[at.pressure_max] = result[RES_MZ], result[RES_APPROACH], result[RES_PMAX]
+        v[at.patch_area], v[at.patch_length], v[at.patch_width] = (
+            result[RES_AREA],
+            result[RES_LENGTH],
+            result[RES_WIDTH],
+        )
+        v[at.patch_count], v[at.power_friction] = result[RES_PATCHES], power
+        v[at.slip_ratio] = result[RES_SLIP_AREA] / result[RES_AREA] if result[RES_AREA] > 0.0 else 0.0
+        v[at.damage_T_gamma], v[at.damage_index_burstow] = damage[DAMAGE_T_GAMMA], damage[DAMAGE_BURSTOW]
+        v[at.damage_wear_rate_pearce_sherratt] = damage[DAMAGE_PEARCE_SHERRATT]
+        v[at.damage_wear_rate_usfd] = damage[DAMAGE_USFD]
+        v[at.damage_archard_depth_max] = damage[DAMAGE_ARCHARD_DEPTH]
+        v[at.damage_archard_volume] = damage[DAMAGE_ARCHARD_VOLUME]
+        v[at.damage_fatigue_index_surface] = damage[DAMAGE_FATIGUE_INDEX]
+        v[at.damage_stress_index_max] = damage[DAMAGE_STRESS_INDEX]
+        v[at.damage_energy_index_max] = damage[DAMAGE_ENERGY_INDEX]
+        v[at.stiffness_normal], v[at.status] = result[RES_STIFFNESS], result[RES_STATUS]
+        return 0
+
+    @compiled
+    def steps(v):
+        return _steps(v[at.friction_coefficient], v[at.force_n], v[at.material_shear_modulus], v[at.patch_area])
+
+    def model_lazy(values, work, published, centre, plane):
+        v = carray(values, (n_values,))
+        rule, coefficients, space, problem, solved, _ = arrange(v, work)
+        tables = Tables(coefficients, carray(centre, influence.CENTRE), carray(plane, influence.PLANE))
+        n, case, result = pose(v, problem), problem.case, solved.result
+        for j, step in enumerate(steps(v)):
+            for i in range(3):
+                v[at.creep_stiffness + 3 * i + j] = 0.0
+            for sign in (1.0, -1.0):
+                case[CASE_VX + j] = v[at.creepage_longitudinal + j] + sign * step
+                space.memory[0] = 0.0  # a cold start: what is found does not depend on earlier steps
+                solve(n, rule, tables, space, problem, solved)
+                for i in range(3):
+                    v[at.creep_stiffness + 3 * i + j] += sign * result[RES_FX + i] / (2.0 * step)
+            case[CASE_VX + j] = v[at.creepage_longitudinal + j]
+        return 0
+
+    def model_difference(values, reference, published, centre, plane):
+        v = carray(values, (n_values,))
+        if at.creepage_longitudinal <= reference <= at.creepage_spin:
+            longitudinal, lateral, spin = steps(v)
+            if reference == at.creepage_spin:
+                return spin
+            return lateral if reference == at.creepage_lateral else longitudinal
+        if at.geometry_g <= reference < at.geometry_g + points or reference == at.load_approach:
+            # of the penetration; N ~ penetration^(3/2)
+            return 1.5e-4 * v[at.force_n] / v[at.stiffness_normal] if v[at.stiffness_normal] > 0.0 else 1e-10
+        return max(1e-4 * abs(v[reference]), 1e-10)
+
+    return {
+        "model_memory": Entry(types.int64, (Doubles,), model_memory),
+        "model_size": Entry(types.int64, (Doubles,), model_size),
+        "model_prepare": Entry(types.int64, (Doubles, Doubles), model_prepare),
+        "model_outputs": Entry(types.int64, (Doubles, Doubles), model_outputs),
+        "model_lazy": Entry(types.int64, (Doubles, Doubles), model_lazy),
+        "model_difference": Entry(types.float64, (Doubles, types.int64), model_difference),
+    }

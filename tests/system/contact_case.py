@@ -1,0 +1,23 @@
+"""A contact that the tests of both packagings pose."""
+
+import numpy as np
+
+import contact
+
+NAME = "WheelRailContact"
+CREEPAGES = {"creepage.longitudinal": 1.2e-3, "creepage.lateral": -0.8e-3, "creepage.spin": 0.25}
+
+
+def separation() -> contact.Separation:
+    """A head of changing curvature, off the centre of its window; curvature along the rail changes too."""
+    y = -0.02 + 0.001 * np.arange(41)
+    return contact.Separation(y, (y - 2e-3) ** 2 * (1.5 + 40.0 * y), 1.0 + 5.0 * y)
+
+
+def geometry() -> dict[str, float]:
+    s = separation()
+    return {
+        f"geometry.{row}[{i}]": value
+        for row, column in (("g", s.g), ("A", s.A))
+        for i, value in enumerate(column.tolist(), 1)
+    }
