@@ -56,7 +56,7 @@ from contact.normal.strip_system import (
 
 MAX_ITERATIONS = 25
 #: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops.
-TOLERANCE = 4e-4
+TOLERANCE = 1e-4
 _END_VALUE, _END_SLOPE = 0.365, 0.108  # (p1/p2)² at the exact half width and its slope (strip_halfspace.md 2, step 4)
 
 # memory[...]: what a later call may start from: number of panels, their ends, then ln a of their strips
