@@ -117,9 +117,9 @@ def fill_table(published, nu, table):
         for i in range(N_TABLE):
             C = published[i, c]
             if c < 3:
-                table[i, c] = -math.log(p / C[0] + q / C[1] + r / C[2])
+                table[i, c] = 1.0 / (p / C[0] + q / C[1] + r / C[2])
             else:
-                table[i, c] = math.log(p * C[0] + q * C[1] + r * C[2])
+                table[i, c] = p * C[0] + q * C[1] + r * C[2]
         for i in range(1, N_TABLE - 1):
             table[i, 4 + c] = 0.5 * (table[i + 1, c] - table[i - 1, c])
         table[0, 4 + c] = table[1, c] - table[0, c]
@@ -133,7 +133,7 @@ def table(poisson_ratio: float) -> NDArray[np.float64]:
     Returns
     -------
     ndarray, shape (129, 8)
-        ln C of the four coefficients and their slopes times the step, on equidistant ln(a/b). Read-only and cached.
+        The four coefficients and their slopes times the step, on equidistant ln(a/b). Read-only and cached.
     """
     nu = require_number("poisson_ratio", poisson_ratio, 0.0, 0.5)
     result = np.empty((N_TABLE, 8))
@@ -151,8 +151,8 @@ def coefficients(table, log_aspect):
     w = 1.0 - t
     h00, h10, h01, h11 = (1.0 + 2.0 * t) * w * w, t * w * w, t * t * (3.0 - 2.0 * t), -t * t * w
     p, q = table[i], table[i + 1]
-    c11 = math.exp(h00 * p[0] + h10 * p[4] + h01 * q[0] + h11 * q[4])
-    c22 = math.exp(h00 * p[1] + h10 * p[5] + h01 * q[1] + h11 * q[5])
-    c23 = math.exp(h00 * p[2] + h10 * p[6] + h01 * q[2] + h11 * q[6])
-    c33 = math.exp(h00 * p[3] + h10 * p[7] + h01 * q[3] + h11 * q[7])
+    c11 = h00 * p[0] + h10 * p[4] + h01 * q[0] + h11 * q[4]
+    c22 = h00 * p[1] + h10 * p[5] + h01 * q[1] + h11 * q[5]
+    c23 = h00 * p[2] + h10 * p[6] + h01 * q[2] + h11 * q[6]
+    c33 = h00 * p[3] + h10 * p[7] + h01 * q[3] + h11 * q[7]
     return c11, c22, c23, c33
