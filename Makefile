@@ -39,6 +39,9 @@ accuracy: $(READY) ## the accuracy tables, beside CONTACT's, into docs/accuracy.
 bench: $(READY)  ## the speed table
 	$(BIN)/python benchmarks/speed.py
 
+pictures: $(READY) ## the pictures of the README
+	$(BIN)/python docs/pictures/make.py
+
 format: $(READY) ## put the code in shape
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
