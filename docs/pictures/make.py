@@ -1,21 +1,19 @@
-"""Draw the pictures of the README: `make pictures`."""
-
-from pathlib import Path
+"""Draw the picture of the README: `make pictures`."""
 
 import subprocess
 import sys
+from pathlib import Path
 
 from PIL import Image
 
-HERE = Path(__file__).parent
+TARGET = Path(__file__).with_name("patch.png")
+METHODS = ["--normal", "strip_halfspace", "--tangential", "fastrip_mapped"]
 
 
 def main() -> None:
-    target = HERE / "patch.png"
-    command = [Path(sys.executable).with_name("contact"), "patch", "--normal", "strip_halfspace", "--tangential", "fastrip_mapped"]
-    subprocess.run([*command, "--out", target], check=True)
+    subprocess.run([Path(sys.executable).with_name("contact"), "patch", *METHODS, "--out", TARGET], check=True)
     # 128 colours are enough for a page and a sixth of the size
-    Image.open(target).convert("P", palette=Image.Palette.ADAPTIVE, colors=128).save(target, optimize=True)
+    Image.open(TARGET).convert("P", palette=Image.Palette.ADAPTIVE, colors=128).save(TARGET, optimize=True)
 
 
 if __name__ == "__main__":
