@@ -95,7 +95,9 @@ def _linked(entries: Mapping[str, Entry], data: list[Any]) -> Any:
             function.linkage = "weak_any"
     module.link_in(llvm.parse_assembly(glue.text()))
     for symbol in (*module.functions, *module.global_variables):
-        if not symbol.is_declaration and symbol.name not in entries:
+        if symbol.name in entries:
+            symbol.visibility = "hidden"
+        elif not symbol.is_declaration:
             symbol.linkage = "internal"
     return module
 

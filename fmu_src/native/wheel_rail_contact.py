@@ -282,16 +282,23 @@ def entries(table: Table) -> dict[str, Entry]:
         return 0
 
     def model_difference(values, reference, published, centre, plane):
+        """A step so small that hardly ever an element passes from stick to slip within it: forces have kinks there.
+
+        A thousandth of the step of `creep_stiffness`, which is meant to average over the kinks, or a millionth of a value.
+        Interacting strips are solved to 1e-4 only, so that they need a hundredth.
+        """
         v = carray(values, (n_values,))
         if at.creepage_longitudinal <= reference <= at.creepage_spin:
             longitudinal, lateral, spin = steps(v)
             if reference == at.creepage_spin:
-                return spin
-            return lateral if reference == at.creepage_lateral else longitudinal
+                return 1e-3 * spin
+            return 1e-3 * (lateral if reference == at.creepage_lateral else longitudinal)
+        share = 1e-2 if _INTERACTING[int(v[at.method_normal]) - 1] else 1e-6
         if at.geometry_g <= reference < at.geometry_g + points or reference == at.load_approach:
             # of the penetration; N ~ penetration^(3/2)
-            return 1.5e-4 * v[at.force_n] / v[at.stiffness_normal] if v[at.stiffness_normal] > 0.0 else 1e-10
-        return max(1e-4 * abs(v[reference]), 1e-10)
+            penetration = 1.5 * v[at.force_n] / v[at.stiffness_normal] if v[at.stiffness_normal] > 0.0 else 1e-6
+            return share * penetration
+        return max(share * abs(v[reference]), 1e-12)
 
     return {
         "model_memory": Entry(types.int64, (Doubles,), model_memory),

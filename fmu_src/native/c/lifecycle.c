@@ -32,7 +32,10 @@ fmi2Status report(const Instance *instance, Category category, const char *forma
         va_start(arguments, format);
         vsnprintf(message, sizeof message, format, arguments);
         va_end(arguments);
-        instance->logger(instance->environment, instance->name, categories[i].status, categories[i].name, "%s", message);
+        /* as the format itself, since loggers of Python hosts see no further arguments; text of the host may hold a % */
+        for (char *p = message; *p; p++)
+            if (*p == '%') *p = '?';
+        instance->logger(instance->environment, instance->name, categories[i].status, categories[i].name, message);
     }
     return categories[i].status;
 }

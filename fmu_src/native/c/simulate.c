@@ -35,6 +35,7 @@ fmi2Status fmi2CancelStep(fmi2Component c)
 }
 
 #define STEPPED (STEP_COMPLETE | STEP_FAILED | TERMINATED)
+#define OF_SLAVES(phases) (instance->type == fmi2CoSimulation ? (phases) : 0)
 
 static fmi2Status unknown_status(const Instance *instance, const char *function)
 {
@@ -44,7 +45,7 @@ static fmi2Status unknown_status(const Instance *instance, const char *function)
 fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
 {
     Instance *instance = c;
-    REQUIRE(instance, "fmi2GetStatus", instance->type == fmi2CoSimulation ? STEPPED : 0);
+    REQUIRE(instance, "fmi2GetStatus", OF_SLAVES(STEPPED));
     if (kind != fmi2DoStepStatus) return unknown_status(instance, "fmi2GetStatus");
     *value = (fmi2Status)instance->is.last_step;
     return fmi2OK;
@@ -53,7 +54,7 @@ fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status 
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value)
 {
     Instance *instance = c;
-    REQUIRE(instance, "fmi2GetRealStatus", instance->type == fmi2CoSimulation ? STEPPED : 0);
+    REQUIRE(instance, "fmi2GetRealStatus", OF_SLAVES(STEPPED));
     if (kind != fmi2LastSuccessfulTime) return unknown_status(instance, "fmi2GetRealStatus");
     *value = instance->is.time;
     return fmi2OK;
@@ -63,14 +64,14 @@ fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2
 {
     Instance *instance = c;
     (void)kind, (void)value;
-    REQUIRE(instance, "fmi2GetIntegerStatus", instance->type == fmi2CoSimulation ? STEPPED : 0);
+    REQUIRE(instance, "fmi2GetIntegerStatus", OF_SLAVES(STEPPED));
     return unknown_status(instance, "fmi2GetIntegerStatus");
 }
 
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value)
 {
     Instance *instance = c;
-    REQUIRE(instance, "fmi2GetBooleanStatus", instance->type == fmi2CoSimulation ? STEPPED : 0);
+    REQUIRE(instance, "fmi2GetBooleanStatus", OF_SLAVES(STEPPED));
     if (kind != fmi2Terminated) return unknown_status(instance, "fmi2GetBooleanStatus");
     *value = fmi2False; /* this model never asks to stop */
     return fmi2OK;
@@ -79,7 +80,7 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2
 fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2String *value)
 {
     Instance *instance = c;
-    REQUIRE(instance, "fmi2GetStringStatus", instance->type == fmi2CoSimulation ? STEPPED : 0);
+    REQUIRE(instance, "fmi2GetStringStatus", OF_SLAVES(STEPPED));
     if (kind != fmi2PendingStatus) return unknown_status(instance, "fmi2GetStringStatus");
     *value = "";
     return fmi2OK;
@@ -91,7 +92,8 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference
 {
     Instance *instance = c;
     (void)refs, (void)order, (void)values;
-    REQUIRE(instance, "fmi2SetRealInputDerivatives", INSTANTIATED | INITIALIZATION | STEP_COMPLETE | STEP_FAILED);
+    REQUIRE(instance, "fmi2SetRealInputDerivatives",
+            OF_SLAVES(INSTANTIATED | INITIALIZATION | STEP_COMPLETE | STEP_FAILED));
     return n == 0 ? fmi2OK : report(instance, LOG_ERROR, "inputs are not interpolated (canInterpolateInputs is false)");
 }
 
@@ -100,7 +102,7 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReferenc
 {
     Instance *instance = c;
     (void)refs, (void)order, (void)values;
-    REQUIRE(instance, "fmi2GetRealOutputDerivatives", STEPPED);
+    REQUIRE(instance, "fmi2GetRealOutputDerivatives", OF_SLAVES(STEPPED));
     return n == 0 ? fmi2OK : report(instance, LOG_ERROR, "outputs have no derivatives (maxOutputDerivativeOrder is 0)");
 }
 
