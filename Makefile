@@ -34,10 +34,10 @@ lint: $(READY)   ## ruff, mypy, import-linter
 	$(BIN)/lint-imports
 
 accuracy: $(READY) ## the accuracy tables, beside CONTACT's, into docs/accuracy.md
-	$(BIN)/python benchmarks/accuracy.py --write docs/accuracy.md
+	PYTHONPATH=. $(BIN)/python benchmarks/accuracy.py --write docs/accuracy.md
 
 bench: $(READY)  ## the speed table
-	$(BIN)/python benchmarks/speed.py
+	PYTHONPATH=. $(BIN)/python benchmarks/speed.py
 
 pictures: $(READY) ## the pictures of the README
 	$(BIN)/python docs/pictures/make.py

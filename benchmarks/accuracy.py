@@ -59,6 +59,16 @@ def fields() -> list[dict[str, Any]]:
     return json.loads((REFERENCE / "fields.json").read_text())["cases"]
 
 
+def separation_of(case: dict[str, Any]) -> contact.Separation:
+    """The separation of a case of set D."""
+    return contact.Separation(*(np.array(case[k]) * s for k, s in (("y", 1e-3), ("g", 1e-3), ("A", 1e3))))
+
+
+def digits(values: Any, n: int = 5) -> list[float]:
+    """Numbers rounded to n significant digits."""
+    return [float(f"{v:.{n}g}") for v in values]
+
+
 def statistics(values: Any) -> tuple[float, float, float]:
     """Mean, 95th percentile and maximum."""
     values = np.abs(np.asarray(values))
@@ -164,6 +174,24 @@ def errors_on_patches(normal: str, tangential: str) -> dict[str, np.ndarray]:
     return {"N": N, "pmax": pmax, "area": area, "L2": L2, "force": np.array(force), "moment": np.array(moment)}
 
 
+@functools.cache
+def errors_of_slopes(normal: str, tangential: str) -> np.ndarray:
+    """Relative errors, shape (patches, 4), of Fx/ξ, Fy/η, Fy/φ, Mz/φ at vanishing creepage (`linear_slopes.py`)."""
+    reference = json.loads((REFERENCE / "linear_slopes.json").read_text())["cases"]
+    tiny, errors = 1e-8, []
+    for case, true in zip(patches(), reference, strict=True):
+        assert case["name"] == true["name"]
+        creepage = tuple(tiny * np.eye(3))
+        many = contact.forces(
+            separation_of(case), creepage, approach=case["delta"] * 1e-3, friction=MU, material=STEEL, normal=normal,
+            tangential=tangential, n_strips=40, n_elements=60,
+        )  # fmt: skip
+        own = np.array([many.Fx[0], many.Fy[1], many.Fy[2], many.Mz[2]]) / tiny
+        slopes = np.array(true["slopes"])
+        errors.append(own / (slopes[0, 0], slopes[1, 1], slopes[2, 1], slopes[2, 2]) - 1)
+    return np.array(errors)
+
+
 def published_on_patches(name: str) -> dict[str, np.ndarray]:
     """CONTACT's own fast methods on set D."""
     force, moment, N, pmax, area = [], [], [], [], []
@@ -242,9 +270,16 @@ def report() -> str:
     b = table(
         ["method", "traction field, mean / max"], [[n, f"{np.mean(e):.3f} / {np.max(e):.3f}"] for n, e in theirs + own]
     )
-    return TEXT.format(
-        a=a, b=b, d_normal=d_normal, d_force=d_force, n_a=len(ellipses()), n_b=len(fields()), n_d=len(patches())
-    )
+    rows = []
+    for n in ("analyn", "strip_halfspace"):
+        for t in tangential:
+            e = 100 * np.abs(errors_of_slopes(n, t))
+            figures = [f"{m:.1f} / {w:.1f} %" for m, w in zip(e.mean(axis=0), e.max(axis=0), strict=True)]
+            rows.append([f"`{n}` + `{t}`", *figures])
+    slopes = table(["method, mean / max", "Fx/ξ", "Fy/η", "Fy/φ", "Mz/φ"], rows)
+
+    counts = {"n_a": len(ellipses()), "n_b": len(fields()), "n_d": len(patches())}
+    return TEXT.format(a=a, b=b, d_normal=d_normal, d_force=d_force, slopes=slopes, **counts)
 
 
 def normal_row(e: dict[str, np.ndarray]) -> list[str]:
@@ -279,7 +314,10 @@ Mean absolute errors.
 Forces and moments in 7 states of creepage each, forces over their own μN, moments over μN√(area/π).
 
 {d_force}
-"""
+Slopes at vanishing creepage against our own boundary elements in full adhesion (`benchmarks/linear_slopes.py`, which meets
+Kalker's table on ellipses within 0.5 %).
+
+{slopes}"""
 
 
 def main() -> None:
