@@ -35,6 +35,7 @@ lint: $(READY)   ## ruff, mypy, import-linter
 
 accuracy: $(READY) ## the accuracy tables, beside CONTACT's, into docs/accuracy.md
 	PYTHONPATH=. $(BIN)/python benchmarks/accuracy.py --write docs/accuracy.md
+	PYTHONPATH=. $(BIN)/python benchmarks/unseen_patches.py --cases 60
 
 bench: $(READY)  ## the speed table
 	PYTHONPATH=. $(BIN)/python benchmarks/speed.py
