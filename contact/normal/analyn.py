@@ -9,8 +9,9 @@ so a strip is in contact where d(y) = delta - (1 + beta) g > 0, with half length
 pressure of a Hertz contact (A, B) at approach d: p0 = (2 E*/pi) d/(n r a) (thesis Eq. 9.1, corrected).
 Its strip load (pi/2) p0 a = E* d/(n r) is linear in d: the load is a convex, monotone function of the approach.
 
-Departures from the thesis: B(y) is a second difference over a fixed width and floored (theory.md 3.3), since the thesis
-does not say how curvature jumps are treated; their effect is measured in docs/accuracy.md.
+Departures from the thesis, which does not say how curvature jumps are treated: B(y) is a second difference over a fixed width
+and floored (theory.md 3.3), and the deformation beta·g of a flank never falls where the gap opens (set D: mean error of N
+2.78 → 2.72 %, of the area 2.96 → 2.89 %; among 400 other real patches no satellite patch instead of three).
 """
 
 import math
@@ -51,7 +52,8 @@ NO_OVERLAP = 1e-14
 GAP_SLOPE, EFFECTIVE_GAP, EFFECTIVE_SLOPE, STRETCHED_A, ONE_BETA, NR, LOG_ASPECT = range(7)
 N_WORK_ROWS = 7
 
-_MAX_ITERATIONS = 60
+#: Newton's steps before bisection, which closes in on a step of the load, and the cap.
+_NEWTON_ITERATIONS, _MAX_ITERATIONS = 15, 60
 
 
 @kernel
@@ -118,7 +120,26 @@ def prepare(y, g, A, n, y_least, g_least, reach, work):
             break
         i_step = min(stride, n - 1 - i)
         i += i_step
+    _keep_rising(g, n, work)
     slopes(y, work[EFFECTIVE_GAP], n, work[EFFECTIVE_SLOPE])
+    # noise or a curvature jump may let the interpolated product dip below zero: a patch would be born with a finite width
+    _, deepest = least_point(y, work[EFFECTIVE_GAP], work[EFFECTIVE_SLOPE], n)
+    for i in range(n):
+        work[EFFECTIVE_GAP, i] -= deepest
+
+
+@kernel
+def _keep_rising(g, n, work):
+    """Let the deformation beta·g not fall where the gap opens: its effective gap rises at least as the gap itself.
+
+    A convex flank that turns concave would lose beta faster than the gap opens, which made a satellite patch without load.
+    """
+    for i in range(1, n):
+        if g[i] > g[i - 1]:
+            work[EFFECTIVE_GAP, i] = max(work[EFFECTIVE_GAP, i], work[EFFECTIVE_GAP, i - 1] + g[i] - g[i - 1])
+    for i in range(n - 2, -1, -1):
+        if g[i] > g[i + 1]:
+            work[EFFECTIVE_GAP, i] = max(work[EFFECTIVE_GAP, i], work[EFFECTIVE_GAP, i + 1] + g[i] - g[i + 1])
 
 
 @kernel
@@ -254,9 +275,9 @@ def analyn(y, g, A, xc, case, nodes, weights, work, strips, result):
                 new = delta - step
             else:
                 new = 2.0 * delta
-            if not low < new < high:
+            if not low < new < high or (iteration >= _NEWTON_ITERATIONS and high < math.inf):
                 new = 0.5 * (low + high) if high < math.inf else 2.0 * delta
-            if new == delta or high - low <= 1e-15 * delta:
+            if new == delta or high - low <= 1e-12 * delta:  # a step: two patches merge within one sample interval
                 converged = True
                 break
             delta = new

@@ -54,7 +54,9 @@ def least_point(y, f, m, n):
         if f[i] < f[k]:
             k = i
     y_best, best = y[k], f[k]
-    for i in range(max(k - 1, 0), min(k + 1, n - 1)):
+    for i in range(n - 1):
+        if m[i] >= 0.0 or m[i + 1] <= 0.0:
+            continue
         h = y[i + 1] - y[i]
         t, value = interval_minimum(h, f[i], m[i], f[i + 1], m[i + 1])
         if value < best:
