@@ -2,8 +2,8 @@
 
     python benchmarks/unseen_patches.py [--cases 40] [--seed 1]
 
-Random poses of S1002 on 60E1 (1:20 and 1:40), loads of 2 to 200 kN, half of them with three random cosines of 3 to 20 µm and 8 to
-25 mm wavelength on the gap, as worn profiles have. Reference: Kalker's NORM at the approach of the strip half space, conjugate
+Random poses of S1002 on 60E1 (1:20 and 1:40), loads of 2 to 200 kN, half of them with three random cosines (3 to 20 µm, 8 to
+25 mm) on the gap, as worn profiles have. Reference: Kalker's NORM at the approach of the strip half space, conjugate
 gradients with FFT (theory.md 6), on a grid of width/100; its own error is about 0.3 % in the peak.
 """
 
