@@ -28,7 +28,8 @@ ENVIRONMENT = {
 
 #: Platform of FMI 2.0 → triple of LLVM.
 TRIPLES = {"linux64": "x86_64-unknown-linux-gnu", "win64": "x86_64-w64-windows-gnu"}
-CPU = "x86-64-v2"
+#: Processors that there are kernels for: every one since 2009, and those with AVX2 since 2013; the wrapper chooses.
+CPUS = {"v2": "x86-64-v2", "v3": "x86-64-v3"}
 
 #: What the objects may need from outside: libm and memory functions. Nothing of Python or numba, so nothing allocates, no
 #: reference is counted and no exception raised (its pickled message would remain).
@@ -45,8 +46,13 @@ class Entry:
     function: Callable[..., Any]
 
 
-def emit(entries: Mapping[str, Entry], data: Iterable[Any], folder: Path) -> dict[str, Path]:
-    """Write `folder`/<platform>.o for every platform and return the paths.
+def objects(folder: Path, platform: str) -> list[Path]:
+    """Paths of what `emit` writes for a platform: the data, and the kernels for each processor."""
+    return [folder / f"{platform}-{part}.o" for part in ("data", *CPUS)]
+
+
+def emit(entries: Mapping[str, Entry], data: Iterable[Any], folder: Path) -> None:
+    """Write the `objects` of every platform; the kernels' names end with that of the processor, model_outputs_v2.
 
     Raises
     ------
@@ -57,19 +63,35 @@ def emit(entries: Mapping[str, Entry], data: Iterable[Any], folder: Path) -> dic
 
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
-    module = _linked(entries, list(data))
+    arrays = list(data)
+    module = _linked(entries, arrays)
     text = _without_origin(str(module))
-    paths = {}
     for platform, triple in TRIPLES.items():
-        target = llvm.Target.from_triple(triple)
-        machine = target.create_target_machine(cpu=CPU, opt=3, reloc="pic", codemodel="default")
-        compiled = llvm.parse_assembly(text)
-        compiled.triple, compiled.data_layout = triple, str(machine.target_data)
-        _optimise(compiled, machine)
-        _refuse_the_rest(compiled, platform)
-        paths[platform] = folder / f"{platform}.o"
-        paths[platform].write_bytes(machine.emit_object(compiled))
-    return paths
+        target, (constants, *kernels) = llvm.Target.from_triple(triple), objects(folder, platform)
+        machine = target.create_target_machine(reloc="pic", codemodel="default")
+        _write(llvm.parse_assembly(_constants(arrays)), machine, triple, constants)
+        for (suffix, cpu), path in zip(CPUS.items(), kernels, strict=True):
+            machine = target.create_target_machine(cpu=cpu, opt=3, reloc="pic", codemodel="default")
+            compiled = llvm.parse_assembly(text)
+            for name in entries:
+                compiled.get_function(name).name = f"{name}_{suffix}"
+            _optimise(compiled, machine, triple)
+            _refuse_the_rest(compiled, platform)
+            _write(compiled, machine, triple, path)
+
+
+def _write(module: Any, machine: Any, triple: str, path: Path) -> None:
+    module.triple, module.data_layout = triple, str(machine.target_data)
+    path.write_bytes(machine.emit_object(module))
+
+
+def _constants(data: list[Any]) -> str:
+    """IR of the arrays as constants that all kernels share."""
+    lines = []
+    for i, array in enumerate(data):
+        content = "".join(f"\\{byte:02X}" for byte in array.tobytes())
+        lines.append(f'@model_data{i} = hidden constant [{array.nbytes} x i8] c"{content}", align 64')
+    return "\n".join(lines)
 
 
 def _linked(entries: Mapping[str, Entry], data: list[Any]) -> Any:
@@ -111,13 +133,12 @@ class _Glue:
         # else is what the list of allowed symbols proves.
         self.lines = ["define void @NRT_incref(ptr %0) { ret void }", "define void @NRT_decref(ptr %0) { ret void }"]
         for i, array in enumerate(data):
-            content = "".join(f"\\{byte:02X}" for byte in array.tobytes())
-            self.lines.append(f'@data{i} = internal constant [{array.nbytes} x i8] c"{content}", align 64')
+            self.lines.append(f"@model_data{i} = external hidden constant [{array.nbytes} x i8], align 64")
 
     def add(self, name: str, entry: Entry, body: str) -> None:
         """A function `name` that calls numba's `body`, i32 body(result*, exception**, arguments…), which never fails."""
         names = [f"{_TYPES[str(a)]} %a{i}" for i, a in enumerate(entry.arguments)]
-        constants = [f"ptr @data{i}" for i in range(len(self.data))]
+        constants = [f"ptr @model_data{i}" for i in range(len(self.data))]
         kind = _TYPES[str(entry.result)]
         types = ", ".join(["ptr", "ptr", *(n.split()[0] for n in names), *("ptr" for _ in constants)])
         self.lines += [
@@ -149,9 +170,10 @@ def _without_origin(text: str) -> str:
     )
 
 
-def _optimise(module: Any, machine: Any) -> None:
+def _optimise(module: Any, machine: Any, triple: str) -> None:
     from llvmlite import binding as llvm
 
+    module.triple, module.data_layout = triple, str(machine.target_data)
     options = llvm.create_pipeline_tuning_options(speed_level=3)
     builder = llvm.create_pass_builder(machine, options)
     builder.getModulePassManager().run(module, builder)
@@ -159,7 +181,7 @@ def _optimise(module: Any, machine: Any) -> None:
 
 def _refuse_the_rest(module: Any, platform: str) -> None:
     needed = {f.name for f in module.functions if f.is_declaration and not f.name.startswith("llvm.")}
-    needed |= {g.name for g in module.global_variables if g.is_declaration}
+    needed |= {g.name for g in module.global_variables if g.is_declaration and not g.name.startswith("model_data")}
     needed |= {g.name for g in module.global_variables if g.name.startswith((".const.pickle", "numba.dynamic"))}
     if needed - ALLOWED:
         raise RuntimeError(

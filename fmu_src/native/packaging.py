@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable
 from importlib.metadata import distribution, version
 from importlib.util import find_spec
+from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -20,7 +21,7 @@ from fmu_src import archive
 from fmu_src.description import model_description
 from fmu_src.documentation import markdown
 from fmu_src.native import source
-from fmu_src.native.emit import TRIPLES
+from fmu_src.native.emit import TRIPLES, objects
 from fmu_src.tables.wheel_rail_contact import table as contact_table
 from fmu_src.variables import Table
 
@@ -54,12 +55,12 @@ _ZIG = {"linux64": "x86_64-linux-gnu.2.17", "win64": "x86_64-windows-gnu"}
 _GCC = {"linux64": "gcc", "win64": "x86_64-w64-mingw32-gcc"}
 
 
-def build(points: int, folder: Path, objects: Path, say: Callable[[str], None]) -> Path:
+def build(points: int, folder: Path, cache: Path, say: Callable[[str], None]) -> Path:
     """Write `folder`/WheelRailContact.fmu for separations of `points` samples and return its path.
 
     Parameters
     ----------
-    objects : Path
+    cache : Path
         Folder in which compiled kernels are kept from one build to the next.
     say : callable
         Told what is being done, as this takes a minute the first time.
@@ -67,8 +68,9 @@ def build(points: int, folder: Path, objects: Path, say: Callable[[str], None]) 
     from fmu_src.native.wheel_rail_contact import LAZY, TOTALS
 
     table = contact_table(points)
-    kernels = _kernels(points, objects, say)
-    code = b"".join(path.read_bytes() for path in (*kernels.values(), *sorted(WRAPPER.iterdir())))
+    objects_of = kernels(points, cache, say)
+    sources = [*chain.from_iterable(objects_of.values()), *sorted(WRAPPER.iterdir())]
+    code = b"".join(path.read_bytes() for path in sources)
     guid, xml = model_description(table, INTERFACES, code)
     with TemporaryDirectory() as directory:
         generated = Path(directory)
@@ -79,20 +81,20 @@ def build(points: int, folder: Path, objects: Path, say: Callable[[str], None]) 
             (f"documentation/{table.name}.md", markdown(table).encode()),
             *((f"documentation/licenses/{name}.txt", text.encode()) for name, text in _licences()),
         ]
-        for platform, kernel in kernels.items():
+        for platform, parts in objects_of.items():
             say(f"linking for {platform}")
-            library = link(platform, table, kernel, generated)
+            library = link(platform, table, parts, generated)
             files.append((f"binaries/{platform}/{library.name}", library.read_bytes()))
         return archive.write(folder / f"{table.name}.fmu", files)
 
 
-def link(platform: str, table: Table, kernel: Path, generated: Path) -> Path:
+def link(platform: str, table: Table, kernels: list[Path], generated: Path) -> Path:
     """Compile the wrapper with the model.h and model.c in `generated`, link it with the kernels; return the library."""
     library = generated / platform / (table.name + _LINKED_AS[platform])
     library.parent.mkdir(exist_ok=True)
     sources = [*sorted(WRAPPER.glob("*.c")), generated / "model.c"]
     run(
-        *compiler(platform), *FLAGS, f"-I{generated}", f"-I{WRAPPER}", f"-I{HEADERS}", *sources, kernel, "-o", library,
+        *compiler(platform), *FLAGS, f"-I{generated}", f"-I{WRAPPER}", f"-I{HEADERS}", *sources, *kernels, "-o", library,
         *(["-fPIC", "-Wl,-z,defs", "-lm"] if platform == "linux64" else []),
     )  # fmt: skip
     return library
@@ -114,15 +116,15 @@ def run(*command: str | Path) -> None:
         raise RuntimeError(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
 
 
-def _kernels(points: int, objects: Path, say: Callable[[str], None]) -> dict[str, Path]:
+def kernels(points: int, cache: Path, say: Callable[[str], None]) -> dict[str, list[Path]]:
     """Object files of the kernels, compiled anew only if their sources or numba have changed."""
     fingerprint = hashlib.sha256(f"{points} {version('numba')} {version('llvmlite')}".encode())
     for package in (Path(contact.__file__).parent, Path(__file__).parents[1]):
         for path in sorted(package.rglob("*.py")):
             fingerprint.update(path.read_bytes())
-    folder = objects / fingerprint.hexdigest()[:16]
-    paths = {platform: folder / f"{platform}.o" for platform in TRIPLES}
-    if not all(path.exists() for path in paths.values()):
+    folder = cache / fingerprint.hexdigest()[:16]
+    paths = {platform: objects(folder, platform) for platform in TRIPLES}
+    if not all(path.exists() for parts in paths.values() for path in parts):
         say("compiling the kernels (half a minute)")
         folder.mkdir(parents=True, exist_ok=True)
         run(sys.executable, "-m", "fmu_src.native.emit", str(points), folder)

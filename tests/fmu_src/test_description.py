@@ -10,6 +10,7 @@ import pytest
 import contact
 from fmu_src.description import model_description
 from fmu_src.documentation import markdown
+from fmu_src.native.packaging import INTERFACES as NATIVE
 from fmu_src.python.packaging import models
 from fmu_src.python.slave import INTERFACES
 from fmu_src.tables import wheel_rail_contact
@@ -23,9 +24,9 @@ def table(request):
     return request.param
 
 
-@pytest.fixture
-def xml(table):
-    return ElementTree.fromstring(model_description(table, INTERFACES)[1])
+@pytest.fixture(params=[INTERFACES, NATIVE], ids=["python", "native"])
+def xml(request, table):
+    return ElementTree.fromstring(model_description(table, request.param)[1])
 
 
 def variables(xml):

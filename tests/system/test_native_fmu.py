@@ -1,5 +1,6 @@
 """The native `WheelRailContact` as a whole, through the C interface of FMI, against the solver it was compiled from."""
 
+import ctypes
 import math
 import re
 import subprocess
@@ -15,7 +16,11 @@ from fmpy.validation import validate_fmu
 
 import contact
 from contact.damage import evaluate
+from fmu_src.native.emit import CPUS
+from fmu_src.native.packaging import compiler, kernels, run
+from fmu_src.tables.wheel_rail_contact import table
 
+ROOT = Path(__file__).parents[2]
 OK, WARNING, DISCARD, ERROR = range(4)
 METHODS = contact.methods()
 OUTPUTS = (
@@ -494,3 +499,33 @@ def test_runs_in_libcosim(native):
     for load, row in zip((80e3, 50e3), rows, strict=True):
         s = contact.solve(contact.Separation(y, y**2, 0.5 / 0.46), contact.Creepage(1e-3), load=load)
         assert [float.fromhex(number) for number in row[:2]] == pytest.approx([s.N, s.Fx], rel=1e-12)
+
+
+def test_kernels_for_every_processor_agree_bit_by_bit(native, tmp_path):
+    """The wrapper chooses by what the processor can; here both run."""
+    objects = kernels(41, ROOT / "build" / "native", print)["linux64"]  # in the cache since the FMU was built
+    calls = "".join(
+        f"long model_size_{cpu}(double *); long model_prepare_{cpu}(double *, double *);"
+        f"long model_outputs_{cpu}(double *, double *); long size_{cpu}(double *v) {{ return model_size_{cpu}(v); }}"
+        f"void solve_{cpu}(double *v, double *w) {{ model_prepare_{cpu}(v, w); model_outputs_{cpu}(v, w); }}\n"
+        for cpu in CPUS
+    )
+    (tmp_path / "calls.c").write_text(calls)
+    library = tmp_path / "both.so"
+    run(*compiler("linux64"), "-shared", "-fPIC", tmp_path / "calls.c", *objects, "-o", library, "-lm")
+    both = ctypes.CDLL(str(library))
+    description = table(41)
+    pointer = np.ctypeslib.ndpointer(np.float64)
+    for seed in range(100):
+        values = np.array([float(s.first) for s in description.scalars])
+        for name, value in random_case(seed)[0].items():
+            values[[s.name for s in description.scalars].index(name)] = value
+        answers = []
+        for cpu in CPUS:
+            v, size, solve = values.copy(), getattr(both, f"size_{cpu}"), getattr(both, f"solve_{cpu}")
+            size.argtypes, size.restype, solve.argtypes, solve.restype = [pointer], ctypes.c_long, [pointer] * 2, None
+            work = np.zeros(size(v))
+            solve(v, work)
+            answers.append(v)
+        np.testing.assert_array_equal(*answers)
+        assert not np.array_equal(answers[0], values)

@@ -94,9 +94,9 @@ def test_valgrind_finds_nothing(host):
     host("random_calls", 1000, before=check)
 
 
-@pytest.mark.parametrize("platform", ["host", "windows"])
-def test_equals_the_solver_on_random_cases(platform, request):
-    """On Windows with that system's mathematical functions, whose last digits differ."""
+@pytest.mark.parametrize(("platform", "tolerance"), [("host", 1e-12), ("windows", 1e-11)])
+def test_equals_the_solver_on_random_cases(platform, tolerance, request):
+    """On Windows with other mathematical functions, whose last digits differ; loads are iterated to 1e-11."""
     run = request.getfixturevalue(platform)
     references = {s.name: r for r, s in enumerate(table(41).scalars)}
     reals = [s.name for s in table(41).scalars[references["force.x"] :] if s.name not in ("patch.count", "status")]
@@ -113,7 +113,7 @@ def test_equals_the_solver_on_random_cases(platform, request):
     worst = 0.0
     for seed, (row, (answer, scale)) in enumerate(zip(rows, wanted, strict=True)):
         actual = np.array(row.split(), dtype=float)[columns]
-        np.testing.assert_array_less(np.abs(actual - answer), 1e-12 * scale + 1e-300, err_msg=f"seed {seed}")
+        np.testing.assert_array_less(np.abs(actual - answer), tolerance * scale + 1e-300, err_msg=f"seed {seed}")
         worst = max(worst, np.max(np.abs(actual - answer) / (scale + 1e-300)))
     print(f"{platform}: greatest difference {worst:.1e}")
 

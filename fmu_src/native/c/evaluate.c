@@ -1,4 +1,4 @@
-/* From values to outputs: ranges, working memory, and the model's entries behind checks of what comes out. */
+/* From values to outputs: ranges, working memory, and the model's functions behind checks of what comes out. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,22 +29,22 @@ fmi2Status prepare(Instance *instance)
 {
     double *values = instance->is.values;
     if (instance->work && !memcmp(values, instance->prepared, N_PARAMETERS * sizeof(double))) return fmi2OK;
-    int64_t memory_size = model_memory(values);
-    double *work = malloc((size_t)model_size(values) * sizeof(double));
+    int64_t memory_size = instance->model->memory(values);
+    double *work = malloc((size_t)instance->model->size(values) * sizeof(double));
     double *memory = memory_size == instance->memory_size ? instance->memory : calloc((size_t)memory_size, sizeof(double));
     if (!work || !memory) {
         free(work);
         if (memory != instance->memory) free(memory);
         instance->is.phase = BROKEN;
         return report(instance, LOG_ERROR, "out of memory: this resolution takes %lld bytes",
-                      (long long)model_size(values) * (long long)sizeof(double));
+                      (long long)instance->model->size(values) * (long long)sizeof(double));
     }
     free(instance->work);
     if (memory != instance->memory) free(instance->memory);
     instance->work = work;
     instance->memory = memory;
     instance->memory_size = memory_size;
-    model_prepare(values, work);
+    instance->model->prepare(values, work);
     memcpy(instance->prepared, values, N_PARAMETERS * sizeof(double));
     return fmi2OK;
 }
@@ -82,7 +82,7 @@ fmi2Status update(Instance *instance, double h, bool warm)
         memcpy(instance->work, instance->memory, memory_bytes);
     else
         memset(instance->work, 0, memory_bytes);
-    model_outputs(values, instance->work);
+    instance->model->outputs(values, instance->work);
     for (size_t i = 0; i < N_TOTALS; i++) values[totals[i].total] += rate(&totals[i], values) * h;
     status = keep_finite(instance, before);
     if (status != fmi2OK) return status;
@@ -101,7 +101,7 @@ fmi2Status update_lazy(Instance *instance)
     double solved[N_VALUES];
     if (!instance->is.lazy_stale || prepare(instance) != fmi2OK) return fmi2OK;
     memcpy(solved, instance->is.solved, sizeof solved);
-    model_lazy(solved, instance->work);
+    instance->model->lazy(solved, instance->work);
     for (size_t i = 0; i < N_VALUES; i++)
         if (variables[i].lazy) {
             if (!isfinite(solved[i]))

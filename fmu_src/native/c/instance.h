@@ -1,5 +1,5 @@
 /* One instance of the FMU. The model is in two places: model.h, generated from the variable table, and the entries
- * model_…, compiled from the solver's kernels. Everything here serves any model with that interface.
+ * model_…, compiled from the solver's kernels, once for every processor and once for those with AVX2. Everything here serves any model with that interface.
  *
  * Nothing outside an instance can be written, so instances may run in threads of their own. An instance allocates when it
  * is made, when its resolution is set and when a state is taken; a step allocates nothing. */
@@ -13,12 +13,14 @@
 #include "model.h"
 
 /* ---- the model: one array of all values by value reference, one of working memory that begins with the warm start */
-int64_t model_memory(double *values);
-int64_t model_size(double *values);
-int64_t model_prepare(double *values, double *work);
-int64_t model_outputs(double *values, double *work);
-int64_t model_lazy(double *values, double *work);
-double model_difference(double *values, int64_t reference);
+typedef struct {
+    int64_t (*memory)(double *values);
+    int64_t (*size)(double *values);
+    int64_t (*prepare)(double *values, double *work);
+    int64_t (*outputs)(double *values, double *work);
+    int64_t (*lazy)(double *values, double *work);
+    double (*difference)(double *values, int64_t reference);
+} Model;
 
 /* ---- the table */
 typedef enum { REAL = 1, INTEGER = 2, ENUMERATION = 4 } Kind;
@@ -79,6 +81,7 @@ typedef struct {
     int64_t memory_size;
     double *work;
     double prepared[N_VALUES]; /* parameters that `work` is laid out and filled for; a negative first one: none */
+    const Model *model; /* compiled for this processor; the results are the same */
     fmi2Type type;
     char *name;
     int categories;

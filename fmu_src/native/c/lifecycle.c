@@ -1,4 +1,5 @@
 /* From fmi2Instantiate to fmi2FreeInstance, and what the instance has to say on its way. */
+#include <cpuid.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -89,6 +90,32 @@ static void restart(Instance *instance)
     if (instance->memory) memset(instance->memory, 0, (size_t)instance->memory_size * sizeof(double));
 }
 
+#define ENTRIES(cpu) \
+    int64_t model_memory_##cpu(double *); \
+    int64_t model_size_##cpu(double *); \
+    int64_t model_prepare_##cpu(double *, double *); \
+    int64_t model_outputs_##cpu(double *, double *); \
+    int64_t model_lazy_##cpu(double *, double *); \
+    double model_difference_##cpu(double *, int64_t); \
+    static const Model model_##cpu = {model_memory_##cpu,  model_size_##cpu, model_prepare_##cpu, \
+                                      model_outputs_##cpu, model_lazy_##cpu, model_difference_##cpu};
+ENTRIES(v2)
+ENTRIES(v3)
+
+/* x86-64-v3 needs AVX2, FMA, BMI, LZCNT, MOVBE and F16C of the processor, and a system that saves the wide registers. The
+ * compilers' __builtin_cpu_supports needs a variable that the library would have to write. */
+static const Model *model_for_this_processor(void)
+{
+    const unsigned leaf1 = bit_FMA | bit_MOVBE | bit_OSXSAVE | bit_AVX | bit_F16C, leaf7 = bit_AVX2 | bit_BMI | bit_BMI2;
+    const unsigned lzcnt = 1u << 5, wide_registers = 6;
+    unsigned a, b, c, d, saved, high;
+    if (!__get_cpuid(1, &a, &b, &c, &d) || (c & leaf1) != leaf1) return &model_v2;
+    if (!__get_cpuid_count(7, 0, &a, &b, &c, &d) || (b & leaf7) != leaf7) return &model_v2;
+    if (!__get_cpuid(0x80000001, &a, &b, &c, &d) || !(c & lzcnt)) return &model_v2;
+    __asm__("xgetbv" : "=a"(saved), "=d"(high) : "c"(0));
+    return (saved & wide_registers) == wide_registers ? &model_v3 : &model_v2;
+}
+
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging)
 {
@@ -121,6 +148,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     }
     strcpy(instance->name, name);
     instance->type = type;
+    instance->model = model_for_this_processor();
     instance->logger = caller.logger;
     instance->environment = caller.environment;
     instance->categories = logging ? LOG_WARNING | LOG_DISCARD | LOG_ERROR : LOG_DISCARD | LOG_ERROR;

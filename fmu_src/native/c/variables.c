@@ -130,8 +130,8 @@ static void displaced(Instance *instance, const fmi2ValueReference knowns[], siz
     memcpy(values, instance->is.values, sizeof instance->is.values);
     for (size_t k = 0; k < n; k++) values[knowns[k]] += h * seed[k];
     memset(instance->work, 0, (size_t)instance->memory_size * sizeof(double));
-    model_outputs(values, instance->work);
-    if (lazy) model_lazy(values, instance->work);
+    instance->model->outputs(values, instance->work);
+    if (lazy) instance->model->lazy(values, instance->work);
 }
 
 /* Outputs by inputs (before the first step also by parameters), at the present values of these: a central difference over
@@ -159,7 +159,7 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
     displaced(instance, knowns, 0, seed, 0.0, false, ahead); /* steps fit the outputs at the present values */
     for (size_t k = 0; k < n_knowns; k++) {
         if (!isfinite(seed[k])) return report(instance, LOG_ERROR, "a seed of a directional derivative is not finite");
-        if (seed[k] != 0.0) h = fmin(h, model_difference(ahead, knowns[k]) / fabs(seed[k]));
+        if (seed[k] != 0.0) h = fmin(h, instance->model->difference(ahead, knowns[k]) / fabs(seed[k]));
     }
     if (isinf(h)) return fmi2OK;
     up = reach(instance->is.values, knowns, n_knowns, seed, h);
