@@ -24,8 +24,9 @@ _X_STEP = _X_MAX / (_N_X - 1)
 _LN_T_LOW, _LN_T_HIGH, _N_T = math.log(1e-3), math.log(1e2), 385
 _T_STEP = (_LN_T_HIGH - _LN_T_LOW) / (_N_T - 1)
 
-#: Shapes of the two tables.
-CENTRE, PLANE = (_N_CENTRE, 2), (_N_X, _N_T)
+#: Shapes of the two tables. Two rows more in the second: U beyond X = 4 is linear in 1/X² at fixed t/X, so they hold its
+#: values at 1/X² = 0 and 1 over ln(t/X).
+CENTRE, PLANE = (_N_CENTRE, 2), (_N_X + 2, _N_T)
 
 _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(6)
 
@@ -81,11 +82,15 @@ def _fill(centre, plane):
     for i in range(_N_X):
         for k in range(_N_T):
             plane[i, k] = quadrature(i * _X_STEP, math.exp(_LN_T_LOW + k * _T_STEP))
+    for k in range(_N_T):
+        t = math.exp(_LN_T_LOW + k * _T_STEP)
+        plane[_N_X, k] = 0.5 * math.pi * math.asinh(t)
+        plane[_N_X + 1, k] = plane[_N_X, k] + math.pi / 16.0 * t * (2.0 + t * t) / (1.0 + t * t) ** 1.5
 
 
 @functools.cache
 def tables() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Tables of U on the centre line, shape (401, 2), and over (X, ln t), shape (201, 385); made once a process (0.2 s)."""
+    """Tables of U on the centre line, shape (401, 2), and over (X, ln t), shape (203, 385); made once a process (0.2 s)."""
     centre, plane = np.empty(CENTRE), np.empty(PLANE)
     _fill(centre, plane)
     return centre, plane
@@ -108,23 +113,34 @@ def at_centre(centre, log_t):
 
 
 @kernel
-def anywhere(plane, X, log_t):
-    """U(X, t) for X >= 0, t > 0: bilinear in the table, asymptotes beyond it; error below 1e-3."""
+def row_at(X, ln_X):
+    """Row of the plane's table for X >= 0, the share of the next row, and what its ln t counts from (for `in_row`)."""
     if X >= _X_MAX:
-        t = math.exp(log_t)
-        x2, t2 = X * X, t * t
-        return 0.5 * math.pi * math.asinh(t / X) + math.pi / 16.0 * t * (2.0 * x2 + t2) / (x2 * (x2 + t2) ** 1.5)
-    scale = 1.0
+        return _N_X, 1.0 / (X * X), ln_X
+    u = X / _X_STEP
+    i = min(int(u), _N_X - 2)
+    return i, u - i, 0.0
+
+
+@kernel
+def in_row(plane, i, u, log_t):
+    """U(X, t) for t > 0, bilinear in the table at the row and share given by `row_at`; asymptotes beyond its range of t."""
+    v = (log_t - _LN_T_LOW) / _T_STEP
+    if v < 0.0:  # U is nearly proportional to t there
+        return math.exp(log_t - _LN_T_LOW) * (plane[i, 0] + u * (plane[i + 1, 0] - plane[i, 0]))
+    k = min(int(v), _N_T - 2)
     extra = 0.0
-    if log_t < _LN_T_LOW:  # U is nearly proportional to t there
-        scale = math.exp(log_t - _LN_T_LOW)
-        log_t = _LN_T_LOW
-    elif log_t > _LN_T_HIGH:
+    if v > _N_T - 1.0:
         extra = 0.5 * math.pi * (log_t - _LN_T_HIGH)
-        log_t = _LN_T_HIGH
-    u, v = X / _X_STEP, (log_t - _LN_T_LOW) / _T_STEP
-    i, k = min(int(u), _N_X - 2), min(int(v), _N_T - 2)
-    u, v = u - i, v - k
+        v = _N_T - 1.0
+    v -= k
     low = plane[i, k] + v * (plane[i, k + 1] - plane[i, k])
     high = plane[i + 1, k] + v * (plane[i + 1, k + 1] - plane[i + 1, k])
-    return scale * (low + u * (high - low)) + extra
+    return low + u * (high - low) + extra
+
+
+@kernel
+def anywhere(plane, X, log_t):
+    """U(X, t) for X >= 0, t > 0; error below 1e-3."""
+    i, u, ln_X = row_at(X, math.log(max(X, 1e-300)))
+    return in_row(plane, i, u, log_t - ln_X)

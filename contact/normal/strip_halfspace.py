@@ -34,30 +34,39 @@ from contact._layout import (
 from contact.normal.analyn import GAP_SLOPE, LOG_ASPECT, analyn
 from contact.normal.lay import locate
 from contact.normal.strip_system import (
+    DEPTH,
     V_A,
     V_ACTIVE,
+    V_CHANGES,
     V_CURVATURE,
     V_GAP,
     V_HALF,
     V_LN_A,
-    V_LN_A_OLD,
     V_P,
     V_Q1,
     V_R,
     V_R_OLD,
+    V_STEP,
+    V_STEPS,
     V_XC,
     V_Y,
     assemble,
     displacement_outside,
     distances,
-    edge_displacement,
     solve_active,
 )
 
 MAX_ITERATIONS = 25
 #: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops.
 TOLERANCE = 1e-4
+#: From here on plain steps with ends that move less and less: on rough gaps the end rule has no steady answer.
+_MIXED_ITERATIONS = 10
+#: Share of an end's move that its rule asks for, and its weight in the mixing beside the loads of all strips.
+_END_STEP, _END_WEIGHT = 0.6, 1.0
 _END_VALUE, _END_SLOPE = 0.365, 0.108  # (p1/p2)² at the exact half width and its slope (strip_halfspace.md 2, step 4)
+_END_RANGE = (-3.0, 20.0)  # of one move outwards before damping, in widths of the end strip
+#: Overlap outside the panels, over the approach, that counts as missed contact, early and in the end.
+_EARLY_GHOST, _GHOST = 2e-2, 1e-3
 
 # memory[...]: what a later call may start from: number of panels, their ends, then ln a of their strips
 MEM_PANELS, MEM_ENDS, MEM_LN_A = 0, 1, 1 + 2 * MAX_PATCHES
@@ -181,19 +190,42 @@ def _start_panels(n_strips, panel_strips, strips, result, panels, cosines, vecto
 
 
 @kernel
-def _move_end(vectors, n, first, left, width_end, damping):
-    """How far one end of a panel moves outwards, from the pressures of the second and third strips there."""
-    second = first + 1 if left else first + n - 2
-    third = first + 2 if left else first + n - 3
-    if vectors[V_P, third] <= 0.0:
-        return -2.0 * width_end
-    q = (vectors[V_P, second] / vectors[V_P, third]) ** 2
-    # a high second strip means that the panel is too narrow: more pressure belongs outside
-    return damping * min(max((q - _END_VALUE) / _END_SLOPE, -2.0), 8.0) * width_end
+def _end_move(vectors, n, first, step, cosines):
+    """How far one end of a panel should move outwards over its half width, and whether idle strips are cut off there.
+
+    `first` is the strip at this end, `step` the way to its neighbour. On the exact half width the squared ratio q of the
+    second and third pressures has a known value; a high second strip means that the panel is too narrow.
+    """
+    idle = 0
+    while idle < n - 1 and vectors[V_P, first + idle * step] <= 0.0:
+        idle += 1
+    if idle >= 2:
+        return -0.9 * (1.0 + cosines[idle]), True
+    q = (vectors[V_P, first + step] / vectors[V_P, first + 2 * step]) ** 2
+    wanted = min(max((q - _END_VALUE) / _END_SLOPE, _END_RANGE[0]), _END_RANGE[1])
+    return _END_STEP * wanted * (1.0 + cosines[1]), False
 
 
 @kernel
-def _extend_to_ghosts(y, g, g_least, delta, modulus, n, n_panels, panels, cosines, vectors, centre):
+def _end_moves(y, n, n_panels, panels, cosines, vectors, damping):
+    """Moves of all panels' ends into V_R of their end strips; return the largest over the width, and whether any was cut."""
+    largest, cut = 0.0, False
+    for p in range(n_panels):
+        first, last = p * n, p * n + n - 1
+        low, high = panels[2 * p], panels[2 * p + 1]
+        half = 0.5 * (high - low)
+        move, is_cut = _end_move(vectors, n, first, 1, cosines)
+        vectors[V_R, first] = max(low - half * damping * move, y[0]) - low
+        cut = cut or is_cut
+        move, is_cut = _end_move(vectors, n, last, -1, cosines)
+        vectors[V_R, last] = min(high + half * damping * move, y[y.size - 1]) - high
+        cut = cut or is_cut
+        largest = max(largest, max(abs(vectors[V_R, first]), abs(vectors[V_R, last])) / (high - low))
+    return largest, cut
+
+
+@kernel
+def _extend_to_ghosts(y, g, g_least, delta, least, modulus, n, n_panels, panels, cosines, vectors, centre):
     """Where the gap outside all panels would be overlapped, widen the nearest panel or open a new one.
 
     Without this a second patch that the start solution missed stays unseen (strip_halfspace.md 2, step 5). Returns the
@@ -215,17 +247,18 @@ def _extend_to_ghosts(y, g, g_least, delta, modulus, n, n_panels, panels, cosine
             continue
         checked = y[i]
         u = displacement_outside(y[i], n, n_panels, panels, cosines, vectors, centre, modulus)
-        if delta - (g[i] - g_least) - u <= 1e-3 * delta:
+        if delta - (g[i] - g_least) - u <= least * delta:
             i += 1
             continue
         # overlap at y[i]: how far does it go
         k = i
         while k + 1 < size and g[k + 1] - g_least < delta:
             u = displacement_outside(y[k + 1], n, n_panels, panels, cosines, vectors, centre, modulus)
-            if delta - (g[k + 1] - g_least) - u <= 1e-3 * delta:
+            if delta - (g[k + 1] - g_least) - u <= least * delta:
                 break
             k += 1
-        low, high = y[max(i - 1, 0)], y[min(k + 1, size - 1)]
+        margin = 1 if least <= _GHOST else 0  # while the ends still move, no further than necessary
+        low, high = y[max(i - margin, 0)], y[min(k + margin, size - 1)]
         nearest, distance = 0, math.inf
         for p in range(n_panels):
             d = max(panels[2 * p] - high, low - panels[2 * p + 1])
@@ -235,6 +268,7 @@ def _extend_to_ghosts(y, g, g_least, delta, modulus, n, n_panels, panels, cosine
         if distance > 0.05 * width and n_panels < MAX_PATCHES:
             p = n_panels
             n_panels += 1
+            low, high = y[max(i - 1, 0)], y[min(k + 1, size - 1)]
             panels[2 * p], panels[2 * p + 1] = low, high
             reference = 0.0
             for j in range(n):
@@ -263,52 +297,24 @@ def _remove_panel(p, n, n_panels, panels, vectors):
     for q in range(p, n_panels - 1):
         panels[2 * q], panels[2 * q + 1] = panels[2 * q + 2], panels[2 * q + 3]
         for i in range(n):
-            vectors[V_LN_A, q * n + i] = vectors[V_LN_A, (q + 1) * n + i]
-            vectors[V_ACTIVE, q * n + i] = vectors[V_ACTIVE, (q + 1) * n + i]
-            vectors[V_P, q * n + i] = vectors[V_P, (q + 1) * n + i]
+            for row in (V_LN_A, V_ACTIVE, V_P, V_A, V_HALF, V_R):
+                vectors[row, q * n + i] = vectors[row, (q + 1) * n + i]
 
 
 @kernel
-def _move_panels(y, n, n_panels, panels, cosines, vectors, damping):
-    """Move the ends of all panels; drop unloaded panels, join touching ones. Returns count, largest move, restructured."""
-    largest = 0.0
-    restructured = False
+def _remove_unloaded(n, n_panels, panels, vectors):
+    """Drop the panels that carry nothing; return the number of those left."""
     p = 0
     while p < n_panels:
-        first = p * n
-        loaded_first, loaded_last = -1, -1
+        loaded = False
         for i in range(n):
-            if vectors[V_P, first + i] > 0.0:
-                loaded_last = i
-                if loaded_first < 0:
-                    loaded_first = i
-        if loaded_first < 0:
+            loaded = loaded or vectors[V_P, p * n + i] > 0.0
+        if loaded:
+            p += 1
+        else:
             _remove_panel(p, n, n_panels, panels, vectors)
             n_panels -= 1
-            restructured = True
-            continue
-        low, high = panels[2 * p], panels[2 * p + 1]
-        centre, half = 0.5 * (low + high), 0.5 * (high - low)
-        end = half * (1.0 + cosines[1])
-        if loaded_first >= 2:
-            new_low = centre + half * cosines[loaded_first - 1]
-        else:
-            new_low = low - _move_end(vectors, n, first, True, end, damping)
-        if loaded_last <= n - 3:
-            new_high = centre + half * cosines[loaded_last + 2]
-        else:
-            new_high = high + _move_end(vectors, n, first, False, end, damping)
-        new_low, new_high = max(new_low, y[0]), min(new_high, y[y.size - 1])
-        if new_high - new_low < 0.05 * (high - low):  # cannot happen in one step unless the panel is spurious
-            new_low, new_high = centre - 0.25 * half, centre + 0.25 * half
-        largest = max(largest, (abs(new_low - low) + abs(new_high - high)) / (high - low))
-        if loaded_first >= 2 or loaded_last <= n - 3:
-            _resample(low, high, new_low, new_high, cosines, vectors, first)
-            vectors[V_ACTIVE, first : first + n] = 1.0
-            restructured = True
-        panels[2 * p], panels[2 * p + 1] = new_low, new_high
-        p += 1
-    return n_panels, largest, restructured
+    return n_panels
 
 
 @kernel
@@ -337,26 +343,63 @@ def _join_panels(n, n_panels, panels, cosines, vectors):
 
 
 @kernel
-def _extrapolate(vectors, total, N, kept):
-    """Anderson's mixing of depth one on ln a, weighted with the strip loads; needs the same strips as the step before."""
-    theta = 0.0
-    if kept:
-        above, below = 0.0, 0.0
+def _advance(n, n_panels, panels, vectors, load, known, gram):
+    """Next half lengths and ends by Anderson's mixing over the last `DEPTH` of the `known` steps, weighted with strip loads.
+
+    The end strips' entries of the residual V_R and of the steps stand for the ends of their panel. Steps and changes of the
+    residual are kept in rings of rows.
+    """
+    total = n * n_panels
+    if known > 0:
+        row = (known - 1) % DEPTH
         for i in range(total):
-            weight = vectors[V_P, i] * vectors[V_A, i] * vectors[V_HALF, i]
-            difference = vectors[V_R, i] - vectors[V_R_OLD, i]
-            above += weight * vectors[V_R, i] * difference
-            below += weight * difference * difference
-        if below > 0.0:
-            theta = min(max(above / below, -1.5), 0.5)
+            vectors[V_STEPS + row, i] = vectors[V_STEP, i]
+            vectors[V_CHANGES + row, i] = vectors[V_R, i] - vectors[V_R_OLD, i]
+    depth = min(known, DEPTH)
     for i in range(total):
-        here, r = vectors[V_LN_A, i], vectors[V_R, i]
-        change = r
-        if theta != 0.0:
-            change = r - theta * (here - vectors[V_LN_A_OLD, i] + r - vectors[V_R_OLD, i])
-        vectors[V_LN_A_OLD, i] = here
-        vectors[V_R_OLD, i] = r
-        vectors[V_LN_A, i] = here + min(max(change, -0.8), 0.8)
+        weight = vectors[V_P, i] * vectors[V_A, i] * vectors[V_HALF, i] / load
+        place = i % n
+        if place == 0 or place == n - 1:
+            width = panels[2 * (i // n) + 1] - panels[2 * (i // n)]
+            weight = _END_WEIGHT / (width * width)
+        vectors[V_Q1, i] = weight
+        vectors[V_STEP, i] = vectors[V_R, i]
+        vectors[V_R_OLD, i] = vectors[V_R, i]
+    for k in range(depth):
+        for m in range(depth):
+            product = 0.0
+            for i in range(total):
+                product += vectors[V_Q1, i] * vectors[V_CHANGES + k, i] * vectors[V_CHANGES + m, i]
+            gram[k, m] = product
+        product = 0.0
+        for i in range(total):
+            product += vectors[V_Q1, i] * vectors[V_CHANGES + k, i] * vectors[V_R, i]
+        gram[k, depth] = product
+        gram[k, k] *= 1.0 + 1e-8
+        gram[k, k] += 1e-30
+    for k in range(depth):
+        for m in range(k + 1, depth):
+            factor = gram[m, k] / gram[k, k]
+            for c in range(k, depth + 1):
+                gram[m, c] -= factor * gram[k, c]
+    for k in range(depth - 1, -1, -1):
+        for m in range(k + 1, depth):
+            gram[k, depth] -= gram[k, m] * gram[m, depth]
+        gram[k, depth] /= gram[k, k]
+    for k in range(depth):
+        for i in range(total):
+            vectors[V_STEP, i] -= gram[k, depth] * (vectors[V_STEPS + k, i] + vectors[V_CHANGES + k, i])
+    for p in range(n_panels):
+        first, last = p * n, p * n + n - 1
+        for i in range(first + 1, last):
+            vectors[V_STEP, i] = min(max(vectors[V_STEP, i], -0.8), 0.8)
+            vectors[V_LN_A, i] += vectors[V_STEP, i]
+        bound = 0.25 * (panels[2 * p + 1] - panels[2 * p])
+        vectors[V_STEP, first] = min(max(vectors[V_STEP, first], -bound), bound)
+        vectors[V_STEP, last] = min(max(vectors[V_STEP, last], -bound), bound)
+        panels[2 * p] += vectors[V_STEP, first]
+        panels[2 * p + 1] += vectors[V_STEP, last]
+        vectors[V_LN_A, first], vectors[V_LN_A, last] = vectors[V_LN_A, first + 1], vectors[V_LN_A, last - 1]
 
 
 @kernel
@@ -433,55 +476,59 @@ def strip_halfspace(y, g, A, xc, case, rule, tables, space, strips, result):
     if n_panels == 0:
         n_panels = _start_panels(n_strips, n, strips, result, panels, rule.cosines, vectors)
 
-    converged, kept = False, False
-    delta, iteration = 0.0, 0
+    converged = False
+    delta, iteration, known = 0.0, 0, 0
     for iteration in range(MAX_ITERATIONS):
         total = n * n_panels
         _lay_panels(y, g, A, xc, g_least, space.grid, panels, n_panels, rule.cosines, vectors)
         distances(panels, n_panels, rule.cosines, rule.cosine_logs, vectors, space.logs)
         _half_lengths(vectors, n, n_panels)
-        assemble(n, n_panels, vectors, space.logs, tables.centre, tables.plane, skewed, modulus, space.matrix)
+        assemble(
+            n, n_panels, vectors, space.logs, tables.centre, tables.plane, skewed, modulus, space.matrix, space.logs
+        )
         delta = solve_active(n, n_panels, vectors, space.matrix, space.lu, by_load, amount, iteration < 8)
         # the strip ends: stretch each strip by the ratio of the overlap at its ends to the one that a parabola leaves
         error, load = 0.0, 0.0
         for i in range(total):
             vectors[V_R, i] = 0.0
             if vectors[V_P, i] > 0.0:
-                u = edge_displacement(i, n, n_panels, vectors, space.logs, tables.plane, skewed, modulus)
+                u = 0.0
+                for j in range(total):
+                    u += space.logs[i, j] * vectors[V_P, j]
                 ratio = (delta - vectors[V_GAP, i] - u) / (vectors[V_CURVATURE, i] * vectors[V_A, i] ** 2)
                 r = 0.5 * math.log(min(max(ratio, 0.2), 5.0))
                 vectors[V_R, i] = r
                 weight = vectors[V_P, i] * vectors[V_A, i] * vectors[V_HALF, i]
                 load += weight
                 error += 0.0 if i % n in (0, n - 1) else weight * abs(r)
-        for p in range(n_panels):  # end strips only follow their neighbours
-            vectors[V_LN_A, p * n] = vectors[V_LN_A, p * n + 1]
-            vectors[V_LN_A, p * n + n - 1] = vectors[V_LN_A, p * n + n - 2]
-        damping = 0.6 * 0.75 ** max(iteration - 6, 0)
-        for p in range(2 * n_panels):
-            vectors[V_Q1, p] = panels[p]
-        old_panels = n_panels
-        n_panels, moved, restructured = _move_panels(y, n, n_panels, panels, rule.cosines, vectors, damping)
-        settled = not restructured and load > 0.0 and error < TOLERANCE * load and moved < 2.0 * TOLERANCE
+        damping = 0.75 ** max(iteration - _MIXED_ITERATIONS, 0)
+        before = n_panels
+        n_panels = _remove_unloaded(n, n_panels, panels, vectors)
+        if n_panels == 0:
+            break
+        moved, restructured = _end_moves(y, n, n_panels, panels, rule.cosines, vectors, damping)
+        if restructured or n_panels < before:
+            known = 0
+        settled = not restructured and error < TOLERANCE * load and moved < 2.0 * TOLERANCE
+        ghosts = False
         if settled or iteration == 1:
-            if settled:
-                for p in range(
-                    2 * n_panels
-                ):  # the last move is below the tolerance: keep the ends that were solved for
-                    panels[p] = vectors[V_Q1, p]
+            least = _GHOST if settled else _EARLY_GHOST
             n_panels, ghosts = _extend_to_ghosts(
-                y, g, g_least, delta, modulus, n, n_panels, panels, rule.cosines, vectors, tables.centre
+                y, g, g_least, delta, least, modulus, n, n_panels, panels, rule.cosines, vectors, tables.centre
             )
             if settled and not ghosts:
                 converged = True
                 break
-            restructured = restructured or ghosts
-        if not restructured:
-            _extrapolate(vectors, total, load, kept)
+        if ghosts:
+            known = 0
+        else:
+            _advance(n, n_panels, panels, vectors, load, known, space.lu)
+            known += 1
+        if restructured:
+            vectors[V_ACTIVE, : n_panels * n] = 1.0
         n_panels, joined = _join_panels(n, n_panels, panels, rule.cosines, vectors)
-        kept = not restructured and not joined and old_panels == n_panels
-        if n_panels == 0:
-            break
+        if restructured or joined or iteration >= _MIXED_ITERATIONS:
+            known = 0
 
     memory[MEM_PANELS] = n_panels
     for i in range(n_panels * n):

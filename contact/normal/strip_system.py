@@ -3,13 +3,14 @@
 import math
 
 from contact._jit import kernel
-from contact.normal.influence import anywhere, at_centre
+from contact.normal.influence import anywhere, at_centre, in_row, row_at
 
 # vectors[ROW, i]: per strip of all panels
-V_Y, V_HALF, V_GAP, V_A, V_CURVATURE, V_XC, V_P, V_Q1, V_Q2, V_R, V_R_OLD, V_LN_A, V_LN_A_OLD, V_ACTIVE, V_INDEX = (
-    range(15)
-)
-N_VECTOR_ROWS = 15
+V_Y, V_HALF, V_GAP, V_A, V_CURVATURE, V_XC, V_P, V_Q1, V_Q2, V_R, V_R_OLD, V_LN_A, V_STEP, V_ACTIVE, V_INDEX = range(15)
+#: Steps and changes of the residual of the last iterations.
+DEPTH = 3
+V_STEPS, V_CHANGES = 15, 15 + DEPTH
+N_VECTOR_ROWS = 15 + 2 * DEPTH
 
 
 @kernel
@@ -36,49 +37,39 @@ def distances(panels, n_panels, cosines, cosine_logs, vectors, logs):
 
 
 @kernel
-def assemble(n, n_panels, vectors, logs, centre, plane, skewed, modulus, matrix):
-    """Displacement at the centre of strip i by unit peak pressure on strip j, into matrix[i, j]."""
+def assemble(n, n_panels, vectors, logs, centre, plane, skewed, modulus, matrix, edges):
+    """Displacement at strip i by unit peak pressure on strip j: on the centre line into matrix[i, j], at the ends into edges.
+
+    Under yaw the latter is the mean of both ends. `edges` may be `logs`, whose entries are not needed any more then.
+    """
     total = n * n_panels
     for j in range(total):
-        a = vectors[V_A, j]
-        ln_a = math.log(a)
-        scale = a / (math.pi * modulus)
-        edge = j + j // n  # first of its two edges
-        for i in range(total):
-            left, right = logs[i, edge] - ln_a, logs[i, edge + 1] - ln_a
-            X = abs(vectors[V_XC, i] - vectors[V_XC, j]) / a if skewed else 0.0
-            if X > 1e-9:
-                low, high = anywhere(plane, X, left), anywhere(plane, X, right)
+        vectors[V_Q1, j] = math.log(vectors[V_A, j])
+        vectors[V_Q2, j] = 1.0 / vectors[V_A, j]
+    for i in range(total):
+        a_i, xc_i, ln_i = vectors[V_A, i], vectors[V_XC, i], vectors[V_Q1, i]
+        for j in range(total):
+            ln_a, inverse = vectors[V_Q1, j], vectors[V_Q2, j]
+            k = j + j // n  # first of its two edges
+            left, right = logs[i, k] - ln_a, logs[i, k + 1] - ln_a
+            offset = (xc_i - vectors[V_XC, j]) * inverse if skewed else 0.0
+            sign = 1.0 if i == j else -1.0
+            if abs(offset) > 1e-9:
+                low, high = anywhere(plane, abs(offset), left), anywhere(plane, abs(offset), right)
             else:
                 low, high = at_centre(centre, left), at_centre(centre, right)
-            if vectors[V_Y, i] == vectors[V_Y, j]:
-                matrix[i, j] = scale * (low + high)
+            scale = vectors[V_A, j] / (math.pi * modulus)
+            matrix[i, j] = scale * abs(high + sign * low)
+            if abs(offset) > 1e-9:
+                X = abs(a_i * inverse + offset)
+                total_end = abs(anywhere(plane, X, right) + sign * anywhere(plane, X, left))
+                X = abs(a_i * inverse - offset)
+                total_end += abs(anywhere(plane, X, right) + sign * anywhere(plane, X, left))
+                edges[i, j] = 0.5 * scale * total_end
             else:
-                matrix[i, j] = scale * abs(high - low)
-
-
-@kernel
-def edge_displacement(i, n, n_panels, vectors, logs, plane, skewed, modulus):
-    """Displacement at the ends of strip i by the pressure of all strips (mean of both ends under yaw)."""
-    u = 0.0
-    for j in range(n * n_panels):
-        p = vectors[V_P, j]
-        if p == 0.0:
-            continue
-        a = vectors[V_A, j]
-        ln_a = math.log(a)
-        edge = j + j // n
-        left, right = logs[i, edge] - ln_a, logs[i, edge + 1] - ln_a
-        own = vectors[V_Y, i] == vectors[V_Y, j]
-        value = 0.0
-        sides = 2 if skewed else 1
-        for side in range(sides):
-            sign = 1.0 if side == 0 else -1.0
-            X = abs(sign * vectors[V_A, i] + vectors[V_XC, i] - vectors[V_XC, j]) / a
-            low, high = anywhere(plane, X, left), anywhere(plane, X, right)
-            value += low + high if own else abs(high - low)
-        u += p * a / (math.pi * modulus) * value / sides
-    return u
+                row, share, ln_X = row_at(a_i * inverse, ln_i - ln_a)
+                low, high = in_row(plane, row, share, left - ln_X), in_row(plane, row, share, right - ln_X)
+                edges[i, j] = scale * abs(high + sign * low)
 
 
 @kernel
