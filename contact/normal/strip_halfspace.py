@@ -68,8 +68,8 @@ _END_RANGE = (-3.0, 20.0)  # of one move outwards before damping, in widths of t
 #: Overlap outside the panels, over the approach, that counts as missed contact, early and in the end.
 _EARLY_GHOST, _GHOST = 2e-2, 1e-3
 
-# memory[...]: what a later call may start from: number of panels, their ends, then ln a of their strips
-MEM_PANELS, MEM_ENDS, MEM_LN_A = 0, 1, 1 + 2 * MAX_PATCHES
+# memory[...]: what a later call may start from: number of panels, their ends, the outer ends of ANALYN's patches, then ln a
+MEM_PANELS, MEM_ENDS, MEM_START, MEM_LN_A = 0, 1, 1 + 2 * MAX_PATCHES, 3 + 2 * MAX_PATCHES
 
 
 @kernel
@@ -461,6 +461,7 @@ def strip_halfspace(y, g, A, xc, case, rule, tables, space, strips, result):
     g_least = result[RES_TOUCH]
     amount = case[CASE_LOAD] if by_load else case[CASE_LOAD] - g_least
     panels = memory[MEM_ENDS : MEM_ENDS + 2 * MAX_PATCHES]
+    start_low, start_high = result[RES_EDGES], result[RES_EDGES + 2 * int(strips[STRIP_PATCH, n_strips - 1]) + 1]
     skewed = False
     for i in range(1, size):
         skewed = skewed or abs(xc[i] - xc[0]) > 1e-9 * (y[size - 1] - y[0])
@@ -469,7 +470,12 @@ def strip_halfspace(y, g, A, xc, case, rule, tables, space, strips, result):
         vectors[V_ACTIVE, : n_panels * n] = 1.0
         for i in range(n_panels * n):
             vectors[V_LN_A, i] = memory[MEM_LN_A + i]
+        # the panels move as ANALYN's patch has moved: a mean shift, small against the patch or not to be believed
+        shift = 0.5 * (start_low + start_high - memory[MEM_START] - memory[MEM_START + 1])
+        shift = shift if abs(shift) < 0.02 * (start_high - start_low) else 0.0
         for p in range(n_panels):
+            panels[2 * p] += shift
+            panels[2 * p + 1] += shift
             panels[2 * p], panels[2 * p + 1] = max(panels[2 * p], y[0]), min(panels[2 * p + 1], y[size - 1])
             if not panels[2 * p] < panels[2 * p + 1]:
                 n_panels = 0  # the memory is of another place
@@ -530,7 +536,7 @@ def strip_halfspace(y, g, A, xc, case, rule, tables, space, strips, result):
         if restructured or joined or iteration >= _MIXED_ITERATIONS:
             known = 0
 
-    memory[MEM_PANELS] = n_panels
+    memory[MEM_PANELS], memory[MEM_START], memory[MEM_START + 1] = n_panels, start_low, start_high
     for i in range(n_panels * n):
         memory[MEM_LN_A + i] = vectors[V_LN_A, i]
     result[RES_ITERATIONS] = iteration + 1.0

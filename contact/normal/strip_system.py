@@ -96,19 +96,21 @@ def _eliminate(lu, m, first, second):
     """Solve lu·x = first and = second in place by Gaussian elimination; the influence matrix needs no pivoting."""
     for k in range(m):
         inverse = 1.0 / lu[k, k]
+        pivot = lu[k]
         for i in range(k + 1, m):
-            factor = lu[i, k] * inverse
-            if factor != 0.0:
-                for j in range(k + 1, m):
-                    lu[i, j] -= factor * lu[k, j]
-                first[i] -= factor * first[k]
-                second[i] -= factor * second[k]
+            row = lu[i]
+            factor = row[k] * inverse
+            for j in range(k + 1, m):
+                row[j] -= factor * pivot[j]
+            first[i] -= factor * first[k]
+            second[i] -= factor * second[k]
     for k in range(m - 1, -1, -1):
-        x, z = first[k], second[k]
-        for j in range(k + 1, m):
-            x -= lu[k, j] * first[j]
-            z -= lu[k, j] * second[j]
-        first[k], second[k] = x / lu[k, k], z / lu[k, k]
+        inverse = 1.0 / lu[k, k]
+        first[k] *= inverse
+        second[k] *= inverse
+        for i in range(k):
+            first[i] -= lu[i, k] * first[k]
+            second[i] -= lu[i, k] * second[k]
 
 
 @kernel
