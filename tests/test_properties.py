@@ -1,0 +1,131 @@
+"""What must hold for every method and every separation, drawn by hypothesis (issue "Smoothness and robustness")."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+import contact
+from benchmarks import robustness
+from tests.test_solve import assert_post_conditions
+
+NORMAL, TANGENTIAL = list(contact.methods().normal), list(contact.methods().tangential)
+MU = 0.3
+few = settings(max_examples=40, deadline=None)
+normals, tangentials = st.sampled_from(NORMAL), st.sampled_from(TANGENTIAL)
+loads = st.floats(1.0, 5.2).map(lambda u: 10.0**u)
+creepages = st.builds(
+    lambda signs, sizes: tuple(s * 10.0**u for s, u in zip(signs, sizes, strict=True)),
+    st.tuples(*[st.sampled_from([-1.0, 0.0, 1.0])] * 3),
+    st.tuples(st.floats(-8, 0), st.floats(-8, 0), st.floats(-6, 0.7)),
+)
+
+
+@st.composite
+def separations(draw, kinds=tuple(robustness.KINDS)):
+    """Real, worn, near-conformal, nearly flat, two-lobed, asymmetric and noisy separations."""
+    kind = draw(st.sampled_from(kinds))
+    return robustness.KINDS[kind](np.random.default_rng(draw(st.integers(0, 10_000))))
+
+
+def solve(separation, creepage=(0.0, 0.0, 0.0), **options):
+    return contact.solve(separation, contact.Creepage(*creepage), friction=MU, throw=False, **options)
+
+
+def force(sol):
+    """(Fx, Fy)/(mu N) and Mz/(mu N √(area/pi))."""
+    scale = MU * sol.N
+    return np.array([sol.Fx / scale, sol.Fy / scale, sol.Mz / (scale * math.sqrt(sol.area / math.pi))])
+
+
+@few
+@given(separations(), creepages, loads, normals, tangentials)
+def test_post_conditions_on_any_separation(separation, creepage, load, normal, tangential):
+    """|F| ≤ μN, |q| ≤ μp, dissipation ≥ 0, Σ p dA = N, also where the iteration stops at its cap."""
+    sol = solve(separation, creepage, load=load, normal=normal, tangential=tangential)
+    assert abs(sol.N / load - 1.0) < 1e-12
+    assert sol.iterations <= robustness.CAPS[normal]
+    assert_post_conditions(sol)
+
+
+@few
+@given(separations(), creepages, loads, st.sampled_from(["analyn", "hertz"]), tangentials)
+def test_opposite_creepages_give_opposite_forces(separation, creepage, load, normal, tangential):
+    """theory.md 2.6: the sign operation holds for any patch."""
+    one = force(solve(separation, creepage, load=load, normal=normal, tangential=tangential))
+    minus = tuple(-c for c in creepage)
+    other = force(solve(separation, minus, load=load, normal=normal, tangential=tangential))
+    np.testing.assert_allclose(other, -one, atol=1e-12)
+
+
+@few
+@given(
+    separations(kinds=("pose", "worn", "ellipse", "near-conformal", "asymmetric")),
+    creepages,
+    st.floats(1e3, 2e5),
+    tangentials,
+)
+def test_the_mirror_image_has_the_mirrored_forces(separation, creepage, load, tangential):
+    """theory.md 2.6: y → −y turns Fy and Mz. Of more than four patches the last ones are merged, from the left."""
+    mirrored = contact.Separation(-separation.y[::-1], separation.g[::-1], separation.A[::-1], separation.x_c[::-1])
+    xi, eta, phi = creepage
+    one = solve(separation, creepage, load=load, tangential=tangential)
+    assume(one.n_patches < 4)
+    other = solve(mirrored, (xi, -eta, -phi), load=load, tangential=tangential)
+    assert other.approach == pytest.approx(one.approach, rel=1e-6, abs=1e-12)
+    np.testing.assert_allclose(force(other), force(one) * (1, -1, -1), atol=1e-5)
+
+
+@few
+@given(st.floats(-1.0, 2.0), creepages, loads, normals, tangentials)
+def test_the_mirror_image_of_an_ellipse_is_exact(ratio, creepage, load, normal, tangential):
+    separation = contact.Separation.hertzian(1.0, 10.0**ratio)
+    xi, eta, phi = creepage
+    one = force(solve(separation, creepage, load=load, normal=normal, tangential=tangential))
+    other = force(solve(separation, (xi, -eta, -phi), load=load, normal=normal, tangential=tangential))
+    np.testing.assert_allclose(other, one * (1, -1, -1), atol=1e-11 if normal != "strip_halfspace" else 1e-3)
+
+
+@few
+@given(st.floats(2.4, 3.5), creepages, st.floats(0.0, 2.0), normals, tangentials)
+def test_millimetres_and_newtons_give_the_same_forces(ratio, creepage, load, normal, tangential):
+    """ANALYN's two fixed lengths do not show: a parabola does not feel the base of B, nor B > 0.2 /mm the floor."""
+    si = contact.Separation.hertzian(300.0, 10.0**ratio)
+    mm = contact.Separation(si.y * 1e3, si.g * 1e3, si.A * 1e-3)
+    xi, eta, phi = creepage
+    options = {"load": 10.0**load, "normal": normal, "tangential": tangential}
+    one = solve(si, creepage, **options)
+    other = solve(mm, (xi, eta, phi * 1e-3), material=contact.Material(82e3, 0.28), **options)
+    np.testing.assert_allclose(force(other), force(one), atol=1e-6 if normal != "strip_halfspace" else 1e-3)
+
+
+@few
+@given(separations(), st.floats(-7.0, -4.0), st.floats(1e-6, 0.5), st.sampled_from(["analyn", "hertz"]))
+def test_load_rises_with_the_approach(separation, depth, step, normal):
+    touch = solve(separation, load=0.0, normal=normal).approach
+    first = solve(separation, approach=touch + 10.0**depth, normal=normal).N
+    second = solve(separation, approach=touch + (1.0 + step) * 10.0**depth, normal=normal).N
+    assert second > first > 0.0
+
+
+@few
+@given(separations(), loads, tangentials, st.tuples(*[st.floats(-1, 1)] * 3))
+def test_forces_are_continuous_at_zero_creepage(separation, load, tangential, direction):
+    """Halving a tiny creepage halves the force: no step, and no dead band."""
+    tiny = tuple(1e-9 * d for d in direction)
+    whole = force(solve(separation, tiny, load=load, tangential=tangential))
+    half = force(solve(separation, tuple(0.5 * t for t in tiny), load=load, tangential=tangential))
+    assert np.abs(whole).max() < 0.05
+    np.testing.assert_allclose(half, 0.5 * whole, atol=0.02 * np.abs(whole).max() + 1e-12)
+
+
+@few
+@given(separations(kinds=("pose", "worn", "ellipse")), st.floats(-5, 5), st.floats(-3e-3, 3e-3), st.floats(-3e-3, 3e-3))
+def test_mapped_forces_are_continuous_in_spin(separation, spin, xi, eta):
+    """Wherever strips pass |psi| = 1; the published FaStrip jumps there (`fastrip`: tests/tangential)."""
+    options = {"load": 8e4, "tangential": "fastrip_mapped"}
+    one = force(solve(separation, (xi, eta, spin), **options))
+    other = force(solve(separation, (xi, eta, spin + 1e-6), **options))
+    np.testing.assert_allclose(other, one, atol=2e-3)

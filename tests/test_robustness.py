@@ -1,0 +1,30 @@
+"""Hundreds of random but physical cases through every pair of methods; benchmarks/robustness.py runs 10⁵."""
+
+import itertools
+
+import pytest
+
+import contact
+from benchmarks import robustness
+
+PAIRS = list(itertools.product(contact.methods().normal, contact.methods().tangential))
+
+
+@pytest.mark.parametrize(("normal", "tangential"), PAIRS)
+def test_random_physical_cases_are_solved(normal, tangential):
+    found = robustness.run(normal, tangential, 320, seed=11, solved=16)
+    statuses = found["statuses"]
+    assert sum(statuses.values()) == 320
+    assert found["finite"] == 0, "results that are not finite"
+    assert found["iterations"] <= robustness.CAPS[normal]
+    assert found["force"] <= 1e-9, "|F| ≤ μN"
+    assert found["power"] >= 0.0, "dissipation"
+    assert found["work"] >= (-1e-9 if tangential != "fastsim" else -0.1), "dissipation of each element"
+    assert found["load"] <= 1e-9, "N = load"
+    assert found["sum"] <= 1e-9, "Σ p dA = N"
+    assert found["slip"] <= 1e-3, "0 ≤ slip ratio ≤ 1"
+    if tangential != "fastsim":  # its parabola exceeds mu p by design (thesis 4.2)
+        assert found["bound"] <= 1e-9, "|q| ≤ μp"
+    if normal != "strip_halfspace":
+        assert statuses[contact.Status.NOT_CONVERGED] == 0
+    assert statuses[contact.Status.OUT_OF_RANGE] <= 16
