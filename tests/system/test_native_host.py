@@ -94,9 +94,9 @@ def test_valgrind_finds_nothing(host):
     host("random_calls", 1000, before=check)
 
 
-@pytest.mark.parametrize(("platform", "tolerance"), [("host", 1e-12), ("windows", 1e-11)])
+@pytest.mark.parametrize(("platform", "tolerance"), [("host", 1e-12), ("windows", 1e-10)])
 def test_equals_the_solver_on_random_cases(platform, tolerance, request):
-    """On Windows with other mathematical functions, whose last digits differ; loads are iterated to 1e-11."""
+    """Windows has other mathematical functions; loads are iterated to 1e-11, and widths follow less closely."""
     run = request.getfixturevalue(platform)
     references = {s.name: r for r, s in enumerate(table(41).scalars)}
     reals = [s.name for s in table(41).scalars[references["force.x"] :] if s.name not in ("patch.count", "status")]
