@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint fmu accuracy bench format clean
+.PHONY: help demo test lint fmu accuracy bench smoothness pictures format clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -36,6 +36,10 @@ lint: $(READY)   ## ruff, mypy, import-linter
 accuracy: $(READY) ## the accuracy tables, beside CONTACT's, into docs/accuracy.md
 	PYTHONPATH=. $(BIN)/python benchmarks/accuracy.py --write docs/accuracy.md
 	PYTHONPATH=. $(BIN)/python benchmarks/unseen_patches.py --cases 60
+
+smoothness: $(READY) ## sweeps: jumps, noise and resolution, into docs/smoothness.md; random cases
+	PYTHONPATH=. $(BIN)/python benchmarks/smoothness.py --write docs/smoothness.md
+	PYTHONPATH=. $(BIN)/python benchmarks/robustness.py --cases 10000
 
 bench: $(READY)  ## the speed table
 	PYTHONPATH=. $(BIN)/python benchmarks/speed.py

@@ -123,6 +123,14 @@ class Solution:
     patch_edges: Array = field(repr=False)
     memory: Array = field(repr=False)
 
+    def __repr__(self) -> str:
+        return (
+            f"Solution({self.status.name}: N = {self.N:.6g} N, Fx = {self.Fx:.6g} N, Fy = {self.Fy:.6g} N, "
+            f"Mz = {self.Mz:.6g} N m, "
+            f"{self.n_patches} patch(es), {self.area * 1e6:.4g} mm², {self.max_pressure / 1e6:.5g} MPa; "
+            f"{self.normal} + {self.tangential})"
+        )
+
     @property
     def converged(self) -> bool:
         """True unless the iteration stopped at its cap."""

@@ -21,10 +21,15 @@ def drawing() -> Any:
     return plot
 
 
+PICTURES = (".png", ".pdf", ".svg")
+
+
 def write_picture(figure: Any, path: Path) -> None:
+    if path.suffix.lower() not in PICTURES:  # matplotlib would append one and write elsewhere than it says
+        raise ContactError(f"{path} cannot be written: a picture ends in one of {', '.join(PICTURES)}")
     try:
         figure.savefig(path)
-    except (OSError, ValueError) as error:  # matplotlib raises ValueError for an unknown suffix
+    except OSError as error:
         raise ContactError(f"{path} cannot be written: {error}") from None
     typer.echo(f"wrote {path}", err=True)
 

@@ -42,6 +42,7 @@ TAPE_FROM_FLANGE_BACK = 0.070  # [m] EN 13715: the tape circle lies 70 mm outsid
 #: Steeper parts of the profiles take no part in the search, whatever roll is allowed on top [rad].
 STEEPEST = {"wheel": math.radians(80.0), "rail": math.radians(86.0)}
 SAMPLES = 81
+MAX_PENETRATION = 2e-3  # [m] a wheel under 10 MN; more is a slip of units
 
 
 class Pair:
@@ -154,7 +155,7 @@ class Pair:
         if load is not None:
             mode, amount = LOAD, require_number("load", load, 0.0)
         elif penetration is not None:
-            mode, amount = PENETRATION, require_number("penetration", penetration, 0.0)
+            mode, amount = PENETRATION, require_number("penetration", penetration, 0.0, MAX_PENETRATION)
         self._move(pose, velocity or _ROLLING, irregularity or _IDEAL)
         n = settle(mode, amount, *self._curves, self._grid, *self._lines, *self._work)
         if n == NO_OVERLAP:

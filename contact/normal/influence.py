@@ -100,7 +100,7 @@ def tables() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 def at_centre(centre, log_t):
     """U(0, t) for t > 0 given by its logarithm; error below 1e-7."""
     u = (log_t - _LN_T_MIN) / _CENTRE_STEP
-    if u <= 0.0:
+    if not u > 0.0:  # so written, no NaN becomes an index, here and below
         t = math.exp(log_t)
         return 2.0 * t * (math.log(4.0) - log_t)
     if u >= _N_CENTRE - 1:
@@ -115,7 +115,7 @@ def at_centre(centre, log_t):
 @kernel
 def row_at(X, ln_X):
     """Row of the plane's table for X >= 0, the share of the next row, and what its ln t counts from (for `in_row`)."""
-    if X >= _X_MAX:
+    if not X < _X_MAX:
         return _N_X, 1.0 / (X * X), ln_X
     u = X / _X_STEP
     i = min(int(u), _N_X - 2)
@@ -126,7 +126,7 @@ def row_at(X, ln_X):
 def in_row(plane, i, u, log_t):
     """U(X, t) for t > 0, bilinear in the table at the row and share given by `row_at`; asymptotes beyond its range of t."""
     v = (log_t - _LN_T_LOW) / _T_STEP
-    if v < 0.0:  # U is nearly proportional to t there
+    if not v >= 0.0:  # U is nearly proportional to t there
         return math.exp(log_t - _LN_T_LOW) * (plane[i, 0] + u * (plane[i + 1, 0] - plane[i, 0]))
     k = min(int(v), _N_T - 2)
     extra = 0.0

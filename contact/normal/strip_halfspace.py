@@ -59,6 +59,8 @@ from contact.normal.strip_system import (
 MAX_ITERATIONS = 25
 #: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops.
 TOLERANCE = 1e-4
+#: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's answer is.
+USABLE = 0.02
 #: From here on plain steps with ends that move less and less: on rough gaps the end rule has no steady answer.
 _MIXED_ITERATIONS = 10
 #: Share of an end's move that its rule asks for, and its weight in the mixing beside the loads of all strips.
@@ -98,7 +100,7 @@ def _mean_gap(y, g, m, n, low, high, start):
         a, b = (at - y[i]) / h, (end - y[i]) / h
         total += _hermite_integral(h, g[i], m[i], g[i + 1], m[i + 1], b)
         total -= _hermite_integral(h, g[i], m[i], g[i + 1], m[i + 1], a)
-        if end >= high:
+        if end >= high or i >= n - 2:
             break
         at = end
         i += 1
@@ -447,7 +449,8 @@ def _write(n, n_panels, panels, cosines, vectors, y, work, strips, result):
 def strip_halfspace(y, g, A, xc, case, rule, tables, space, strips, result):
     """Solve the normal problem; same answers as `analyn`, which gives the start and the local aspect ratios.
 
-    A filled `space.memory` is the start instead of ANALYN's patch; it is left filled for the next call.
+    A filled `space.memory` is the start instead of ANALYN's patch; it is left filled for the next call. With status 5, not
+    converged, the answer is the last iterate if that was nearly at rest, and ANALYN's otherwise.
     """
     memory, vectors = space.memory, space.vectors
     n_strips = analyn(y, g, A, xc, case, rule.nodes, rule.weights, space.grid, strips, result)
@@ -483,7 +486,7 @@ def strip_halfspace(y, g, A, xc, case, rule, tables, space, strips, result):
         n_panels = _start_panels(n_strips, n, strips, result, panels, rule.cosines, vectors)
 
     converged = False
-    delta, iteration, known = 0.0, 0, 0
+    delta, iteration, known, error, load = 0.0, 0, 0, math.inf, 0.0
     for iteration in range(MAX_ITERATIONS):
         total = n * n_panels
         _lay_panels(y, g, A, xc, g_least, space.grid, panels, n_panels, rule.cosines, vectors)
@@ -493,6 +496,9 @@ def strip_halfspace(y, g, A, xc, case, rule, tables, space, strips, result):
             n, n_panels, vectors, space.logs, tables.centre, tables.plane, skewed, modulus, space.matrix, space.logs
         )
         delta = solve_active(n, n_panels, vectors, space.matrix, space.lu, by_load, amount, iteration < 8)
+        error, load = math.inf, 0.0
+        if not abs(delta) < math.inf:
+            break
         # the strip ends: stretch each strip by the ratio of the overlap at its ends to the one that a parabola leaves
         error, load = 0.0, 0.0
         for i in range(total):
@@ -536,10 +542,14 @@ def strip_halfspace(y, g, A, xc, case, rule, tables, space, strips, result):
         if restructured or joined or iteration >= _MIXED_ITERATIONS:
             known = 0
 
+    result[RES_ITERATIONS] = iteration + 1.0
+    if not converged and not (n_panels > 0 and error < USABLE * load):  # ANALYN's answer is still in place
+        result[RES_STATUS] = 5.0
+        memory[MEM_PANELS] = 0.0
+        return n_strips
     memory[MEM_PANELS], memory[MEM_START], memory[MEM_START + 1] = n_panels, start_low, start_high
     for i in range(n_panels * n):
         memory[MEM_LN_A + i] = vectors[V_LN_A, i]
-    result[RES_ITERATIONS] = iteration + 1.0
     count = _write(n, n_panels, panels, rule.cosines, vectors, y, space.grid, strips, result)
     N = 0.0
     for i in range(count):

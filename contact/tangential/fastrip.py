@@ -43,12 +43,11 @@ from contact._layout import (
     STRIP_XC,
     STRIP_Y,
 )
-from contact.quadrature import EL_ANGLE_END, EL_DX, EL_LOAD_END, EL_MOMENT_END, EL_S, EL_SINE
+from contact.quadrature import EL_DX, EL_LOAD_END, EL_MOMENT_END, EL_S, EL_SINE
 from contact.tangential.fastsim import NO_FRICTION, equivalent_ellipse
 from contact.tangential.lanes import LANES, NOW_SLIP, NOW_X, NOW_Y, keep, recall
 from contact.tangential.march import FREE_BEHIND_MARCH, ROW_X, ROW_Y, ROW_Z, march
 from contact.tangential.strip_theory import stick_resultants, stick_zone
-
 
 # rows of `lanes` behind those of the march
 (

@@ -12,6 +12,7 @@ import sys
 from collections.abc import Callable
 from enum import StrEnum
 from functools import wraps
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -89,6 +90,8 @@ class TableSlave(Fmi2Slave):
 
     #: Rows that are computed when somebody reads them, by `on_demand`.
     lazy: tuple[str, ...] = ()
+    #: Rows that tell a host at initialisation that what it set was refused.
+    refused: Rows = MappingProxyType({})
 
     def __init__(self, table: Table, guid: str, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -170,7 +173,11 @@ class TableSlave(Fmi2Slave):
     def exit_initialization_mode(self) -> None:
         """Fix the parameters and compute the outputs at the start."""
         self.phase = Phase.STEPPING
-        self._update(0.0)
+        try:
+            self._update(0.0)
+        except ContactError:
+            self.values = self.values.updated(self.refused)  # pythonfmu cannot return an error from here
+            raise
 
     @guarded
     def terminate(self) -> None:

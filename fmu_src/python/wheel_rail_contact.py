@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ class WheelRailContactSlave(TableSlave):
     """One wheel-rail contact in the plane of its separation; forces act on the wheel."""
 
     lazy = ("creep_stiffness",)
+    refused: Rows = MappingProxyType({"status": int(Status.OUT_OF_RANGE)})
 
     def __init__(self, points: int, guid: str, **kwargs: Any) -> None:
         super().__init__(table(points), guid, **kwargs)

@@ -115,3 +115,15 @@ def test_yaw_shears_the_patch_without_losing_load():
     assert sol.approach == pytest.approx(exact.approach, rel=2e-3)
     assert sol.max_pressure == pytest.approx(exact.p0, rel=5e-3)
     assert sol.area == pytest.approx(math.pi * exact.a * exact.b, rel=5e-3)
+
+
+def test_absurd_gap_is_answered_with_analyns_solution():
+    """A sample 500 000 km off made indices out of NaN: the answer is bounded and says that it did not converge."""
+    y = -0.02 + 0.001 * np.arange(41)
+    g = y**2
+    g[9] = 5e8
+    separation = contact.Separation(y, g, 1.0)
+    sol = contact.solve(separation, NO_CREEP, load=8e4, normal="strip_halfspace", throw=False)
+    start = contact.solve(separation, NO_CREEP, load=8e4, throw=False)
+    assert sol.status is contact.Status.NOT_CONVERGED
+    np.testing.assert_array_equal(sol.p, start.p)

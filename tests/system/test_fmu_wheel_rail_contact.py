@@ -271,6 +271,20 @@ def test_a_serialised_state_continues_in_another_instance_bit_by_bit(fmu, open_f
     assert trajectory(other, 5) == expected
 
 
+def test_a_start_value_out_of_range_is_not_answered_with_ok(open_fmu):
+    """pythonfmu cannot return an error from exitInitializationMode, so the status says it; the instance recovers."""
+    instance = open_fmu(NAME)
+    instance.fmu.setupExperiment(startTime=0.0)
+    instance.fmu.enterInitializationMode()
+    instance.update({"load.normal_force": -1.0})
+    instance.fmu.exitInitializationMode()
+    assert instance["status"] == contact.Status.OUT_OF_RANGE
+    assert any("load.normal_force = -1" in message for _, message in instance.log)
+    instance.update({"load.normal_force": 8e4})
+    instance.step()
+    assert instance["status"] == contact.Status.OK
+
+
 def test_reset_restores_every_start(fmu, open_fmu):
     trajectory(fmu, 0)
     fmu.fmu.reset()

@@ -383,17 +383,14 @@ def test_a_step_that_is_none_is_an_error_and_changes_nothing(fmu):
 
 
 def test_extreme_values_give_finite_outputs_or_none(open_native):
-    """Whatever finite numbers come in: no crash, no hang, no NaN. Not yet true of strip_halfspace.
-
-    There `contact.solve` itself runs out of its tables when one gap is 5e8 m; it is left out until the kernel holds.
-    """
+    """Whatever finite numbers come in: no crash, no hang, no NaN."""
     fmu = open_native().initialize()
     rng = np.random.default_rng(7)
     inputs = [v for v in fmu.variables.values() if v.causality == "input"]
     done = 0
     for _ in range(400):
         fmu.fmu.reset()
-        fmu.update({"method.normal": int(rng.integers(1, 3)), "method.tangential": int(rng.integers(1, 4))})
+        fmu.update({"method.normal": int(rng.integers(1, 4)), "method.tangential": int(rng.integers(1, 4))})
         for variable in rng.choice(inputs, rng.integers(1, 8)):
             magnitude = 10.0 ** rng.choice([-300.0, -30.0, -9.0, 0.0, 9.0, 30.0, 300.0]) * rng.uniform(-1.0, 1.0)
             fmu.update({variable.name: abs(magnitude) if rng.random() < 0.8 else magnitude})
