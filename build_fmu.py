@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import argparse
 import time
+from importlib.util import find_spec
 from pathlib import Path
 
 try:
+    from fmu_src.catalogue import Model, models
     from fmu_src.documentation import markdown
     from fmu_src.python import packaging as python
 except ModuleNotFoundError as error:
@@ -37,7 +39,7 @@ def main() -> None:
     if arguments.points < 3:
         parser.error(f"--points {arguments.points}: a separation has at least 3 samples")
 
-    chosen = python.models(arguments.points)
+    chosen = models(arguments.points)
     if arguments.describe:
         print("\n".join(markdown(model.table) for model in chosen))
         return
@@ -46,11 +48,17 @@ def main() -> None:
             print(f"{model.table.name}, for hosts with Python ... ", end="", flush=True)
             print(_size(python.build(model, arguments.out)))
     if arguments.packaging != "python":
-        build_native(arguments.points, arguments.out / "native")
+        for model in filter(native_too, chosen):
+            build_native(model, arguments.out / "native")
 
 
-def build_native(points: int, folder: Path) -> None:
-    """Build the FMU that needs no Python, telling how far it has come."""
+def native_too(model: Model) -> bool:
+    """Whether there is a native component of this model."""
+    return find_spec(f"fmu_src.native.{model.name}") is not None
+
+
+def build_native(model: Model, folder: Path) -> None:
+    """Build an FMU that needs no Python, telling how far it has come."""
     from fmu_src.native import packaging as native
 
     begin = time.monotonic()
@@ -58,8 +66,8 @@ def build_native(points: int, folder: Path) -> None:
     def say(what: str) -> None:
         print(f"  {time.monotonic() - begin:3.0f} s  {what}", flush=True)
 
-    print("WheelRailContact, native:")
-    say(_size(native.build(points, folder, OBJECTS, say)))
+    print(f"{model.table.name}, native:")
+    say(_size(native.build(model, folder, OBJECTS, say)))
 
 
 def _size(path: Path) -> str:

@@ -73,6 +73,8 @@ class Variable:
         Empty for a scalar.
     depends : tuple of str, optional
         Rows (inputs and parameters) that an output is a function of; None means all of them.
+    derivative_of : str, optional
+        Row of which this output is the derivative by time: in model exchange that one is a continuous state.
     """
 
     name: str
@@ -88,6 +90,7 @@ class Variable:
     integer: bool = False
     shape: tuple[int, ...] = ()
     depends: tuple[str, ...] | None = None
+    derivative_of: str | None = None
 
     @property
     def kind(self) -> Kind:
@@ -179,6 +182,16 @@ class Table:
         object.__setattr__(self, "row", {row.name: row for row in self.rows})
         object.__setattr__(self, "scalars", tuple(scalars))
         object.__setattr__(self, "span", span)
+
+    @property
+    def derivatives(self) -> list[Variable]:
+        """Derivatives of the continuous states, in the states' order."""
+        return [row for row in self.rows if row.derivative_of is not None]
+
+    @property
+    def states(self) -> list[Variable]:
+        """Continuous states, in the order of their derivatives."""
+        return [self.row[row.derivative_of] for row in self.derivatives if row.derivative_of is not None]
 
     def references(self, name: str) -> range:
         """Value references of the row named `name`."""

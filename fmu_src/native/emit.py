@@ -1,6 +1,6 @@
 """From kernels to object files: numba's IR, freed of everything that is Python, compiled for each platform.
 
-Run as a program, ``python -m fmu_src.native.emit POINTS FOLDER``, since numba must be told before it is imported
+Run as a program, ``python -m fmu_src.native.emit NAME OPTIONS FOLDER``, since numba must be told before it is imported
 not to optimise and not to know this machine: loops that arrive unrolled vectorise badly later, and code for this very CPU
 would not run on another. numba's conventions used here (the prefix `cfunc.`, the arguments of a function's body, the names
 of its runtime) are not documented; pyproject.toml pins numba's version for the build, and tests compare results.
@@ -8,13 +8,16 @@ of its runtime) are not documented; pyproject.toml pins numba's version for the 
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import sys
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from fmu_src.native.component import Component
 
 #: Environment of the process that emits, before numba is imported.
 ENVIRONMENT = {
@@ -37,22 +40,13 @@ _LIBM = {"acos", "asin", "asinh", "atan", "atan2", "atanh", "cos", "exp", "log",
 ALLOWED = _LIBM | {"memset", "memcpy", "memmove"}
 
 
-@dataclass(frozen=True)
-class Entry:
-    """A function that C calls: types of its result and arguments, and the Python function that numba compiles."""
-
-    result: Any
-    arguments: tuple[Any, ...]
-    function: Callable[..., Any]
-
-
 def objects(folder: Path, platform: str) -> list[Path]:
     """Paths of what `emit` writes for a platform: the data, and the kernels for each processor."""
     return [folder / f"{platform}-{part}.o" for part in ("data", *CPUS)]
 
 
-def emit(entries: Mapping[str, Entry], data: Iterable[Any], folder: Path) -> None:
-    """Write the `objects` of every platform; the kernels' names end with that of the processor, model_outputs_v2.
+def emit(component: Component, folder: Path) -> None:
+    """Write a component's `objects` for every platform; the kernels' names end with that of the processor, model_outputs_v2.
 
     Raises
     ------
@@ -63,7 +57,8 @@ def emit(entries: Mapping[str, Entry], data: Iterable[Any], folder: Path) -> Non
 
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
-    arrays = list(data)
+    arrays = component.data()
+    entries = component.entries()
     module = _linked(entries, arrays)
     text = _without_origin(str(module))
     for platform, triple in TRIPLES.items():
@@ -85,7 +80,7 @@ def _write(module: Any, machine: Any, triple: str, path: Path) -> None:
     path.write_bytes(machine.emit_object(module))
 
 
-def _constants(data: list[Any]) -> str:
+def _constants(data: Sequence[Any]) -> str:
     """IR of the arrays as constants that all kernels share."""
     lines = []
     for i, array in enumerate(data):
@@ -94,19 +89,20 @@ def _constants(data: list[Any]) -> str:
     return "\n".join(lines)
 
 
-def _linked(entries: Mapping[str, Entry], data: list[Any]) -> Any:
+def _linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any]) -> Any:
     """One module of all entries, in which these alone are visible."""
     from llvmlite import binding as llvm
     from numba import cfunc
 
+    from fmu_src.native.component import SIGNATURES
     from fmu_src.native.memory import Doubles
 
     module, glue = None, _Glue(data)
-    for name, entry in entries.items():
-        arguments = (*entry.arguments, *(Doubles for _ in data))
-        compiled = cfunc(entry.result(*arguments), error_model="numpy")(entry.function)
+    for name, (result, arguments) in SIGNATURES.items():
+        signature = result(*arguments, *(Doubles for _ in data))
+        compiled = cfunc(signature, error_model="numpy")(entries[name])
         text = re.sub(r"^target .*$", "", compiled.inspect_llvm(), flags=re.MULTILINE)
-        glue.add(name, entry, compiled.native_name.removeprefix("cfunc."))
+        glue.add(name, result, arguments, compiled.native_name.removeprefix("cfunc."))
         part = llvm.parse_assembly(text)
         if module is None:
             module = part
@@ -127,7 +123,7 @@ def _linked(entries: Mapping[str, Entry], data: list[Any]) -> Any:
 class _Glue:
     """IR of functions with C's conventions around numba's, and of the constant data that these are given."""
 
-    def __init__(self, data: list[Any]) -> None:
+    def __init__(self, data: Sequence[Any]) -> None:
         self.data = data
         # Arrays of kernels belong to the caller and have no reference count; that numba's runtime is needed for nothing
         # else is what the list of allowed symbols proves.
@@ -135,11 +131,11 @@ class _Glue:
         for i, array in enumerate(data):
             self.lines.append(f"@model_data{i} = external hidden constant [{array.nbytes} x i8], align 64")
 
-    def add(self, name: str, entry: Entry, body: str) -> None:
+    def add(self, name: str, result: Any, arguments: Sequence[Any], body: str) -> None:
         """A function `name` that calls numba's `body`, i32 body(result*, exception**, arguments…), which never fails."""
-        names = [f"{_TYPES[str(a)]} %a{i}" for i, a in enumerate(entry.arguments)]
+        names = [f"{_TYPES[str(a)]} %a{i}" for i, a in enumerate(arguments)]
         constants = [f"ptr @model_data{i}" for i in range(len(self.data))]
-        kind = _TYPES[str(entry.result)]
+        kind = _TYPES[str(result)]
         types = ", ".join(["ptr", "ptr", *(n.split()[0] for n in names), *("ptr" for _ in constants)])
         self.lines += [
             f'declare i32 @"{body}"({types})',
@@ -190,7 +186,7 @@ def _refuse_the_rest(module: Any, platform: str) -> None:
 
 
 def main() -> None:
-    """Emit the objects of one table's model."""
+    """Emit the objects of one model of the catalogue."""
     if any(os.environ.get(name) != value for name, value in ENVIRONMENT.items()):
         os.execve(
             sys.executable, [sys.executable, "-m", "fmu_src.native.emit", *sys.argv[1:]], os.environ | ENVIRONMENT
@@ -200,11 +196,11 @@ def main() -> None:
     from numba.core.errors import NumbaWarning
 
     warnings.simplefilter("ignore", NumbaWarning)  # unoptimised code cannot be cached
-    from fmu_src.native import wheel_rail_contact as model
-    from fmu_src.tables.wheel_rail_contact import table
+    from fmu_src.catalogue import Model
 
-    points, folder = int(sys.argv[1]), Path(sys.argv[2])
-    emit(model.entries(table(points)), model.data(), folder)
+    name, options, folder = sys.argv[1:]
+    model = Model(name, json.loads(options))
+    emit(model.module("native").component(**model.options), Path(folder))
 
 
 if __name__ == "__main__":

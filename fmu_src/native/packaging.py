@@ -1,8 +1,9 @@
-"""An FMU file with binaries for every platform: kernels, wrapper and table compiled and linked, with nothing to install."""
+"""FMU files with binaries for every platform: kernels, wrapper and table compiled and linked, with nothing to install."""
 
 from __future__ import annotations
 
 import hashlib
+import json
 import shutil
 import subprocess
 import sys
@@ -16,14 +17,14 @@ from tempfile import TemporaryDirectory
 import fmpy
 
 import contact
-from contact import Status
+import fmu_src
+import models
 from fmu_src import archive
+from fmu_src.catalogue import Model
 from fmu_src.description import model_description
 from fmu_src.documentation import markdown
 from fmu_src.native import source
 from fmu_src.native.emit import TRIPLES, objects
-from fmu_src.tables.wheel_rail_contact import table as contact_table
-from fmu_src.variables import Table
 
 _COMMON = {
     "needsExecutionTool": "false",
@@ -43,8 +44,6 @@ INTERFACES = {
         "maxOutputDerivativeOrder": "0",
     },
 }
-#: A status that the wrapper warns of, with what it says.
-WARNINGS = {int(s): f"{s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)}
 
 WRAPPER = Path(__file__).parent / "c"
 HEADERS = Path(fmpy.__file__).parent / "c-code"  # the FMI project's own, under the 2-clause BSD licence
@@ -55,8 +54,8 @@ _ZIG = {"linux64": "x86_64-linux-gnu.2.17", "win64": "x86_64-windows-gnu"}
 _GCC = {"linux64": "gcc", "win64": "x86_64-w64-mingw32-gcc"}
 
 
-def build(points: int, folder: Path, cache: Path, say: Callable[[str], None]) -> Path:
-    """Write `folder`/WheelRailContact.fmu for separations of `points` samples and return its path.
+def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -> Path:
+    """Write `folder`/<name>.fmu and return its path; the same sources and tools give the same bytes.
 
     Parameters
     ----------
@@ -65,17 +64,16 @@ def build(points: int, folder: Path, cache: Path, say: Callable[[str], None]) ->
     say : callable
         Told what is being done, as this takes a minute the first time.
     """
-    from fmu_src.native.wheel_rail_contact import LAZY, TOTALS
-
-    table = contact_table(points)
-    objects_of = kernels(points, cache, say)
+    component = model.module("native").component(**model.options)
+    table = component.table
+    objects_of = kernels(model, cache, say)
     sources = [*chain.from_iterable(objects_of.values()), *sorted(WRAPPER.iterdir())]
     code = b"".join(path.read_bytes() for path in sources)
     guid, xml = model_description(table, INTERFACES, code)
     with TemporaryDirectory() as directory:
         generated = Path(directory)
-        (generated / "model.h").write_text(source.header(table, guid, WARNINGS, TOTALS))
-        (generated / "model.c").write_text(source.body(table, WARNINGS, LAZY, TOTALS))
+        (generated / "model.h").write_text(source.header(component, guid))
+        (generated / "model.c").write_text(source.body(component))
         files = [
             ("modelDescription.xml", xml.encode()),
             (f"documentation/{table.name}.md", markdown(table).encode()),
@@ -83,14 +81,14 @@ def build(points: int, folder: Path, cache: Path, say: Callable[[str], None]) ->
         ]
         for platform, parts in objects_of.items():
             say(f"linking for {platform}")
-            library = link(platform, table, parts, generated)
+            library = link(platform, table.name, parts, generated)
             files.append((f"binaries/{platform}/{library.name}", library.read_bytes()))
         return archive.write(folder / f"{table.name}.fmu", files)
 
 
-def link(platform: str, table: Table, kernels: list[Path], generated: Path) -> Path:
+def link(platform: str, name: str, kernels: list[Path], generated: Path) -> Path:
     """Compile the wrapper with the model.h and model.c in `generated`, link it with the kernels; return the library."""
-    library = generated / platform / (table.name + _LINKED_AS[platform])
+    library = generated / platform / (name + _LINKED_AS[platform])
     library.parent.mkdir(exist_ok=True)
     sources = [*sorted(WRAPPER.glob("*.c")), generated / "model.c"]
     run(
@@ -116,18 +114,19 @@ def run(*command: str | Path) -> None:
         raise RuntimeError(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
 
 
-def kernels(points: int, cache: Path, say: Callable[[str], None]) -> dict[str, list[Path]]:
-    """Object files of the kernels, compiled anew only if their sources or numba have changed."""
-    fingerprint = hashlib.sha256(f"{points} {version('numba')} {version('llvmlite')}".encode())
-    for package in (Path(contact.__file__).parent, Path(__file__).parents[1]):
-        for path in sorted(package.rglob("*.py")):
+def kernels(model: Model, cache: Path, say: Callable[[str], None]) -> dict[str, list[Path]]:
+    """Object files of a model's kernels, compiled anew only if their sources or numba have changed."""
+    options = json.dumps(dict(model.options))
+    fingerprint = hashlib.sha256(f"{model.name} {options} {version('numba')} {version('llvmlite')}".encode())
+    for package in (contact, fmu_src, models):
+        for path in sorted(Path(package.__file__).parent.rglob("*.py")):
             fingerprint.update(path.read_bytes())
     folder = cache / fingerprint.hexdigest()[:16]
     paths = {platform: objects(folder, platform) for platform in TRIPLES}
     if not all(path.exists() for parts in paths.values() for path in parts):
         say("compiling the kernels (half a minute)")
         folder.mkdir(parents=True, exist_ok=True)
-        run(sys.executable, "-m", "fmu_src.native.emit", str(points), folder)
+        run(sys.executable, "-m", "fmu_src.native.emit", model.name, options, folder)
     return paths
 
 

@@ -6,13 +6,14 @@ The solver's own kernels do the work; here values become their arguments and res
 from __future__ import annotations
 
 from collections import namedtuple
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
-from numba import carray, types
+from numba import carray
 
 import contact
-from contact import kalker, quadrature
+from contact import Status, kalker, quadrature
 from contact._layout import (
     APPROACH,
     CASE_G,
@@ -75,9 +76,9 @@ from contact.separation import HERTZIAN_POINTS, fill_hertzian
 from contact.tangential.lanes import LANES, N_LANE_ROWS, N_TRACE
 from contact.workspace import Rule, Space, Tables
 from fmu_src.differences import creepage_steps
-from fmu_src.native.emit import Entry
-from fmu_src.native.memory import Doubles, compiled, cube, matrix, vector
-from fmu_src.tables.wheel_rail_contact import GEOMETRY_KIND, LOAD_KIND
+from fmu_src.native.component import Component
+from fmu_src.native.memory import compiled, cube, matrix, vector
+from fmu_src.tables.wheel_rail_contact import GEOMETRY_KIND, LOAD_KIND, table
 from fmu_src.variables import Table
 
 _METHODS = contact.methods()
@@ -88,9 +89,18 @@ _CURVATURES, _NORMAL_FORCE = GEOMETRY_KIND.number("Curvatures"), LOAD_KIND.numbe
 _DAMAGE_PARAMETERS = DamageParameters().array(contact.STEEL, 1.0, 1.0)
 _steps = compiled(creepage_steps)
 
-#: Rows that `model_lazy` computes, and outputs that add up: name → one or two values whose product is their rate.
-LAZY = ("creep_stiffness",)
-TOTALS = {"total.energy": ("power.friction",), "total.worn_volume": ("damage.archard_volume", "speed")}
+
+def component(points: int) -> Component:
+    """The FMU for separations of `points` samples."""
+    interface = table(points)
+    return Component(
+        table=interface,
+        entries=lambda: _entries(interface),
+        data=lambda: (kalker.published(), *influence.tables()),
+        lazy=("creep_stiffness",),
+        totals={"total.energy": ("power.friction",), "total.worn_volume": ("damage.archard_volume", "speed")},
+        warnings={int(s): f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)},
+    )
 
 
 class Problem(NamedTuple):
@@ -114,19 +124,8 @@ class Solved(NamedTuple):
     damage: object
 
 
-def data() -> tuple[np.ndarray, ...]:
-    """What kernels read and the builder computes: Kalker's coefficients, influence of strips on the centre line and off it."""
-    return kalker.published(), *influence.tables()
-
-
-def entries(table: Table) -> dict[str, Entry]:
-    """Return what C calls, by name; each function also takes the arrays of `data`. None of them fails.
-
-    `model_memory` and `model_size` count the numbers of the warm start, with which working memory begins, and of all
-    working memory, for the parameters in `values`; `model_prepare` fills what depends on parameters alone. `model_outputs`
-    computes the outputs, `model_lazy` those that are seldom read (LAZY); the totals (TOTALS) are added up by who knows the
-    time. `model_difference` is a fitting change of one variable for difference quotients.
-    """
+def _entries(table: Table) -> dict[str, Callable[..., Any]]:
+    """`Component.entries`; data are Kalker's coefficients and the influence of strips on the centre line and off it."""
     at = namedtuple("References", [name.replace(".", "_") for name in table.span])(
         *(span.start for span in table.span.values())
     )
@@ -229,7 +228,10 @@ def entries(table: Table) -> dict[str, Entry]:
             solved.damage_parameters[i] = _DAMAGE_PARAMETERS[i]
         return 0
 
-    def model_outputs(values, work, published, centre, plane):
+    def model_start(values, work, published, centre, plane):
+        return 0
+
+    def model_outputs(values, work, h, published, centre, plane):
         v = carray(values, (n_values,))
         rule, coefficients, space, problem, solved, _ = arrange(v, work)
         tables = Tables(coefficients, carray(centre, influence.CENTRE), carray(plane, influence.PLANE))
@@ -258,7 +260,7 @@ def entries(table: Table) -> dict[str, Entry]:
         v[at.damage_stress_index_max] = damage[DAMAGE_STRESS_INDEX]
         v[at.damage_energy_index_max] = damage[DAMAGE_ENERGY_INDEX]
         v[at.stiffness_normal], v[at.status] = result[RES_STIFFNESS], result[RES_STATUS]
-        return 0
+        return int(result[RES_STATUS])
 
     @compiled
     def steps(v):
@@ -300,11 +302,13 @@ def entries(table: Table) -> dict[str, Entry]:
             return share * penetration
         return max(share * abs(v[reference]), 1e-12)
 
-    return {
-        "model_memory": Entry(types.int64, (Doubles,), model_memory),
-        "model_size": Entry(types.int64, (Doubles,), model_size),
-        "model_prepare": Entry(types.int64, (Doubles, Doubles), model_prepare),
-        "model_outputs": Entry(types.int64, (Doubles, Doubles), model_outputs),
-        "model_lazy": Entry(types.int64, (Doubles, Doubles), model_lazy),
-        "model_difference": Entry(types.float64, (Doubles, types.int64), model_difference),
-    }
+    called_by_c = (
+        model_memory,
+        model_size,
+        model_prepare,
+        model_start,
+        model_outputs,
+        model_lazy,
+        model_difference,
+    )
+    return {function.__name__: function for function in called_by_c}

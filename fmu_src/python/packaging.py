@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator
-from dataclasses import dataclass
 from importlib.metadata import distribution
 from pathlib import Path
 
@@ -17,11 +16,10 @@ import pythonfmu
 
 from contact import __version__
 from fmu_src import archive
+from fmu_src.catalogue import Model
 from fmu_src.description import model_description
 from fmu_src.documentation import markdown
 from fmu_src.python.slave import INTERFACES
-from fmu_src.tables import wheel_rail_contact, wheelset
-from fmu_src.variables import Table
 
 _SCRIPT = '''\
 """Slave of the FMU {name}. The code is in the package wheelrail-contact {version}, installed in the host's Python."""
@@ -40,23 +38,6 @@ class {name}({name}Slave):
 '''
 
 
-@dataclass(frozen=True)
-class Model:
-    """What the packaging needs to know of an FMU: the module has a class `<name>Slave`, made with these options."""
-
-    table: Table
-    module: str
-    options: dict[str, int]
-
-
-def models(points: int) -> tuple[Model, ...]:
-    """The FMUs, the contact for separations of `points` samples; those of the wheelset have `ports.POINTS`."""
-    return (
-        Model(wheel_rail_contact.table(points), "fmu_src.python.wheel_rail_contact", {"points": points}),
-        Model(wheelset.table(), "fmu_src.python.wheelset", {}),
-    )
-
-
 def build(model: Model, folder: Path) -> Path:
     """Write `folder`/<name>.fmu and return its path; the same sources give the same bytes."""
     return archive.write(folder / f"{model.table.name}.fmu", _files(model))
@@ -67,7 +48,7 @@ def _files(model: Model) -> Iterator[tuple[str, bytes]]:
     guid, xml = model_description(model.table, INTERFACES)
     yield "modelDescription.xml", xml.encode()
     script = _SCRIPT.format(
-        name=name, version=__version__, module=model.module, options=model.options, guid=guid
+        name=name, version=__version__, module=model.module("python").__name__, options=model.options, guid=guid
     ).encode()
     module = f"{name.lower()}_{hashlib.sha256(script).hexdigest()[:16]}"
     yield f"resources/{module}.py", script

@@ -8,10 +8,10 @@ from xml.etree import ElementTree
 import pytest
 
 import contact
+from fmu_src.catalogue import models
 from fmu_src.description import model_description
 from fmu_src.documentation import markdown
 from fmu_src.native.packaging import INTERFACES as NATIVE
-from fmu_src.python.packaging import models
 from fmu_src.python.slave import INTERFACES
 from fmu_src.tables import wheel_rail_contact
 from fmu_src.variables import Causality

@@ -43,7 +43,8 @@ def test_fmpy_finds_no_problem(fmus):
 
 
 def test_the_build_is_reproducible(fmus, tmp_path):
-    from fmu_src.python.packaging import build, models
+    from fmu_src.catalogue import models
+    from fmu_src.python.packaging import build
 
     for model in models(41):
         path = build(model, tmp_path)

@@ -16,6 +16,7 @@ from fmpy.validation import validate_fmu
 
 import contact
 from contact.damage import evaluate
+from fmu_src.catalogue import models
 from fmu_src.native.emit import CPUS
 from fmu_src.native.packaging import compiler, kernels, run
 from fmu_src.tables.wheel_rail_contact import table
@@ -503,11 +504,11 @@ def test_runs_in_libcosim(native):
 
 def test_kernels_for_every_processor_agree_bit_by_bit(native, tmp_path):
     """The wrapper chooses by what the processor can; here both run."""
-    objects = kernels(41, ROOT / "build" / "native", print)["linux64"]  # in the cache since the FMU was built
+    objects = kernels(models(41)[0], ROOT / "build" / "native", print)["linux64"]  # cached when the FMU was built
     calls = "".join(
         f"long model_size_{cpu}(double *); long model_prepare_{cpu}(double *, double *);"
-        f"long model_outputs_{cpu}(double *, double *); long size_{cpu}(double *v) {{ return model_size_{cpu}(v); }}"
-        f"void solve_{cpu}(double *v, double *w) {{ model_prepare_{cpu}(v, w); model_outputs_{cpu}(v, w); }}\n"
+        f"long model_outputs_{cpu}(double *, double *, double); long size_{cpu}(double *v) {{ return model_size_{cpu}(v); }}"
+        f"void solve_{cpu}(double *v, double *w) {{ model_prepare_{cpu}(v, w); model_outputs_{cpu}(v, w, 0.0); }}\n"
         for cpu in CPUS
     )
     (tmp_path / "calls.c").write_text(calls)

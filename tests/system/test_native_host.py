@@ -13,8 +13,8 @@ from contact_case import NAME
 from test_native_fmu import OUTPUTS, expected, random_case, scales
 
 from fmu_src.native import source
-from fmu_src.native.packaging import HEADERS, WARNINGS, compiler
-from fmu_src.native.wheel_rail_contact import TOTALS
+from fmu_src.native.packaging import HEADERS, compiler
+from fmu_src.native.wheel_rail_contact import component
 from fmu_src.tables.wheel_rail_contact import table
 
 HOST = Path(__file__).with_name("native_host.c")
@@ -28,7 +28,7 @@ class Host:
         library, program = SUFFIX[platform]
         self.guid = fmpy.read_model_description(str(unzipped)).guid
         self.library = unzipped / "binaries" / platform / f"{NAME}.{library}"
-        (folder / "model.h").write_text(source.header(table(41), self.guid, WARNINGS, TOTALS))
+        (folder / "model.h").write_text(source.header(component(41), self.guid))
         self.program = folder / f"host{program}"
         libraries = ["-ldl", "-lpthread", "-lm"] if platform == "linux64" else []
         flags = ["-std=gnu11", "-O1", f"-I{folder}", f"-I{HEADERS}", *extra]

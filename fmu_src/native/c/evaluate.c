@@ -23,11 +23,20 @@ fmi2Status check_ranges(const Instance *instance)
     return fmi2OK;
 }
 
+/* What the model says by a number; other numbers mean nothing to the host. */
+static const Message *message(int64_t number) { return &messages[number <= N_MESSAGES ? number : 0]; }
+static bool failed(int64_t number) { return message(number)->category == LOG_DISCARD; }
+static fmi2Status say(const Instance *instance, int64_t number)
+{
+    return message(number)->text ? report(instance, message(number)->category, "%s", message(number)->text) : fmi2OK;
+}
+
 /* Lay out and fill working memory for the parameters, which are within their ranges. The warm start of other parameters is
  * given up. */
 fmi2Status prepare(Instance *instance)
 {
     double *values = instance->is.values;
+    int64_t number;
     if (instance->work && !memcmp(values, instance->prepared, N_PARAMETERS * sizeof(double))) return fmi2OK;
     int64_t memory_size = instance->model->memory(values);
     double *work = malloc((size_t)instance->model->size(values) * sizeof(double));
@@ -44,9 +53,12 @@ fmi2Status prepare(Instance *instance)
     instance->work = work;
     instance->memory = memory;
     instance->memory_size = memory_size;
-    instance->model->prepare(values, work);
     memcpy(instance->prepared, values, N_PARAMETERS * sizeof(double));
-    return fmi2OK;
+    number = instance->model->prepare(values, work);
+    if (!failed(number)) return fmi2OK;
+    free(instance->work);
+    instance->work = NULL;
+    return say(instance, number);
 }
 
 /* NaN and infinity do not leave the FMU: put `before` back if there is one among the outputs. */
@@ -62,17 +74,28 @@ static fmi2Status keep_finite(Instance *instance, const double *before)
     return fmi2OK;
 }
 
+/* Compute `values`, the instance's or others, with working memory as it is; return the number of a message. Initialisation
+ * gives states their start values. In co-simulation these are all that happens then: states do not follow inputs at once. */
+int64_t evaluate(const Instance *instance, double *values, double h)
+{
+    bool starting = N_STATES > 0 && instance->is.phase == INITIALIZATION;
+    int64_t number = starting ? instance->model->start(values, instance->work) : 0;
+    if (failed(number) || (starting && instance->type == fmi2CoSimulation)) return number;
+    return instance->model->outputs(values, instance->work, h);
+}
+
 static double rate(const Total *t, const double *values)
 {
     return t->other == ALONE ? values[t->factor] : values[t->other] * values[t->factor];
 }
 
-/* Compute the outputs for what is set and add a step of length h to the totals; `warm` goes on from the last step. */
+/* Compute the outputs for what is set, advance states and totals by h; `warm` goes on from the last step. */
 fmi2Status update(Instance *instance, double h, bool warm)
 {
     double before[N_VALUES];
     double *values = instance->is.values;
     size_t memory_bytes;
+    int64_t number;
     fmi2Status status = instance->is.is_new ? check_ranges(instance) : fmi2OK;
     if (status == fmi2OK) status = prepare(instance);
     if (status != fmi2OK) return status;
@@ -82,17 +105,21 @@ fmi2Status update(Instance *instance, double h, bool warm)
         memcpy(instance->work, instance->memory, memory_bytes);
     else
         memset(instance->work, 0, memory_bytes);
-    instance->model->outputs(values, instance->work);
-    for (size_t i = 0; i < N_TOTALS; i++) values[totals[i].total] += rate(&totals[i], values) * h;
+    number = evaluate(instance, values, h);
+    if (failed(number)) {
+        memcpy(values, before, sizeof before);
+        return say(instance, number);
+    }
+    for (int i = 0; i < N_TOTALS; i++) values[totals[i].total] += rate(&totals[i], values) * h;
     status = keep_finite(instance, before);
     if (status != fmi2OK) return status;
     if (warm) memcpy(instance->memory, instance->work, memory_bytes);
     memcpy(instance->is.solved, values, sizeof instance->is.solved);
     instance->is.is_new = false;
     instance->is.lazy_stale = true;
-    const char *warning = status_warnings[(int)values[V_status]];
-    if (warning && values[V_status] != before[V_status]) return report(instance, LOG_WARNING, "status %s", warning);
-    return fmi2OK;
+    if (number == instance->is.said) return fmi2OK;
+    instance->is.said = number;
+    return say(instance, number);
 }
 
 /* Compute the lazy outputs that belong to the others. */
@@ -123,7 +150,7 @@ void accumulate(Instance *instance)
 {
     Content *is = &instance->is;
     double h = is->time - is->accepted_time;
-    for (size_t i = 0; i < N_TOTALS; i++) {
+    for (int i = 0; i < N_TOTALS; i++) {
         double now = rate(&totals[i], is->values);
         if (h > 0.0) is->values[totals[i].total] += 0.5 * h * (is->accepted[i] + now);
         is->accepted[i] = now;

@@ -12,19 +12,28 @@
 #include "fmi2Functions.h"
 #include "model.h"
 
-/* ---- the model: one array of all values by value reference, one of working memory that begins with the warm start */
+/* ---- the model: one array of all values by value reference, one of working memory that begins with the warm start;
+ * component.py says what each does. Those that compute return 0 or the number of a message. */
 typedef struct {
     int64_t (*memory)(double *values);
     int64_t (*size)(double *values);
     int64_t (*prepare)(double *values, double *work);
-    int64_t (*outputs)(double *values, double *work);
+    int64_t (*start)(double *values, double *work);
+    int64_t (*outputs)(double *values, double *work, double h);
     int64_t (*lazy)(double *values, double *work);
     double (*difference)(double *values, int64_t reference);
 } Model;
 
 /* ---- the table */
 typedef enum { REAL = 1, INTEGER = 2, ENUMERATION = 4 } Kind;
-typedef enum { PARAMETER = 1, INPUT = 2, OUTPUT = 4, STATE = 8 /* an output with a start value */ } Role;
+typedef enum {
+    PARAMETER = 1,
+    INPUT = 2,
+    OUTPUT = 4,
+    STATE = 8, /* continuous state, an output as well */
+    TOTAL = 16 /* output that adds up, with a start value */
+} Role;
+#define ANY_OUTPUT (OUTPUT | STATE | TOTAL)
 
 typedef struct {
     const char *name;
@@ -36,7 +45,14 @@ typedef struct {
 } Variable;
 
 extern const Variable variables[N_VALUES];
-extern const char *const status_warnings[N_STATUS + 1]; /* by the value of V_status, or NULL where there is nothing to say */
+
+/* Continuous states: value references of one and of its derivative, and its nominal value. */
+typedef struct {
+    int value, derivative;
+    double nominal;
+} Continuous;
+
+extern const Continuous states[N_STATES];
 
 /* Outputs that add up over time: the value of `total` grows at the rate of the product of two values, or of one. */
 enum { ALONE = -1 };
@@ -45,6 +61,15 @@ typedef struct {
 } Total;
 
 extern const Total totals[N_TOTALS];
+
+/* What a model has to say, by number: a warning, or why a step is discarded; no text where there is nothing to say. */
+typedef enum { LOG_WARNING = 1, LOG_DISCARD = 2, LOG_ERROR = 4 } Category;
+typedef struct {
+    Category category;
+    const char *text;
+} Message;
+
+extern const Message messages[N_MESSAGES + 1];
 
 /* ---- FMI's state machine; StepInProgress does not occur, as a step is done when fmi2DoStep returns */
 typedef enum {
@@ -61,8 +86,6 @@ typedef enum {
 #define RUNNING (EVENT | CONTINUOUS | STEP_COMPLETE | STEP_FAILED)
 #define ANY (INSTANTIATED | INITIALIZATION | RUNNING | TERMINATED | BROKEN)
 
-typedef enum { LOG_WARNING = 1, LOG_DISCARD = 2, LOG_ERROR = 4 } Category;
-
 /* What an instance is, besides its warm start: all of an FMU state, copied byte by byte. */
 typedef struct {
     double values[N_VALUES];
@@ -73,6 +96,7 @@ typedef struct {
     int64_t is_new;     /* something was set since the outputs were computed */
     int64_t lazy_stale; /* the lazy outputs belong to older values */
     int64_t last_step;  /* fmi2Status of the last fmi2DoStep */
+    int64_t said;       /* number of the last warning, which is not repeated while it lasts */
 } Content;
 
 typedef struct {
@@ -102,6 +126,7 @@ fmi2Status refuse(const Instance *instance, const char *function);
 bool in_range(const Variable *variable, double value);
 fmi2Status check_ranges(const Instance *instance);
 fmi2Status prepare(Instance *instance);
+int64_t evaluate(const Instance *instance, double *values, double h); /* leaves the content alone, not working memory */
 fmi2Status update(Instance *instance, double h, bool warm);
 void accumulate(Instance *instance);
 fmi2Status update_lazy(Instance *instance);

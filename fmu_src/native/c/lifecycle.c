@@ -94,10 +94,11 @@ static void restart(Instance *instance)
     int64_t model_memory_##cpu(double *); \
     int64_t model_size_##cpu(double *); \
     int64_t model_prepare_##cpu(double *, double *); \
-    int64_t model_outputs_##cpu(double *, double *); \
+    int64_t model_start_##cpu(double *, double *); \
+    int64_t model_outputs_##cpu(double *, double *, double); \
     int64_t model_lazy_##cpu(double *, double *); \
     double model_difference_##cpu(double *, int64_t); \
-    static const Model model_##cpu = {model_memory_##cpu,  model_size_##cpu, model_prepare_##cpu, \
+    static const Model model_##cpu = {model_memory_##cpu,  model_size_##cpu, model_prepare_##cpu,   model_start_##cpu, \
                                       model_outputs_##cpu, model_lazy_##cpu, model_difference_##cpu};
 ENTRIES(v2)
 ENTRIES(v3)

@@ -1,4 +1,4 @@
-/* Co-simulation and model exchange of a model without continuous states. */
+/* Co-simulation and model exchange. */
 #include <math.h>
 #include <string.h>
 
@@ -120,7 +120,7 @@ fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info)
 {
     Instance *instance = c;
     REQUIRE(instance, "fmi2NewDiscreteStates", EVENT);
-    memset(info, 0, sizeof *info); /* no events, no states */
+    memset(info, 0, sizeof *info); /* there are no events: nothing is needed, nothing changes */
     return fmi2OK;
 }
 
@@ -154,40 +154,61 @@ fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time)
     return fmi2OK;
 }
 
-static fmi2Status no_states(const Instance *instance, const char *function, int phases, size_t n)
+#define MODEL_EXCHANGE (instance->type == fmi2ModelExchange ? INITIALIZATION | TERMINATED : 0)
+
+static fmi2Status wrong_number(const Instance *instance, const char *function, size_t n, size_t there_are)
 {
-    REQUIRE(instance, function, phases);
-    return n == 0 ? fmi2OK : report(instance, LOG_ERROR, "%s: the model has none, %zu were asked for", function, n);
+    return report(instance, LOG_ERROR, "%s: there are %zu, %zu were asked for", function, there_are, n);
 }
 
+/* Any values are taken; the next computation checks them. */
 fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t n)
 {
-    (void)x;
-    return no_states(c, "fmi2SetContinuousStates", CONTINUOUS, n);
+    Instance *instance = c;
+    REQUIRE(instance, "fmi2SetContinuousStates", CONTINUOUS);
+    if (n != N_STATES) return wrong_number(instance, "fmi2SetContinuousStates", n, N_STATES);
+    for (size_t i = 0; i < n; i++) instance->is.values[states[i].value] = x[i];
+    if (n > 0) instance->is.is_new = true;
+    return fmi2OK;
 }
-
-#define MODEL_EXCHANGE(c) (((Instance *)(c))->type == fmi2ModelExchange ? INITIALIZATION | TERMINATED : 0)
 
 fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real derivatives[], size_t n)
 {
-    (void)derivatives;
-    return c ? no_states(c, "fmi2GetDerivatives", EVENT | CONTINUOUS | MODEL_EXCHANGE(c), n) : fmi2Error;
+    Instance *instance = c;
+    fmi2Status status = fmi2OK;
+    REQUIRE(instance, "fmi2GetDerivatives", EVENT | CONTINUOUS | MODEL_EXCHANGE);
+    if (n != N_STATES) return wrong_number(instance, "fmi2GetDerivatives", n, N_STATES);
+    if (n > 0 && instance->is.phase != TERMINATED) status = refresh(instance);
+    if (status > fmi2Warning) return status;
+    for (size_t i = 0; i < n; i++) derivatives[i] = instance->is.values[states[i].derivative];
+    return status;
 }
 
 fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real indicators[], size_t n)
 {
+    Instance *instance = c;
     (void)indicators;
-    return c ? no_states(c, "fmi2GetEventIndicators", EVENT | CONTINUOUS | MODEL_EXCHANGE(c), n) : fmi2Error;
+    REQUIRE(instance, "fmi2GetEventIndicators", EVENT | CONTINUOUS | MODEL_EXCHANGE);
+    return n == 0 ? fmi2OK : wrong_number(instance, "fmi2GetEventIndicators", n, 0);
 }
 
 fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t n)
 {
-    (void)x;
-    return c ? no_states(c, "fmi2GetContinuousStates", EVENT | CONTINUOUS | MODEL_EXCHANGE(c), n) : fmi2Error;
+    Instance *instance = c;
+    fmi2Status status = fmi2OK;
+    REQUIRE(instance, "fmi2GetContinuousStates", EVENT | CONTINUOUS | MODEL_EXCHANGE);
+    if (n != N_STATES) return wrong_number(instance, "fmi2GetContinuousStates", n, N_STATES);
+    if (n > 0 && instance->is.phase == INITIALIZATION) status = refresh(instance);
+    if (status > fmi2Warning) return status;
+    for (size_t i = 0; i < n; i++) x[i] = instance->is.values[states[i].value];
+    return status;
 }
 
 fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real nominals[], size_t n)
 {
-    (void)nominals;
-    return c ? no_states(c, "fmi2GetNominalsOfContinuousStates", EVENT | CONTINUOUS | MODEL_EXCHANGE(c), n) : fmi2Error;
+    Instance *instance = c;
+    REQUIRE(instance, "fmi2GetNominalsOfContinuousStates", EVENT | CONTINUOUS | MODEL_EXCHANGE);
+    if (n != N_STATES) return wrong_number(instance, "fmi2GetNominalsOfContinuousStates", n, N_STATES);
+    for (size_t i = 0; i < n; i++) nominals[i] = states[i].nominal;
+    return fmi2OK;
 }

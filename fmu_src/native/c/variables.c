@@ -28,10 +28,10 @@ static fmi2Status before_get(Instance *instance, const fmi2ValueReference refs[]
     bool output = false, lazy = false;
     fmi2Status status;
     REQUIRE(instance, function, ANY & ~INSTANTIATED);
-    status = check(instance, refs, n, kinds, PARAMETER | INPUT | OUTPUT | STATE, function);
+    status = check(instance, refs, n, kinds, PARAMETER | INPUT | ANY_OUTPUT, function);
     if (status != fmi2OK) return status;
     for (size_t k = 0; k < n; k++) {
-        output |= variables[refs[k]].role >= OUTPUT;
+        output |= variables[refs[k]].role & ANY_OUTPUT;
         lazy |= variables[refs[k]].lazy;
     }
     if (output && (instance->is.phase & (INITIALIZATION | EVENT | CONTINUOUS))) status = refresh(instance);
@@ -78,7 +78,7 @@ static fmi2Status before_set(Instance *instance, const fmi2ValueReference refs[]
     int roles = INPUT;
     fmi2Status status;
     REQUIRE(instance, function, INSTANTIATED | INITIALIZATION | RUNNING);
-    if (instance->is.phase & (INSTANTIATED | INITIALIZATION)) roles |= PARAMETER | STATE;
+    if (instance->is.phase & (INSTANTIATED | INITIALIZATION)) roles |= PARAMETER | TOTAL;
     status = check(instance, refs, n, kinds, roles, function);
     if (status == fmi2OK && n > 0) instance->is.is_new = true;
     return status;
@@ -130,13 +130,13 @@ static void displaced(Instance *instance, const fmi2ValueReference knowns[], siz
     memcpy(values, instance->is.values, sizeof instance->is.values);
     for (size_t k = 0; k < n; k++) values[knowns[k]] += h * seed[k];
     memset(instance->work, 0, (size_t)instance->memory_size * sizeof(double));
-    instance->model->outputs(values, instance->work);
+    evaluate(instance, values, 0.0);
     if (lazy) instance->model->lazy(values, instance->work);
 }
 
-/* Outputs by inputs (before the first step also by parameters), at the present values of these: a central difference over
- * steps that fit each variable, one-sided at the end of a range. In co-simulation too it is the derivative of the outputs
- * that the next step would give. */
+/* Outputs and derivatives by inputs and states (in initialisation by inputs and parameters), at the present values of
+ * these: a central difference over steps that fit each variable, one-sided at the end of a range. In co-simulation too
+ * outputs count as functions of the present inputs, as a step makes those of a model without states. */
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknowns[], size_t n_unknowns,
                                         const fmi2ValueReference knowns[], size_t n_knowns, const fmi2Real seed[],
                                         fmi2Real result[])
@@ -146,9 +146,9 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
     bool lazy = false;
     fmi2Status status;
     REQUIRE(instance, "fmi2GetDirectionalDerivative", INITIALIZATION | RUNNING | TERMINATED);
-    status = check(instance, unknowns, n_unknowns, REAL, OUTPUT | STATE, "fmi2GetDirectionalDerivative");
+    status = check(instance, unknowns, n_unknowns, REAL, ANY_OUTPUT, "fmi2GetDirectionalDerivative");
     if (status == fmi2OK)
-        status = check(instance, knowns, n_knowns, REAL, instance->is.phase == INITIALIZATION ? INPUT | PARAMETER : INPUT,
+        status = check(instance, knowns, n_knowns, REAL, INPUT | (instance->is.phase == INITIALIZATION ? PARAMETER : STATE),
                        "fmi2GetDirectionalDerivative");
     if (status == fmi2OK) status = check_ranges(instance);
     if (status == fmi2OK) status = prepare(instance);
