@@ -11,7 +11,7 @@ bool in_range(const Variable *variable, double value)
     return variable->open_minimum ? value > variable->minimum : value >= variable->minimum;
 }
 
-fmi2Status check_ranges(const Instance *instance)
+Status check_ranges(const Instance *instance)
 {
     for (size_t i = 0; i < N_VALUES; i++) {
         const Variable *v = &variables[i];
@@ -20,24 +20,24 @@ fmi2Status check_ranges(const Instance *instance)
                       instance->is.values[i], v->open_minimum || isinf(v->minimum) ? "]" : "[", v->minimum, v->maximum,
                       isinf(v->maximum) ? "[" : "]");
     }
-    return fmi2OK;
+    return OK;
 }
 
 /* What the model says by a number; other numbers mean nothing to the host. */
 static const Message *message(int64_t number) { return &messages[number <= N_MESSAGES ? number : 0]; }
 static bool failed(int64_t number) { return message(number)->category == LOG_DISCARD; }
-static fmi2Status say(const Instance *instance, int64_t number)
+static Status say(const Instance *instance, int64_t number)
 {
-    return message(number)->text ? report(instance, message(number)->category, "%s", message(number)->text) : fmi2OK;
+    return message(number)->text ? report(instance, message(number)->category, "%s", message(number)->text) : OK;
 }
 
 /* Lay out and fill working memory for the parameters, which are within their ranges. The warm start of other parameters is
  * given up. */
-fmi2Status prepare(Instance *instance)
+Status prepare(Instance *instance)
 {
     double *values = instance->is.values;
     int64_t number;
-    if (instance->work && !memcmp(values, instance->prepared, N_PARAMETERS * sizeof(double))) return fmi2OK;
+    if (instance->work && !memcmp(values, instance->prepared, N_PARAMETERS * sizeof(double))) return OK;
     int64_t memory_size = instance->model->memory(values);
     double *work = malloc((size_t)instance->model->size(values) * sizeof(double));
     double *memory = memory_size == instance->memory_size ? instance->memory : calloc((size_t)memory_size, sizeof(double));
@@ -55,14 +55,14 @@ fmi2Status prepare(Instance *instance)
     instance->memory_size = memory_size;
     memcpy(instance->prepared, values, N_PARAMETERS * sizeof(double));
     number = instance->model->prepare(values, work);
-    if (!failed(number)) return fmi2OK;
+    if (!failed(number)) return OK;
     free(instance->work);
     instance->work = NULL;
     return say(instance, number);
 }
 
 /* NaN and infinity do not leave the FMU: put `before` back if there is one among the outputs. */
-static fmi2Status keep_finite(Instance *instance, const double *before)
+static Status keep_finite(Instance *instance, const double *before)
 {
     double *values = instance->is.values;
     for (size_t i = 0; i < N_VALUES; i++) {
@@ -71,7 +71,7 @@ static fmi2Status keep_finite(Instance *instance, const double *before)
             return report(instance, LOG_DISCARD, "%s has no finite value for these inputs", variables[i].name);
         }
     }
-    return fmi2OK;
+    return OK;
 }
 
 /* Compute `values`, the instance's or others, with working memory as it is; return the number of a message. Initialisation
@@ -80,7 +80,7 @@ int64_t evaluate(const Instance *instance, double *values, double h)
 {
     bool starting = N_STATES > 0 && instance->is.phase == INITIALIZATION;
     int64_t number = starting ? instance->model->start(values, instance->work) : 0;
-    if (failed(number) || (starting && instance->type == fmi2CoSimulation)) return number;
+    if (failed(number) || (starting && instance->type == CO_SIMULATION)) return number;
     return instance->model->outputs(values, instance->work, h);
 }
 
@@ -90,15 +90,15 @@ static double rate(const Total *t, const double *values)
 }
 
 /* Compute the outputs for what is set, advance states and totals by h; `warm` goes on from the last step. */
-fmi2Status update(Instance *instance, double h, bool warm)
+Status update(Instance *instance, double h, bool warm)
 {
     double before[N_VALUES];
     double *values = instance->is.values;
     size_t memory_bytes;
     int64_t number;
-    fmi2Status status = instance->is.is_new ? check_ranges(instance) : fmi2OK;
-    if (status == fmi2OK) status = prepare(instance);
-    if (status != fmi2OK) return status;
+    Status status = instance->is.is_new ? check_ranges(instance) : OK;
+    if (status == OK) status = prepare(instance);
+    if (status != OK) return status;
     memory_bytes = (size_t)instance->memory_size * sizeof(double);
     memcpy(before, values, sizeof before);
     if (warm)
@@ -112,21 +112,21 @@ fmi2Status update(Instance *instance, double h, bool warm)
     }
     for (int i = 0; i < N_TOTALS; i++) values[totals[i].total] += rate(&totals[i], values) * h;
     status = keep_finite(instance, before);
-    if (status != fmi2OK) return status;
+    if (status != OK) return status;
     if (warm) memcpy(instance->memory, instance->work, memory_bytes);
     memcpy(instance->is.solved, values, sizeof instance->is.solved);
     instance->is.is_new = false;
     instance->is.lazy_stale = true;
-    if (number == instance->is.said) return fmi2OK;
+    if (number == instance->is.said) return OK;
     instance->is.said = number;
     return say(instance, number);
 }
 
 /* Compute the lazy outputs that belong to the others. */
-fmi2Status update_lazy(Instance *instance)
+Status update_lazy(Instance *instance)
 {
     double solved[N_VALUES];
-    if (!instance->is.lazy_stale || prepare(instance) != fmi2OK) return fmi2OK;
+    if (!instance->is.lazy_stale || prepare(instance) != OK) return OK;
     memcpy(solved, instance->is.solved, sizeof solved);
     instance->model->lazy(solved, instance->work);
     for (size_t i = 0; i < N_VALUES; i++)
@@ -136,13 +136,13 @@ fmi2Status update_lazy(Instance *instance)
             instance->is.values[i] = solved[i];
         }
     instance->is.lazy_stale = false;
-    return fmi2OK;
+    return OK;
 }
 
 /* Outputs follow inputs at once in initialisation and in model exchange; in co-simulation they wait for the next step. */
-fmi2Status refresh(Instance *instance)
+Status refresh(Instance *instance)
 {
-    return instance->is.is_new ? update(instance, 0.0, false) : fmi2OK;
+    return instance->is.is_new ? update(instance, 0.0, false) : OK;
 }
 
 /* Model exchange: add the time since the last accepted step to the totals, by the trapezoidal rule over their rates. */

@@ -1,5 +1,7 @@
 /* One instance of the FMU. The model is in two places: model.h, generated from the variable table, and the entries
- * model_…, compiled from the solver's kernels, once for every processor and once for those with AVX2. Everything here serves any model with that interface.
+ * model_…, compiled from the solver's kernels, once for every processor and once for those with AVX2. Everything here
+ * serves any model with that interface, and both versions of FMI: fmi2.c and fmi3.c only translate, what a call does and
+ * when it is legal is in the other files.
  *
  * Nothing outside an instance can be written, so instances may run in threads of their own. An instance allocates when it
  * is made, when its resolution is set and when a state is taken; a step allocates nothing. */
@@ -7,9 +9,9 @@
 #define INSTANCE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
-#include "fmi2Functions.h"
 #include "model.h"
 
 /* ---- the model: one array of all values by value reference, one of working memory that begins with the warm start;
@@ -34,6 +36,7 @@ typedef enum {
     TOTAL = 16 /* output that adds up, with a start value */
 } Role;
 #define ANY_OUTPUT (OUTPUT | STATE | TOTAL)
+typedef uint32_t Reference;
 
 typedef struct {
     const char *name;
@@ -71,7 +74,7 @@ typedef struct {
 
 extern const Message messages[N_MESSAGES + 1];
 
-/* ---- FMI's state machine; StepInProgress does not occur, as a step is done when fmi2DoStep returns */
+/* ---- FMI's state machine; a step is done when the call returns, so there is no state for one in progress */
 typedef enum {
     INSTANTIATED = 1,
     INITIALIZATION = 2,
@@ -86,6 +89,17 @@ typedef enum {
 #define RUNNING (EVENT | CONTINUOUS | STEP_COMPLETE | STEP_FAILED)
 #define ANY (INSTANTIATED | INITIALIZATION | RUNNING | TERMINATED | BROKEN)
 
+typedef enum { MODEL_EXCHANGE, CO_SIMULATION } Type; /* the numbers of fmi2Type */
+typedef enum { OK, WARNING, DISCARD, ERROR } Status; /* the numbers of fmi2Status and fmi3Status */
+
+/* Where messages go: the host's function, of the type that its version of FMI has, and who calls it. Copied, as the host's
+ * structure may be gone after the instance is made. */
+typedef struct Log {
+    void (*write)(const struct Log *log, const char *name, Status status, const char *category, char *message);
+    void (*logger)(void);
+    void *environment;
+} Log;
+
 /* What an instance is, besides its warm start: all of an FMU state, copied byte by byte. */
 typedef struct {
     double values[N_VALUES];
@@ -95,7 +109,7 @@ typedef struct {
     int64_t phase;
     int64_t is_new;     /* something was set since the outputs were computed */
     int64_t lazy_stale; /* the lazy outputs belong to older values */
-    int64_t last_step;  /* fmi2Status of the last fmi2DoStep */
+    int64_t last_step;  /* Status of the last step */
     int64_t said;       /* number of the last warning, which is not repeated while it lasts */
 } Content;
 
@@ -106,30 +120,66 @@ typedef struct {
     double *work;
     double prepared[N_VALUES]; /* parameters that `work` is laid out and filled for; a negative first one: none */
     const Model *model; /* compiled for this processor; the results are the same */
-    fmi2Type type;
+    Type type;
     char *name;
     int categories;
-    fmi2CallbackLogger logger; /* copied: the host's structure may be gone after fmi2Instantiate */
-    fmi2ComponentEnvironment environment;
+    Log log;
 } Instance;
 
-/* lifecycle.c */
-fmi2Status report(const Instance *instance, Category category, const char *format, ...);
-fmi2Status refuse(const Instance *instance, const char *function);
+/* Every function that a host calls is told its name there, for messages. */
 #define REQUIRE(instance, function, phases) \
     do { \
-        if (!(instance)) return fmi2Error; \
+        if (!(instance)) return ERROR; \
         if (!((instance)->is.phase & (phases))) return refuse(instance, function); \
     } while (0)
 
-/* evaluate.c: compute in place; on anything but fmi2OK the content is as it was */
+/* lifecycle.c */
+Status report(const Instance *instance, Category category, const char *format, ...);
+Status refuse(const Instance *instance, const char *function);
+Status choose_log(Instance *instance, const char *function, bool on, size_t n, const char *const names[]);
+Instance *instantiate(Type type, const char *name, const char *guid, const Log *log, bool logging);
+void release(Instance *instance);
+Status set_up(Instance *instance, const char *function, double start, bool has_stop, double stop);
+Status enter_initialization(Instance *instance, const char *function);
+Status exit_initialization(Instance *instance, const char *function);
+Status terminate(Instance *instance, const char *function);
+Status reset(Instance *instance, const char *function);
+
+/* variables.c */
+Status before_get(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds);
+Status before_set(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds);
+Status derivative(Instance *instance, const char *function, const Reference unknowns[], size_t n_unknowns,
+                  const Reference knowns[], size_t n_knowns, const double seed[], double result[]);
+
+/* simulate.c */
+Status do_step(Instance *instance, const char *function, double time, double h);
+Status enter_event(Instance *instance, const char *function);
+Status update_discrete(Instance *instance, const char *function);
+Status enter_continuous(Instance *instance, const char *function);
+Status completed_step(Instance *instance, const char *function);
+Status set_time(Instance *instance, const char *function, double time);
+Status set_states(Instance *instance, const char *function, const double x[], size_t n);
+Status get_states(Instance *instance, const char *function, double x[], size_t n);
+Status get_derivatives(Instance *instance, const char *function, double derivatives[], size_t n);
+Status get_nominals(Instance *instance, const char *function, double nominals[], size_t n);
+Status get_indicators(Instance *instance, const char *function, size_t n);
+
+/* state.c */
+Status get_state(Instance *instance, const char *function, void **target);
+Status set_state(Instance *instance, const char *function, const void *source);
+Status free_state(Instance *instance, const char *function, void **state);
+Status state_size(Instance *instance, const char *function, const void *state, size_t *size);
+Status serialize(Instance *instance, const char *function, void *source, void *bytes, size_t size);
+Status deserialize(Instance *instance, const char *function, const void *bytes, size_t size, void **target);
+
+/* evaluate.c: compute in place; on anything but OK the content is as it was */
 bool in_range(const Variable *variable, double value);
-fmi2Status check_ranges(const Instance *instance);
-fmi2Status prepare(Instance *instance);
+Status check_ranges(const Instance *instance);
+Status prepare(Instance *instance);
 int64_t evaluate(const Instance *instance, double *values, double h); /* leaves the content alone, not working memory */
-fmi2Status update(Instance *instance, double h, bool warm);
+Status update(Instance *instance, double h, bool warm);
 void accumulate(Instance *instance);
-fmi2Status update_lazy(Instance *instance);
-fmi2Status refresh(Instance *instance);
+Status update_lazy(Instance *instance);
+Status refresh(Instance *instance);
 
 #endif

@@ -1,4 +1,4 @@
-/* From fmi2Instantiate to fmi2FreeInstance, and what the instance has to say on its way. */
+/* From making an instance to freeing it, and what it has to say on its way. */
 #include <cpuid.h>
 #include <math.h>
 #include <stdarg.h>
@@ -11,32 +11,26 @@
 static const struct {
     Category category;
     const char *name;
-    fmi2Status status;
+    Status status;
 } categories[] = {
-    {LOG_WARNING, "logStatusWarning", fmi2Warning},
-    {LOG_DISCARD, "logStatusDiscard", fmi2Discard},
-    {LOG_ERROR, "logStatusError", fmi2Error},
+    {LOG_WARNING, "logStatusWarning", WARNING},
+    {LOG_DISCARD, "logStatusDiscard", DISCARD},
+    {LOG_ERROR, "logStatusError", ERROR},
 };
 #define N_CATEGORIES (sizeof categories / sizeof *categories)
 
-const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
-const char *fmi2GetVersion(void) { return fmi2Version; }
-
 /* Log a message of a category that is switched on; return the category's status. */
-fmi2Status report(const Instance *instance, Category category, const char *format, ...)
+Status report(const Instance *instance, Category category, const char *format, ...)
 {
     size_t i = 0;
     while (categories[i].category != category) i++;
-    if (instance->logger && (instance->categories & category)) {
+    if (instance->log.logger && (instance->categories & category)) {
         char message[512];
         va_list arguments;
         va_start(arguments, format);
         vsnprintf(message, sizeof message, format, arguments);
         va_end(arguments);
-        /* as the format itself, since loggers of Python hosts see no further arguments; text of the host may hold a % */
-        for (char *p = message; *p; p++)
-            if (*p == '%') *p = '?';
-        instance->logger(instance->environment, instance->name, categories[i].status, categories[i].name, message);
+        instance->log.write(&instance->log, instance->name, categories[i].status, categories[i].name, message);
     }
     return categories[i].status;
 }
@@ -56,18 +50,17 @@ static const char *phase_name(int64_t phase)
 }
 
 /* The answer to a call that is not legal now; it has changed nothing. */
-fmi2Status refuse(const Instance *instance, const char *function)
+Status refuse(const Instance *instance, const char *function)
 {
-    const char *kind = instance->type == fmi2CoSimulation ? "co-simulation" : "model exchange";
+    const char *kind = instance->type == CO_SIMULATION ? "co-simulation" : "model exchange";
     return report(instance, LOG_ERROR, "%s is not allowed in %s %s; the call is ignored", function, kind,
                   phase_name(instance->is.phase));
 }
 
-fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const fmi2String names[])
+Status choose_log(Instance *instance, const char *function, bool on, size_t n, const char *const names[])
 {
-    Instance *instance = c;
     int chosen = n == 0 ? LOG_WARNING | LOG_DISCARD | LOG_ERROR : 0;
-    REQUIRE(instance, "fmi2SetDebugLogging", ANY);
+    REQUIRE(instance, function, ANY);
     for (size_t k = 0; k < n; k++) {
         size_t i = 0;
         while (i < N_CATEGORIES && (!names || !names[k] || strcmp(names[k], categories[i].name))) i++;
@@ -76,7 +69,7 @@ fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const 
         chosen |= categories[i].category;
     }
     instance->categories = on ? chosen : 0;
-    return fmi2OK;
+    return OK;
 }
 
 static void restart(Instance *instance)
@@ -117,21 +110,16 @@ static const Model *model_for_this_processor(void)
     return (saved & wide_registers) == wide_registers ? &model_v3 : &model_v2;
 }
 
-fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
-                              const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging)
+/* A new instance, or NULL with a message that says why not. */
+Instance *instantiate(Type type, const char *name, const char *guid, const Log *log, bool logging)
 {
     Instance *instance;
-    Instance caller = {.categories = LOG_ERROR, .name = (char *)(name ? name : "")};
-    (void)resources; /* all data are in the binary, so any location will do, even none */
-    (void)visible;
-    if (!functions) return NULL;
-    caller.logger = functions->logger;
-    caller.environment = functions->componentEnvironment;
+    const Instance caller = {.categories = LOG_ERROR, .name = (char *)(name ? name : ""), .log = *log};
     if (!name || !*name) {
         report(&caller, LOG_ERROR, "the instance has no name");
         return NULL;
     }
-    if (type != fmi2CoSimulation && type != fmi2ModelExchange) {
+    if (type != CO_SIMULATION && type != MODEL_EXCHANGE) {
         report(&caller, LOG_ERROR, "fmuType %d is neither co-simulation nor model exchange", (int)type);
         return NULL;
     }
@@ -150,16 +138,14 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     strcpy(instance->name, name);
     instance->type = type;
     instance->model = model_for_this_processor();
-    instance->logger = caller.logger;
-    instance->environment = caller.environment;
+    instance->log = *log;
     instance->categories = logging ? LOG_WARNING | LOG_DISCARD | LOG_ERROR : LOG_DISCARD | LOG_ERROR;
     restart(instance);
     return instance;
 }
 
-void fmi2FreeInstance(fmi2Component c)
+void release(Instance *instance)
 {
-    Instance *instance = c;
     if (!instance) return;
     free(instance->work);
     free(instance->memory);
@@ -167,53 +153,45 @@ void fmi2FreeInstance(fmi2Component c)
     free(instance);
 }
 
-fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean has_tolerance, fmi2Real tolerance, fmi2Real start,
-                               fmi2Boolean has_stop, fmi2Real stop)
+Status set_up(Instance *instance, const char *function, double start, bool has_stop, double stop)
 {
-    Instance *instance = c;
-    (void)has_tolerance; /* nothing is integrated here */
-    (void)tolerance;
-    REQUIRE(instance, "fmi2SetupExperiment", INSTANTIATED);
+    REQUIRE(instance, function, INSTANTIATED);
     if (!isfinite(start) || (has_stop && !(stop >= start)))
         return report(instance, LOG_ERROR, "startTime = %g, stopTime = %g: stop must not lie before start", start, stop);
     instance->is.time = instance->is.accepted_time = start;
     instance->is.stop_time = has_stop ? stop : INFINITY;
-    return fmi2OK;
+    return OK;
 }
 
-fmi2Status fmi2EnterInitializationMode(fmi2Component c)
+Status enter_initialization(Instance *instance, const char *function)
 {
-    Instance *instance = c;
-    REQUIRE(instance, "fmi2EnterInitializationMode", INSTANTIATED);
+    REQUIRE(instance, function, INSTANTIATED);
     instance->is.phase = INITIALIZATION;
-    return fmi2OK;
+    return OK;
 }
 
 /* Discard leaves the instance in initialisation mode, where the value that was complained of can be set anew. */
-fmi2Status fmi2ExitInitializationMode(fmi2Component c)
+Status exit_initialization(Instance *instance, const char *function)
 {
-    Instance *instance = c;
-    fmi2Status status;
-    REQUIRE(instance, "fmi2ExitInitializationMode", INITIALIZATION);
+    Status status;
+    REQUIRE(instance, function, INITIALIZATION);
     status = refresh(instance);
-    if (status > fmi2Warning) return status;
-    instance->is.phase = instance->type == fmi2CoSimulation ? STEP_COMPLETE : EVENT;
-    if (instance->type == fmi2ModelExchange) accumulate(instance);
+    if (status > WARNING) return status;
+    instance->is.phase = instance->type == CO_SIMULATION ? STEP_COMPLETE : EVENT;
+    if (instance->type == MODEL_EXCHANGE) accumulate(instance);
     return status;
 }
 
-fmi2Status fmi2Terminate(fmi2Component c)
+Status terminate(Instance *instance, const char *function)
 {
-    Instance *instance = c;
-    REQUIRE(instance, "fmi2Terminate", RUNNING);
+    REQUIRE(instance, function, RUNNING);
     instance->is.phase = TERMINATED;
-    return fmi2OK;
+    return OK;
 }
 
-fmi2Status fmi2Reset(fmi2Component c)
+Status reset(Instance *instance, const char *function)
 {
-    Instance *instance = c;
-    REQUIRE(instance, "fmi2Reset", ANY);
+    REQUIRE(instance, function, ANY);
     restart(instance);
-    return fmi2OK;
+    return OK;
 }

@@ -24,13 +24,12 @@ static uint64_t checksum(const State *state)
 
 static size_t size_with(int64_t memory_size) { return sizeof(State) + (size_t)memory_size * sizeof(double); }
 
-fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *target)
+Status get_state(Instance *instance, const char *function, void **target)
 {
-    Instance *instance = c;
     size_t size;
     State *state;
-    REQUIRE(instance, "fmi2GetFMUstate", ANY);
-    if (!target) return report(instance, LOG_ERROR, "fmi2GetFMUstate: no place for the state is given");
+    REQUIRE(instance, function, ANY);
+    if (!target) return report(instance, LOG_ERROR, "%s: no place for the state is given", function);
     size = size_with(instance->memory_size);
     state = *target;
     if (!state || state->size != (int64_t)size) {
@@ -45,17 +44,16 @@ fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *target)
     state->memory_size = instance->memory_size;
     state->is = instance->is;
     if (instance->memory) memcpy(state->memory, instance->memory, size - sizeof *state);
-    return fmi2OK;
+    return OK;
 }
 
-fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate source)
+Status set_state(Instance *instance, const char *function, const void *source)
 {
-    Instance *instance = c;
     const State *state = source;
-    REQUIRE(instance, "fmi2SetFMUstate", ANY);
-    if (!state) return report(instance, LOG_ERROR, "fmi2SetFMUstate: no state is given");
+    REQUIRE(instance, function, ANY);
+    if (!state) return report(instance, LOG_ERROR, "%s: no state is given", function);
     if (state->type != (int64_t)instance->type)
-        return report(instance, LOG_ERROR, "fmi2SetFMUstate: the state is of the other kind of FMU");
+        return report(instance, LOG_ERROR, "%s: the state is of the other kind of FMU", function);
     if (state->memory_size != instance->memory_size) {
         double *memory = malloc((size_t)state->memory_size * sizeof(double) + 1);
         if (!memory) return report(instance, LOG_ERROR, "out of memory");
@@ -67,50 +65,46 @@ fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate source)
     }
     instance->is = state->is;
     if (instance->memory) memcpy(instance->memory, state->memory, (size_t)state->memory_size * sizeof(double));
-    return fmi2OK;
+    return OK;
 }
 
-fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state)
+Status free_state(Instance *instance, const char *function, void **state)
 {
-    Instance *instance = c;
-    REQUIRE(instance, "fmi2FreeFMUstate", ANY);
+    REQUIRE(instance, function, ANY);
     if (state) {
         free(*state);
         *state = NULL;
     }
-    return fmi2OK;
+    return OK;
 }
 
-fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size)
+Status state_size(Instance *instance, const char *function, const void *state, size_t *size)
 {
-    Instance *instance = c;
-    REQUIRE(instance, "fmi2SerializedFMUstateSize", ANY);
-    if (!state || !size) return report(instance, LOG_ERROR, "fmi2SerializedFMUstateSize: no state is given");
-    *size = (size_t)((State *)state)->size;
-    return fmi2OK;
+    REQUIRE(instance, function, ANY);
+    if (!state || !size) return report(instance, LOG_ERROR, "%s: no state is given", function);
+    *size = (size_t)((const State *)state)->size;
+    return OK;
 }
 
-fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate source, fmi2Byte bytes[], size_t size)
+Status serialize(Instance *instance, const char *function, void *source, void *bytes, size_t size)
 {
-    Instance *instance = c;
     State *state = source;
-    REQUIRE(instance, "fmi2SerializeFMUstate", ANY);
+    REQUIRE(instance, function, ANY);
     if (!state || !bytes || size < (size_t)state->size)
-        return report(instance, LOG_ERROR, "fmi2SerializeFMUstate: no state, or too few bytes for it");
+        return report(instance, LOG_ERROR, "%s: no state, or too few bytes for it", function);
     state->checksum = checksum(state);
     memcpy(bytes, state, (size_t)state->size);
-    return fmi2OK;
+    return OK;
 }
 
 /* Bytes of another build, cut short or damaged are refused. */
-fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *target)
+Status deserialize(Instance *instance, const char *function, const void *bytes, size_t size, void **target)
 {
-    Instance *instance = c;
     State *state;
     bool valid;
-    REQUIRE(instance, "fmi2DeSerializeFMUstate", ANY);
+    REQUIRE(instance, function, ANY);
     if (!bytes || !target || size < sizeof *state)
-        return report(instance, LOG_ERROR, "fmi2DeSerializeFMUstate: these bytes are no state of this FMU");
+        return report(instance, LOG_ERROR, "%s: these bytes are no state of this FMU", function);
     state = malloc(size);
     if (!state) return report(instance, LOG_ERROR, "out of memory");
     memcpy(state, bytes, size);
@@ -120,9 +114,9 @@ fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size
             state->checksum == checksum(state);
     if (!valid) {
         free(state);
-        return report(instance, LOG_ERROR, "fmi2DeSerializeFMUstate: these bytes are no state of this FMU");
+        return report(instance, LOG_ERROR, "%s: these bytes are no state of this FMU", function);
     }
     free(*target);
     *target = state;
-    return fmi2OK;
+    return OK;
 }

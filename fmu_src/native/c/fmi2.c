@@ -1,0 +1,263 @@
+/* FMI 2.0: its functions and types, in terms of those that every version shares. */
+#include <string.h>
+
+#include "fmi2Functions.h"
+#include "instance.h"
+
+#define SHARED(call) ((fmi2Status)(call))
+
+static void write_log(const Log *log, const char *name, Status status, const char *category, char *message)
+{
+    /* as the format itself, since loggers of Python hosts see no further arguments; text of the host may hold a % */
+    for (char *p = message; *p; p++)
+        if (*p == '%') *p = '?';
+    ((fmi2CallbackLogger)log->logger)(log->environment, name, (fmi2Status)status, category, message);
+}
+
+const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
+const char *fmi2GetVersion(void) { return fmi2Version; }
+
+fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const fmi2String names[])
+{
+    return SHARED(choose_log(c, __func__, on, n, names));
+}
+
+fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
+                              const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging)
+{
+    (void)resources; /* all data are in the binary, so any location will do, even none */
+    (void)visible;
+    if (!functions) return NULL;
+    const Log log = {write_log, (void (*)(void))functions->logger, functions->componentEnvironment};
+    return instantiate((Type)type, name, guid, &log, logging);
+}
+
+void fmi2FreeInstance(fmi2Component c) { release(c); }
+
+fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean has_tolerance, fmi2Real tolerance, fmi2Real start,
+                               fmi2Boolean has_stop, fmi2Real stop)
+{
+    (void)has_tolerance; /* nothing is integrated here */
+    (void)tolerance;
+    return SHARED(set_up(c, __func__, start, has_stop, stop));
+}
+
+fmi2Status fmi2EnterInitializationMode(fmi2Component c) { return SHARED(enter_initialization(c, __func__)); }
+fmi2Status fmi2ExitInitializationMode(fmi2Component c) { return SHARED(exit_initialization(c, __func__)); }
+fmi2Status fmi2Terminate(fmi2Component c) { return SHARED(terminate(c, __func__)); }
+fmi2Status fmi2Reset(fmi2Component c) { return SHARED(reset(c, __func__)); }
+
+/* ---------------------------------------------------------------- variables; no table has Strings */
+
+#define GET(function, type, kinds) \
+    fmi2Status function(fmi2Component c, const fmi2ValueReference refs[], size_t n, type values[]) \
+    { \
+        const Instance *instance = c; \
+        Status status = before_get(c, __func__, refs, n, kinds); \
+        if (status > WARNING) return SHARED(status); \
+        for (size_t k = 0; k < n; k++) values[k] = (type)instance->is.values[refs[k]]; \
+        return SHARED(status); \
+    }
+GET(fmi2GetReal, fmi2Real, REAL)
+GET(fmi2GetInteger, fmi2Integer, INTEGER | ENUMERATION)
+
+fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference refs[], size_t n, fmi2Boolean values[])
+{
+    (void)values;
+    return SHARED(before_get(c, __func__, refs, n, 0));
+}
+
+fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference refs[], size_t n, fmi2String values[])
+{
+    (void)values;
+    return SHARED(before_get(c, __func__, refs, n, 0));
+}
+
+#define SET(function, type, kinds) \
+    fmi2Status function(fmi2Component c, const fmi2ValueReference refs[], size_t n, const type values[]) \
+    { \
+        Instance *instance = c; \
+        Status status = before_set(c, __func__, refs, n, kinds); \
+        if (status != OK) return SHARED(status); \
+        for (size_t k = 0; k < n; k++) instance->is.values[refs[k]] = values[k]; \
+        return fmi2OK; \
+    }
+SET(fmi2SetReal, fmi2Real, REAL)
+SET(fmi2SetInteger, fmi2Integer, INTEGER | ENUMERATION)
+
+fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference refs[], size_t n, const fmi2Boolean values[])
+{
+    (void)values;
+    return SHARED(before_set(c, __func__, refs, n, 0));
+}
+
+fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference refs[], size_t n, const fmi2String values[])
+{
+    (void)values;
+    return SHARED(before_set(c, __func__, refs, n, 0));
+}
+
+fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknowns[], size_t n_unknowns,
+                                        const fmi2ValueReference knowns[], size_t n_knowns, const fmi2Real seed[],
+                                        fmi2Real result[])
+{
+    return SHARED(derivative(c, __func__, unknowns, n_unknowns, knowns, n_knowns, seed, result));
+}
+
+/* ---------------------------------------------------------------- states */
+
+fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) { return SHARED(get_state(c, __func__, state)); }
+fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) { return SHARED(set_state(c, __func__, state)); }
+fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) { return SHARED(free_state(c, __func__, state)); }
+
+fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size)
+{
+    return SHARED(state_size(c, __func__, state, size));
+}
+
+fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size)
+{
+    return SHARED(serialize(c, __func__, state, bytes, size));
+}
+
+fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state)
+{
+    return SHARED(deserialize(c, __func__, bytes, size, state));
+}
+
+/* ---------------------------------------------------------------- co-simulation */
+
+fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real h, fmi2Boolean no_set_state_before)
+{
+    (void)no_set_state_before;
+    return SHARED(do_step(c, __func__, time, h));
+}
+
+/* The phases of co-simulation alone: model exchange has no part in what follows. */
+static Status require_slave(const Instance *instance, const char *function, int phases)
+{
+    REQUIRE(instance, function, instance->type == CO_SIMULATION ? phases : 0);
+    return OK;
+}
+#define REQUIRE_SLAVE(phases) \
+    do { \
+        Status legal = require_slave(c, __func__, phases); \
+        if (legal != OK) return SHARED(legal); \
+    } while (0)
+#define STEPPED (STEP_COMPLETE | STEP_FAILED | TERMINATED)
+
+fmi2Status fmi2CancelStep(fmi2Component c)
+{
+    REQUIRE_SLAVE(0); /* no step is ever in progress */
+    return fmi2OK;
+}
+
+static fmi2Status unknown_status(const Instance *instance, const char *function)
+{
+    return SHARED(report(instance, LOG_DISCARD, "%s: there is no such status", function));
+}
+
+fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
+{
+    REQUIRE_SLAVE(STEPPED);
+    if (kind != fmi2DoStepStatus) return unknown_status(c, __func__);
+    *value = (fmi2Status)((Instance *)c)->is.last_step;
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value)
+{
+    REQUIRE_SLAVE(STEPPED);
+    if (kind != fmi2LastSuccessfulTime) return unknown_status(c, __func__);
+    *value = ((Instance *)c)->is.time;
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Integer *value)
+{
+    (void)kind, (void)value;
+    REQUIRE_SLAVE(STEPPED);
+    return unknown_status(c, __func__);
+}
+
+fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value)
+{
+    REQUIRE_SLAVE(STEPPED);
+    if (kind != fmi2Terminated) return unknown_status(c, __func__);
+    *value = fmi2False; /* this model never asks to stop */
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2String *value)
+{
+    REQUIRE_SLAVE(STEPPED);
+    if (kind != fmi2PendingStatus) return unknown_status(c, __func__);
+    *value = "";
+    return fmi2OK;
+}
+
+/* Inputs are constant over a step and outputs have no derivatives: the capability flags say so. */
+fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference refs[], size_t n,
+                                       const fmi2Integer order[], const fmi2Real values[])
+{
+    (void)refs, (void)order, (void)values;
+    REQUIRE_SLAVE(INSTANTIATED | INITIALIZATION | STEP_COMPLETE | STEP_FAILED);
+    if (n == 0) return fmi2OK;
+    return SHARED(report(c, LOG_ERROR, "inputs are not interpolated (canInterpolateInputs is false)"));
+}
+
+fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference refs[], size_t n,
+                                        const fmi2Integer order[], fmi2Real values[])
+{
+    (void)refs, (void)order, (void)values;
+    REQUIRE_SLAVE(STEPPED);
+    if (n == 0) return fmi2OK;
+    return SHARED(report(c, LOG_ERROR, "outputs have no derivatives (maxOutputDerivativeOrder is 0)"));
+}
+
+/* ---------------------------------------------------------------- model exchange */
+
+fmi2Status fmi2EnterEventMode(fmi2Component c) { return SHARED(enter_event(c, __func__)); }
+fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c) { return SHARED(enter_continuous(c, __func__)); }
+fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time) { return SHARED(set_time(c, __func__, time)); }
+
+fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info)
+{
+    Status status = update_discrete(c, __func__);
+    if (status == OK) memset(info, 0, sizeof *info);
+    return SHARED(status);
+}
+
+fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean no_set_state_before, fmi2Boolean *enter_event_mode,
+                                       fmi2Boolean *terminate_simulation)
+{
+    (void)no_set_state_before;
+    *enter_event_mode = *terminate_simulation = fmi2False;
+    return SHARED(completed_step(c, __func__));
+}
+
+fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t n)
+{
+    return SHARED(set_states(c, __func__, x, n));
+}
+
+fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t n)
+{
+    return SHARED(get_states(c, __func__, x, n));
+}
+
+fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real derivatives[], size_t n)
+{
+    return SHARED(get_derivatives(c, __func__, derivatives, n));
+}
+
+fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real nominals[], size_t n)
+{
+    return SHARED(get_nominals(c, __func__, nominals, n));
+}
+
+fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real indicators[], size_t n)
+{
+    (void)indicators;
+    return SHARED(get_indicators(c, __func__, n));
+}
