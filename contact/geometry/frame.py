@@ -17,11 +17,14 @@ from contact.geometry.layout import (
     LOBE_WEIGHT,
     LOBE_Y0,
     LOBE_Y1,
+    MOST_PATCHES,
     PATCH_ANGLE,
     PATCH_APPROACH,
     PATCH_FROM,
     PATCH_LOAD,
     PATCH_PHI,
+    PATCH_POINT_Y,
+    PATCH_POINT_Z,
     PATCH_RADIUS,
     PATCH_RAIL_Y,
     PATCH_RAIL_Z,
@@ -90,6 +93,7 @@ def positions(motion: Array, frame: Frame, wheel: Array, n_wheel: int, patch: Ar
     py, pz = y - motion[POSE_Y], z - motion[POSE_Z] + motion[RADIUS]
     x, d, r = on_wheel(track_slope(frame, slope), py, pz, lx, ly, lz)
     patch[PATCH_X], patch[PATCH_Y], patch[PATCH_Z] = x, y0, z0
+    patch[PATCH_POINT_Y], patch[PATCH_POINT_Z] = y, z
     cos_roll, sin_roll = math.cos(motion[RAIL_ROLL]), math.sin(motion[RAIL_ROLL])
     rail_y, rail_z = y0 - motion[RAIL_Y], z0 - motion[RAIL_Z]
     patch[PATCH_RAIL_Y] = cos_roll * rail_y + sin_roll * rail_z
@@ -212,7 +216,8 @@ def describe_all(
     separations: Array,
 ) -> int:
     """All patches at the pose in `motion`, from the field side to the flange; returns their number."""
-    n = combine(lobe, lobes(line, start, end, motion[POSE_Z], lobe), motion[COMBINE_DISTANCE], motion[COMBINE_ANGLE])
+    n = lobes(line, start, end, motion[POSE_Z], lobe)
+    n = combine(lobe, n, motion[COMBINE_DISTANCE], motion[COMBINE_ANGLE], int(motion[MOST_PATCHES]))
     found = 0
     for k in range(n - 1, -1, -1):
         before = 0.5 * (lobe[k - 1, LOBE_Y1] + lobe[k, LOBE_Y0]) if k > 0 else -math.inf

@@ -31,8 +31,15 @@ MAX_LOBES = 16
     TAPE,  # distance of the tape circle from the wheelset's centre [m]
     COMBINE_DISTANCE,  # [m]
     COMBINE_ANGLE,  # [rad]
-) = range(20)
-N_MOTION = 20
+    MOST_PATCHES,  # 1 to MAX_PATCHES; further ones share the plane of the last
+    MIRROR,  # 1 for the right side, -1 for the left
+    ORIGIN_Y,  # of the rail's profile where there is no irregularity [m]
+    ORIGIN_Z,
+) = range(24)
+N_MOTION = 24
+N_GIVEN = RADIUS  # pose, velocity and irregularity, which change from step to step, come first
+#: What changes its sign from one side to the other.
+ODD = (POSE_Y, POSE_ROLL, POSE_YAW, VEL_Y, VEL_ROLL, VEL_YAW, RAIL_Y, RAIL_ROLL, RAIL_VY, RAIL_VROLL)
 
 # patches[k, ...]
 (
@@ -52,8 +59,10 @@ N_MOTION = 20
     PATCH_FROM,  # edges of the interpenetration along the plane [m]
     PATCH_TO,
     PATCH_LOAD,  # normal force [N], filled by a search for a load
-) = range(16)
-N_PATCH = 16
+    PATCH_POINT_Y,  # of the wheel, opposite the reference point; its x is PATCH_X
+    PATCH_POINT_Z,
+) = range(18)
+N_PATCH = 18
 
 # separations[k, ROW, sample]
 SEP_Y, SEP_G, SEP_A, SEP_XC = range(4)

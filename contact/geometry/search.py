@@ -8,7 +8,6 @@ can lie nowhere else (Wang's trace line, theory.md 9.4). With it the search is o
 import math
 
 from contact._jit import kernel
-from contact._layout import MAX_PATCHES
 from contact.geometry.curve import SLOPE, Array, Y, Z, advance, at, hermite, least, root
 from contact.geometry.layout import (
     GAP,
@@ -184,8 +183,8 @@ def lobes(line: Array, start: int, end: int, z: float, lobe: Array) -> int:
 
 
 @kernel
-def combine(lobe: Array, n: int, distance: float, angle: float) -> int:
-    """Merge neighbouring lobes in place into patches; returns the number of patches.
+def combine(lobe: Array, n: int, distance: float, angle: float, most: int) -> int:
+    """Merge neighbouring lobes in place into at most `most` patches; returns the number of patches.
 
     Two lobes stay separate patches when they are further apart than `distance` [m] (along the mean of their tangents) and
     their angles differ by more than `angle` [rad]; nearer ones share one plane, as with CONTACT's D_COMB.
@@ -195,7 +194,7 @@ def combine(lobe: Array, n: int, distance: float, angle: float) -> int:
     for i in range(1, n):
         own = math.atan2(lobe[i, LOBE_SIN], lobe[i, LOBE_COS])
         apart = (lobe[i, LOBE_Y0] - lobe[k, LOBE_Y1]) / math.cos(0.5 * (own + last)) > distance
-        if apart and abs(own - last) > angle and k < MAX_PATCHES - 1:
+        if apart and abs(own - last) > angle and k < most - 1:
             k += 1
             lobe[k, :] = lobe[i, :]
         else:

@@ -28,6 +28,7 @@ from contact.geometry.layout import (
     TAPE,
 )
 from contact.geometry.search import place, touch, trace, vertical_gap
+from contact.geometry.workspace import Search
 from contact.normal.analyn import analyn
 
 NO_OVERLAP, NOT_SETTLED = -1, -2
@@ -58,53 +59,57 @@ def first_touch(wheel: Array, rail: Array, motion: Array, line: Array, placed: A
 
 
 @kernel
-def carried(n: int, patches: Array, separations: Array, case: Array, nodes: Array, weights: Array, work: Array,
-            strips: Array, result: Array) -> float:  # fmt: skip
+def carried(n: int, space: Search) -> float:
     """Vertical force of the pressures of n patches by ANALYN at their approaches, sum of N cos(angle); fills PATCH_LOAD."""
     total = 0.0
+    case, patches = space.case, space.patches
     case[CASE_LOAD_KIND] = APPROACH
     for k in range(n):
         case[CASE_LOAD] = patches[k, PATCH_APPROACH]
-        sep = separations[k]
-        result[:] = 0.0
-        analyn(sep[SEP_Y], sep[SEP_G], sep[SEP_A], sep[SEP_XC], case, nodes, weights, work, strips, result)
-        patches[k, PATCH_LOAD] = result[RES_N]
-        total += result[RES_N] * math.cos(patches[k, PATCH_ANGLE])
+        sep = space.separations[k]
+        space.result[:] = 0.0
+        analyn(
+            sep[SEP_Y], sep[SEP_G], sep[SEP_A], sep[SEP_XC], case, space.nodes, space.weights, space.work, space.strips,
+            space.result,
+        )  # fmt: skip
+        patches[k, PATCH_LOAD] = space.result[RES_N]
+        total += space.result[RES_N] * math.cos(patches[k, PATCH_ANGLE])
     return total
 
 
 @kernel
-def settle(mode: int, amount: float, wheel: Array, rail: Array, motion: Array, grid: Array, line: Array, placed: Array,
-           lobe: Array, wheel_plane: Array, rail_plane: Array, patches: Array, separations: Array, case: Array,
-           nodes: Array, weights: Array, work: Array, strips: Array, result: Array) -> int:  # fmt: skip
+def _describe_at(z: float, first: int, start: int, end: int, space: Search) -> int:
+    """All patches with the wheelset at z, which is left in motion[POSE_Z]."""
+    space.motion[POSE_Z] = z
+    return describe_all(
+        space.line, first, start, end, space.placed, space.lobe, space.motion, space.grid, space.wheel_plane,
+        space.rail_plane, space.patches, space.separations,
+    )  # fmt: skip
+
+
+@kernel
+def settle(mode: int, amount: float, space: Search) -> int:
     """Find z as `mode` says, leave it in motion[POSE_Z] and describe the patches there.
 
     Under a load, F^(2/3) is nearly linear in the penetration (Hertz); its root is bracketed and found by the Illinois
     variant of regula falsi, usually at the fifth force, by bisection when that is slow.
     """
-    first, start, end = oppose(wheel, rail, motion, line, placed)
+    motion = space.motion
+    first, start, end = oppose(space.wheel, space.rail, motion, space.line, space.placed)
     if end - start < 3:
         return NO_OVERLAP
     if mode == GIVEN_Z:
-        return describe_all(
-            line, first, start, end, placed, lobe, motion, grid, wheel_plane, rail_plane, patches, separations
-        )
-    z0 = touch(line, start, end)
+        return _describe_at(motion[POSE_Z], first, start, end, space)
+    z0 = touch(space.line, start, end)
     if mode == PENETRATION or amount <= 0.0:
-        motion[POSE_Z] = z0 + amount
-        return describe_all(
-            line, first, start, end, placed, lobe, motion, grid, wheel_plane, rail_plane, patches, separations
-        )
+        return _describe_at(z0 + amount, first, start, end, space)
     target = amount ** (2.0 / 3.0)
     low, high, f_low, f_high = 0.0, math.inf, -target, 0.0
     p = 1e-4 * (amount / 1e5) ** (2.0 / 3.0)
     side = 0
     for iteration in range(_MAX_ITERATIONS):
-        motion[POSE_Z] = z0 + p
-        n = describe_all(
-            line, first, start, end, placed, lobe, motion, grid, wheel_plane, rail_plane, patches, separations
-        )
-        force = carried(n, patches, separations, case, nodes, weights, work, strips, result)
+        n = _describe_at(z0 + p, first, start, end, space)
+        force = carried(n, space)
         if abs(force - amount) <= _TOLERANCE * amount or high - low <= 1e-15:
             return n
         f = max(force, 0.0) ** (2.0 / 3.0) - target

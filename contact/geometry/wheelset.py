@@ -19,19 +19,17 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact import quadrature
-from contact._layout import CASE_G, CASE_NU, MAX_PATCHES, N_CASE, N_RES, N_STRIP_ROWS
+from contact._layout import CASE_G, CASE_NU, MAX_PATCHES
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
-from contact.geometry import layout
-from contact.geometry.curve import hermite, least
+from contact.geometry import layout, workspace
+from contact.geometry.curve import Y
+from contact.geometry.prepare import cut, facing, move, rail_origin
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Patch, Pose, Velocity
 from contact.geometry.settle import GIVEN_Z, LOAD, NO_OVERLAP, NOT_SETTLED, PENETRATION, first_touch, settle
 from contact.material import STEEL, Material
-from contact.normal.analyn import N_WORK_ROWS
 from contact.separation import Separation
-from contact.solve import N_STRIPS
 
 __all__ = ["Irregularity", "Pair", "Patch", "Pose", "Velocity", "contacts"]
 
@@ -39,8 +37,6 @@ Array = NDArray[np.float64]
 Side = Literal["right", "left"]
 
 TAPE_FROM_FLANGE_BACK = 0.070  # [m] EN 13715: the tape circle lies 70 mm outside the back of the flange
-#: Steeper parts of the profiles take no part in the search, whatever roll is allowed on top [rad].
-STEEPEST = {"wheel": math.radians(80.0), "rail": math.radians(86.0)}
 SAMPLES = 81
 MAX_PENETRATION = 2e-3  # [m] a wheel under 10 MN; more is a slip of units
 
@@ -64,6 +60,8 @@ class Pair:
     combine_distance, combine_angle : float
         Lobes of interpenetration further apart than this [m] and differing in angle by more than this [rad] become
         separate patches with frames of their own; others share one plane.
+    most_patches : int
+        Of separate patches, 1 to 4; further lobes share the plane of the last.
     samples : int or array_like
         Number of samples of each separation, 5 to 2001, spread over the interpenetration and a margin; or their
         increasing positions in the contact plane [m], for a model whose separation lies on a fixed grid. There the gap
@@ -75,6 +73,8 @@ class Pair:
     ----------
     patches, separations : ndarray
         What the last search found, in the rows of `contact.geometry.layout` (right side). Only one thread may search.
+    space : contact.geometry.workspace.Search
+        All arrays of the search, as kernels take them.
 
     Raises
     ------
@@ -94,6 +94,7 @@ class Pair:
         gauge_point: float = 0.014,
         combine_distance: float = 8e-3,
         combine_angle: float = math.radians(20.0),
+        most_patches: int = MAX_PATCHES,
         samples: int | ArrayLike = SAMPLES,
         material: Material = STEEL,
     ) -> None:
@@ -105,39 +106,19 @@ class Pair:
         self.side: Side = side
         self._mirror = 1.0 if side == "right" else -1.0
         self.nominal_radius = require_number("nominal_radius", nominal_radius, 0.05, 2.0)
-        self._rail_origin = _rail_origin(rail, require_number("gauge", gauge, 0.1, 3.0), gauge_point)
-        self._grid, n = _grid(samples)
-        sizes = (
+        grid, n = _grid(samples)
+        self.space = workspace.allocate(_facing(wheel), _facing(rail), grid, n)
+        self.space.motion[layout.RADIUS :] = (
             self.nominal_radius,
             0.5 * require_number("flange_back", flange_back, 0.1, 3.0) + TAPE_FROM_FLANGE_BACK,
             require_number("combine_distance", combine_distance, 0.0),
             require_number("combine_angle", combine_angle, 0.0),
+            int(require_number("most_patches", most_patches, 1, MAX_PATCHES)),
+            self._mirror,
+            *_rail_origin(rail, require_number("gauge", gauge, 0.1, 3.0), gauge_point),
         )
-        self._motion = np.zeros(layout.N_MOTION)
-        self._motion[layout.RADIUS :] = sizes
-        wheel_curve, rail_curve = _facing(wheel), _facing(rail)
-        n_wheel, n_rail = wheel_curve.shape[1], rail_curve.shape[1]
-        line, placed = np.zeros((layout.N_LINE_ROWS, n_wheel)), np.zeros((3, n_rail))
-        self.patches = np.zeros((MAX_PATCHES, layout.N_PATCH))
-        self.separations = np.zeros((MAX_PATCHES, layout.N_SEP_ROWS, n))
-        case = np.zeros(N_CASE)
-        case[CASE_G], case[CASE_NU] = material.shear_modulus, material.poisson_ratio
-        nodes, weights = quadrature.fejer(N_STRIPS)
-        self._curves = wheel_curve, rail_curve, self._motion
-        self._lines = line, placed
-        self._work = (
-            np.zeros((layout.MAX_LOBES, layout.N_LOBE)),
-            np.zeros((layout.N_LINE_ROWS, n_wheel)),
-            np.zeros((3, n_rail)),
-            self.patches,
-            self.separations,
-            case,
-            nodes,
-            weights,
-            np.zeros((N_WORK_ROWS, n)),
-            np.zeros((N_STRIP_ROWS, MAX_PATCHES * N_STRIPS)),
-            np.zeros(N_RES),
-        )
+        self.space.case[CASE_G], self.space.case[CASE_NU] = material.shear_modulus, material.poisson_ratio
+        self.patches, self.separations = self.space.patches, self.space.separations
 
     def locate(
         self,
@@ -156,8 +137,8 @@ class Pair:
             mode, amount = LOAD, require_number("load", load, 0.0)
         elif penetration is not None:
             mode, amount = PENETRATION, require_number("penetration", penetration, 0.0, MAX_PENETRATION)
-        self._move(pose, velocity or _ROLLING, irregularity or _IDEAL)
-        n = settle(mode, amount, *self._curves, self._grid, *self._lines, *self._work)
+        move(self.given(pose, velocity, irregularity), self.space.motion)
+        n = settle(mode, amount, self.space)
         if n == NO_OVERLAP:
             raise self._apart(pose)
         if n == NOT_SETTLED:
@@ -181,8 +162,9 @@ class Pair:
 
     def touch(self, pose: Pose, irregularity: Irregularity | None = None) -> float:
         """z [m] at which the rigid wheel just touches the rail, the other coordinates as in `pose`."""
-        self._move(pose, _ROLLING, irregularity or _IDEAL)
-        overlap, z = first_touch(*self._curves, *self._lines)
+        s = self.space
+        move(self.given(pose, None, irregularity), s.motion)
+        overlap, z = first_touch(s.wheel, s.rail, s.motion, s.line, s.placed)
         if not overlap:
             raise self._apart(pose)
         return float(z)
@@ -190,29 +172,18 @@ class Pair:
     @property
     def z(self) -> float:
         """pose.z of the last search [m]: as given, or as found for a load or a penetration."""
-        return float(self._motion[layout.POSE_Z])
+        return float(self.space.motion[layout.POSE_Z])
 
-    def _move(self, pose: Pose, velocity: Velocity, rail: Irregularity) -> None:
-        """Take over the motion, mirrored to the right side."""
-        m = self._mirror
+    def given(self, pose: Pose, velocity: Velocity | None = None, irregularity: Irregularity | None = None) -> Array:
+        """The motion as kernels take it, in the order of `contact.geometry.layout`; by default steady rolling."""
+        velocity, rail = velocity or _ROLLING, irregularity or _IDEAL
         spin = -velocity.forward / self.nominal_radius if velocity.spin is None else velocity.spin
-        self._motion[: layout.RADIUS] = (
-            m * pose.y,
-            pose.z,
-            m * pose.roll,
-            m * pose.yaw,
-            velocity.forward,
-            m * velocity.y,
-            velocity.z,
-            m * velocity.roll,
-            m * velocity.yaw,
-            spin,
-            self._rail_origin[0] + m * rail.y,
-            self._rail_origin[1] + rail.z,
-            m * rail.roll,
-            m * rail.y_rate,
-            rail.z_rate,
-            m * rail.roll_rate,
+        return np.array(
+            [
+                *(pose.y, pose.z, pose.roll, pose.yaw),
+                *(velocity.forward, velocity.y, velocity.z, velocity.roll, velocity.yaw, spin),
+                *(rail.y, rail.z, rail.roll, rail.y_rate, rail.z_rate, rail.roll_rate),
+            ]
         )
 
     def _patch(self, k: int, loaded: bool) -> Patch:
@@ -233,7 +204,8 @@ class Pair:
         )
 
     def _apart(self, pose: Pose) -> ContactError:
-        wheel, rail = self._curves[0][0] + self._motion[layout.TAPE], self._curves[1][0] + self._rail_origin[0]
+        motion = self.space.motion
+        wheel, rail = self.space.wheel[Y] + motion[layout.TAPE], self.space.rail[Y] + motion[layout.ORIGIN_Y]
         low, high = sorted((self._mirror * (rail[0] - wheel[-1]), self._mirror * (rail[-1] - wheel[0])))
         return ContactError(
             f"pose.y = {pose.y:g}: the {self.side} wheel and rail profiles do not overlap; "
@@ -271,8 +243,8 @@ def contacts(
     irregularity : Irregularity, optional
         Displacement of this rail.
     **options
-        As for `Pair`: side, nominal_radius, gauge, flange_back, gauge_point, combine_distance, combine_angle, samples,
-        material.
+        As for `Pair`: side, nominal_radius, gauge, flange_back, gauge_point, combine_distance, combine_angle,
+        most_patches, samples, material.
 
     Returns
     -------
@@ -291,39 +263,31 @@ def contacts(
 _ROLLING, _IDEAL = Velocity(), Irregularity()
 
 
+def _rows(profile: Profile) -> Array:
+    return np.stack((profile.y, profile.z, profile.angle))
+
+
 def _facing(profile: Profile) -> Array:
-    """Rows y, z, dz/dy of the part around the tape circle or crown that is less steep than `STEEPEST` and has rising y."""
-    fair = np.cos(profile.angle) > math.cos(STEEPEST[profile.kind])
-    fair[:-1] &= np.diff(profile.y) > 0.0
-    centre = int(np.argmin(np.abs(profile.y)) if profile.kind == "wheel" else np.argmin(profile.z))
-    if not fair[centre]:
-        raise ContactError(f"{profile!r} is steep at y = {profile.y[centre]:g} m; is its unit or its side wrong?")
-    low = centre - int(np.argmin(np.append(fair[centre::-1], False))) + 1
-    high = centre + int(np.argmin(np.append(fair[centre:], False)))
-    part = slice(low, high)
-    return np.stack((profile.y[part], profile.z[part], np.tan(profile.angle[part])))
+    """Rows y, z, dz/dy of the part that can touch."""
+    rows = _rows(profile)
+    low, high = facing(rows, profile.kind == "wheel")
+    if low == high:
+        raise ContactError(f"{profile!r} is steep at y = {profile.y[low]:g} m; is its unit or its side wrong?")
+    curve = np.empty((3, high - low))
+    cut(rows, low, high, curve)
+    return curve
 
 
 def _rail_origin(rail: Profile, gauge: float, gauge_point: float) -> tuple[float, float]:
-    """(y, z) of the origin of the right rail's profile: its top at z = 0, its gauge face at half the gauge."""
-    highest = int(np.argmin(rail.z))
-    top = float(rail.z[highest])
-    for i in range(max(highest - 1, 0), min(highest + 1, rail.y.size - 1)):  # the crest lies between two points
-        t, z = least(*rail.z[i : i + 2], *np.tan(rail.angle[i : i + 2]), rail.y[i + 1] - rail.y[i])
-        top = min(top, z) if t > 0.0 else top
+    """(y, z) of the origin of the right rail's profile."""
     require_number("gauge_point", gauge_point, 0.0, open_minimum=True)
-    depth = rail.z[highest::-1] - top
-    below = np.flatnonzero(depth >= gauge_point)
-    if below.size == 0:
+    y, z, deepest = rail_origin(_rows(rail), gauge, gauge_point)
+    if deepest < gauge_point:
         raise ContactError(
-            f"gauge_point = {gauge_point:g} is outside the allowed range ]0, {depth.max():g}]: "
+            f"gauge_point = {gauge_point:g} is outside the allowed range ]0, {deepest:g}]: "
             f"{rail!r} reaches no deeper on its gauge side"
         )
-    i = highest - int(below[0])  # the gauge face is steep: y is interpolated over z there
-    h = rail.z[i + 1] - rail.z[i]
-    cot = 1.0 / np.tan(rail.angle[i : i + 2])
-    y, _ = hermite(rail.y[i], rail.y[i + 1], cot[0], cot[1], h, (top + gauge_point - rail.z[i]) / h)
-    return 0.5 * gauge - y, -top
+    return y, z
 
 
 def _grid(samples: int | ArrayLike) -> tuple[Array, int]:

@@ -89,13 +89,14 @@ def test_a_lobe_narrower_than_the_nodes_is_found():
 
 
 @pytest.mark.parametrize(
-    ("distance", "angle", "patches"), [(8e-3, 0.3, 2), (20e-3, 0.3, 1), (8e-3, 1.0, 1), (0.0, 0.0, 2)]
+    ("distance", "angle", "most", "patches"),
+    [(8e-3, 0.3, 4, 2), (20e-3, 0.3, 4, 1), (8e-3, 1.0, 4, 1), (0.0, 0.0, 4, 2), (0.0, 0.0, 1, 1)],
 )
-def test_lobes_become_patches_when_apart_in_place_and_in_angle(distance, angle, patches):
+def test_lobes_become_patches_when_apart_in_place_and_in_angle(distance, angle, most, patches):
     lobe = np.zeros((layout.MAX_LOBES, layout.N_LOBE))
     lobe[0] = [-0.030, -0.028, 1.0, -0.029, math.cos(0.5), math.sin(-0.5)]
     lobe[1] = [-0.016, -0.010, 3.0, -0.039, 3 * math.cos(0.05), 3 * math.sin(-0.05)]
-    assert search.combine(lobe, 2, distance, angle) == patches
+    assert search.combine(lobe, 2, distance, angle, most) == patches
     if patches == 1:
         assert lobe[0, layout.LOBE_WEIGHT] == 4.0
         assert lobe[0, layout.LOBE_Y1] == -0.010
