@@ -1,6 +1,6 @@
 """How deep the wheel sits on the rail: at a given z, at a given penetration, or under a given vertical load.
 
-These are the entry kernels of the geometry. They return the number of patches, NO_OVERLAP or NOT_SETTLED.
+These are the entry kernels of the geometry. They return the number of patches or a code below zero: NO_OVERLAP, NOT_SETTLED, TOO_DEEP.
 """
 
 import math
@@ -31,12 +31,12 @@ from contact.geometry.search import place, touch, trace, vertical_gap
 from contact.geometry.workspace import Search
 from contact.normal.analyn import analyn
 
-NO_OVERLAP, NOT_SETTLED = -1, -2
+NO_OVERLAP, NOT_SETTLED, TOO_DEEP = -1, -2, -3
 GIVEN_Z, PENETRATION, LOAD = 0, 1, 2
 
 _MAX_ITERATIONS = 60
 _TOLERANCE = 1e-9  # of the load
-_DEEPEST = 5e-3  # [m] below first touch: far beyond any load that steel carries
+DEEPEST = 5e-3  # [m] below first touch: far beyond any load that steel carries
 
 
 @kernel
@@ -98,9 +98,11 @@ def settle(mode: int, amount: float, space: Search) -> int:
     first, start, end = oppose(space.wheel, space.rail, motion, space.line, space.placed)
     if end - start < 3:
         return NO_OVERLAP
-    if mode == GIVEN_Z:
-        return _describe_at(motion[POSE_Z], first, start, end, space)
     z0 = touch(space.line, start, end)
+    if mode == GIVEN_Z:
+        if motion[POSE_Z] > z0 + DEEPEST:
+            return TOO_DEEP
+        return _describe_at(motion[POSE_Z], first, start, end, space)
     if mode == PENETRATION or amount <= 0.0:
         return _describe_at(z0 + amount, first, start, end, space)
     target = amount ** (2.0 / 3.0)
@@ -123,6 +125,6 @@ def settle(mode: int, amount: float, space: Search) -> int:
             p = low - f_low * (high - low) / (f_high - f_low) if iteration < 15 else 0.5 * (low + high)
         else:  # extrapolate the line, a little beyond
             p = min(1.05 * p * target / (f + target), 3.0 * p) if f > -target else 3.0 * p
-            if p > _DEEPEST:
+            if p > DEEPEST:
                 return NOT_SETTLED
     return NOT_SETTLED

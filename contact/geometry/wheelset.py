@@ -27,7 +27,17 @@ from contact.geometry.curve import Y
 from contact.geometry.prepare import cut, facing, move, rail_origin
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Patch, Pose, Velocity
-from contact.geometry.settle import GIVEN_Z, LOAD, NO_OVERLAP, NOT_SETTLED, PENETRATION, first_touch, settle
+from contact.geometry.settle import (
+    DEEPEST,
+    GIVEN_Z,
+    LOAD,
+    NO_OVERLAP,
+    NOT_SETTLED,
+    PENETRATION,
+    TOO_DEEP,
+    first_touch,
+    settle,
+)
 from contact.material import STEEL, Material
 from contact.separation import Separation
 
@@ -130,21 +140,10 @@ class Pair:
         irregularity: Irregularity | None = None,
     ) -> int:
         """Fill `patches` and `separations` without making objects; returns the number of patches. Else like `contacts`."""
-        if load is not None and penetration is not None:
-            raise ContactError(f"load = {load} and penetration = {penetration} exclude each other")
-        mode, amount = GIVEN_Z, 0.0
-        if load is not None:
-            mode, amount = LOAD, require_number("load", load, 0.0)
-        elif penetration is not None:
-            mode, amount = PENETRATION, require_number("penetration", penetration, 0.0, MAX_PENETRATION)
+        mode, amount = self.prescribed(load, penetration)
         move(self.given(pose, velocity, irregularity), self.space.motion)
         n = settle(mode, amount, self.space)
-        if n == NO_OVERLAP:
-            raise self._apart(pose)
-        if n == NOT_SETTLED:
-            raise ContactError(
-                f"load = {load:g}: no z was found at which the {self.side} wheel carries it on this rail"
-            )
+        self.require_found(n, pose, load)
         return int(n)
 
     def contacts(
@@ -185,6 +184,30 @@ class Pair:
                 *(rail.y, rail.z, rail.roll, rail.y_rate, rail.z_rate, rail.roll_rate),
             ]
         )
+
+    @staticmethod
+    def prescribed(load: float | None, penetration: float | None) -> tuple[int, float]:
+        """How z is to be found, as kernels take it: `mode` and `amount` of `settle`."""
+        if load is not None and penetration is not None:
+            raise ContactError(f"load = {load} and penetration = {penetration} exclude each other")
+        if load is not None:
+            return LOAD, require_number("load", load, 0.0)
+        if penetration is not None:
+            return PENETRATION, require_number("penetration", penetration, 0.0, MAX_PENETRATION)
+        return GIVEN_Z, 0.0
+
+    def require_found(self, code: int, pose: Pose, load: float | None) -> None:
+        """Raise a ContactError if `code`, an answer of `settle`, is none."""
+        if code == NO_OVERLAP:
+            raise self._apart(pose)
+        if code == NOT_SETTLED:
+            raise ContactError(
+                f"load = {load:g}: no z was found at which the {self.side} wheel carries it on this rail"
+            )
+        if code == TOO_DEEP:
+            raise ContactError(
+                f"pose.z = {pose.z:g}: the {self.side} wheel lies more than {DEEPEST:g} m inside its rail"
+            )
 
     def _patch(self, k: int, loaded: bool) -> Patch:
         m, p = self._mirror, self.patches[k].tolist()
@@ -254,7 +277,8 @@ def contacts(
     Raises
     ------
     ContactError
-        For input outside its range, where the profiles do not lie above each other, and for a load that no z carries.
+        For input outside its range, where the profiles do not lie above each other or far inside each other, and for a
+        load that no z carries.
     """
     pair = Pair(wheel, rail, **options)
     return pair.contacts(pose, velocity, load=load, penetration=penetration, irregularity=irregularity)

@@ -1,0 +1,221 @@
+"""`WheelRailPair` against its parts, mechanics and symmetry."""
+
+import math
+
+import numpy as np
+import pytest
+
+import contact
+from contact import ContactError, Status
+from contact.damage import evaluate
+from contact.geometry import profile
+from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
+from contact.pair import WheelRailPair
+
+METHODS = contact.methods()
+R0 = 0.460
+WHEEL, RAIL = profile.s1002(), profile.rail_60e1()
+#: Its gauge corner clears the flange root: tread and flange touch at once, at places far apart, around y = 6.37 mm.
+WORN = profile.rail_60e1(1 / 20, breakpoints="UIC 519")
+
+
+def make(side="right", rail=RAIL, **options) -> WheelRailPair:
+    return WheelRailPair(Pair(WHEEL, rail, side=side), **options)
+
+
+@pytest.fixture(scope="module")
+def right():
+    return make()
+
+
+@pytest.fixture(scope="module")
+def left():
+    return make("left")
+
+
+@pytest.fixture(scope="module")
+def worn():
+    return make(rail=WORN)
+
+
+def random_motion(seed: int) -> tuple[Pose, Velocity, Irregularity]:
+    """From field side contact to flange contact, all rates at work."""
+    rng = np.random.default_rng(seed)
+    pose = Pose(rng.uniform(-8e-3, 8e-3), rng.uniform(0.0, 4e-4), *rng.uniform(-0.02, 0.02, 2))
+    V = rng.uniform(5.0, 60.0)
+    velocity = Velocity(V, *rng.uniform(-0.05, 0.05, 4), spin=-V / R0 * rng.uniform(0.997, 1.003))
+    return pose, velocity, Irregularity(*(rng.uniform(-1, 1, 6) * [1e-3, 1e-3, 5e-3, 0.02, 0.02, 0.05]))
+
+
+def turned(angle: float) -> np.ndarray:
+    """Axes of the contact frame in track coordinates, as columns."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+
+
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("load", [None, 80e3])
+def test_is_search_and_solution_of_every_patch_put_together(right, worn, seed, load):
+    pair = worn if seed % 2 else right
+    pose, velocity, rail = random_motion(seed)
+    if seed == 1:
+        pose, rail = Pose(y=6.37e-3), Irregularity()
+    pose = Pose(pose.y, pair.pair.touch(pose, rail) + 8e-5, pose.roll, pose.yaw)
+    actual = pair.solve(pose, velocity, load=load, irregularity=rail, friction=0.4)
+    patches = pair.pair.contacts(pose, velocity, load=load, irregularity=rail)
+    assert len(actual.contacts) == len(patches) >= (2 if seed == 1 and load else 1)
+    force, damage = np.zeros(3), []
+    for mine, patch in zip(actual.contacts, patches, strict=True):
+        amount = {"approach": patch.approach} if load is None else {"load": patch.load}
+        s = contact.solve(patch.separation, patch.creepage, **amount, friction=0.4, speed=velocity.forward, throw=False)
+        np.testing.assert_allclose((mine.N, mine.Fx, mine.Fy, mine.Mz), (s.N, s.Fx, s.Fy, s.Mz), rtol=1e-12, atol=1e-9)
+        assert (mine.angle, mine.creepage, mine.status) == (patch.angle, patch.creepage, s.status)
+        assert (mine.area, mine.max_pressure) == pytest.approx((s.area, s.max_pressure), rel=1e-12)
+        force += turned(mine.angle) @ (s.Fx, s.Fy, -s.N)
+        d = evaluate(s, patch.rolling_radius)
+        damage.append((d.T_gamma, d.archard.volume, d.archard.depth_max, d.burstow))
+    np.testing.assert_allclose(actual.force, force, rtol=1e-12, atol=1e-9)
+    T_gamma, volume, depth, burstow = zip(*damage, strict=True)
+    index = [0, 7, 6, 4]
+    wanted = (sum(T_gamma), sum(volume), max(depth), max(burstow))
+    np.testing.assert_allclose(actual.damage[index], wanted, rtol=1e-12, atol=1e-30)
+
+
+@pytest.mark.parametrize("normal", METHODS.normal)
+def test_vertical_parts_of_the_normal_forces_carry_the_load(normal):
+    pair = make(rail=WORN, normal=normal)
+    s = pair.solve(Pose(y=6.37e-3), load=80e3)
+    assert len(s.contacts) == 2
+    assert sum(c.N * math.cos(c.angle) for c in s.contacts) == pytest.approx(80e3, rel=2e-9)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_moment_is_that_of_the_contacts_wrenches_about_the_centre(worn, seed):
+    pose, velocity, rail = random_motion(seed)
+    s = worn.solve(pose, velocity, load=60e3, irregularity=rail)
+    moment = np.zeros(3)
+    for c in s.contacts:
+        arm = np.array(c.position) - (0.0, pose.y, s.z - R0)
+        moment += np.cross(arm, turned(c.angle) @ (c.Fx, c.Fy, -c.N)) + turned(c.angle) @ (c.Mx, c.My, c.Mz)
+    np.testing.assert_allclose(s.moment, moment, rtol=1e-12, atol=1e-7)
+
+
+def test_pressure_of_a_curved_rail_is_centred_off_the_reference_point(right):
+    """The moment Mx is the first moment of the pressure, here against the fields of the solution."""
+    pose = Pose(y=2e-3, yaw=0.01)
+    s = right.solve(pose, load=80e3)
+    (patch,) = right.pair.contacts(pose, load=80e3)
+    field = contact.solve(patch.separation, patch.creepage, load=patch.load)
+    dN = field.p * field.dA
+    (c,) = s.contacts
+    assert c.Mx == pytest.approx(-(dN * field.y).sum(), rel=1e-3)
+    assert c.My == pytest.approx((dN * field.x).sum(), rel=1e-3)
+    assert abs(c.Mx) > 1.0
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_power_of_the_wrench_is_that_of_the_creepages(right, worn, seed):
+    """F·v + M·Omega of the wheelset is V(Fx ξ + Fy η + Mz φ) and what the pressure does; the rail is at rest."""
+    pair = worn if seed % 2 else right
+    pose, velocity, _ = random_motion(seed)
+    s = pair.solve(pose, velocity, load=80e3)
+    c, si = math.cos(pose.yaw), math.sin(pose.yaw)
+    axle = np.array([-si * math.cos(pose.roll), c * math.cos(pose.roll), math.sin(pose.roll)])
+    omega = velocity.roll * np.array([c, si, 0.0]) + velocity.yaw * np.array([0.0, 0.0, 1.0]) + velocity.spin * axle
+    v = np.array([velocity.forward, velocity.y, velocity.z])
+    wanted, scale = 0.0, 0.0
+    for k in s.contacts:
+        axes = turned(k.angle)
+        at = v + np.cross(omega, np.array(k.position) - (0.0, pose.y, s.z - R0))
+        creep = k.creepage
+        creeping = k.Fx * creep.longitudinal + k.Fy * creep.lateral + k.Mz * creep.spin
+        pressing = -k.N * (at @ axes[:, 2]) + (k.Mx, k.My, 0.0) @ (axes.T @ omega)
+        wanted += velocity.forward * creeping + pressing
+        scale += abs(velocity.forward * k.Fx) + abs(k.Mz * velocity.spin)
+    assert s.force @ v + s.moment @ omega == pytest.approx(wanted, abs=1e-11 * max(scale, 80e3))
+
+
+@pytest.mark.parametrize("y", [-6e-3, 0.0, 3e-3, 6.4e-3])
+def test_the_motion_loses_what_friction_dissipates(right, y):
+    """In steady rolling -(Fx ξ + Fy η + Mz φ) is the frictional energy per metre, within the discretisation of FaStrip."""
+    s = right.solve(Pose(y=y, yaw=3e-3), load=80e3)
+    lost = -sum(c.Fx * c.creepage.longitudinal + c.Fy * c.creepage.lateral + c.Mz * c.creepage.spin for c in s.contacts)
+    assert s.power_per_metre > 0.0
+    assert lost == pytest.approx(s.power_per_metre, rel=0.02)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_left_is_the_mirror_image_of_right_to_the_last_bit(right, left, seed):
+    pose, v, r = random_motion(seed)
+    a = right.solve(pose, v, load=80e3, irregularity=r)
+    b = left.solve(
+        Pose(-pose.y, pose.z, -pose.roll, -pose.yaw),
+        Velocity(v.forward, -v.y, v.z, -v.roll, -v.yaw, v.spin),
+        load=80e3,
+        irregularity=Irregularity(-r.y, r.z, -r.roll, -r.y_rate, r.z_rate, -r.roll_rate),
+    )
+    np.testing.assert_array_equal(b.force, a.force * [1, -1, 1])
+    np.testing.assert_array_equal(b.moment, a.moment * [-1, 1, -1])
+    np.testing.assert_array_equal(b.damage, a.damage)
+    for p, q in zip(a.contacts, b.contacts, strict=True):
+        assert (q.N, q.Fx, q.Fy, q.Mx, q.My, q.Mz) == (p.N, p.Fx, -p.Fy, -p.Mx, p.My, -p.Mz)
+        assert q.position == (p.position[0], -p.position[1], p.position[2])
+        assert (q.angle, q.creepage.lateral, q.creepage.spin) == (-p.angle, -p.creepage.lateral, -p.creepage.spin)
+
+
+@pytest.mark.parametrize("how", [{"load": 80e3}, {}])
+def test_a_displaced_rail_is_a_wheelset_displaced_the_other_way(right, how):
+    z = right.pair.touch(Pose(y=2e-3, yaw=0.01)) + 8e-5
+    a = right.solve(Pose(2e-3, z, 0.0, 0.01), Velocity(20.0, 0.1, 0.03), **how)
+    rail = Irregularity(-3e-3, -0.2e-3, 0.0, -0.1, -0.03)
+    b = right.solve(Pose(-1e-3, z - 0.2e-3, 0.0, 0.01), Velocity(20.0), irregularity=rail, **how)
+    np.testing.assert_allclose(b.force, a.force, rtol=1e-9)
+    np.testing.assert_allclose(b.moment, a.moment, rtol=1e-9)
+    assert b.z == pytest.approx(a.z - 0.2e-3, abs=1e-12)
+
+
+def test_lift_off_is_an_answer(right):
+    for s in (right.solve(Pose(z=-1e-3)), right.solve(Pose(y=1e-3), load=0.0)):
+        assert s.status is Status.NO_CONTACT
+        assert not s.force.any()
+        assert not s.moment.any()
+        assert not s.damage.any()
+        assert s.slip_ratio == s.power_per_metre == s.area == 0.0
+
+
+def test_interacting_strips_go_on_from_the_last_call_unless_a_patch_came_or_went():
+    pair = make(rail=WORN, normal="strip_halfspace")
+    pair.solve(Pose(y=3e-3), load=80e3)
+    warm = pair.solve(Pose(y=3.1e-3), load=80e3)
+    pair.bench.memory[:] = 0.0
+    cold = pair.solve(Pose(y=3.1e-3), load=80e3)
+    assert len(cold.contacts) == 1
+    np.testing.assert_allclose(warm.force, cold.force, atol=1e-4 * 80e3)
+    assert (warm.force != cold.force).any()
+    both = pair.solve(Pose(y=6.37e-3), load=80e3)
+    assert len(both.contacts) == 2
+    fresh = make(rail=WORN, normal="strip_halfspace").solve(Pose(y=6.37e-3), load=80e3)
+    np.testing.assert_array_equal(both.force, fresh.force)
+
+
+def test_no_more_than_so_many_patches_get_frames_of_their_own():
+    single = WheelRailPair(Pair(WHEEL, WORN, most_patches=1)).solve(Pose(y=6.37e-3), load=80e3)
+    assert len(single.contacts) == 1
+
+
+@pytest.mark.parametrize(
+    ("call", "text"),
+    [
+        (lambda p: p.solve(Pose(y=1.0), load=8e4), "pose.y = 1: the right wheel and rail profiles do not overlap"),
+        (lambda p: p.solve(Pose(z=0.01)), "pose.z = 0.01: the right wheel lies more than 0.005 m inside its rail"),
+        (lambda p: p.solve(Pose(), load=-1.0), "load = -1 is outside"),
+        (lambda p: p.solve(Pose(), load=1.0, penetration=1e-5), "exclude each other"),
+        (lambda p: p.solve(Pose(), load=1e12), r"load = 1e\+12: no z was found"),
+        (lambda p: p.solve(Pose(), load=8e4, friction=math.nan), "friction = nan is outside"),
+        (lambda p: make(normal="none"), "normal = 'none' is not a registered method"),
+        (lambda p: make(n_strips=3), "n_strips = 3 is not"),
+    ],
+)
+def test_bad_input_is_named(right, call, text):
+    with pytest.raises(ContactError, match=text):
+        call(right)
