@@ -1,6 +1,7 @@
 """How deep the wheel sits on the rail: at a given z, at a given penetration, or under a given vertical load.
 
-These are the entry kernels of the geometry. They return the number of patches or a code below zero: NO_OVERLAP, NOT_SETTLED, TOO_DEEP.
+These are the entry kernels of the geometry. They return the number of patches or a code below zero: NO_OVERLAP,
+NOT_SETTLED or TOO_DEEP.
 """
 
 import math
