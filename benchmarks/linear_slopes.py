@@ -20,26 +20,11 @@ from scipy.linalg import lu_factor, lu_solve
 import contact
 from benchmarks import accuracy
 from contact import kalker
+from contact.halfspace import influence
 
 TARGET = Path(__file__).parent.parent / "tests" / "reference" / "linear_slopes.json"
 STATES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 Array = np.ndarray
-
-
-def influence(X: Array, Y: Array, dx: Array, dy: Array, material: contact.Material) -> tuple[Array, ...]:
-    """Difference of displacement u1 - u2 at distance (X, Y) by a unit traction on an element dx × dy: C_xx, C_yy, C_xy."""
-    I1, I2, I3 = (np.zeros(X.shape) for _ in range(3))
-    for sx in (1, -1):
-        for sy in (1, -1):
-            x, y = X + sx * dx / 2, Y + sy * dy / 2
-            rho = np.hypot(x, y)
-            sign = sx * sy
-            I1 += sign * y * np.log(np.where(x > 0, rho + x, y**2 / np.where(rho - x > 0, rho - x, 1.0)))
-            I2 += sign * x * np.log(np.where(y > 0, rho + y, x**2 / np.where(rho - y > 0, rho - y, 1.0)))
-            I3 -= sign * rho
-    nu, scale = material.poisson_ratio, 1.0 / (math.pi * material.shear_modulus)
-    common = (1 - nu) * (I1 + I2)
-    return scale * (common + nu * I1), scale * (common + nu * I2), scale * nu * I3
 
 
 def slopes(solve: Callable[[int], contact.Solution], n: int) -> Array:
@@ -49,8 +34,8 @@ def slopes(solve: Callable[[int], contact.Solution], n: int) -> Array:
     x = (sol.strips.x_c[:, None] + sol.strips.a[:, None] * unit).ravel()
     y, dy, dx = (np.repeat(v, n) for v in (sol.strips.y, sol.strips.dy, 2.0 * sol.strips.a / n))
     X, Y = x[:, None] - x[None, :], y[:, None] - y[None, :]
-    here = influence(X, Y, dx, dy, sol.material)
-    ahead = influence(X + dx[:, None], Y, dx, dy, sol.material)
+    here = influence.tangential(X, Y, dx, dy, sol.material)
+    ahead = influence.tangential(X + dx[:, None], Y, dx, dy, sol.material)
     xx, yy, xy = (a - b for a, b in zip(here, ahead, strict=True))
     system = lu_factor(np.block([[xx, xy], [xy, yy]]))
     result = []

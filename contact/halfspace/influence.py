@@ -1,0 +1,112 @@
+"""Displacement of a half space by elements of constant traction, and its convolution with fields on a grid by FFT.
+
+A unit traction on an element dx × dy displaces body 1 against body 2 at distance (X, Y) by (theory.md 6; Kalker 1990)
+
+    C_zz = (1 - nu)(I1 + I2)/(pi G),   C_xx = C_zz + nu I1/(pi G),   C_yy = C_zz + nu I2/(pi G),   C_xy = nu I3/(pi G),
+
+    I1 = ∬X²/rho³ = [Y asinh(X/|Y|)],  I2 = ∬Y²/rho³ = [X asinh(Y/|X|)],  I3 = ∬XY/rho³ = -[rho],
+
+where [F] is the difference of F over the corners of the element.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from contact.material import Material
+
+Array = NDArray[np.float64]
+
+
+def integrals(X: ArrayLike, Y: ArrayLike, dx: ArrayLike, dy: ArrayLike) -> tuple[Array, Array, Array]:
+    """I1, I2, I3 [m] at the distances (X, Y) from the centre of an element dx × dy; all arguments broadcast."""
+    I1, I2, I3 = (np.zeros(np.broadcast_shapes(*map(np.shape, (X, Y, dx, dy)))) for _ in range(3))
+    for sign_x in (1, -1):
+        for sign_y in (1, -1):
+            x, y = np.asarray(X) + 0.5 * sign_x * np.asarray(dx), np.asarray(Y) + 0.5 * sign_y * np.asarray(dy)
+            size_x, size_y = (np.maximum(np.abs(v), 1e-300) for v in (x, y))
+            sign = sign_x * sign_y
+            I1 += sign * y * np.arcsinh(x / size_y)
+            I2 += sign * x * np.arcsinh(y / size_x)
+            I3 -= sign * np.hypot(x, y)
+    return I1, I2, I3
+
+
+def tangential(X: Array, Y: Array, dx: Array, dy: Array, material: Material) -> tuple[Array, Array, Array]:
+    """C_xx, C_yy, C_xy [m/Pa] at the distances (X, Y) from elements dx × dy."""
+    I1, I2, I3 = integrals(X, Y, dx, dy)
+    nu, scale = material.poisson_ratio, 1.0 / (math.pi * material.shear_modulus)
+    common = (1.0 - nu) * (I1 + I2)
+    return scale * (common + nu * I1), scale * (common + nu * I2), scale * nu * I3
+
+
+@functools.lru_cache(maxsize=16)
+def _transfers(mx: int, my: int, ratio: float) -> tuple[Array, Array, Array]:
+    """Fourier transforms of I1, I2 and I3 for dx = 1, dy = `ratio` on the periodic grid (my, mx), both even.
+
+    All three are real: I1 and I2 are even, I3 is odd in X and in Y. Every distance is filled, also those that are never
+    read: with a notch there I1 + I2 would not be positive, and its inverse no preconditioner.
+    """
+    found = []
+    quarter = integrals(np.arange(mx // 2 + 1), ratio * np.arange(my // 2 + 1)[:, None], 1.0, ratio)
+    for values, sign in zip(quarter, (1.0, 1.0, -1.0), strict=True):
+        if sign < 0.0:  # odd: zero, exactly, on the axes and where the periodic images meet
+            values[[0, -1], :] = values[:, [0, -1]] = 0.0
+        left = np.concatenate((values, sign * values[:, -2:0:-1]), axis=1)
+        transfer = np.fft.rfft2(np.concatenate((left, sign * left[-2:0:-1]))).real.copy()
+        transfer.setflags(write=False)
+        found.append(transfer)
+    return tuple(found)  # type: ignore[return-value]
+
+
+def fast_length(n: int) -> int:
+    """Least even number of factors 2, 3 and 5 that is at least `n`."""
+    n += n % 2
+    while True:
+        m = n
+        for factor in (2, 3, 5):
+            while m % factor == 0:
+                m //= factor
+        if m == 1:
+            return n
+        n += 2
+
+
+class Influence:
+    """The half space under a grid of `shape` (ny, nx): displacement difference [m] from tractions [Pa].
+
+    `reach` columns of displacement more than the grid has are exact on its far side (towards +x).
+    """
+
+    def __init__(self, shape: tuple[int, int], dx: float, dy: float, material: Material, reach: int = 0) -> None:
+        ny, nx = shape
+        self.shape, self.reach = (ny, nx), reach
+        self._padded = fast_length(2 * ny), fast_length(2 * (nx + reach))
+        I1, I2, I3 = _transfers(self._padded[1], self._padded[0], dy / dx)
+        nu, scale = material.poisson_ratio, dx / (math.pi * material.shear_modulus)
+        self.zz = scale * (1.0 - nu) * (I1 + I2)
+        self._inverse = 1.0 / self.zz
+        #: C_zz of an element on itself [m/Pa]
+        self.own = 2.0 * scale * (1.0 - nu) * (dy / dx * math.asinh(dx / dy) + math.asinh(dy / dx))
+        self._I, self._nu_scale = (I1, I2, I3), nu * scale
+
+    def forward(self, field: Array) -> NDArray[np.complex128]:
+        """Transform fields (…, ny, nx) on the padded grid."""
+        return np.fft.rfft2(field, self._padded)
+
+    def back(self, transform: NDArray[np.complex128], extra: int = 0) -> Array:
+        """Transform back to the grid, with `extra` columns beyond it."""
+        ny, nx = self.shape
+        return np.fft.irfft2(transform, self._padded)[..., :ny, : nx + extra]
+
+    def normal(self, p: Array) -> Array:
+        """Normal displacement [m], shape (ny, nx), from the pressure `p` [Pa]."""
+        return self.back(self.zz * self.forward(p))
+
+    def normal_inverse(self, u: Array) -> Array:
+        """Pressure [Pa] of the periodic half space that has the displacement `u` [m]: a preconditioner."""
+        return self.back(self._inverse * self.forward(u))

@@ -1,0 +1,125 @@
+"""NORM: influence functions, Hertz, CONTACT's real patches, symmetry, separate patches."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import dblquad
+
+import contact
+from benchmarks import accuracy
+from contact.halfspace import influence, norm
+
+
+def paraboloid(A, B, half_x, half_y, n):
+    """Gap A x² + B y² on n × n elements over ±half_x, ±half_y, and the size of an element."""
+    s = (np.arange(n) + 0.5) * 2.0 / n - 1.0
+    return B * (half_y * s[:, None]) ** 2 + A * (half_x * s) ** 2, 2.0 * half_x / n, 2.0 * half_y / n
+
+
+@pytest.mark.parametrize(("X", "Y"), [(1.3, 0.0), (-0.9, 1.4), (3.0, -2.0)])
+def test_influence_integrals_equal_quadrature(X, Y):
+    exact = [
+        dblquad(lambda t, s, f=f: f(X - s, Y - t), -0.5, 0.5, -0.35, 0.35, epsabs=1e-11)[0]
+        for f in (
+            lambda x, y: x * x / math.hypot(x, y) ** 3,
+            lambda x, y: y * y / math.hypot(x, y) ** 3,
+            lambda x, y: x * y / math.hypot(x, y) ** 3,
+        )
+    ]
+    np.testing.assert_allclose(influence.integrals(X, Y, 1.0, 0.7), exact, rtol=1e-9, atol=1e-12)
+
+
+def test_convolution_equals_the_sum_over_all_elements():
+    shape, dx, dy = (6, 9), 0.5e-3, 0.3e-3
+    p = np.random.default_rng(1).random(shape)
+    y, x = (v.ravel() for v in np.meshgrid(np.arange(6) * dy, np.arange(9) * dx, indexing="ij"))
+    I1, I2, _ = influence.integrals(x[:, None] - x, y[:, None] - y, dx, dy)
+    direct = (I1 + I2) @ p.ravel() / (math.pi * contact.STEEL.contact_modulus)
+    half_space = influence.Influence(shape, dx, dy, contact.STEEL)
+    np.testing.assert_allclose(half_space.normal(p).ravel(), direct, rtol=1e-13)
+    lone = np.zeros(shape)
+    lone[0, 0] = 1.0
+    assert half_space.own == pytest.approx(half_space.normal(lone)[0, 0], rel=1e-13)
+
+
+@pytest.mark.parametrize("ratio", [0.1, 1.0, 8.0])
+def test_hertz_limit(ratio):
+    """48 elements over 1.3 times the axes: N to 1e-3, peak 3e-3, stiffness 6e-3."""
+    exact = contact.hertz(2.0, 2.0 * ratio, load=6e4)
+    gap, dx, dy = paraboloid(2.0, 2.0 * ratio, 1.3 * exact.a, 1.3 * exact.b, 48)
+    found = norm(gap, dx, dy, contact.STEEL, approach=exact.approach)
+    assert found.converged
+    assert found.p.sum() * dx * dy == pytest.approx(6e4, rel=1e-3)
+    assert found.p.max() == pytest.approx(exact.p0, rel=3e-3)
+    assert found.stiffness == pytest.approx(1.5 * 6e4 / exact.approach, rel=6e-3)
+
+
+def test_error_falls_with_the_element_size():
+    """Load at given approach: order above 1.5, the edge moving through the grid."""
+    exact = contact.hertz(2.0, 6.0, load=6e4)
+    errors = []
+    for n in (12, 24, 48, 96):
+        gap, dx, dy = paraboloid(2.0, 6.0, 1.25 * exact.a, 1.25 * exact.b, n)
+        errors.append(abs(norm(gap, dx, dy, contact.STEEL, approach=exact.approach).p.sum() * dx * dy / 6e4 - 1))
+    assert errors[-1] < 2e-4
+    assert np.log2(errors[0] / errors[-1]) / 3 > 1.5
+
+
+def test_load_and_approach_are_inverse():
+    gap, dx, dy = paraboloid(2.0, 6.0, 8e-3, 6e-3, 40)
+    by_load = norm(gap, dx, dy, contact.STEEL, load=5e4, tolerance=1e-8)
+    assert by_load.p.sum() * dx * dy == pytest.approx(5e4, rel=1e-12)
+    by_approach = norm(gap, dx, dy, contact.STEEL, approach=by_load.approach, tolerance=1e-8)
+    np.testing.assert_allclose(by_approach.p, by_load.p, atol=1e-6 * by_load.p.max())
+
+
+def test_contact_conditions_hold_on_a_rough_gap():
+    """p ≥ 0, e ≥ 0 and p·e = 0 on a gap with many separate patches, whatever the start."""
+    rng = np.random.default_rng(3)
+    gap, dx, dy = paraboloid(2.0, 3.0, 9e-3, 9e-3, 60)
+    gap = (
+        gap + 8e-6 * np.cos(np.arange(60) * 0.9)[:, None] * np.cos(np.arange(60) * 1.1) + rng.normal(0, 1e-6, (60, 60))
+    )
+    found = norm(gap, dx, dy, contact.STEEL, load=5e4)
+    e = gap - found.approach + influence.Influence(gap.shape, dx, dy, contact.STEEL).normal(found.p)
+    assert found.converged
+    assert (found.p >= 0).all()
+    assert e.min() > -1e-5 * found.approach
+    assert np.abs(e[found.p > 0]).max() < 1e-5 * found.approach
+    start = rng.random((60, 60)) * found.p.max()
+    other = norm(gap, dx, dy, contact.STEEL, load=5e4, start=start)
+    np.testing.assert_allclose(other.p, found.p, atol=1e-4 * found.p.max())
+
+
+def test_mirrored_gap_gives_the_mirrored_pressure():
+    gap, dx, dy = paraboloid(2.0, 3.0, 8e-3, 8e-3, 33)
+    gap = gap + 200.0 * np.maximum(np.arange(33) - 16, 0)[:, None] ** 3 * dy**3
+    one, other = (norm(h, dx, dy, contact.STEEL, load=4e4, tolerance=1e-9).p for h in (gap, gap[::-1, ::-1]))
+    np.testing.assert_allclose(other[::-1, ::-1], one, atol=1e-7 * one.max())
+
+
+def test_no_overlap_and_no_load_give_no_pressure():
+    gap, dx, dy = paraboloid(2.0, 3.0, 8e-3, 8e-3, 20)
+    for given in ({"approach": -1e-6}, {"load": 0.0}):
+        found = norm(gap, dx, dy, contact.STEEL, **given)
+        assert not found.p.any()
+        assert found.converged
+
+
+@pytest.mark.parametrize("case", accuracy.patches(), ids=lambda case: case["name"])
+def test_real_patches_are_contacts(case):
+    """S1002 on UIC60 at CONTACT's approach on its grid: N, peak and pressure to the printed digits."""
+    x, y = (np.array(case[k]) * 1e-3 for k in ("x_p", "y_p"))
+    fine_x, fine_y = ((np.arange(2 * v.size) - 0.0) * 0.2e-3 + v[0] for v in (x, y))
+    separation = accuracy.separation_of(case)
+    inside = fine_y <= separation.y[-1] + 1e-9
+    fine_y = fine_y[inside]
+    g, A = (np.interp(fine_y, separation.y, v) for v in (separation.g, separation.A))
+    found = norm(g[:, None] + A[:, None] * fine_x**2, 0.2e-3, 0.2e-3, accuracy.STEEL, approach=case["delta"] * 1e-3)
+    true = case["contact"]
+    assert found.p.sum() * 0.04e-6 == pytest.approx(true["N"], rel=2e-5)
+    assert found.p.max() * 1e-6 == pytest.approx(true["pmax"], rel=2e-5)
+    own, p = found.p[::2, ::2] * 1e-6, np.array(case["p"])
+    own = own[: p.shape[0], : p.shape[1]]
+    assert np.linalg.norm(own - p) < 3e-4 * np.linalg.norm(p)
