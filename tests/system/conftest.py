@@ -2,6 +2,7 @@
 
 import fcntl
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +10,7 @@ from pathlib import Path
 import fmpy
 import pytest
 from fmu_instance import Instance
+from native_host import Host
 
 ROOT = Path(__file__).parents[2]
 
@@ -53,6 +55,20 @@ def open_native(native_folder):
     yield open_native
     for instance in instances:
         instance.free()
+
+
+@pytest.fixture(scope="session")
+def host(native_folder, tmp_path_factory):
+    """A host in C."""
+    return Host("linux64", tmp_path_factory.mktemp("linux"), native_folder)
+
+
+@pytest.fixture(scope="session")
+def windows(native_folder, tmp_path_factory):
+    """The same for Windows, under Wine."""
+    if not shutil.which("wine"):
+        pytest.skip("THE WINDOWS LIBRARY IS NOT TESTED: wine is not installed (apt-get install wine64)")
+    return Host("win64", tmp_path_factory.mktemp("windows"), native_folder)
 
 
 def _build(packaging: str, folder: Path) -> None:

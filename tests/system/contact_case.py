@@ -21,3 +21,9 @@ def geometry() -> dict[str, float]:
         for row, column in (("g", s.g), ("A", s.A))
         for i, value in enumerate(column.tolist(), 1)
     }
+
+
+def posed(fmu):
+    """Give an instance `separation` and CREEPAGES at 30 m/s; return it."""
+    fmu.update({**geometry(), **CREEPAGES, "geometry.y0": -0.02, "geometry.dy": 0.001, "speed": 30.0})
+    return fmu

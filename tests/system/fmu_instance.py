@@ -1,9 +1,15 @@
 """An instance of an FMU for tests."""
 
+from collections import defaultdict
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import fmpy
+import pytest
+from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Model, FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+
+OK, WARNING, DISCARD, ERROR = range(4)
 
 
 class Instance:
@@ -33,18 +39,28 @@ class Instance:
         self.log.append((status, message.decode()))
 
     def update(self, values: dict[str, float]) -> None:
-        for name, value in values.items():
-            variable = self.variables[name]
-            call = self.fmu.setReal if variable.type == "Real" else self.fmu.setInteger
-            call([variable.valueReference], [value])
+        for call, names in self._by_type(values, "set").items():
+            call([self.variables[name].valueReference for name in names], [values[name] for name in names])
 
     def __getitem__(self, name: str) -> float:
-        variable = self.variables[name]
-        call = self.fmu.getReal if variable.type == "Real" else self.fmu.getInteger
-        return call([variable.valueReference])[0]
+        return self.read([name])[name]
+
+    def read(self, names: Iterable[str]) -> dict[str, float]:
+        wanted, found = list(names), {}
+        for call, chosen in self._by_type(wanted, "get").items():
+            found |= zip(chosen, call([self.variables[name].valueReference for name in chosen]), strict=True)
+        return {name: found[name] for name in wanted}
+
+    def _by_type(self, names: Iterable[str], verb: str) -> dict[Callable, list[str]]:
+        """fmpy's function for each FMI type → the names that it is for."""
+        sorted_names = defaultdict(list)
+        for name in names:
+            kind = "Real" if self.variables[name].type == "Real" else "Integer"
+            sorted_names[getattr(self.fmu, verb + kind)].append(name)
+        return sorted_names
 
     def all(self, *causalities: str) -> dict[str, float]:
-        return {name: self[name] for name, v in self.variables.items() if v.causality in causalities}
+        return self.read(name for name, v in self.variables.items() if v.causality in causalities)
 
     def initialize(self, stop_time: float | None = None) -> "Instance":
         self.fmu.setupExperiment(startTime=0.0, stopTime=stop_time)
@@ -54,3 +70,18 @@ class Instance:
 
     def step(self, time: float = 0.0, h: float = 1e-3) -> None:
         self.fmu.doStep(time, h)
+
+
+def refused(call, status: int) -> None:
+    """See a call answered with this status."""
+    with pytest.raises(FMICallException) as caught:
+        call()
+    assert caught.value.status == status
+
+
+def discarded(fmu: Instance, time: float = 0.0, h: float = 1e-3) -> str:
+    """Step, see it discarded, return what the FMU says."""
+    fmu.log.clear()
+    refused(lambda: fmu.step(time, h), DISCARD)
+    assert [status for status, _ in fmu.log] == [DISCARD]
+    return fmu.log[0][1]

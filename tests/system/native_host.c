@@ -87,6 +87,13 @@ static double real(fmi2Component c, fmi2ValueReference r)
     return value;
 }
 
+static int whole(fmi2Component c, fmi2ValueReference r)
+{
+    fmi2Integer value = -1;
+    GetInteger(c, &r, 1, &value);
+    return value;
+}
+
 static fmi2Component running(fmi2CallbackLogger log)
 {
     fmi2Component c = make(fmi2CoSimulation, log);
@@ -424,7 +431,7 @@ static void cases(void)
         ExitInitializationMode(c);
         check(DoStep(c, 0.0, 1e-3, fmi2True) <= fmi2Warning, "step", last_message);
         for (fmi2ValueReference r = V_force_x; r < N_VALUES; r++)
-            if (r != V_patch_count && r != V_status) printf("%.17g ", real(c, r));
+            printf("%.17g ", r == V_patch_count || r == V_status ? (double)whole(c, r) : real(c, r));
         printf("\n");
     }
     FreeInstance(c);

@@ -8,34 +8,22 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
-from contact_case import CREEPAGES, NAME, geometry, separation
-from fmpy.fmi1 import FMICallException
+from contact_case import CREEPAGES, NAME, posed, separation
 from fmpy.validation import validate_fmu
-from fmu_instance import Instance
+from fmu_instance import Instance, discarded
 
 import contact
 from contact import kalker
+from fmu_src.catalogue import models
+from fmu_src.python.packaging import build  # here: an FMU that is loaded first brings a pythonfmu of its own
 
 ROOT = Path(__file__).parents[2]
-DISCARD = 2
 
 
 @pytest.fixture
 def fmu(open_fmu):
     """In the case of `separation` and CREEPAGES, ready to step."""
-    fmu = open_fmu(NAME)
-    fmu.update({**geometry(), **CREEPAGES, "geometry.y0": -0.02, "geometry.dy": 0.001, "speed": 30.0})
-    return fmu.initialize(stop_time=1.0)
-
-
-def discarded(fmu, time=0.0, h=1e-3) -> str:
-    """Step, see it discarded, return what the FMU says."""
-    fmu.log.clear()
-    with pytest.raises(FMICallException) as caught:
-        fmu.step(time, h)
-    assert caught.value.status == DISCARD
-    assert [status for status, _ in fmu.log] == [DISCARD]
-    return fmu.log[0][1]
+    return posed(open_fmu(NAME)).initialize(stop_time=1.0)
 
 
 def test_fmpy_finds_no_problem(fmus):
@@ -43,9 +31,6 @@ def test_fmpy_finds_no_problem(fmus):
 
 
 def test_the_build_is_reproducible(fmus, tmp_path):
-    from fmu_src.catalogue import models
-    from fmu_src.python.packaging import build
-
     for model in models(41):
         path = build(model, tmp_path)
         assert path.read_bytes() == (fmus / path.name).read_bytes()

@@ -1,0 +1,124 @@
+"""Random contacts posed to every packaging alike, with the solver's own answer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from contact_case import CREEPAGES
+
+import contact
+from contact.damage import evaluate
+
+METHODS = contact.methods()
+#: Outputs after one step of STEP, without the creep stiffness.
+OUTPUTS = (
+    *("force.x", "force.y", "force.n", "moment.z", "approach", "pressure.max", "patch.area", "patch.length"),
+    *("patch.width", "slip.ratio", "power.friction", "damage.T_gamma", "damage.wear_rate_pearce_sherratt"),
+    *("damage.index_burstow", "damage.wear_rate_usfd", "damage.archard_depth_max", "damage.archard_volume"),
+    *("damage.fatigue_index_surface", "damage.stress_index_max", "damage.energy_index_max", "stiffness.normal"),
+    *("total.energy", "total.worn_volume", "patch.count", "status"),
+)
+STEP = 1e-3
+POINTS = 41
+
+
+@dataclass(frozen=True)
+class Case:
+    """Values of the FMU by name (an int for an Integer or Enumeration), and the solver's answer to the same problem."""
+
+    seed: int
+    values: dict[str, float]
+    solution: contact.Solution
+
+    def expected(self) -> np.ndarray:
+        """OUTPUTS by the solver."""
+        s = self.solution
+        d = evaluate(s, self.values["wheel.radius"])
+        power = s.speed * s.power_per_metre
+        return np.array(
+            [
+                *(s.Fx, s.Fy, s.N, s.Mz, s.approach, s.max_pressure, s.area, s.length, s.width, s.slip_ratio, power),
+                *(d.T_gamma, d.pearce_sherratt, d.burstow, d.usfd, d.archard.depth_max, d.archard.volume),
+                *(d.fatigue_index, d.stress_index.max, d.energy_index.max, s.normal_stiffness),
+                *(STEP * power, STEP * s.speed * d.archard.volume, s.n_patches, s.status),
+            ]
+        )
+
+    def differences(self, actual: np.ndarray) -> np.ndarray:
+        """What OUTPUTS differ from the solver's, relative to what they are resolved to.
+
+        That is the value, but mu N for forces, hence so much more of what is made of forces as mu N is more than they; mu N
+        times 2 cm for the moment; the yield stress for the stress index, a difference from it; 1 for slip and fatigue index.
+        """
+        wanted, s = self.expected(), self.solution
+        limit, force = s.friction * s.N, np.hypot(s.Fx, s.Fy)
+        scale = dict(zip(OUTPUTS, np.abs(wanted), strict=True))
+        for name in scale:
+            if name.startswith("damage") and force > 0.0:
+                scale[name] *= limit / force
+        scale |= {"force.x": limit, "force.y": limit, "moment.z": 0.02 * limit, "slip.ratio": 1.0}
+        scale |= {"damage.stress_index_max": s.material.shear_yield, "damage.fatigue_index_surface": 1.0}
+        return np.abs(actual - wanted) / (np.array(list(scale.values())) + 1e-300)
+
+
+def random_case(seed: int) -> Case:
+    """All methods, both kinds of geometry and of load; now and then lift-off, no friction, vanishing or great creepage."""
+    rng = np.random.default_rng(seed)
+    y0, dy = rng.uniform(-0.022, -0.018), rng.uniform(0.9e-3, 1.1e-3)
+    y = y0 + dy * np.arange(POINTS)
+    centre, B = rng.uniform(-8e-3, 8e-3), 10 ** rng.uniform(-0.3, 1.7)
+    skew, wave = rng.uniform(-20, 20), rng.uniform(-1, 1)
+    g = B * (y - centre) ** 2 * (1.0 + skew * (y - centre)) + 2e-6 * wave * np.cos(900.0 * y) + rng.uniform(-1e-5, 1e-5)
+    A = rng.uniform(0.8, 1.6) + rng.uniform(-8.0, 8.0) * y
+    curvatures, by_load = rng.random() < 0.2, rng.random() < 0.7
+    load, approach = 10 ** rng.uniform(3.5, 5.2), rng.uniform(-2e-5, 2e-4)
+    creepages = 10 ** np.array([*rng.uniform(-5, -1.7, 2), rng.uniform(-3, 0.5)]) * rng.choice([-1, 1], 3)
+    G, nu, H, k = rng.uniform(70e9, 90e9), rng.uniform(0.0, 0.5), rng.uniform(2e9, 4e9), rng.uniform(2e8, 4e8)
+    mu, speed, radius = rng.uniform(0.0, 0.6), rng.uniform(1.0, 80.0), rng.uniform(0.3, 0.6)
+    normal, tangential = (int(rng.integers(len(methods))) for methods in METHODS)
+    n_strips, n_elements = (int(n) for n in rng.integers(6, 40, 2))
+    rare = rng.random(4) < 0.05
+    load = 0.0 if rare[0] else load
+    mu = 0.0 if rare[1] else mu
+    creepages *= 1e-6 if rare[2] else 1.0
+    creepages[rng.integers(3)] *= 0.0 if rare[3] else 1.0
+    values = {
+        "geometry.kind": 2 if curvatures else 1,
+        "geometry.y0": y0,
+        "geometry.dy": dy,
+        **{f"geometry.g[{i}]": v for i, v in enumerate(g, 1)},
+        **{f"geometry.A[{i}]": v for i, v in enumerate(A, 1)},
+        "geometry.A0": A[20],
+        "geometry.B0": B,
+        "load.kind": 1 if by_load else 2,
+        "load.normal_force": load,
+        "load.approach": approach,
+        **dict(zip(CREEPAGES, creepages.tolist(), strict=True)),
+        "material.shear_modulus": G,
+        "material.poisson_ratio": nu,
+        "material.hardness": H,
+        "material.shear_yield": k,
+        "friction.coefficient": mu,
+        "speed": speed,
+        "wheel.radius": radius,
+        "method.normal": normal + 1,
+        "method.tangential": tangential + 1,
+        "resolution.n_strips": n_strips,
+        "resolution.n_elements": n_elements,
+    }
+    solution = contact.solve(
+        contact.Separation.hertzian(A[20], B) if curvatures else contact.Separation(y, g, A),
+        contact.Creepage(*creepages),
+        load=load if by_load else None,
+        approach=None if by_load else approach,
+        friction=mu,
+        material=contact.Material(G, nu, hardness=H, shear_yield=k),
+        speed=speed,
+        normal=list(METHODS.normal)[normal],
+        tangential=list(METHODS.tangential)[tangential],
+        n_strips=n_strips,
+        n_elements=n_elements,
+        throw=False,
+    )
+    return Case(seed, values, solution)

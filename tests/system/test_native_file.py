@@ -1,0 +1,58 @@
+"""The file of the native `WheelRailContact`: what is in it, and what its libraries need and offer."""
+
+import re
+import subprocess
+from pathlib import Path
+
+from contact_case import NAME
+from fmpy.validation import validate_fmu
+
+import contact
+
+
+def test_fmpy_finds_no_problem(native):
+    assert validate_fmu(str(native)) == []
+
+
+def test_the_library_needs_the_c_library_alone(native_folder):
+    """Of others it asks for libm; what it offers are FMI's functions."""
+    library = native_folder / "binaries" / "linux64" / f"{NAME}.so"
+    symbols = subprocess.run(["nm", "-D", library], check=True, capture_output=True, text=True).stdout
+    needed = set(re.findall(r" [Uw] (\w+)", symbols))
+    weak = {"_ITM_deregisterTMCloneTable", "_ITM_registerTMCloneTable", "__cxa_finalize", "__gmon_start__"}
+    memory = {
+        "bcmp",
+        "calloc",
+        "free",
+        "malloc",
+        "memcmp",
+        "memcpy",
+        "memmove",
+        "memset",
+        "strcmp",
+        "strcpy",
+        "strlen",
+        "vsnprintf",
+    }
+    libm = {"acos", "asin", "asinh", "atan", "atan2", "atanh", "cos", "exp", "log", "pow", "sin", "sincos"}
+    assert needed - weak <= memory | libm
+    offered = set(re.findall(r" [A-TV-Z] (\w+)", symbols))
+    assert all(name.startswith("fmi2") for name in offered)
+    assert len(offered) == 44  # all functions of FMI 2.0
+    dynamic = subprocess.run(["readelf", "-d", library], check=True, capture_output=True, text=True).stdout
+    assert set(re.findall(r"NEEDED.*\[(.+)\]", dynamic)) <= {"libc.so.6", "libm.so.6"}
+
+
+def test_nothing_of_the_library_can_be_written(native_folder):
+    """Data and zeroed data hold what the C start-up code needs, no variable of ours."""
+    library = native_folder / "binaries" / "linux64" / f"{NAME}.so"
+    sections = subprocess.run(["readelf", "-SW", library], check=True, capture_output=True, text=True).stdout
+    sizes = {name: int(size, 16) for name, size in re.findall(r"(\.data|\.bss)\s+\w+\s+\w+ \w+ (\w+)", sections)}
+    assert all(size <= 16 for size in sizes.values()), sizes
+
+
+def test_no_path_of_the_build_machine_is_in_the_file(native_folder):
+    for library in (native_folder / "binaries").glob("*/*"):
+        content = library.read_bytes()
+        assert str(Path(contact.__file__).parent).encode() not in content
+        assert b"numba" not in content

@@ -1,0 +1,140 @@
+"""The numbers of `WheelRailContact` in both packagings against `contact.solve`, of which they are made."""
+
+import ctypes
+from itertools import compress
+from pathlib import Path
+
+import numpy as np
+import pytest
+from contact_case import CREEPAGES, NAME, posed, separation
+from random_cases import METHODS, OUTPUTS, STEP, Case, random_case
+
+import contact
+from contact import Status
+from fmu_src.catalogue import models
+from fmu_src.native.emit import CPUS
+from fmu_src.native.packaging import compiler, kernels, run
+from fmu_src.tables.wheel_rail_contact import table
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def cases() -> list[Case]:
+    return [random_case(seed) for seed in range(1000)]
+
+
+def check(cases: list[Case], rows: np.ndarray, tolerance: float = 1e-12) -> None:
+    differences = np.array([case.differences(row) for case, row in zip(cases, rows, strict=True)])
+    print(f"greatest difference {differences.max():.1e}, of {OUTPUTS[differences.max(axis=0).argmax()]}")
+    wrong = {
+        case.seed: f"{d.max():.1e}" for case, d in zip(cases, differences, strict=True) if not d.max() <= tolerance
+    }
+    assert not wrong, wrong
+
+
+def test_the_cases_have_everything_in_them(cases):
+    def values(*names):
+        return {tuple(case.values[name] for name in names) for case in cases}
+
+    assert {case.solution.status for case in cases} >= {
+        Status.OK,
+        Status.NO_CONTACT,
+        Status.SATURATED,
+        Status.OUT_OF_RANGE,
+    }
+    assert len(values("geometry.kind", "load.kind")) == 4
+    assert len(values("method.normal", "method.tangential")) == len(METHODS.normal) * len(METHODS.tangential)
+
+
+def test_native_packaging_equals_the_solver(host, cases):
+    check(cases, host.solve(cases))
+
+
+def test_windows_library_equals_the_solver(windows, cases):
+    """It has other mathematical functions. Strips that interact are iterated to 1e-4, which magnifies their last digits."""
+    interacting = list(METHODS.normal).index("strip_halfspace") + 1
+    rows = windows.solve(cases)
+    for iterated, tolerance in ((False, 1e-12), (True, 1e-10)):
+        chosen = [(case.values["method.normal"] == interacting) == iterated for case in cases]
+        check(list(compress(cases, chosen)), rows[chosen], tolerance)
+
+
+def test_python_packaging_equals_the_solver(open_fmu, cases):
+    fmu, rows = open_fmu(NAME), []
+    for case in cases:
+        fmu.fmu.reset()
+        fmu.update(case.values)
+        fmu.initialize()
+        fmu.step(0.0, STEP)
+        rows.append(list(fmu.read(OUTPUTS).values()))
+    check(cases, np.array(rows))
+
+
+def test_creep_stiffness_of_both_packagings_is_the_same(open_native, open_fmu):
+    one, other = open_native(), open_fmu(NAME)
+    names = [f"creep_stiffness[{i},{j}]" for i in (1, 2, 3) for j in (1, 2, 3)]
+    for seed in (2, 3, 5, 7, 11, 13):
+        for fmu in (one, other):
+            fmu.fmu.reset()
+            fmu.update(random_case(seed).values)
+            fmu.initialize()
+            fmu.step()
+        wanted = other.read(names)
+        bound = max(map(abs, wanted.values())) + 1.0
+        assert one.read(names) == pytest.approx(wanted, abs=1e-7 * bound)
+
+
+def test_strips_that_interact_go_on_from_the_last_step(open_native):
+    """The warm start changes the result within the method's tolerance, and an FMU state holds it."""
+    fmu = posed(open_native())
+    fmu.update({"method.normal": list(METHODS.normal).index("strip_halfspace") + 1})
+    fmu.initialize()
+    for k in range(3):
+        fmu.update({"load.normal_force": 8e4 + 2e3 * k})
+        fmu.step(k * 1e-3)
+    cold = contact.solve(
+        separation(), contact.Creepage(*CREEPAGES.values()), load=8.4e4, speed=30.0, normal="strip_halfspace"
+    )
+    assert fmu["force.x"] == pytest.approx(cold.Fx, rel=1e-3)
+    assert fmu["force.x"] != cold.Fx
+    state = fmu.fmu.getFMUstate()
+    content = fmu.fmu.serializeFMUstate(state)
+    fmu.step(3e-3)
+    other = open_native()
+    copy = other.fmu.deSerializeFMUstate(content)
+    other.fmu.setFMUstate(copy)
+    other.step(3e-3)
+    assert other.all("output", "input", "parameter") == fmu.all("output", "input", "parameter")
+    other.fmu.freeFMUstate(copy)
+    fmu.fmu.freeFMUstate(state)
+
+
+def test_kernels_for_every_processor_agree_bit_by_bit(native, cases, tmp_path):
+    """The wrapper chooses by what the processor can; here both run."""
+    objects = kernels(models(41)[0], ROOT / "build" / "native", print)["linux64"]  # cached when the FMU was built
+    calls = "".join(
+        f"long model_size_{cpu}(double *); long model_prepare_{cpu}(double *, double *);"
+        f"long model_outputs_{cpu}(double *, double *, double); long size_{cpu}(double *v) {{ return model_size_{cpu}(v); }}"
+        f"void solve_{cpu}(double *v, double *w) {{ model_prepare_{cpu}(v, w); model_outputs_{cpu}(v, w, 0.0); }}\n"
+        for cpu in CPUS
+    )
+    (tmp_path / "calls.c").write_text(calls)
+    library = tmp_path / "both.so"
+    run(*compiler("linux64"), "-shared", "-fPIC", tmp_path / "calls.c", *objects, "-o", library, "-lm")
+    both = ctypes.CDLL(str(library))
+    description = table(41)
+    pointer = np.ctypeslib.ndpointer(np.float64)
+    for case in cases[:100]:
+        values = np.array([float(s.first) for s in description.scalars])
+        for name, value in case.values.items():
+            values[[s.name for s in description.scalars].index(name)] = value
+        answers = []
+        for cpu in CPUS:
+            v, size, solve = values.copy(), getattr(both, f"size_{cpu}"), getattr(both, f"solve_{cpu}")
+            size.argtypes, size.restype, solve.argtypes, solve.restype = [pointer], ctypes.c_long, [pointer] * 2, None
+            work = np.zeros(size(v))
+            solve(v, work)
+            answers.append(v)
+        np.testing.assert_array_equal(*answers)
+        assert not np.array_equal(answers[0], values)
