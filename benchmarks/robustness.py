@@ -18,10 +18,14 @@ import numpy as np
 
 import contact
 from contact.geometry import profile, wheelset
-from contact.normal import analyn, strip_halfspace
+from contact.normal import analyn, by_approach, strip_halfspace
 
 #: Most iterations that a normal method may take.
-CAPS = {"analyn": analyn._MAX_ITERATIONS, "hertz": 1, "strip_halfspace": strip_halfspace.MAX_ITERATIONS}
+CAPS = dict.fromkeys(contact.methods().normal, by_approach.MAX_ITERATIONS) | {
+    "analyn": analyn._MAX_ITERATIONS,
+    "hertz": 1,
+    "strip_halfspace": strip_halfspace.MAX_ITERATIONS,
+}
 Rng = np.random.Generator
 
 

@@ -27,10 +27,11 @@ from contact._layout import (
 )
 from contact._layout import RES_EDGES as EDGES
 from contact.normal.analyn import analyn
+from contact.normal.by_approach import by_approach
 from contact.normal.hertzian import hertzian
 from contact.normal.strip_halfspace import strip_halfspace
 from contact.quadrature import EL_DX, EL_S, EL_SINE
-from contact.registry import FASTRIP_MAPPED, FASTSIM, HERTZ, STRIP_HALFSPACE
+from contact.registry import FASTRIP_MAPPED, FASTSIM, HERTZ, KIK_PIOTROWSKI, STRIP_HALFSPACE
 from contact.tangential.fastrip import fastrip
 from contact.tangential.fastrip_mapped import fastrip_mapped
 from contact.tangential.fastsim import fastsim
@@ -69,6 +70,8 @@ def solve_case(y, g, A, xc, case, rule, tables, space, strips, fields, result):
         n = hertzian(y, g, A, xc, case, rule.nodes, rule.weights, space.grid, strips, result)
     elif case[CASE_NORMAL] == STRIP_HALFSPACE:
         n = strip_halfspace(y, g, A, xc, case, rule, tables, space, strips, result)
+    elif case[CASE_NORMAL] >= KIK_PIOTROWSKI:
+        n = by_approach(y, g, A, xc, case, rule.nodes, rule.weights, space.grid, strips, result)
     else:
         n = analyn(y, g, A, xc, case, rule.nodes, rule.weights, space.grid, strips, result)
     if n == 0:

@@ -47,6 +47,8 @@ class Methods(NamedTuple):
 
 
 ANALYN, HERTZ, STRIP_HALFSPACE = 0, 1, 2
+# solved by `normal.by_approach`, from the first of them on
+KIK_PIOTROWSKI, KIK_PIOTROWSKI_2008, LINDER, STRIPES_A, STRIPES_AB, WINKLER, SRST = range(20, 27)
 FASTRIP, FASTSIM, FASTRIP_MAPPED = 0, 1, 2
 
 _NORMAL = (
@@ -61,6 +63,20 @@ _NORMAL = (
         True,
         interacting=True,
     ),
+    Method("kik_piotrowski", KIK_PIOTROWSKI, "virtual penetration", "Kik and Piotrowski 1996", True, True),
+    Method(
+        "kik_piotrowski_2008",
+        KIK_PIOTROWSKI_2008,
+        "virtual penetration with shape correction",
+        "Piotrowski and Kik 2008",
+        True,
+        True,
+    ),
+    Method("linder", LINDER, "virtual penetration with local ellipses", "Linder 1997", True, True),
+    Method("stripes_a", STRIPES_A, "STRIPES with A correction", "Ayasse and Chollet 2005", True, True),
+    Method("stripes_ab", STRIPES_AB, "STRIPES with AB correction", "Ayasse and Chollet 2005", True, True),
+    Method("winkler", WINKLER, "elastic foundation", "Winkler 1867; Johnson 1985, ch. 4.3", True, True),
+    Method("srst", SRST, "square root of half the overlap", "Alonso and Giménez 2005", True, True),
 )
 _TANGENTIAL = (
     Method("fastrip", FASTRIP, "FaStrip on local ellipses", "Sichani 2016, ch. 4 and 9, Papers D and E", True, True),

@@ -1,0 +1,54 @@
+"""Kik and Piotrowski's virtual penetration with shape correction (2008).
+
+The patch of 1996 is stretched along x and shrunk along y, its area kept, until an ellipse has Hertz's axes (theory.md 0.6, 5):
+
+    a_c/a = b/b_c = √((m0/n0)/√(B0/A0)),   so that a_c/b_c = m0/n0 where a/b = √(B0/A0)
+
+with the curvatures A0, B0 of the least point. The pressure follows as in 1996. [R]: recalled from Piotrowski and Kik, Vehicle
+System Dynamics 46 (2008) 27, by way of the thesis, Eqs. 7.5-7.6, whose ratio is printed upside down. Ours: the factor comes
+from the curvatures, not from length and width of the patch, which would make a large step where patches merge; every patch
+is stretched about the centroid of its own area, which leaves a small one (0.8 % of the load for two alike).
+"""
+
+import math
+
+from contact._jit import kernel
+from contact._layout import STRIP_A, STRIP_DY, STRIP_PATCH, STRIP_Y
+from contact.normal.cut import cut, equivalent_aspect, press
+from contact.normal.kik_piotrowski import PENETRATION
+
+
+@kernel
+def _stretch(strips, first, last, factor, edges, at):
+    """Stretch the strips of one patch; return where the point `at` goes if it lies in the patch, else `at`."""
+    area, moment = 0.0, 0.0
+    for i in range(first, last):
+        weight = strips[STRIP_A, i] * strips[STRIP_DY, i]
+        area += weight
+        moment += weight * strips[STRIP_Y, i]
+    if area <= 0.0:
+        return at
+    k = int(strips[STRIP_PATCH, first])
+    centre = moment / area
+    for i in range(first, last):
+        strips[STRIP_A, i] *= factor
+        strips[STRIP_DY, i] /= factor
+        strips[STRIP_Y, i] = centre + (strips[STRIP_Y, i] - centre) / factor
+    if edges[2 * k] < at < edges[2 * k + 1]:
+        at = centre + (at - centre) / factor
+    for side in range(2 * k, 2 * k + 2):
+        edges[side] = centre + (edges[side] - centre) / factor
+    return at
+
+
+@kernel
+def kik_piotrowski_2008(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges):
+    """Fill `strips` at approach delta; return load, number of strips and whether the patch reaches the end of the data."""
+    n_strips, touches_end = cut(y, xc, n, delta, nodes, weights, work, strips, edges)
+    factor = math.exp(0.5 * (point.log_aspect - 0.5 * math.log(point.B / point.A)))
+    at = point.y
+    for first in range(0, n_strips, nodes.size):
+        at = _stretch(strips, first, first + nodes.size, factor, edges, at)
+    equivalent_aspect(strips, n_strips)
+    a0 = factor * math.sqrt(delta * PENETRATION / point.A)
+    return press(strips, n_strips, edges, at, a0, delta, modulus), n_strips, touches_end

@@ -1,0 +1,28 @@
+"""Linder's local ellipses (1997) on the patch of virtual penetration.
+
+Patch and pressure are Kik and Piotrowski's with the same 0.55; what differs is what the tangential methods are given. Every
+strip belongs to an ellipse of its own, as wide as the patch, on which it lies at its own place (theory.md 5):
+
+    a_loc = a(y)/√(1 - ((y - y_m)/b)²),   b = half the width of the patch, y_m its middle.
+
+On an ellipse all of them are that ellipse. [R]: recalled from Linder's thesis (ETH Zürich 1997) by way of theory.md 5.
+"""
+
+import math
+
+from contact._jit import kernel
+from contact._layout import STRIP_A, STRIP_ASPECT, STRIP_PATCH, STRIP_Y
+from contact.normal.kik_piotrowski import kik_piotrowski
+
+
+@kernel
+def linder(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges):
+    """Fill `strips` at approach delta; return load, number of strips and whether the patch reaches the end of the data."""
+    N, n_strips, touches_end = kik_piotrowski(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
+    for i in range(n_strips):
+        k = int(strips[STRIP_PATCH, i])
+        b, middle = 0.5 * (edges[2 * k + 1] - edges[2 * k]), 0.5 * (edges[2 * k + 1] + edges[2 * k])
+        t = (strips[STRIP_Y, i] - middle) / b
+        if strips[STRIP_A, i] > 0.0:
+            strips[STRIP_ASPECT, i] = math.log(strips[STRIP_A, i] / (b * math.sqrt((1.0 - t) * (1.0 + t))))
+    return N, n_strips, touches_end

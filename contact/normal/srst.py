@@ -1,0 +1,30 @@
+"""SRST (Alonso and Giménez 2005): pressure in proportion to the square root of half the overlap.
+
+    p(x, y) = K √(delta/2 - g(y) - A x²)   where that is positive                                             (theory.md 5)
+
+The root makes the pressure a semi-ellipse along every strip and a semi-ellipsoid on an ellipse; half the approach gives Hertz's
+patch for A = B. K, which depends on the curvatures alone, gives Hertz's load for those of the least point:
+N = (2 pi/3) K (delta/2)^(3/2)/√(AB) = N_Hertz at every approach. On an ellipse a/b = √(B/A).
+[R]: recalled from Alonso and Giménez, Vehicle System Dynamics 43 (2005) 149; their own choice of K is not at hand.
+"""
+
+import math
+
+from contact._jit import kernel
+from contact._layout import STRIP_P0
+from contact.normal.cut import carried, cut, equivalent_aspect
+from contact.normal.deepest import unit_load
+
+#: Share of the approach at which the gap is cut.
+PENETRATION = 0.5
+
+
+@kernel
+def srst(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges):
+    """Fill `strips` at approach delta; return load, number of strips and whether the patch reaches the end of the data."""
+    n_strips, touches_end = cut(y, xc, n, delta, nodes, weights, work, strips, edges)
+    equivalent_aspect(strips, n_strips)
+    K = 1.5 / math.pi * unit_load(point, modulus) * math.sqrt(point.A * point.B) * PENETRATION**-1.5
+    for i in range(n_strips):
+        strips[STRIP_P0, i] = K * math.sqrt(PENETRATION * strips[STRIP_P0, i])  # of the depth that `cut` has left
+    return carried(strips, n_strips), n_strips, touches_end

@@ -1,0 +1,103 @@
+"""Every registered pair of methods on every kind of patch that it claims to support, with the post-conditions of style.md 12.
+
+Methods are read from the registry: a new one is tested as soon as it is registered.
+"""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+import contact
+from benchmarks import robustness
+from contact.geometry import wheelset
+from tests.normal.test_analyn import two_lobes
+from tests.test_solve import assert_post_conditions
+
+NORMAL, TANGENTIAL = contact.methods()
+PAIRS = list(itertools.product(NORMAL, TANGENTIAL))
+CREEPAGES = [(1e-3, 0.0, 0.0), (-5e-4, 2e-3, 0.4), (0.0, 0.0, -0.9), (3e-2, -2e-2, 0.0)]
+
+
+def real_patch(y, yaw=0.0):
+    """S1002 on 60E1, the right side."""
+    return robustness.pair().contacts(wheelset.Pose(y=y, yaw=yaw), load=8e4)[0].separation
+
+
+def yawed():
+    y = np.linspace(-20e-3, 20e-3, 161)
+    return contact.Separation(y, 1.5 * y**2 + 40.0 * np.maximum(y, 0.0) ** 3, 1.1, x_c=0.04 * y)
+
+
+#: Separation and load; a method without `non_elliptic` answers on all of them too, as if they were elliptic.
+KINDS = {
+    "a/b = 0.2": (contact.Separation.hertzian(1.0, 0.1), 8e4),
+    "a/b = 1": (contact.Separation.hertzian(1.0, 1.0), 8e4),
+    "a/b = 5": (contact.Separation.hertzian(1.0, 12.0), 8e4),
+    "tread": (real_patch(0.0), 8e4),
+    "flange root": (real_patch(6e-3, 8e-3), 9e4),
+    "two patches": (two_lobes(5e-6), 6e4),
+    "yawed": (yawed(), 7e4),
+    "tiny load": (real_patch(3e-3), 1e-3),
+}
+
+
+def solve(kind, normal, tangential="fastrip", creepage=(0.0, 0.0, 0.0), **given):
+    separation, load = KINDS[kind]
+    given = given or {"load": load}
+    return contact.solve(separation, contact.Creepage(*creepage), normal=normal, tangential=tangential, **given)
+
+
+@pytest.mark.parametrize(("normal", "tangential"), PAIRS)
+@pytest.mark.parametrize("kind", KINDS)
+def test_post_conditions(kind, normal, tangential):
+    load = KINDS[kind][1]
+    for creepage in CREEPAGES:
+        sol = solve(kind, normal, tangential, creepage)
+        assert_post_conditions(sol)
+        assert pytest.approx(load, rel=1e-9) == sol.N
+    if NORMAL[normal].several_patches and kind == "two patches":
+        assert sol.n_patches == 2
+
+
+@pytest.mark.parametrize(("normal", "tangential"), PAIRS)
+@pytest.mark.parametrize("kind", ["a/b = 0.2", "tread", "two patches", "yawed"])
+def test_opposite_creepages_give_opposite_forces(kind, normal, tangential):
+    for xi, eta, phi in CREEPAGES:
+        one = solve(kind, normal, tangential, (xi, eta, phi))
+        other = solve(kind, normal, tangential, (-xi, -eta, -phi))
+        scale = one.friction * one.N
+        np.testing.assert_allclose((other.Fx, other.Fy), (-one.Fx, -one.Fy), atol=1e-10 * scale)
+        assert other.Mz == pytest.approx(-one.Mz, abs=1e-10 * scale * math.sqrt(one.area))
+        assert one.Fx * xi <= 0.0 or phi != 0.0, "positive creepage, negative force"
+
+
+@pytest.mark.parametrize(("normal", "tangential"), PAIRS)
+@pytest.mark.parametrize("kind", ["a/b = 5", "tread", "two patches", "yawed"])
+def test_the_mirror_image_has_the_mirrored_forces(kind, normal, tangential):
+    s, load = KINDS[kind]
+    mirrored = contact.Separation(-s.y[::-1], s.g[::-1], s.A[::-1], s.x_c[::-1])
+    tolerance = 2e-3 if NORMAL[normal].interacting else 1e-5
+    for xi, eta, phi in CREEPAGES:
+        one = solve(kind, normal, tangential, (xi, eta, phi))
+        other = contact.solve(
+            mirrored, contact.Creepage(xi, -eta, -phi), load=load, normal=normal, tangential=tangential
+        )
+        scale = one.friction * load
+        np.testing.assert_allclose((other.Fx, other.Fy), (one.Fx, -one.Fy), atol=tolerance * scale)
+        assert other.Mz == pytest.approx(-one.Mz, abs=tolerance * scale * math.sqrt(one.area))
+
+
+@pytest.mark.parametrize("normal", NORMAL)
+@pytest.mark.parametrize("kind", KINDS)
+def test_load_rises_with_the_approach(kind, normal):
+    separation, _ = KINDS[kind]
+    full = solve(kind, normal).approach
+    touch = solve(kind, normal, load=0.0).approach
+    approaches = touch + (full - touch) * np.geomspace(0.01, 1.0, 40)
+    many = contact.forces(separation, contact.Creepage(), approach=approaches, normal=normal)
+    solved = many.status != contact.Status.NOT_CONVERGED
+    assert solved.sum() >= 36
+    assert (np.diff(many.N[solved]) > 0).all()
+    assert solve(kind, normal, approach=touch - 1e-6).status is contact.Status.NO_CONTACT, "lift-off"
