@@ -47,8 +47,8 @@ def kik_piotrowski_2008(y, xc, n, delta, modulus, point, nodes, weights, work, s
     n_strips, touches_end = cut(y, xc, n, delta, nodes, weights, work, strips, edges)
     factor = math.exp(0.5 * (point.log_aspect - 0.5 * math.log(point.B / point.A)))
     at = point.y
-    for first in range(0, n_strips, nodes.size):
-        at = _stretch(strips, first, first + nodes.size, factor, edges, at)
+    for k in range(n_strips // nodes.size):
+        at = _stretch(strips, k * nodes.size, (k + 1) * nodes.size, factor, edges, at)
     equivalent_aspect(strips, n_strips)
     a0 = factor * math.sqrt(delta * PENETRATION / point.A)
     return press(strips, n_strips, edges, at, a0, delta, modulus), n_strips, touches_end
