@@ -1,0 +1,344 @@
+"""Rules for FMUs (FMI 2.0.5) that the validators we know do not check: ``python -m fmu_src.lint FILE.fmu …``
+
+Each rule is a function from the root of a modelDescription.xml to findings; its docstring is the rule.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import sys
+from collections.abc import Iterable, Iterator
+from itertools import product
+from pathlib import Path
+from xml.etree import ElementTree
+from xml.etree.ElementTree import Element
+from zipfile import ZipFile
+
+_ELEMENTS = (
+    *("ModelExchange", "CoSimulation", "UnitDefinitions", "TypeDefinitions", "LogCategories", "DefaultExperiment"),
+    *("VendorAnnotations", "ModelVariables", "ModelStructure"),
+)
+_INDEX = r"\[\d+(?:,\d+)*\]"
+_IDENTIFIER = rf"(?:[A-Za-z_]\w*|'(?:[^'\\]|\\.)+')(?:{_INDEX})?"
+_NAME = re.compile(
+    rf"{_IDENTIFIER}(?:\.{_IDENTIFIER})*|der\({_IDENTIFIER}(?:\.{_IDENTIFIER})*(?:,[1-9]\d*)?\)", re.ASCII
+)
+_BASE_UNITS = {"kg", "m", "s", "A", "K", "mol", "cd", "rad"}
+#: causality → what variability it may have (2.2.7)
+_VARIABILITY = {
+    "parameter": {"fixed", "tunable"},
+    "calculatedParameter": {"fixed", "tunable"},
+    "input": {"discrete", "continuous"},
+    "output": {"constant", "discrete", "continuous"},
+    "local": {"constant", "fixed", "tunable", "discrete", "continuous"},
+    "independent": {"continuous"},
+}
+_LIBRARIES = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib", "linux32": ".so", "win32": ".dll"}
+
+
+def check(description: str) -> list[str]:
+    """Return what is wrong with the text of a modelDescription.xml."""
+    root = ElementTree.fromstring(description)
+    return [f"{rule.__doc__} {finding}" for rule in RULES for finding in rule(root)]
+
+
+def check_file(path: Path) -> list[str]:
+    """Return what is wrong with an FMU file."""
+    with ZipFile(path) as archive:
+        files = {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
+    if "modelDescription.xml" not in files:
+        return ["There is a modelDescription.xml: not here"]
+    text = files.pop("modelDescription.xml").decode()
+    return check(text) + [
+        f"{rule.__doc__} {f}" for rule in FILE_RULES for f in rule(ElementTree.fromstring(text), files)
+    ]
+
+
+# ---------------------------------------------------------------- what a description says
+
+
+def _variables(root: Element) -> list[Element]:
+    return root.findall("ModelVariables/ScalarVariable")
+
+
+def _interfaces(root: Element) -> list[Element]:
+    return [element for element in root if element.tag in ("ModelExchange", "CoSimulation")]
+
+
+def _causality(variable: Element) -> str:
+    return variable.get("causality", "local")
+
+
+def _variability(variable: Element) -> str:
+    return variable.get("variability", "continuous")  # the default, also of an Integer, where it is not allowed
+
+
+def _initial(variable: Element) -> str | None:
+    """What it says, or the default (2.2.7)."""
+    exact = _causality(variable) == "parameter" or _variability(variable) == "constant"
+    none = _causality(variable) in ("input", "independent")
+    return variable.get("initial") or ("exact" if exact else None if none else "calculated")
+
+
+def _type(variable: Element) -> Element:
+    return next(element for element in variable if element.tag != "Annotations")
+
+
+def _of_type(root: Element, variable: Element, attribute: str) -> str | None:
+    """An attribute of the variable's type, or of the type that this one is declared as."""
+    kind = _type(variable)
+    declared = root.find(f"TypeDefinitions/SimpleType[@name='{kind.get('declaredType')}']/{kind.tag}")
+    return kind.get(attribute, declared.get(attribute) if declared is not None else None)
+
+
+def _listed(root: Element, section: str) -> list[int]:
+    return [int(unknown.get("index", 0)) for unknown in root.findall(f"ModelStructure/{section}/Unknown")]
+
+
+def _states(root: Element) -> set[int]:
+    variables = _variables(root)
+    return {int(_type(v).get("derivative", 0)) for v in variables} - {0}
+
+
+# ---------------------------------------------------------------- rules for a description
+
+
+def elements_in_order(root: Element) -> Iterator[str]:
+    """The elements have a fixed order:"""
+    tags = [element.tag for element in root]
+    if tags != [tag for tag in _ELEMENTS if tag in tags]:
+        yield ", ".join(tags)
+
+
+def names_are_structured(root: Element) -> Iterator[str]:
+    """Names are unique and follow the structured convention:"""
+    seen = set()
+    for variable in _variables(root):
+        name = variable.get("name", "")
+        if root.get("variableNamingConvention") == "structured" and not _NAME.fullmatch(name):
+            yield f"{name!r} does not"
+        if name in seen:
+            yield f"{name!r} comes twice"
+        seen.add(name)
+
+
+def arrays_are_whole(root: Element) -> Iterator[str]:
+    """Arrays count from one without holes, row by row:"""
+    arrays: dict[str, list[tuple[int, ...]]] = {}
+    for variable in _variables(root):
+        name = variable.get("name", "")
+        indices = tuple(int(i) for part in re.findall(_INDEX, name) for i in part[1:-1].split(","))
+        if indices:
+            arrays.setdefault(re.sub(_INDEX, "[]", name), []).append(indices)
+    for name, found in arrays.items():
+        if len({len(indices) for indices in found}) > 1:
+            yield f"{name} has elements of several dimensions"
+        elif found != list(product(*(range(1, max(i) + 1) for i in zip(*found, strict=True)))):
+            yield name
+
+
+def references_are_unique(root: Element) -> Iterator[str]:
+    """Value references are not shared:"""
+    seen: dict[str | None, str | None] = {}
+    for variable in _variables(root):
+        reference = variable.get("valueReference")
+        if reference in seen:
+            yield f"{reference} is that of {seen[reference]} and {variable.get('name')}"
+        seen[reference] = variable.get("name")
+
+
+def variability_fits(root: Element) -> Iterator[str]:
+    """Variability fits causality, and only Reals are continuous:"""
+    for variable in _variables(root):
+        causality, variability = _causality(variable), _variability(variable)
+        if variability not in _VARIABILITY[causality]:
+            yield f"{variable.get('name')} is a {variability} {causality}"
+        elif variability == "continuous" and _type(variable).tag != "Real":
+            yield f"{variable.get('name')} is a continuous {_type(variable).tag}"
+
+
+def starts_are_given(root: Element) -> Iterator[str]:
+    """A start is given where something is set before the start, and nowhere else:"""
+    for variable in _variables(root):
+        if _causality(variable) in ("input", "independent") and variable.get("initial"):
+            yield f"{variable.get('name')} is an {_causality(variable)} and has an initial"
+        wanted = _causality(variable) == "input" or _initial(variable) in ("exact", "approx")
+        if wanted != (_type(variable).get("start") is not None):
+            yield f"{variable.get('name')} has {'none' if wanted else 'one'}"
+
+
+def numbers_are_within_range(root: Element) -> Iterator[str]:
+    """min, start and max are finite and in this order, a nominal is not zero:"""
+    for variable in _variables(root):
+        kind, name = _type(variable), variable.get("name")
+        if kind.tag not in ("Real", "Integer", "Enumeration"):
+            continue
+        minimum, maximum, start = (_of_type(root, variable, key) for key in ("min", "max", "start"))
+        numbers = [float(number) for number in (minimum, start, maximum) if number is not None]
+        if numbers != sorted(numbers) or not all(map(math.isfinite, numbers)):
+            yield f"{name}: min {minimum}, start {start}, max {maximum}"
+        nominal = float(_of_type(root, variable, "nominal") or 1.0)
+        if nominal == 0.0 or not math.isfinite(nominal):
+            yield f"{name}: nominal {nominal:g}"
+
+
+def units_are_defined(root: Element) -> Iterator[str]:
+    """Every Real has a unit, defined by integer exponents of SI base units:"""
+    defined = {unit.get("name"): unit.find("BaseUnit") for unit in root.findall("UnitDefinitions/Unit")}
+    for name, base in defined.items():
+        exponents = {
+            k: v for k, v in (base.attrib if base is not None else {"": ""}).items() if k not in ("factor", "offset")
+        }
+        if not set(exponents) <= _BASE_UNITS or not all(re.fullmatch(r"-?\d+", e) for e in exponents.values()):
+            yield f"{name} is not"
+    for variable in _variables(root):
+        if _type(variable).tag == "Real" and _of_type(root, variable, "unit") not in defined:
+            yield f"{variable.get('name')} has {_of_type(root, variable, 'unit')}"
+
+
+def types_are_declared(root: Element) -> Iterator[str]:
+    """Declared types exist, for that kind of variable, and an enumeration's start is one of its items:"""
+    types = {declared.get("name"): declared[0] for declared in root.findall("TypeDefinitions/SimpleType")}
+    for variable in _variables(root):
+        kind, name = _type(variable), variable.get("name")
+        declared = types.get(kind.get("declaredType"))
+        if declared is None:
+            if kind.tag == "Enumeration" or kind.get("declaredType"):
+                yield f"{name}: {kind.get('declaredType')}"
+        elif declared.tag != kind.tag:
+            yield f"{name} is of kind {kind.tag}, {kind.get('declaredType')} of kind {declared.tag}"
+        elif kind.get("start") and declared.findall("Item"):
+            values = [item.get("value") for item in declared.findall("Item")]
+            if kind.get("start") not in values or len(set(values)) < len(values):
+                yield f"{name}: start {kind.get('start')}, items {', '.join(map(str, values))}"
+
+
+def structure_is_complete(root: Element) -> Iterator[str]:
+    """ModelStructure lists all outputs, derivatives and initial unknowns, these by index:"""
+    variables = dict(enumerate(_variables(root), start=1))
+    states = _states(root)
+    derivatives = [i for i, v in variables.items() if _type(v).get("derivative")]
+    unknown = [
+        i
+        for i, v in variables.items()
+        if (_causality(v) in ("output", "calculatedParameter") or i in states or i in derivatives)
+        and _initial(v) in ("calculated", "approx")
+    ]
+    outputs = [i for i, v in variables.items() if _causality(v) == "output"]
+    for section, wanted in (("Outputs", outputs), ("InitialUnknowns", unknown)):
+        if _listed(root, section) != wanted:
+            yield f"{section} are {_listed(root, section)}, not {wanted}"
+    if sorted(_listed(root, "Derivatives")) != derivatives:
+        yield f"Derivatives are {_listed(root, 'Derivatives')}, not {derivatives}"
+    for state in states:
+        if (
+            state not in variables
+            or _type(variables[state]).tag != "Real"
+            or _variability(variables[state]) != "continuous"
+        ):
+            yield f"variable {state} is no continuous Real, but has a derivative"
+
+
+def dependencies_are_known(root: Element) -> Iterator[str]:
+    """Dependencies name knowns, each once:"""
+    variables = dict(enumerate(_variables(root), start=1))
+    inputs = {i for i, v in variables.items() if _causality(v) in ("input", "independent")}
+    exact = {i for i, v in variables.items() if _initial(v) == "exact"}
+    for section, knowns in (
+        ("Outputs", inputs | _states(root)),
+        ("Derivatives", inputs | _states(root)),
+        ("InitialUnknowns", inputs | exact),
+    ):
+        for unknown in root.findall(f"ModelStructure/{section}/Unknown"):
+            found = [int(i) for i in unknown.get("dependencies", "").split()]
+            kinds = unknown.get("dependenciesKind")
+            if not set(found) <= knowns or len(set(found)) < len(found):
+                yield f"{section} {unknown.get('index')} depends on {unknown.get('dependencies')}"
+            if kinds is not None and len(kinds.split()) != len(found):
+                yield f"{section} {unknown.get('index')} has {len(kinds.split())} kinds of {len(found)} dependencies"
+
+
+def capabilities_are_consistent(root: Element) -> Iterator[str]:
+    """An interface is offered by an identifier of C, and capabilities include what they need:"""
+    if not _interfaces(root):
+        yield "no interface"
+    for interface in _interfaces(root):
+        if not re.fullmatch(r"[A-Za-z_]\w*", interface.get("modelIdentifier", ""), re.ASCII):
+            yield f"{interface.tag} has the modelIdentifier {interface.get('modelIdentifier')}"
+        if interface.get("canSerializeFMUstate") == "true" and interface.get("canGetAndSetFMUstate") != "true":
+            yield f"{interface.tag} serialises a state that it cannot get"
+
+
+def experiment_is_one(root: Element) -> Iterator[str]:
+    """The default experiment ends after its start and has a step:"""
+    experiment = root.find("DefaultExperiment")
+    if experiment is None:
+        return
+    start, stop, step = (float(experiment.get(key, default)) for key, default in _EXPERIMENT.items())
+    if not (start < stop and 0.0 < step <= stop - start):
+        yield f"from {start:g} to {stop:g} by {step:g}"
+
+
+_EXPERIMENT = {"startTime": "0", "stopTime": "1", "stepSize": "1"}
+
+RULES = (
+    *(elements_in_order, names_are_structured, arrays_are_whole, references_are_unique, variability_fits),
+    *(starts_are_given, numbers_are_within_range, units_are_defined, types_are_declared, structure_is_complete),
+    *(dependencies_are_known, capabilities_are_consistent, experiment_is_one),
+)
+
+
+# ---------------------------------------------------------------- rules for a file
+
+
+def libraries_are_named(root: Element, files: dict[str, bytes]) -> Iterator[str]:
+    """There is a library for some platform, by the name of every interface:"""
+    platforms = {name.split("/")[1] for name in files if name.startswith("binaries/")}
+    for platform in platforms or {"any platform"}:
+        for interface in _interfaces(root):
+            name = f"binaries/{platform}/{interface.get('modelIdentifier')}{_LIBRARIES.get(platform, '')}"
+            if name not in files:
+                yield f"{name} is missing"
+
+
+def guid_is_the_same(root: Element, files: dict[str, bytes]) -> Iterator[str]:
+    """The guid is also in every library, or in the script if there is one:"""
+    guid = root.get("guid", "").encode()
+    scripts = {name for name in files if re.fullmatch(r"resources/[^/]+\.py", name)}
+    for name in scripts or {name for name in files if name.startswith("binaries/")}:
+        if not guid or guid not in files[name]:
+            yield f"not in {name}"
+
+
+def licences_are_enclosed(root: Element, files: dict[str, bytes]) -> Iterator[str]:
+    """The licences are enclosed:"""
+    if not any(name.startswith("documentation/licenses/") and content.strip() for name, content in files.items()):
+        yield "documentation/licenses is empty"
+
+
+def names_are_portable(root: Element, files: dict[str, bytes]) -> Iterator[str]:
+    """File names are portable, and differ in more than capitals:"""
+    for name in files:
+        if not re.fullmatch(r"[\w.-]+(/[\w.-]+)*", name, re.ASCII) or ".." in name.split("/"):
+            yield name
+    if len({name.lower() for name in files}) < len(files):
+        yield "they do not"
+
+
+FILE_RULES = (libraries_are_named, guid_is_the_same, licences_are_enclosed, names_are_portable)
+
+
+def main(paths: Iterable[str]) -> int:
+    """Print what is wrong with each file; return whether there was anything."""
+    wrong = 0
+    for path in paths:
+        findings = check_file(Path(path))
+        wrong += bool(findings)
+        print(f"{path}: {len(RULES) + len(FILE_RULES)} rules, {len(findings) or 'no'} finding(s)")
+        print("".join(f"  {finding}\n" for finding in findings), end="")
+    return wrong > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
