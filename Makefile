@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint fmu accuracy bench smoothness pictures format clean
+.PHONY: help demo test lint fmu accuracy bench coupling smoothness pictures format clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -40,6 +40,9 @@ accuracy: $(READY) ## the accuracy tables, beside CONTACT's, into docs/accuracy.
 smoothness: $(READY) ## sweeps: jumps, noise and resolution, into docs/smoothness.md; random cases
 	PYTHONPATH=. $(BIN)/python benchmarks/smoothness.py --write docs/smoothness.md
 	PYTHONPATH=. $(BIN)/python benchmarks/robustness.py --cases 10000
+
+coupling: $(READY) ## the largest stable steps of the coupling schemes, into docs/coupling.md
+	PYTHONPATH=. $(BIN)/python benchmarks/coupling.py --write docs/coupling.md
 
 bench: $(READY)  ## the speed table
 	PYTHONPATH=. $(BIN)/python benchmarks/speed.py

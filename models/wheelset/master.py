@@ -2,12 +2,15 @@
 
 Over one communication step the creep forces are held. What is exchanged when is the scheme:
 
+* ``jacobi``: all run at the same time with the answers to the step before. First order; needs the shortest steps.
 * ``gauss_seidel``: the contacts are solved for the creepages of now, the wheelset then runs with these forces. First
-  order; stable for h < 2 m/c, c = 2 f/V (fmi.md 2).
-* ``jacobi``: all run at the same time with the values of the step before. First order; stable for h < m/c.
-* ``iterated``: a Gauss–Seidel step as a predictor, the contacts at its end, and the step again from the saved state with
-  the mean of both forces (Heun). Second order, at twice the cost, until what answers a step late anyway (the load to
-  the lateral force, the height to the approach) shows.
+  order; stable at twice the step of ``jacobi``.
+* ``iterated``: the wheelset runs with the mean of the forces now and at the end of the step (trapezoidal rule). They are
+  found by repeating the step from the saved state until they agree with the creepages that they lead to. Second order,
+  until what answers a step late anyway (the load to the lateral force, the height to the approach) shows; no limit of
+  stability, at some evaluations more per step.
+
+docs/coupling.md has the largest stable steps, measured.
 """
 
 from __future__ import annotations
@@ -23,10 +26,17 @@ from numpy.typing import NDArray
 
 from contact.errors import ContactError, require_number
 from models.wheelset.components import Component
+from models.wheelset.iteration import fixed_point
 from models.wheelset.ports import CREEPAGE, ENERGY, FRAME, LOAD, MOTION, PROBLEM, REACTION, REPORT, SIDES
 
 Array = NDArray[np.float64]
 Scheme = Literal["gauss_seidel", "jacobi", "iterated"]
+
+#: When the iterated scheme is content: forces agree to this share of the normal load, or have been exchanged so often.
+TOLERANCE, MOST_ROUNDS = 1e-5, 20
+_APPROACH_SCALE = 1e-4  # [m]
+_MOMENT_ARM = 5e-3  # [m] half length of a patch
+_LEAST_LOAD = 1e3  # [N] forces of a wheel that hardly touches need no better agreement than of one with this load
 
 _EXCHANGED = (*PROBLEM[CREEPAGE], PROBLEM[LOAD], *REACTION, *REPORT, *FRAME)
 COLUMNS = ("time", *MOTION, *ENERGY, *(f"{side}.{name}" for side in SIDES for name in _EXCHANGED))
@@ -41,12 +51,15 @@ class History:
     values : ndarray, shape (n, len(COLUMNS))
     problems : ndarray, shape (n, 2, len(PROBLEM))
         What each contact was given.
+    rounds : ndarray, shape (n,)
+        How often the forces of the step were computed: 1 but for the iterated scheme; above MOST_ROUNDS: without agreement.
     speed, step : float
         [m/s], [s].
     """
 
     values: Array
     problems: Array
+    rounds: NDArray[np.int64]
     speed: float
     step: float
 
@@ -78,9 +91,11 @@ class History:
     def power_residual(self) -> Array:
         """Energy [J] that left the wheelset and was neither dissipated by creep nor stored in the contacts.
 
-        It counts from the second communication point: before it the wheels stand on an assumed approach.
+        What the coupling has lost or invented. Dissipation is integrated by the trapezoidal rule. It counts from the second
+        communication point: before it the wheels stand on an assumed approach.
         """
-        dissipated = np.concatenate(([0.0], np.cumsum(self.creep_power[:-1]) * self.step))
+        power = self.creep_power
+        dissipated = np.concatenate(([0.0], np.cumsum(power[1:] + power[:-1]) * (0.5 * self.step)))
         residual = self["energy.interface"] - dissipated - self.elastic_energy
         return residual - residual[min(1, residual.size - 1)]
 
@@ -134,7 +149,7 @@ def run(
     n = max(1, round(require_number("duration", duration, 0.0, open_minimum=True) / h))
     pairs = list(zip(SIDES, contacts, strict=True))
     values, given = np.empty((n, len(COLUMNS))), np.empty((n, len(SIDES), len(PROBLEM)))
-    held = [np.zeros(len(REACTION)) for _ in pairs]
+    rounds, answers = np.ones(n, dtype=np.int64), []
     for k in range(n):
         time = k * h
         if irregularity is not None:
@@ -143,13 +158,14 @@ def run(
         reactions = _solve(pairs, problems, time, h)
         values[k], given[k] = _row(time, wheelset, pairs, problems, reactions), problems
         if scheme == "jacobi":
-            reactions, held = held, reactions
+            # the first step runs with what FMUs exchange before it, in initialisation
+            reactions, answers = answers or reactions, reactions
         elif scheme == "iterated":
-            reactions = _mean_over_step(wheelset, pairs, reactions, time, h)
+            reactions, rounds[k] = _mean_over_step(wheelset, pairs, problems, reactions, time, h)
         _advance(wheelset, reactions, time, h)
         if watch is not None:
             watch(k + 1, n)
-    return History(values, given, speed, h)
+    return History(values, given, rounds, speed, h)
 
 
 def _solve(pairs: Sequence[tuple[str, Component]], problems: Sequence[Array], time: float, h: float) -> list[Array]:
@@ -166,18 +182,35 @@ def _advance(wheelset: Component, reactions: Sequence[Array], time: float, h: fl
 
 
 def _mean_over_step(
-    wheelset: Component, pairs: Sequence[tuple[str, Component]], reactions: Sequence[Array], time: float, h: float
-) -> list[Array]:
-    """Mean of the reactions now and at the predicted end of the step; everybody is left as found."""
-    start = wheelset.save()
-    _advance(wheelset, reactions, time, h)
-    problems = [wheelset.read(f"{side}.problem") for side in SIDES]
-    wheelset.restore(start)
-    clocks = [contact.save() for _, contact in pairs]
-    predicted = _solve(pairs, problems, time + h, h)
-    for (_, contact), clock in zip(pairs, clocks, strict=True):
-        contact.restore(clock)
-    return [0.5 * (a + b) for a, b in zip(reactions, predicted, strict=True)]
+    wheelset: Component,
+    pairs: Sequence[tuple[str, Component]],
+    problems: Sequence[Array],
+    reactions: Sequence[Array],
+    time: float,
+    h: float,
+) -> tuple[Array, int]:
+    """Mean of the reactions now and at the end of the step that runs with it, and the rounds that it took.
+
+    Everybody is left as found.
+    """
+    now = np.array(reactions)
+
+    def answer(end: Array) -> Array:
+        """Reactions to where the wheelset comes with the mean of those now and an assumed `end`."""
+        start = wheelset.save()
+        _advance(wheelset, 0.5 * (now + end.reshape(now.shape)), time, h)
+        reached = [wheelset.read(f"{side}.problem") for side in SIDES]
+        wheelset.restore(start)
+        clocks = [contact.save() for _, contact in pairs]
+        answers = _solve(pairs, reached, time + h, h)
+        for (_, contact), clock in zip(pairs, clocks, strict=True):
+            contact.restore(clock)
+        return np.concatenate(answers)
+
+    loads = [max(problem[LOAD], _LEAST_LOAD) for problem in problems]
+    scale = np.concatenate([(load, load, load * _MOMENT_ARM, _APPROACH_SCALE) for load in loads])
+    end, rounds = fixed_point(answer, now.ravel(), scale, TOLERANCE, MOST_ROUNDS)
+    return 0.5 * (now + end.reshape(now.shape)), rounds
 
 
 def _row(
