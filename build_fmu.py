@@ -67,7 +67,8 @@ def build_native(model: Model, folder: Path) -> None:
         print(f"  {time.monotonic() - begin:3.0f} s  {what}", flush=True)
 
     print(f"{model.table.name}, native:")
-    say(_size(native.build(model, folder, OBJECTS, say)))
+    for path in native.build(model, folder, OBJECTS, say):
+        say(_size(path))
 
 
 def _size(path: Path) -> str:

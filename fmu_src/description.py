@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from uuid import UUID
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
@@ -54,12 +54,9 @@ def _root(table: Table, interfaces: Interfaces) -> Element:
     )
     for interface, attributes in interfaces.items():
         SubElement(root, interface, {"modelIdentifier": table.name, **attributes})
-    _units(root, table)
+    units(root, {scalar.unit for scalar in table.scalars if scalar.row.kind is Kind.REAL})
     _types(root, table)
-    categories = SubElement(root, "LogCategories")
-    for name, description in LOG_CATEGORIES.items():
-        SubElement(categories, "Category", name=name, description=description)
-    SubElement(root, "DefaultExperiment", startTime="0.0", stopTime=number(STOP_TIME), stepSize=number(table.step_size))
+    experiment(root, table)
     variables = SubElement(root, "ModelVariables")
     for reference, scalar in enumerate(table.scalars):
         variables.append(_variable(reference, scalar))
@@ -67,8 +64,8 @@ def _root(table: Table, interfaces: Interfaces) -> Element:
     return root
 
 
-def _units(root: Element, table: Table) -> None:
-    used = {scalar.unit for scalar in table.scalars if scalar.row.kind is Kind.REAL}
+def units(root: Element, used: Collection[str | tuple[str, ...]]) -> None:
+    """Add the definitions of these units; they are the same in every version of FMI."""
     definitions = SubElement(root, "UnitDefinitions")
     for name, exponents in UNITS.items():
         if name in used:
@@ -76,6 +73,14 @@ def _units(root: Element, table: Table) -> None:
             SubElement(
                 unit, "BaseUnit", {base: str(e) for base, e in zip(BASE_UNITS, exponents, strict=True) if e != 0}
             )
+
+
+def experiment(root: Element, table: Table) -> None:
+    """Add the categories of log messages and the default experiment, which are the same in every version too."""
+    categories = SubElement(root, "LogCategories")
+    for name, description in LOG_CATEGORIES.items():
+        SubElement(categories, "Category", name=name, description=description)
+    SubElement(root, "DefaultExperiment", startTime="0.0", stopTime=number(STOP_TIME), stepSize=number(table.step_size))
 
 
 def _types(root: Element, table: Table) -> None:

@@ -9,7 +9,7 @@ from fmu_src.variables import Kind, Table, Variable
 
 
 def markdown(table: Table) -> str:
-    """Return a section with one line for each row of `table`."""
+    """Return a section with one line for each row and field of `table`."""
     lines = [
         f"## {table.name}",
         "",
@@ -19,6 +19,15 @@ def markdown(table: Table) -> str:
         "|---|---|---|---|---|---|",
         *(_line(row) for row in table.rows),
     ]
+    if table.fields:
+        counts = " and ".join(f"`{name}`" for name in sorted(table.structural))
+        lines += [
+            "",
+            f"In FMI 3.0 every array is one variable, {counts} are structural parameters, and there are fields besides:",
+            "",
+            *lines[4:6],
+            *(_line(row) for row in table.fields),
+        ]
     return "\n".join(lines) + "\n"
 
 
@@ -38,8 +47,8 @@ def _line(row: Variable) -> str:
 def _type(row: Variable) -> str:
     if row.enumeration is not None:
         return ", ".join(name for name, _ in row.enumeration.items)
-    if row.kind is Kind.INTEGER:
-        return "integer"
+    if row.kind in (Kind.INTEGER, Kind.BOOLEAN):
+        return row.kind.lower()
     return ", ".join(dict.fromkeys(row.unit)) if isinstance(row.unit, tuple) else row.unit
 
 

@@ -25,10 +25,11 @@ class Causality(StrEnum):
 
 
 class Kind(StrEnum):
-    """FMI's type of a variable; the values are the names of the XML elements."""
+    """FMI's type of a variable; the values are the names of the XML elements in FMI 2.0."""
 
     REAL = "Real"
     INTEGER = "Integer"
+    BOOLEAN = "Boolean"
     ENUMERATION = "Enumeration"
 
 
@@ -67,10 +68,10 @@ class Variable:
         Magnitude of a Real, where it is far from 1.
     enumeration : Enumeration, optional
         Makes the variable an Enumeration.
-    integer : bool
-        Makes the variable an Integer.
-    shape : tuple of int
-        Empty for a scalar.
+    integer, boolean : bool
+        Makes the variable an Integer or a Boolean.
+    shape : tuple of int or str
+        Empty for a scalar. In a field names of Integer parameters too: the resolution that the user chooses.
     depends : tuple of str, optional
         Rows (inputs and parameters) that an output is a function of; None means all of them.
     derivative_of : str, optional
@@ -88,7 +89,8 @@ class Variable:
     nominal: float | None = None
     enumeration: Enumeration | None = None
     integer: bool = False
-    shape: tuple[int, ...] = ()
+    boolean: bool = False
+    shape: tuple[int | str, ...] = ()
     depends: tuple[str, ...] | None = None
     derivative_of: str | None = None
 
@@ -97,6 +99,8 @@ class Variable:
         """FMI's type."""
         if self.enumeration is not None:
             return Kind.ENUMERATION
+        if self.boolean:
+            return Kind.BOOLEAN
         return Kind.INTEGER if self.integer else Kind.REAL
 
     @property
@@ -115,8 +119,8 @@ class Variable:
 
     @property
     def size(self) -> int:
-        """Number of scalars."""
-        return math.prod(self.shape)
+        """Number of scalars; a field has no fixed one."""
+        return math.prod(self.shape)  # type: ignore[arg-type]
 
     def scalars(self) -> Iterator[Scalar]:
         """The scalars of the row, first index slowest."""
@@ -163,17 +167,25 @@ class Scalar:
 
 @dataclass(frozen=True)
 class Table:
-    """Interface of one FMU. The value reference of a scalar is its position in `scalars`."""
+    """Interface of one FMU. The value reference of a scalar is its position in `scalars`.
+
+    Rows are the interface in FMI 2.0. In FMI 3.0 an array is one variable, with the value reference of its first scalar;
+    `fields` are outputs that only arrays can be, all of one shape, which names the parameters that are structural there;
+    their value references follow the scalars', and that of time follows theirs.
+    """
 
     name: str
     description: str
     rows: Sequence[Variable]
     step_size: float  # of the default experiment [s]
+    fields: Sequence[Variable] = ()
     row: dict[str, Variable] = field(init=False)
     span: dict[str, slice] = field(init=False)  # name of a row → where its scalars are
     scalars: tuple[Scalar, ...] = field(init=False)
 
     def __post_init__(self) -> None:
+        if len({row.shape for row in self.fields}) > 1:
+            raise ValueError(f"{self.name}: fields have one shape")
         scalars: list[Scalar] = []
         span: dict[str, slice] = {}
         for row in self.rows:
@@ -192,6 +204,11 @@ class Table:
     def states(self) -> list[Variable]:
         """Continuous states, in the order of their derivatives."""
         return [self.row[row.derivative_of] for row in self.derivatives if row.derivative_of is not None]
+
+    @property
+    def structural(self) -> frozenset[str]:
+        """Parameters that fields have their shape from."""
+        return frozenset(n for row in self.fields for n in row.shape if isinstance(n, str))
 
     def references(self, name: str) -> range:
         """Value references of the row named `name`."""

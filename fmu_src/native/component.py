@@ -22,6 +22,7 @@ SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "model_outputs": (types.int64, (Doubles, Doubles, types.float64)),
     "model_lazy": (types.int64, (Doubles, Doubles)),
     "model_difference": (types.float64, (Doubles, types.int64)),
+    "model_field": (types.int64, (Doubles, Doubles, types.int64)),
 }
 
 
@@ -45,9 +46,11 @@ class Component:
         * ``model_outputs(values, work, h)`` advances by h [s] from the warm start, then computes the outputs; with h = 0 it
           computes them from inputs and states in `values` alone;
         * ``model_lazy(values, work)`` computes the rows `lazy`;
-        * ``model_difference(values, reference)`` is a fitting change of one variable for difference quotients.
+        * ``model_difference(values, reference)`` is a fitting change of one variable for difference quotients;
+        * ``model_field(values, work, k)`` lays out the field with the number `k`, of what ``model_outputs`` has just computed,
+          and returns where in `work` it begins; it is of no use to a model without fields.
 
-        Except for counts and the last they return 0, or the number of what they have to say (`warnings`, `failures`). A
+        Except for counts and the last two they return 0, or the number of what they have to say (`warnings`, `failures`). A
         model that begins anew finds zeros as its warm start.
     data : callable
         Returns constant arrays that the kernels read.

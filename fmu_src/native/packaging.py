@@ -22,6 +22,7 @@ import models
 from fmu_src import archive
 from fmu_src.catalogue import Model
 from fmu_src.description import model_description
+from fmu_src.description_fmi3 import model_description as description_fmi3
 from fmu_src.documentation import markdown
 from fmu_src.native import source
 from fmu_src.native.emit import TRIPLES, objects
@@ -45,17 +46,33 @@ INTERFACES = {
     },
 }
 
+_COMMON_3 = {
+    "needsExecutionTool": "false",
+    "canBeInstantiatedOnlyOncePerProcess": "false",
+    "canGetAndSetFMUState": "true",
+    "canSerializeFMUState": "true",
+    "providesDirectionalDerivatives": "true",
+}
+#: The same in FMI 3.0.
+INTERFACES_3 = {
+    "ModelExchange": {**_COMMON_3, "needsCompletedIntegratorStep": "true"},
+    "CoSimulation": {**_COMMON_3, "canHandleVariableCommunicationStepSize": "true"},
+}
+
 WRAPPER = Path(__file__).parent / "c"
 HEADERS = Path(fmpy.__file__).parent / "c-code"  # the FMI project's own, under the 2-clause BSD licence
 #: Contraction to fused operations would make results differ between processors.
 FLAGS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-Wall", "-Wextra", "-shared", "-s")
 _LINKED_AS = {"linux64": ".so", "win64": ".dll"}
+_FMI3 = {"linux64": "x86_64-linux", "win64": "x86_64-windows"}
 _ZIG = {"linux64": "x86_64-linux-gnu.2.17", "win64": "x86_64-windows-gnu"}
 _GCC = {"linux64": "gcc", "win64": "x86_64-w64-mingw32-gcc"}
 
 
-def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -> Path:
-    """Write `folder`/<name>.fmu and return its path; the same sources and tools give the same bytes.
+def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -> list[Path]:
+    """Write `folder`/<name>.fmu, of FMI 2.0, and `folder`/fmi3/<name>.fmu with the same libraries; return their paths.
+
+    The same sources and tools give the same bytes.
 
     Parameters
     ----------
@@ -69,21 +86,33 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -
     objects_of = kernels(model, cache, say)
     sources = [*chain.from_iterable(objects_of.values()), *sorted(WRAPPER.iterdir())]
     code = b"".join(path.read_bytes() for path in sources)
-    guid, xml = model_description(table, INTERFACES, code)
+    guid, xml = model_description(table, INTERFACES, code + description_fmi3(table, INTERFACES_3, "").encode())
     with TemporaryDirectory() as directory:
         generated = Path(directory)
         (generated / "model.h").write_text(source.header(component, guid))
         (generated / "model.c").write_text(source.body(component))
-        files = [
-            ("modelDescription.xml", xml.encode()),
+        documents = [
             (f"documentation/{table.name}.md", markdown(table).encode()),
             *((f"documentation/licenses/{name}.txt", text.encode()) for name, text in _licences()),
         ]
+        libraries = {}
         for platform, parts in objects_of.items():
             say(f"linking for {platform}")
-            library = link(platform, table.name, parts, generated)
-            files.append((f"binaries/{platform}/{library.name}", library.read_bytes()))
-        return archive.write(folder / f"{table.name}.fmu", files)
+            libraries[platform] = link(platform, table.name, parts, generated)
+        return [
+            archive.write(
+                where / f"{table.name}.fmu",
+                [
+                    ("modelDescription.xml", description.encode()),
+                    *documents,
+                    *((f"binaries/{names[p]}/{path.name}", path.read_bytes()) for p, path in libraries.items()),
+                ],
+            )
+            for where, description, names in (
+                (folder, xml, {platform: platform for platform in libraries}),
+                (folder / "fmi3", description_fmi3(table, INTERFACES_3, guid), _FMI3),
+            )
+        ]
 
 
 def link(platform: str, name: str, kernels: list[Path], generated: Path) -> Path:

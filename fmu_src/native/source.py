@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterable, Iterator
 
+from fmu_src.description_fmi3 import value_references
 from fmu_src.native.component import Component
-from fmu_src.variables import Causality, Kind, Scalar, Variable
-
-_KINDS = {Kind.REAL: "REAL", Kind.INTEGER: "INTEGER", Kind.ENUMERATION: "ENUMERATION"}
+from fmu_src.variables import Causality, Scalar, Table, Variable
 
 
 def header(component: Component, guid: str) -> str:
-    """model.h: sizes, the guid and the value reference of the first scalar of every row."""
+    """model.h: sizes, the guid and the value reference of the first scalar of every row, of fields and of time."""
     table = component.table
     parameters = sum(s.row.causality is Causality.PARAMETER for s in table.scalars)
     if any(s.row.causality is not Causality.PARAMETER for s in table.scalars[:parameters]):
         raise ValueError(f"{table.name}: the parameters must come first, the wrapper compares them in one piece")
-    references = "\n".join(f"    {c_name(row.name)} = {table.span[row.name].start}," for row in table.rows)
+    references = "\n".join(f"    {c_name(name)} = {reference}," for name, reference in value_references(table).items())
     return f"""/* Made from the variable table of {table.name}. */
 #ifndef MODEL_H
 #define MODEL_H
@@ -27,6 +27,8 @@ def header(component: Component, guid: str) -> str:
 #define N_STATES {len(table.states)}
 #define N_MESSAGES {max([0, *component.warnings, *component.failures])}
 #define N_TOTALS {len(component.totals)}
+#define N_FIELDS {len(table.fields)}
+#define FIELD_SIZE(values) {_field_size(table)}
 enum {{
 {references}
 }};
@@ -37,7 +39,10 @@ enum {{
 def body(component: Component) -> str:
     """model.c: the table with its starts and ranges, its continuous states, what the model may say, what adds up."""
     table = component.table
-    rows = "\n".join(f"    {_variable(scalar, component)}," for scalar in table.scalars)
+    rows = [_variable(scalar, first, component) for row in table.rows for first, scalar in _marked(row.scalars())]
+    rows += [f"{{{_string(row.name)}, {row.kind.name}, FIELD, 0, false, false, 0.0, 0.0, 0.0}}" for row in table.fields]
+    rows += ['{"time", REAL, TIME, 1, false, false, 0.0, 0.0, 0.0}']
+    listed = "\n".join(f"    {row}," for row in rows)
     states = ", ".join(
         f"{{{c_name(state.name)}, {c_name(derivative.name)}, {_number(state.nominal or 1.0)}}}"
         for state, derivative in zip(table.states, table.derivatives, strict=True)
@@ -55,8 +60,8 @@ def body(component: Component) -> str:
 
 #include "instance.h"
 
-const Variable variables[N_VALUES] = {{
-{rows}
+const Variable variables[N_VALUES + N_FIELDS + 1] = {{
+{listed}
 }};
 const Continuous states[N_STATES] = {{{states}}};
 const Message messages[N_MESSAGES + 1] = {{{messages}}};
@@ -69,11 +74,25 @@ def c_name(row: str) -> str:
     return "V_" + row.replace(".", "_")
 
 
-def _variable(scalar: Scalar, component: Component) -> str:
+def _marked(scalars: Iterable[Scalar]) -> Iterator[tuple[bool, Scalar]]:
+    """Whether a scalar is the first of its row, and the scalar."""
+    return ((i == 0, scalar) for i, scalar in enumerate(scalars))
+
+
+def _variable(scalar: Scalar, first: bool, component: Component) -> str:
     row = scalar.row
+    kind = "COUNT" if row.name in component.table.structural else row.kind.name
+    size = row.size if first else 0
     flags = f"{str(row.name in component.lazy).lower()}, {str(row.open_minimum).lower()}"
     numbers = ", ".join(_number(x) for x in (scalar.first, scalar.minimum, scalar.maximum))
-    return f"{{{_string(scalar.name)}, {_KINDS[row.kind]}, {_role(row, component)}, {flags}, {numbers}}}"
+    return f"{{{_string(scalar.name)}, {kind}, {_role(row, component)}, {size}, {flags}, {numbers}}}"
+
+
+def _field_size(table: Table) -> str:
+    """C that says how many numbers a field has."""
+    shape = table.fields[0].shape if table.fields else (0,)
+    factors = (str(n) if isinstance(n, int) else f"(size_t)(values)[{c_name(n)}]" for n in shape)
+    return f"({' * '.join(factors)})"
 
 
 def _role(row: Variable, component: Component) -> str:

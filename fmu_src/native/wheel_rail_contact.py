@@ -26,6 +26,14 @@ from contact._layout import (
     CASE_TANGENTIAL,
     CASE_VX,
     CASE_VY,
+    FIELD_DX,
+    FIELD_P,
+    FIELD_QX,
+    FIELD_QY,
+    FIELD_STICK,
+    FIELD_SX,
+    FIELD_SY,
+    FIELD_X,
     LOAD,
     MAX_PATCHES,
     N_CASE,
@@ -46,6 +54,9 @@ from contact._layout import (
     RES_STATUS,
     RES_STIFFNESS,
     RES_WIDTH,
+    STRIP_DY,
+    STRIP_PATCH,
+    STRIP_Y,
 )
 from contact.damage import DamageParameters
 from contact.damage._kernel import (
@@ -88,6 +99,32 @@ _INTERACTING = np.array([method.interacting for method in _METHODS.normal.values
 _CURVATURES, _NORMAL_FORCE = GEOMETRY_KIND.number("Curvatures"), LOAD_KIND.number("NormalForce")
 _DAMAGE_PARAMETERS = DamageParameters().array(contact.STEEL, 1.0, 1.0)
 _steps = compiled(creepage_steps)
+#: Field of the table → row of the solver's fields, or what is made of strips.
+_PATCH, _Y, _AREA = range(N_FIELD_ROWS, N_FIELD_ROWS + 3)
+_FIELDS = {
+    "field.patch": _PATCH,
+    "field.x": FIELD_X,
+    "field.y": _Y,
+    "field.area": _AREA,
+    "field.pressure": FIELD_P,
+    "field.traction_x": FIELD_QX,
+    "field.traction_y": FIELD_QY,
+    "field.slip_x": FIELD_SX,
+    "field.slip_y": FIELD_SY,
+    "field.stick": FIELD_STICK,
+}
+
+
+@compiled
+def _element(strips, fields, row, i, j):
+    """Number of an element in the row of `_FIELDS`."""
+    if row == _PATCH:
+        return strips[STRIP_PATCH, i] + 1.0
+    if row == _Y:
+        return strips[STRIP_Y, i]
+    if row == _AREA:
+        return strips[STRIP_DY, i] * fields[FIELD_DX, i, j]
+    return fields[row, i, j]
 
 
 def component(points: int) -> Component:
@@ -122,6 +159,8 @@ class Solved(NamedTuple):
     damage_parameters: object
     damage_fields: object
     damage: object
+    count: object  # of strips
+    shown: object  # one field as the host sees it
 
 
 def _entries(table: Table) -> dict[str, Callable[..., Any]]:
@@ -131,6 +170,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
     )
     n_values, points = len(table.scalars), table.row["geometry.g"].size
     samples = max(points, HERTZIAN_POINTS)
+    rows = np.array([_FIELDS[field.name] for field in table.fields])
 
     @compiled
     def memory_size(v):
@@ -139,7 +179,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
 
     @compiled
     def arrange(v, work):
-        """Lay all arrays into `work`; return them and how many numbers they are."""
+        """Lay all arrays into `work`; return them, where the field shown to the host begins, how many numbers there are."""
         n_strips, n_elements = int(v[at.resolution_n_strips]), int(v[at.resolution_n_elements])
         capacity = MAX_PATCHES * n_strips
         size = memory_size(v) - MEM_LN_A
@@ -168,6 +208,8 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         parameters, end = vector(work, end, N_PAR)
         damage_fields, end = cube(work, end, N_DAMAGE_FIELDS, capacity, n_elements)
         damage, end = vector(work, end, N_DAMAGE)
+        count, end = vector(work, end, 1)
+        shown, total = matrix(work, end, capacity, n_elements)
         rule = Rule(nodes, weights, elements, cosines, cosine_logs)
         space = Space(grid, vectors, logs, influences, lu, memory, lanes, trace)
         problem = Problem(y, g, A, xc, case)
@@ -176,8 +218,9 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
             coefficients,
             space,
             problem,
-            Solved(strips, fields, result, parameters, damage_fields, damage),
+            Solved(strips, fields, result, parameters, damage_fields, damage, count, shown),
             end,
+            total,
         )
 
     @compiled
@@ -207,18 +250,20 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
     @compiled
     def solve(n, rule, tables, space, problem, solved):
         """Solve what `pose` has left."""
-        y, g, A, xc = problem.y[:n], problem.g[:n], problem.A[:n], problem.xc[:n]
-        return solve_case(y, g, A, xc, problem.case, rule, tables, space, solved.strips, solved.fields, solved.result)
+        y, g, A, xc, case = problem.y[:n], problem.g[:n], problem.A[:n], problem.xc[:n], problem.case
+        count = solve_case(y, g, A, xc, case, rule, tables, space, solved.strips, solved.fields, solved.result)
+        solved.count[0] = count
+        return count
 
     def model_memory(values, published, centre, plane):
         return memory_size(carray(values, (n_values,)))
 
     def model_size(values, published, centre, plane):
-        return arrange(carray(values, (n_values,)), values)[5]
+        return arrange(carray(values, (n_values,)), values)[6]
 
     def model_prepare(values, work, published, centre, plane):
         v = carray(values, (n_values,))
-        rule, coefficients, _, _, solved, _ = arrange(v, work)
+        rule, coefficients, _, _, solved, _, _ = arrange(v, work)
         quadrature.fill_fejer(rule.nodes, rule.weights)
         quadrature.fill_elements(rule.elements)
         quadrature.fill_panel(rule.cosines, rule.cosine_logs)
@@ -233,7 +278,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
 
     def model_outputs(values, work, h, published, centre, plane):
         v = carray(values, (n_values,))
-        rule, coefficients, space, problem, solved, _ = arrange(v, work)
+        rule, coefficients, space, problem, solved, _, _ = arrange(v, work)
         tables = Tables(coefficients, carray(centre, influence.CENTRE), carray(plane, influence.PLANE))
         n = solve(pose(v, problem), rule, tables, space, problem, solved)
         parameters, result, damage = solved.damage_parameters, solved.result, solved.damage
@@ -268,7 +313,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
 
     def model_lazy(values, work, published, centre, plane):
         v = carray(values, (n_values,))
-        rule, coefficients, space, problem, solved, _ = arrange(v, work)
+        rule, coefficients, space, problem, solved, _, _ = arrange(v, work)
         tables = Tables(coefficients, carray(centre, influence.CENTRE), carray(plane, influence.PLANE))
         n, case, result = pose(v, problem), problem.case, solved.result
         for j, step in enumerate(steps(v)):
@@ -302,6 +347,15 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
             return share * penetration
         return max(share * abs(v[reference]), 1e-12)
 
+    def model_field(values, work, k, published, centre, plane):
+        v = carray(values, (n_values,))
+        _, _, _, _, solved, begin, _ = arrange(v, work)
+        n, shown = solved.count[0], solved.shown
+        for i in range(shown.shape[0]):
+            for j in range(shown.shape[1]):
+                shown[i, j] = _element(solved.strips, solved.fields, rows[k], i, j) if i < n else 0.0
+        return begin
+
     called_by_c = (
         model_memory,
         model_size,
@@ -310,5 +364,6 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         model_outputs,
         model_lazy,
         model_difference,
+        model_field,
     )
     return {function.__name__: function for function in called_by_c}

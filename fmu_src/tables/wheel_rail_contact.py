@@ -7,6 +7,7 @@ from functools import cache
 
 import contact
 from contact import Status, registry
+from contact._layout import MAX_PATCHES
 from contact.solve import N_ELEMENTS, N_STRIPS
 from fmu_src.variables import Enumeration, Table, Variable, output, parameter, signal
 
@@ -61,6 +62,7 @@ def table(points: int = 41) -> Table:
         "no feedthrough, the outputs after a step belong to the inputs before it: one communication step late.",
         rows,
         step_size=1e-3,
+        fields=list(_fields()),
     )
 
 
@@ -241,3 +243,25 @@ def _outputs() -> Iterable[Variable]:
     yield output("status", "How the solution came about", enumeration=STATUS)
     yield output("total.energy", "Energy dissipated since start", unit="J", start=0.0, minimum=0.0, depends=())
     yield output("total.worn_volume", "Volume worn off since start", unit="m3", start=0.0, minimum=0.0, depends=())
+
+
+def _fields() -> Iterable[Variable]:
+    """What belongs to every element of every strip: strips of all patches one after the other, with zeros behind the last."""
+
+    def field(name: str, description: str, **attributes: object) -> Variable:
+        shape = (MAX_PATCHES, "resolution.n_strips", "resolution.n_elements")
+        return output(name, description, shape=shape, **attributes)
+
+    normal = {"depends": (*_NORMAL_PROBLEM, "resolution.n_elements")}
+    yield field("field.patch", "Number of the patch; 0: this strip is not used", integer=True, minimum=0, **normal)
+    yield field(
+        "field.x", "Position in the rolling direction, from the leading edge on", unit="m", nominal=1e-3, **normal
+    )
+    yield field("field.y", "Lateral position", unit="m", nominal=1e-3, **normal)
+    yield field("field.area", "Area of the element", unit="m2", minimum=0.0, nominal=1e-7, **normal)
+    yield field("field.pressure", "Contact pressure", unit="Pa", minimum=0.0, nominal=1e9, **normal)
+    for axis, where in (("x", "in the rolling direction"), ("y", "lateral")):
+        yield field(f"field.traction_{axis}", f"Traction on the wheel, {where}", unit="Pa", nominal=1e8)
+    for axis, where in (("x", "in the rolling direction"), ("y", "lateral")):
+        yield field(f"field.slip_{axis}", f"Slip velocity over speed, wheel minus rail, {where}", nominal=1e-3)
+    yield field("field.stick", "Whether the element sticks", boolean=True)

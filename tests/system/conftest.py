@@ -10,6 +10,7 @@ from pathlib import Path
 import fmpy
 import pytest
 from fmu_instance import Instance
+from fmu_instance_fmi3 import Instance3
 from native_host import Host
 
 ROOT = Path(__file__).parents[2]
@@ -43,16 +44,38 @@ def native_folder(native, tmp_path_factory) -> Path:
     return Path(fmpy.extract(str(native), str(tmp_path_factory.mktemp("unzipped"))))
 
 
+@pytest.fixture(scope="session")
+def native_fmi3(native) -> Path:
+    """File of the native WheelRailContact of FMI 3.0."""
+    return native.parent / "fmi3" / native.name
+
+
+@pytest.fixture(scope="session")
+def native_fmi3_folder(native_fmi3, tmp_path_factory) -> Path:
+    """The same unzipped."""
+    return Path(fmpy.extract(str(native_fmi3), str(tmp_path_factory.mktemp("unzipped"))))
+
+
 @pytest.fixture
 def open_native(native_folder):
     """Instantiate the native WheelRailContact; all are freed at the end."""
+    yield from _opened(lambda kind: Instance(native_folder, kind=kind))
+
+
+@pytest.fixture
+def open_native_fmi3(native_fmi3_folder):
+    """The same of FMI 3.0."""
+    yield from _opened(lambda kind: Instance3(native_fmi3_folder, kind=kind))
+
+
+def _opened(make):
     instances = []
 
-    def open_native(kind: str = "CoSimulation") -> Instance:
-        instances.append(Instance(native_folder, kind=kind))
+    def open_one(kind: str = "CoSimulation"):
+        instances.append(make(kind))
         return instances[-1]
 
-    yield open_native
+    yield open_one
     for instance in instances:
         instance.free()
 
@@ -66,9 +89,26 @@ def host(native_folder, tmp_path_factory):
 @pytest.fixture(scope="session")
 def windows(native_folder, tmp_path_factory):
     """The same for Windows, under Wine."""
+    _require_wine()
+    return Host("win64", tmp_path_factory.mktemp("windows"), native_folder)
+
+
+@pytest.fixture(scope="session")
+def host_fmi3(native_fmi3_folder, tmp_path_factory):
+    """A host in C for FMI 3.0."""
+    return Host("x86_64-linux", tmp_path_factory.mktemp("linux"), native_fmi3_folder)
+
+
+@pytest.fixture(scope="session")
+def windows_fmi3(native_fmi3_folder, tmp_path_factory):
+    """The same for Windows, under Wine."""
+    _require_wine()
+    return Host("x86_64-windows", tmp_path_factory.mktemp("windows"), native_fmi3_folder)
+
+
+def _require_wine() -> None:
     if not shutil.which("wine"):
         pytest.skip("THE WINDOWS LIBRARY IS NOT TESTED: wine is not installed (apt-get install wine64)")
-    return Host("win64", tmp_path_factory.mktemp("windows"), native_folder)
 
 
 def _build(packaging: str, folder: Path) -> None:

@@ -2,35 +2,9 @@
  *
  * Loads the library for itself alone (RTLD_LOCAL), takes every function from it by name, and zeroes the callbacks as soon as
  * fmi2Instantiate has returned, as a host may that has them on its stack. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
-
 #include "fmi2FunctionTypes.h"
+#include "host.h"
 #include "model.h"
-
-#ifdef _WIN32
-#include <windows.h>
-#define GetVersion fmu_version /* Windows has its own */
-static void *open_library(const char *path) { return (void *)LoadLibraryA(path); }
-static void *find(void *library, const char *name) { return (void *)GetProcAddress(library, name); }
-typedef HANDLE Thread;
-#define THREAD_RESULT DWORD WINAPI
-static void start(Thread *t, LPTHREAD_START_ROUTINE f, void *p) { *t = CreateThread(NULL, 0, f, p, 0, NULL); }
-static void join(Thread t) { WaitForSingleObject(t, INFINITE); }
-#else
-#include <dlfcn.h>
-#include <pthread.h>
-#include <unistd.h>
-static void *open_library(const char *path) { return dlopen(path, RTLD_NOW | RTLD_LOCAL); }
-static void *find(void *library, const char *name) { return dlsym(library, name); }
-typedef pthread_t Thread;
-#define THREAD_RESULT void *
-static void start(Thread *t, void *(*f)(void *), void *p) { pthread_create(t, NULL, f, p); }
-static void join(Thread t) { pthread_join(t, NULL); }
-#endif
 
 #define FUNCTIONS(X) \
     X(GetTypesPlatform) X(GetVersion) X(SetDebugLogging) X(Instantiate) X(FreeInstance) X(SetupExperiment) \
@@ -43,17 +17,6 @@ static void join(Thread t) { pthread_join(t, NULL); }
     X(GetEventIndicators) X(GetContinuousStates) X(GetNominalsOfContinuousStates)
 #define DECLARE(f) static fmi2##f##TYPE *f;
 FUNCTIONS(DECLARE)
-
-static const char *guid;
-static int failures, messages;
-static char last_message[1024];
-
-static void check(int good, const char *what, const char *where)
-{
-    if (good) return;
-    failures++;
-    printf("FAILED %s %s\n", what, where);
-}
 
 static void logger(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status, fmi2String category,
                    fmi2String message, ...)
@@ -342,13 +305,6 @@ static void threads(void)
 
 /* ---------------------------------------------------------------- random calls, long runs, cases from outside, speed */
 
-static unsigned draw(unsigned n)
-{
-    static unsigned long long x = 88172645463325252ull;
-    x ^= x << 13, x ^= x >> 7, x ^= x << 17;
-    return (unsigned)(x % n);
-}
-
 static void random_calls(int n)
 {
     static const double odd[] = {0.0, -1.0, 1e-300, 1e300, NAN, INFINITY, 1e-3, 8e4};
@@ -435,13 +391,6 @@ static void cases(void)
         printf("\n");
     }
     FreeInstance(c);
-}
-
-static double now(void)
-{
-    struct timespec t;
-    timespec_get(&t, TIME_UTC);
-    return 1e6 * (double)t.tv_sec + 1e-3 * (double)t.tv_nsec;
 }
 
 static void speed(int n)

@@ -1,4 +1,4 @@
-"""The host in C, `native_host.c`, compiled for a platform and run over a native FMU."""
+"""The hosts in C, `native_host.c` and `native_host_fmi3.c`, compiled for a platform and run over a native FMU."""
 
 import os
 import subprocess
@@ -14,24 +14,31 @@ from fmu_src.native import source
 from fmu_src.native.packaging import HEADERS, compiler
 from fmu_src.native.wheel_rail_contact import component
 
-HOST = Path(__file__).with_name("native_host.c")
+#: Name that a version of FMI has for a platform → that of the builder, and the host's source.
+PLATFORMS = {
+    "linux64": ("linux64", "native_host.c"),
+    "win64": ("win64", "native_host.c"),
+    "x86_64-linux": ("linux64", "native_host_fmi3.c"),
+    "x86_64-windows": ("win64", "native_host_fmi3.c"),
+}
 SUFFIX = {"linux64": ("so", ""), "win64": ("dll", ".exe")}
 
 
 class Host:
-    """The compiled host for one platform."""
+    """The compiled host for one platform of one version of FMI."""
 
     def __init__(self, platform: str, folder: Path, unzipped: Path, extra: tuple[str, ...] = ()) -> None:
-        library, program = SUFFIX[platform]
+        own, code = PLATFORMS[platform]
+        library, program = SUFFIX[own]
         self.guid = fmpy.read_model_description(str(unzipped)).guid
         self.library = unzipped / "binaries" / platform / f"{NAME}.{library}"
         (folder / "model.h").write_text(source.header(component(POINTS), self.guid))
         self.program = folder / f"host{program}"
-        libraries = ["-ldl", "-lpthread", "-lm"] if platform == "linux64" else []
+        libraries = ["-ldl", "-lpthread", "-lm"] if own == "linux64" else []
         flags = ["-std=gnu11", "-O1", f"-I{folder}", f"-I{HEADERS}", *extra]
-        command = [*compiler(platform), *flags, HOST, "-o", self.program, *libraries]
+        command = [*compiler(own), *flags, Path(__file__).with_name(code), "-o", self.program, *libraries]
         subprocess.run(list(map(str, command)), check=True, timeout=300)
-        self.prefix = [] if platform == "linux64" else ["wine"]
+        self.prefix = [] if own == "linux64" else ["wine"]
         self.environment = os.environ | {"WINEPREFIX": str(folder / "wine"), "WINEDEBUG": "-all"}
 
     def __call__(self, command: str, argument: int = 0, stdin: str | None = None, before: tuple[str, ...] = ()) -> str:

@@ -16,20 +16,30 @@ def test_on_windows_under_wine(windows, command):
     windows(command)
 
 
-def test_every_state_meets_every_function(host):
+@pytest.mark.parametrize("name", ["host_fmi3", "windows_fmi3"])
+@pytest.mark.parametrize("command", ["instantiate", "every_call", "threads"])
+def test_fmi_3(request, name, command):
+    request.getfixturevalue(name)(command)
+
+
+def test_every_state_meets_every_function(host, host_fmi3):
     assert int(host("every_call").split()[0]) > 500
+    assert int(host_fmi3("every_call").split()[0]) > 1000
 
 
-def test_random_calls_do_no_harm(host):
-    host("random_calls", 20_000)
+@pytest.mark.parametrize("name", ["host", "host_fmi3"])
+def test_random_calls_do_no_harm(request, name):
+    request.getfixturevalue(name)("random_calls", 20_000)
 
 
 def test_cycles_and_steps_leave_memory_as_it_was(host):
     host("soak", 3000)
 
 
-def test_valgrind_finds_nothing(host):
+@pytest.mark.parametrize("name", ["host", "host_fmi3"])
+def test_valgrind_finds_nothing(request, name):
     """Leaks and reads of what was never written, over all calls and a thousand random ones."""
+    host = request.getfixturevalue(name)
     if not shutil.which("valgrind"):
         pytest.skip("valgrind is not installed")
     check = ("valgrind", "--error-exitcode=9", "--leak-check=full", "-q")
@@ -37,5 +47,6 @@ def test_valgrind_finds_nothing(host):
     host("random_calls", 1000, before=check)
 
 
-def test_speed_can_be_measured(host):
-    assert re.findall(r"step ([\d.]+) us", host("speed", 100))
+@pytest.mark.parametrize("name", ["host", "host_fmi3"])
+def test_speed_can_be_measured(request, name):
+    assert re.findall(r"step ([\d.]+) us", request.getfixturevalue(name)("speed", 100))

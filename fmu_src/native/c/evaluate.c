@@ -40,7 +40,7 @@ Status prepare(Instance *instance)
     if (instance->work && !memcmp(values, instance->prepared, N_PARAMETERS * sizeof(double))) return OK;
     int64_t memory_size = instance->model->memory(values);
     double *work = malloc((size_t)instance->model->size(values) * sizeof(double));
-    double *memory = memory_size == instance->memory_size ? instance->memory : calloc((size_t)memory_size, sizeof(double));
+    double *memory = memory_size == instance->memory_size ? instance->memory : calloc(2 * (size_t)memory_size, sizeof(double));
     if (!work || !memory) {
         free(work);
         if (memory != instance->memory) free(memory);
@@ -51,6 +51,7 @@ Status prepare(Instance *instance)
     free(instance->work);
     if (memory != instance->memory) free(instance->memory);
     instance->work = work;
+    instance->work_is_solved = false;
     instance->memory = memory;
     instance->memory_size = memory_size;
     memcpy(instance->prepared, values, N_PARAMETERS * sizeof(double));
@@ -94,15 +95,18 @@ Status update(Instance *instance, double h, bool warm)
 {
     double before[N_VALUES];
     double *values = instance->is.values;
+    double *next, *from;
     size_t memory_bytes;
     int64_t number;
     Status status = instance->is.is_new ? check_ranges(instance) : OK;
     if (status == OK) status = prepare(instance);
     if (status != OK) return status;
     memory_bytes = (size_t)instance->memory_size * sizeof(double);
+    next = instance->memory, from = next + instance->memory_size;
     memcpy(before, values, sizeof before);
+    instance->work_is_solved = false;
     if (warm)
-        memcpy(instance->work, instance->memory, memory_bytes);
+        memcpy(instance->work, next, memory_bytes);
     else
         memset(instance->work, 0, memory_bytes);
     number = evaluate(instance, values, h);
@@ -113,7 +117,13 @@ Status update(Instance *instance, double h, bool warm)
     for (int i = 0; i < N_TOTALS; i++) values[totals[i].total] += rate(&totals[i], values) * h;
     status = keep_finite(instance, before);
     if (status != OK) return status;
-    if (warm) memcpy(instance->memory, instance->work, memory_bytes);
+    if (warm) {
+        memcpy(from, next, memory_bytes);
+        memcpy(next, instance->work, memory_bytes);
+    } else {
+        memset(from, 0, memory_bytes);
+    }
+    instance->work_is_solved = true;
     memcpy(instance->is.solved, values, sizeof instance->is.solved);
     instance->is.is_new = false;
     instance->is.lazy_stale = true;
@@ -128,6 +138,7 @@ Status update_lazy(Instance *instance)
     double solved[N_VALUES];
     if (!instance->is.lazy_stale || prepare(instance) != OK) return OK;
     memcpy(solved, instance->is.solved, sizeof solved);
+    instance->work_is_solved = false;
     instance->model->lazy(solved, instance->work);
     for (size_t i = 0; i < N_VALUES; i++)
         if (variables[i].lazy) {
@@ -136,6 +147,19 @@ Status update_lazy(Instance *instance)
             instance->is.values[i] = solved[i];
         }
     instance->is.lazy_stale = false;
+    return OK;
+}
+
+/* Fill working memory with what the outputs belong to, bit by bit as it was, if it has been used since. */
+Status update_work(Instance *instance)
+{
+    double solved[N_VALUES];
+    Status status = prepare(instance);
+    if (status != OK || instance->work_is_solved) return status;
+    memcpy(solved, instance->is.solved, sizeof solved);
+    memcpy(instance->work, instance->memory + instance->memory_size, (size_t)instance->memory_size * sizeof(double));
+    evaluate(instance, solved, 0.0);
+    instance->work_is_solved = true;
     return OK;
 }
 

@@ -29,7 +29,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     (void)visible;
     if (!functions) return NULL;
     const Log log = {write_log, (void (*)(void))functions->logger, functions->componentEnvironment};
-    return instantiate((Type)type, name, guid, &log, logging);
+    return instantiate((Type)type, false, name, guid, &log, logging);
 }
 
 void fmi2FreeInstance(fmi2Component c) { release(c); }
@@ -53,55 +53,56 @@ fmi2Status fmi2Reset(fmi2Component c) { return SHARED(reset(c, __func__)); }
     fmi2Status function(fmi2Component c, const fmi2ValueReference refs[], size_t n, type values[]) \
     { \
         const Instance *instance = c; \
-        Status status = before_get(c, __func__, refs, n, kinds); \
+        Status status = before_get(c, __func__, refs, n, kinds, n); \
         if (status > WARNING) return SHARED(status); \
         for (size_t k = 0; k < n; k++) values[k] = (type)instance->is.values[refs[k]]; \
         return SHARED(status); \
     }
 GET(fmi2GetReal, fmi2Real, REAL)
-GET(fmi2GetInteger, fmi2Integer, INTEGER | ENUMERATION)
+GET(fmi2GetInteger, fmi2Integer, INTEGER | ENUMERATION | COUNT)
 
 fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference refs[], size_t n, fmi2Boolean values[])
 {
     (void)values;
-    return SHARED(before_get(c, __func__, refs, n, 0));
+    return SHARED(before_get(c, __func__, refs, n, 0, n));
 }
 
 fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference refs[], size_t n, fmi2String values[])
 {
     (void)values;
-    return SHARED(before_get(c, __func__, refs, n, 0));
+    return SHARED(before_get(c, __func__, refs, n, 0, n));
 }
 
 #define SET(function, type, kinds) \
     fmi2Status function(fmi2Component c, const fmi2ValueReference refs[], size_t n, const type values[]) \
     { \
         Instance *instance = c; \
-        Status status = before_set(c, __func__, refs, n, kinds); \
+        Status status = before_set(c, __func__, refs, n, kinds, n); \
         if (status != OK) return SHARED(status); \
         for (size_t k = 0; k < n; k++) instance->is.values[refs[k]] = values[k]; \
         return fmi2OK; \
     }
 SET(fmi2SetReal, fmi2Real, REAL)
-SET(fmi2SetInteger, fmi2Integer, INTEGER | ENUMERATION)
+SET(fmi2SetInteger, fmi2Integer, INTEGER | ENUMERATION | COUNT)
 
 fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference refs[], size_t n, const fmi2Boolean values[])
 {
     (void)values;
-    return SHARED(before_set(c, __func__, refs, n, 0));
+    return SHARED(before_set(c, __func__, refs, n, 0, n));
 }
 
 fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference refs[], size_t n, const fmi2String values[])
 {
     (void)values;
-    return SHARED(before_set(c, __func__, refs, n, 0));
+    return SHARED(before_set(c, __func__, refs, n, 0, n));
 }
 
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknowns[], size_t n_unknowns,
                                         const fmi2ValueReference knowns[], size_t n_knowns, const fmi2Real seed[],
                                         fmi2Real result[])
 {
-    return SHARED(derivative(c, __func__, unknowns, n_unknowns, knowns, n_knowns, seed, result));
+    return SHARED(derivative(c, __func__, unknowns, n_unknowns, knowns, n_knowns, seed, n_knowns,
+                             result, n_unknowns));
 }
 
 /* ---------------------------------------------------------------- states */

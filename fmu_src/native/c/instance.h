@@ -24,16 +24,25 @@ typedef struct {
     int64_t (*outputs)(double *values, double *work, double h);
     int64_t (*lazy)(double *values, double *work);
     double (*difference)(double *values, int64_t reference);
+    int64_t (*field)(double *values, double *work, int64_t k);
 } Model;
 
 /* ---- the table */
-typedef enum { REAL = 1, INTEGER = 2, ENUMERATION = 4 } Kind;
+typedef enum {
+    REAL = 1,
+    INTEGER = 2,
+    ENUMERATION = 4,
+    BOOLEAN = 8,
+    COUNT = 16 /* INTEGER that fields have their size from: in FMI 3.0 a structural parameter */
+} Kind;
 typedef enum {
     PARAMETER = 1,
     INPUT = 2,
     OUTPUT = 4,
     STATE = 8, /* continuous state, an output as well */
-    TOTAL = 16 /* output that adds up, with a start value */
+    TOTAL = 16, /* output that adds up, with a start value */
+    FIELD = 32, /* output of FMI 3.0, an array as large as the resolution makes it */
+    TIME = 64   /* in FMI 3.0 a variable as well */
 } Role;
 #define ANY_OUTPUT (OUTPUT | STATE | TOTAL)
 typedef uint32_t Reference;
@@ -42,12 +51,14 @@ typedef struct {
     const char *name;
     Kind kind;
     Role role;
-    bool lazy; /* computed by model_lazy when somebody reads it */
+    size_t size; /* of the array that begins here, 1 for a scalar, 0 within an array; of a field see FIELD_SIZE */
+    bool lazy;   /* computed by model_lazy when somebody reads it */
     bool open_minimum;
     double start, minimum, maximum;
 } Variable;
 
-extern const Variable variables[N_VALUES];
+/* First those with a number in `values`: an array has one variable for each in FMI 2.0, one for all in FMI 3.0. */
+extern const Variable variables[N_VALUES + N_FIELDS + 1];
 
 /* Continuous states: value references of one and of its derivative, and its nominal value. */
 typedef struct {
@@ -83,11 +94,12 @@ typedef enum {
     STEP_COMPLETE = 16,  /* co-simulation */
     STEP_FAILED = 32,    /* co-simulation; the discarded step has changed nothing and may be tried again */
     TERMINATED = 64,
-    BROKEN = 128         /* out of memory: only reset, restore and free remain */
+    BROKEN = 128,        /* out of memory: only reset, restore and free remain */
+    CONFIGURATION = 256  /* FMI 3.0: structural parameters can be set */
 } Phase;
 
 #define RUNNING (EVENT | CONTINUOUS | STEP_COMPLETE | STEP_FAILED)
-#define ANY (INSTANTIATED | INITIALIZATION | RUNNING | TERMINATED | BROKEN)
+#define ANY (INSTANTIATED | CONFIGURATION | INITIALIZATION | RUNNING | TERMINATED | BROKEN)
 
 typedef enum { MODEL_EXCHANGE, CO_SIMULATION } Type; /* the numbers of fmi2Type */
 typedef enum { OK, WARNING, DISCARD, ERROR } Status; /* the numbers of fmi2Status and fmi3Status */
@@ -100,7 +112,7 @@ typedef struct Log {
     void *environment;
 } Log;
 
-/* What an instance is, besides its warm start: all of an FMU state, copied byte by byte. */
+/* What an instance is, besides its memory: all of an FMU state, copied byte by byte. */
 typedef struct {
     double values[N_VALUES];
     double solved[N_VALUES]; /* the values that the outputs belong to */
@@ -115,12 +127,14 @@ typedef struct {
 
 typedef struct {
     Content is;
-    double *memory; /* warm start */
+    double *memory; /* twice memory_size numbers: the warm start of the next step, then that which the outputs are from */
     int64_t memory_size;
     double *work;
+    bool work_is_solved; /* and not used for anything else since */
     double prepared[N_VALUES]; /* parameters that `work` is laid out and filled for; a negative first one: none */
     const Model *model; /* compiled for this processor; the results are the same */
     Type type;
+    bool arrays; /* FMI 3.0: value references stand for arrays */
     char *name;
     int categories;
     Log log;
@@ -137,19 +151,25 @@ typedef struct {
 Status report(const Instance *instance, Category category, const char *format, ...);
 Status refuse(const Instance *instance, const char *function);
 Status choose_log(Instance *instance, const char *function, bool on, size_t n, const char *const names[]);
-Instance *instantiate(Type type, const char *name, const char *guid, const Log *log, bool logging);
+Instance *instantiate(Type type, bool arrays, const char *name, const char *guid, const Log *log, bool logging);
 void release(Instance *instance);
 Status set_up(Instance *instance, const char *function, double start, bool has_stop, double stop);
+Status enter_configuration(Instance *instance, const char *function);
+Status exit_configuration(Instance *instance, const char *function);
 Status enter_initialization(Instance *instance, const char *function);
 Status exit_initialization(Instance *instance, const char *function);
 Status terminate(Instance *instance, const char *function);
 Status reset(Instance *instance, const char *function);
 
-/* variables.c */
-Status before_get(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds);
-Status before_set(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds);
+/* variables.c: check references for numbers of these kinds, `n_values` together, before they are copied; n is that of the
+ * references, and unknowns and knowns are as many as seed and result have numbers */
+Status before_get(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds, size_t n_values);
+Status before_set(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds, size_t n_values);
+size_t extent(const Instance *instance, Reference reference);
+const double *numbers(const Instance *instance, Reference reference);
 Status derivative(Instance *instance, const char *function, const Reference unknowns[], size_t n_unknowns,
-                  const Reference knowns[], size_t n_knowns, const double seed[], double result[]);
+                  const Reference knowns[], size_t n_knowns, const double seed[], size_t n_seed, double result[],
+                  size_t n_result);
 
 /* simulate.c */
 Status do_step(Instance *instance, const char *function, double time, double h);
@@ -163,6 +183,7 @@ Status get_states(Instance *instance, const char *function, double x[], size_t n
 Status get_derivatives(Instance *instance, const char *function, double derivatives[], size_t n);
 Status get_nominals(Instance *instance, const char *function, double nominals[], size_t n);
 Status get_indicators(Instance *instance, const char *function, size_t n);
+Status count_of(const Instance *instance, const char *function, size_t there_are, size_t *n);
 
 /* state.c */
 Status get_state(Instance *instance, const char *function, void **target);
@@ -180,6 +201,7 @@ int64_t evaluate(const Instance *instance, double *values, double h); /* leaves 
 Status update(Instance *instance, double h, bool warm);
 void accumulate(Instance *instance);
 Status update_lazy(Instance *instance);
+Status update_work(Instance *instance);
 Status refresh(Instance *instance);
 
 #endif

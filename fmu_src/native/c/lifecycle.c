@@ -39,6 +39,7 @@ static const char *phase_name(int64_t phase)
 {
     switch (phase) {
     case INSTANTIATED: return "before initialisation";
+    case CONFIGURATION: return "in configuration mode";
     case INITIALIZATION: return "in initialisation mode";
     case EVENT: return "in event mode";
     case CONTINUOUS: return "in continuous-time mode";
@@ -80,7 +81,8 @@ static void restart(Instance *instance)
     instance->is.stop_time = INFINITY;
     instance->is.phase = INSTANTIATED;
     instance->is.is_new = true;
-    if (instance->memory) memset(instance->memory, 0, (size_t)instance->memory_size * sizeof(double));
+    if (instance->memory) memset(instance->memory, 0, 2 * (size_t)instance->memory_size * sizeof(double));
+    instance->work_is_solved = false;
 }
 
 #define ENTRIES(cpu) \
@@ -91,8 +93,9 @@ static void restart(Instance *instance)
     int64_t model_outputs_##cpu(double *, double *, double); \
     int64_t model_lazy_##cpu(double *, double *); \
     double model_difference_##cpu(double *, int64_t); \
+    int64_t model_field_##cpu(double *, double *, int64_t); \
     static const Model model_##cpu = {model_memory_##cpu,  model_size_##cpu, model_prepare_##cpu,   model_start_##cpu, \
-                                      model_outputs_##cpu, model_lazy_##cpu, model_difference_##cpu};
+                                      model_outputs_##cpu, model_lazy_##cpu, model_difference_##cpu, model_field_##cpu};
 ENTRIES(v2)
 ENTRIES(v3)
 
@@ -111,7 +114,7 @@ static const Model *model_for_this_processor(void)
 }
 
 /* A new instance, or NULL with a message that says why not. */
-Instance *instantiate(Type type, const char *name, const char *guid, const Log *log, bool logging)
+Instance *instantiate(Type type, bool arrays, const char *name, const char *guid, const Log *log, bool logging)
 {
     Instance *instance;
     const Instance caller = {.categories = LOG_ERROR, .name = (char *)(name ? name : ""), .log = *log};
@@ -137,6 +140,7 @@ Instance *instantiate(Type type, const char *name, const char *guid, const Log *
     }
     strcpy(instance->name, name);
     instance->type = type;
+    instance->arrays = arrays;
     instance->model = model_for_this_processor();
     instance->log = *log;
     instance->categories = logging ? LOG_WARNING | LOG_DISCARD | LOG_ERROR : LOG_DISCARD | LOG_ERROR;
@@ -160,6 +164,20 @@ Status set_up(Instance *instance, const char *function, double start, bool has_s
         return report(instance, LOG_ERROR, "startTime = %g, stopTime = %g: stop must not lie before start", start, stop);
     instance->is.time = instance->is.accepted_time = start;
     instance->is.stop_time = has_stop ? stop : INFINITY;
+    return OK;
+}
+
+Status enter_configuration(Instance *instance, const char *function)
+{
+    REQUIRE(instance, function, N_FIELDS > 0 ? INSTANTIATED : 0); /* without fields there are no structural parameters */
+    instance->is.phase = CONFIGURATION;
+    return OK;
+}
+
+Status exit_configuration(Instance *instance, const char *function)
+{
+    REQUIRE(instance, function, CONFIGURATION);
+    instance->is.phase = INSTANTIATED;
     return OK;
 }
 

@@ -65,7 +65,7 @@ Status set_time(Instance *instance, const char *function, double time)
 }
 
 /* Where what belongs to continuous states may be read. */
-#define READABLE (EVENT | CONTINUOUS | (instance && instance->type == MODEL_EXCHANGE ? INITIALIZATION | TERMINATED : 0))
+#define READABLE (EVENT | CONTINUOUS | (instance->type == MODEL_EXCHANGE ? INITIALIZATION | TERMINATED : 0))
 
 static Status wrong_number(const Instance *instance, const char *function, size_t n, size_t there_are)
 {
@@ -116,4 +116,11 @@ Status get_indicators(Instance *instance, const char *function, size_t n)
 {
     REQUIRE(instance, function, READABLE);
     return n == 0 ? OK : wrong_number(instance, function, n, 0);
+}
+
+Status count_of(const Instance *instance, const char *function, size_t there_are, size_t *n)
+{
+    REQUIRE(instance, function, READABLE | (instance->type == MODEL_EXCHANGE ? INSTANTIATED | CONFIGURATION : 0));
+    *n = there_are;
+    return OK;
 }

@@ -11,7 +11,7 @@ typedef struct {
     int64_t type;
     int64_t memory_size;
     Content is;
-    double memory[];
+    double memory[]; /* both halves */
 } State;
 
 static uint64_t checksum(const State *state)
@@ -22,7 +22,7 @@ static uint64_t checksum(const State *state)
     return hash;
 }
 
-static size_t size_with(int64_t memory_size) { return sizeof(State) + (size_t)memory_size * sizeof(double); }
+static size_t memory_bytes(int64_t memory_size) { return 2 * (size_t)memory_size * sizeof(double); }
 
 Status get_state(Instance *instance, const char *function, void **target)
 {
@@ -30,7 +30,7 @@ Status get_state(Instance *instance, const char *function, void **target)
     State *state;
     REQUIRE(instance, function, ANY);
     if (!target) return report(instance, LOG_ERROR, "%s: no place for the state is given", function);
-    size = size_with(instance->memory_size);
+    size = sizeof *state + memory_bytes(instance->memory_size);
     state = *target;
     if (!state || state->size != (int64_t)size) {
         state = calloc(1, size);
@@ -55,7 +55,7 @@ Status set_state(Instance *instance, const char *function, const void *source)
     if (state->type != (int64_t)instance->type)
         return report(instance, LOG_ERROR, "%s: the state is of the other kind of FMU", function);
     if (state->memory_size != instance->memory_size) {
-        double *memory = malloc((size_t)state->memory_size * sizeof(double) + 1);
+        double *memory = malloc(memory_bytes(state->memory_size) + 1);
         if (!memory) return report(instance, LOG_ERROR, "out of memory");
         free(instance->memory);
         instance->memory = memory;
@@ -64,7 +64,8 @@ Status set_state(Instance *instance, const char *function, const void *source)
         instance->work = NULL;
     }
     instance->is = state->is;
-    if (instance->memory) memcpy(instance->memory, state->memory, (size_t)state->memory_size * sizeof(double));
+    instance->work_is_solved = false;
+    if (instance->memory) memcpy(instance->memory, state->memory, memory_bytes(state->memory_size));
     return OK;
 }
 
@@ -110,7 +111,7 @@ Status deserialize(Instance *instance, const char *function, const void *bytes, 
     memcpy(state, bytes, size);
     valid = !memcmp(state->guid, MODEL_GUID, sizeof MODEL_GUID) && state->size >= (int64_t)sizeof *state &&
             (uint64_t)state->size <= size && state->memory_size >= 0 &&
-            state->memory_size == (state->size - (int64_t)sizeof *state) / (int64_t)sizeof(double) &&
+            memory_bytes(state->memory_size) == (size_t)state->size - sizeof *state &&
             state->checksum == checksum(state);
     if (!valid) {
         free(state);

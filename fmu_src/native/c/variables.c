@@ -4,51 +4,83 @@
 
 #include "instance.h"
 
-static Status no_such(const Instance *instance, Reference reference, const char *function)
+/* How many numbers a value reference stands for. */
+size_t extent(const Instance *instance, Reference reference)
 {
-    if (reference < N_VALUES)
-        return report(instance, LOG_ERROR, "%s is not a variable for %s now", variables[reference].name, function);
-    return report(instance, LOG_ERROR, "%s: there is no value reference %u", function, reference);
+    if (!instance->arrays) return 1;
+    return variables[reference].role == FIELD ? FIELD_SIZE(instance->is.values) : variables[reference].size;
 }
 
-/* Whether all references are of these kinds and roles. */
-static Status check(const Instance *instance, const Reference refs[], size_t n, int kinds, int roles, const char *function)
+/* The numbers of `values` and working memory that a value reference stands for. */
+static const double *numbers_of(const Instance *instance, double *values, Reference reference)
 {
+    if (variables[reference].role != FIELD) return values + reference;
+    return instance->work + instance->model->field(values, instance->work, (int64_t)reference - N_VALUES);
+}
+
+/* The instance's own: in `solved` is what working memory belongs to. */
+const double *numbers(const Instance *instance, Reference reference)
+{
+    if (variables[reference].role == TIME) return &instance->is.time;
+    return numbers_of(instance, (double *)(variables[reference].role == FIELD ? instance->is.solved : instance->is.values),
+                      reference);
+}
+
+static bool exists(const Instance *instance, Reference reference)
+{
+    if (!instance->arrays) return reference < N_VALUES;
+    return reference <= V_time && (variables[reference].size > 0 || variables[reference].role == FIELD);
+}
+
+/* Whether all references are of these kinds and roles, and stand for n_values numbers. */
+static Status check(const Instance *instance, const Reference refs[], size_t n, int kinds, int roles, size_t n_values,
+                    const char *function)
+{
+    size_t count = 0;
     if (n > 0 && !refs) return report(instance, LOG_ERROR, "%s: no value references are given", function);
-    for (size_t k = 0; k < n; k++)
-        if (refs[k] >= N_VALUES || !(variables[refs[k]].kind & kinds) || !(variables[refs[k]].role & roles))
-            return no_such(instance, refs[k], function);
-    return OK;
+    for (size_t k = 0; k < n; k++) {
+        if (!exists(instance, refs[k]))
+            return report(instance, LOG_ERROR, "%s: there is no value reference %u", function, refs[k]);
+        if (!(variables[refs[k]].kind & kinds) || !(variables[refs[k]].role & roles))
+            return report(instance, LOG_ERROR, "%s is not a variable for %s now", variables[refs[k]].name, function);
+        count += extent(instance, refs[k]);
+    }
+    if (count == n_values) return OK;
+    return report(instance, LOG_ERROR, "%s: %zu values are given where the variables have %zu", function, n_values, count);
 }
 
 /* Bring what is about to be read up to date; a host may read inputs and parameters at any time. */
-Status before_get(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds)
+Status before_get(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds, size_t n_values)
 {
-    bool output = false, lazy = false;
-    Status status;
-    REQUIRE(instance, function, ANY & ~INSTANTIATED);
-    status = check(instance, refs, n, kinds, PARAMETER | INPUT | ANY_OUTPUT, function);
+    int roles = PARAMETER | INPUT | TIME, read = 0;
+    bool lazy = false;
+    Status status, later = OK;
+    REQUIRE(instance, function, instance->arrays ? ANY : ANY & ~INSTANTIATED);
+    if (!(instance->is.phase & (INSTANTIATED | CONFIGURATION))) roles |= ANY_OUTPUT | FIELD;
+    status = check(instance, refs, n, kinds, roles, n_values, function);
     if (status != OK) return status;
     for (size_t k = 0; k < n; k++) {
-        output |= variables[refs[k]].role & ANY_OUTPUT;
+        read |= variables[refs[k]].role;
         lazy |= variables[refs[k]].lazy;
     }
-    if (output && (instance->is.phase & (INITIALIZATION | EVENT | CONTINUOUS))) status = refresh(instance);
-    if (lazy && status <= WARNING) {
-        Status later = update_lazy(instance);
-        if (later > status) status = later;
-    }
-    return status;
+    if (read & (ANY_OUTPUT | FIELD) && instance->is.phase & (INITIALIZATION | EVENT | CONTINUOUS))
+        status = refresh(instance);
+    if (lazy && status <= WARNING) later = update_lazy(instance);
+    if (later <= WARNING && status <= WARNING && read & FIELD) later = update_work(instance);
+    return later > status ? later : status;
 }
 
 /* Any value is taken; the next computation checks them all and names the one that it cannot do with. */
-Status before_set(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds)
+Status before_set(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds, size_t n_values)
 {
     int roles = INPUT;
     Status status;
-    REQUIRE(instance, function, INSTANTIATED | INITIALIZATION | RUNNING);
+    REQUIRE(instance, function, INSTANTIATED | CONFIGURATION | INITIALIZATION | RUNNING);
     if (instance->is.phase & (INSTANTIATED | INITIALIZATION)) roles |= PARAMETER | TOTAL;
-    status = check(instance, refs, n, kinds, roles, function);
+    if (instance->arrays && n > 0 && (kinds == COUNT) != (instance->is.phase == CONFIGURATION))
+        return report(instance, LOG_ERROR, "%s: structural parameters, and these alone, are set in configuration mode", function);
+    if (instance->is.phase == CONFIGURATION) roles = PARAMETER;
+    status = check(instance, refs, n, kinds, roles, n_values, function);
     if (status == OK && n > 0) instance->is.is_new = true;
     return status;
 }
@@ -67,47 +99,58 @@ static void displaced(Instance *instance, const double *seeds, double h, bool la
     for (size_t i = 0; i < N_VALUES; i++)
         values[i] = seeds[i] != 0.0 ? instance->is.values[i] + h * seeds[i] : instance->is.values[i];
     memset(instance->work, 0, (size_t)instance->memory_size * sizeof(double));
+    instance->work_is_solved = false;
     evaluate(instance, values, 0.0);
-    if (lazy) instance->model->lazy(values, instance->work);
+    if (!lazy) return;
+    instance->model->lazy(values, instance->work);
+    memset(instance->work, 0, (size_t)instance->memory_size * sizeof(double));
+    evaluate(instance, values, 0.0); /* for fields, which the lazy ones have left none of */
 }
 
 /* Outputs and derivatives by inputs and states (in initialisation by inputs and parameters), at the present values of
  * these: a central difference over steps that fit each variable, one-sided at the end of a range. In co-simulation too
  * outputs count as functions of the present inputs, as a step makes those of a model without states. */
 Status derivative(Instance *instance, const char *function, const Reference unknowns[], size_t n_unknowns,
-                  const Reference knowns[], size_t n_knowns, const double seed[], double result[])
+                  const Reference knowns[], size_t n_knowns, const double seed[], size_t n_seed, double result[],
+                  size_t n_result)
 {
-    double seeds[N_VALUES] = {0.0}, ahead[N_VALUES], behind[N_VALUES], up, down /* negative */, h = INFINITY;
+    double seeds[N_VALUES] = {0.0}, values[N_VALUES], up, down /* negative */, h = INFINITY;
     bool lazy = false;
     Status status;
     REQUIRE(instance, function, INITIALIZATION | RUNNING | TERMINATED);
-    status = check(instance, unknowns, n_unknowns, REAL, ANY_OUTPUT, function);
+    status = check(instance, unknowns, n_unknowns, REAL, ANY_OUTPUT | FIELD, n_result, function);
     if (status == OK)
         status = check(instance, knowns, n_knowns, REAL, INPUT | (instance->is.phase == INITIALIZATION ? PARAMETER : STATE),
-                       function);
+                       n_seed, function);
     if (status == OK) status = check_ranges(instance);
     if (status == OK) status = prepare(instance);
     if (status != OK) return status;
 
-    for (size_t k = 0; k < n_knowns; k++) {
-        if (!isfinite(seed[k])) return report(instance, LOG_ERROR, "a seed of a directional derivative is not finite");
-        seeds[knowns[k]] += seed[k];
-    }
-    memset(result, 0, n_unknowns * sizeof *result);
+    for (size_t k = 0; k < n_knowns; k++)
+        for (size_t i = 0; i < extent(instance, knowns[k]); i++, seed++) {
+            if (!isfinite(*seed)) return report(instance, LOG_ERROR, "a seed of a directional derivative is not finite");
+            seeds[knowns[k] + i] += *seed;
+        }
+    memset(result, 0, n_result * sizeof *result);
     for (size_t k = 0; k < n_unknowns; k++) lazy |= variables[unknowns[k]].lazy;
-    displaced(instance, seeds, 0.0, false, ahead); /* steps fit the outputs at the present values */
+    displaced(instance, seeds, 0.0, false, values); /* steps fit the outputs at the present values */
     for (size_t i = 0; i < N_VALUES; i++)
-        if (seeds[i] != 0.0) h = fmin(h, instance->model->difference(ahead, (int64_t)i) / fabs(seeds[i]));
+        if (seeds[i] != 0.0) h = fmin(h, instance->model->difference(values, (int64_t)i) / fabs(seeds[i]));
     if (isinf(h)) return OK;
     up = reach(instance->is.values, seeds, h);
     down = reach(instance->is.values, seeds, -h);
     if (up == down) return report(instance, LOG_DISCARD, "the directional derivative leads out of the allowed range");
-    displaced(instance, seeds, up, lazy, ahead);
-    displaced(instance, seeds, down, lazy, behind);
+    displaced(instance, seeds, up, lazy, values);
+    for (size_t k = 0, at = 0; k < n_unknowns; at += extent(instance, unknowns[k++]))
+        memcpy(result + at, numbers_of(instance, values, unknowns[k]), extent(instance, unknowns[k]) * sizeof *result);
+    displaced(instance, seeds, down, lazy, values);
     for (size_t k = 0; k < n_unknowns; k++) {
-        result[k] = (ahead[unknowns[k]] - behind[unknowns[k]]) / (up - down);
-        if (!isfinite(result[k]))
-            return report(instance, LOG_DISCARD, "%s has no finite derivative here", variables[unknowns[k]].name);
+        const double *behind = numbers_of(instance, values, unknowns[k]);
+        for (size_t i = 0; i < extent(instance, unknowns[k]); i++, result++) {
+            *result = (*result - behind[i]) / (up - down);
+            if (!isfinite(*result))
+                return report(instance, LOG_DISCARD, "%s has no finite derivative here", variables[unknowns[k]].name);
+        }
     }
     return OK;
 }

@@ -1,0 +1,125 @@
+"""modelDescription.xml of FMI 3.0, made from a table of variables: arrays are one variable, fields are there too."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from contact import __version__
+from fmu_src.description import Interfaces, experiment, number, units
+from fmu_src.variables import Causality, Kind, Scalar, Table, Variable
+
+_TYPES = {Kind.REAL: "Float64", Kind.INTEGER: "Int64", Kind.BOOLEAN: "Boolean", Kind.ENUMERATION: "Enumeration"}
+
+
+def model_description(table: Table, interfaces: Interfaces, token: str) -> str:
+    """Return the XML of the FMU with this table that offers these interfaces; `token` is what its binary expects."""
+    root = Element(
+        "fmiModelDescription",
+        fmiVersion="3.0",
+        modelName=table.name,
+        instantiationToken=token,
+        description=table.description,
+        version=__version__,
+        generationTool=f"wheelrail-contact {__version__}",
+        variableNamingConvention="structured",
+    )
+    for interface, attributes in interfaces.items():
+        SubElement(root, interface, {"modelIdentifier": table.name, **attributes})
+    units(root, {row.unit for row in (*table.rows, *table.fields) if row.kind is Kind.REAL} | {"s"})
+    _types(root, table)
+    experiment(root, table)
+    _variables(root, table)
+    _structure(root, table)
+    indent(root)
+    return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
+
+
+def value_references(table: Table) -> dict[str, int]:
+    """Value reference of every variable: of an array that of its first scalar in FMI 2.0; fields and time come last."""
+    references = {row.name: table.span[row.name].start for row in table.rows}
+    for name in (*(field.name for field in table.fields), "time"):
+        references[name] = len(table.scalars) + len(references) - len(table.rows)
+    return references
+
+
+def _types(root: Element, table: Table) -> None:
+    enumerations = {row.enumeration.name: row.enumeration for row in table.rows if row.enumeration}
+    if not enumerations:
+        return
+    definitions = SubElement(root, "TypeDefinitions")
+    for enumeration in enumerations.values():
+        items = SubElement(definitions, "EnumerationType", name=enumeration.name)
+        for value, (name, description) in enumerate(enumeration.items, start=1):
+            SubElement(items, "Item", name=name, value=str(value), description=description)
+
+
+def _variables(root: Element, table: Table) -> None:
+    references = value_references(table)
+    variables = SubElement(root, "ModelVariables")
+    for row in (*table.rows, *table.fields):
+        element = SubElement(
+            variables,
+            "UInt64" if row.name in table.structural else _TYPES[row.kind],
+            name=row.name,
+            valueReference=str(references[row.name]),
+            description=row.description,
+            causality="structuralParameter" if row.name in table.structural else row.causality,
+            variability=row.variability,
+        )
+        if row.initial is not None:
+            element.set("initial", row.initial)
+        scalars = [] if row in table.fields else list(row.scalars())
+        element.attrib.update(_attributes(row, scalars))
+        if row.derivative_of is not None:
+            element.set("derivative", str(references[row.derivative_of]))
+        for size in row.shape:
+            known = {"start": str(size)} if isinstance(size, int) else {"valueReference": str(references[size])}
+            SubElement(element, "Dimension", known)
+    SubElement(
+        variables,
+        "Float64",
+        name="time",
+        valueReference=str(references["time"]),
+        description="Simulation time",
+        causality="independent",
+        variability="continuous",
+        unit="s",
+    )
+
+
+def _attributes(row: Variable, scalars: list[Scalar]) -> Iterator[tuple[str, str]]:
+    """What a type has of its own; `scalars` are those of the row, none if it is a field."""
+    if row.enumeration is not None:
+        yield "declaredType", row.enumeration.name
+    if row.kind is Kind.REAL and isinstance(row.unit, str):  # the elements of an array have one unit or none
+        yield "unit", row.unit
+    if row.kind is not Kind.BOOLEAN:
+        write = number if row.kind is Kind.REAL else lambda bound: str(int(bound))
+        limits = scalars[0] if scalars else row
+        for name, bound in (("min", limits.minimum), ("max", limits.maximum)):
+            if math.isfinite(bound):
+                yield name, write(bound)
+    if row.nominal is not None:
+        yield "nominal", number(row.nominal)
+    starts = [scalar.start for scalar in scalars if scalar.start is not None]
+    if starts:
+        yield "start", " ".join(map(number, starts))
+
+
+def _structure(root: Element, table: Table) -> None:
+    """Outputs depend on inputs and states, their initial values on parameters and inputs."""
+    structure = SubElement(root, "ModelStructure")
+    rows, references = (*table.rows, *table.fields), value_references(table)
+    outputs = [row for row in rows if row.causality is Causality.OUTPUT]
+    inputs = [row for row in rows if row.causality is Causality.INPUT]
+    parameters = [row for row in rows if row.causality is Causality.PARAMETER]
+    for element, unknowns, knowns in (
+        ("Output", outputs, [*inputs, *table.states]),
+        ("ContinuousStateDerivative", table.derivatives, [*inputs, *table.states]),
+        ("InitialUnknown", [row for row in outputs if row.initial == "calculated"], [*parameters, *inputs]),
+    ):
+        for row in unknowns:
+            dependencies = " ".join(str(references[known.name]) for known in table.knowns(row) if known in knowns)
+            SubElement(structure, element, valueReference=str(references[row.name]), dependencies=dependencies)

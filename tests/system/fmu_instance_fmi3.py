@@ -1,0 +1,66 @@
+"""An instance of an FMU of FMI 3.0 for tests; arrays are variables."""
+
+from pathlib import Path
+
+import fmpy
+import numpy as np
+from fmpy.fmi3 import FMU3Model, FMU3Slave
+
+
+class Instance3:
+    """An instance that is driven by names and keeps what it logs."""
+
+    def __init__(self, directory: Path, kind: str = "CoSimulation") -> None:
+        description = fmpy.read_model_description(str(directory))
+        self.variables = {v.name: v for v in description.modelVariables}
+        self.log: list[tuple[int, str]] = []
+        self.fmu = (FMU3Slave if kind == "CoSimulation" else FMU3Model)(
+            guid=description.guid,
+            unzipDirectory=str(directory),
+            modelIdentifier=description.coSimulation.modelIdentifier,
+            instanceName="instance",
+        )
+        self.fmu.instantiate(loggingOn=True, logMessage=self._log)
+
+    def free(self) -> None:
+        """Free the instance alone: fmpy's call unloads the library too, under the feet of other instances."""
+        self.fmu.fmi3FreeInstance(self.fmu.component)
+
+    def _log(self, environment, status, category, message) -> None:
+        self.log.append((status, message.decode()))
+
+    def _call(self, prefix: str, name: str):
+        kind = self.variables[name].type
+        return getattr(self.fmu, prefix + ("Int64" if kind == "Enumeration" else kind))
+
+    def shape(self, name: str) -> tuple[int, ...]:
+        """Of an array as the instance has it now."""
+        return tuple(d.start or self[d.variable.name] for d in self.variables[name].dimensions)
+
+    def update(self, values: dict) -> None:
+        for name, value in values.items():
+            self._call("set", name)([self.variables[name].valueReference], np.atleast_1d(value).ravel().tolist())
+
+    def __getitem__(self, name: str):
+        shape = self.shape(name)
+        values = self._call("get", name)([self.variables[name].valueReference], nValues=int(np.prod(shape)))
+        return np.array(values).reshape(shape) if shape else values[0]
+
+    def all(self, *causalities: str) -> dict[str, np.ndarray]:
+        return {name: np.array(self[name]) for name, v in self.variables.items() if v.causality in causalities}
+
+    def configure(self, **counts: int) -> "Instance3":
+        """Set structural parameters resolution.…"""
+        self.fmu.enterConfigurationMode()
+        self.update({f"resolution.{name}": count for name, count in counts.items()})
+        self.fmu.exitConfigurationMode()
+        return self
+
+    def initialize(self, stop_time: float | None = None) -> "Instance3":
+        self.fmu.enterInitializationMode(startTime=0.0, stopTime=stop_time)
+        self.fmu.exitInitializationMode()
+        return self
+
+    def step(self, time: float = 0.0, h: float = 1e-3) -> tuple[bool, bool, bool, float]:
+        """Flags event handling needed, terminate, early return, and the last successful time."""
+        return self.fmu.doStep(time, h)

@@ -1,0 +1,354 @@
+"""The native `WheelRailContact` of FMI 3.0: the same library as that of FMI 2.0, where arrays and fields are variables."""
+
+import math
+from zipfile import ZipFile
+
+import fmpy
+import numpy as np
+import pytest
+from contact_case import CREEPAGES, NAME, separation
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi3 import FMU3Slave
+from fmpy.validation import validate_fmu
+from fmu_instance import DISCARD, ERROR, refused
+from random_cases import random_case
+
+import contact
+
+FIELDS = {
+    "field.x": "x",
+    "field.y": "y",
+    "field.area": "dA",
+    "field.pressure": "p",
+    "field.traction_x": "qx",
+    "field.traction_y": "qy",
+    "field.slip_x": "sx",
+    "field.slip_y": "sy",
+    "field.stick": "stick",
+}
+
+
+def pose(fmu):
+    """In the case of `separation` and CREEPAGES."""
+    s = separation()
+    fmu.update({"geometry.g": s.g, "geometry.A": s.A, **CREEPAGES})
+    fmu.update({"geometry.y0": -0.02, "geometry.dy": 0.001, "speed": 30.0})
+    return fmu
+
+
+@pytest.fixture
+def fmu(open_native_fmi3):
+    return pose(open_native_fmi3()).initialize(stop_time=1.0)
+
+
+def arrays(values: dict) -> dict:
+    """Values of `random_case` with geometry.g[1] … as one array."""
+    whole = {name: value for name, value in values.items() if not name.endswith("]")}
+    for name in ("geometry.g", "geometry.A"):
+        whole[name] = [value for key, value in values.items() if key.startswith(name + "[")]
+    return whole
+
+
+def scalars(values: dict) -> list:
+    """Every number of these variables in the order of their names and indices."""
+    return [number for name in sorted(values) for number in np.ravel(values[name]).tolist()]
+
+
+def by_row(values: dict) -> dict:
+    """Scalars x[1], x[2] … of FMI 2.0 put together."""
+    rows = {}
+    for name, value in values.items():
+        rows.setdefault(name.split("[")[0], []).append(value)
+    return rows
+
+
+# ---------------------------------------------------------------- the file
+
+
+def test_fmpy_finds_no_problem(native_fmi3):
+    assert validate_fmu(str(native_fmi3)) == []
+
+
+def test_both_versions_have_the_same_libraries(native, native_fmi3):
+    with ZipFile(native) as two, ZipFile(native_fmi3) as three:
+        for platform, tuple_, library in (("linux64", "x86_64-linux", "so"), ("win64", "x86_64-windows", "dll")):
+            one, other = f"binaries/{platform}/{NAME}.{library}", f"binaries/{tuple_}/{NAME}.{library}"
+            assert two.read(one) == three.read(other)
+        assert not [name for name in three.namelist() if "linux64" in name or "win64" in name]
+
+
+def test_an_array_is_one_variable(native_fmi3):
+    variables = {v.name: v for v in fmpy.read_model_description(str(native_fmi3)).modelVariables}
+    assert variables["geometry.g"].shape == variables["geometry.A"].shape == (41,)
+    assert variables["creep_stiffness"].shape == (3, 3)
+    assert all(variables[name].shape == (4, 30, 30) for name in FIELDS)
+    assert variables["resolution.n_strips"].causality == "structuralParameter"
+    assert {v.type for v in variables.values()} == {"Float64", "Int64", "UInt64", "Boolean", "Enumeration"}
+
+
+# ---------------------------------------------------------------- the numbers
+
+
+@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
+def test_equals_fmi_2_bit_by_bit(open_native, open_native_fmi3, kind):
+    two, three = open_native(kind), open_native_fmi3(kind)
+    for seed in range(60):
+        values = random_case(seed).values
+        two.fmu.reset()
+        three.fmu.reset()
+        two.update(values)
+        whole = arrays(values)
+        three.configure(n_strips=whole.pop("resolution.n_strips"), n_elements=whole.pop("resolution.n_elements"))
+        three.update(whole)
+        two.initialize()
+        three.initialize()
+        for k in range(2):
+            for fmu in (two, three):
+                if kind == "CoSimulation":
+                    fmu.step(k * 1e-3)
+                else:
+                    fmu.update({"creepage.lateral": 1e-3 * k})
+        wanted, actual = two.all("output"), three.all("output")
+        actual = {name: value for name, value in actual.items() if not name.startswith("field.")}
+        assert scalars(actual) == scalars(by_row(wanted)), seed
+
+
+@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
+def test_simulates_with_fmpy(native, native_fmi3, kind):
+    signals = np.array([(0.0, 0.0), (0.01, 2e-3)], dtype=[("time", float), ("creepage.longitudinal", float)])
+    names = ["force.x", "total.energy"]
+    options = {"fmi_type": kind, "stop_time": 0.01, "output_interval": 1e-3, "input": signals}
+    two = fmpy.simulate_fmu(str(native), output=names, **options)
+    three = fmpy.simulate_fmu(
+        str(native_fmi3), output=[*names, "field.pressure", "field.area", "field.stick"], **options
+    )
+    assert all(np.array_equal(two[name], three[name]) for name in ("time", *names))
+    assert three["field.pressure"].shape == (11, 4, 30, 30)
+    np.testing.assert_allclose(np.sum(three["field.pressure"] * three["field.area"], (1, 2, 3)), 80e3, rtol=1e-12)
+    assert three["field.stick"][-1].sum() < three["field.stick"][0].sum() == 900
+
+
+def test_an_array_is_started_with_fmpy(native_fmi3):
+    s = separation()
+    start = {"geometry.g": s.g, "geometry.A": s.A, "geometry.y0": -0.02, "geometry.dy": 0.001, **CREEPAGES}
+    result = fmpy.simulate_fmu(str(native_fmi3), stop_time=2e-3, start_values=start, output=["force.x", "geometry.g"])
+    assert result["force.x"][-1] == contact.solve(s, contact.Creepage(*CREEPAGES.values()), load=80e3).Fx
+    np.testing.assert_array_equal(result["geometry.g"][-1], s.g)
+
+
+# ---------------------------------------------------------------- fields
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_fields_are_those_of_the_solver(open_native_fmi3, seed):
+    case = random_case(seed)
+    fmu, whole, solution = open_native_fmi3(), arrays(case.values), case.solution
+    resolution = {name: whole.pop(f"resolution.{name}") for name in ("n_strips", "n_elements")}
+    fmu.configure(**resolution).update(whole)
+    fmu.initialize().step()
+    n = solution.strips.y.size
+    for name, attribute in FIELDS.items():
+        field = fmu[name]
+        assert field.shape == (4, *resolution.values())
+        field, wanted = field.reshape(-1, resolution["n_elements"]), getattr(solution, attribute)
+        np.testing.assert_allclose(field[:n], wanted, rtol=1e-12, atol=1e-12 * np.max(np.abs(wanted), initial=0.0))
+        assert not np.any(field[n:])
+    patch = fmu["field.patch"].reshape(-1, resolution["n_elements"])
+    np.testing.assert_array_equal(patch[:n, 0], solution.strips.patch + 1)
+    assert not np.any(patch[n:])
+
+
+@pytest.mark.parametrize("normal", ["analyn", "strip_halfspace"])
+def test_fields_add_up_to_the_forces_and_keep_coulombs_bound(open_native_fmi3, normal):
+    fmu = pose(open_native_fmi3())
+    fmu.update({"method.normal": list(contact.methods().normal).index(normal) + 1})
+    fmu.initialize().step()
+    area, p, qx, qy = (fmu[f"field.{name}"] for name in ("area", "pressure", "traction_x", "traction_y"))
+    N, mu = fmu["force.n"], fmu["friction.coefficient"]
+    assert np.sum(p * area) == pytest.approx(N, rel=1e-12)
+    # forces and area are integrals in closed form, elements are 30 a strip and exact for the pressure
+    assert np.sum(area) == pytest.approx(fmu["patch.area"], rel=1e-3)
+    assert np.sum(qx * area) == pytest.approx(fmu["force.x"], abs=2e-3 * mu * N)
+    assert np.sum(qy * area) == pytest.approx(fmu["force.y"], abs=2e-3 * mu * N)
+    assert np.all(np.hypot(qx, qy) <= mu * p * (1.0 + 1e-12))
+    slip = np.hypot(fmu["field.slip_x"], fmu["field.slip_y"])
+    assert np.all((slip == 0.0) == (fmu["field.stick"] | (area == 0.0)))
+
+
+def test_fields_belong_to_the_last_step_whatever_was_computed_since(open_native_fmi3):
+    """Interacting strips start warm: what is computed again must start from where the step did."""
+    fmu = pose(open_native_fmi3())
+    fmu.update({"method.normal": list(contact.methods().normal).index("strip_halfspace") + 1})
+    fmu.initialize()
+    for k in range(3):
+        fmu.update({"load.normal_force": 8e4 + 2e3 * k})
+        fmu.step(k * 1e-3)
+    wanted = {name: fmu[name] for name in FIELDS}
+    derivative(fmu, ["force.x"], ["load.normal_force"])
+    fmu.update({"creepage.lateral": 5e-3})
+    assert all(np.array_equal(fmu[name], field) for name, field in wanted.items())
+    assert fmu["creep_stiffness"].shape == (3, 3)
+    assert all(np.array_equal(fmu[name], field) for name, field in wanted.items())
+    state = fmu.fmu.getFMUState()
+    content = fmu.fmu.serializeFMUState(state)
+    fmu.step(3e-3)
+    assert not np.array_equal(fmu["field.traction_y"], wanted["field.traction_y"])
+    fmu.fmu.setFMUState(state)
+    assert all(np.array_equal(fmu[name], field) for name, field in wanted.items())
+    fmu.fmu.freeFMUState(state)
+    other = open_native_fmi3()
+    copy = other.fmu.deserializeFMUState(content)
+    other.fmu.setFMUState(copy)
+    other.fmu.freeFMUState(copy)
+    assert all(np.array_equal(other[name], field) for name, field in wanted.items())
+
+
+def test_without_contact_fields_are_zero(fmu):
+    fmu.step()
+    fmu.update({"load.normal_force": 0.0})
+    fmu.step(1e-3)
+    assert not any(np.any(fmu[name]) for name in (*FIELDS, "field.patch"))
+
+
+def derivative(fmu, unknowns: list[str], knowns: list[str], seed=(1.0,)) -> np.ndarray:
+    references = [[fmu.variables[name].valueReference for name in names] for names in (unknowns, knowns)]
+    n = sum(int(np.prod(fmu.shape(name))) for name in unknowns)
+    return np.array(fmu.fmu.getDirectionalDerivative(*references, seed, nSensitivity=n))
+
+
+@pytest.mark.parametrize("known", ["creepage.longitudinal", "load.normal_force"])
+def test_fields_have_directional_derivatives(open_native_fmi3, known):
+    """Against differences in model exchange; a whole slip keeps elements from changing between stick and slip."""
+    fmu = pose(open_native_fmi3("ModelExchange"))
+    fmu.update({"creepage.longitudinal": 0.05})
+    fmu.initialize()
+    slopes = derivative(fmu, ["creep_stiffness", "field.traction_x"], [known])[9:].reshape(4, 30, 30)
+    at, found = fmu[known], []
+    for sign in (1.0, -1.0):
+        fmu.update({known: at * (1.0 + sign * 1e-5)})
+        found.append(fmu["field.traction_x"])
+    wanted = (found[0] - found[1]) / (2e-5 * at)
+    np.testing.assert_allclose(slopes, wanted, atol=2e-4 * np.max(np.abs(wanted)))
+
+
+def test_a_seed_of_an_array_goes_along_all_its_elements(fmu):
+    """A gap that is wider everywhere is an approach that is less."""
+    single = [derivative(fmu, ["approach"], ["geometry.g"], np.eye(41)[i].tolist())[0] for i in range(41)]
+    (together,) = derivative(fmu, ["approach"], ["geometry.g"], [1.0] * 41)
+    assert together == pytest.approx(1.0, abs=1e-6)
+    assert sum(single) == pytest.approx(together, abs=1e-4)
+
+
+# ---------------------------------------------------------------- behaviour that a user meets
+
+
+def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(fmu):
+    fmu.step()
+    before = fmu.all("output")
+    for name, value, said in (
+        (
+            "geometry.g",
+            [*[0.0] * 6, math.nan, *[0.0] * 34],
+            "geometry.g[7] = nan is outside the allowed range ]-inf, inf[",
+        ),
+        ("speed", 0.0, "speed = 0 is outside the allowed range ]0, inf["),
+    ):
+        good = fmu[name]
+        fmu.update({name: value})
+        fmu.log.clear()
+        refused(lambda: fmu.step(1e-3), DISCARD)
+        assert fmu.log == [(DISCARD, said)]
+        after = fmu.all("output")
+        assert all(np.array_equal(after[key], before[key]) for key in before)
+        fmu.update({name: good})
+    assert fmu.step(1e-3) == (False, False, False, 2e-3)
+
+
+def test_a_step_says_that_it_was_done_to_its_end(fmu):
+    assert fmu.step(0.0, 0.25) == (False, False, False, 0.25)
+    assert fmu["time"] == 0.25
+
+
+def test_resolution_is_set_in_configuration_mode_alone(open_native_fmi3):
+    fmu = open_native_fmi3()
+    refused(lambda: fmu.update({"resolution.n_strips": 12}), ERROR)
+    assert fmu.log == [(ERROR, "fmi3SetUInt64: structural parameters, and these alone, are set in configuration mode")]
+    fmu.configure(n_strips=12, n_elements=20)
+    fmu.initialize().step()
+    assert fmu["field.pressure"].shape == (4, 12, 20)
+    refused(lambda: fmu.update({"resolution.n_strips": 13}), ERROR)
+    refused(fmu.fmu.enterConfigurationMode, ERROR)
+    fmu.fmu.reset()
+    assert fmu["resolution.n_strips"] == 30
+
+
+def test_a_resolution_out_of_range_is_discarded_by_name(open_native_fmi3):
+    fmu = open_native_fmi3().configure(n_strips=2_000_000_000)
+    fmu.log.clear()
+    refused(lambda: fmu.initialize(), DISCARD)
+    assert fmu.log == [(DISCARD, "resolution.n_strips = 2e+09 is outside the allowed range [4, 1000]")]
+
+
+def test_the_number_of_values_must_be_that_of_the_array(fmu):
+    reference = [fmu.variables["geometry.g"].valueReference]
+    for call in (lambda: fmu.fmu.setFloat64(reference, [0.0] * 40), lambda: fmu.fmu.getFloat64(reference, nValues=42)):
+        fmu.log.clear()
+        refused(call, ERROR)
+        assert "values are given where the variables have 41" in fmu.log[0][1]
+    refused(lambda: fmu.fmu.getFloat64([reference[0] + 1]), ERROR)  # within the array: a variable of FMI 2.0 alone
+
+
+def test_what_is_not_provided_is_refused(native_fmi3_folder):
+    description = fmpy.read_model_description(str(native_fmi3_folder))
+    said = []
+    for options, why in (
+        ({"eventModeUsed": True}, "event mode"),
+        ({"requiredIntermediateVariables": [14]}, "intermediate"),
+    ):
+        slave = FMU3Slave(
+            guid=description.guid, unzipDirectory=str(native_fmi3_folder), modelIdentifier=NAME, instanceName="instance"
+        )
+        with pytest.raises(Exception, match="Failed to instantiate"):
+            slave.instantiate(logMessage=lambda *message: said.append(message[-1].decode()), **options)
+        assert why in said[-1]
+
+
+def test_a_restored_or_serialised_state_continues_bit_by_bit(fmu, open_native_fmi3):
+    def trajectory(fmu, start: int) -> list:
+        rows = []
+        for k in range(start, start + 4):
+            fmu.update({"creepage.lateral": 1e-3 * math.sin(k), "load.normal_force": 8e4 + 1e4 * math.cos(k)})
+            fmu.step(k * 1e-3)
+            rows.append(scalars(fmu.all("output")))
+        return rows
+
+    trajectory(fmu, 0)
+    state = fmu.fmu.getFMUState()
+    content = fmu.fmu.serializeFMUState(state)
+    wanted = trajectory(fmu, 4)
+    fmu.fmu.setFMUState(state)
+    assert trajectory(fmu, 4) == wanted
+    fmu.fmu.freeFMUState(state)
+    other = open_native_fmi3()
+    copy = other.fmu.deserializeFMUState(content)
+    other.fmu.setFMUState(copy)
+    other.fmu.freeFMUState(copy)
+    assert trajectory(other, 4) == wanted
+
+
+def test_reset_restores_every_start(fmu, open_native_fmi3):
+    wanted = open_native_fmi3().initialize().all("input", "output", "parameter", "structuralParameter", "independent")
+    fmu.step(0.0, 0.5)
+    fmu.fmu.reset()
+    actual = fmu.initialize().all("input", "output", "parameter", "structuralParameter", "independent")
+    assert scalars(actual) == scalars(wanted)
+
+
+def test_starts_can_be_read_before_initialisation(open_native_fmi3, native_fmi3):
+    """What FMI 2.0 does not allow; outputs that are to be calculated have no value yet."""
+    fmu = open_native_fmi3()
+    for variable in fmpy.read_model_description(str(native_fmi3)).modelVariables:
+        if variable.causality in ("parameter", "input", "structuralParameter"):
+            assert np.ravel(fmu[variable.name]).tolist() == [float(word) for word in variable.start.split()]
+    with pytest.raises(FMICallException):
+        fmu["force.x"]
