@@ -344,6 +344,9 @@ static void speed(int n)
     double begin;
     fmi3Instance c = in_state(STEP, CS);
     GetFloat64(c, geometry, 2, values, 2 * SAMPLES);
+    set(c, V_creepage_longitudinal, 1e-3);
+    set(c, V_creepage_lateral, -5e-4);
+    set(c, V_creepage_spin, 0.2);
     begin = now();
     for (int i = 0; i < n; i++) SetFloat64(c, geometry, 2, values, 2 * SAMPLES);
     printf("set geometry %.2f us\n", (now() - begin) / n);

@@ -136,6 +136,29 @@ def test_an_array_is_started_with_fmpy(native_fmi3):
     np.testing.assert_array_equal(result["geometry.g"][-1], s.g)
 
 
+def test_arrays_move_with_time_with_fmpy(native_fmi3):
+    """fmpy takes signals of one size at a time: here both arrays. The gap sinks linearly at a prescribed approach."""
+    y = -0.02 + 0.001 * np.arange(41)
+    kinds = [("time", float), ("geometry.g", float, (41,)), ("geometry.A", float, (41,))]
+    gaps, A = (y**2, y**2 - 4e-5), np.full(41, 1.0)
+    signals = np.array([(0.0, gaps[0], A), (1e-2, gaps[1], A)], dtype=kinds)
+    start = {"load.kind": 2, "load.approach": 5e-5}
+    result = fmpy.simulate_fmu(
+        str(native_fmi3),
+        fmi_type="ModelExchange",
+        stop_time=1e-2,
+        output_interval=1e-3,
+        start_values=start,
+        input=signals,
+        output=["force.n"],
+    )
+    wanted = [
+        contact.solve(contact.Separation(y, gaps[0] - 4e-6 * k, A), contact.Creepage(0.0), approach=5e-5).N
+        for k in range(11)
+    ]
+    np.testing.assert_allclose(result["force.n"], wanted, rtol=1e-9)
+
+
 # ---------------------------------------------------------------- fields
 
 
