@@ -1,4 +1,4 @@
-"""Build the FMUs: python build_fmu.py [--packaging python|native|all] [--out dist] [--points 41] [--describe]."""
+"""Build the FMUs: python build_fmu.py [--packaging python|native|all] [--out dist] [options]; --help lists them."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from importlib.util import find_spec
 from pathlib import Path
 
 try:
+    from contact.errors import ContactError
+    from fmu_src import profiles
     from fmu_src.catalogue import Model, models
     from fmu_src.documentation import markdown
     from fmu_src.python import packaging as python
@@ -34,12 +36,16 @@ def main() -> None:
         default=41,
         help="samples of the separation of WheelRailContact, at least 3 (default: 41, what Wheelset gives)",
     )
+    profiles.add_options(parser)
     parser.add_argument("--describe", action="store_true", help="print the variables as Markdown and build nothing")
     arguments = parser.parse_args()
     if arguments.points < 3:
         parser.error(f"--points {arguments.points}: a separation has at least 3 samples")
 
-    chosen = models(arguments.points)
+    try:
+        chosen = models(arguments.points, profiles.chosen(arguments))
+    except ContactError as error:
+        parser.error(str(error))
     if arguments.describe:
         print("\n".join(markdown(model.table) for model in chosen))
         return

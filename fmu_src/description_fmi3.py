@@ -62,7 +62,7 @@ def _variables(root: Element, table: Table) -> None:
         element = SubElement(
             variables,
             "UInt64" if row.name in table.structural else _TYPES[row.kind],
-            name=row.name,
+            name=row.element(""),
             valueReference=str(references[row.name]),
             description=row.description,
             causality="structuralParameter" if row.name in table.structural else row.causality,

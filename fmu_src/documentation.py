@@ -32,9 +32,9 @@ def markdown(table: Table) -> str:
 
 
 def _line(row: Variable) -> str:
-    index = ",".join(f"1..{n}" for n in row.shape)
+    index = f"[{','.join(f'1..{n}' for n in row.shape)}]" if row.shape else ""
     cells = (
-        f"`{row.name}[{index}]`" if index else f"`{row.name}`",
+        f"`{row.element(index)}`",
         row.causality,
         _type(row),
         _start(row),

@@ -2,7 +2,8 @@
 
 A table is the single source of an FMU's interface: modelDescription.xml of every packaging, the documentation, the
 value references and the checks of its inputs all come from it. A row may be an array; it is declared once and becomes
-scalars named after FMI's structured convention, `name[1]` … `name[n]`, `name[1,1]` … row by row.
+scalars named after FMI's structured convention, `name[1]` … `name[n]`, `name[1,1]` … row by row. A row `patch[].area` is
+an element of an array of structures: `patch[1].area` …
 """
 
 from __future__ import annotations
@@ -122,6 +123,10 @@ class Variable:
         """Number of scalars; a field has no fixed one."""
         return math.prod(self.shape)  # type: ignore[arg-type]
 
+    def element(self, index: str) -> str:
+        """Name with an index in brackets, or with none."""
+        return self.name.replace("[]", index) if "[]" in self.name else self.name + index
+
     def scalars(self) -> Iterator[Scalar]:
         """The scalars of the row, first index slowest."""
         for i, index in enumerate(product(*(range(1, n + 1) for n in self.shape))):
@@ -131,7 +136,7 @@ class Variable:
                 assert self.enumeration is not None
                 start = self.enumeration.number(start)
             unit = self.unit[i] if isinstance(self.unit, tuple) else self.unit
-            yield Scalar(self.name + suffix, self, unit, start)
+            yield Scalar(self.element(suffix), self, unit, start)
 
 
 @dataclass(frozen=True)
@@ -222,6 +227,11 @@ class Table:
             for row in self.rows
             if row.causality is not Causality.OUTPUT and (output.depends is None or row.name in output.depends)
         ]
+
+
+def identifier(name: str) -> str:
+    """Name of a row where dots and brackets are not allowed."""
+    return name.replace("[]", "").replace(".", "_")
 
 
 def parameter(name: str, description: str, **attributes: object) -> Variable:

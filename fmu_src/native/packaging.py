@@ -93,6 +93,7 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -
         (generated / "model.c").write_text(source.body(component))
         documents = [
             (f"documentation/{table.name}.md", markdown(table).encode()),
+            *((f"resources/{resource}", content) for resource, content in model.resources.items()),
             *((f"documentation/licenses/{name}.txt", text.encode()) for name, text in _licences()),
         ]
         libraries = {}

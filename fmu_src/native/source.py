@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 
 from fmu_src.description_fmi3 import value_references
 from fmu_src.native.component import Component
-from fmu_src.variables import Causality, Scalar, Table, Variable
+from fmu_src.variables import Causality, Scalar, Table, Variable, identifier
 
 
 def header(component: Component, guid: str) -> str:
@@ -71,7 +71,7 @@ const Total totals[N_TOTALS] = {{{sums}}};
 
 def c_name(row: str) -> str:
     """Enumerator of a row: geometry.kind → V_geometry_kind."""
-    return "V_" + row.replace(".", "_")
+    return "V_" + identifier(row)
 
 
 def _marked(scalars: Iterable[Scalar]) -> Iterator[tuple[bool, Scalar]]:

@@ -90,7 +90,7 @@ from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
 from fmu_src.native.memory import compiled, cube, matrix, vector
 from fmu_src.tables.wheel_rail_contact import GEOMETRY_KIND, LOAD_KIND, table
-from fmu_src.variables import Table
+from fmu_src.variables import Table, identifier
 
 _METHODS = contact.methods()
 _NORMAL_IDS = np.array([float(method.id) for method in _METHODS.normal.values()])
@@ -165,7 +165,7 @@ class Solved(NamedTuple):
 
 def _entries(table: Table) -> dict[str, Callable[..., Any]]:
     """`Component.entries`; data are Kalker's coefficients and the influence of strips on the centre line and off it."""
-    at = namedtuple("References", [name.replace(".", "_") for name in table.span])(
+    at = namedtuple("References", [identifier(name) for name in table.span])(
         *(span.start for span in table.span.values())
     )
     n_values, points = len(table.scalars), table.row["geometry.g"].size

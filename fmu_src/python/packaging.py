@@ -53,6 +53,8 @@ def _files(model: Model) -> Iterator[tuple[str, bytes]]:
     module = f"{name.lower()}_{hashlib.sha256(script).hexdigest()[:16]}"
     yield f"resources/{module}.py", script
     yield "resources/slavemodule.txt", module.encode()
+    for resource, content in model.resources.items():
+        yield f"resources/{resource}", content
     package = Path(pythonfmu.__file__).parent
     for source in package.glob("*.py"):
         yield f"resources/pythonfmu/{source.name}", source.read_bytes()

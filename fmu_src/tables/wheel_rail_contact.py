@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import cache
 
-import contact
-from contact import Status, registry
 from contact._layout import MAX_PATCHES
-from contact.solve import N_ELEMENTS, N_STRIPS
+from fmu_src.tables import solver
 from fmu_src.variables import Enumeration, Table, Variable, output, parameter, signal
 
 GEOMETRY_KIND = Enumeration(
@@ -21,14 +19,6 @@ GEOMETRY_KIND = Enumeration(
 LOAD_KIND = Enumeration(
     "LoadKind", (("NormalForce", "load.normal_force is given"), ("Approach", "load.approach is given"))
 )
-NORMAL_METHOD = Enumeration("NormalMethod", tuple((m.name, m.title) for m in contact.methods().normal.values()))
-TANGENTIAL_METHOD = Enumeration(
-    "TangentialMethod", tuple((m.name, m.title) for m in contact.methods().tangential.values())
-)
-FRICTION_LAW = Enumeration("FrictionLaw", (("Coulomb", "constant coefficient of friction"),))
-_STATUS_NAMES = ("OK", "NoContact", "Saturated", "OutOfRange", "NotConverged")
-STATUS = Enumeration("Status", tuple(zip(_STATUS_NAMES, (status.message for status in Status), strict=True)))
-
 #: What the normal problem is a function of; forces depend on everything.
 _NORMAL_PROBLEM = (
     "geometry.kind",
@@ -67,7 +57,6 @@ def table(points: int = 41) -> Table:
 
 
 def _parameters(points: int) -> Iterable[Variable]:
-    steel = contact.STEEL
     yield parameter("geometry.kind", "How the geometry is given", enumeration=GEOMETRY_KIND, start="Separation")
     yield parameter("geometry.y0", "Lateral position of geometry.g[1]", unit="m", start=-_HALF_WIDTH)
     yield parameter(
@@ -79,54 +68,7 @@ def _parameters(points: int) -> Iterable[Variable]:
         open_minimum=True,
     )
     yield parameter("load.kind", "How the load is given", enumeration=LOAD_KIND, start="NormalForce")
-    yield parameter(
-        "method.normal", "Method for the normal problem", enumeration=NORMAL_METHOD, start=registry.DEFAULT_NORMAL
-    )
-    yield parameter(
-        "method.tangential",
-        "Method for the tangential problem",
-        enumeration=TANGENTIAL_METHOD,
-        start=registry.DEFAULT_TANGENTIAL,
-    )
-    yield parameter(
-        "material.shear_modulus",
-        "Combined shear modulus of wheel and rail",
-        unit="Pa",
-        start=steel.shear_modulus,
-        minimum=0.0,
-        open_minimum=True,
-        nominal=1e11,
-    )
-    yield parameter(
-        "material.poisson_ratio",
-        "Combined Poisson ratio of wheel and rail",
-        start=steel.poisson_ratio,
-        minimum=0.0,
-        maximum=0.5,
-    )
-    yield parameter(
-        "material.hardness",
-        "Hardness of the softer body (wear)",
-        unit="Pa",
-        start=steel.hardness,
-        minimum=0.0,
-        open_minimum=True,
-        nominal=1e9,
-    )
-    yield parameter(
-        "material.shear_yield",
-        "Yield stress in shear (fatigue and stress index)",
-        unit="Pa",
-        start=steel.shear_yield,
-        minimum=0.0,
-        open_minimum=True,
-        nominal=1e8,
-    )
-    yield parameter("resolution.n_strips", "Strips per patch", integer=True, start=N_STRIPS, minimum=4, maximum=1000)
-    yield parameter(
-        "resolution.n_elements", "Elements per strip", integer=True, start=N_ELEMENTS, minimum=4, maximum=1000
-    )
-    yield parameter("friction.law", "Friction law", enumeration=FRICTION_LAW, start="Coulomb")
+    yield from solver.parameters()
     yield parameter(
         "wheel.radius",
         "Rolling radius (damage per revolution)",
@@ -195,26 +137,6 @@ def _inputs(points: int) -> Iterable[Variable]:
     yield signal("friction.coefficient", "Coefficient of friction", start=0.3, minimum=0.0)
 
 
-def _damage() -> Iterable[Variable]:
-    yield output("damage.T_gamma", "Wear number |Fx ξ| + |Fy η|", unit="N", minimum=0.0, nominal=100.0)
-    yield output(
-        "damage.wear_rate_pearce_sherratt", "Tread area worn off, Pearce and Sherratt", unit="m2/m", minimum=0.0
-    )
-    yield output("damage.index_burstow", "Rolling contact fatigue index per axle pass, Burstow")
-    yield output(
-        "damage.wear_rate_usfd",
-        "Volume worn off a unit of contact area, Sheffield",
-        unit="m/m",
-        minimum=0.0,
-        nominal=1e-8,
-    )
-    yield output("damage.archard_depth_max", "Greatest wear depth, Archard", unit="m/m", minimum=0.0, nominal=1e-10)
-    yield output("damage.archard_volume", "Volume worn off, Archard", unit="m3/m", minimum=0.0, nominal=1e-12)
-    yield output("damage.fatigue_index_surface", "Surface fatigue index, Ekberg")
-    yield output("damage.stress_index_max", "Greatest stress index |q| - k", unit="Pa", nominal=1e8)
-    yield output("damage.energy_index_max", "Greatest energy index q.w", unit="Pa", nominal=1e6)
-
-
 def _outputs() -> Iterable[Variable]:
     yield output("force.x", "Longitudinal creep force on the wheel", unit="N", nominal=1e4)
     yield output("force.y", "Lateral creep force on the wheel", unit="N", nominal=1e4)
@@ -231,7 +153,7 @@ def _outputs() -> Iterable[Variable]:
     yield output("patch.count", "Number of separate patches", integer=True, minimum=0, depends=_NORMAL_PROBLEM)
     yield output("slip.ratio", "Slip area over contact area", minimum=0.0, maximum=1.0)
     yield output("power.friction", "Frictional power", unit="W", minimum=0.0, nominal=1e3)
-    yield from _damage()
+    yield from solver.damage()
     yield output("stiffness.normal", "dN/d(approach)", unit="N/m", minimum=0.0, nominal=1e9, depends=_NORMAL_PROBLEM)
     yield output(
         "creep_stiffness",
@@ -240,9 +162,7 @@ def _outputs() -> Iterable[Variable]:
         shape=(3, 3),
         nominal=1e6,
     )
-    yield output("status", "How the solution came about", enumeration=STATUS)
-    yield output("total.energy", "Energy dissipated since start", unit="J", start=0.0, minimum=0.0, depends=())
-    yield output("total.worn_volume", "Volume worn off since start", unit="m3", start=0.0, minimum=0.0, depends=())
+    yield from solver.status_and_totals()
 
 
 def _fields() -> Iterable[Variable]:
@@ -265,3 +185,4 @@ def _fields() -> Iterable[Variable]:
     for axis, where in (("x", "in the rolling direction"), ("y", "lateral")):
         yield field(f"field.slip_{axis}", f"Slip velocity over speed, wheel minus rail, {where}", nominal=1e-3)
     yield field("field.stick", "Whether the element sticks", boolean=True)
+    yield from solver.status_and_totals()

@@ -1,0 +1,124 @@
+"""Profiles as resources of an FMU: points with their tangents, which both packagings read when they are instantiated.
+
+`python -m fmu_src.profiles FMU [--wheel FILE] [--rail FILE]` exchanges them in a finished FMU, without a compiler.
+
+A resource is: 8 bytes that tell a wheel from a rail, a checksum of all that follows (FNV-1a, 64 bits), the number n of
+points (64 bits), then n doubles each of y, z [m] and the angle of the tangent [rad]; all little-endian.
+"""
+
+from __future__ import annotations
+
+import argparse
+import struct
+import zipfile
+from pathlib import Path
+
+import numpy as np
+
+from contact.errors import ContactError
+from contact.geometry import profile
+from contact.geometry.profile import Kind, Profile
+from contact.geometry.wheelset import Pair
+from fmu_src import archive
+from fmu_src.tables.wheel_rail_pair import RAIL, WHEEL
+
+MAGIC: dict[Kind, bytes] = {"wheel": b"wr-wheel", "rail": b"wr-rail\0"}
+_RESOURCES: dict[Kind, str] = {"wheel": WHEEL, "rail": RAIL}
+
+
+def pack(given: Profile) -> bytes:
+    """The resource of a profile.
+
+    Raises
+    ------
+    ContactError
+        If the profile cannot touch another one.
+    """
+    other: Profile = profile.rail_60e1() if given.kind == "wheel" else profile.s1002()
+    Pair(*((given, other) if given.kind == "wheel" else (other, given)))
+    content = struct.pack("<q", given.y.size) + np.stack((given.y, given.z, given.angle)).astype("<f8").tobytes()
+    return MAGIC[given.kind] + struct.pack("<Q", _checksum(content)) + content
+
+
+def unpack(resource: bytes, name: str) -> Profile:
+    """The profile of a resource.
+
+    Raises
+    ------
+    ContactError
+        If it is none.
+    """
+    kinds = [kind for kind, magic in MAGIC.items() if resource.startswith(magic)]
+    content = resource[16:]
+    if not kinds or len(content) < 8 or struct.unpack("<Q", resource[8:16]) != (_checksum(content),):
+        raise ContactError(f"resource {name} holds no profile: it is damaged, or not made by fmu_src.profiles")
+    return Profile(kinds[0], *np.frombuffer(content[8:], "<f8").reshape(3, -1), name=name)
+
+
+def read(folder: Path, kind: Kind) -> Profile:
+    """The wheel or rail profile in a folder of resources, or a ContactError."""
+    path = folder / _RESOURCES[kind]
+    try:
+        found = unpack(path.read_bytes(), path.name)
+    except OSError as error:
+        raise ContactError(f"resource {path.name} cannot be read: {error.strerror}") from None
+    if found.kind != kind:
+        raise ContactError(f"resource {path.name} holds a {found.kind}, not a {kind}")
+    return found
+
+
+def resources(wheel: Profile, rail: Profile) -> dict[str, bytes]:
+    """Name → content of the resources of a pair."""
+    return {WHEEL: pack(wheel), RAIL: pack(rail)}
+
+
+def exchange(fmu: Path, profiles: dict[Kind, Profile]) -> None:
+    """Put other profiles into an FMU file."""
+    new = {f"resources/{_RESOURCES[kind]}": pack(given) for kind, given in profiles.items()}
+    with zipfile.ZipFile(fmu) as content:
+        files = [(name, content.read(name)) for name in content.namelist()]
+    if missing := new.keys() - {name for name, _ in files}:
+        raise ContactError(f"{fmu} has no {', '.join(sorted(missing))}: it is no FMU WheelRailPair")
+    archive.write(fmu, [(name, new.get(name, old)) for name, old in files])
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Options by which a command line names profile files, for `chosen`."""
+    for kind in MAGIC:
+        parser.add_argument(
+            f"--{kind}", type=Path, metavar="FILE", help=f"profile of the {kind}; formats: contact.geometry.files"
+        )
+    parser.add_argument("--unit", choices=["m", "mm"], help="unit of the profile files, for plain columns")
+    parser.add_argument("--side", choices=["right", "left"], help="side that the files show, for plain columns")
+
+
+def chosen(arguments: argparse.Namespace) -> dict[Kind, Profile]:
+    """The profiles that a command line names."""
+    return {
+        kind: profile.read(path, kind=kind, unit=arguments.unit, side=arguments.side)
+        for kind in MAGIC
+        if (path := getattr(arguments, kind))
+    }
+
+
+def _checksum(content: bytes) -> int:
+    value = 14695981039346656037
+    for byte in content:
+        value = (value ^ byte) * 1099511628211 & (1 << 64) - 1
+    return value
+
+
+def main() -> None:
+    """Exchange what the command line names."""
+    parser = argparse.ArgumentParser(description="Exchange the profiles of a finished FMU WheelRailPair.")
+    parser.add_argument("fmu", type=Path)
+    add_options(parser)
+    arguments = parser.parse_args()
+    try:
+        exchange(arguments.fmu, chosen(arguments))
+    except (ContactError, OSError) as error:
+        parser.error(str(error))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,164 @@
+"""The slave of the FMU `WheelRailPair`: `contact.pair.WheelRailPair` behind its table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from pythonfmu.enums import Fmi2Status
+
+from contact import Material, Status
+from contact.damage._kernel import (
+    DAMAGE_ARCHARD_DEPTH,
+    DAMAGE_ARCHARD_VOLUME,
+    DAMAGE_BURSTOW,
+    DAMAGE_ENERGY_INDEX,
+    DAMAGE_FATIGUE_INDEX,
+    DAMAGE_PEARCE_SHERRATT,
+    DAMAGE_STRESS_INDEX,
+    DAMAGE_T_GAMMA,
+    DAMAGE_USFD,
+)
+from contact.geometry.records import Irregularity, Pose, Velocity
+from contact.geometry.wheelset import Pair
+from contact.pair import Contact, WheelRailPair
+from fmu_src import profiles
+from fmu_src.python.slave import TableSlave
+from fmu_src.python.values import Rows, Values
+from fmu_src.tables.wheel_rail_pair import MOTION, PATCH, PATCHES, table
+from fmu_src.variables import Causality
+
+_DAMAGE = {
+    "damage.T_gamma": DAMAGE_T_GAMMA,
+    "damage.wear_rate_pearce_sherratt": DAMAGE_PEARCE_SHERRATT,
+    "damage.index_burstow": DAMAGE_BURSTOW,
+    "damage.wear_rate_usfd": DAMAGE_USFD,
+    "damage.archard_depth_max": DAMAGE_ARCHARD_DEPTH,
+    "damage.archard_volume": DAMAGE_ARCHARD_VOLUME,
+    "damage.fatigue_index_surface": DAMAGE_FATIGUE_INDEX,
+    "damage.stress_index_max": DAMAGE_STRESS_INDEX,
+    "damage.energy_index_max": DAMAGE_ENERGY_INDEX,
+}
+_MOTION = [name for name, *_ in MOTION]
+_NO_CONTACT = [0.0] * len(PATCH)
+
+
+class WheelRailPairSlave(TableSlave):
+    """One wheel on one rail; a patch goes on from its last solution where the normal method can use it."""
+
+    refused: Rows = MappingProxyType({"status": int(Status.OUT_OF_RANGE)})
+
+    def __init__(self, inclination: float, guid: str, **kwargs: Any) -> None:
+        super().__init__(table(inclination), guid, **kwargs)
+        self.profiles = [profiles.read(Path(self.resources), kind) for kind in ("wheel", "rail")]
+        self.parameters = [row.name for row in self.table.rows if row.causality is Causality.PARAMETER]
+        self.pair: WheelRailPair | None = None
+        self.built_with: list[float] = []
+
+    def outputs(self, values: Values, step_size: float) -> Rows:
+        """Solve for the present inputs; they are taken as constant over the step. Before the first one nothing is warm."""
+        pair = self._pair(values)
+        memory = pair.bench.memory
+        before = memory.copy() if step_size > 0.0 else np.zeros_like(memory)
+        memory[:] = before
+        motion = [values[name] for name in _MOTION]
+        try:
+            solution = pair.solve(
+                Pose(*motion[:4]),
+                Velocity(*motion[4:10]),
+                irregularity=Irregularity(*motion[10:]),
+                load=values["load.normal_force"] if values.item("load.kind") == "NormalForce" else None,
+                friction=values["friction.coefficient"],
+            )
+            rows = {name: float(solution.damage[i]) for name, i in _DAMAGE.items()}
+            power, worn = (values["velocity.x"] * x for x in (solution.power_per_metre, rows["damage.archard_volume"]))
+            rows |= {
+                **{f"force.{axis}": float(x) for axis, x in zip("xyz", solution.force, strict=True)},
+                **{f"moment.{axis}": float(x) for axis, x in zip("xyz", solution.moment, strict=True)},
+                "wheelset.z": solution.z,
+                "pressure.max": solution.max_pressure,
+                "patches.count": len(solution.contacts),
+                "patches.area": solution.area,
+                **_patches(solution.contacts),
+                "slip.ratio": solution.slip_ratio,
+                "power.friction": power,
+                "status": int(solution.status),
+                "total.energy": values["total.energy"] + power * step_size,
+                "total.worn_volume": values["total.worn_volume"] + worn * step_size,
+            }
+            values.updated(rows)
+        except Exception:
+            memory[:] = before  # a step that is discarded leaves nothing behind
+            raise
+        if step_size == 0.0:
+            memory[:] = 0.0
+        if solution.status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED) and solution.status != values["status"]:
+            self.log(f"status {solution.status.name}: {solution.status.message}", Fmi2Status.warning)
+        return rows
+
+    def memory(self) -> str | None:
+        """Where the normal method may start from."""
+        return None if self.pair is None else self.pair.bench.memory.tobytes().hex()
+
+    def recall(self, memory: str | None) -> None:
+        """Take the pair back to a `memory`."""
+        if memory is None:
+            self.pair = None
+        else:
+            self._pair(self.values).bench.memory[:] = np.frombuffer(bytes.fromhex(memory))
+
+    def _pair(self, values: Values) -> WheelRailPair:
+        """The pair with these parameters: a new one when they differ from those of the last."""
+        wanted = [values[name] for name in self.parameters]
+        if self.pair is None or wanted != self.built_with:
+            wheel, rail = self.profiles
+            material = Material(
+                values["material.shear_modulus"],
+                values["material.poisson_ratio"],
+                hardness=values["material.hardness"],
+                shear_yield=values["material.shear_yield"],
+            )
+            geometry = Pair(
+                wheel,
+                rail.rotated(-np.arctan(values["rail.inclination"])),
+                side=values.item("side").lower(),
+                nominal_radius=values["wheel.radius"],
+                gauge=values["track.gauge"],
+                flange_back=values["wheel.flange_back"],
+                gauge_point=values["track.gauge_point"],
+                combine_distance=values["patches.combine_distance"],
+                combine_angle=values["patches.combine_angle"],
+                most_patches=values["patches.max"],
+                samples=values["resolution.n_samples"],
+                material=material,
+            )
+            self.pair = WheelRailPair(
+                geometry,
+                material=material,
+                normal=values.item("method.normal"),
+                tangential=values.item("method.tangential"),
+                n_strips=values["resolution.n_strips"],
+                n_elements=values["resolution.n_elements"],
+            )
+            self.built_with = wanted
+        return self.pair
+
+
+def _patches(contacts: tuple[Contact, ...]) -> Rows:
+    """The rows of all patches; zeros where there is none."""
+    columns = [_patch(contact) for contact in contacts]
+    columns += [_NO_CONTACT] * (PATCHES - len(columns))
+    return {f"patch[].{name}": list(row) for (name, *_), row in zip(PATCH, zip(*columns, strict=True), strict=True)}
+
+
+def _patch(c: Contact) -> list[float]:
+    creepage = c.creepage
+    return [
+        *(c.N, c.Fx, c.Fy, c.Mx, c.My, c.Mz),
+        *c.position,
+        *(c.angle, c.area, c.max_pressure),
+        *(creepage.longitudinal, creepage.lateral, creepage.spin),
+        c.approach,
+    ]

@@ -1,0 +1,99 @@
+"""Rows that both FMUs of a contact have: methods, material and resolution; damage, status and totals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import contact
+from contact import Status, registry
+from contact.solve import N_ELEMENTS, N_STRIPS
+from fmu_src.variables import Enumeration, Variable, output, parameter
+
+NORMAL_METHOD = Enumeration("NormalMethod", tuple((m.name, m.title) for m in contact.methods().normal.values()))
+TANGENTIAL_METHOD = Enumeration(
+    "TangentialMethod", tuple((m.name, m.title) for m in contact.methods().tangential.values())
+)
+FRICTION_LAW = Enumeration("FrictionLaw", (("Coulomb", "constant coefficient of friction"),))
+_STATUS_NAMES = ("OK", "NoContact", "Saturated", "OutOfRange", "NotConverged")
+STATUS = Enumeration("Status", tuple(zip(_STATUS_NAMES, (status.message for status in Status), strict=True)))
+
+
+def parameters() -> Iterable[Variable]:
+    """Everything that `contact.solve` is told besides the problem."""
+    steel = contact.STEEL
+    yield parameter(
+        "method.normal", "Method for the normal problem", enumeration=NORMAL_METHOD, start=registry.DEFAULT_NORMAL
+    )
+    yield parameter(
+        "method.tangential",
+        "Method for the tangential problem",
+        enumeration=TANGENTIAL_METHOD,
+        start=registry.DEFAULT_TANGENTIAL,
+    )
+    yield parameter(
+        "material.shear_modulus",
+        "Combined shear modulus of wheel and rail",
+        unit="Pa",
+        start=steel.shear_modulus,
+        minimum=0.0,
+        open_minimum=True,
+        nominal=1e11,
+    )
+    yield parameter(
+        "material.poisson_ratio",
+        "Combined Poisson ratio of wheel and rail",
+        start=steel.poisson_ratio,
+        minimum=0.0,
+        maximum=0.5,
+    )
+    yield parameter(
+        "material.hardness",
+        "Hardness of the softer body (wear)",
+        unit="Pa",
+        start=steel.hardness,
+        minimum=0.0,
+        open_minimum=True,
+        nominal=1e9,
+    )
+    yield parameter(
+        "material.shear_yield",
+        "Yield stress in shear (fatigue and stress index)",
+        unit="Pa",
+        start=steel.shear_yield,
+        minimum=0.0,
+        open_minimum=True,
+        nominal=1e8,
+    )
+    yield parameter("resolution.n_strips", "Strips per patch", integer=True, start=N_STRIPS, minimum=4, maximum=1000)
+    yield parameter(
+        "resolution.n_elements", "Elements per strip", integer=True, start=N_ELEMENTS, minimum=4, maximum=1000
+    )
+    yield parameter("friction.law", "Friction law", enumeration=FRICTION_LAW, start="Coulomb")
+
+
+def damage() -> Iterable[Variable]:
+    """The damage models' numbers."""
+    yield output("damage.T_gamma", "Wear number |Fx ξ| + |Fy η|", unit="N", minimum=0.0, nominal=100.0)
+    yield output(
+        "damage.wear_rate_pearce_sherratt", "Tread area worn off, Pearce and Sherratt", unit="m2/m", minimum=0.0
+    )
+    yield output("damage.index_burstow", "Rolling contact fatigue index per axle pass, Burstow")
+    yield output(
+        "damage.wear_rate_usfd",
+        "Volume worn off a unit of contact area, Sheffield",
+        unit="m/m",
+        minimum=0.0,
+        nominal=1e-8,
+    )
+    yield output("damage.archard_depth_max", "Greatest wear depth, Archard", unit="m/m", minimum=0.0, nominal=1e-10)
+    yield output("damage.archard_volume", "Volume worn off, Archard", unit="m3/m", minimum=0.0, nominal=1e-12)
+    yield output("damage.fatigue_index_surface", "Surface fatigue index, Ekberg")
+    yield output("damage.stress_index_max", "Greatest stress index |q| - k", unit="Pa", nominal=1e8)
+    yield output("damage.energy_index_max", "Greatest energy index q.w", unit="Pa", nominal=1e6)
+
+
+def status_and_totals() -> Iterable[Variable]:
+    """How the solution came about, and what adds up over time."""
+    yield output("status", "How the solution came about", enumeration=STATUS)
+    yield output("total.energy", "Energy dissipated since start", unit="J", start=0.0, minimum=0.0, depends=())
+    yield output("total.worn_volume", "Volume worn off since start", unit="m3", start=0.0, minimum=0.0, depends=())

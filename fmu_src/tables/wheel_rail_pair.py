@@ -1,0 +1,180 @@
+"""Interface of the FMU `WheelRailPair`: motion of a wheelset in; forces in track coordinates, patches and damage out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from functools import cache
+
+from contact.geometry.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL
+from contact.geometry.wheelset import SAMPLES
+from fmu_src.tables import solver
+from fmu_src.variables import Enumeration, Table, Variable, output, parameter, signal
+
+SIDE = Enumeration("Side", (("Left", "the left wheel and rail"), ("Right", "the right wheel and rail")))
+LOAD_KIND = Enumeration(
+    "LoadKind",
+    (
+        ("NormalForce", "load.normal_force is given, the height of the wheelset follows"),
+        ("Position", "pose.z is given, the normal force follows"),
+    ),
+)
+PATCHES = 3
+#: Profiles are files of these names in resources/ (`fmu_src.profiles`); of the right side, for either side.
+WHEEL, RAIL = "wheel.profile", "rail.profile"
+RESOURCES = (WHEEL, RAIL)
+
+#: Inputs in the order in which the kernels are given them (`contact.geometry.layout`): name, unit, what it is.
+MOTION = (
+    ("pose.y", "m", "Lateral position of the wheelset's centre, positive to the right"),
+    ("pose.z", "m", "Height of the centre, positive down, 0 with both tape circles on the plane of the rails' tops"),
+    ("pose.roll", "rad", "Roll angle, positive lowers the right wheel"),
+    ("pose.yaw", "rad", "Yaw angle, clockwise seen from above"),
+    ("velocity.x", "m/s", "Forward speed"),
+    ("velocity.y", "m/s", "Lateral velocity of the centre"),
+    ("velocity.z", "m/s", "Vertical velocity of the centre"),
+    ("velocity.roll", "rad/s", "Roll rate"),
+    ("velocity.yaw", "rad/s", "Yaw rate"),
+    ("velocity.spin", "rad/s", "Rotation about the axle, negative when rolling forward"),
+    ("irregularity.y", "m", "Lateral displacement of this rail"),
+    ("irregularity.z", "m", "Vertical displacement of this rail, positive down"),
+    ("irregularity.roll", "rad", "Roll of this rail about its profile's origin"),
+    ("irregularity.y_rate", "m/s", "Rate of irregularity.y as the wheel meets it"),
+    ("irregularity.z_rate", "m/s", "Rate of irregularity.z"),
+    ("irregularity.roll_rate", "rad/s", "Rate of irregularity.roll"),
+)
+_LIMITS: dict[str, dict[str, object]] = {
+    "pose.roll": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE},
+    "pose.yaw": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE},
+    "irregularity.roll": {"minimum": -LARGEST_RAIL_ROLL, "maximum": LARGEST_RAIL_ROLL},
+    "velocity.x": {"minimum": 0.0, "open_minimum": True, "nominal": 10.0},
+}
+_RADIUS, _SPEED = 0.46, 20.0
+_STARTS = {"velocity.x": _SPEED, "velocity.spin": -_SPEED / _RADIUS}
+
+#: Outputs of a patch in the order of `contact.pair.layout`: name behind `patch[k].`, unit, nominal, what it is.
+PATCH = (
+    ("n", "N", 1e5, "Normal force"),
+    ("fx", "N", 1e4, "Longitudinal creep force on the wheel"),
+    ("fy", "N", 1e4, "Lateral creep force on the wheel, along the contact plane"),
+    ("mx", "N.m", 10.0, "Moment of the normal pressure about the longitudinal axis"),
+    ("my", "N.m", 10.0, "Moment of the normal pressure about the lateral axis"),
+    ("mz", "N.m", 100.0, "Spin moment on the wheel"),
+    ("x", "m", 1e-3, "Where forces and moments count, track coordinates: longitudinal"),
+    ("y", "m", 1.0, "Where forces and moments count, track coordinates: lateral"),
+    ("z", "m", 1e-2, "Where forces and moments count, track coordinates: vertical, positive down"),
+    ("angle", "rad", 0.1, "Contact angle: the contact frame is the track frame turned by it about x"),
+    ("area", "m2", 1e-4, "Contact area"),
+    ("pmax", "Pa", 1e9, "Greatest contact pressure"),
+    ("longitudinal", "1", 1e-3, "Longitudinal creepage, wheel minus rail"),
+    ("lateral", "1", 1e-3, "Lateral creepage, wheel minus rail"),
+    ("spin", "rad/m", 0.1, "Spin creepage, wheel minus rail"),
+    ("approach", "m", 1e-4, "Rigid approach from first touch, along the normal"),
+)
+
+
+@cache
+def table(inclination: float = 1.0 / 40.0) -> Table:
+    """Table for a rail that is to be turned by this inclination (its tangent) unless told otherwise."""
+    return Table(
+        "WheelRailPair",
+        "One wheel of a wheelset on one rail, with the profiles in resources: contact search, every patch, creep forces "
+        "and damage: T_gamma, the area of Pearce and Sherratt and the worn volume are sums over the patches, other indices the "
+        "greatest. Forces act on the wheel; track frame x forward, y to the right, z down. As co-simulation has no "
+        "feedthrough, the outputs after a step belong to the inputs before it: one communication step late.",
+        [*_parameters(inclination), *_inputs(), *_outputs()],
+        step_size=1e-3,
+    )
+
+
+def _parameters(inclination: float) -> Iterable[Variable]:
+    yield parameter("side", "Which wheel and rail; the left side is the mirror image", enumeration=SIDE, start="Right")
+    yield parameter("load.kind", "How the load is given", enumeration=LOAD_KIND, start="NormalForce")
+    yield parameter(
+        "wheel.radius", "Nominal radius, at the tape circle", unit="m", start=_RADIUS, minimum=0.05, maximum=2.0
+    )
+    yield parameter(
+        "wheel.flange_back", "Distance of the backs of the flanges", unit="m", start=1.36, minimum=0.1, maximum=3.0
+    )
+    yield parameter("track.gauge", "Track gauge", unit="m", start=1.435, minimum=0.1, maximum=3.0)
+    yield parameter(
+        "track.gauge_point",
+        "Depth below the top of the rail at which the gauge is measured",
+        unit="m",
+        start=0.014,
+        minimum=0.0,
+        open_minimum=True,
+        nominal=1e-2,
+    )
+    yield parameter(
+        "rail.inclination",
+        "Tangent of the angle by which the rail's profile is turned towards the track",
+        start=inclination,
+        minimum=0.0,
+        maximum=0.1,
+    )
+    yield parameter(
+        "patches.max",
+        "Patches with a frame of their own; further ones share the plane of the last",
+        integer=True,
+        start=PATCHES,
+        minimum=1,
+        maximum=PATCHES,
+    )
+    yield parameter(
+        "patches.combine_distance",
+        "Neighbours nearer than this share one plane",
+        unit="m",
+        start=8e-3,
+        minimum=0.0,
+        nominal=1e-2,
+    )
+    yield parameter(
+        "patches.combine_angle",
+        "Neighbours whose angles differ by less share one plane",
+        unit="rad",
+        start=math.radians(20.0),
+        minimum=0.0,
+    )
+    yield from solver.parameters()
+    yield parameter(
+        "resolution.n_samples", "Samples of each separation", integer=True, start=SAMPLES, minimum=5, maximum=2001
+    )
+
+
+def _inputs() -> Iterable[Variable]:
+    for name, unit, description in MOTION:
+        yield signal(name, description, unit=unit, start=_STARTS.get(name, 0.0), **_LIMITS.get(name, {}))
+    yield signal(
+        "load.normal_force",
+        "Vertical force that the normal pressures of all patches carry, used when load.kind = NormalForce",
+        unit="N",
+        start=80e3,
+        minimum=0.0,
+        nominal=1e5,
+    )
+    yield signal("friction.coefficient", "Coefficient of friction", start=0.3, minimum=0.0)
+
+
+def _outputs() -> Iterable[Variable]:
+    for axis in "xyz":
+        yield output(f"force.{axis}", f"Force on the wheel, track coordinates, {axis}", unit="N", nominal=1e4)
+    for axis in "xyz":
+        yield output(
+            f"moment.{axis}",
+            f"Moment on the wheel about the wheelset's centre (0, pose.y, wheelset.z - wheel.radius), {axis}",
+            unit="N.m",
+            nominal=1e4,
+        )
+    yield output(
+        "wheelset.z", "pose.z that the outputs belong to: as given, or as found for the load", unit="m", nominal=1e-3
+    )
+    yield output("pressure.max", "Greatest contact pressure", unit="Pa", minimum=0.0, nominal=1e9)
+    yield output("patches.count", "Number of patches", integer=True, minimum=0, maximum=PATCHES)
+    yield output("patches.area", "Contact area of all patches", unit="m2", minimum=0.0, nominal=1e-4)
+    for name, unit, nominal, description in PATCH:
+        yield output(f"patch[].{name}", description, unit=unit, nominal=nominal, shape=(PATCHES,))
+    yield output("slip.ratio", "Slip area over contact area", minimum=0.0, maximum=1.0)
+    yield output("power.friction", "Frictional power", unit="W", minimum=0.0, nominal=1e3)
+    yield from solver.damage()
+    yield from solver.status_and_totals()
