@@ -35,7 +35,7 @@ def pack(given: Profile) -> bytes:
         If the profile cannot touch another one.
     """
     other: Profile = profile.rail_60e1() if given.kind == "wheel" else profile.s1002()
-    Pair(*((given, other) if given.kind == "wheel" else (other, given)))
+    Pair(*((given, other) if given.kind == "wheel" else (other, given)), gauge_point=1e-6)  # whatever the gauge point
     content = struct.pack("<q", given.y.size) + np.stack((given.y, given.z, given.angle)).astype("<f8").tobytes()
     return MAGIC[given.kind] + struct.pack("<Q", _checksum(content)) + content
 

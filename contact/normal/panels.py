@@ -237,6 +237,7 @@ def extend_to_ghosts(y, g, g_least, delta, least, modulus, n, n_panels, panels, 
                 )
                 vectors[V_LN_A, p * n + j] = math.log(a)
                 vectors[V_ACTIVE, p * n + j] = 1.0
+                vectors[V_P, p * n + j] = 0.0  # not known yet: it displaces nothing while further ghosts are looked for
         else:
             p = nearest
             old_low, old_high = panels[2 * p], panels[2 * p + 1]

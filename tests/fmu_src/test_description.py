@@ -12,7 +12,7 @@ from fmu_src.description import model_description
 from fmu_src.documentation import markdown
 from fmu_src.native.packaging import INTERFACES as NATIVE
 from fmu_src.python.slave import INTERFACES
-from fmu_src.tables import wheel_rail_contact
+from fmu_src.tables import solver, wheel_rail_contact
 from fmu_src.variables import Causality
 
 TABLES = [model.table for points in (41, 4) for model in models(points)]
@@ -81,19 +81,20 @@ def test_guid_follows_the_content():
 
 
 def test_status_and_methods_are_the_solvers():
-    assert [wheel_rail_contact.STATUS.number(n) for n in ("OK", "NoContact", "OutOfRange")] == [
+    assert [solver.STATUS.number(n) for n in ("OK", "NoContact", "OutOfRange")] == [
         contact.Status.OK,
         contact.Status.NO_CONTACT,
         contact.Status.OUT_OF_RANGE,
     ]
-    assert len(wheel_rail_contact.STATUS.items) == len(contact.Status)
-    assert [name for name, _ in wheel_rail_contact.NORMAL_METHOD.items] == list(contact.methods().normal)
-    assert [name for name, _ in wheel_rail_contact.TANGENTIAL_METHOD.items] == list(contact.methods().tangential)
+    assert len(solver.STATUS.items) == len(contact.Status)
+    assert [name for name, _ in solver.NORMAL_METHOD.items] == list(contact.methods().normal)
+    assert [name for name, _ in solver.TANGENTIAL_METHOD.items] == list(contact.methods().tangential)
 
 
 def test_documentation_has_a_line_for_every_row(table):
     lines = markdown(table).splitlines()
     for row in table.rows:
-        pattern = re.compile(rf"\| `{re.escape(row.name)}(\[[\d.,]+\])?` \|")
+        name = re.escape(row.name).replace(r"\[\]", r"\[[\d.,]+\]")
+        pattern = re.compile(rf"\| `{name}(\[[\d.,]+\])?` \|")
         assert sum(bool(pattern.match(line)) for line in lines) == 1, row.name
     assert all(line.replace(r"\|", "").count("|") == 7 for line in lines if line.startswith("|"))

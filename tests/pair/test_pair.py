@@ -198,6 +198,24 @@ def test_interacting_strips_go_on_from_the_last_call_unless_a_patch_came_or_went
     np.testing.assert_array_equal(both.force, fresh.force)
 
 
+@pytest.mark.parametrize("normal", METHODS.normal)
+def test_what_was_left_in_the_scratch_arrays_does_not_matter(normal):
+    """`memory` is all that goes from one call to the next: an FMU state is no more than that."""
+    pair = make(normal=normal)
+    scratch = (*pair.bench.own.space[:5], *pair.bench.own.space[6:], *pair.bench.own[3:], *pair.bench.search[4:11])
+    for k in range(20):
+        before = pair.bench.memory.copy()
+        answers = []
+        for rubbish in (0.0, math.nan, 1.0):
+            for array in scratch:
+                array[...] = rubbish
+            pair.bench.memory[:] = before
+            pose = Pose(y=6e-3 * math.sin(0.4 * k), roll=1e-3, yaw=4e-3 * math.cos(k))
+            s = pair.solve(pose, load=8e4 + 1e4 * math.cos(k))
+            answers.append(np.concatenate((s.force, s.moment, s.damage, pair.bench.memory)))
+        np.testing.assert_array_equal(answers[1:], answers[:1] * 2)
+
+
 def test_no_more_than_so_many_patches_get_frames_of_their_own():
     single = WheelRailPair(Pair(WHEEL, WORN, most_patches=1)).solve(Pose(y=6.37e-3), load=80e3)
     assert len(single.contacts) == 1

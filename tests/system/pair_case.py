@@ -1,0 +1,199 @@
+"""Motions of a wheelset that the tests of both packagings of `WheelRailPair` pose, and what the solver says to them."""
+
+import math
+
+import numpy as np
+
+import contact
+from contact.geometry import profile
+from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
+from contact.pair import PairSolution, WheelRailPair
+
+NAME = "WheelRailPair"
+METHODS = contact.methods()
+R0 = 0.46
+#: A motion that loads everything: lateral shift, yaw, rates, an irregular rail.
+MOTION = {
+    "pose.y": 2e-3,
+    "pose.roll": 1e-3,
+    "pose.yaw": 4e-3,
+    "velocity.x": 30.0,
+    "velocity.y": 0.05,
+    "velocity.z": 0.01,
+    "velocity.roll": 0.01,
+    "velocity.yaw": 0.02,
+    "velocity.spin": -30.0 / R0 * 1.001,
+    "irregularity.y": 0.5e-3,
+    "irregularity.z": -0.2e-3,
+    "irregularity.roll": 1e-3,
+    "irregularity.y_rate": 0.02,
+    "irregularity.z_rate": -0.01,
+    "irregularity.roll_rate": 0.03,
+}
+
+
+_PATCH = ("n", "fx", "fy", "mx", "my", "mz", "x", "y", "z", "angle", "area", "pmax", "longitudinal", "lateral", "spin")
+_PATCH += ("approach",)
+
+
+def mirrored(values: dict[str, float]) -> dict[str, float]:
+    """The values of the other side."""
+    even = ("pose.z", "velocity.x", "velocity.z", "velocity.spin", "irregularity.z", "irregularity.z_rate")
+    odd = {name for name in MOTION if name not in even}
+    return {name: -value if name in odd else value for name, value in values.items()}
+
+
+def solved(values: dict[str, float], pair: WheelRailPair) -> PairSolution:
+    """The solver's answer for inputs by their names."""
+
+    def part(name: str, *fields: str) -> list[float]:
+        return [values.get(f"{name}.{field}", 0.0) for field in fields]
+
+    return pair.solve(
+        Pose(*part("pose", "y", "z", "roll", "yaw")),
+        Velocity(*part("velocity", "x", "y", "z", "roll", "yaw", "spin")),
+        load=None if values.get("load.kind", 1) == 2 else values.get("load.normal_force", 80e3),
+        irregularity=Irregularity(*part("irregularity", "y", "z", "roll", "y_rate", "z_rate", "roll_rate")),
+        friction=values.get("friction.coefficient", 0.3),
+    )
+
+
+def expected(s: PairSolution, speed: float) -> dict[str, float]:
+    """Outputs by the solver, besides the totals."""
+    T_gamma, _, _, area, burstow, usfd, depth, volume, fatigue, stress, energy = s.damage.tolist()
+    outputs = {
+        **dict(zip(("force.x", "force.y", "force.z"), s.force.tolist(), strict=True)),
+        **dict(zip(("moment.x", "moment.y", "moment.z"), s.moment.tolist(), strict=True)),
+        "wheelset.z": s.z,
+        "pressure.max": s.max_pressure,
+        "patches.count": len(s.contacts),
+        "patches.area": s.area,
+        "slip.ratio": s.slip_ratio,
+        "power.friction": speed * s.power_per_metre,
+        "damage.T_gamma": T_gamma,
+        "damage.wear_rate_pearce_sherratt": area,
+        "damage.index_burstow": burstow,
+        "damage.wear_rate_usfd": usfd,
+        "damage.archard_depth_max": depth,
+        "damage.archard_volume": volume,
+        "damage.fatigue_index_surface": fatigue,
+        "damage.stress_index_max": stress,
+        "damage.energy_index_max": energy,
+        "status": s.status,
+    }
+    for k in range(3):
+        c = s.contacts[k] if k < len(s.contacts) else None
+        numbers = (0.0,) * 16
+        if c:
+            forces, xi = (c.N, c.Fx, c.Fy, c.Mx, c.My, c.Mz), c.creepage
+            numbers = (*forces, *c.position, c.angle, c.area, c.max_pressure, xi.longitudinal, xi.lateral, xi.spin)
+            numbers = (*numbers, c.approach)
+        outputs |= {f"patch[{k + 1}].{name}": x for name, x in zip(_PATCH, numbers, strict=True)}
+    return outputs
+
+
+def scale(name: str, values: dict[str, float], wanted: dict[str, float]) -> float:
+    """What a difference of an output is measured by: the value, or what it is a part of."""
+    load = max(abs(wanted["force.z"]), 1.0)
+    leaf = name.split(".")[-1]
+    if name.startswith("force") or leaf in ("n", "fx", "fy"):
+        return load
+    if name.startswith("moment"):
+        return load * 1.0
+    if leaf in ("mx", "my", "mz"):
+        return load * 1e-2
+    if leaf in ("x", "y", "z"):
+        return 1.0
+    if leaf in ("longitudinal", "lateral", "angle", "spin", "ratio"):
+        return 1.0
+    return max(abs(wanted[name]), 1e-300)
+
+
+def random_case(seed: int) -> tuple[dict[str, float], WheelRailPair]:
+    """Values of the FMU, and the solver prepared with the same parameters."""
+    rng = np.random.default_rng(seed)
+    left, by_load = bool(rng.integers(2)), rng.random() < 0.6
+    V = rng.uniform(2.0, 80.0)
+    radius, gauge, inclination = rng.uniform(0.3, 0.6), 1.435 + rng.uniform(-3e-3, 6e-3), rng.uniform(0.0, 0.06)
+    gauge_point, flange_back = rng.uniform(0.010, 0.016), 1.360 + rng.uniform(-2e-3, 2e-3)
+    distance, angle, most = rng.uniform(0.0, 1e-2), rng.uniform(0.0, 0.4), int(rng.integers(1, 4))
+    samples, n_strips, n_elements = int(rng.integers(41, 121)), int(rng.integers(6, 40)), int(rng.integers(6, 40))
+    normal, tangential = int(rng.integers(len(METHODS.normal))), int(rng.integers(len(METHODS.tangential)))
+    G, nu, H, k = rng.uniform(70e9, 90e9), rng.uniform(0.0, 0.5), rng.uniform(2e9, 4e9), rng.uniform(2e8, 4e8)
+    material = contact.Material(G, nu, hardness=H, shear_yield=k)
+    geometry = Pair(
+        profile.s1002(),
+        profile.rail_60e1(0.0).rotated(-math.atan(inclination)),
+        side="left" if left else "right",
+        nominal_radius=radius,
+        gauge=gauge,
+        gauge_point=gauge_point,
+        flange_back=flange_back,
+        combine_distance=distance,
+        combine_angle=angle,
+        most_patches=most,
+        samples=samples,
+        material=material,
+    )
+    pose, rail = rng.uniform((-9e-3, -0.02, -0.03), (9e-3, 0.02, 0.03)), rng.uniform(-1, 1, 3) * (1e-3, 1e-3, 5e-3)
+    at = Pose(pose[0], 0.0, pose[1], pose[2])
+    z = geometry.touch(at, Irregularity(*rail)) + rng.uniform(-3e-5, 2e-4)
+    values = {
+        "side": 1 if left else 2,
+        "load.kind": 1 if by_load else 2,
+        "wheel.radius": radius,
+        "wheel.flange_back": flange_back,
+        "track.gauge": gauge,
+        "track.gauge_point": gauge_point,
+        "rail.inclination": inclination,
+        "patches.max": most,
+        "patches.combine_distance": distance,
+        "patches.combine_angle": angle,
+        "method.normal": normal + 1,
+        "method.tangential": tangential + 1,
+        "material.shear_modulus": G,
+        "material.poisson_ratio": nu,
+        "material.hardness": H,
+        "material.shear_yield": k,
+        "resolution.n_strips": n_strips,
+        "resolution.n_elements": n_elements,
+        "resolution.n_samples": samples,
+        "pose.y": pose[0],
+        "pose.z": z,
+        "pose.roll": pose[1],
+        "pose.yaw": pose[2],
+        "velocity.x": V,
+        **{f"velocity.{name}": x for name, x in zip(("y", "z", "roll", "yaw"), rng.uniform(-0.1, 0.1, 4), strict=True)},
+        "velocity.spin": -V / radius * rng.uniform(0.995, 1.005),
+        **{f"irregularity.{name}": x for name, x in zip(("y", "z", "roll"), rail, strict=True)},
+        **{f"irregularity.{name}_rate": x for name, x in zip(("y", "z", "roll"), rng.uniform(-0.05, 0.05, 3), strict=True)},
+        "load.normal_force": 10 ** rng.uniform(3.5, 5.2) if rng.random() < 0.95 else 0.0,
+        "friction.coefficient": rng.uniform(0.0, 0.6),
+    }  # fmt: skip
+    pair = WheelRailPair(
+        geometry,
+        material=material,
+        normal=list(METHODS.normal)[normal],
+        tangential=list(METHODS.tangential)[tangential],
+        n_strips=n_strips,
+        n_elements=n_elements,
+    )
+    return values, pair
+
+
+def compare(fmu, seed: int) -> PairSolution | None:
+    """Step an instance through a random case and hold it against the solver; None where there is no answer."""
+    values, pair = random_case(seed)
+    fmu.fmu.reset()
+    fmu.update(values)
+    fmu.initialize()
+    try:
+        s = solved(values, pair)
+    except contact.ContactError:
+        return None
+    fmu.step(0.0, 1e-3)
+    wanted = expected(s, values["velocity.x"])
+    actual = {name: fmu[name] for name in wanted}
+    worst = {name: abs(actual[name] - x) / scale(name, values, wanted) for name, x in wanted.items()}
+    assert max(worst.values()) <= 1e-12, (seed, max(worst, key=worst.get), max(worst.values()))
+    return s
