@@ -185,4 +185,3 @@ def _fields() -> Iterable[Variable]:
     for axis, where in (("x", "in the rolling direction"), ("y", "lateral")):
         yield field(f"field.slip_{axis}", f"Slip velocity over speed, wheel minus rail, {where}", nominal=1e-3)
     yield field("field.stick", "Whether the element sticks", boolean=True)
-    yield from solver.status_and_totals()
