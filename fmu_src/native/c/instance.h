@@ -161,8 +161,7 @@ Status exit_initialization(Instance *instance, const char *function);
 Status terminate(Instance *instance, const char *function);
 Status reset(Instance *instance, const char *function);
 
-/* variables.c: check references for numbers of these kinds, `n_values` together, before they are copied; n is that of the
- * references, and unknowns and knowns are as many as seed and result have numbers */
+/* variables.c: the first two check what is about to be copied, n references that stand for n_values numbers of these kinds */
 Status before_get(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds, size_t n_values);
 Status before_set(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds, size_t n_values);
 size_t extent(const Instance *instance, Reference reference);
