@@ -68,7 +68,7 @@ def _coefficients(A: float, B: float) -> tuple[float, float, float]:
     return major * g, major, r
 
 
-# The local factors of ANALYN over u = ln(B/A): 1 + alpha, 1 + beta, ln(n r), ln(m/n) as cubic Hermite values and slopes.
+# The local factors of ANALYN over u = ln(B/A): 1 + alpha, 1 + beta, n r, ln(m/n) as cubic Hermite values and slopes.
 # The interpolation error is below 2e-8 (tests/test_hertz.py), so kernels pay 10 ns instead of a root find.
 _U_MAX = 16.0
 _U_STEP = 0.1
@@ -80,7 +80,7 @@ def _build_table() -> np.ndarray:
     for i, u in enumerate(_U_STEP * (np.arange(n + 4) - 2) - _U_MAX):
         B = math.exp(u)
         m, k, r = _coefficients(1.0, B)
-        values[i] = r * (1.0 + B) / m**2, r * (1.0 + 1.0 / B) / k**2, math.log(k * r), math.log(m / k)
+        values[i] = r * (1.0 + B) / m**2, r * (1.0 + 1.0 / B) / k**2, k * r, math.log(m / k)
     slopes = (8.0 * (values[3:-1] - values[1:-3]) - (values[4:] - values[:-4])) / 12.0  # times the step
     return np.ascontiguousarray(np.hstack([values[2:-2], slopes]))
 
@@ -104,7 +104,7 @@ def local_factors(A: float, B: float) -> tuple[float, float, float, float]:
     p, q = _TABLE[i], _TABLE[i + 1]
     one_alpha = h00 * p[0] + h10 * p[4] + h01 * q[0] + h11 * q[4]
     one_beta = h00 * p[1] + h10 * p[5] + h01 * q[1] + h11 * q[5]
-    nr = math.exp(h00 * p[2] + h10 * p[6] + h01 * q[2] + h11 * q[6])
+    nr = h00 * p[2] + h10 * p[6] + h01 * q[2] + h11 * q[6]
     return one_alpha, one_beta, nr, h00 * p[3] + h10 * p[7] + h01 * q[3] + h11 * q[7]
 
 

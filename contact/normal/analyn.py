@@ -52,6 +52,15 @@ NO_OVERLAP = 1e-14
 GAP_SLOPE, EFFECTIVE_GAP, EFFECTIVE_SLOPE, STRETCHED_A, ONE_BETA, NR, LOG_ASPECT = range(7)
 N_WORK_ROWS = 7
 
+#: Below 1 + beta of every curvature (`local_factors`).
+LEAST_ONE_BETA = 1.1
+
+#: How far beyond the estimated approach the gap is prepared; farther when that is not enough.
+REACH = 1.3
+
+#: Share of the load that may be missing before the last of Newton's steps.
+NEWTON_CLOSE = 1e-6
+
 #: Newton's steps before bisection, which closes in on a step of the load, and the cap.
 _NEWTON_ITERATIONS, _MAX_ITERATIONS = 15, 60
 
@@ -92,58 +101,80 @@ def lateral_curvature(y, g, m, n, i, below, above):
 
 
 @kernel
-def prepare(y, g, A, n, y_least, g_least, reach, work):
-    """Local Hertz factors and the effective gap (1 + beta)(g - min g) at the samples where g - min g < `reach`.
-
-    Beyond them, except for neighbours, the effective gap is the lower bound 1.2 (g - min g), which no approach below `reach`
-    gets to.
-    """
-    least = locate(y, n, y_least, 0)
-    first, last = least - 1, least + 2
-    for i in range(n):
-        work[EFFECTIVE_GAP, i] = 1.2 * (g[i] - g_least)
-        work[STRETCHED_A, i], work[NR, i], work[LOG_ASPECT, i] = A[i], 1.0, 0.0
-        if g[i] - g_least < reach:
-            first, last = min(first, i), max(last, i)
-    # The factors follow B, an average over the base: a fifth of it apart they are as good as linear, in constant B exactly. The
-    # samples chosen must not depend on `reach`, or the load would not be a smooth function of the approach.
-    stride = max(1, int(0.2 * CURVATURE_HALF_BASE * (n - 1) / (y[n - 1] - y[0])))
-    # They lie alike from both ends, so that the mirror image has the mirrored factors.
+def _next_node(i, n, stride, direction):
+    """Next of the samples at which B is computed; they lie alike from both ends, so that mirror images have mirrored factors."""
     left_end = (n - 1) // 2 // stride * stride
     right_start = n - 1 - left_end
-    first, last = max(first - 2, 0), min(last + 2, n - 1)
-    if first < right_start:
-        first = min(first // stride * stride, left_end)
-    else:
-        first -= (first - right_start) % stride
-    below, above, i, i_step = 0, 0, first, 0
-    while True:
-        B, below, above = lateral_curvature(y, g, work[GAP_SLOPE], n, i, below, above)
-        _prepare_sample(A, B, g, g_least, i, work)
-        if i > first:
-            _between(y, g, A, g_least, i - i_step, i, work)
-        if i >= last:
-            break
-        i_step = right_start - left_end if i == left_end < right_start else stride
-        i += i_step
-    _keep_rising(g, n, work)
-    slopes(y, work[EFFECTIVE_GAP], n, work[EFFECTIVE_SLOPE])
-    # noise or a curvature jump may let the interpolated product dip below zero: a patch would be born with a finite width
-    _, deepest = least_point(y, work[EFFECTIVE_GAP], work[EFFECTIVE_SLOPE], n)
-    for i in range(n):
-        work[EFFECTIVE_GAP, i] -= deepest
+    if direction > 0:
+        return right_start if i == left_end and left_end < right_start else min(i + stride, n - 1)
+    return left_end if i == right_start and left_end < right_start else max(i - stride, 0)
 
 
 @kernel
-def _keep_rising(g, n, work):
+def prepare(y, g, A, n, y_least, g_least, reach, work):
+    """Local Hertz factors and effective gap (1 + beta)(g - min g) around the least point; return first and last sample.
+
+    Outside these samples the effective gap is above `reach`: it is there at their ends, rises as long as the gap does
+    (`_keep_rising`), and is at least LEAST_ONE_BETA (g - min g) where the gap falls again.
+
+    The factors follow B, an average over the base: a fifth of it apart they are as good as linear, in constant B exactly. The
+    samples chosen do not depend on `reach`, or the load would not be a smooth function of the approach.
+    """
+    lobe = g_least + reach / LEAST_ONE_BETA
+    stride = max(1, int(0.2 * CURVATURE_HALF_BASE * (n - 1) / (y[n - 1] - y[0])))
+    left_end = (n - 1) // 2 // stride * stride
+    start = locate(y, n, y_least, 0)
+    if start <= left_end:
+        start = start // stride * stride
+    else:
+        start = max(left_end, start - (start - (n - 1 - left_end)) % stride)
+    below, above = 0, 0
+    B, below, above = lateral_curvature(y, g, work[GAP_SLOPE], n, start, below, above)
+    _prepare_sample(A, B, g, g_least, start, work)
+    ends = start, start
+    for direction in (-1, 1):
+        i, end, beyond = start, 0 if direction < 0 else n - 1, 0
+        while i != end and beyond < 2:
+            before, i = i, _next_node(i, n, stride, direction)
+            B, below, above = lateral_curvature(y, g, work[GAP_SLOPE], n, i, below, above)
+            _prepare_sample(A, B, g, g_least, i, work)
+            _between(y, g, A, g_least, min(before, i), max(before, i), work)
+            if beyond == 0 and work[EFFECTIVE_GAP, i] >= reach:
+                beyond = 1  # and one node more, so that the slope at the edge of a patch has both neighbours
+                for j in range(i, end, direction):
+                    if g[j + direction] < min(g[j], lobe):
+                        beyond = 0
+                        break
+            elif beyond == 1:
+                beyond = 2
+        ends = (i, ends[1]) if direction < 0 else (ends[0], i)
+    first, last = ends
+    _keep_rising(g, first, last, work)
+    gap, slope = work[EFFECTIVE_GAP, first : last + 1], work[EFFECTIVE_SLOPE, first : last + 1]
+    slopes(y[first : last + 1], gap, last + 1 - first, slope)
+    # noise or a curvature jump may let the interpolated product dip below zero: a patch would be born with a finite width
+    _, deepest = least_point(y[first : last + 1], gap, slope, last + 1 - first)
+    for i in range(first, last + 1):
+        work[EFFECTIVE_GAP, i] -= deepest
+    return first, last
+
+
+@kernel
+def _keep_rising(g, first, last, work):
     """Let the deformation beta·g not fall where the gap opens: its effective gap rises at least as the gap itself.
 
     A convex flank that turns concave would lose beta faster than the gap opens, which made a satellite patch without load.
     """
-    for i in range(1, n):
+    falls = 0
+    for i in range(first + 1, last + 1):
+        rise, effective_rise = g[i] - g[i - 1], work[EFFECTIVE_GAP, i] - work[EFFECTIVE_GAP, i - 1]
+        falls += 1 if (effective_rise - rise) * rise < 0.0 else 0
+    if falls == 0:
+        return
+    for i in range(first + 1, last + 1):
         if g[i] > g[i - 1]:
             work[EFFECTIVE_GAP, i] = max(work[EFFECTIVE_GAP, i], work[EFFECTIVE_GAP, i - 1] + g[i] - g[i - 1])
-    for i in range(n - 2, -1, -1):
+    for i in range(last - 1, first - 1, -1):
         if g[i] > g[i + 1]:
             work[EFFECTIVE_GAP, i] = max(work[EFFECTIVE_GAP, i], work[EFFECTIVE_GAP, i + 1] + g[i] - g[i + 1])
 
@@ -151,16 +182,17 @@ def _keep_rising(g, n, work):
 @kernel
 def _between(y, g, A, g_least, left, right, work):
     """Interpolate the local factors of the samples between two that are known."""
-    h = y[right] - y[left]
-    beta_left = work[ONE_BETA, left]
+    per_length = 1.0 / (y[right] - y[left])
+    beta, nr, log_aspect = work[ONE_BETA, left], work[NR, left], work[LOG_ASPECT, left]
+    alpha = work[STRETCHED_A, left] / A[left]
+    d_alpha = (work[STRETCHED_A, right] / A[right] - alpha) * per_length
+    d_beta = (work[ONE_BETA, right] - beta) * per_length
+    d_nr, d_log_aspect = (work[NR, right] - nr) * per_length, (work[LOG_ASPECT, right] - log_aspect) * per_length
     for i in range(left + 1, right):
-        t = (y[i] - y[left]) / h
-        work[ONE_BETA, i] = beta_left + t * (work[ONE_BETA, right] - beta_left)
-        work[EFFECTIVE_GAP, i] = work[ONE_BETA, i] * (g[i] - g_least)
-        alpha = work[STRETCHED_A, left] / A[left]
-        work[STRETCHED_A, i] = A[i] * (alpha + t * (work[STRETCHED_A, right] / A[right] - alpha))
-        for row in (NR, LOG_ASPECT):
-            work[row, i] = work[row, left] + t * (work[row, right] - work[row, left])
+        t = y[i] - y[left]
+        work[EFFECTIVE_GAP, i] = (beta + t * d_beta) * (g[i] - g_least)
+        work[STRETCHED_A, i] = A[i] * (alpha + t * d_alpha)
+        work[NR, i], work[LOG_ASPECT, i] = nr + t * d_nr, log_aspect + t * d_log_aspect
 
 
 @kernel
@@ -174,8 +206,8 @@ def _prepare_sample(A, B, g, g_least, i, work):
 
 
 @kernel
-def estimated_approach(y, g, n, g_least, load, modulus, hertz):
-    """Approach at which a virtual penetration with the factors of a circle (beta = 0.8, n r = 0.95) carries the load.
+def estimated_approach(y, g, n, g_least, load, modulus, one_beta, nr, hertz):
+    """Approach at which a virtual penetration with the factors of the least point carries the load.
 
     Newton on a convex, piecewise linear function of the samples, started from Hertz's approach at the least point; that is
     also the answer when the patch is narrower than the samples.
@@ -184,14 +216,13 @@ def estimated_approach(y, g, n, g_least, load, modulus, hertz):
     for _ in range(12):
         N, width = 0.0, 0.0
         for i in range(1, n - 1):
-            d = delta - 1.8 * (g[i] - g_least)
-            if d > 0.0:
-                cell = 0.5 * (y[i + 1] - y[i - 1])
-                N += d * cell
-                width += cell
+            d = delta - one_beta * (g[i] - g_least)
+            cell = 0.5 * (y[i + 1] - y[i - 1]) if d > 0.0 else 0.0
+            N += d * cell
+            width += cell
         if width == 0.0:
             return hertz
-        change = (load * 0.95 / modulus - N) / width
+        change = (load * nr / modulus - N) / width
         delta = max(delta + change, 0.3 * delta)
         if abs(change) < 0.01 * delta:
             break
@@ -199,18 +230,37 @@ def estimated_approach(y, g, n, g_least, load, modulus, hertz):
 
 
 @kernel
-def load_at(y, xc, n, delta, modulus, nodes, weights, work, strips, edges):
-    """Lay strips at approach `delta` above first touch; return load, stiffness dN/d(delta), strip count, end flag."""
-    G = work[EFFECTIVE_GAP]
-    m = work[EFFECTIVE_SLOPE]
-    count, touches_end = find_patches(y, G, m, n, delta, edges)
+def load_at(y, first, last, delta, modulus, nodes, weights, work, edges):
+    """Load and stiffness dN/d(delta) at approach `delta` above first touch."""
+    G, m, nr = work[EFFECTIVE_GAP], work[EFFECTIVE_SLOPE], work[NR]
+    count = find_patches(y, G, m, first, last, delta, edges)
+    N, stiffness = 0.0, 0.0
+    k = first
+    for patch in range(count):
+        centre = 0.5 * (edges[2 * patch] + edges[2 * patch + 1])
+        half = 0.5 * (edges[2 * patch + 1] - edges[2 * patch])
+        for i in range(nodes.size):
+            at = centre + half * nodes[i]
+            k = locate(y, last + 1, at, k)
+            h = y[k + 1] - y[k]
+            t = (at - y[k]) / h
+            share = half * weights[i] / ((1.0 - t) * nr[k] + t * nr[k + 1])
+            N += max(delta - cubic(h, G[k], m[k], G[k + 1], m[k + 1], t), 0.0) * share
+            stiffness += share
+    return modulus * N, modulus * stiffness
+
+
+@kernel
+def fill_strips(y, xc, first, last, delta, modulus, nodes, weights, work, edges, strips):
+    """Lay strips at approach `delta`; return load, stiffness and number of strips."""
+    G, m = work[EFFECTIVE_GAP], work[EFFECTIVE_SLOPE]
+    count = find_patches(y, G, m, first, last, delta, edges)
     n_strips = lay_strips(edges, count, nodes, weights, strips)
-    N = 0.0
-    stiffness = 0.0
-    k = 0
+    N, stiffness = 0.0, 0.0
+    k = first
     for i in range(n_strips):
         at = strips[STRIP_Y, i]
-        k = locate(y, n, at, k)
+        k = locate(y, last + 1, at, k)
         h = y[k + 1] - y[k]
         t = (at - y[k]) / h
         d = max(delta - cubic(h, G[k], m[k], G[k + 1], m[k + 1], t), 0.0)
@@ -218,13 +268,52 @@ def load_at(y, xc, n, delta, modulus, nodes, weights, work, strips, edges):
         stretched = (1.0 - t) * work[STRETCHED_A, k] + t * work[STRETCHED_A, k + 1]
         a = math.sqrt(d / stretched)
         strips[STRIP_A, i] = a
-        strips[STRIP_P0, i] = 2.0 * modulus / math.pi * math.sqrt(d * stretched) / nr  # Eq. 9.1 with d/a = √(d (1+α) A)
+        strips[STRIP_P0, i] = 2.0 * modulus / math.pi * a * stretched / nr  # Eq. 9.1 with d/a = a (1 + alpha) A
         strips[STRIP_XC, i] = (1.0 - t) * xc[k] + t * xc[k + 1]
         strips[STRIP_ASPECT, i] = (1.0 - t) * work[LOG_ASPECT, k] + t * work[LOG_ASPECT, k + 1]
-        N += modulus * d / nr * strips[STRIP_DY, i]
-        if d > 0.0:
-            stiffness += modulus / nr * strips[STRIP_DY, i]
-    return N, stiffness, n_strips, touches_end
+        share = modulus * strips[STRIP_DY, i] / nr
+        N += d * share
+        stiffness += share
+    return N, stiffness, n_strips
+
+
+@kernel
+def solve_load(y, g, A, n, y_least, g_least, load, modulus, nodes, weights, work, edges, result):
+    """Approach above first touch that carries `load`; first and last prepared sample.
+
+    N ~ delta^(3/2) in Hertz contact: Newton on N^(2/3), bracketed.
+    """
+    k = locate(y, n, y_least, 0)
+    B, _, _ = lateral_curvature(y, g, work[GAP_SLOPE], n, k, 0, 0)
+    _prepare_sample(A, B, g, g_least, k, work)
+    hertz = (0.75 * load / modulus * work[NR, k] * math.sqrt(work[STRETCHED_A, k])) ** (2.0 / 3.0)
+    delta = estimated_approach(y, g, n, g_least, load, modulus, work[ONE_BETA, k], work[NR, k], hertz)
+    reach = REACH * delta
+    first, last = prepare(y, g, A, n, y_least, g_least, reach, work)
+    low, high = 0.0, math.inf
+    for iteration in range(_MAX_ITERATIONS):
+        result[RES_ITERATIONS] = iteration + 1.0
+        if delta > reach:
+            reach = REACH * delta
+            first, last = prepare(y, g, A, n, y_least, g_least, reach, work)
+        N, stiffness = load_at(y, first, last, delta, modulus, nodes, weights, work, edges)
+        if load > N:
+            low = delta
+        else:
+            high = delta
+        if N > 0.0 and stiffness > 0.0:
+            new = delta - 1.5 * N / stiffness * (1.0 - (load / N) ** (2.0 / 3.0))
+        else:
+            new = 2.0 * delta
+        if abs(N - load) <= NEWTON_CLOSE * load:  # the step taken squares what is missing
+            return new, first, last
+        if not low < new < high or (iteration >= _NEWTON_ITERATIONS and high < math.inf):
+            new = 0.5 * (low + high) if high < math.inf else 2.0 * delta
+        if new == delta or high - low <= 1e-12 * delta:  # a step: two patches merge within one sample interval
+            return (high if high < math.inf else delta), first, last  # its upper side, whatever the way there
+        delta = new
+    result[RES_STATUS] = 5.0
+    return delta, first, last
 
 
 @kernel
@@ -241,65 +330,26 @@ def analyn(y, g, A, xc, case, nodes, weights, work, strips, result):
     result[RES_STATUS] = 1.0
     result[RES_ITERATIONS] = 0.0
     result[RES_TOUCH] = g_least
-    if case[CASE_LOAD_KIND] == APPROACH:
-        delta = case[CASE_LOAD] - g_least
-        if delta <= NO_OVERLAP * (y[n - 1] - y[0]):
-            result[RES_STATUS] = 2.0
-            result[RES_APPROACH] = case[CASE_LOAD]
-            return 0
-        prepare(y, g, A, n, y_least, g_least, delta, work)
-        N, stiffness, n_strips, touches_end = load_at(y, xc, n, delta, modulus, nodes, weights, work, strips, edges)
+    by_approach = case[CASE_LOAD_KIND] == APPROACH
+    load, delta = case[CASE_LOAD], case[CASE_LOAD] - g_least
+    if delta <= NO_OVERLAP * (y[n - 1] - y[0]) if by_approach else load <= 0.0:
+        result[RES_STATUS] = 2.0
+        result[RES_APPROACH] = case[CASE_LOAD] if by_approach else g_least
+        return 0
+    if by_approach:
+        first, last = prepare(y, g, A, n, y_least, g_least, delta, work)
     else:
-        load = case[CASE_LOAD]
-        if load <= 0.0:
-            result[RES_STATUS] = 2.0
-            result[RES_APPROACH] = g_least
-            return 0
-        # N ~ delta^(3/2) in Hertz contact: Newton on N^(2/3), bracketed
-        k = locate(y, n, y_least, 0)
-        B, _, _ = lateral_curvature(y, g, work[GAP_SLOPE], n, k, 0, 0)
-        _prepare_sample(A, B, g, g_least, k, work)
-        hertz = (0.75 * load / modulus * work[NR, k] * math.sqrt(work[STRETCHED_A, k])) ** (2.0 / 3.0)
-        delta = estimated_approach(y, g, n, g_least, load, modulus, hertz)
-        reach = 2.0 * max(delta, hertz)
-        prepare(y, g, A, n, y_least, g_least, reach, work)
-        low, high = 0.0, math.inf
-        converged = False
-        N, stiffness, n_strips, touches_end = 0.0, 0.0, 0, False
-        for iteration in range(_MAX_ITERATIONS):
-            result[RES_ITERATIONS] = iteration + 1.0
-            N, stiffness, n_strips, touches_end = load_at(y, xc, n, delta, modulus, nodes, weights, work, strips, edges)
-            if abs(N - load) <= 1e-11 * load:
-                converged = True
-                break
-            if load > N:
-                low = delta
-            else:
-                high = delta
-            if N > 0.0 and stiffness > 0.0:
-                step = 1.5 * N / stiffness * (1.0 - (load / N) ** (2.0 / 3.0))
-                new = delta - step
-            else:
-                new = 2.0 * delta
-            if not low < new < high or (iteration >= _NEWTON_ITERATIONS and high < math.inf):
-                new = 0.5 * (low + high) if high < math.inf else 2.0 * delta
-            if new == delta or high - low <= 1e-12 * delta:  # a step: two patches merge within one sample interval
-                if load > N and high < math.inf:  # its upper side, whatever the way there
-                    delta = high
-                    N, stiffness, n_strips, touches_end = load_at(
-                        y, xc, n, delta, modulus, nodes, weights, work, strips, edges
-                    )
-                converged = True
-                break
-            delta = new
-        if not converged:
-            result[RES_STATUS] = 5.0
+        delta, first, last = solve_load(
+            y, g, A, n, y_least, g_least, load, modulus, nodes, weights, work, edges, result
+        )
+    N, stiffness, n_strips = fill_strips(y, xc, first, last, delta, modulus, nodes, weights, work, edges, strips)
+    if not by_approach and N > 0.0:
         # what is left of round-off, or of the step at which two patches merge, is taken by the pressure
-        if N > 0.0:
-            for i in range(n_strips):
-                strips[STRIP_P0, i] *= load / N
+        for i in range(n_strips):
+            strips[STRIP_P0, i] *= load / N
         N = load
-    if touches_end and result[RES_STATUS] == 1.0:
+    last_edge = edges[2 * (n_strips // nodes.size) - 1]
+    if result[RES_STATUS] == 1.0 and (edges[0] <= y[0] or last_edge >= y[n - 1]):
         result[RES_STATUS] = 4.0
     result[RES_N] = N
     result[RES_APPROACH] = delta + g_least

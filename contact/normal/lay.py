@@ -94,22 +94,20 @@ def _crossing(h, f0, m0, f1, m1, level, low, high):
 
 
 @kernel
-def find_patches(y, G, m, n, delta, edges):
-    """Intervals of y on which G(y) < delta, into edges[2k], edges[2k+1]; at most MAX_PATCHES.
+def find_patches(y, G, m, first, last, delta, edges):
+    """Intervals of y[first:last+1] on which G(y) < delta, into edges[2k], edges[2k+1]; return their number.
 
-    Returns
-    -------
-    count, touches_end
-        Further patches than MAX_PATCHES are merged into the last; `touches_end`: a patch reaches the end of the data.
+    There are at most MAX_PATCHES; further ones are merged into the last. A patch that reaches the end of the data ends there.
     """
     count = 0
-    inside = G[0] < delta
-    touches_end = inside
+    inside = G[first] < delta
     if inside:
-        edges[0] = y[0]
-    for i in range(n - 1):
-        h = y[i + 1] - y[i]
+        edges[0] = y[first]
+    for i in range(first, last):
         below = G[i + 1] < delta
+        if below == inside and (below or not m[i] < 0.0 < m[i + 1]):
+            continue
+        h = y[i + 1] - y[i]
         if below != inside:
             at = y[i] + h * _crossing(h, G[i], m[i], G[i + 1], m[i + 1], delta, 0.0, 1.0)
             if below:
@@ -119,7 +117,7 @@ def find_patches(y, G, m, n, delta, edges):
                 edges[2 * min(count, MAX_PATCHES - 1) + 1] = at
                 count += 1
             inside = below
-        elif not below and m[i] < 0.0 and m[i + 1] > 0.0:  # a patch narrower than the sample interval
+        else:  # perhaps a patch narrower than the sample interval
             t, least = interval_minimum(h, G[i], m[i], G[i + 1], m[i + 1])
             if least < delta:
                 if count < MAX_PATCHES:
@@ -128,10 +126,9 @@ def find_patches(y, G, m, n, delta, edges):
                 edges[2 * min(count, MAX_PATCHES - 1) + 1] = right
                 count += 1
     if inside:
-        edges[2 * min(count, MAX_PATCHES - 1) + 1] = y[n - 1]
+        edges[2 * min(count, MAX_PATCHES - 1) + 1] = y[last]
         count += 1
-        touches_end = True
-    return min(count, MAX_PATCHES), touches_end
+    return min(count, MAX_PATCHES)
 
 
 @kernel
