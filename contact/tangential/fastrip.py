@@ -134,6 +134,8 @@ def _slip_zone(elements, lanes, trace):
         recall(lanes, trace[k])
         for l in range(LANES):
             load_from, ex, ey = lanes[_LOAD + l], lanes[NOW_X + l], lanes[NOW_Y + l]
+            size = math.sqrt(ex * ex + ey * ey) + 1e-300
+            ex, ey = ex / size, ey / size
             first = load_before if load_before > load_from else load_from
             last = load_end if load_end > load_from else load_from
             moment_from = lanes[_MOMENT + l]
@@ -156,7 +158,7 @@ def _slip_zone(elements, lanes, trace):
             slip = behind if e < 1.0 else whole
             slip = slip if s <= 2.0 * e - 1.0 else 0.0
             lanes[_POWER + l] += sine * dx * slip
-            lanes[NOW_SLIP + l] = slip
+            lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_SLIP + l] = ex, ey, slip
         keep(lanes, trace[k])
         load_before, moment_before = load_end, moment_end
 

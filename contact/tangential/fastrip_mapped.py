@@ -41,7 +41,7 @@ from contact._layout import (
 )
 from contact.quadrature import EL_ATANH, EL_DX, EL_MIDDLE, EL_S, EL_SINE, EL_STEP
 from contact.tangential.fastsim import NO_FRICTION, equivalent_ellipse
-from contact.tangential.lanes import FAR, FREE_ROW, LANES, NOW_SLIP, NOW_USED, NOW_X, NOW_Y, decay, keep, turned
+from contact.tangential.lanes import FAR, FREE_ROW, LANES, NOW_SLIP, NOW_STICK, NOW_X, NOW_Y, decay, keep, lagging, turned
 
 _LOG_ASPECT_FIT = 1.7  # ln(a/b) up to which the constants were fitted; frozen beyond
 
@@ -80,7 +80,7 @@ def mapped(ux, uy, o, n):
 
 
 @kernel
-def slid(s, ex, ey, r, pole, Xs, Ys, spin, from_edge):
+def slid_at(s, ex, ey, r, pole, Xs, Ys, spin, from_edge):
     """Slip of a particle at s that slides along (ex, ey), over the lateral flexibility; 0 or more.
 
     Where the strip slips from its edge this is the march's own slip. Behind a stick zone that ends at s_b the march has
@@ -135,7 +135,10 @@ def elastic_centre(strips, n, table, log_equivalent):
     _TX,
     _TY,
     _SLIPS,
-    _BEFORE,  # |u|² at the element before
+    _USED,  # |u|²
+    _TRIAL_X,  # traction in stick, with its |u|²
+    _TRIAL_Y,
+    _TRIAL_USED,
     _SUM_X,
     _SUM_Y,
     _SUM_M,
@@ -145,7 +148,7 @@ def elastic_centre(strips, n, table, log_equivalent):
     _EY,
     _BOUND,  # mu p0
     _UNIT,  # of slip
-) = (FREE_ROW + row * LANES for row in range(24))
+) = (FREE_ROW + row * LANES for row in range(27))
 
 
 @kernel
@@ -157,7 +160,7 @@ def _set_strip(strips, i, case, table, y_c, y_spin, rho33, lanes, l):
     for row in (_TX, _TY, _SUM_X, _SUM_Y, _SUM_M, _POWER, _STICK):
         lanes[row + l] = 0.0
     if a <= 0.0 or bound <= NO_FRICTION * G:
-        for row in (_X, _Y, _P, _XS, _YS, _SPIN, _RATE, _N, _POLE, _FROM_EDGE, _SLIPS, _BEFORE, _EX, _EY):
+        for row in (_X, _Y, _P, _XS, _YS, _SPIN, _RATE, _N, _POLE, _FROM_EDGE, _SLIPS, _USED, _EX, _EY):
             lanes[row + l] = 0.0
         lanes[_R + l] = 1.0
         return 0.0, 0.0
@@ -195,69 +198,112 @@ def _set_strip(strips, i, case, table, y_c, y_spin, rho33, lanes, l):
     lanes[_XS + l], lanes[_YS + l], lanes[_SPIN + l] = Xs, Ys, spin
     lanes[_R + l], lanes[_RATE + l], lanes[_N + l] = r, math.exp(-0.43 + 0.79 * h - 0.54 * t), m - 0.5
     lanes[_POLE + l] = -min(max(P, -1.0), 1.0)
-    lanes[_FROM_EDGE + l], lanes[_SLIPS + l], lanes[_BEFORE + l] = from_edge, from_edge, min(used, 1.0)
+    lanes[_FROM_EDGE + l], lanes[_SLIPS + l], lanes[_USED + l] = from_edge, from_edge, min(used, 1.0)
     lanes[_EX + l], lanes[_EY + l] = ex, ey
     return bound, 1.0 / (stretch * k22)
 
 
 @kernel
 def _march(elements, lanes, trace):
-    """Steps 3 and 4: march a block of strips, map and sum; leave traction over mu p, slip, 1 in slip in `trace`."""
-    g = 0.0
+    """Steps 3 and 4: march a block of strips, map and sum; leave traction over mu p, slip, share in stick in `trace`."""
+    s = 1.0
     for k in range(elements.shape[1]):
-        s, step, middle = elements[EL_S, k], elements[EL_STEP, k], elements[EL_MIDDLE, k]
-        sine, dx = elements[EL_SINE, k], elements[EL_DX, k]
-        stretch = elements[EL_ATANH, k] if k > 0 else 0.0  # at the edge the direction is that of the equilibrium
-        at_edge = 1e300 if k == 0 else 0.0
-        before, g = g, sine * sine
+        before, s, step, middle = s, elements[EL_S, k], elements[EL_STEP, k], elements[EL_MIDDLE, k]
+        per_bound = 1.0 / elements[EL_SINE, k] ** 2
+        sliding, sticking = 0.0, 0.0
         for l in range(LANES):
-            X, Y, P, r = lanes[_X + l], lanes[_Y + l], lanes[_P + l], lanes[_R + l]
-            Xs, Ys, spin, pole = lanes[_XS + l], lanes[_YS + l], lanes[_SPIN + l], lanes[_POLE + l]
-            x, y, ex, ey, slips = lanes[_TX + l], lanes[_TY + l], lanes[_EX + l], lanes[_EY + l], lanes[_SLIPS + l]
-            used = lanes[_BEFORE + l]
-            wx, wy = Xs, Ys + 2.0 * spin * middle
-            # a particle goes on sliding while its slip is positive; otherwise it sticks again, from the bound before
-            slip = -2.0 * middle * (r * ex * ex + ey * ey) - (wx * ex + wy * ey) + at_edge
-            goes_on = slips if slip > 0.0 else 0.0
-            on_bound_x, on_bound_y = before * ex, before * ey
-            x = on_bound_x if goes_on < slips else x
-            y = on_bound_y if goes_on < slips else y
-            used = 1.0 if goes_on < slips else used
-            # stick: the traction grows; where it passes the bound within the step, the direction turns over the rest of it
-            new_x, new_y = x - step * X, y - step * (Y + 2.0 * P * middle)
-            now = (new_x * new_x + new_y * new_y) / (g * g)
-            share = (1.0 - used) / (now - used + 1e-300)
-            share = share if now > used else 0.0
-            tx, ty = x + share * (new_x - x), y + share * (new_y - y)
-            size = math.sqrt(tx * tx + ty * ty) + 1e-300
-            start_x, start_y = tx / size, ty / size
-            start_x = ex if goes_on > 0.5 else start_x
-            start_y = ey if goes_on > 0.5 else start_y
-            rest = stretch if goes_on > 0.5 else (1.0 - share) * stretch
-            # slip: the direction turns towards -W with unequal flexibilities
-            c = -middle * (1.0 - r)
-            vx, vy = wx + c * start_x, wy - c * start_y
-            w = math.sqrt(vx * vx + vy * vy) + 1e-300
-            distance = lanes[_RATE + l] * w * rest / (r * start_y * start_y + start_x * start_x + 1e-300)
-            distance = distance if distance < FAR else FAR
-            ex, ey = turned(start_x, start_y, vx, vy, w, decay(distance))
-            slips = 1.0 if now > 1.0 else goes_on
-            stick = 1.0 if slips < 0.5 else (1.0 - goes_on) * share
-            map_x, map_y = mapped(new_x / g, new_y / g, pole, lanes[_N + l])
-            qx = ex if slips > 0.5 else map_x
-            qy = ey if slips > 0.5 else map_y
-            slip = slid(s, ex, ey, r, pole, Xs, Ys, spin, lanes[_FROM_EDGE + l]) * slips
-            weight = sine * dx
-            lanes[_TX + l], lanes[_TY + l], lanes[_SLIPS + l], lanes[_BEFORE + l] = new_x, new_y, slips, now
-            lanes[_EX + l], lanes[_EY + l] = ex, ey
-            lanes[_SUM_X + l] += weight * qx
-            lanes[_SUM_Y + l] += weight * qy
-            lanes[_SUM_M + l] += weight * s * qy
-            lanes[_POWER + l] += weight * slip
-            lanes[_STICK + l] += stick * dx
-            lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_SLIP + l] = qx, qy, slip
-            lanes[NOW_USED + l] = slips
+            x = lanes[_TX + l] - step * lanes[_X + l]
+            y = lanes[_TY + l] - step * (lanes[_Y + l] + 2.0 * lanes[_P + l] * middle)
+            used = (x * x + y * y) * per_bound * per_bound
+            lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_TRIAL_USED + l] = x, y, used
+            sliding += 1.0 if used > 1.0 else lanes[_SLIPS + l]
+        if sliding == 0.0:
+            for l in range(LANES):
+                lanes[_TX + l], lanes[_TY + l], lanes[_USED + l] = (
+                    lanes[_TRIAL_X + l],
+                    lanes[_TRIAL_Y + l],
+                    lanes[_TRIAL_USED + l],
+                )
+                lanes[NOW_SLIP + l], lanes[NOW_STICK + l] = 0.0, 1.0
+        else:
+            # at the edge the direction is that of the equilibrium
+            _slide(before, s, step, middle, elements[EL_ATANH, k] if k > 0 else 0.0, 1.0 / per_bound, lanes)
+        for l in range(LANES):
+            sticking += 1.0 - lanes[_SLIPS + l]
+        if sticking > 0.0:
+            for l in range(LANES):
+                x, y = lanes[_TX + l] * per_bound, lanes[_TY + l] * per_bound
+                map_x, map_y = mapped(x, y, lanes[_POLE + l], lanes[_N + l])
+                lanes[NOW_X + l] = lanes[_EX + l] if lanes[_SLIPS + l] > 0.5 else map_x
+                lanes[NOW_Y + l] = lanes[_EY + l] if lanes[_SLIPS + l] > 0.5 else map_y
+        else:
+            for l in range(LANES):
+                lanes[NOW_X + l], lanes[NOW_Y + l] = lanes[_EX + l], lanes[_EY + l]
+        dx = elements[EL_DX, k]
+        weight = elements[EL_SINE, k] * dx
+        for l in range(LANES):
+            lanes[_SUM_X + l] += weight * lanes[NOW_X + l]
+            lanes[_SUM_Y + l] += weight * lanes[NOW_Y + l]
+            lanes[_SUM_M + l] += weight * s * lanes[NOW_Y + l]
+            lanes[_POWER + l] += weight * lanes[NOW_SLIP + l]
+            lanes[_STICK + l] += dx * lanes[NOW_STICK + l]
         keep(lanes, trace[k])
+
+
+@kernel
+def _slide(before, s, step, middle, stretch, bound, lanes):
+    """Step of all strips from `before` to `s` when at least one slides or comes to slide; the others stick as tried.
+
+    As `march._slide`, with unequal flexibilities.
+    """
+    per_bound = 1.0 / bound
+    for l in range(LANES):
+        Xs, Ys, spin, r = lanes[_XS + l], lanes[_YS + l], lanes[_SPIN + l], lanes[_R + l]
+        slid, x, y, ex, ey = lanes[_SLIPS + l], lanes[_TX + l], lanes[_TY + l], lanes[_EX + l], lanes[_EY + l]
+        trial_x, trial_y, used = lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_TRIAL_USED + l]
+        # where the trial traction passes the bound within the step, the direction turns over the rest of it
+        share = (1.0 - lanes[_USED + l]) / (used - lanes[_USED + l] + 1e-300)
+        share = share if used > lanes[_USED + l] else 0.0
+        x, y = x + share * (trial_x - x), y + share * (trial_y - y)
+        size = 1.0 / (math.sqrt(x * x + y * y) + 1e-300)
+        x, y = ex if slid > 0.5 else x * size, ey if slid > 0.5 else y * size
+        rest = 1.0 if slid > 0.5 else 1.0 - share
+        # slip: the direction turns towards -W
+        c = -middle * (1.0 - r)
+        wx, wy = Xs + c * x, Ys + 2.0 * spin * middle - c * y
+        rate = lanes[_RATE + l] * rest * stretch / (r * y * y + x * x + 1e-300)
+        far = rate * math.sqrt(wx * wx + wy * wy)
+        far = far if far < FAR else FAR
+        at = s + rest * step * (1.0 - lagging(far))
+        c = -at * (1.0 - r)
+        wx, wy = Xs + c * x, Ys + 2.0 * spin * at - c * y
+        w = math.sqrt(wx * wx + wy * wy) + 1e-300
+        ex, ey = turned(x, y, wx, wy, w, decay(far))
+        # a particle slides as far as its slip is positive; from there on it sticks
+        slip_before = -2.0 * before * (r * x * x + y * y) - (Xs * x + (Ys + 2.0 * spin * before) * y)
+        slip = -2.0 * s * (r * ex * ex + ey * ey) - (Xs * ex + (Ys + 2.0 * spin * s) * ey)
+        slides = slip_before / (slip_before - slip + 1e-300)
+        slides = slides if slip_before > 0.0 else 0.0
+        sticks = slid if slip < 0.0 else 0.0
+        ux, uy = x + slides * (ex - x), y + slides * (ey - y)
+        at, left = before - slides * step, (1.0 - slides) * step
+        size = (1.0 - at * at) * (1.5 - 0.5 * (ux * ux + uy * uy))
+        again_x = size * ux - left * lanes[_X + l]
+        again_y = size * uy - left * (lanes[_Y + l] + lanes[_P + l] * (at + s))
+        again_used = (again_x * again_x + again_y * again_y) * per_bound * per_bound
+
+        trial_x, trial_y = again_x if sticks > 0.5 else trial_x, again_y if sticks > 0.5 else trial_y
+        again_used = again_used if again_used < 1.0 else 1.0
+        used = again_used if sticks > 0.5 else used
+        stick = 1.0 - slides if sticks > 0.5 else (0.0 if slid > 0.5 else share)
+        slid = 1.0 if used > 1.0 else slid - sticks
+        slip = slid_at(s, ex, ey, r, lanes[_POLE + l], Xs, Ys, spin, lanes[_FROM_EDGE + l])
+        lanes[_TX + l] = bound * ex if slid > 0.5 else trial_x
+        lanes[_TY + l] = bound * ey if slid > 0.5 else trial_y
+        lanes[_EX + l], lanes[_EY + l] = ex, ey
+        lanes[_SLIPS + l], lanes[_USED + l] = slid, used
+        lanes[NOW_SLIP + l] = slip * slid
+        lanes[NOW_STICK + l] = stick if slid + sticks > 0.5 else 1.0
 
 
 @kernel
@@ -294,6 +340,6 @@ def fastrip_mapped(strips, n, case, table, elements, lanes, trace, fields, resul
                 sine = elements[EL_SINE, k]
                 fields[FIELD_QX, i, k], fields[FIELD_QY, i, k] = bound * sine * qx, bound * sine * qy
                 fields[FIELD_SX, i, k], fields[FIELD_SY, i, k] = -slip * qx, -slip * qy
-                fields[FIELD_STICK, i, k] = 1.0 - trace[k, NOW_USED + l] if bound > 0.0 else 0.0
+                fields[FIELD_STICK, i, k] = 1.0 if trace[k, NOW_STICK + l] > 0.5 and bound > 0.0 else 0.0
     result[RES_FX], result[RES_FY], result[RES_MZ] = Fx, Fy, Mz
     result[RES_POWER], result[RES_SLIP_AREA] = power, slip_area

@@ -33,7 +33,7 @@ from contact._layout import (
     STRIP_Y,
 )
 from contact.quadrature import EL_DX, EL_S, EL_SINE
-from contact.tangential.lanes import LANES, NOW_SLIP, NOW_USED, NOW_X, NOW_Y
+from contact.tangential.lanes import LANES, NOW_SLIP, NOW_STICK, NOW_X, NOW_Y
 from contact.tangential.march import ROW_X, ROW_Y, ROW_Z, march
 
 #: A traction bound below this fraction of G is none: creepage over it would overflow.
@@ -90,15 +90,15 @@ def fastsim(strips, n, case, table, elements, lanes, trace, fields, result):
                 peak = 0.0
             for k in range(elements.shape[1]):
                 ex, ey = trace[k, NOW_X + l], trace[k, NOW_Y + l]
-                used, slip = trace[k, NOW_USED + l], trace[k, NOW_SLIP + l]
-                size = peak * used * elements[EL_SINE, k] ** 2
+                stick, slip = trace[k, NOW_STICK + l], trace[k, NOW_SLIP + l]
+                size = peak * elements[EL_SINE, k] ** 2
                 qx, qy = size * ex, size * ey
                 slip *= peak / a if a > 0.0 else 0.0
                 sx, sy = -L1 * slip * ex, -L2 * slip * ey
-                stick = 0.0 if used >= 1.0 or frictionless else 1.0
+                stick = 0.0 if frictionless else stick
                 fields[FIELD_QX, row, k], fields[FIELD_QY, row, k] = qx, qy
                 fields[FIELD_SX, row, k], fields[FIELD_SY, row, k] = sx, sy
-                fields[FIELD_STICK, row, k] = stick
+                fields[FIELD_STICK, row, k] = 1.0 if stick > 0.5 else 0.0
                 dA = a * elements[EL_DX, k] * dy
                 Fx += qx * dA
                 Fy += qy * dA

@@ -12,12 +12,12 @@ from contact._jit import kernel
 LANES = 8
 
 #: First rows of `lanes`: what the present element leaves in a row of `trace` (n_elements, N_TRACE·LANES).
-NOW_X, NOW_Y, NOW_SLIP, NOW_USED = (row * LANES for row in range(4))
+NOW_X, NOW_Y, NOW_SLIP, NOW_STICK = (row * LANES for row in range(4))
 N_TRACE = 4
 FREE_ROW = N_TRACE * LANES
 
 #: Rows that the largest user needs.
-N_LANE_ROWS = 32
+N_LANE_ROWS = 36
 
 #: Bound to the normalised distance over which a direction may turn in one step; beyond it nothing is left to turn.
 FAR = 1e3
@@ -31,6 +31,17 @@ def decay(z):
     p *= p
     p *= p
     return 1.0 / (p * p)
+
+
+@kernel
+def lagging(z):
+    """Share of a step, from its start, at which the rigid slip turns a direction that decays towards it by exp(-z).
+
+    For a rigid slip that changes linearly it is 1/(1 - exp(-z)) - 1/z, from 1/2 to 1 - 1/z; here (1 + L(z/2))/2 with
+    L(x) = coth x - 1/x rational, to .025.
+    """
+    x = 0.5 * z
+    return 0.5 + 0.5 * x * (2.0 + x) / (6.0 + x * (3.0 + x))
 
 
 @kernel
