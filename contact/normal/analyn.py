@@ -38,7 +38,7 @@ from contact._layout import (
     STRIP_Y,
 )
 from contact.hertz import local_factors
-from contact.normal.lay import cubic, find_patches, lay_strips, least_point, locate, slopes
+from contact.normal.lay import at_end, cubic, find_patches, lay_strips, least_point, locate, slopes
 
 #: Half base of the second difference that gives B(y) [m]: a triangular average of g'' with standard deviation 1 mm.
 CURVATURE_HALF_BASE = 2.45e-3
@@ -102,7 +102,7 @@ def lateral_curvature(y, g, m, n, i, below, above):
 
 @kernel
 def _next_node(i, n, stride, direction):
-    """Next of the samples at which B is computed; they lie alike from both ends, so that mirror images have mirrored factors."""
+    """Next of the samples at which B is computed; they lie alike from both ends: mirror images have mirrored factors."""
     left_end = (n - 1) // 2 // stride * stride
     right_start = n - 1 - left_end
     if direction > 0:
@@ -156,6 +156,9 @@ def prepare(y, g, A, n, y_least, g_least, reach, work):
     _, deepest = least_point(y[first : last + 1], gap, slope, last + 1 - first)
     for i in range(first, last + 1):
         work[EFFECTIVE_GAP, i] -= deepest
+    for i in range(n):  # strip_halfspace may lay strips beyond
+        if not first <= i <= last:
+            work[LOG_ASPECT, i] = work[LOG_ASPECT, min(max(i, first), last)]
     return first, last
 
 
@@ -348,8 +351,7 @@ def analyn(y, g, A, xc, case, nodes, weights, work, strips, result):
         for i in range(n_strips):
             strips[STRIP_P0, i] *= load / N
         N = load
-    last_edge = edges[2 * (n_strips // nodes.size) - 1]
-    if result[RES_STATUS] == 1.0 and (edges[0] <= y[0] or last_edge >= y[n - 1]):
+    if result[RES_STATUS] == 1.0 and at_end(y, n, edges, n_strips // nodes.size):
         result[RES_STATUS] = 4.0
     result[RES_N] = N
     result[RES_APPROACH] = delta + g_least

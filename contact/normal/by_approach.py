@@ -27,10 +27,11 @@ from contact._layout import (
 from contact.normal import kik_piotrowski as kp
 from contact.normal import srst as sr
 from contact.normal import stripes
-from contact.normal.analyn import NO_OVERLAP, load_at
+from contact.normal.analyn import NO_OVERLAP, fill_strips
 from contact.normal.cut import share_gap
 from contact.normal.deepest import deepest, unit_load
 from contact.normal.kik_piotrowski_2008 import kik_piotrowski_2008
+from contact.normal.lay import at_end
 from contact.normal.linder import linder
 from contact.normal.winkler import winkler
 from contact.registry import KIK_PIOTROWSKI_2008, LINDER, SRST, STRIPES_A, STRIPES_AB, WINKLER
@@ -59,8 +60,8 @@ def _prepare(method, y, g, A, n, point, work):
 @kernel
 def _load_at(method, y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges):
     if method in (STRIPES_A, STRIPES_AB):
-        N, _, n_strips, touches_end = load_at(y, xc, n, delta, modulus, nodes, weights, work, strips, edges)
-        return N, n_strips, touches_end
+        N, _, n_strips = fill_strips(y, xc, 0, n - 1, delta, modulus, nodes, weights, work, edges, strips)
+        return N, n_strips, at_end(y, n, edges, n_strips // nodes.size)
     if method == KIK_PIOTROWSKI_2008:
         return kik_piotrowski_2008(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
     if method == LINDER:

@@ -11,7 +11,7 @@ from contact._jit import kernel
 from contact._layout import STRIP_A, STRIP_ASPECT, STRIP_DY, STRIP_P0, STRIP_PATCH, STRIP_XC, STRIP_Y
 from contact.normal.analyn import EFFECTIVE_GAP, EFFECTIVE_SLOPE, STRETCHED_A
 from contact.normal.influence import centre_slope
-from contact.normal.lay import cubic, find_patches, lay_strips, locate, slopes
+from contact.normal.lay import at_end, cubic, find_patches, lay_strips, locate, slopes
 
 
 @kernel
@@ -32,7 +32,7 @@ def cut(y, xc, n, level, nodes, weights, work, strips, edges):
     n_strips, touches_end
     """
     G, m, S = work[EFFECTIVE_GAP], work[EFFECTIVE_SLOPE], work[STRETCHED_A]
-    count, touches_end = find_patches(y, G, m, n, level, edges)
+    count = find_patches(y, G, m, 0, n - 1, level, edges)
     n_strips = lay_strips(edges, count, nodes, weights, strips)
     k = 0
     for i in range(n_strips):
@@ -44,7 +44,7 @@ def cut(y, xc, n, level, nodes, weights, work, strips, edges):
         strips[STRIP_A, i] = math.sqrt(depth / ((1.0 - t) * S[k] + t * S[k + 1]))
         strips[STRIP_P0, i] = depth
         strips[STRIP_XC, i] = (1.0 - t) * xc[k] + t * xc[k + 1]
-    return n_strips, touches_end
+    return n_strips, at_end(y, n, edges, count)
 
 
 @kernel

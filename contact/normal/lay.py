@@ -132,6 +132,12 @@ def find_patches(y, G, m, first, last, delta, edges):
 
 
 @kernel
+def at_end(y, n, edges, count):
+    """Whether one of the `count` patches reaches the end of the data."""
+    return count > 0 and (edges[0] <= y[0] or edges[2 * count - 1] >= y[n - 1])
+
+
+@kernel
 def lay_strips(edges, count, nodes, weights, strips):
     """Write y, dy and the label of a panel of strips for every patch; return the number of strips."""
     n = nodes.size

@@ -41,7 +41,20 @@ from contact._layout import (
 )
 from contact.quadrature import EL_ATANH, EL_DX, EL_MIDDLE, EL_S, EL_SINE, EL_STEP
 from contact.tangential.fastsim import NO_FRICTION, equivalent_ellipse
-from contact.tangential.lanes import FAR, FREE_ROW, LANES, NOW_SLIP, NOW_STICK, NOW_X, NOW_Y, decay, keep, lagging, turned
+from contact.tangential.lanes import (
+    FAR,
+    FREE_ROW,
+    LANES,
+    NOW_SLIDES,
+    NOW_SLIP,
+    NOW_STICK,
+    NOW_X,
+    NOW_Y,
+    decay,
+    keep,
+    lagging,
+    turned,
+)
 
 _LOG_ASPECT_FIT = 1.7  # ln(a/b) up to which the constants were fitted; frozen beyond
 
@@ -224,7 +237,7 @@ def _march(elements, lanes, trace):
                     lanes[_TRIAL_Y + l],
                     lanes[_TRIAL_USED + l],
                 )
-                lanes[NOW_SLIP + l], lanes[NOW_STICK + l] = 0.0, 1.0
+                lanes[NOW_SLIP + l], lanes[NOW_SLIDES + l], lanes[NOW_STICK + l] = 0.0, 0.0, 1.0
         else:
             # at the edge the direction is that of the equilibrium
             _slide(before, s, step, middle, elements[EL_ATANH, k] if k > 0 else 0.0, 1.0 / per_bound, lanes)
@@ -239,14 +252,13 @@ def _march(elements, lanes, trace):
         else:
             for l in range(LANES):
                 lanes[NOW_X + l], lanes[NOW_Y + l] = lanes[_EX + l], lanes[_EY + l]
-        dx = elements[EL_DX, k]
-        weight = elements[EL_SINE, k] * dx
+        weight = elements[EL_SINE, k] * elements[EL_DX, k]
         for l in range(LANES):
             lanes[_SUM_X + l] += weight * lanes[NOW_X + l]
             lanes[_SUM_Y + l] += weight * lanes[NOW_Y + l]
             lanes[_SUM_M + l] += weight * s * lanes[NOW_Y + l]
             lanes[_POWER + l] += weight * lanes[NOW_SLIP + l]
-            lanes[_STICK + l] += dx * lanes[NOW_STICK + l]
+            lanes[_STICK + l] += step * lanes[NOW_STICK + l]
         keep(lanes, trace[k])
 
 
@@ -284,16 +296,16 @@ def _slide(before, s, step, middle, stretch, bound, lanes):
         slip = -2.0 * s * (r * ex * ex + ey * ey) - (Xs * ex + (Ys + 2.0 * spin * s) * ey)
         slides = slip_before / (slip_before - slip + 1e-300)
         slides = slides if slip_before > 0.0 else 0.0
-        sticks = slid if slip < 0.0 else 0.0
         ux, uy = x + slides * (ex - x), y + slides * (ey - y)
         at, left = before - slides * step, (1.0 - slides) * step
         size = (1.0 - at * at) * (1.5 - 0.5 * (ux * ux + uy * uy))
         again_x = size * ux - left * lanes[_X + l]
         again_y = size * uy - left * (lanes[_Y + l] + lanes[_P + l] * (at + s))
         again_used = (again_x * again_x + again_y * again_y) * per_bound * per_bound
+        sticks = slid if slip < 0.0 else 0.0
+        sticks = sticks if again_used < 1.0 else 0.0
 
         trial_x, trial_y = again_x if sticks > 0.5 else trial_x, again_y if sticks > 0.5 else trial_y
-        again_used = again_used if again_used < 1.0 else 1.0
         used = again_used if sticks > 0.5 else used
         stick = 1.0 - slides if sticks > 0.5 else (0.0 if slid > 0.5 else share)
         slid = 1.0 if used > 1.0 else slid - sticks
@@ -303,6 +315,7 @@ def _slide(before, s, step, middle, stretch, bound, lanes):
         lanes[_EX + l], lanes[_EY + l] = ex, ey
         lanes[_SLIPS + l], lanes[_USED + l] = slid, used
         lanes[NOW_SLIP + l] = slip * slid
+        lanes[NOW_SLIDES + l] = slid
         lanes[NOW_STICK + l] = stick if slid + sticks > 0.5 else 1.0
 
 
@@ -314,9 +327,7 @@ def fastrip_mapped(strips, n, case, table, elements, lanes, trace, fields, resul
     y_c, y_spin, rho33 = 0.0, 0.0, 1.0
     if a_e > 0.0:
         y_c, y_spin, rho33 = elastic_centre(strips, n, table, math.log(a_e / b_e))
-    length = 0.0  # of a strip over a, by the elements
-    for k in range(elements.shape[1]):
-        length += elements[EL_DX, k]
+    behind = 1.0 + elements[EL_S, -1]  # the middle of the last element
     for block in range(0, n, LANES):
         for l in range(LANES):
             bound, unit = _set_strip(strips, min(block + l, n - 1), case, table, y_c, y_spin, rho33, lanes, l)
@@ -331,8 +342,8 @@ def fastrip_mapped(strips, n, case, table, elements, lanes, trace, fields, resul
             Fy += load * lanes[_SUM_Y + l]
             Mz += load * (a * lanes[_SUM_M + l] + xc * lanes[_SUM_Y + l] - y * lanes[_SUM_X + l])
             power += load * lanes[_POWER + l] * unit
-            stick = lanes[_STICK + l] if bound > 0.0 else 0.0
-            slip_area += (length - stick) * a * dy
+            stick = lanes[_STICK + l] + behind * (1.0 - lanes[_SLIPS + l]) if bound > 0.0 else 0.0
+            slip_area += max(2.0 - stick, 0.0) * a * dy
             if i >= fields.shape[1]:  # only forces are asked for
                 continue
             for k in range(elements.shape[1]):
@@ -340,6 +351,6 @@ def fastrip_mapped(strips, n, case, table, elements, lanes, trace, fields, resul
                 sine = elements[EL_SINE, k]
                 fields[FIELD_QX, i, k], fields[FIELD_QY, i, k] = bound * sine * qx, bound * sine * qy
                 fields[FIELD_SX, i, k], fields[FIELD_SY, i, k] = -slip * qx, -slip * qy
-                fields[FIELD_STICK, i, k] = 1.0 if trace[k, NOW_STICK + l] > 0.5 and bound > 0.0 else 0.0
+                fields[FIELD_STICK, i, k] = 1.0 - trace[k, NOW_SLIDES + l] if bound > 0.0 else 0.0
     result[RES_FX], result[RES_FY], result[RES_MZ] = Fx, Fy, Mz
     result[RES_POWER], result[RES_SLIP_AREA] = power, slip_area

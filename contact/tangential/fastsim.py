@@ -32,8 +32,8 @@ from contact._layout import (
     STRIP_XC,
     STRIP_Y,
 )
-from contact.quadrature import EL_DX, EL_S, EL_SINE
-from contact.tangential.lanes import LANES, NOW_SLIP, NOW_STICK, NOW_X, NOW_Y
+from contact.quadrature import EL_DX, EL_S, EL_SINE, EL_STEP
+from contact.tangential.lanes import LANES, NOW_SLIDES, NOW_SLIP, NOW_STICK, NOW_X, NOW_Y
 from contact.tangential.march import ROW_X, ROW_Y, ROW_Z, march
 
 #: A traction bound below this fraction of G is none: creepage over it would overflow.
@@ -98,12 +98,14 @@ def fastsim(strips, n, case, table, elements, lanes, trace, fields, result):
                 stick = 0.0 if frictionless else stick
                 fields[FIELD_QX, row, k], fields[FIELD_QY, row, k] = qx, qy
                 fields[FIELD_SX, row, k], fields[FIELD_SY, row, k] = sx, sy
-                fields[FIELD_STICK, row, k] = 1.0 if stick > 0.5 else 0.0
+                fields[FIELD_STICK, row, k] = 0.0 if frictionless else 1.0 - trace[k, NOW_SLIDES + l]
                 dA = a * elements[EL_DX, k] * dy
                 Fx += qx * dA
                 Fy += qy * dA
                 Mz += ((strips[STRIP_XC, i] + a * elements[EL_S, k]) * qy - y * qx) * dA
                 power -= (qx * sx + qy * sy) * dA
-                slip_area += (1.0 - stick) * dA
+                slip_area += (1.0 - stick) * elements[EL_STEP, k] * a * dy
+            slides = 1.0 if frictionless else trace[elements.shape[1] - 1, NOW_SLIDES + l]
+            slip_area += slides * (1.0 + elements[EL_S, -1]) * a * dy  # behind the last element's middle
     result[RES_FX], result[RES_FY], result[RES_MZ] = Fx, Fy, Mz
     result[RES_POWER], result[RES_SLIP_AREA] = power, slip_area

@@ -12,12 +12,12 @@ from contact._jit import kernel
 LANES = 8
 
 #: First rows of `lanes`: what the present element leaves in a row of `trace` (n_elements, N_TRACE·LANES).
-NOW_X, NOW_Y, NOW_SLIP, NOW_STICK = (row * LANES for row in range(4))
-N_TRACE = 4
+NOW_X, NOW_Y, NOW_SLIP, NOW_SLIDES, NOW_STICK = (row * LANES for row in range(5))
+N_TRACE = 5
 FREE_ROW = N_TRACE * LANES
 
 #: Rows that the largest user needs.
-N_LANE_ROWS = 36
+N_LANE_ROWS = 40
 
 #: Bound to the normalised distance over which a direction may turn in one step; beyond it nothing is left to turn.
 FAR = 1e3

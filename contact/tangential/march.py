@@ -14,7 +14,20 @@ import math
 
 from contact._jit import kernel
 from contact.quadrature import EL_ATANH, EL_MIDDLE, EL_S, EL_SINE, EL_STEP
-from contact.tangential.lanes import FAR, FREE_ROW, LANES, NOW_SLIP, NOW_STICK, NOW_X, NOW_Y, decay, keep, lagging, turned
+from contact.tangential.lanes import (
+    FAR,
+    FREE_ROW,
+    LANES,
+    NOW_SLIDES,
+    NOW_SLIP,
+    NOW_STICK,
+    NOW_X,
+    NOW_Y,
+    decay,
+    keep,
+    lagging,
+    turned,
+)
 
 # rows of `lanes` that the caller sets (X, Y, Z) and that the march keeps: traction, 1 in slip, utilisation squared, and the
 # trial traction in stick with its utilisation squared
@@ -26,7 +39,8 @@ FREE_BEHIND_MARCH = FREE_ROW + 10 * LANES
 
 @kernel
 def march(elements, lanes, trace):
-    """March from the leading edge; leave traction over the bound, slip and the share in stick of each element in `trace`.
+    """March from the leading edge; leave traction over the bound and slip at each element in `trace`, and the share of the
+    step to it in stick.
 
     The slip is in units of flexibility times the bound's peak over a. In stick the traction is exact, spin included.
     """
@@ -56,7 +70,7 @@ def march(elements, lanes, trace):
                 x, y = lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l]
                 lanes[_TX + l], lanes[_TY + l], lanes[_USED + l] = x, y, lanes[_TRIAL_USED + l]
                 lanes[NOW_X + l], lanes[NOW_Y + l] = x * per_bound, y * per_bound
-                lanes[NOW_SLIP + l], lanes[NOW_STICK + l] = 0.0, 1.0
+                lanes[NOW_SLIP + l], lanes[NOW_SLIDES + l], lanes[NOW_STICK + l] = 0.0, 0.0, 1.0
         else:
             _slide(before, s, step, middle, stretch, bound, lanes)
         keep(lanes, trace[k])
@@ -88,15 +102,15 @@ def _slide(before, s, step, middle, stretch, bound, lanes):
         slip = -(X * ex + (Y + Z * s) * ey) - 2.0 * s
         slides = slip_before / (slip_before - slip + 1e-300)
         slides = slides if slip_before > 0.0 else 0.0
-        sticks = slid if slip < 0.0 else 0.0
         ux, uy = x + slides * (ex - x), y + slides * (ey - y)
         at, left = before - slides * step, (1.0 - slides) * step
         size = (1.0 - at * at) * (1.5 - 0.5 * (ux * ux + uy * uy))
         again_x, again_y = size * ux - left * X, size * uy - left * (Y + 0.5 * Z * (at + s))
         again_used = (again_x * again_x + again_y * again_y) * per_bound * per_bound
+        sticks = slid if slip < 0.0 else 0.0
+        sticks = sticks if again_used < 1.0 else 0.0
 
         trial_x, trial_y = again_x if sticks > 0.5 else trial_x, again_y if sticks > 0.5 else trial_y
-        again_used = again_used if again_used < 1.0 else 1.0
         used = again_used if sticks > 0.5 else used
         slid = 1.0 if used > 1.0 else slid - sticks
         stick = 1.0 - slides if sticks > 0.5 else (0.0 if lanes[_SLIPS + l] > 0.5 else share)
@@ -106,4 +120,5 @@ def _slide(before, s, step, middle, stretch, bound, lanes):
         lanes[_TY + l] = bound * ey if slid > 0.5 else trial_y
         lanes[_SLIPS + l], lanes[_USED + l] = slid, used
         lanes[NOW_SLIP + l] = slip * slid if slip > 0.0 else 0.0
+        lanes[NOW_SLIDES + l] = slid
         lanes[NOW_STICK + l] = stick if slid + sticks > 0.5 else 1.0
