@@ -140,11 +140,10 @@ def prepare(y, g, A, n, y_least, g_least, reach, work):
             _prepare_sample(A, B, g, g_least, i, work)
             _between(y, g, A, g_least, min(before, i), max(before, i), work)
             if beyond == 0 and work[EFFECTIVE_GAP, i] >= reach:
-                beyond = 1  # and one node more, so that the slope at the edge of a patch has both neighbours
-                for j in range(i, end, direction):
-                    if g[j + direction] < min(g[j], lobe):
-                        beyond = 0
-                        break
+                j = i
+                while j != end and g[j + direction] >= min(g[j], lobe):
+                    j += direction
+                beyond = 1 if j == end else 0  # and one node more: the slope at the edge of a patch has both neighbours
             elif beyond == 1:
                 beyond = 2
         ends = (i, ends[1]) if direction < 0 else (ends[0], i)
