@@ -21,6 +21,14 @@ LOG_CATEGORIES = {
     "logStatusDiscard": "A step that was not done: a value is outside its range",
     "logStatusError": "A call that is not allowed, or a defect of the FMU",
 }
+#: What every description says of where the FMU comes from; not when it was built, so that it can be built again.
+ORIGIN = {
+    "author": "the wheelrail-contact authors",
+    "version": __version__,
+    "copyright": "Copyright (c) 2026 the wheelrail-contact authors",
+    "license": "MIT, see documentation/licenses",
+    "generationTool": f"wheelrail-contact {__version__}",
+}
 STOP_TIME = 1.0  # of the default experiment [s]
 
 #: FMI interface ("CoSimulation", "ModelExchange") → attributes of its element besides modelIdentifier
@@ -48,8 +56,7 @@ def _root(table: Table, interfaces: Interfaces) -> Element:
         modelName=table.name,
         guid="",
         description=table.description,
-        version=__version__,
-        generationTool=f"wheelrail-contact {__version__}",
+        **ORIGIN,
         variableNamingConvention="structured",
     )
     for interface, attributes in interfaces.items():

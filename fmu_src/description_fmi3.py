@@ -6,8 +6,7 @@ import math
 from collections.abc import Iterator
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from contact import __version__
-from fmu_src.description import Interfaces, experiment, number, units
+from fmu_src.description import ORIGIN, Interfaces, experiment, number, units
 from fmu_src.variables import Causality, Kind, Scalar, Table, Variable
 
 _TYPES = {Kind.REAL: "Float64", Kind.INTEGER: "Int64", Kind.BOOLEAN: "Boolean", Kind.ENUMERATION: "Enumeration"}
@@ -21,8 +20,7 @@ def model_description(table: Table, interfaces: Interfaces, token: str) -> str:
         modelName=table.name,
         instantiationToken=token,
         description=table.description,
-        version=__version__,
-        generationTool=f"wheelrail-contact {__version__}",
+        **ORIGIN,
         variableNamingConvention="structured",
     )
     for interface, attributes in interfaces.items():

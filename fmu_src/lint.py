@@ -1,5 +1,6 @@
-"""Rules for FMUs (FMI 2.0.5) that the validators we know do not check: ``python -m fmu_src.lint FILE.fmu …``
+"""Rules for FMUs that the validators we know do not check: ``python -m fmu_src.lint FILE.fmu …``
 
+Those for descriptions are of FMI 2.0.5; fmpy checks more of one of FMI 3.0.
 Each rule is a function from the root of a modelDescription.xml to findings; its docstring is the rule.
 """
 
@@ -34,12 +35,14 @@ _VARIABILITY = {
     "local": {"constant", "fixed", "tunable", "discrete", "continuous"},
     "independent": {"continuous"},
 }
-_LIBRARIES = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib", "linux32": ".so", "win32": ".dll"}
+_LIBRARIES = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib", "x86_64-linux": ".so", "x86_64-windows": ".dll"}
 
 
 def check(description: str) -> list[str]:
-    """Return what is wrong with the text of a modelDescription.xml."""
+    """Return what is wrong with the text of a modelDescription.xml, for versions other than 2.0 nothing."""
     root = ElementTree.fromstring(description)
+    if root.get("fmiVersion") != "2.0":
+        return []
     return [f"{rule.__doc__} {finding}" for rule in RULES for finding in rule(root)]
 
 
@@ -304,7 +307,7 @@ def libraries_are_named(root: Element, files: dict[str, bytes]) -> Iterator[str]
 
 def guid_is_the_same(root: Element, files: dict[str, bytes]) -> Iterator[str]:
     """The guid is also in every library, or in the script if there is one:"""
-    guid = root.get("guid", "").encode()
+    guid = (root.get("guid") or root.get("instantiationToken", "")).encode()
     scripts = {name for name in files if re.fullmatch(r"resources/[^/]+\.py", name)}
     for name in scripts or {name for name in files if name.startswith("binaries/")}:
         if not guid or guid not in files[name]:

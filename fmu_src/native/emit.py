@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import struct
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -38,6 +39,9 @@ CPUS = {"v2": "x86-64-v2", "v3": "x86-64-v3"}
 #: reference is counted and no exception raised (its pickled message would remain).
 _LIBM = {"acos", "asin", "asinh", "atan", "atan2", "atanh", "cos", "exp", "log", "pow", "sin", "sqrt", "fabs"}
 ALLOWED = _LIBM | {"memset", "memcpy", "memmove"}
+
+#: Platforms whose exp, log and pow come with the FMU, once for every processor: `libm.py`.
+OWN_LIBM = {"win64"}
 
 
 def objects(folder: Path, platform: str) -> list[Path]:
@@ -73,6 +77,8 @@ def emit(component: Component, folder: Path) -> None:
             _optimise(compiled, machine, triple)
             _refuse_the_rest(compiled, platform)
             _write(compiled, machine, triple, path)
+            if platform in OWN_LIBM:
+                path.write_bytes(_with_own_libm(path.read_bytes(), suffix))
 
 
 def _write(module: Any, machine: Any, triple: str, path: Path) -> None:
@@ -173,6 +179,21 @@ def _optimise(module: Any, machine: Any, triple: str) -> None:
     options = llvm.create_pipeline_tuning_options(speed_level=3)
     builder = llvm.create_pass_builder(machine, options)
     builder.getModulePassManager().run(module, builder)
+
+
+def _with_own_libm(code: bytes, suffix: str) -> bytes:
+    """A COFF object that asks for exp_v3 … instead of exp, log and pow.
+
+    In the object, as LLVM takes calls of vectors apart only when it writes it. Its table has 18 bytes a symbol, of which 8
+    are a short name and 2, from the 13th on, the section, zero for what is elsewhere.
+    """
+    changed = bytearray(code)
+    table, count = struct.unpack_from("<II", code, 8)
+    for at in range(table, table + 18 * count, 18):
+        name = changed[at : at + 8].rstrip(b"\0")
+        if name in (b"exp", b"log", b"pow") and changed[at + 12 : at + 14] == b"\0\0":
+            changed[at : at + 8] = (name + f"_{suffix}".encode()).ljust(8, b"\0")
+    return bytes(changed)
 
 
 def _refuse_the_rest(module: Any, platform: str) -> None:

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import json
-import shutil
 import subprocess
 import sys
 from collections.abc import Callable
-from importlib.metadata import distribution, version
-from importlib.util import find_spec
+from importlib.metadata import version
 from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -25,7 +23,9 @@ from fmu_src.description import model_description
 from fmu_src.description_fmi3 import model_description as description_fmi3
 from fmu_src.documentation import markdown
 from fmu_src.native import source
-from fmu_src.native.emit import TRIPLES, objects
+from fmu_src.native.emit import OWN_LIBM, TRIPLES, objects
+from fmu_src.native.libm import compile_libm
+from fmu_src.native.licences import licences
 
 _COMMON = {
     "needsExecutionTool": "false",
@@ -66,7 +66,6 @@ FLAGS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-Wall",
 _LINKED_AS = {"linux64": ".so", "win64": ".dll"}
 _FMI3 = {"linux64": "x86_64-linux", "win64": "x86_64-windows"}
 _ZIG = {"linux64": "x86_64-linux-gnu.2.17", "win64": "x86_64-windows-gnu"}
-_GCC = {"linux64": "gcc", "win64": "x86_64-w64-mingw32-gcc"}
 
 
 def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -> list[Path]:
@@ -94,7 +93,7 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -
         documents = [
             (f"documentation/{table.name}.md", markdown(table).encode()),
             *((f"resources/{resource}", content) for resource, content in model.resources.items()),
-            *((f"documentation/licenses/{name}.txt", text.encode()) for name, text in _licences()),
+            *((f"documentation/licenses/{name}", text.encode()) for name, text in licences(HEADERS)),
         ]
         libraries = {}
         for platform, parts in objects_of.items():
@@ -121,20 +120,18 @@ def link(platform: str, name: str, kernels: list[Path], generated: Path) -> Path
     library = generated / platform / (name + _LINKED_AS[platform])
     library.parent.mkdir(exist_ok=True)
     sources = [*sorted(WRAPPER.glob("*.c")), generated / "model.c"]
+    libm = compile_libm(compiler(platform), library.parent, run) if platform in OWN_LIBM else []
     run(
-        *compiler(platform), *FLAGS, f"-I{generated}", f"-I{WRAPPER}", f"-I{HEADERS}", *sources, *kernels, "-o", library,
+        *compiler(platform), *FLAGS, f"-I{generated}", f"-I{WRAPPER}", f"-I{HEADERS}", *sources, *kernels, *libm,
+        "-o", library,
         *(["-fPIC", "-Wl,-z,defs", "-lm"] if platform == "linux64" else []),
     )  # fmt: skip
     return library
 
 
 def compiler(platform: str) -> list[str]:
-    """Command of a C compiler for a platform: zig from PyPI, or Debian's gcc and mingw-w64."""
-    if find_spec("ziglang"):
-        return [sys.executable, "-m", "ziglang", "cc", "-target", _ZIG[platform], "-fno-sanitize=undefined"]
-    if shutil.which(_GCC[platform]):
-        return [_GCC[platform]]
-    raise RuntimeError(f"no C compiler for {platform}: pip install '.[native]', or install {_GCC[platform]}")
+    """Command of the C compiler for a platform."""
+    return [sys.executable, "-m", "ziglang", "cc", "-target", _ZIG[platform], "-fno-sanitize=undefined"]
 
 
 def run(*command: str | Path) -> None:
@@ -158,8 +155,3 @@ def kernels(model: Model, cache: Path, say: Callable[[str], None]) -> dict[str, 
         folder.mkdir(parents=True, exist_ok=True)
         run(sys.executable, "-m", "fmu_src.native.emit", model.name, options, folder)
     return paths
-
-
-def _licences() -> list[tuple[str, str]]:
-    found = ((name, distribution(name).read_text("licenses/LICENSE")) for name in ("wheelrail-contact",))
-    return [(name, text) for name, text in found if text]

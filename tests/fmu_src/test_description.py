@@ -1,6 +1,8 @@
 """The description that a table becomes, for every FMU of both packagings."""
 
 import re
+from importlib.metadata import version
+from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
@@ -72,6 +74,16 @@ def test_every_unit_is_defined_with_the_dimension_that_its_name_says(xml):
 def test_inputs_and_parameters_precede_outputs_in_the_table(table):
     order = [row.causality for row in table.rows]
     assert order == sorted(order, key=[Causality.PARAMETER, Causality.INPUT, Causality.OUTPUT].index)
+
+
+def test_it_names_authors_licence_and_version(xml):
+    licence = (Path(__file__).parents[2] / "LICENSE").read_text()
+    assert xml.get("copyright") in licence
+    assert xml.get("author") in xml.get("copyright")
+    assert xml.get("license").startswith(licence.split()[0])
+    assert xml.get("version") == contact.__version__
+    assert xml.get("generationTool") == f"wheelrail-contact {contact.__version__}"
+    assert contact.__version__ == version("wheelrail-contact")
 
 
 def test_guid_follows_the_content():

@@ -5,8 +5,8 @@
 #include "instance.h"
 
 typedef struct {
-    char guid[sizeof MODEL_GUID];
     uint64_t checksum; /* of everything behind it */
+    char guid[sizeof MODEL_GUID];
     int64_t size;      /* of the whole block in bytes */
     int64_t type;
     int64_t memory_size;
@@ -17,7 +17,7 @@ typedef struct {
 static uint64_t checksum(const State *state)
 {
     uint64_t hash = 14695981039346656037u; /* FNV-1a */
-    const unsigned char *from = (const unsigned char *)&state->size, *to = (const unsigned char *)state + state->size;
+    const unsigned char *from = (const unsigned char *)state->guid, *to = (const unsigned char *)state + state->size;
     while (from < to) hash = (hash ^ *from++) * 1099511628211u;
     return hash;
 }

@@ -1,0 +1,41 @@
+"""Licences of all that is in a native FMU, for its folder documentation/licenses."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from importlib.metadata import distribution
+from pathlib import Path
+
+from fmu_src.native.libm import ZIG
+
+_OVERVIEW = """\
+What is in this FMU, and under which licence:
+
+wheelrail-contact.txt   the model, on all platforms (MIT)
+fmi.txt                 the declarations of the Functional Mock-up Interface that it is compiled with (2-clause BSD)
+
+In the library for Windows, linked into it by zig, besides these:
+mingw-w64.txt           start-up code (Zope Public License 2.1, parts in the public domain)
+zig.txt                 compiler-rt: memory and mathematical functions (MIT)
+musl.txt                exp, log and pow, by Arm; mathematical functions that zig has translated (MIT)
+"""
+
+
+def licences(headers: Path) -> Iterator[tuple[str, str]]:
+    """Names and texts of the files; the FMI project's headers are in `headers`.
+
+    The library for Linux has nothing linked into it that is not ours.
+    """
+    own = distribution("wheelrail-contact").read_text("licenses/LICENSE")
+    assert own is not None
+    interface = (headers / "fmi2Functions.h").read_text()
+    interface = interface[interface.index("Copyright") :]
+    yield "license.txt", _OVERVIEW
+    yield "wheelrail-contact.txt", own
+    yield "fmi.txt", interface[: interface.index("*/")].rstrip() + "\n"
+    for name, path in (
+        ("zig", "LICENSE"),
+        ("mingw-w64", "lib/libc/mingw/COPYING"),
+        ("musl", "lib/libc/musl/COPYRIGHT"),
+    ):
+        yield f"{name}.txt", (ZIG / path).read_text()
