@@ -23,6 +23,7 @@ demo: $(READY)   ## build the FMUs, run the coupled wheelset, leave pictures and
 
 fmu: $(READY)    ## build the FMUs into dist/
 	$(BIN)/python build_fmu.py
+	$(BIN)/python -m fmu_src.lint dist/*.fmu dist/native/*.fmu dist/native/fmi3/*.fmu
 
 test: $(READY)   ## run the tests
 	$(BIN)/python -m pytest -n 2
@@ -46,6 +47,7 @@ coupling: $(READY) ## the largest stable steps of the coupling schemes, into doc
 
 bench: $(READY)  ## the speed table
 	PYTHONPATH=. $(BIN)/python benchmarks/speed.py
+	PYTHONPATH=. $(BIN)/python benchmarks/fmu_speed.py
 
 pictures: $(READY) ## the pictures of the README
 	$(BIN)/python docs/pictures/make.py

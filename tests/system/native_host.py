@@ -1,4 +1,4 @@
-"""The hosts in C, `native_host.c` and `native_host_fmi3.c`, compiled for a platform and run over a native FMU."""
+"""The hosts in C, in the folder `host`, compiled for a platform and run over a native WheelRailContact."""
 
 import os
 import subprocess
@@ -10,16 +10,21 @@ import numpy as np
 from contact_case import NAME
 from random_cases import OUTPUTS, POINTS, Case
 
+from fmu_src.catalogue import models
 from fmu_src.native import source
-from fmu_src.native.packaging import HEADERS, compiler
+from fmu_src.native.packaging import HEADERS, compiler, kernels, run
 from fmu_src.native.wheel_rail_contact import component
 
-#: Name that a version of FMI has for a platform → that of the builder, and the host's source.
+ROOT = Path(__file__).parents[2]
+HOST = Path(__file__).with_name("host")
+_FMI2 = ("fmi2.c", "calls.c", "runs.c", "speed.c")
+_FMI3 = ("fmi3.c",)
+#: Name that a version of FMI has for a platform → that of the builder, and the host's sources.
 PLATFORMS = {
-    "linux64": ("linux64", "native_host.c"),
-    "win64": ("win64", "native_host.c"),
-    "x86_64-linux": ("linux64", "native_host_fmi3.c"),
-    "x86_64-windows": ("win64", "native_host_fmi3.c"),
+    "linux64": ("linux64", _FMI2),
+    "win64": ("win64", _FMI2),
+    "x86_64-linux": ("linux64", _FMI3),
+    "x86_64-windows": ("win64", _FMI3),
 }
 SUFFIX = {"linux64": ("so", ""), "win64": ("dll", ".exe")}
 
@@ -36,20 +41,16 @@ class Host:
         self.program = folder / f"host{program}"
         libraries = ["-ldl", "-lpthread", "-lm"] if own == "linux64" else []
         flags = ["-std=gnu11", "-O1", f"-I{folder}", f"-I{HEADERS}", *extra]
-        command = [*compiler(own), *flags, Path(__file__).with_name(code), "-o", self.program, *libraries]
-        subprocess.run(list(map(str, command)), check=True, timeout=300)
+        sources = [HOST / name for name in ("common.c", *code)]
+        run(*compiler(own), *flags, *sources, "-o", self.program, *libraries)
         self.prefix = [] if own == "linux64" else ["wine"]
         self.environment = os.environ | {"WINEPREFIX": str(folder / "wine"), "WINEDEBUG": "-all"}
 
-    def __call__(self, command: str, argument: int = 0, stdin: str | None = None, before: tuple[str, ...] = ()) -> str:
-        """Run a command of the host; return what it prints."""
+    def __call__(self, command: str, *arguments: object, stdin: str | None = None, before: tuple[str, ...] = ()) -> str:
+        """Run a command of the host, the first argument a number; return what it prints."""
+        words = [*before, *self.prefix, self.program, self.library, self.guid, command, *(arguments or (0,))]
         done = subprocess.run(
-            [*before, *self.prefix, self.program, self.library, self.guid, command, str(argument)],
-            input=stdin,
-            capture_output=True,
-            text=True,
-            timeout=300,
-            env=self.environment,
+            list(map(str, words)), input=stdin, capture_output=True, text=True, timeout=300, env=self.environment
         )
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
         return done.stdout
@@ -65,3 +66,16 @@ class Host:
             lines.append(f"{len(case.values)} {' '.join(words)}")
         rows = np.loadtxt(self("cases", stdin="\n".join(lines)).splitlines(), ndmin=2)
         return rows[:, [names.index(name) - names.index("force.x") for name in OUTPUTS]]
+
+
+def kernel_objects() -> list[Path]:
+    """The compiled kernels for Linux, which are kept when the FMU is built."""
+    return kernels(models(POINTS)[0], ROOT / "build" / "native", print)["linux64"]
+
+
+def kernel_library(folder: Path, cpu: str) -> Path:
+    """A library for Linux of the kernels for a processor alone: size, prepare and outputs."""
+    library = folder / f"kernels_{cpu}.so"
+    source = Path(__file__).with_name("kernels.c")
+    run(*compiler("linux64"), "-shared", "-fPIC", f"-DCPU={cpu}", source, *kernel_objects(), "-o", library, "-lm")
+    return library

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from contact_case import CREEPAGES, posed
+from contact_case import CREEPAGES, geometry, posed
 
 
 @pytest.fixture
@@ -49,6 +49,25 @@ def test_directional_derivatives_are_those_of_the_solver(open_native, scale):
         wanted = (found[0] - 8.0 * found[1] + 8.0 * found[2] - found[3]) / (12.0 * h)
         bound = 1e-4 * max(abs(wanted), 1e-3 * abs(fmu[unknown] / at))
         assert slope == pytest.approx(wanted, abs=bound), (unknown, known)
+
+
+@pytest.mark.parametrize("scale", [0.02, 0.5])
+def test_forces_by_the_scale_of_the_geometry(open_native, scale):
+    """Along (g, A) itself, all 82 samples at once: the contact becomes flatter or sharper."""
+    fmu = posed(open_native("ModelExchange"))
+    fmu.update({name: scale * value for name, value in CREEPAGES.items()})
+    fmu.initialize()
+    start = geometry()
+    unknowns = ("force.x", "force.y", "moment.z", "approach", "pressure.max")
+    references = ([fmu.variables[name].valueReference for name in names] for names in (unknowns, start))
+    slopes = fmu.fmu.getDirectionalDerivative(*references, list(start.values()))
+    h, found = 3e-6, []
+    for k in (-2, -1, 1, 2):
+        fmu.update({name: (1.0 + k * h) * value for name, value in start.items()})
+        found.append(np.array(list(fmu.read(unknowns).values())))
+    wanted = (found[0] - 8.0 * found[1] + 8.0 * found[2] - found[3]) / (12.0 * h)
+    np.testing.assert_allclose(slopes, wanted, rtol=1e-4)
+    assert (np.abs(wanted) > 0.01 * np.abs(found[0])).all()
 
 
 def test_a_directional_derivative_adds_up_what_its_seed_says(open_native):

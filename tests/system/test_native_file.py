@@ -8,10 +8,41 @@ from contact_case import NAME
 from fmpy.validation import validate_fmu
 
 import contact
+from fmu_src import lint
 
 
 def test_fmpy_finds_no_problem(native):
     assert validate_fmu(str(native)) == []
+
+
+def test_our_own_rules_find_no_problem(native, fmus):
+    files = [*native.parent.rglob("*.fmu"), *fmus.glob("*.fmu")]
+    assert len(files) > 3
+    assert {path.name: lint.check_file(path) for path in files if lint.check_file(path)} == {}
+
+
+def test_what_is_linked_in_is_listed_with_its_licence(native_folder):
+    folder = native_folder / "documentation" / "licenses"
+    texts = {path.name: path.read_text() for path in folder.iterdir()}
+    overview = texts.pop("license.txt")
+    assert set(re.findall(r"^[\w-]+\.txt", overview, re.MULTILINE)) == set(texts)
+    for name, words in {
+        "wheelrail-contact.txt": "MIT License",
+        "fmi.txt": "Redistributions in binary form must reproduce",
+        "mingw-w64.txt": "Zope Public License",
+        "zig.txt": "Copyright (c) Zig contributors",
+        "musl.txt": "Arm Limited",
+    }.items():
+        assert words in texts[name], name
+
+
+def test_the_windows_library_needs_windows_alone(native_folder):
+    content = (native_folder / "binaries" / "win64" / f"{NAME}.dll").read_bytes()
+    needed = {name.decode().lower() for name in re.findall(rb"[\w-]+\.dll", content, re.IGNORECASE)} - {
+        f"{NAME}.dll".lower()
+    }
+    assert "kernel32.dll" in needed
+    assert all(name == "kernel32.dll" or name.startswith("api-ms-win-crt-") for name in needed)
 
 
 def test_the_library_needs_the_c_library_alone(native_folder):

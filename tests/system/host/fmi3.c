@@ -1,6 +1,6 @@
-/* A host in C for the native FMU of FMI 3.0: native_host_fmi3 LIBRARY TOKEN COMMAND [ARGUMENT]. */
+/* A host in C for the native FMU of FMI 3.0: LIBRARY TOKEN COMMAND [ARGUMENT]. */
+#include "common.h"
 #include "fmi3FunctionTypes.h"
-#include "host.h"
 #include "model.h"
 
 #define FUNCTIONS(X) \

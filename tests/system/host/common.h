@@ -1,0 +1,34 @@
+/* What hosts in C share: to load a library for itself alone, threads, and checks of which the failed ones are printed. */
+#ifndef COMMON_H
+#define COMMON_H
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#ifdef _WIN32
+#include <windows.h>
+#define GetVersion fmu_version /* Windows has its own */
+typedef HANDLE Thread;
+#define THREAD_RESULT DWORD WINAPI
+#else
+#include <pthread.h>
+typedef pthread_t Thread;
+#define THREAD_RESULT void *
+#endif
+
+extern const char *guid;
+extern int failures, messages;
+extern char last_message[1024];
+
+void *open_library(const char *path); /* RTLD_LOCAL */
+void *find(void *library, const char *name);
+typedef THREAD_RESULT Work(void *);
+void start(Thread *thread, Work *work, void *argument);
+void join(Thread thread);
+void check(int good, const char *what, const char *where);
+double now(void);          /* in microseconds */
+unsigned draw(unsigned n); /* a random number below n, the same ones in every run */
+
+#endif

@@ -1,0 +1,83 @@
+/* What the commands share, and main. */
+#include "fmi2.h"
+
+#define DEFINE(f) fmi2##f##TYPE *f;
+FUNCTIONS(DEFINE)
+
+void use(void *library, const char *its_guid)
+{
+    guid = its_guid;
+#define FIND(f) \
+    if (!(f = (fmi2##f##TYPE *)find(library, "fmi2" #f))) puts("fmi2" #f " is missing"), exit(2);
+    FUNCTIONS(FIND)
+}
+
+LOGGER(logger)
+{
+    (void)environment, (void)instance, (void)status, (void)category;
+    messages++;
+    snprintf(last_message, sizeof last_message, "%s", message);
+}
+
+LOGGER(quiet)
+{
+    (void)environment, (void)instance, (void)status, (void)category, (void)message;
+}
+
+fmi2Component make(fmi2Type type, fmi2CallbackLogger log)
+{
+    fmi2CallbackFunctions callbacks = {log, NULL, NULL, NULL, NULL};
+    fmi2Component c = Instantiate("instance", type, guid, "file:///nowhere%20at/all", &callbacks, fmi2False, fmi2True);
+    memset((void *)&callbacks, 0, sizeof callbacks);
+    return c;
+}
+
+fmi2Component running(fmi2CallbackLogger log)
+{
+    fmi2Component c = make(fmi2CoSimulation, log);
+    SetupExperiment(c, fmi2False, 0.0, 0.0, fmi2False, 0.0);
+    EnterInitializationMode(c);
+    ExitInitializationMode(c);
+    return c;
+}
+
+fmi2Status set_real(fmi2Component c, fmi2ValueReference r, double value) { return SetReal(c, &r, 1, &value); }
+fmi2Status set_integer(fmi2Component c, fmi2ValueReference r, int value) { return SetInteger(c, &r, 1, &value); }
+
+double real(fmi2Component c, fmi2ValueReference r)
+{
+    double value = NAN;
+    GetReal(c, &r, 1, &value);
+    return value;
+}
+
+int whole(fmi2Component c, fmi2ValueReference r)
+{
+    fmi2Integer value = -1;
+    GetInteger(c, &r, 1, &value);
+    return value;
+}
+
+/* LIBRARY GUID COMMAND NUMBER [PATH GUID]. What fails is printed; the exit code says so. */
+int main(int n_arguments, char **arguments)
+{
+    double begin = now();
+    void *library = n_arguments > 4 ? open_library(arguments[1]) : NULL;
+    const char *command = n_arguments > 4 ? arguments[3] : "";
+    int number = n_arguments > 4 ? atoi(arguments[4]) : 0;
+    if (!library) return puts("the library cannot be loaded"), 2;
+    use(library, arguments[2]);
+    if (!strcmp(command, "instantiate")) instantiate();
+    else if (!strcmp(command, "every_call")) every_call();
+    else if (!strcmp(command, "fuzz")) fuzz(number);
+    else if (!strcmp(command, "status_functions")) status_functions();
+    else if (!strcmp(command, "log_categories")) log_categories();
+    else if (!strcmp(command, "threads")) threads();
+    else if (!strcmp(command, "soak")) soak(number);
+    else if (!strcmp(command, "cases")) cases();
+    else if (!strcmp(command, "two_libraries") && n_arguments > 6) two_libraries(library, arguments[5], arguments[6]);
+    else if (!strcmp(command, "first_step")) first_step(begin);
+    else if (!strcmp(command, "speed") && n_arguments > 5) speed(number, arguments[5]);
+    else return printf("%s is no command\n", command), 2;
+    return failures != 0;
+}

@@ -1,0 +1,168 @@
+/* Many instances, many steps, and cases from outside. */
+#include "fmi2.h"
+
+#ifndef _WIN32
+#include <unistd.h>
+#endif
+
+#define N_INSTANCES 64
+#define N_THREADS 8
+#define N_STEPS 20
+static fmi2Component crowd[N_INSTANCES];
+static double serial[N_INSTANCES][2], parallel[N_INSTANCES][2];
+
+static void advance(int i, double result[2])
+{
+    fmi2Component c = crowd[i];
+    for (int k = 0; k < N_STEPS; k++) {
+        set_real(c, V_creepage_longitudinal, 1e-5 * (i + 1) * (k + 1));
+        set_real(c, V_load_normal_force, 5e4 + 1e3 * i);
+        DoStep(c, 1e-3 * k, 1e-3, fmi2True);
+    }
+    result[0] = real(c, V_total_energy);
+    result[1] = real(c, V_creep_stiffness);
+}
+
+static THREAD_RESULT worker(void *first_instance)
+{
+    for (int i = (int)(size_t)first_instance; i < N_INSTANCES; i += N_THREADS) advance(i, parallel[i]);
+    return 0;
+}
+
+static void crowd_starts(void)
+{
+    for (int i = 0; i < N_INSTANCES; i++) {
+        crowd[i] = make(fmi2CoSimulation, quiet);
+        set_integer(crowd[i], V_method_normal, 1 + i % 3);
+        set_integer(crowd[i], V_method_tangential, 1 + i / 3 % 3);
+        EnterInitializationMode(crowd[i]);
+        ExitInitializationMode(crowd[i]);
+    }
+}
+
+void threads(void)
+{
+    Thread thread[N_THREADS];
+    crowd_starts();
+    for (int i = 0; i < N_INSTANCES; i++) advance(i, serial[i]);
+    for (int i = 0; i < N_INSTANCES; i++) FreeInstance(crowd[i]);
+    crowd_starts();
+    for (int t = 0; t < N_THREADS; t++) start(&thread[t], worker, (void *)(size_t)t);
+    for (int t = 0; t < N_THREADS; t++) join(thread[t]);
+    check(!memcmp(serial, parallel, sizeof serial), "parallel equals serial", "");
+    check(serial[0][0] > 0.0 && serial[0][0] != serial[1][0], "instances differ", "");
+    for (int i = 0; i < N_INSTANCES; i++) FreeInstance(crowd[i]);
+}
+
+/* ---------------------------------------------------------------- two FMUs in one process */
+
+#define N_READ 400
+typedef double Trajectory[N_STEPS][N_READ];
+
+/* A step with all Reals read after it; others are zero. */
+static void step_and_read(fmi2Component c, int k, double *values)
+{
+    DoStep(c, 1e-3 * k, 1e-3, fmi2True);
+    for (fmi2ValueReference r = 0; r < N_READ; r++) GetReal(c, &r, 1, &values[r]);
+}
+
+void two_libraries(void *library, const char *path, const char *its_guid)
+{
+    static Trajectory alone[2], together[2];
+    void *both[2] = {library, open_library(path)};
+    const char *guids[2] = {guid, its_guid};
+    fmi2Component c[2];
+    check(both[1] && both[1] != both[0], "two libraries", path);
+    for (int i = 0; i < 2; i++) {
+        use(both[i], guids[i]);
+        c[i] = running(quiet);
+        for (int k = 0; k < N_STEPS; k++) step_and_read(c[i], k, alone[i][k]);
+        FreeInstance(c[i]);
+        check(!make(fmi2CoSimulation, quiet) == !c[i], "instantiate", path);
+        guid = guids[1 - i];
+        check(!make(fmi2CoSimulation, quiet), "each library refuses the guid of the other", path);
+    }
+    for (int i = 0; i < 2; i++) use(both[i], guids[i]), c[i] = running(quiet);
+    for (int k = 0; k < N_STEPS; k++)
+        for (int i = 0; i < 2; i++) use(both[i], guids[i]), step_and_read(c[i], k, together[i][k]);
+    check(!memcmp(alone, together, sizeof alone), "together as alone", path);
+    for (int i = 0; i < 2; i++) use(both[i], guids[i]), FreeInstance(c[i]);
+}
+
+/* ---------------------------------------------------------------- memory over time */
+
+#ifdef _WIN32
+static long resident(void) { return 0; } /* measured on Linux alone */
+#else
+static long resident(void)
+{
+    long pages = 0, total = 0;
+    FILE *f = fopen("/proc/self/statm", "r");
+    if (!f || fscanf(f, "%ld %ld", &total, &pages) != 2) pages = -1;
+    if (f) fclose(f);
+    return pages * sysconf(_SC_PAGESIZE);
+}
+#endif
+
+/* Instances that come and go, and a hundred times as many steps of one, at the coarsest resolution. */
+void soak(int cycles)
+{
+    static const fmi2ValueReference resolution[] = {V_resolution_n_strips, V_resolution_n_elements};
+    static const fmi2Integer least[] = {4, 4};
+    fmi2FMUstate saved = NULL;
+    long before = 0, grown;
+    for (int i = 0; i < cycles + 100; i++) {
+        fmi2Component c = make(fmi2CoSimulation, quiet);
+        SetInteger(c, resolution, 2, least);
+        EnterInitializationMode(c);
+        ExitInitializationMode(c);
+        DoStep(c, 0.0, 1e-3, fmi2True);
+        GetFMUstate(c, &saved);
+        SetFMUstate(c, saved);
+        FreeFMUstate(c, &saved);
+        FreeInstance(c);
+        if (i == 100) before = resident();
+    }
+    grown = resident() - before;
+    printf("%ld bytes in %d cycles\n", grown, cycles);
+    check(grown < 1 << 20, "memory", "of cycles grows");
+    fmi2Component c = make(fmi2CoSimulation, quiet);
+    SetInteger(c, resolution, 2, least);
+    EnterInitializationMode(c);
+    ExitInitializationMode(c);
+    for (int i = 0; i < 100 * cycles; i++) {
+        if (i == cycles) before = resident();
+        set_real(c, V_creepage_longitudinal, 1e-5 * (i % 1000));
+        check(DoStep(c, 1e-3 * i, 1e-3, fmi2True) == fmi2OK, "step", "of many");
+    }
+    grown = resident() - before;
+    printf("%ld bytes in %d steps\n", grown, 100 * cycles);
+    check(grown < 1 << 16, "memory", "of steps grows");
+    FreeInstance(c);
+}
+
+/* ---------------------------------------------------------------- cases */
+
+/* Cases from standard input: the number of values, then reference, kind (r or i) and value of each. Answers all outputs. */
+void cases(void)
+{
+    int n;
+    fmi2Component c = make(fmi2CoSimulation, logger);
+    while (scanf("%d", &n) == 1) {
+        Reset(c);
+        for (int i = 0; i < n; i++) {
+            unsigned r;
+            char type;
+            double value;
+            if (scanf("%u %c %lf", &r, &type, &value) != 3) exit(2);
+            check((type == 'r' ? set_real(c, r, value) : set_integer(c, r, (int)value)) == fmi2OK, "set", last_message);
+        }
+        EnterInitializationMode(c);
+        ExitInitializationMode(c);
+        check(DoStep(c, 0.0, 1e-3, fmi2True) <= fmi2Warning, "step", last_message);
+        for (fmi2ValueReference r = V_force_x; r < N_VALUES; r++)
+            printf("%.17g ", r == V_patch_count || r == V_status ? (double)whole(c, r) : real(c, r));
+        printf("\n");
+    }
+    FreeInstance(c);
+}

@@ -1,0 +1,81 @@
+/* How long calls take; the least of many batches counts, as other work on the machine only adds to it. */
+#include <stdint.h>
+
+#include "fmi2.h"
+
+#define N_INPUTS 90
+#define BATCHES 40
+
+/* From before the library was loaded. */
+void first_step(double begin)
+{
+    fmi2Component c = running(quiet);
+    DoStep(c, 0.0, 1e-3, fmi2True);
+    printf("load to first step: %.0f us\n", now() - begin);
+    FreeInstance(c);
+}
+
+static double values[N_VALUES], inputs[N_INPUTS];
+static fmi2ValueReference references[N_INPUTS];
+static fmi2Component c;
+static double *work;
+static int64_t (*kernel)(double *, double *);
+
+static void outputs(void) { kernel(values, work); }
+static void step(void) { DoStep(c, 0.0, 1e-3, fmi2True); }
+static void set_inputs(void) { SetReal(c, references, N_INPUTS, inputs); }
+
+/* Least time of one call, of two functions in turn. */
+static void pair(void (*one)(void), void (*other)(void), int n, double least[2])
+{
+    void (*calls[2])(void) = {one, other};
+    least[0] = least[1] = INFINITY;
+    for (int batch = 0; batch < BATCHES; batch++) {
+        for (int k = 0; k < 2; k++) {
+            double begin = now();
+            for (int i = 0; i < n; i++) calls[k]();
+            least[k] = fmin(least[k], (now() - begin) / n);
+        }
+    }
+}
+
+/* The kernel by itself from a library that has nothing else, against fmi2DoStep; then inputs, then a vehicle's contacts. */
+void speed(int n, const char *kernels)
+{
+    enum { N_CONTACTS = 8, N_STEPS = 100 };
+    fmi2Component contacts[N_CONTACTS];
+    double least[2], vehicle = INFINITY;
+    void *library = open_library(kernels);
+    if (!library) puts("the kernels cannot be loaded"), exit(2);
+    kernel = (int64_t (*)(double *, double *))find(library, "outputs");
+    c = running(quiet);
+    set_real(c, V_creepage_longitudinal, 1e-3);
+    set_real(c, V_creepage_lateral, 5e-4);
+    set_real(c, V_creepage_spin, 0.1);
+    step();
+    for (fmi2ValueReference r = 0; r < N_VALUES; r++) values[r] = GetReal(c, &r, 1, &values[r]) > fmi2Warning ? whole(c, r) : real(c, r);
+    work = calloc((size_t)((int64_t (*)(double *))find(library, "size"))(values), sizeof *work);
+    ((int64_t (*)(double *, double *))find(library, "prepare"))(values, work);
+    for (int i = 0; i < N_INPUTS; i++) references[i] = V_geometry_g + (fmi2ValueReference)i;
+    GetReal(c, references, N_INPUTS, inputs);
+    pair(outputs, step, n, least);
+    printf("kernel: %.2f us\nfmi2DoStep: %.2f us\n", least[0], least[1]);
+    pair(set_inputs, set_inputs, 100 * n, least);
+    printf("set %d inputs: %.3f us\n", N_INPUTS, fmin(least[0], least[1]));
+    for (int i = 0; i < N_CONTACTS; i++) contacts[i] = running(quiet);
+    for (int batch = 0; batch < BATCHES; batch++) {
+        double begin = now();
+        for (int k = 0; k < N_STEPS; k++) {
+            for (int i = 0; i < N_CONTACTS; i++) {
+                SetReal(contacts[i], references, N_INPUTS, inputs);
+                DoStep(contacts[i], 1e-3 * k, 1e-3, fmi2True);
+                real(contacts[i], V_force_x), real(contacts[i], V_force_y), real(contacts[i], V_moment_z);
+            }
+        }
+        vehicle = fmin(vehicle, now() - begin);
+    }
+    printf("%d contacts at 1 kHz: %.1f times real time\n", N_CONTACTS, 1e3 * N_STEPS / vehicle);
+    for (int i = 0; i < N_CONTACTS; i++) FreeInstance(contacts[i]);
+    FreeInstance(c);
+    free(work);
+}
