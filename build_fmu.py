@@ -9,7 +9,7 @@ from pathlib import Path
 
 try:
     from contact.errors import ContactError
-    from fmu_src import profiles
+    from fmu_src import profiles, ssp
     from fmu_src.catalogue import Model, models
     from fmu_src.documentation import markdown
     from fmu_src.python import packaging as python
@@ -53,9 +53,11 @@ def main() -> None:
         for model in chosen:
             print(f"{model.table.name}, for hosts with Python ... ", end="", flush=True)
             print(_size(python.build(model, arguments.out)))
+        build_system(arguments.out)
     if arguments.packaging != "python":
         for model in filter(native_too, chosen):
             build_native(model, arguments.out / "native")
+        build_system(arguments.out / "native")
 
 
 def native_too(model: Model) -> bool:
@@ -75,6 +77,12 @@ def build_native(model: Model, folder: Path) -> None:
     print(f"{model.table.name}, native:")
     for path in native.build(model, folder, OBJECTS, say):
         say(_size(path))
+
+
+def build_system(folder: Path) -> None:
+    """Build the coupled wheelset of the FMUs in a folder, unless one of them is missing or has other samples."""
+    if ssp.fits(folder):
+        print(f"{ssp.NAME}, a system of these: {_size(ssp.build(folder))}")
 
 
 def _size(path: Path) -> str:

@@ -89,7 +89,7 @@ from contact.workspace import Rule, Space, Tables
 from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
 from fmu_src.native.memory import compiled, cube, matrix, vector
-from fmu_src.tables.wheel_rail_contact import GEOMETRY_KIND, LOAD_KIND, table
+from fmu_src.tables.wheel_rail_contact import FLATTEST, GEOMETRY_KIND, LOAD_KIND, table
 from fmu_src.variables import Table, identifier
 
 _METHODS = contact.methods()
@@ -236,7 +236,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
                 problem.A[i] = v[at.geometry_A0]
             else:
                 problem.y[i] = v[at.geometry_y0] + v[at.geometry_dy] * i
-                problem.g[i], problem.A[i] = v[at.geometry_g + i], v[at.geometry_A + i]
+                problem.g[i], problem.A[i] = v[at.geometry_g + i], max(v[at.geometry_A + i], FLATTEST)
         by_load = v[at.load_kind] == _NORMAL_FORCE
         case[CASE_LOAD_KIND] = LOAD if by_load else APPROACH
         case[CASE_LOAD] = v[at.load_normal_force] if by_load else v[at.load_approach]

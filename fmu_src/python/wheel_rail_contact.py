@@ -14,7 +14,7 @@ from contact.damage import evaluate
 from fmu_src.differences import creepage_steps
 from fmu_src.python.slave import TableSlave
 from fmu_src.python.values import Rows, Values
-from fmu_src.tables.wheel_rail_contact import table
+from fmu_src.tables.wheel_rail_contact import FLATTEST, table
 
 _CREEPAGES = ("creepage.longitudinal", "creepage.lateral", "creepage.spin")
 
@@ -110,7 +110,8 @@ def _separation(values: Values) -> Separation:
     if values.item("geometry.kind") == "Curvatures":
         return Separation.hertzian(values["geometry.A0"], values["geometry.B0"])
     g = values["geometry.g"]
-    return Separation(values["geometry.y0"] + values["geometry.dy"] * np.arange(len(g)), g, values["geometry.A"])
+    A = np.maximum(values["geometry.A"], FLATTEST)
+    return Separation(values["geometry.y0"] + values["geometry.dy"] * np.arange(len(g)), g, A)
 
 
 def _resultants(solution: Solution) -> np.ndarray:

@@ -16,6 +16,7 @@ import contact
 from contact import kalker
 from fmu_src.catalogue import models
 from fmu_src.python.packaging import build  # here: an FMU that is loaded first brings a pythonfmu of its own
+from models.wheelset.ports import PROBLEM, REACTION
 
 ROOT = Path(__file__).parents[2]
 
@@ -157,6 +158,23 @@ def test_lift_off_is_a_valid_result(fmu):
     assert not fmu.log
 
 
+def test_connectors_that_start_at_zero_are_no_contact_without_a_load_and_a_flat_one_with_it(fmu):
+    """What a master gives that knows no start values; curvature 0 is then no error."""
+    good = {name: fmu[name] for name in PROBLEM}
+    fmu.step()
+    before = fmu["force.x"]
+    fmu.update(dict.fromkeys(PROBLEM, 0.0))
+    fmu.step(1e-3)
+    assert fmu["status"] == contact.Status.NO_CONTACT
+    assert not any(fmu[name] for name in REACTION)
+    fmu.update({"load.normal_force": 1e3})
+    fmu.step(2e-3)
+    assert fmu["status"] == contact.Status.OUT_OF_RANGE
+    fmu.update(good)
+    fmu.step(3e-3)
+    assert fmu["force.x"] == before
+
+
 def test_a_patch_beyond_the_separation_is_reported_once(fmu):
     narrow = {f"geometry.g[{i}]": 1e-9 * (i - 21) ** 2 for i in range(1, 42)}
     fmu.update(narrow)
@@ -171,8 +189,7 @@ def test_a_patch_beyond_the_separation_is_reported_once(fmu):
     ("name", "value", "allowed"),
     [
         ("geometry.g[7]", math.nan, "]-inf, inf["),
-        ("geometry.A[41]", 0.0, "]0, inf["),
-        ("geometry.A[1]", -1.0, "]0, inf["),
+        ("geometry.A[1]", -1.0, "[0, inf["),
         ("creepage.spin", math.inf, "]-inf, inf["),
         ("load.normal_force", -1.0, "[0, inf["),
         ("friction.coefficient", math.nan, "[0, inf["),

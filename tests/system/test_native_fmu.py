@@ -13,6 +13,7 @@ from fmpy.fmi1 import FMICallException
 from fmu_instance import DISCARD, ERROR, WARNING, discarded, refused
 
 import contact
+from models.wheelset.ports import PROBLEM, REACTION
 
 
 @pytest.fixture
@@ -43,7 +44,7 @@ def test_simulates_with_fmpy(native, kind):
     ("name", "value", "allowed"),
     [
         ("geometry.g[7]", math.nan, "]-inf, inf["),
-        ("geometry.A[41]", 0.0, "]0, inf["),
+        ("geometry.A[41]", -1.0, "[0, inf["),
         ("creepage.spin", math.inf, "]-inf, inf["),
         ("load.normal_force", -1.0, "[0, inf["),
         ("friction.coefficient", math.nan, "[0, inf["),
@@ -116,6 +117,23 @@ def test_lift_off_is_a_valid_result(fmu):
     outputs = fmu.all("output")
     assert outputs["status"] == contact.Status.NO_CONTACT
     assert not any(value for name, value in outputs.items() if name not in ("status", "approach"))
+
+
+def test_connectors_that_start_at_zero_are_no_contact_without_a_load_and_a_flat_one_with_it(fmu):
+    """What a master gives that knows no start values; curvature 0 is then no error."""
+    good = {name: fmu[name] for name in PROBLEM}
+    fmu.step()
+    before = fmu["force.x"]
+    fmu.update(dict.fromkeys(PROBLEM, 0.0))
+    fmu.step(1e-3)
+    assert fmu["status"] == contact.Status.NO_CONTACT
+    assert not any(fmu[name] for name in REACTION)
+    fmu.update({"load.normal_force": 1e3})
+    fmu.step(2e-3)
+    assert fmu["status"] == contact.Status.OUT_OF_RANGE
+    fmu.update(good)
+    fmu.step(3e-3)
+    assert fmu["force.x"] == before
 
 
 def test_a_patch_beyond_the_separation_is_reported_once_as_a_warning(fmu):

@@ -1,0 +1,111 @@
+"""Wheel-rail forces for a multibody program: contact search in Python, elastic contact in the native FMU."""
+
+from __future__ import annotations
+
+import math
+import shutil
+from pathlib import Path
+from types import TracebackType
+
+import fmpy
+import numpy as np
+from fmpy.fmi2 import FMU2Model
+from numpy.typing import NDArray
+
+from contact.geometry.wheelset import Pair, Patch, Pose
+from models.wheelset.parameters import WheelsetParameters
+from models.wheelset.ports import POINTS
+
+Array = NDArray[np.float64]
+
+_APPROACH = 2  # of load.kind
+_INPUTS = (
+    *(f"geometry.{row}[{i}]" for row in "gA" for i in range(1, POINTS + 1)),
+    *(f"creepage.{name}" for name in ("longitudinal", "lateral", "spin")),
+    "load.approach",
+)
+_OUTPUTS = ("force.x", "force.y", "force.n", "moment.z")
+
+
+class NativeContact:
+    """One wheel on its rail; the FMU runs as model exchange, so forces belong to the very motion they are asked for.
+
+    A context manager that frees the FMU.
+
+    Parameters
+    ----------
+    fmu : Path
+        dist/native/WheelRailContact.fmu.
+    parameters : WheelsetParameters
+        Profiles, track and speed.
+    side : {"right", "left"}
+    friction : float
+        Coefficient of friction [-].
+    """
+
+    def __init__(self, fmu: Path, parameters: WheelsetParameters, side: str, friction: float = 0.3) -> None:
+        p = parameters
+        y = p.window_start + p.window_step * np.arange(POINTS)
+        self._radius, self._speed = p.radius, p.speed
+        self._pair = Pair(
+            p.wheel, p.rail, side=side, nominal_radius=p.radius, gauge=p.gauge, gauge_point=p.gauge_point,
+            flange_back=p.flange_back, combine_distance=1.0, samples=y if side == "right" else -y[::-1],
+        )  # fmt: skip
+        description = fmpy.read_model_description(str(fmu))
+        reference = {v.name: v.valueReference for v in description.modelVariables}
+        self._inputs, self._outputs = [reference[n] for n in _INPUTS], [reference[n] for n in _OUTPUTS]
+        self._folder = fmpy.extract(str(fmu))
+        self._fmu = FMU2Model(
+            guid=description.guid, unzipDirectory=self._folder, instanceName=side,
+            modelIdentifier=description.modelExchange.modelIdentifier,
+        )  # fmt: skip
+        self._fmu.instantiate()
+        self._fmu.setupExperiment()
+        start = {"geometry.y0": p.window_start, "geometry.dy": p.window_step, "speed": p.speed}
+        start |= {"friction.coefficient": friction, "wheel.radius": p.radius}
+        self._fmu.setReal([reference[n] for n in start], list(start.values()))
+        self._fmu.setInteger([reference["load.kind"]], [_APPROACH])
+        self._fmu.enterInitializationMode()
+        self._fmu.exitInitializationMode()
+        self._fmu.newDiscreteStates()
+        self._fmu.enterContinuousTimeMode()
+
+    def wrench(self, centre: Array, axle: Array, velocity: Array, rotation: Array) -> Array:
+        """Force [N] and moment about the wheelset's centre [N m] on the wheelset, in track axes, shape (6,).
+
+        Parameters
+        ----------
+        centre : ndarray, shape (3,)
+            Of the wheelset, in track axes [m].
+        axle : ndarray, shape (3,)
+            Unit vector along the axle, to the right.
+        velocity, rotation : ndarray, shape (3,)
+            Of the centre relative to the track frame, which moves at the speed V [m/s], and angular velocity [rad/s].
+        """
+        pose = Pose(y=centre[1], z=centre[2] + self._radius, roll=math.asin(axle[2]), yaw=math.atan2(-axle[0], axle[1]))
+        total = np.zeros(6)
+        for patch in self._pair.contacts(pose):
+            arm = patch.position - centre
+            tangent = np.array([0.0, math.cos(patch.angle), math.sin(patch.angle)])
+            normal = np.array([0.0, -tangent[2], tangent[1]])  # from the wheel into the rail
+            slip = velocity + np.cross(rotation, arm)
+            creepage = (1.0 + slip[0] / self._speed, slip @ tangent / self._speed, rotation @ normal / self._speed)
+            fx, fy, n, mz = self._solve(patch, creepage)
+            force = np.array([fx, 0.0, 0.0]) + fy * tangent - n * normal
+            total[:3] += force
+            total[3:] += np.cross(arm, force) + mz * normal
+        return total
+
+    def _solve(self, patch: Patch, creepage: tuple[float, float, float]) -> list[float]:
+        """Forces of one patch by the FMU: Fx, Fy, N [N], Mz [N m]."""
+        values = [*patch.separation.g.tolist(), *patch.separation.A.tolist(), *creepage, patch.approach]
+        self._fmu.setReal(self._inputs, values)
+        return self._fmu.getReal(self._outputs)
+
+    def __enter__(self) -> NativeContact:
+        return self
+
+    def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self._fmu.terminate()
+        self._fmu.freeInstance()
+        shutil.rmtree(self._folder, ignore_errors=True)

@@ -1,0 +1,204 @@
+"""A wheelset modelled in exudyn on rails from the native FMU, beside the project's own wheelset.
+
+python examples/exudyn_wheelset/wheelset.py [--fmu dist/native/WheelRailContact.fmu] [--picture out/exudyn.png]
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import math
+from contextlib import ExitStack
+from pathlib import Path
+from typing import NamedTuple
+
+import exudyn as exu
+import numpy as np
+from exudyn.itemInterface import (
+    CoordinateConstraint,
+    MarkerBodyRigid,
+    MarkerNodeCoordinate,
+    NodePointGround,
+    RigidBodySpringDamper,
+)
+from exudyn.rigidBodyUtilities import RigidBodyInertia
+from numpy.typing import NDArray
+
+from examples.exudyn_wheelset.native_contact import NativeContact
+from models.wheelset import master
+from models.wheelset.components import direct
+from models.wheelset.model import WheelsetModel
+from models.wheelset.parameters import WheelsetParameters
+from models.wheelset.ports import SIDES
+
+Array = NDArray[np.float64]
+
+AXLE_BOX = 1.0  # [m] from the centre of the axle
+VERTICAL_DAMPING = 3e4  # [N s/m] of an axle box; it lets the bounce on the elastic contacts, 200 Hz, die out
+SPEEDS = (18.0, 22.0, 26.0, 30.0)  # [m/s]
+
+
+class Motion(NamedTuple):
+    """Time [s], lateral displacement [m] and its rate [m/s], yaw [rad]."""
+
+    time: Array
+    lateral: Array
+    rate: Array
+    yaw: Array
+
+
+def in_exudyn(fmu: Path, p: WheelsetParameters, duration: float, step: float = 5e-4) -> Motion:
+    """Run the wheelset in exudyn: a free rigid body with six degrees of freedom, of which that along the track is held."""
+    start = WheelsetModel(p)
+    lateral, yaw, _, _, spin, z, roll = start.motion()
+    turn = _about_x(roll) @ _about_z(yaw)
+    system = exu.SystemContainer()
+    mbs = system.AddSystem()
+    ground = mbs.CreateGround()
+    body = mbs.CreateRigidBody(
+        referencePosition=[0.0, lateral, z - p.radius],
+        referenceRotationMatrix=turn,
+        initialAngularVelocity=-spin * turn[:, 1],
+        inertia=RigidBodyInertia(p.mass, np.diag([p.yaw_inertia, p.spin_inertia, p.yaw_inertia])),
+        nodeType=exu.NodeType.RotationRotationVector,
+    )
+    node = mbs.GetObject(body)["nodeNumber"]
+    mbs.CreateForce(itemNumber=body, loadVector=[0.0, 0.0, p.axle_load])
+    # axle boxes at ± AXLE_BOX: their longitudinal springs are the yaw stiffness of the wheelset
+    stiffness = [0.5 * p.yaw_stiffness / AXLE_BOX**2, 0.5 * p.lateral_stiffness, 0.0]
+    for y in (AXLE_BOX, -AXLE_BOX):
+        mbs.CreateCartesianSpringDamper(
+            itemNumbers=[ground, body],
+            localPosition0=[0.0, y, -p.radius],
+            localPosition1=[0.0, y, 0.0],
+            stiffness=stiffness,
+            damping=[0.0, 0.0, VERTICAL_DAMPING],
+        )
+    fixed = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=mbs.AddNode(NodePointGround()), coordinate=0))
+    along = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
+    mbs.AddObject(CoordinateConstraint(markerNumbers=[fixed, along]))
+
+    def state(quantity: exu.OutputVariableType) -> Array:
+        return mbs.GetNodeOutput(node, quantity)
+
+    rows = []
+
+    def record(mbs: exu.MainSystem, end_of_step: float) -> bool:
+        axle = state(exu.OutputVariableType.RotationMatrix).reshape(3, 3)[:, 1]
+        _, y, _ = state(exu.OutputVariableType.Position)
+        rows.append((end_of_step - step, y, state(exu.OutputVariableType.Velocity)[1], math.atan2(-axle[0], axle[1])))
+        return True
+
+    with ExitStack() as stack:
+        contacts = [stack.enter_context(NativeContact(fmu, p, side)) for side in SIDES]
+
+        def wheel_rail_forces(mbs: exu.MainSystem, time: float, *connector: object) -> Array:
+            """Called at every evaluation of the equations of motion; a connector pulls its second marker back."""
+            centre, velocity = state(exu.OutputVariableType.Position), state(exu.OutputVariableType.Velocity)
+            axle = state(exu.OutputVariableType.RotationMatrix).reshape(3, 3)[:, 1]
+            rotation = state(exu.OutputVariableType.AngularVelocity)
+            return -sum(contact.wrench(centre, axle, velocity, rotation) for contact in contacts)
+
+        mbs.AddObject(
+            RigidBodySpringDamper(
+                markerNumbers=[mbs.AddMarker(MarkerBodyRigid(bodyNumber=b)) for b in (ground, body)],
+                springForceTorqueUserFunction=wheel_rail_forces,
+            )
+        )
+        mbs.SetPreStepUserFunction(record)
+        mbs.Assemble()
+        settings = exu.SimulationSettings()
+        settings.timeIntegration.endTime = duration
+        settings.timeIntegration.numberOfSteps = round(duration / step)
+        settings.timeIntegration.verboseMode = 0
+        settings.solution.file.write = False
+        if not mbs.SolveDynamic(settings, solverType=exu.DynamicSolverType.RK44):
+            raise RuntimeError("exudyn could not solve the equations of motion")
+    return Motion(*np.array(rows).T)
+
+
+def our_own(p: WheelsetParameters, duration: float, step: float = 5e-4) -> Motion:
+    """The same by `models.wheelset`: loads from equilibrium, four states and the spin."""
+    history = master.run(*direct(p), speed=p.speed, step=step, duration=duration, scheme="iterated")
+    return Motion(*(history[name] for name in ("time", "lateral", "lateral_velocity", "yaw")))
+
+
+def hunting(motion: Motion) -> tuple[float, float]:
+    """Frequency [Hz] and rate of growth [1/s] of the lateral motion, over as many half periods as there are."""
+    t, y, v = motion.time, motion.lateral, motion.rate
+    k = np.flatnonzero(np.diff(np.sign(y)))
+    crossings = t[k] - y[k] * (t[k + 1] - t[k]) / (y[k + 1] - y[k])
+    half = float(np.diff(crossings).mean())
+    window = (t >= crossings[0]) & (t <= crossings[-1])
+    envelope = 0.5 * np.log(y[window] ** 2 + (v[window] * half / math.pi) ** 2)
+    return 0.5 / half, float(np.polyfit(t[window], envelope, 1)[0])
+
+
+def settled(p: WheelsetParameters) -> WheelsetParameters:
+    """The parameters with the approach that the contacts have at the start."""
+    wheelset, contacts = direct(p)
+    approaches = []
+    for side, contact in zip(SIDES, contacts, strict=True):
+        contact.write("problem", wheelset.read(f"{side}.problem"))
+        contact.step(0.0, 0.0)
+        approaches.append(contact.read("reaction")[3])
+    return dataclasses.replace(p, approach=float(np.mean(approaches)))
+
+
+def report(fmu: Path, duration: float = 1.5) -> list[tuple[float, Motion, Motion]]:
+    """Run both models from 1 mm at SPEEDS, print what they say, and return the motions."""
+    print("speed    frequency [Hz]     growth [1/s]      difference")
+    print(" [m/s]   exudyn     own    exudyn     own     [mm]")
+    runs, growths = [], []
+    for speed in SPEEDS:
+        p = settled(WheelsetParameters(speed=speed, lateral=1e-3))
+        runs.append((speed, in_exudyn(fmu, p, duration), our_own(p, duration)))
+        (f, growth), (own_f, own_growth) = map(hunting, runs[-1][1:])
+        growths.append((growth, own_growth))
+        difference = 1e3 * np.abs(runs[-1][1].lateral - runs[-1][2].lateral).max()
+        print(f"{speed:6.1f} {f:8.3f} {own_f:7.3f} {growth:9.3f} {own_growth:7.3f} {difference:8.3f}", flush=True)
+    limits = (float(np.interp(0.0, column, SPEEDS)) for column in zip(*growths, strict=True))
+    print("speed at which growth begins: {:.1f} m/s in exudyn, {:.1f} m/s of our own".format(*limits))
+    return runs
+
+
+def picture(runs: list[tuple[float, Motion, Motion]], path: Path) -> None:
+    """Lateral displacement over time, both models, one panel a speed."""
+    from matplotlib.figure import Figure
+
+    figure = Figure((8.0, 1.7 * len(runs)), layout="constrained")
+    for axes, (speed, exudyn, own) in zip(figure.subplots(len(runs), sharex=True), runs, strict=True):
+        axes.plot(exudyn.time, 1e3 * exudyn.lateral, label="exudyn + native FMU")
+        axes.plot(own.time, 1e3 * own.lateral, "--", label="models/wheelset")
+        axes.set_ylabel(f"y [mm] at {speed:g} m/s")
+        axes.grid(alpha=0.3)
+    figure.axes[0].legend(loc="upper right", fontsize="small")
+    figure.axes[-1].set_xlabel("time [s]")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=150)
+
+
+def _about_x(angle: float) -> Array:
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+
+
+def _about_z(angle: float) -> Array:
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--fmu", type=Path, default=Path("dist/native/WheelRailContact.fmu"), help="the native FMU")
+    parser.add_argument("--picture", type=Path, help="write a picture of the motions to this file")
+    arguments = parser.parse_args()
+    if not arguments.fmu.is_file():
+        parser.error(f"{arguments.fmu} is missing; make it with  python build_fmu.py --packaging native")
+    runs = report(arguments.fmu)
+    if arguments.picture:
+        picture(runs, arguments.picture)
+
+
+if __name__ == "__main__":
+    main()

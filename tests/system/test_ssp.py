@@ -1,0 +1,105 @@
+"""coupled.ssp, the wheelset and its contacts as one file: conforming, and the same answer as the example master's."""
+
+import subprocess
+import sys
+import zipfile
+from importlib.util import find_spec
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy.ssp.simulation import simulate_ssp
+from fmpy.ssp.ssd import read_ssd
+from pyssp_standard.ssp import SSP
+
+from models.wheelset import master
+from models.wheelset.components import direct
+from models.wheelset.parameters import WheelsetParameters
+from models.wheelset.ports import LOAD, PROBLEM, REACTION, SIDES
+
+PACKAGINGS = ["python", *(["native"] if find_spec("fmu_src.native.wheelset") else [])]
+STEPS = 60
+
+
+@pytest.fixture(params=PACKAGINGS)
+def system(request) -> Path:
+    """The file as it is built beside the FMUs."""
+    python = request.param == "python"
+    folder = request.getfixturevalue("fmus") if python else request.getfixturevalue("native").parent
+    return folder / "coupled.ssp"
+
+
+def jacobi(step: float, from_nothing: bool = False) -> np.ndarray:
+    """Lateral position and yaw after each step, of Python objects; `from_nothing`: every connector starts at 0."""
+    p = WheelsetParameters()
+    wheelset, contacts = direct(p)
+    if not from_nothing:
+        history = master.run(wheelset, contacts, speed=p.speed, step=step, duration=(STEPS + 1) * step, scheme="jacobi")
+        return np.stack((history["lateral"], history["yaw"]), axis=1)[1:]
+    rows, problems = [], [np.zeros(len(PROBLEM))] * len(SIDES)
+    reactions = [np.zeros(len(REACTION))] * len(SIDES)
+    for k in range(STEPS):
+        answers = []
+        for contact, problem in zip(contacts, problems, strict=True):
+            if problem[LOAD] > 0.0:
+                contact.write("problem", problem)
+                contact.step(k * step, step)
+            answers.append(contact.read("reaction") if problem[LOAD] > 0.0 else np.zeros(len(REACTION)))
+        for side, reaction in zip(SIDES, reactions, strict=True):
+            wheelset.write(f"{side}.reaction", reaction)
+        wheelset.step(k * step, step)
+        problems, reactions = [wheelset.read(f"{side}.problem") for side in SIDES], answers
+        rows.append(wheelset.read("motion")[:2])
+    return np.array(rows)
+
+
+def by_fmpy(system: Path, step: float) -> np.ndarray:
+    (binding,) = read_ssd(str(system)).system.parameterBindings
+    (parameters,) = binding.parameterValues
+    rows = simulate_ssp(str(system), stop_time=(STEPS - 0.5) * step, step_size=step, parameter_set=parameters)
+    return np.stack((rows["wheelset.lateral"], rows["wheelset.yaw"]), axis=1)
+
+
+def test_structure_conforms_to_the_schema(system):
+    """Of SSP 1.0: read by fmpy with validation, and by pyssp-standard, which checks connections too."""
+    assert len(read_ssd(str(system)).system.elements) == 3
+    with SSP(str(system), mode="r") as package, package.system_structure as ssd:
+        ssd.check_compliance(ssd.schemas[ssd.identifier], ssd.namespaces)
+        assert not ssd.check_connections()
+        assert len(ssd.connections()) == len(SIDES) * (len(PROBLEM) + len(REACTION))
+
+
+def test_connectors_are_variables_of_the_fmus_with_their_causality_and_unit(system, tmp_path):
+    components = read_ssd(str(system)).system.elements
+    with zipfile.ZipFile(system) as archive:
+        archive.extractall(tmp_path)
+    for component in components:
+        variables = {v.name: v for v in fmpy.read_model_description(str(tmp_path / component.source)).modelVariables}
+        assert component.connectors
+        for connector in component.connectors:
+            assert variables[connector.name].causality == connector.kind
+
+
+def test_libcosim_gives_the_answer_of_the_example_master(system):
+    """It exchanges outputs in initialisation and is Jacobi from then on: the same to round-off."""
+    command = [sys.executable, Path(__file__).with_name("ssp_host.py"), system, "2e-4", str(STEPS)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    lines = [line.split()[1:] for line in done.stdout.splitlines() if line.startswith("result")]
+    assert len(lines) == STEPS, done.stderr[-2000:]
+    found = np.array([[float.fromhex(value) for value in line] for line in lines])
+    assert found == pytest.approx(jacobi(2e-4), rel=1e-9, abs=1e-12)
+
+
+def test_fmpy_gives_the_answer_of_a_jacobi_master_that_starts_from_nothing(system):
+    """Every connector is 0 in its first step: no load, so no contact, and two steps without creep forces."""
+    assert by_fmpy(system, 2e-4) == pytest.approx(jacobi(2e-4, from_nothing=True), rel=1e-9, abs=1e-12)
+
+
+def test_what_such_a_start_costs_vanishes_with_the_step():
+    """Within the error of the scheme, which is of first order too: half of it at half the step."""
+    coarse, fine = (
+        np.abs(jacobi(h, from_nothing=True) - jacobi(h))[int(STEPS * share) - 1]
+        for h, share in ((2e-4, 0.5), (1e-4, 1.0))
+    )
+    assert fine / coarse == pytest.approx(0.5, abs=0.1)
