@@ -69,11 +69,15 @@ def wheelset_on_rails(parameters: WheelsetParameters) -> tuple[list[Component], 
 def fits(folder: Path) -> bool:
     """Whether the FMUs of the system lie in `folder`, the contact with as many samples as the wheelset gives."""
     components, _ = wheelset_on_rails(WheelsetParameters())
-    paths = {folder / f"{c.table.name}.fmu": c.table for c in components}
     return all(
-        path.is_file() and len(fmpy.read_model_description(str(path)).modelVariables) == len(table.scalars)
-        for path, table in paths.items()
+        path.is_file() and _inputs(path) == {s.name for s in table.scalars if s.row.causality is Causality.INPUT}
+        for table in (c.table for c in components)
+        for path in [folder / f"{table.name}.fmu"]
     )
+
+
+def _inputs(fmu: Path) -> set[str]:
+    return {v.name for v in fmpy.read_model_description(str(fmu)).modelVariables if v.causality == "input"}
 
 
 def build(folder: Path, parameters: WheelsetParameters | None = None) -> Path:
