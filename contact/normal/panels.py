@@ -10,6 +10,7 @@ from contact.normal.strip_system import (
     V_A,
     V_ACTIVE,
     V_CURVATURE,
+    V_FLOORED,
     V_GAP,
     V_HALF,
     V_LN_A,
@@ -25,6 +26,8 @@ from contact.normal.strip_system import (
 _END_STEP = 0.6
 _END_VALUE, _END_SLOPE = 0.365, 0.108  # (p1/p2)² at the exact half width and its slope (strip_halfspace.md 2, step 4)
 _END_RANGE = (-3.0, 20.0)  # of one move outwards before damping, in widths of the end strip
+#: A frozen end still moves outwards from here on: the pressure rises towards the corner of a punch.
+_PUNCH = 1.0
 #: Overlap outside the panels, over the approach, that counts as missed contact, early and in the end.
 EARLY_GHOST, GHOST = 2e-2, 1e-3
 
@@ -93,11 +96,15 @@ def half_lengths(vectors, n, n_panels):
         first = p * n
         for i in range(first + 1, first + n - 1):
             vectors[V_A, i] = math.exp(vectors[V_LN_A, i])
+            vectors[V_FLOORED, i] = 0.0
         vectors[V_A, first] = 0.447 * vectors[V_A, first + 1]
         vectors[V_A, first + n - 1] = 0.447 * vectors[V_A, first + n - 2]
         for i in range(first + 1, first + n - 1):
             if vectors[V_ACTIVE, i] != 0.0:
-                vectors[V_A, i] = max(vectors[V_A, i], 0.3 * max(vectors[V_A, i - 1], vectors[V_A, i + 1]))
+                floor = 0.3 * max(vectors[V_A, i - 1], vectors[V_A, i + 1])
+                if vectors[V_A, i] <= floor:
+                    vectors[V_A, i], vectors[V_LN_A, i] = floor, math.log(floor)
+                    vectors[V_FLOORED, i] = 1.0
 
 
 @kernel
@@ -147,38 +154,57 @@ def start_panels(n_strips, panel_strips, strips, result, panels, cosines, vector
 
 
 @kernel
-def _end_move(vectors, n, first, step, cosines):
-    """How far one end of a panel should move outwards over its half width, and whether idle strips are cut off there.
+def _end_move(vectors, n, first, step, cosines, frozen):
+    """How far one end of a panel should move outwards over its half width, and the number of idle strips there.
 
     `first` is the strip at this end, `step` the way to its neighbour. On the exact half width the squared ratio q of the
-    second and third pressures has a known value; a high second strip means that the panel is too narrow.
+    second and third pressures has a known value; a high second strip means that the panel is too narrow. A `frozen` end
+    stays where it is, and idle strips with it, unless the pressure rises towards it.
     """
     idle = 0
     while idle < n - 1 and vectors[V_P, first + idle * step] <= 0.0:
         idle += 1
     if idle >= 2:
-        return -0.9 * (1.0 + cosines[idle]), True
+        return 0.0 if frozen else -0.9 * (1.0 + cosines[idle]), idle
+    if vectors[V_P, first + 2 * step] <= 0.0:
+        return 0.0, idle
     q = (vectors[V_P, first + step] / vectors[V_P, first + 2 * step]) ** 2
+    if frozen and q < _PUNCH:
+        return 0.0, idle
     wanted = min(max((q - _END_VALUE) / _END_SLOPE, _END_RANGE[0]), _END_RANGE[1])
-    return _END_STEP * wanted * (1.0 + cosines[1]), False
+    return _END_STEP * wanted * (1.0 + cosines[1]), idle
 
 
 @kernel
-def end_moves(y, n, n_panels, panels, cosines, vectors, damping):
-    """Moves of all panels' ends into V_R of their end strips; return the largest over the width, and whether any was cut."""
+def end_moves(y, n, n_panels, panels, cosines, vectors, frozen):
+    """Moves of all panels' ends into V_R of their end strips.
+
+    Returns the largest over the width, and whether a quarter of a panel is idle, so that it must be cut off.
+    """
     largest, cut = 0.0, False
     for p in range(n_panels):
         first, last = p * n, p * n + n - 1
         low, high = panels[2 * p], panels[2 * p + 1]
         half = 0.5 * (high - low)
-        move, is_cut = _end_move(vectors, n, first, 1, cosines)
-        vectors[V_R, first] = max(low - half * damping * move, y[0]) - low
-        cut = cut or is_cut
-        move, is_cut = _end_move(vectors, n, last, -1, cosines)
-        vectors[V_R, last] = min(high + half * damping * move, y[y.size - 1]) - high
-        cut = cut or is_cut
+        move, idle = _end_move(vectors, n, first, 1, cosines, frozen)
+        vectors[V_R, first] = max(low - half * move, y[0]) - low
+        cut = cut or (4 * idle > n and not frozen)
+        move, idle = _end_move(vectors, n, last, -1, cosines, frozen)
+        vectors[V_R, last] = min(high + half * move, y[y.size - 1]) - high
+        cut = cut or (4 * idle > n and not frozen)
         largest = max(largest, max(abs(vectors[V_R, first]), abs(vectors[V_R, last])) / (high - low))
     return largest, cut
+
+
+@kernel
+def cut_idle(n, n_panels, panels, cosines, vectors):
+    """Move the ends by V_R at once and carry the half lengths over."""
+    for p in range(n_panels):
+        first, last = p * n, p * n + n - 1
+        low, high = panels[2 * p], panels[2 * p + 1]
+        panels[2 * p], panels[2 * p + 1] = low + vectors[V_R, first], high + vectors[V_R, last]
+        _resample(low, high, panels[2 * p], panels[2 * p + 1], cosines, vectors, first)
+        vectors[V_ACTIVE, first : first + n] = 1.0
 
 
 @kernel

@@ -6,11 +6,28 @@ from contact._jit import kernel
 from contact.normal.influence import anywhere, at_centre, in_row, row_at
 
 # vectors[ROW, i]: per strip of all panels
-V_Y, V_HALF, V_GAP, V_A, V_CURVATURE, V_XC, V_P, V_Q1, V_Q2, V_R, V_R_OLD, V_LN_A, V_STEP, V_ACTIVE, V_INDEX = range(15)
+(
+    V_Y,
+    V_HALF,
+    V_GAP,
+    V_A,
+    V_CURVATURE,
+    V_XC,
+    V_P,
+    V_Q1,
+    V_Q2,
+    V_R,
+    V_R_OLD,
+    V_LN_A,
+    V_STEP,
+    V_ACTIVE,
+    V_INDEX,
+    V_FLOORED,  # the half length stands at its lower bound
+) = range(16)
 #: Steps and changes of the residual of the last iterations.
 DEPTH = 3
-V_STEPS, V_CHANGES = 15, 15 + DEPTH
-N_VECTOR_ROWS = 15 + 2 * DEPTH
+V_STEPS, V_CHANGES = 16, 16 + DEPTH
+N_VECTOR_ROWS = 16 + 2 * DEPTH
 
 
 @kernel
@@ -114,7 +131,7 @@ def _eliminate(lu, m, first, second):
 
 
 @kernel
-def solve_active(n, n_panels, vectors, matrix, lu, by_load, amount, may_activate):
+def solve_active(n, n_panels, vectors, matrix, lu, by_load, amount):
     """Peak pressures that close the gap of every loaded strip; return the approach above first touch.
 
     p = delta·q1 + q2 with q1 the answer to a unit approach, so load- and approach-prescribed differ in one line. Strips under
@@ -153,7 +170,7 @@ def solve_active(n, n_panels, vectors, matrix, lu, by_load, amount, may_activate
                 if vectors[V_P, i] < 0.0 and not at_end:
                     vectors[V_ACTIVE, i] = 0.0
                     changed = True
-            elif may_activate:
+            else:
                 u = 0.0
                 for r in range(m):
                     j = int(vectors[V_INDEX, r])
