@@ -28,6 +28,7 @@ class Rule(NamedTuple):
     elements: Array
     cosines: Array
     cosine_logs: Array
+    columns: Array
 
 
 class Tables(NamedTuple):
@@ -63,9 +64,13 @@ class Workspace(NamedTuple):
 
 
 @functools.lru_cache(maxsize=64)
-def rule(n_strips: int, n_elements: int) -> Rule:
-    """Return the (cached) rule of one resolution."""
-    return Rule(*quadrature.fejer(n_strips), quadrature.elements(n_elements), *quadrature.panel(n_strips))
+def rule(n_strips: int, n_elements: int, interacting: bool) -> Rule:
+    """Return the (cached) rule of one resolution; `columns` only for methods with `interacting` strips."""
+    cosines, logs = quadrature.panel(n_strips)
+    columns = np.empty((influence.N_COLUMNS, n_strips, n_strips) if interacting else (1, 1, 1))
+    if interacting:
+        influence.fill_columns(logs, influence.tables()[0], columns)
+    return Rule(*quadrature.fejer(n_strips), quadrature.elements(n_elements), cosines, logs, columns)
 
 
 @functools.lru_cache(maxsize=64)
@@ -82,7 +87,7 @@ def allocate(
     capacity = MAX_PATCHES * n_strips
     size = capacity if normal.interacting else 1
     return Workspace(
-        rule(n_strips, n_elements),
+        rule(n_strips, n_elements, normal.interacting),
         tables(poisson_ratio, normal.interacting),
         Space(
             grid=np.empty((N_WORK_ROWS, n_samples)),

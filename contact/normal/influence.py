@@ -21,12 +21,20 @@ _CENTRE_STEP = (_LN_T_MAX - _LN_T_MIN) / (_N_CENTRE - 1)
 
 _X_MAX, _N_X = 4.0, 201
 _X_STEP = _X_MAX / (_N_X - 1)
-_LN_T_LOW, _LN_T_HIGH, _N_T = math.log(1e-3), math.log(1e2), 385
-_T_STEP = (_LN_T_HIGH - _LN_T_LOW) / (_N_T - 1)
+_PER_X_STEP = 1.0 / _X_STEP
+#: Below the 150th value of ln t, t = 1.1e-3, U is as good as proportional to t.
+_LN_T_HIGH, _T_STEP = math.log(1e2), 0.03
+_N_PROPORTIONAL, _N_T = 150, 534
+_LN_T_LOW, _PER_T_STEP = _LN_T_HIGH - (_N_T - 1) * _T_STEP, 1.0 / _T_STEP
 
 #: Shapes of the two tables. Two rows more in the second: U beyond X = 4 is linear in 1/X² at fixed t/X, so they hold its
 #: values at 1/X² = 0 and 1 over ln(t/X).
 CENTRE, PLANE = (_N_CENTRE, 2), (_N_X + 2, _N_T)
+
+#: Strips of one panel sit at fixed cosines: what one does to another depends on ln(a/half width of the panel) alone. Range and
+#: step of that table, which has a row more at either end.
+_LN_A_LOW, _LN_A_HIGH, _LN_A_STEP = -7.0, 4.0, 0.125
+N_COLUMNS = round((_LN_A_HIGH - _LN_A_LOW) / _LN_A_STEP) + 3
 
 _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(6)
 
@@ -80,8 +88,10 @@ def _fill(centre, plane):
                 value += 0.5 * _CENTRE_STEP * _GAUSS_W[k] * at * centre_slope(at)
         centre[i, 0], centre[i, 1] = value, t * centre_slope(t) * _CENTRE_STEP
     for i in range(_N_X):
-        for k in range(_N_T):
+        for k in range(_N_PROPORTIONAL, _N_T):
             plane[i, k] = quadrature(i * _X_STEP, math.exp(_LN_T_LOW + k * _T_STEP))
+        for k in range(_N_PROPORTIONAL):
+            plane[i, k] = plane[i, _N_PROPORTIONAL] * math.exp((k - _N_PROPORTIONAL) * _T_STEP)
     for k in range(_N_T):
         t = math.exp(_LN_T_LOW + k * _T_STEP)
         plane[_N_X, k] = 0.5 * math.pi * math.asinh(t)
@@ -90,7 +100,7 @@ def _fill(centre, plane):
 
 @functools.cache
 def tables() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Tables of U on the centre line, shape (401, 2), and over (X, ln t), shape (203, 385); made once a process (0.2 s)."""
+    """Tables of U on the centre line, shape (401, 2), and over (X, ln t), shape (203, 534); made once a process (0.2 s)."""
     centre, plane = np.empty(CENTRE), np.empty(PLANE)
     _fill(centre, plane)
     return centre, plane
@@ -113,26 +123,50 @@ def at_centre(centre, log_t):
 
 
 @kernel
+def fill_columns(cosine_logs, centre, columns):
+    """U(0, t2) - U(0, t1) of strip j at the middle of strip i of one panel, into columns[ln(a_j/half width), j, i]."""
+    n = cosine_logs.shape[0]
+    for m in range(columns.shape[0]):
+        ln_a = _LN_A_LOW + (m - 1) * _LN_A_STEP
+        for j in range(n):
+            for i in range(n):
+                near, far = at_centre(centre, cosine_logs[i, j] - ln_a), at_centre(centre, cosine_logs[i, j + 1] - ln_a)
+                columns[m, j, i] = near + far if i == j else abs(far - near)
+
+
+@kernel
+def column(columns, j, ln_a, scale, out):
+    """U(0, t2) - U(0, t1) of strip j at all strips of its panel, times `scale`: cubic in ln(a_j/half width), error below 3e-6."""
+    u = (ln_a - _LN_A_LOW) * (1.0 / _LN_A_STEP)
+    u = u if u > 0.0 else 0.0
+    u = min(u, N_COLUMNS - 3.000001)
+    m = int(u)
+    t = u - m
+    f0, f1 = -t * (t - 1.0) * (t - 2.0) / 6.0 * scale, (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0 * scale
+    f2, f3 = -(t + 1.0) * t * (t - 2.0) / 2.0 * scale, (t + 1.0) * t * (t - 1.0) / 6.0 * scale
+    c0, c1, c2, c3 = columns[m, j], columns[m + 1, j], columns[m + 2, j], columns[m + 3, j]
+    for i in range(out.size):
+        out[i] = f0 * c0[i] + f1 * c1[i] + f2 * c2[i] + f3 * c3[i]
+
+
+@kernel
 def row_at(X, ln_X):
     """Row of the plane's table for X >= 0, the share of the next row, and what its ln t counts from (for `in_row`)."""
     if not X < _X_MAX:
         return _N_X, 1.0 / (X * X), ln_X
-    u = X / _X_STEP
+    u = X * _PER_X_STEP
     i = min(int(u), _N_X - 2)
     return i, u - i, 0.0
 
 
 @kernel
 def in_row(plane, i, u, log_t):
-    """U(X, t) for t > 0, bilinear in the table at the row and share given by `row_at`; asymptotes beyond its range of t."""
-    v = (log_t - _LN_T_LOW) / _T_STEP
-    if not v >= 0.0:  # U is nearly proportional to t there
-        return math.exp(log_t - _LN_T_LOW) * (plane[i, 0] + u * (plane[i + 1, 0] - plane[i, 0]))
-    k = min(int(v), _N_T - 2)
-    extra = 0.0
-    if v > _N_T - 1.0:
-        extra = 0.5 * math.pi * (log_t - _LN_T_HIGH)
-        v = _N_T - 1.0
+    """U(X, t) for t > 0, bilinear in the table at the row and share given by `row_at`; logarithmic beyond its range of t."""
+    v = (log_t - _LN_T_LOW) * _PER_T_STEP
+    v = v if v > 0.0 else 0.0  # so written, no NaN becomes an index
+    extra = 0.5 * math.pi * _T_STEP * max(v - (_N_T - 1.0), 0.0)
+    v = min(v, _N_T - 1.000001)
+    k = int(v)
     v -= k
     low = plane[i, k] + v * (plane[i, k + 1] - plane[i, k])
     high = plane[i + 1, k] + v * (plane[i + 1, k + 1] - plane[i + 1, k])

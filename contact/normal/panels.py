@@ -46,26 +46,6 @@ def _hermite_integral(h, f0, m0, f1, m1, t):
 
 
 @kernel
-def _mean_gap(y, g, m, n, low, high, start):
-    """Mean of the interpolated gap over [low, high], and the interval of `low`."""
-    i = locate(y, n, low, start)
-    first = i
-    total = 0.0
-    at = low
-    while True:
-        h = y[i + 1] - y[i]
-        end = min(high, y[i + 1]) if i < n - 2 else high
-        a, b = (at - y[i]) / h, (end - y[i]) / h
-        total += _hermite_integral(h, g[i], m[i], g[i + 1], m[i + 1], b)
-        total -= _hermite_integral(h, g[i], m[i], g[i + 1], m[i + 1], a)
-        if end >= high or i >= n - 2:
-            break
-        at = end
-        i += 1
-    return total / (high - low), first
-
-
-@kernel
 def lay_panels(y, g, A, xc, g_least, work, panels, n_panels, cosines, vectors):
     """Strip positions, mean gaps, curvatures and loci for the present ends of the panels."""
     n = cosines.size - 1
@@ -75,18 +55,28 @@ def lay_panels(y, g, A, xc, g_least, work, panels, n_panels, cosines, vectors):
     for p in range(n_panels):
         centre = 0.5 * (panels[2 * p] + panels[2 * p + 1])
         half = 0.5 * (panels[2 * p + 1] - panels[2 * p])
+        low = centre + half * cosines[0]
+        k = locate(y, size, low, k)
+        middle = k
+        h = y[k + 1] - y[k]
+        before = _hermite_integral(h, g[k], m[k], g[k + 1], m[k + 1], (low - y[k]) / h)
         for i in range(n):
             row = p * n + i
-            low, high = centre + half * cosines[i], centre + half * cosines[i + 1]
+            high = centre + half * cosines[i + 1]
             at = 0.5 * (low + high)
-            vectors[V_Y, row] = at
-            vectors[V_HALF, row] = 0.5 * (high - low)
-            mean, k = _mean_gap(y, g, m, size, low, high, k)
-            vectors[V_GAP, row] = mean - g_least
-            j = locate(y, size, at, k)
-            t = (at - y[j]) / (y[j + 1] - y[j])
-            vectors[V_CURVATURE, row] = (1.0 - t) * A[j] + t * A[j + 1]
-            vectors[V_XC, row] = (1.0 - t) * xc[j] + t * xc[j + 1]
+            vectors[V_Y, row], vectors[V_HALF, row] = at, 0.5 * (high - low)
+            integral = -before  # from the start of the interval in which the strip begins
+            while k < size - 2 and y[k + 1] < high:
+                integral += h * (0.5 * (g[k] + g[k + 1]) + h / 12.0 * (m[k] - m[k + 1]))
+                k += 1
+                h = y[k + 1] - y[k]
+            before = _hermite_integral(h, g[k], m[k], g[k + 1], m[k + 1], (high - y[k]) / h)
+            vectors[V_GAP, row] = (integral + before) / (high - low) - g_least
+            middle = locate(y, size, at, middle)
+            t = (at - y[middle]) / (y[middle + 1] - y[middle])
+            vectors[V_CURVATURE, row] = (1.0 - t) * A[middle] + t * A[middle + 1]
+            vectors[V_XC, row] = (1.0 - t) * xc[middle] + t * xc[middle + 1]
+            low = high
 
 
 @kernel

@@ -61,10 +61,13 @@ from contact.normal.strip_system import (
     V_R_OLD,
     V_STEP,
     V_STEPS,
+    V_U,
     V_XC,
     V_Y,
     assemble,
     distances,
+    edge_displacements,
+    skewed_edge_displacements,
     solve_active,
 )
 
@@ -233,21 +236,24 @@ def strip_halfspace(y, g, A, xc, case, rule, tables, space, strips, result):
         distances(panels, n_panels, rule.cosines, rule.cosine_logs, vectors, space.logs)
         half_lengths(vectors, n, n_panels)
         assemble(
-            n, n_panels, vectors, space.logs, tables.centre, tables.plane, skewed, modulus, space.matrix, space.logs
-        )
+            n, n_panels, panels, vectors, space.logs, tables.centre, rule.columns, tables.plane, skewed, modulus,
+            space.matrix,
+        )  # fmt: skip
         delta = solve_active(n, n_panels, vectors, space.matrix, space.lu, by_load, amount)
         error, load = math.inf, 0.0
         if not abs(delta) < math.inf:
             break
         # the strip ends: stretch each strip by the ratio of the overlap at its ends to the one that a parabola leaves
+        if skewed:
+            skewed_edge_displacements(n, n_panels, vectors, space.logs, tables.plane, modulus)
+        else:
+            edge_displacements(n, n_panels, vectors, space.logs, tables.plane, modulus)
         error, load = 0.0, 0.0
         for i in range(total):
             vectors[V_R, i] = 0.0
             if vectors[V_P, i] > 0.0:
-                u = 0.0
-                for j in range(total):
-                    u += space.logs[i, j] * vectors[V_P, j]
-                ratio = (delta - vectors[V_GAP, i] - u) / (vectors[V_CURVATURE, i] * vectors[V_A, i] ** 2)
+                overlap = delta - vectors[V_GAP, i] - vectors[V_U, i]
+                ratio = overlap / (vectors[V_CURVATURE, i] * vectors[V_A, i] ** 2)
                 r = 0.5 * math.log(min(max(ratio, 0.2), 5.0))
                 if vectors[V_FLOORED, i] != 0.0:
                     r = max(r, 0.0)
@@ -286,7 +292,11 @@ def strip_halfspace(y, g, A, xc, case, rule, tables, space, strips, result):
             known = 0
 
     result[RES_ITERATIONS] = iteration + 1.0
-    if not converged and not (n_panels > 0 and error < USABLE * load):  # ANALYN's answer is still in place
+    peak = 0.0
+    for i in range(n_panels * n):
+        peak = max(peak, vectors[V_P, i])
+    usable = converged or (n_panels > 0 and error < USABLE * load)
+    if not (usable and peak < modulus):  # ANALYN's answer is still in place
         result[RES_STATUS] = 5.0
         memory[MEM_PANELS] = 0.0
         return n_strips

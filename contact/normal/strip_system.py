@@ -3,7 +3,7 @@
 import math
 
 from contact._jit import kernel
-from contact.normal.influence import anywhere, at_centre, in_row, row_at
+from contact.normal.influence import anywhere, at_centre, column, in_row, row_at
 
 # vectors[ROW, i]: per strip of all panels
 (
@@ -23,11 +23,16 @@ from contact.normal.influence import anywhere, at_centre, in_row, row_at
     V_ACTIVE,
     V_INDEX,
     V_FLOORED,  # the half length stands at its lower bound
-) = range(16)
+    V_U,  # displacement at the strip's ends
+    V_ROW,
+    V_SHARE,
+    V_LEFT,
+    V_RIGHT,
+) = range(21)
 #: Steps and changes of the residual of the last iterations.
 DEPTH = 3
-V_STEPS, V_CHANGES = 16, 16 + DEPTH
-N_VECTOR_ROWS = 16 + 2 * DEPTH
+V_STEPS, V_CHANGES = 21, 21 + DEPTH
+N_VECTOR_ROWS = 21 + 2 * DEPTH
 
 
 @kernel
@@ -54,39 +59,74 @@ def distances(panels, n_panels, cosines, cosine_logs, vectors, logs):
 
 
 @kernel
-def assemble(n, n_panels, vectors, logs, centre, plane, skewed, modulus, matrix, edges):
-    """Displacement at strip i by unit peak pressure on strip j: on the centre line into matrix[i, j], at the ends into edges.
+def assemble(n, n_panels, panels, vectors, logs, centre, columns, plane, skewed, modulus, matrix):
+    """Displacement on the centre line of strip i by unit peak pressure on strip j, into matrix[j, i]."""
+    total = n * n_panels
+    for j in range(total):
+        panel = j // n
+        first = panel * n
+        a, k = vectors[V_A, j], j + panel  # k: the first of its two edges
+        scale = a / (math.pi * modulus)
+        ln_a = math.log(a)
+        for i in range(total):
+            if not skewed and i // n == panel:
+                continue
+            left, right = logs[i, k] - ln_a, logs[i, k + 1] - ln_a
+            sign = 1.0 if i == j else -1.0
+            offset = abs(vectors[V_XC, i] - vectors[V_XC, j]) / a
+            if offset > 1e-9:
+                low, high = anywhere(plane, offset, left), anywhere(plane, offset, right)
+            else:
+                low, high = at_centre(centre, left), at_centre(centre, right)
+            matrix[j, i] = scale * abs(high + sign * low)
+        if not skewed:
+            half = 0.5 * (panels[2 * panel + 1] - panels[2 * panel])
+            column(columns, j - first, ln_a - math.log(half), scale, matrix[j, first : first + n])
 
-    Under yaw the latter is the mean of both ends. `edges` may be `logs`, whose entries are not needed any more then.
-    """
+
+@kernel
+def edge_displacements(n, n_panels, vectors, logs, plane, modulus):
+    """Displacement at the ends of every loaded strip into V_U; two flat loops over all strips for each."""
     total = n * n_panels
     for j in range(total):
         vectors[V_Q1, j] = math.log(vectors[V_A, j])
         vectors[V_Q2, j] = 1.0 / vectors[V_A, j]
+        vectors[V_LEFT, j] = vectors[V_P, j] * vectors[V_A, j] / (math.pi * modulus)
     for i in range(total):
-        a_i, xc_i, ln_i = vectors[V_A, i], vectors[V_XC, i], vectors[V_Q1, i]
+        vectors[V_U, i] = 0.0
+        if vectors[V_P, i] == 0.0:
+            continue
+        a, ln_a = vectors[V_A, i], vectors[V_Q1, i]
+        u = 0.0
+        for p in range(n_panels):
+            at = logs[i, p * (n + 1) : (p + 1) * (n + 1)]
+            for j in range(n):
+                J = p * n + j
+                row, share, ln_X = row_at(a * vectors[V_Q2, J], ln_a - vectors[V_Q1, J])
+                ln_X += vectors[V_Q1, J]
+                low, high = in_row(plane, row, share, at[j] - ln_X), in_row(plane, row, share, at[j + 1] - ln_X)
+                u += vectors[V_LEFT, J] * (low + high if i == J else abs(high - low))
+        vectors[V_U, i] = u
+
+
+@kernel
+def skewed_edge_displacements(n, n_panels, vectors, logs, plane, modulus):
+    """As `edge_displacements` under yaw: the mean of both ends of strips that lie off each other's centre."""
+    total = n * n_panels
+    for i in range(total):
+        vectors[V_U, i] = 0.0
+        if vectors[V_P, i] == 0.0:
+            continue
+        u = 0.0
         for j in range(total):
-            ln_a, inverse = vectors[V_Q1, j], vectors[V_Q2, j]
-            k = j + j // n  # first of its two edges
+            a, k = vectors[V_A, j], j + j // n
+            ln_a = math.log(a)
             left, right = logs[i, k] - ln_a, logs[i, k + 1] - ln_a
-            offset = (xc_i - vectors[V_XC, j]) * inverse if skewed else 0.0
-            sign = 1.0 if i == j else -1.0
-            if abs(offset) > 1e-9:
-                low, high = anywhere(plane, abs(offset), left), anywhere(plane, abs(offset), right)
-            else:
-                low, high = at_centre(centre, left), at_centre(centre, right)
-            scale = vectors[V_A, j] / (math.pi * modulus)
-            matrix[i, j] = scale * abs(high + sign * low)
-            if abs(offset) > 1e-9:
-                X = abs(a_i * inverse + offset)
-                total_end = abs(anywhere(plane, X, right) + sign * anywhere(plane, X, left))
-                X = abs(a_i * inverse - offset)
-                total_end += abs(anywhere(plane, X, right) + sign * anywhere(plane, X, left))
-                edges[i, j] = 0.5 * scale * total_end
-            else:
-                row, share, ln_X = row_at(a_i * inverse, ln_i - ln_a)
-                low, high = in_row(plane, row, share, left - ln_X), in_row(plane, row, share, right - ln_X)
-                edges[i, j] = scale * abs(high + sign * low)
+            for side in (-1.0, 1.0):
+                X = abs(vectors[V_A, i] + side * (vectors[V_XC, i] - vectors[V_XC, j])) / a
+                low, high = anywhere(plane, X, left), anywhere(plane, X, right)
+                u += 0.5 * vectors[V_P, j] * a * (low + high if i == j else abs(high - low))
+        vectors[V_U, i] = u / (math.pi * modulus)
 
 
 @kernel
@@ -110,24 +150,34 @@ def displacement_outside(at, n, n_panels, panels, cosines, vectors, centre, modu
 
 @kernel
 def _eliminate(lu, m, first, second):
-    """Solve lu·x = first and = second in place by Gaussian elimination; the influence matrix needs no pivoting."""
-    for k in range(m):
-        inverse = 1.0 / lu[k, k]
-        pivot = lu[k]
-        for i in range(k + 1, m):
+    """Solve lu·x = first and = second in place by Gaussian elimination; the influence matrix needs no pivoting.
+
+    Two pivots at a time: a row is read and written half as often.
+    """
+    for k in range(0, m - 1, 2):
+        above, below = lu[k], lu[k + 1]
+        inverse = 1.0 / above[k]
+        factor = below[k] * inverse
+        for j in range(k + 1, m):
+            below[j] -= factor * above[j]
+        first[k + 1] -= factor * first[k]
+        second[k + 1] -= factor * second[k]
+        across, next_inverse = above[k + 1], 1.0 / below[k + 1]
+        for i in range(k + 2, m):
             row = lu[i]
-            factor = row[k] * inverse
-            for j in range(k + 1, m):
-                row[j] -= factor * pivot[j]
-            first[i] -= factor * first[k]
-            second[i] -= factor * second[k]
+            f = row[k] * inverse
+            h = (row[k + 1] - f * across) * next_inverse
+            for j in range(k + 2, m):
+                row[j] -= f * above[j] + h * below[j]
+            first[i] -= f * first[k] + h * first[k + 1]
+            second[i] -= f * second[k] + h * second[k + 1]
     for k in range(m - 1, -1, -1):
-        inverse = 1.0 / lu[k, k]
-        first[k] *= inverse
-        second[k] *= inverse
-        for i in range(k):
-            first[i] -= lu[i, k] * first[k]
-            second[i] -= lu[i, k] * second[k]
+        row = lu[k]
+        one, other = first[k], second[k]
+        for j in range(k + 1, m):
+            one -= row[j] * first[j]
+            other -= row[j] * second[j]
+        first[k], second[k] = one / row[k], other / row[k]
 
 
 @kernel
@@ -149,7 +199,7 @@ def solve_active(n, n_panels, vectors, matrix, lu, by_load, amount):
             i = int(vectors[V_INDEX, r])
             vectors[V_Q1, r], vectors[V_Q2, r] = 1.0, -vectors[V_GAP, i]
             for c in range(m):
-                lu[r, c] = matrix[i, int(vectors[V_INDEX, c])]
+                lu[r, c] = matrix[int(vectors[V_INDEX, c]), i]
         _eliminate(lu, m, vectors[V_Q1], vectors[V_Q2])
         stiffness, offset = 0.0, 0.0
         for r in range(m):
@@ -174,7 +224,7 @@ def solve_active(n, n_panels, vectors, matrix, lu, by_load, amount):
                 u = 0.0
                 for r in range(m):
                     j = int(vectors[V_INDEX, r])
-                    u += matrix[i, j] * vectors[V_P, j]
+                    u += matrix[j, i] * vectors[V_P, j]
                 if delta - vectors[V_GAP, i] - u > 1e-4 * delta:
                     vectors[V_ACTIVE, i] = 1.0
                     changed = True

@@ -189,6 +189,8 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         elements, end = matrix(work, end, quadrature.N_EL, n_elements)
         cosines, end = vector(work, end, n_strips + 1)
         cosine_logs, end = matrix(work, end, n_strips, n_strips + 1)
+        own = n_strips if size > 1 else 1  # as in `workspace.rule`
+        columns, end = cube(work, end, influence.N_COLUMNS if size > 1 else 1, own, own)
         coefficients, end = matrix(work, end, kalker.N_TABLE, 8)
         grid, end = matrix(work, end, N_WORK_ROWS, samples)
         vectors, end = matrix(work, end, N_VECTOR_ROWS, size)
@@ -210,7 +212,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         damage, end = vector(work, end, N_DAMAGE)
         count, end = vector(work, end, 1)
         shown, total = matrix(work, end, capacity, n_elements)
-        rule = Rule(nodes, weights, elements, cosines, cosine_logs)
+        rule = Rule(nodes, weights, elements, cosines, cosine_logs, columns)
         space = Space(grid, vectors, logs, influences, lu, memory, lanes, trace)
         problem = Problem(y, g, A, xc, case)
         return (
@@ -267,6 +269,8 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         quadrature.fill_fejer(rule.nodes, rule.weights)
         quadrature.fill_elements(rule.elements)
         quadrature.fill_panel(rule.cosines, rule.cosine_logs)
+        if rule.columns.size > 1:
+            influence.fill_columns(rule.cosine_logs, carray(centre, influence.CENTRE), rule.columns)
         grid = carray(published, (kalker.N_TABLE, 4, 3))
         kalker.fill_table(grid, v[at.material_poisson_ratio], coefficients)
         for i in range(N_PAR):
