@@ -63,12 +63,19 @@ class Workspace(NamedTuple):
     result: Array
 
 
+def columns_shape(n_strips: int, interacting: bool) -> tuple[int, int, int]:
+    """Shape of `Rule.columns`; (1, 1, 1) where it is not used."""
+    if interacting and n_strips <= influence.MOST_TABULATED:
+        return influence.N_COLUMNS, n_strips, n_strips
+    return 1, 1, 1
+
+
 @functools.lru_cache(maxsize=64)
 def rule(n_strips: int, n_elements: int, interacting: bool) -> Rule:
     """Return the (cached) rule of one resolution; `columns` only for methods with `interacting` strips."""
     cosines, logs = quadrature.panel(n_strips)
-    columns = np.empty((influence.N_COLUMNS, n_strips, n_strips) if interacting else (1, 1, 1))
-    if interacting:
+    columns = np.empty(columns_shape(n_strips, interacting))
+    if columns.size > 1:
         influence.fill_columns(logs, influence.tables()[0], columns)
     return Rule(*quadrature.fejer(n_strips), quadrature.elements(n_elements), cosines, logs, columns)
 

@@ -35,6 +35,8 @@ CENTRE, PLANE = (_N_CENTRE, 2), (_N_X + 2, _N_T)
 #: step of that table, which has a row more at either end.
 _LN_A_LOW, _LN_A_HIGH, _LN_A_STEP = -7.0, 4.0, 0.125
 N_COLUMNS = round((_LN_A_HIGH - _LN_A_LOW) / _LN_A_STEP) + 3
+#: Panels of more strips do without the table: it grows with their square (7 MB at 100).
+MOST_TABULATED = 100
 
 _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(6)
 
@@ -136,7 +138,7 @@ def fill_columns(cosine_logs, centre, columns):
 
 @kernel
 def column(columns, j, ln_a, scale, out):
-    """U(0, t2) - U(0, t1) of strip j at all strips of its panel, times `scale`: cubic in ln(a_j/half width), error below 3e-6."""
+    """U(0, t2) - U(0, t1) of strip j at all strips of its panel, times `scale`: cubic in ln(a_j/half width), error 3e-6."""
     u = (ln_a - _LN_A_LOW) * (1.0 / _LN_A_STEP)
     u = u if u > 0.0 else 0.0
     u = min(u, N_COLUMNS - 3.000001)

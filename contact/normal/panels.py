@@ -28,6 +28,8 @@ _END_VALUE, _END_SLOPE = 0.365, 0.108  # (p1/p2)² at the exact half width and i
 _END_RANGE = (-3.0, 20.0)  # of one move outwards before damping, in widths of the end strip
 #: A frozen end still moves outwards from here on: the pressure rises towards the corner of a punch.
 _PUNCH = 1.0
+#: A panel narrower than this, over the widest, is none.
+NO_PANEL = 1e-5
 #: Overlap outside the panels, over the approach, that counts as missed contact, early and in the end.
 EARLY_GHOST, GHOST = 2e-2, 1e-3
 
@@ -277,10 +279,17 @@ def _remove_panel(p, n, n_panels, panels, vectors):
 
 @kernel
 def remove_unloaded(n, n_panels, panels, vectors):
-    """Drop the panels that carry nothing; return the number of those left."""
+    """Drop the panels that carry nothing, or have shrunk to nothing; return the number of those left."""
+    widest = 0.0
+    for p in range(n_panels):
+        widest = max(widest, panels[2 * p + 1] - panels[2 * p])
     p = 0
     while p < n_panels:
         loaded = False
+        if panels[2 * p + 1] - panels[2 * p] < NO_PANEL * widest:
+            _remove_panel(p, n, n_panels, panels, vectors)
+            n_panels -= 1
+            continue
         for i in range(n):
             loaded = loaded or vectors[V_P, p * n + i] > 0.0
         if loaded:

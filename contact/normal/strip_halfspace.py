@@ -140,8 +140,11 @@ def _advance(n, n_panels, panels, vectors, load, known, gram):
             vectors[V_STEP, i] = min(max(vectors[V_STEP, i], -0.8), 0.8)
             vectors[V_LN_A, i] += vectors[V_STEP, i]
         bound = 0.25 * (panels[2 * p + 1] - panels[2 * p])
-        vectors[V_STEP, first] = min(max(vectors[V_STEP, first], -bound), bound)
-        vectors[V_STEP, last] = min(max(vectors[V_STEP, last], -bound), bound)
+        for end in (first, last):
+            # beyond its range the end rule says no more than a direction, which mixing must not reverse
+            if vectors[V_STEP, end] * vectors[V_R, end] <= 0.0 and abs(vectors[V_R, end]) > 1e-2 * bound:
+                vectors[V_STEP, end] = vectors[V_R, end]
+            vectors[V_STEP, end] = min(max(vectors[V_STEP, end], -bound), bound)
         panels[2 * p] += vectors[V_STEP, first]
         panels[2 * p + 1] += vectors[V_STEP, last]
         vectors[V_LN_A, first], vectors[V_LN_A, last] = vectors[V_LN_A, first + 1], vectors[V_LN_A, last - 1]
@@ -266,7 +269,7 @@ def strip_halfspace(y, g, A, xc, case, rule, tables, space, strips, result):
         if n_panels == 0:
             break
         moved, cut = end_moves(y, n, n_panels, panels, rule.cosines, vectors, iteration >= FREEZE)
-        if n_panels < before or error > 2.0 * last_error * load:
+        if n_panels < before or error > 2.0 * last_error * load or iteration == FREEZE:
             known = 0
         last_error = error / load
         settled = not cut and error < TOLERANCE * load and moved < 2.0 * TOLERANCE

@@ -62,6 +62,7 @@ def distances(panels, n_panels, cosines, cosine_logs, vectors, logs):
 def assemble(n, n_panels, panels, vectors, logs, centre, columns, plane, skewed, modulus, matrix):
     """Displacement on the centre line of strip i by unit peak pressure on strip j, into matrix[j, i]."""
     total = n * n_panels
+    tabulated = not skewed and columns.shape[1] == n
     for j in range(total):
         panel = j // n
         first = panel * n
@@ -69,7 +70,7 @@ def assemble(n, n_panels, panels, vectors, logs, centre, columns, plane, skewed,
         scale = a / (math.pi * modulus)
         ln_a = math.log(a)
         for i in range(total):
-            if not skewed and i // n == panel:
+            if tabulated and i // n == panel:
                 continue
             left, right = logs[i, k] - ln_a, logs[i, k + 1] - ln_a
             sign = 1.0 if i == j else -1.0
@@ -79,7 +80,7 @@ def assemble(n, n_panels, panels, vectors, logs, centre, columns, plane, skewed,
             else:
                 low, high = at_centre(centre, left), at_centre(centre, right)
             matrix[j, i] = scale * abs(high + sign * low)
-        if not skewed:
+        if tabulated:
             half = 0.5 * (panels[2 * panel + 1] - panels[2 * panel])
             column(columns, j - first, ln_a - math.log(half), scale, matrix[j, first : first + n])
 

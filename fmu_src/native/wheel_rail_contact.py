@@ -85,7 +85,7 @@ from contact.normal.strip_system import N_VECTOR_ROWS
 from contact.pipeline import solve_case
 from contact.separation import HERTZIAN_POINTS, fill_hertzian
 from contact.tangential.lanes import LANES, N_LANE_ROWS, N_TRACE
-from contact.workspace import Rule, Space, Tables
+from contact.workspace import Rule, Space, Tables, columns_shape
 from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
 from fmu_src.native.memory import compiled, cube, matrix, vector
@@ -98,7 +98,7 @@ _TANGENTIAL_IDS = np.array([float(method.id) for method in _METHODS.tangential.v
 _INTERACTING = np.array([method.interacting for method in _METHODS.normal.values()])
 _CURVATURES, _NORMAL_FORCE = GEOMETRY_KIND.number("Curvatures"), LOAD_KIND.number("NormalForce")
 _DAMAGE_PARAMETERS = DamageParameters().array(contact.STEEL, 1.0, 1.0)
-_steps = compiled(creepage_steps)
+_steps, _columns_shape = compiled(creepage_steps), compiled(columns_shape)
 #: Field of the table → row of the solver's fields, or what is made of strips.
 _PATCH, _Y, _AREA = range(N_FIELD_ROWS, N_FIELD_ROWS + 3)
 _FIELDS = {
@@ -189,8 +189,8 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         elements, end = matrix(work, end, quadrature.N_EL, n_elements)
         cosines, end = vector(work, end, n_strips + 1)
         cosine_logs, end = matrix(work, end, n_strips, n_strips + 1)
-        own = n_strips if size > 1 else 1  # as in `workspace.rule`
-        columns, end = cube(work, end, influence.N_COLUMNS if size > 1 else 1, own, own)
+        tabulated, own, _ = _columns_shape(n_strips, size > 1)
+        columns, end = cube(work, end, tabulated, own, own)
         coefficients, end = matrix(work, end, kalker.N_TABLE, 8)
         grid, end = matrix(work, end, N_WORK_ROWS, samples)
         vectors, end = matrix(work, end, N_VECTOR_ROWS, size)
