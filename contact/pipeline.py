@@ -29,6 +29,7 @@ from contact._layout import RES_EDGES as EDGES
 from contact.normal.analyn import analyn
 from contact.normal.by_approach import by_approach
 from contact.normal.hertzian import hertzian
+from contact.normal.lay import interval_minimum
 from contact.normal.strip_halfspace import strip_halfspace
 from contact.quadrature import EL_DX, EL_S, EL_SINE
 from contact.registry import FASTRIP_MAPPED, FASTSIM, HERTZ, KIK_PIOTROWSKI, STRIP_HALFSPACE
@@ -38,23 +39,35 @@ from contact.tangential.fastsim import fastsim
 
 
 @kernel
-def peak_pressure(strips, n):
-    """Largest pressure: top of the parabola through p0² of the highest strip and its neighbours (exact for an ellipse)."""
-    k = 0
-    for i in range(1, n):
-        if strips[STRIP_P0, i] > strips[STRIP_P0, k]:
-            k = i
+def _square_slope(strips, i, first, last):
+    """Slope of p0² at strip i from the parabola through it and its neighbours in the patch of strips first … last."""
+    k = min(max(i, first + 1), last - 1)
+    y, left, right = strips[STRIP_Y, k], strips[STRIP_Y, k - 1], strips[STRIP_Y, k + 1]
     top = strips[STRIP_P0, k] ** 2
-    patch = strips[STRIP_PATCH, k]
-    if 0 < k < n - 1 and strips[STRIP_PATCH, k - 1] == patch and strips[STRIP_PATCH, k + 1] == patch:
-        h0 = strips[STRIP_Y, k] - strips[STRIP_Y, k - 1]
-        h1 = strips[STRIP_Y, k + 1] - strips[STRIP_Y, k]
-        d0 = (top - strips[STRIP_P0, k - 1] ** 2) / h0
-        d1 = (strips[STRIP_P0, k + 1] ** 2 - top) / h1
-        curvature = (d1 - d0) / (h0 + h1)
-        if curvature < 0.0:
-            slope = (h1 * d0 + h0 * d1) / (h0 + h1)
-            top -= 0.25 * slope * slope / curvature
+    d0 = (top - strips[STRIP_P0, k - 1] ** 2) / (y - left)
+    d1 = (strips[STRIP_P0, k + 1] ** 2 - top) / (right - y)
+    return d0 + (d1 - d0) / (right - left) * (2.0 * strips[STRIP_Y, i] - left - y)
+
+
+@kernel
+def peak_pressure(strips, n):
+    """Largest pressure: top of the cubics through p0² of the strips with three-point slopes (exact for an ellipse)."""
+    top, first = 0.0, 0
+    while first < n:
+        last = first
+        while last + 1 < n and strips[STRIP_PATCH, last + 1] == strips[STRIP_PATCH, first]:
+            last += 1
+        for i in range(first, last + 1):
+            square = strips[STRIP_P0, i] ** 2
+            top = max(top, square)
+            if i == last or last < first + 2:
+                continue
+            here, there = _square_slope(strips, i, first, last), _square_slope(strips, i + 1, first, last)
+            if here > 0.0 > there:
+                h = strips[STRIP_Y, i + 1] - strips[STRIP_Y, i]
+                _, least = interval_minimum(h, -square, -here, -(strips[STRIP_P0, i + 1] ** 2), -there)
+                top = max(top, -least)
+        first = last + 1
     return math.sqrt(top)
 
 
