@@ -25,6 +25,7 @@ def test_random_physical_cases_are_solved(normal, tangential):
     assert found["slip"] <= 1e-3, "0 ≤ slip ratio ≤ 1"
     if tangential != "fastsim":  # its parabola exceeds mu p by design (thesis 4.2)
         assert found["bound"] <= 1e-9, "|q| ≤ μp"
-    if normal != "strip_halfspace":
-        assert statuses[contact.Status.NOT_CONVERGED] == 0
+    # strips on punches and on roughness of 2 µm: 1.2 % of many cases, and none of these on real patches
+    assert statuses[contact.Status.NOT_CONVERGED] <= (9 if normal == "strip_halfspace" else 0)
+    assert found["not converged"]["pose"] == found["not converged"]["worn"] == found["not converged"]["ellipse"] == 0
     assert statuses[contact.Status.OUT_OF_RANGE] <= 16

@@ -92,7 +92,7 @@ def half_lengths(vectors, n, n_panels):
         vectors[V_A, first] = 0.447 * vectors[V_A, first + 1]
         vectors[V_A, first + n - 1] = 0.447 * vectors[V_A, first + n - 2]
         for i in range(first + 1, first + n - 1):
-            if vectors[V_ACTIVE, i] > 0.0:
+            if vectors[V_ACTIVE, i] != 0.0:
                 floor = 0.3 * max(vectors[V_A, i - 1], vectors[V_A, i + 1])
                 if vectors[V_A, i] <= floor:
                     vectors[V_A, i], vectors[V_LN_A, i] = floor, math.log(floor)

@@ -271,8 +271,6 @@ def strip_halfspace(y, g, A, xc, case, rule, tables, space, strips, result):
         moved, cut = end_moves(y, n, n_panels, panels, rule.cosines, vectors, iteration >= FREEZE)
         if n_panels < before or error > 2.0 * last_error * load or iteration == FREEZE:
             known = 0
-        if iteration == FREEZE:
-            vectors[V_ACTIVE, : n_panels * n] = 1.0
         last_error = error / load
         settled = not cut and error < TOLERANCE * load and moved < 2.0 * TOLERANCE
         ghosts = False

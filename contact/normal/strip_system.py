@@ -20,7 +20,7 @@ from contact.normal.influence import anywhere, at_centre, column, in_row, row_at
     V_R_OLD,
     V_LN_A,
     V_STEP,
-    V_ACTIVE,  # positive: in the active set; its size less 1 counts how often the strip has left it
+    V_ACTIVE,
     V_INDEX,
     V_FLOORED,  # the half length stands at its lower bound
     V_U,  # displacement at the strip's ends
@@ -33,10 +33,6 @@ from contact.normal.influence import anywhere, at_centre, column, in_row, row_at
 DEPTH = 3
 V_STEPS, V_CHANGES = 21, 21 + DEPTH
 N_VECTOR_ROWS = 21 + 2 * DEPTH
-
-
-#: A strip that has left the active set so often stays out.
-_MOST_RETURNS = 5.0
 
 
 @kernel
@@ -190,15 +186,14 @@ def solve_active(n, n_panels, vectors, matrix, lu, by_load, amount):
     """Peak pressures that close the gap of every loaded strip; return the approach above first touch.
 
     p = delta·q1 + q2 with q1 the answer to a unit approach, so load- and approach-prescribed differ in one line. Strips under
-    tension leave the active set, separated strips that would overlap enter it, unless they have done so too often; at most
-    20 rounds.
+    tension leave the active set, separated strips that would overlap enter it; at most 20 rounds.
     """
     total = n * n_panels
     delta = 0.0
     for _ in range(20):
         m = 0
         for i in range(total):
-            if vectors[V_ACTIVE, i] > 0.0:
+            if vectors[V_ACTIVE, i] != 0.0:
                 vectors[V_INDEX, m] = i
                 m += 1
         for r in range(m):
@@ -220,19 +215,19 @@ def solve_active(n, n_panels, vectors, matrix, lu, by_load, amount):
         changed = False
         for i in range(total):
             place = i % n
-            if vectors[V_ACTIVE, i] > 0.0:
+            if vectors[V_ACTIVE, i] != 0.0:
                 neighbour = i + 1 if place == 0 else i - 1
                 at_end = place in (0, n - 1) and vectors[V_P, neighbour] > 0.0
                 if vectors[V_P, i] < 0.0 and not at_end:
-                    vectors[V_ACTIVE, i] *= -1.0
+                    vectors[V_ACTIVE, i] = 0.0
                     changed = True
-            elif vectors[V_ACTIVE, i] > -_MOST_RETURNS:
+            else:
                 u = 0.0
                 for r in range(m):
                     j = int(vectors[V_INDEX, r])
                     u += matrix[j, i] * vectors[V_P, j]
                 if delta - vectors[V_GAP, i] - u > 1e-4 * delta:
-                    vectors[V_ACTIVE, i] = 1.0 - vectors[V_ACTIVE, i]
+                    vectors[V_ACTIVE, i] = 1.0
                     changed = True
         if not changed:
             break

@@ -7,6 +7,8 @@ import pytest
 from scipy.integrate import quad
 
 import contact
+from contact import quadrature, workspace
+from contact.geometry import profile, wheelset
 from contact.normal import influence
 from tests.normal.test_analyn import two_lobes
 
@@ -36,6 +38,19 @@ def test_centre_line_table_equals_quadrature(t):
 @pytest.mark.parametrize("t", [2e-3, 0.1, 1.0, 20.0, 300.0])
 def test_plane_table_equals_quadrature(X, t):
     assert influence.anywhere(PLANE, X, math.log(t)) == pytest.approx(exact_U(X, t), rel=1e-3)
+
+
+@pytest.mark.parametrize("ln_a", [-5.03, -1.94, 0.02, 3.1])
+def test_table_of_a_panel_equals_the_closed_form(ln_a):
+    """Displacement by strips of one panel, interpolated over ln(a/half width), against the table on the centre line."""
+    n = 12
+    columns, (_, logs) = workspace.rule(n, 10, True).columns, quadrature.panel(n)
+    out = np.empty(n)
+    for j in range(n):
+        influence.column(columns, j, ln_a, 2.0, out)
+        near, far = (np.array([influence.at_centre(CENTRE, log - ln_a) for log in logs[:, k]]) for k in (j, j + 1))
+        own = np.arange(n) == j
+        np.testing.assert_allclose(out, 2.0 * np.where(own, near + far, np.abs(far - near)), rtol=1e-5)
 
 
 @pytest.mark.parametrize("ratio", [0.1, 0.3, 1.0, 4.0, 30.0])
@@ -127,3 +142,37 @@ def test_absurd_gap_is_answered_with_analyns_solution():
     start = contact.solve(separation, NO_CREEP, load=8e4, throw=False)
     assert sol.status is contact.Status.NOT_CONVERGED
     np.testing.assert_array_equal(sol.p, start.p)
+
+
+def test_more_strips_than_are_tabulated_give_the_same_patch():
+    separation = contact.Separation.hertzian(1.0, 3.0)
+    few, many = (
+        contact.solve(separation, NO_CREEP, load=8e4, normal="strip_halfspace", n_strips=n, n_elements=4)
+        for n in (influence.MOST_TABULATED, influence.MOST_TABULATED + 1)
+    )
+    assert many.approach == pytest.approx(few.approach, rel=1e-5)
+    assert many.max_pressure == pytest.approx(few.max_pressure, rel=1e-4)
+
+
+def test_a_flat_punch_converges_with_its_ends_at_the_corners():
+    """The pressure rises towards the corners, where the rule of the ends has no steady answer: they stand still in the end."""
+    y = np.linspace(-20e-3, 20e-3, 201)
+    g = 1e-4 * y**2 + 100.0 * np.maximum(np.abs(y) - 6e-3, 0.0) ** 2
+    sol = contact.solve(contact.Separation(y, g, 1.0), NO_CREEP, load=5e3, normal="strip_halfspace")
+    assert sol.converged
+    assert sol.iterations < 30
+    np.testing.assert_allclose(np.abs(sol.patch_edges), 6e-3, rtol=0.05)
+
+
+def test_newborn_patches_carry_no_spike_of_pressure():
+    """At these places of the lateral sweep a second panel shrank to a width of 1e-12 mm with 40 times the pressure."""
+    pair = wheelset.Pair(
+        profile.s1002(), profile.rail_60e1(inclination=1 / 40), combine_distance=1.0, combine_angle=math.pi
+    )
+    peaks = []
+    for at in (4.76, 4.77, 4.78, 5.02, 5.03, 5.04, 5.69, 5.70, 5.71):
+        separation = pair.contacts(wheelset.Pose(y=1e-3 * at), load=8e4)[0].separation
+        sol = contact.solve(separation, NO_CREEP, load=8e4, normal="strip_halfspace")
+        assert sol.converged
+        peaks.append(sol.max_pressure)
+    np.testing.assert_allclose(np.diff(np.log(peaks).reshape(3, 3)), 0.0, atol=0.05)
