@@ -24,15 +24,11 @@ from contact.normal.influence import anywhere, at_centre, column, in_row, row_at
     V_INDEX,
     V_FLOORED,  # the half length stands at its lower bound
     V_U,  # displacement at the strip's ends
-    V_ROW,
-    V_SHARE,
-    V_LEFT,
-    V_RIGHT,
-) = range(21)
+) = range(17)
 #: Steps and changes of the residual of the last iterations.
 DEPTH = 3
-V_STEPS, V_CHANGES = 21, 21 + DEPTH
-N_VECTOR_ROWS = 21 + 2 * DEPTH
+V_STEPS, V_CHANGES = 17, 17 + DEPTH
+N_VECTOR_ROWS = 17 + 2 * DEPTH
 
 
 @kernel
@@ -87,12 +83,12 @@ def assemble(n, n_panels, panels, vectors, logs, centre, columns, plane, skewed,
 
 @kernel
 def edge_displacements(n, n_panels, vectors, logs, plane, modulus):
-    """Displacement at the ends of every loaded strip into V_U; two flat loops over all strips for each."""
+    """Displacement at the ends of every loaded strip into V_U."""
     total = n * n_panels
     for j in range(total):
         vectors[V_Q1, j] = math.log(vectors[V_A, j])
         vectors[V_Q2, j] = 1.0 / vectors[V_A, j]
-        vectors[V_LEFT, j] = vectors[V_P, j] * vectors[V_A, j] / (math.pi * modulus)
+        vectors[V_R, j] = vectors[V_P, j] * vectors[V_A, j] / (math.pi * modulus)
     for i in range(total):
         vectors[V_U, i] = 0.0
         if vectors[V_P, i] == 0.0:
@@ -106,7 +102,7 @@ def edge_displacements(n, n_panels, vectors, logs, plane, modulus):
                 row, share, ln_X = row_at(a * vectors[V_Q2, J], ln_a - vectors[V_Q1, J])
                 ln_X += vectors[V_Q1, J]
                 low, high = in_row(plane, row, share, at[j] - ln_X), in_row(plane, row, share, at[j + 1] - ln_X)
-                u += vectors[V_LEFT, J] * (low + high if i == J else abs(high - low))
+                u += vectors[V_R, J] * (low + high if i == J else abs(high - low))
         vectors[V_U, i] = u
 
 
