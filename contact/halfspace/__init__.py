@@ -1,5 +1,6 @@
 """Kalker's complete theory element by element on a grid: the project's own reference (theory.md 6)."""
 
 from contact.halfspace.norm import Normal, norm
+from contact.halfspace.tang import Tangential, tang
 
-__all__ = ["Normal", "norm"]
+__all__ = ["Normal", "Tangential", "norm", "tang"]

@@ -79,29 +79,33 @@ def fast_length(n: int) -> int:
 class Influence:
     """The half space under a grid of `shape` (ny, nx): displacement difference [m] from tractions [Pa].
 
-    `reach` columns of displacement more than the grid has are exact on its far side (towards +x).
+    Displacement is also exact one column beyond the grid, towards +x.
     """
 
-    def __init__(self, shape: tuple[int, int], dx: float, dy: float, material: Material, reach: int = 0) -> None:
+    def __init__(self, shape: tuple[int, ...], dx: float, dy: float, material: Material) -> None:
         ny, nx = shape
-        self.shape, self.reach = (ny, nx), reach
-        self._padded = fast_length(2 * ny), fast_length(2 * (nx + reach))
+        self.shape = ny, nx
+        self._padded = fast_length(2 * ny), fast_length(2 * nx + 2)
         I1, I2, I3 = _transfers(self._padded[1], self._padded[0], dy / dx)
         nu, scale = material.poisson_ratio, dx / (math.pi * material.shear_modulus)
+        #: Transfer functions C_zz, C_xx, C_yy, C_xy [m/Pa]
         self.zz = scale * (1.0 - nu) * (I1 + I2)
+        self.xx, self.yy, self.xy = self.zz + scale * nu * I1, self.zz + scale * nu * I2, scale * nu * I3
         self._inverse = 1.0 / self.zz
         #: C_zz of an element on itself [m/Pa]
         self.own = 2.0 * scale * (1.0 - nu) * (dy / dx * math.asinh(dx / dy) + math.asinh(dy / dx))
-        self._I, self._nu_scale = (I1, I2, I3), nu * scale
+        #: What a transform is multiplied by to be read one column further on
+        self.ahead = np.exp(2j * math.pi / self._padded[1] * np.arange(self._padded[1] // 2 + 1))
 
     def forward(self, field: Array) -> NDArray[np.complex128]:
         """Transform fields (…, ny, nx) on the padded grid."""
         return np.fft.rfft2(field, self._padded)
 
-    def back(self, transform: NDArray[np.complex128], extra: int = 0) -> Array:
-        """Transform back to the grid, with `extra` columns beyond it."""
+    def back(self, transform: NDArray[np.complex128]) -> Array:
+        """Transform back to the grid."""
         ny, nx = self.shape
-        return np.fft.irfft2(transform, self._padded)[..., :ny, : nx + extra]
+        rows = np.fft.ifft(transform, axis=-2)[..., :ny, :]
+        return np.fft.irfft(rows, self._padded[1], axis=-1)[..., :nx]
 
     def normal(self, p: Array) -> Array:
         """Normal displacement [m], shape (ny, nx), from the pressure `p` [Pa]."""

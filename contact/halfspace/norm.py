@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.halfspace.influence import Influence
+from contact.halfspace.krylov import dot, size
 from contact.material import Material
 
 Array = NDArray[np.float64]
@@ -209,20 +210,20 @@ def _conjugate_gradients(h: Array, influence: Influence, p: Array, tolerance: fl
     for iteration in range(1, MAX_ITERATIONS + 1):
         residual = e * touching
         z = influence.normal_inverse(residual) * touching
-        before, square = square, float(np.vdot(residual, z))
+        before, square = square, dot(residual, z)
         if restart:
             direction = z
         else:
-            beta = max((square - float(np.vdot(old, z))) / before, 0.0)
+            beta = max((square - dot(old, z)) / before, 0.0)
             direction = z + beta * direction * touching
         old = residual
         moved = influence.normal(direction)
-        curvature = float(np.vdot(direction, moved))
+        curvature = dot(direction, moved)
         if curvature <= 0.0:  # nothing left to correct
             return p, iteration, True
-        step = float(np.vdot(residual, direction)) / curvature
+        step = dot(residual, direction) / curvature
         p = p - step * direction
-        change = abs(step) * float(np.linalg.norm(direction)) / max(float(np.linalg.norm(p)), 1e-300)
+        change = abs(step) * size(direction) / max(size(p), 1e-300)
         pulled = p < 0.0
         entering = (e < 0.0) & ~touching
         restart = bool(entering.any())
@@ -251,13 +252,13 @@ def _stiffness(p: Array, dx: float, dy: float, material: Material) -> Array:
     r, residual, direction, square = np.zeros(inside.shape), inside.astype(np.float64), np.zeros(inside.shape), 1.0
     for _ in range(MAX_ITERATIONS):
         z = influence.normal_inverse(residual) * inside
-        before, square = square, float(np.vdot(residual, z))
+        before, square = square, dot(residual, z)
         direction = z + square / before * direction
         moved = influence.normal(direction) * inside
-        step = square / float(np.vdot(direction, moved))
+        step = square / dot(direction, moved)
         r += step * direction
         residual -= step * moved
-        if abs(step) * float(np.linalg.norm(direction)) <= 1e-4 * float(np.linalg.norm(r)):
+        if abs(step) * size(direction) <= 1e-4 * size(r):
             break
     rates[window] = r
     return rates

@@ -1,0 +1,107 @@
+"""Stick and slip element by element: what Newton's iteration for TANG needs of Coulomb's law, over fields (2, ny, nx)."""
+
+import math
+
+from contact._jit import kernel
+
+#: zone[...]: what an element does
+OUTSIDE, STICK, SLIP = 0.0, 1.0, 2.0
+
+
+@kernel
+def linearise(q, s, bound, rho, zone, tangent, stiffness, correction, rhs):
+    """Set up Newton's step for q = projection of q - s/rho on the disc of radius `bound`; return the squared residual.
+
+    With z = q - s/rho: an element sticks where |z| <= bound; the step shall bring s there to zero. Elsewhere it slips against
+    n = -z/|z|: `correction` brings q onto the circle, and the rest of the step, along `tangent`, turns it so that the slip
+    has no part along the tangent; `stiffness` = rho (|z|/bound - 1) is slip over bound at the solution.
+    """
+    total = 0.0
+    for i in range(bound.shape[0]):
+        for j in range(bound.shape[1]):
+            g = bound[i, j]
+            zone[i, j], stiffness[i, j] = OUTSIDE, 0.0
+            for k in range(2):
+                tangent[k, i, j], correction[k, i, j], rhs[k, i, j] = 0.0, 0.0, 0.0
+            if g <= 0.0:
+                continue
+            qx, qy, sx, sy = q[0, i, j], q[1, i, j], s[0, i, j], s[1, i, j]
+            zx, zy = qx - sx / rho, qy - sy / rho
+            z = math.sqrt(zx * zx + zy * zy)
+            if z <= g:
+                zone[i, j] = STICK
+                rhs[0, i, j], rhs[1, i, j] = -sx, -sy
+                total += (sx * sx + sy * sy) / (rho * rho)
+                continue
+            zone[i, j] = SLIP
+            nx, ny = zx / z, zy / z
+            total += (qx - g * nx) ** 2 + (qy - g * ny) ** 2
+            beyond = nx * qx + ny * qy - g
+            across = (ny * sx - nx * sy) * z / g
+            tangent[0, i, j], tangent[1, i, j] = -ny, nx
+            correction[0, i, j], correction[1, i, j] = -beyond * nx, -beyond * ny
+            rhs[0, i, j], rhs[1, i, j] = -ny * across, nx * across
+            stiffness[i, j] = rho * (z / g - 1.0)
+    return total
+
+
+@kernel
+def restrict(v, zone, tangent):
+    """Keep of `v` what may change: all of it in stick, its part along the tangent in slip, nothing outside."""
+    for i in range(zone.shape[0]):
+        for j in range(zone.shape[1]):
+            if zone[i, j] == SLIP:
+                tx, ty = tangent[0, i, j], tangent[1, i, j]
+                along = tx * v[0, i, j] + ty * v[1, i, j]
+                v[0, i, j], v[1, i, j] = along * tx, along * ty
+            elif zone[i, j] == OUTSIDE:
+                v[0, i, j], v[1, i, j] = 0.0, 0.0
+
+
+@kernel
+def accumulate(v, u, zone, stiffness, own, dx, share, out):
+    """Precondition `v`: sum of the changes `u` from the leading edge in stick, the element's own flexibility in slip.
+
+    `share` of the sum remains from one element to the next (1 in steady rolling).
+    """
+    nx = zone.shape[1]
+    for i in range(zone.shape[0]):
+        sum_x, sum_y = 0.0, 0.0
+        for j in range(nx - 1, -1, -1):
+            sum_x, sum_y = share * sum_x, share * sum_y
+            if zone[i, j] == STICK:
+                sum_x += share * dx * u[0, i, j]
+                sum_y += share * dx * u[1, i, j]
+                out[0, i, j], out[1, i, j] = sum_x, sum_y
+            else:
+                flexibility = own + stiffness[i, j]
+                out[0, i, j], out[1, i, j] = v[0, i, j] / flexibility, v[1, i, j] / flexibility
+
+
+@kernel
+def admit(q, zone, bound):
+    """Bring the traction of slipping elements back onto the circle."""
+    for i in range(bound.shape[0]):
+        for j in range(bound.shape[1]):
+            if zone[i, j] == SLIP:
+                size = math.sqrt(q[0, i, j] ** 2 + q[1, i, j] ** 2)
+                if size > 0.0:
+                    q[0, i, j] *= bound[i, j] / size
+                    q[1, i, j] *= bound[i, j] / size
+
+
+@kernel
+def settle(q, s, zone, bound):
+    """Make the last iterate admissible: |q| <= bound, slip against q and nowhere else."""
+    for i in range(bound.shape[0]):
+        for j in range(bound.shape[1]):
+            g = bound[i, j]
+            size = math.sqrt(q[0, i, j] ** 2 + q[1, i, j] ** 2)
+            if size > g or (zone[i, j] == SLIP and size > 0.0):
+                q[0, i, j] *= g / size
+                q[1, i, j] *= g / size
+            slip = 0.0
+            if zone[i, j] == SLIP and g > 0.0:
+                slip = max(-(q[0, i, j] * s[0, i, j] + q[1, i, j] * s[1, i, j]) / g, 0.0)
+            for k in range(2):
+                s[k, i, j] = -slip * q[k, i, j] / g if slip > 0.0 else 0.0
