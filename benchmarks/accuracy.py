@@ -226,7 +226,7 @@ def triple(values: Any, digits: int = 4) -> str:
 
 def report() -> str:
     """All tables as Markdown."""
-    tangential = list(contact.methods().tangential)
+    tangential = list(contact.methods().batched.tangential)
     published = {
         "fastsim_1flx_par": "CONTACT: FASTSIM, 1 flexibility",
         "fastsim_3flx_par": "CONTACT: FASTSIM, 3 flexibilities blended",
@@ -244,7 +244,7 @@ def report() -> str:
     rows = []
     for name, title in (("kpec_fastsim", "CONTACT: KPEC"), ("analyn_fastsim", "CONTACT: ANALYN")):
         rows.append([title, *normal_row(published_on_patches(name))])
-    rows += [[f"`{n}`", *normal_row(errors_on_patches(n, "fastrip"))] for n in contact.methods().normal]
+    rows += [[f"`{n}`", *normal_row(errors_on_patches(n, "fastrip"))] for n in contact.methods().batched.normal]
     d_normal = table(["method", "N", "max pressure", "area", "pressure L2"], rows)
 
     rows = []

@@ -21,7 +21,7 @@ from contact.geometry import profile, wheelset
 from contact.normal import analyn, by_approach, strip_halfspace
 
 #: Most iterations that a normal method may take.
-CAPS = dict.fromkeys(contact.methods().normal, by_approach.MAX_ITERATIONS) | {
+CAPS = dict.fromkeys(contact.methods().batched.normal, by_approach.MAX_ITERATIONS) | {
     "analyn": analyn._MAX_ITERATIONS,
     "hertz": 1,
     "strip_halfspace": strip_halfspace.MAX_ITERATIONS,
@@ -201,7 +201,7 @@ def run(normal: str, tangential: str, n: int, seed: int, solved: int) -> dict[st
 
 def report(cases: int, seed: int) -> str:
     """Tables of statuses and worst margins as Markdown."""
-    pairs = list(itertools.product(contact.methods().normal, contact.methods().tangential))
+    pairs = list(itertools.product(contact.methods().batched.normal, contact.methods().batched.tangential))
     share = -(-cases // len(pairs))
     results = {p: run(*p, share, seed + k, share // 50) for k, p in enumerate(pairs)}
     names = [f"`{n}` + `{t}`" for n, t in pairs]

@@ -20,7 +20,7 @@ from contact.pipeline import solve_case
 
 PATCH = next(case for case in accuracy.patches() if case["name"].startswith("c40_dy+0"))
 SEPARATION = contact.Separation(np.array(PATCH["y"]) * 1e-3, np.array(PATCH["g"]) * 1e-3, np.array(PATCH["A"]) * 1e3)
-METHODS = contact.methods()
+METHODS = contact.methods().batched
 CREEP = contact.Creepage(1e-3, 5e-4, 0.1)
 
 

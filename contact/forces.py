@@ -131,14 +131,14 @@ def forces(
         shapes = ", ".join(str(np.shape(c)) for c in columns)
         raise ContactError(f"shapes of load, creepages, friction and separation do not broadcast: {shapes}") from None
     n_strips, n_elements = require_resolution(n_strips, n_elements)
-    method = lookup("normal", normal)
+    method = lookup("normal", normal, batched=True)
     shape, count = amount.shape, amount.size
     cases = np.empty((count, N_CASE))
     cases[:, CASE_LOAD_KIND] = LOAD if load is not None else APPROACH
     for row, values in ((CASE_LOAD, amount), (CASE_VX, vx), (CASE_VY, vy), (CASE_PHI, phi), (CASE_MU, mu)):
         cases[:, row] = values.ravel()
     cases[:, CASE_G], cases[:, CASE_NU] = material.shear_modulus, material.poisson_ratio
-    cases[:, CASE_NORMAL], cases[:, CASE_TANGENTIAL] = method.id, lookup("tangential", tangential).id
+    cases[:, CASE_NORMAL], cases[:, CASE_TANGENTIAL] = method.id, lookup("tangential", tangential, batched=True).id
 
     bounds = np.cumsum([0, *(s.y.size for s in separations)])
     y, g, A, xc = (np.concatenate([getattr(s, name) for s in separations]) for name in ("y", "g", "A", "x_c"))

@@ -26,6 +26,7 @@ class Method:
     fields : returns traction, slip and stick over the patch (tangential) or pressure (normal)
     spin : takes spin into account
     interacting : every strip feels the pressure of all others (normal)
+    batched : a kernel over strips, which `contact.forces` and the FMUs offer too; else `contact.solve` alone
     """
 
     name: str
@@ -37,6 +38,7 @@ class Method:
     fields: bool = True
     spin: bool = True
     interacting: bool = False
+    batched: bool = True
 
 
 class Methods(NamedTuple):
@@ -45,11 +47,17 @@ class Methods(NamedTuple):
     normal: MappingProxyType[str, Method]
     tangential: MappingProxyType[str, Method]
 
+    @property
+    def batched(self) -> Methods:
+        """Those that `contact.forces` and the FMUs offer."""
+        return Methods(*(MappingProxyType({n: m for n, m in kind.items() if m.batched}) for kind in self))
+
 
 ANALYN, HERTZ, STRIP_HALFSPACE = 0, 1, 2
 # solved by `normal.by_approach`, from the first of them on
 KIK_PIOTROWSKI, KIK_PIOTROWSKI_2008, LINDER, STRIPES_A, STRIPES_AB, WINKLER, SRST = range(20, 27)
 FASTRIP, FASTSIM, FASTRIP_MAPPED = 0, 1, 2
+HALFSPACE = -1  # no kernel of the pipeline
 
 _NORMAL = (
     Method("analyn", ANALYN, "ANALYN, approximate surface deformation", "Sichani 2016, ch. 9, Paper B", True, True),
@@ -77,12 +85,31 @@ _NORMAL = (
     Method("stripes_ab", STRIPES_AB, "STRIPES with AB correction", "Ayasse and Chollet 2005", True, True),
     Method("winkler", WINKLER, "elastic foundation", "Winkler 1867; Johnson 1985, ch. 4.3", True, True),
     Method("srst", SRST, "square root of half the overlap", "Alonso and Giménez 2005", True, True),
+    Method(
+        "halfspace",
+        HALFSPACE,
+        "NORM, element-wise half space: the reference",
+        "Kalker 1990; Polonsky and Keer 1999",
+        True,
+        True,
+        interacting=True,
+        batched=False,
+    ),
 )
 _TANGENTIAL = (
     Method("fastrip", FASTRIP, "FaStrip on local ellipses", "Sichani 2016, ch. 4 and 9, Papers D and E", True, True),
     Method("fastsim", FASTSIM, "FASTSIM, three flexibilities, parabolic bound", "Kalker 1982", True, True),
     Method(
         "fastrip_mapped", FASTRIP_MAPPED, "FaStrip in one march, mapped to the pressure", "this project", True, True
+    ),
+    Method(
+        "halfspace",
+        HALFSPACE,
+        "TANG in steady rolling, element-wise half space: the reference",
+        "Kalker 1990",
+        True,
+        True,
+        batched=False,
     ),
 )
 _METHODS = Methods(
@@ -96,9 +123,16 @@ def methods() -> Methods:
     return _METHODS
 
 
-def lookup(kind: str, name: str) -> Method:
-    """Return the method `name` of `kind` ("normal" or "tangential") or raise a ContactError that lists the known ones."""
-    known: MappingProxyType[str, Method] = getattr(_METHODS, kind)
+def lookup(kind: str, name: str, *, batched: bool = False) -> Method:
+    """Return the method `name` of `kind` ("normal" or "tangential"), one of those `batched` if need be.
+
+    Raises
+    ------
+    ContactError
+        For another name; it lists the allowed ones.
+    """
+    known: MappingProxyType[str, Method] = getattr(_METHODS.batched if batched else _METHODS, kind)
     if name not in known:
-        raise ContactError(f"{kind} = {name!r} is not a registered method; allowed: {', '.join(known)}")
+        what = "offered here, but by contact.solve" if name in getattr(_METHODS, kind) else "a registered method"
+        raise ContactError(f"{kind} = {name!r} is not {what}; allowed: {', '.join(known)}")
     return known[name]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from contact import workspace
@@ -42,9 +44,11 @@ from contact._layout import (
 )
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
+from contact.halfspace.gap import Division, Gap
+from contact.halfspace.solve import solve_gap, solve_pressure
 from contact.material import STEEL, Material
 from contact.pipeline import solve_case
-from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.separation import Separation
 from contact.solution import Solution, Status, Strips
 
@@ -61,7 +65,7 @@ def require_resolution(n_strips: object, n_elements: object) -> tuple[int, int]:
 
 
 def solve(
-    separation: Separation,
+    separation: Separation | Gap,
     creepage: Creepage,
     *,
     load: float | None = None,
@@ -73,15 +77,17 @@ def solve(
     tangential: str = DEFAULT_TANGENTIAL,
     n_strips: int = N_STRIPS,
     n_elements: int = N_ELEMENTS,
+    spacing: float | tuple[float, float] | None = None,
     start: Solution | None = None,
+    progress: Callable[[int, float], None] | None = None,
     throw: bool = True,
 ) -> Solution:
     """Solve the contact of one wheel-rail pair in the plane of its separation.
 
     Parameters
     ----------
-    separation : Separation
-        Undeformed gap.
+    separation : Separation or contact.halfspace.Gap
+        Undeformed gap; on a grid for the element-wise half space alone.
     creepage : Creepage
         Relative rigid motion, wheel minus rail over speed.
     load, approach : float
@@ -94,10 +100,15 @@ def solve(
     normal, tangential : str
         Names from `contact.methods()`.
     n_strips, n_elements : int
-        Strips per patch, 4 to 1000, and elements per strip, 4 to 1000.
+        Strips per patch, 4 to 1000, and elements per strip, 4 to 1000. With normal="halfspace" rows and columns of elements
+        over the undeformed overlap, of which contact takes about 0.7 each way.
+    spacing : float or (float, float)
+        Size (dx, dy) of the elements of the half space [m], instead of their number.
     start : Solution
         Solution of a neighbouring problem at the same resolution, from which an iterative normal method may start. It changes
         the time that is taken, and the result within the method's tolerance.
+    progress : callable
+        Given step and residual of the half space's tangential iteration.
     throw : bool
         Raise when the problem has no trustworthy answer (patch beyond the separation, not converged). With False the
         `status` of the solution says so.
@@ -112,7 +123,7 @@ def solve(
     ContactError
         For input outside its range, and, with `throw`, for the status OUT_OF_RANGE or NOT_CONVERGED.
     """
-    if not isinstance(separation, Separation):
+    if not isinstance(separation, Separation | Gap):
         raise ContactError(f"separation = {separation!r} is not a contact.Separation")
     if not isinstance(creepage, Creepage):
         raise ContactError(f"creepage = {creepage!r} is not a contact.Creepage")
@@ -125,11 +136,68 @@ def solve(
     mu = require_number("friction", friction, 0.0)
     speed = require_number("speed", speed, 0.0, open_minimum=True)
     n_strips, n_elements = require_resolution(n_strips, n_elements)
-    method = lookup("normal", normal)
+    method, rolling = lookup("normal", normal), lookup("tangential", tangential)
+    division = Division(n_strips, n_elements, _pair(spacing))
+    if not method.batched:
+        if rolling.batched:
+            raise ContactError(f"tangential = {tangential!r} does not serve normal = {normal!r}; allowed: halfspace")
+        solution: Solution = solve_gap(
+            separation,
+            creepage,
+            division,
+            load=load,
+            approach=approach,
+            friction=mu,
+            material=material,
+            speed=speed,
+            progress=progress,
+        )
+    elif not isinstance(separation, Separation):
+        raise ContactError(f"normal = {normal!r} needs a contact.Separation; separation = {separation!r} is on a grid")
+    else:
+        solution = _on_strips(
+            separation, creepage, (kind, amount), mu, material, speed, method, rolling, n_strips, n_elements, start
+        )
+        if not rolling.batched:
+            solution = solve_pressure(solution, division, progress)
+    if throw and solution.status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED):
+        what = "load" if load is not None else "approach"
+        raise ContactError(
+            f"{what} = {amount:g}: {solution.status.message}; y = [{separation.y[0]:g}, {separation.y[-1]:g}] m "
+            f"(throw=False returns the solution with this status)"
+        )
+    return solution
+
+
+def _pair(spacing: object) -> tuple[float, float] | None:
+    """(dx, dy) of the elements, or None."""
+    if spacing is None:
+        return None
+    both = spacing if isinstance(spacing, tuple | list) else (spacing, spacing)
+    if len(both) != 2:
+        raise ContactError(f"spacing = {spacing!r} is not a number or a pair of numbers")
+    dx, dy = (require_number("spacing", value, 0.0, open_minimum=True) for value in both)
+    return dx, dy
+
+
+def _on_strips(
+    separation: Separation,
+    creepage: Creepage,
+    amount: tuple[float, float],
+    mu: float,
+    material: Material,
+    speed: float,
+    method: Method,
+    rolling: Method,
+    n_strips: int,
+    n_elements: int,
+    start: Solution | None,
+) -> Solution:
+    """Call the kernel; of a tangential method without kernel the default one stands in."""
+    stands_in = rolling if rolling.batched else lookup("tangential", DEFAULT_TANGENTIAL)
     case = np.array(
         [
-            kind,
-            amount,
+            *amount,
             creepage.longitudinal,
             creepage.lateral,
             creepage.spin,
@@ -137,7 +205,7 @@ def solve(
             material.shear_modulus,
             material.poisson_ratio,
             method.id,
-            lookup("tangential", tangential).id,
+            stands_in.id,
         ]
     )
     own = workspace.allocate(method, material.poisson_ratio, n_strips, n_elements, separation.y.size)
@@ -146,12 +214,6 @@ def solve(
     n = solve_case(separation.y, separation.g, separation.A, separation.x_c, case, *own)
     result = own.result
     status = Status(int(result[RES_STATUS]))
-    if throw and status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED):
-        what = "load" if load is not None else "approach"
-        raise ContactError(
-            f"{what} = {amount:g}: {status.message}; y = [{separation.y[0]:g}, {separation.y[-1]:g}] m "
-            f"(throw=False returns the solution with this status)"
-        )
     strips, fields = own.strips[:, :n], own.fields[:, :n]
     return Solution(
         Fx=float(result[RES_FX]),
@@ -191,8 +253,8 @@ def solve(
         friction=mu,
         material=material,
         speed=speed,
-        normal=normal,
-        tangential=tangential,
+        normal=method.name,
+        tangential=rolling.name,
         patch_edges=result[RES_EDGES : RES_EDGES + 2 * int(result[RES_PATCHES])].reshape(-1, 2).copy(),
         memory=own.space.memory,
     )

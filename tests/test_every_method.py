@@ -15,7 +15,7 @@ from contact.geometry import wheelset
 from tests.normal.test_analyn import two_lobes
 from tests.test_solve import assert_post_conditions
 
-NORMAL, TANGENTIAL = contact.methods()
+NORMAL, TANGENTIAL = contact.methods().batched
 PAIRS = list(itertools.product(NORMAL, TANGENTIAL))
 CREEPAGES = [(1e-3, 0.0, 0.0), (-5e-4, 2e-3, 0.4), (0.0, 0.0, -0.9), (3e-2, -2e-2, 0.0)]
 

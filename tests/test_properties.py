@@ -11,7 +11,7 @@ import contact
 from benchmarks import robustness
 from tests.test_solve import assert_post_conditions
 
-NORMAL, TANGENTIAL = list(contact.methods().normal), list(contact.methods().tangential)
+NORMAL, TANGENTIAL = list(contact.methods().batched.normal), list(contact.methods().batched.tangential)
 MU = 0.3
 few = settings(max_examples=40, deadline=None)
 normals, tangentials = st.sampled_from(NORMAL), st.sampled_from(TANGENTIAL)

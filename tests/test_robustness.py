@@ -7,7 +7,7 @@ import pytest
 import contact
 from benchmarks import robustness
 
-PAIRS = list(itertools.product(contact.methods().normal, contact.methods().tangential))
+PAIRS = list(itertools.product(contact.methods().batched.normal, contact.methods().batched.tangential))
 
 
 @pytest.mark.parametrize(("normal", "tangential"), PAIRS)

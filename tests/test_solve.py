@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import contact
 
-NORMAL, TANGENTIAL = list(contact.methods().normal), list(contact.methods().tangential)
+NORMAL, TANGENTIAL = list(contact.methods().batched.normal), list(contact.methods().batched.tangential)
 FIELDS = ("x", "y", "p", "qx", "qy", "sx", "sy", "stick", "dA")
 LIMIT = 1 + 1e-9
 

@@ -36,7 +36,9 @@ def integrals(X: ArrayLike, Y: ArrayLike, dx: ArrayLike, dy: ArrayLike) -> tuple
     return I1, I2, I3
 
 
-def tangential(X: Array, Y: Array, dx: Array, dy: Array, material: Material) -> tuple[Array, Array, Array]:
+def tangential(
+    X: ArrayLike, Y: ArrayLike, dx: ArrayLike, dy: ArrayLike, material: Material
+) -> tuple[Array, Array, Array]:
     """C_xx, C_yy, C_xy [m/Pa] at the distances (X, Y) from elements dx × dy."""
     I1, I2, I3 = integrals(X, Y, dx, dy)
     nu, scale = material.poisson_ratio, 1.0 / (math.pi * material.shear_modulus)

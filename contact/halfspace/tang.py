@@ -2,16 +2,16 @@
 
     s = w + [C q(x) - C q(x + dx)]/dx,    |q| <= mu p,    s = 0 where |q| < mu p,    q = -mu p s/|s| where s != 0
 
-is a variational inequality whose operator, C(x) - C(x + dx), is positive definite but not symmetric: its solution is unique, but
-sweeps of Gauss-Seidel diverge. Here Newton's iteration (semi-smooth; active sets of stick and slip) solves it, 5 to 10 steps
-from q = 0. Each step is a linear system, solved by GMRES with the products by FFT. The preconditioner uses that C alone is
-symmetric and that in stick the difference is undone by a sum from the leading edge; it takes about 10 steps of GMRES on any
-grid. Should Newton's iteration stall, transient rolling over ever longer distances L leads to the steady state,
+is a variational inequality whose operator, C(x) - C(x + dx), is positive definite but not symmetric: its solution is unique,
+but sweeps of Gauss-Seidel diverge. Here Newton's iteration (semi-smooth; active sets of stick and slip) solves it, in 5 to
+10 steps from q = 0. Each step is a linear system, solved by GMRES with the products by FFT. The preconditioner uses that C
+alone is symmetric and that in stick the difference is undone by a sum from the leading edge; it takes about 10 steps of
+GMRES on any grid. Should Newton's iteration stall, transient rolling over ever longer distances L leads to the steady state,
 
     s = w + [C q(x) - C q(x + dx)]/dx + C (q - q_before)/L.
 
-The rigid slip w of spin varies along x. It is taken at x + dx·`OFFSET`: the difference of displacements belongs to x + dx/2, the
-traction to x; both are of first order with opposite errors (theory.md 6).
+The rigid slip w of spin varies along x. It is taken at x + dx·`OFFSET`: the difference of displacements belongs to x + dx/2,
+the traction to x; both are of first order with opposite errors (theory.md 6).
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ from contact.material import Material
 
 Array = NDArray[np.float64]
 
-#: Where in an element the rigid slip is taken, in elements ahead of the centre; CONTACT takes 1/6.
-OFFSET = 1.0 / 3.0
+#: Where in an element the rigid slip is taken, in elements ahead of the centre: as CONTACT does.
+OFFSET = 1.0 / 6.0
 #: Caps: steps of Newton's iteration and of GMRES in each, and transient distances.
 MAX_NEWTON, MAX_KRYLOV, MAX_DISTANCES = 25, 80, 12
 #: Accuracy of Newton's steps: smaller ones gain less than they cost.
@@ -108,7 +108,7 @@ def tang(
         rigid = np.zeros((2, *p.shape))
         if touching.any():
             rigid[:, touching] = _rigid_slip(x, y, creepage, 0.0)[:, touching]
-        return Tangential(*whole[:2], *rigid, np.zeros(p.shape, dtype=bool), 0, 0, 0.0, True)
+        return Tangential(whole[0], whole[1], rigid[0], rigid[1], np.zeros(p.shape, dtype=bool), 0, 0, 0.0, True)
     rows, columns = (np.flatnonzero(touching.any(axis=axis)) for axis in (1, 0))
     window = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
     dx, dy = float(x[1] - x[0]), float(y[1] - y[0])
@@ -120,8 +120,9 @@ def tang(
     zones.settle(q, s, rolling.zone, rolling.bound)
     for k, field in enumerate((*q, *s, rolling.zone)):
         whole[k][window] = field
+    qx, qy, sx, sy, zone = whole
     return Tangential(
-        *whole[:4], whole[4] == zones.STICK, rolling.iterations, rolling.products, residual, residual <= tolerance
+        qx, qy, sx, sy, zone == zones.STICK, rolling.iterations, rolling.products, residual, residual <= tolerance
     )
 
 
@@ -197,7 +198,15 @@ class _Rolling:
         rho = _STIFFER * self._own
         for step in range(MAX_NEWTON + 1):
             square = zones.linearise(
-                q, self.slip(q, w), self.bound, rho, self.zone, self._tangent, self._stiffness, self._correction, self._rhs
+                q,
+                self.slip(q, w),
+                self.bound,
+                rho,
+                self.zone,
+                self._tangent,
+                self._stiffness,
+                self._correction,
+                self._rhs,
             )
             residual = math.sqrt(square) / self._scale
             if self.progress is not None:

@@ -92,7 +92,7 @@ from fmu_src.native.memory import compiled, cube, matrix, vector
 from fmu_src.tables.wheel_rail_contact import FLATTEST, GEOMETRY_KIND, LOAD_KIND, table
 from fmu_src.variables import Table, identifier
 
-_METHODS = contact.methods()
+_METHODS = contact.methods().batched
 _NORMAL_IDS = np.array([float(method.id) for method in _METHODS.normal.values()])
 _TANGENTIAL_IDS = np.array([float(method.id) for method in _METHODS.tangential.values()])
 _INTERACTING = np.array([method.interacting for method in _METHODS.normal.values()])

@@ -9,9 +9,9 @@ from contact import Status, registry
 from contact.solve import N_ELEMENTS, N_STRIPS
 from fmu_src.variables import Enumeration, Variable, output, parameter
 
-NORMAL_METHOD = Enumeration("NormalMethod", tuple((m.name, m.title) for m in contact.methods().normal.values()))
+NORMAL_METHOD = Enumeration("NormalMethod", tuple((m.name, m.title) for m in contact.methods().batched.normal.values()))
 TANGENTIAL_METHOD = Enumeration(
-    "TangentialMethod", tuple((m.name, m.title) for m in contact.methods().tangential.values())
+    "TangentialMethod", tuple((m.name, m.title) for m in contact.methods().batched.tangential.values())
 )
 FRICTION_LAW = Enumeration("FrictionLaw", (("Coulomb", "constant coefficient of friction"),))
 _STATUS_NAMES = ("OK", "NoContact", "Saturated", "OutOfRange", "NotConverged")

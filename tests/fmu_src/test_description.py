@@ -99,8 +99,8 @@ def test_status_and_methods_are_the_solvers():
         contact.Status.OUT_OF_RANGE,
     ]
     assert len(solver.STATUS.items) == len(contact.Status)
-    assert [name for name, _ in solver.NORMAL_METHOD.items] == list(contact.methods().normal)
-    assert [name for name, _ in solver.TANGENTIAL_METHOD.items] == list(contact.methods().tangential)
+    assert [name for name, _ in solver.NORMAL_METHOD.items] == list(contact.methods().batched.normal)
+    assert [name for name, _ in solver.TANGENTIAL_METHOD.items] == list(contact.methods().batched.tangential)
 
 
 def test_documentation_has_a_line_for_every_row(table):

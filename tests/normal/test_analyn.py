@@ -24,11 +24,11 @@ def test_hertz_limit_is_exact(ratio, load):
     assert sol.width == pytest.approx(2 * exact.b, rel=1e-6)
 
 
-@pytest.mark.parametrize("normal", list(contact.methods().normal))
+@pytest.mark.parametrize("normal", list(contact.methods().batched.normal))
 def test_approach_gives_the_load_back(normal, ellipse):
     by_load = contact.solve(ellipse, NO_CREEP, load=6e4, normal=normal)
     by_approach = contact.solve(ellipse, NO_CREEP, approach=by_load.approach, normal=normal)
-    iterative = contact.methods().normal[normal].interacting
+    iterative = contact.methods().batched.normal[normal].interacting
     np.testing.assert_allclose(by_approach.N, 6e4, rtol=1e-4 if iterative else 1e-9)
 
 

@@ -12,7 +12,7 @@ from contact.geometry import profile
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
 from contact.pair import WheelRailPair
 
-METHODS = contact.methods()
+METHODS = contact.methods().batched
 R0 = 0.460
 WHEEL, RAIL = profile.s1002(), profile.rail_60e1()
 #: Its gauge corner clears the flange root: tread and flange touch at once, at places far apart, around y = 6.37 mm.

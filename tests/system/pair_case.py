@@ -10,7 +10,7 @@ from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
 from contact.pair import PairSolution, WheelRailPair
 
 NAME = "WheelRailPair"
-METHODS = contact.methods()
+METHODS = contact.methods().batched
 R0 = 0.46
 #: A motion that loads everything: lateral shift, yaw, rates, an irregular rail.
 MOTION = {

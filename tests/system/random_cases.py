@@ -10,7 +10,7 @@ from contact_case import CREEPAGES
 import contact
 from contact.damage import evaluate
 
-METHODS = contact.methods()
+METHODS = contact.methods().batched
 #: Outputs after one step of STEP, without the creep stiffness.
 OUTPUTS = (
     *("force.x", "force.y", "force.n", "moment.z", "approach", "pressure.max", "patch.area", "patch.length"),

@@ -216,7 +216,7 @@ def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(fmu, name, v
         ("geometry.dy", -1e-3, "]0, inf["),
         ("material.poisson_ratio", 0.6, "[0, 0.5]"),
         ("resolution.n_strips", 3, "[4, 1000]"),
-        ("method.normal", 99, f"[1, {len(contact.methods().normal)}]"),
+        ("method.normal", 99, f"[1, {len(contact.methods().batched.normal)}]"),
     ],
 )
 def test_a_bad_parameter_is_discarded_by_name(open_fmu, name, value, allowed):

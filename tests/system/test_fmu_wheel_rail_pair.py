@@ -119,7 +119,9 @@ def trajectory(fmu, start: int) -> list[dict[str, float]]:
 def test_a_serialised_state_with_its_warm_start_continues_bit_by_bit(open_fmu):
     fmu, other = open_fmu(NAME), open_fmu(NAME)
     for instance in (fmu, other):
-        instance.update({**MOTION, "method.normal": list(contact.methods().normal).index("strip_halfspace") + 1})
+        instance.update(
+            {**MOTION, "method.normal": list(contact.methods().batched.normal).index("strip_halfspace") + 1}
+        )
         instance.initialize()
     trajectory(fmu, 0)
     state = fmu.fmu.getFMUstate()

@@ -184,7 +184,7 @@ def test_fields_are_those_of_the_solver(open_native_fmi3, seed):
 @pytest.mark.parametrize("normal", ["analyn", "strip_halfspace"])
 def test_fields_add_up_to_the_forces_and_keep_coulombs_bound(open_native_fmi3, normal):
     fmu = pose(open_native_fmi3())
-    fmu.update({"method.normal": list(contact.methods().normal).index(normal) + 1})
+    fmu.update({"method.normal": list(contact.methods().batched.normal).index(normal) + 1})
     fmu.initialize().step()
     area, p, qx, qy = (fmu[f"field.{name}"] for name in ("area", "pressure", "traction_x", "traction_y"))
     N, mu = fmu["force.n"], fmu["friction.coefficient"]
@@ -201,7 +201,7 @@ def test_fields_add_up_to_the_forces_and_keep_coulombs_bound(open_native_fmi3, n
 def test_fields_belong_to_the_last_step_whatever_was_computed_since(open_native_fmi3):
     """Interacting strips start warm: what is computed again must start from where the step did."""
     fmu = pose(open_native_fmi3())
-    fmu.update({"method.normal": list(contact.methods().normal).index("strip_halfspace") + 1})
+    fmu.update({"method.normal": list(contact.methods().batched.normal).index("strip_halfspace") + 1})
     fmu.initialize()
     for k in range(3):
         fmu.update({"load.normal_force": 8e4 + 2e3 * k})

@@ -8,7 +8,7 @@ import pytest
 import contact
 from contact import kalker
 
-TANGENTIAL = list(contact.methods().tangential)
+TANGENTIAL = list(contact.methods().batched.tangential)
 N, MU = 8e4, 0.3
 
 

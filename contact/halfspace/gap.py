@@ -1,0 +1,146 @@
+"""The undeformed gap on a grid of equal elements, given or sampled from a separation."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from contact._jit import kernel
+from contact._layout import MAX_PATCHES
+from contact.errors import ContactError
+from contact.normal.lay import cubic, find_patches, least_point, locate, slopes
+from contact.separation import Separation
+
+Array = NDArray[np.float64]
+
+#: Most elements along one side of a grid.
+MAX_SIDE = 2000
+
+
+class Gap:
+    """Undeformed distance of the bodies at the centres of equal rectangular elements.
+
+    Parameters
+    ----------
+    x, y : array_like, shape (nx,), (ny,)
+        Centres of the elements along the rolling direction and across [m], increasing in equal steps; 2 to 2000 each.
+    h : array_like, shape (ny, nx)
+        Undeformed distance [m]; the approach is measured from h = 0.
+
+    Raises
+    ------
+    ContactError
+        Wrong shapes, not finite, steps that are not equal or not positive.
+    """
+
+    __slots__ = ("dx", "dy", "h", "x", "y")
+
+    def __init__(self, x: ArrayLike, y: ArrayLike, h: ArrayLike) -> None:
+        self.x, self.dx = _even("x", x)
+        self.y, self.dy = _even("y", y)
+        self.h = np.array(h, dtype=np.float64)
+        wanted = self.y.size, self.x.size
+        if self.h.shape != wanted:
+            raise ContactError(f"h has shape {self.h.shape}; {wanted} is needed")
+        if not np.isfinite(self.h).all():
+            i, j = (int(k) for k in np.argwhere(~np.isfinite(self.h))[0])
+            raise ContactError(f"h[{i}, {j}] = {self.h[i, j]} is outside the allowed range ]-inf, inf[")
+
+    def __repr__(self) -> str:
+        return f"Gap({self.y.size} × {self.x.size} elements of {self.dx:g} × {self.dy:g} m, least {self.h.min():g} m)"
+
+
+def _even(name: str, values: ArrayLike) -> tuple[Array, float]:
+    array = np.array(values, dtype=np.float64)
+    if array.ndim != 1 or not 2 <= array.size <= MAX_SIDE:
+        raise ContactError(f"{name} has shape {array.shape}; (n,) with n in [2, {MAX_SIDE}] is needed")
+    step = float(array[-1] - array[0]) / (array.size - 1)
+    # also false for NaN
+    if not (step > 0.0 and math.isfinite(step) and (np.abs(np.diff(array) - step) <= 1e-6 * step).all()):
+        raise ContactError(f"{name} = {array[0]:g} … {array[-1]:g} does not increase in equal steps")
+    return array, step
+
+
+class Division(NamedTuple):
+    """How a box is divided into elements: rows and columns, or the size (dx, dy) of an element [m]."""
+
+    rows: int
+    columns: int
+    spacing: tuple[float, float] | None = None
+
+    def centres(self, box: tuple[float, float, float, float]) -> tuple[Array, Array]:
+        """x and y of the centres of the elements on the box x_low, x_high, y_low, y_high [m].
+
+        Elements of given size lie at the same places for every box, their edges at multiples of it.
+        """
+        back, front, low, high = box
+        if self.spacing is None:
+            return _divide(back, front, self.columns), _divide(low, high, self.rows)
+        return _raster(back, front, self.spacing[0]), _raster(low, high, self.spacing[1])
+
+
+def _divide(low: float, high: float, n: int) -> Array:
+    return low + (np.arange(n, dtype=np.float64) + 0.5) * ((high - low) / n)
+
+
+def _raster(low: float, high: float, step: float) -> Array:
+    count = high / step - low / step
+    if not count <= MAX_SIDE - 2:
+        raise ContactError(
+            f"spacing = {step:g} makes {count:.3g} elements along a side; at most {MAX_SIDE - 2} are allowed"
+        )
+    first, last = math.floor(low / step), math.ceil(high / step)
+    return (np.arange(first, max(last, first + 2), dtype=np.float64) + 0.5) * step
+
+
+@kernel
+def _sample(y, g, m, at, out):
+    """The separation's interpolant of g (values and slopes m) at the increasing positions `at`."""
+    k = 0
+    for i in range(at.size):
+        k = locate(y, y.size, at[i], k)
+        h = y[k + 1] - y[k]
+        out[i] = cubic(h, g[k], m[k], g[k + 1], m[k + 1], (at[i] - y[k]) / h)
+
+
+def _rows(separation: Separation, y: Array) -> tuple[Array, Array, Array]:
+    """g, A and x_c at the positions `y`."""
+    m, g = np.empty(separation.y.size), np.empty(y.size)
+    slopes(separation.y, separation.g, separation.y.size, m)
+    _sample(separation.y, separation.g, m, y, g)
+    return g, np.interp(y, separation.y, separation.A), np.interp(y, separation.y, separation.x_c)
+
+
+def least(gap: Separation | Gap) -> float:
+    """Approach at which the bodies first touch [m]."""
+    if isinstance(gap, Gap):
+        return float(gap.h.min())
+    m = np.empty(gap.y.size)
+    slopes(gap.y, gap.g, gap.y.size, m)
+    return float(least_point(gap.y, gap.g, m, gap.y.size)[1])
+
+
+def overlap(separation: Separation, approach: float) -> tuple[float, float, float, float] | None:
+    """Least box x_low, x_high, y_low, y_high [m] around the points where the gap is less than `approach`; None if none is."""
+    m, edges = np.empty(separation.y.size), np.empty(2 * MAX_PATCHES)
+    slopes(separation.y, separation.g, separation.y.size, m)
+    count, _ = find_patches(separation.y, separation.g, m, separation.y.size, approach, edges)
+    if count == 0:
+        return None
+    low, high = float(edges[0]), float(edges[2 * count - 1])
+    y = np.union1d(np.linspace(low, high, 201), separation.y[(separation.y > low) & (separation.y < high)])
+    g, A, centre = _rows(separation, y)
+    half = np.sqrt(np.maximum(approach - g, 0.0) / A)
+    inside = half > 0.0
+    if not inside.any() or high <= low:
+        return None
+    return float((centre - half)[inside].min()), float((centre + half)[inside].max()), low, high
+
+
+def lay(separation: Separation, x: Array, y: Array) -> Gap:
+    """The gap of a separation at the centres of the elements."""
+    g, A, centre = _rows(separation, y)
+    return Gap(x, y, g[:, None] + A[:, None] * (x - centre[:, None]) ** 2)

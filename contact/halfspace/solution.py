@@ -1,0 +1,131 @@
+"""A solution on a grid of equal elements: the rows are its strips."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from contact.creepage import Creepage
+from contact.halfspace.tang import Tangential
+from contact.material import Material
+from contact.solution import Solution, Status, Strips
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, repr=False)
+class GridSolution(Solution):
+    """`Solution` of the element-wise half space.
+
+    The strips are the rows of elements with contact, their peak the largest pressure of an element; fields span the columns
+    with contact, the pressure being zero outside the patch. `grid` holds x, y and p of all rows.
+    """
+
+    grid: tuple[Array, Array, Array] = field(repr=False)
+
+    def pressure(self, x: ArrayLike, y: ArrayLike) -> Array:
+        """Evaluate the contact pressure [Pa] at points `x`, `y` [m]; 0 outside. Between elements p² is bilinear."""
+        x, y = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64))
+        own_x, own_y, p = self.grid
+        if p.size == 0:
+            return np.zeros(x.shape)
+        square = np.pad(p**2, 1)
+        u = (x - own_x[0]) / (own_x[1] - own_x[0]) + 1.0
+        v = (y - own_y[0]) / (own_y[1] - own_y[0]) + 1.0
+        inside = (u >= 0) & (u < square.shape[1] - 1) & (v >= 0) & (v < square.shape[0] - 1)
+        u, v = np.where(inside, u, 0.0), np.where(inside, v, 0.0)
+        j, i = u.astype(np.int64), v.astype(np.int64)
+        u, v = u - j, v - i
+        low = (1.0 - u) * square[i, j] + u * square[i, j + 1]
+        high = (1.0 - u) * square[i + 1, j] + u * square[i + 1, j + 1]
+        return np.where(inside, np.sqrt((1.0 - v) * low + v * high), 0.0)
+
+
+def assemble(
+    x: Array,
+    y: Array,
+    p: Array,
+    rolling: Tangential,
+    *,
+    approach: float,
+    stiffness: float,
+    iterations: int,
+    status: Status,
+    creepage: Creepage,
+    friction: float,
+    material: Material,
+    speed: float,
+    normal: str,
+    tangential: str,
+) -> GridSolution:
+    """Make the record from fields (ny, nx) over increasing `x`, `y`."""
+    touching = p > 0.0
+    rows, columns = np.flatnonzero(touching.any(axis=1)), np.flatnonzero(touching.any(axis=0))
+    dx, dy = float(x[1] - x[0]), float(y[1] - y[0])
+    box = np.ix_(rows, columns[::-1])  # element 0 at the leading edge
+    qx, qy, sx, sy = (f[box] for f in (rolling.qx, rolling.qy, rolling.sx, rolling.sy))
+    grid_y = np.repeat(y[rows][:, None], columns.size, axis=1)
+    grid_x = np.repeat(x[columns[::-1]][None, :], rows.size, axis=0)
+    inside = touching[box]
+    area = float(inside.sum()) * dx * dy
+    label = np.cumsum(np.diff(rows, prepend=rows[:1]) > 1) if rows.size else rows
+    first = x[np.argmax(touching[rows], axis=1)]
+    last = x[x.size - 1 - np.argmax(touching[rows][:, ::-1], axis=1)]
+    count = int(label[-1]) + 1 if rows.size else 0
+    edges = np.array([(y[rows[label == k][0]] - 0.5 * dy, y[rows[label == k][-1]] + 0.5 * dy) for k in range(count)])
+    length = columns.size * dx
+    widths = np.array([edges[k, 1] - edges[k, 0] for k in range(count)])
+    full = (
+        slice(rows[0], rows[-1] + 1) if rows.size else slice(0),
+        slice(columns[0], columns[-1] + 1) if rows.size else slice(0),
+    )
+    slips = inside & ~rolling.stick[box]
+    force = dx * dy
+    if status is Status.OK and rows.size and friction > 0.0 and slips.sum() == inside.sum():
+        status = Status.SATURATED
+    return GridSolution(
+        Fx=float(qx.sum()) * force,
+        Fy=float(qy.sum()) * force,
+        Mz=float((grid_x * qy - grid_y * qx).sum()) * force,
+        N=float(p.sum()) * force,
+        approach=float(approach),
+        max_pressure=float(p.max()),
+        area=area,
+        slip_area=float(slips.sum()) * force,
+        power_per_metre=abs(float((qx * sx + qy * sy).sum())) * force,
+        normal_stiffness=stiffness,
+        length=length,
+        width=float(edges[-1, 1] - edges[0, 0]) if count else 0.0,
+        n_patches=count,
+        iterations=iterations,
+        status=status,
+        strips=Strips(
+            y=y[rows],
+            dy=np.full(rows.size, dy),
+            x_c=0.5 * (first + last),
+            a=0.5 * (last - first + dx),
+            p0=p[rows].max(axis=1, initial=0.0),
+            aspect=length / widths[label] if count else np.zeros(0),
+            patch=label.astype(np.int64),
+        ),
+        x=grid_x,
+        y=grid_y,
+        p=p[box],
+        qx=qx,
+        qy=qy,
+        sx=sx,
+        sy=sy,
+        stick=rolling.stick[box],
+        dA=np.full(inside.shape, dx * dy),
+        creepage=creepage,
+        friction=friction,
+        material=material,
+        speed=speed,
+        normal=normal,
+        tangential=tangential,
+        patch_edges=edges.reshape(-1, 2),
+        memory=np.zeros(0),
+        grid=(x[full[1]], y[full[0]], p[full]),
+    )

@@ -1,0 +1,154 @@
+"""From a separation or a gap to a solution on a grid: NORM, or the pressure of another method, and TANG."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.creepage import Creepage
+from contact.errors import ContactError
+from contact.halfspace.gap import Division, Gap, lay, least, overlap
+from contact.halfspace.norm import Normal, norm
+from contact.halfspace.solution import GridSolution, assemble
+from contact.halfspace.tang import tang
+from contact.material import Material
+from contact.separation import Separation
+from contact.solution import Solution, Status
+
+Array = NDArray[np.float64]
+
+#: Elements on which the approach under a load is estimated, and the cap of that estimate.
+_COARSE, _MAX_STEPS = Division(20, 20), 40
+#: The grid reaches as far as the overlap at this multiple of the estimated approach.
+_ROOM = 1.02
+
+
+def solve_gap(
+    gap: Separation | Gap,
+    creepage: Creepage,
+    division: Division,
+    *,
+    load: float | None,
+    approach: float | None,
+    friction: float,
+    material: Material,
+    speed: float,
+    progress: Callable[[int, float], None] | None,
+) -> GridSolution:
+    """NORM and TANG; arguments as in `contact.solve`."""
+    grid = gap if isinstance(gap, Gap) else _grid_of(gap, load, approach, material, division)
+    if grid is None:
+        x = y = np.arange(2.0)
+        found = Normal(np.zeros((2, 2)), least(gap) if approach is None else approach, 0.0, 0, True)
+    else:
+        x, y = grid.x, grid.y
+        found = norm(grid.h, grid.dx, grid.dy, material, load=load, approach=approach)
+    p = found.p
+    rolling = tang(p, x, y, creepage, friction, material, progress=progress)
+    return assemble(
+        x,
+        y,
+        p,
+        rolling,
+        approach=found.approach,
+        stiffness=found.stiffness,
+        iterations=found.iterations + rolling.iterations,
+        status=_status(gap, p, y, found.converged and rolling.converged),
+        creepage=creepage,
+        friction=friction,
+        material=material,
+        speed=speed,
+        normal="halfspace",
+        tangential="halfspace",
+    )
+
+
+def solve_pressure(first: Solution, division: Division, progress: Callable[[int, float], None] | None) -> Solution:
+    """TANG on the pressure of another solution, whose N, approach and normal stiffness are kept."""
+    if first.N <= 0.0:
+        return replace(first, tangential="halfspace")
+    low, high = float(first.patch_edges.min()), float(first.patch_edges.max())
+    back, front = ((first.strips.x_c + sign * first.strips.a) for sign in (-1.0, 1.0))
+    x, y = division.centres((float(back.min()), float(front.max()), low, high))
+    p = first.pressure(x[None, :], y[:, None])
+    total = p.sum() * (x[1] - x[0]) * (y[1] - y[0])
+    if not total > 0.0:
+        raise ContactError(f"{division} leaves no element inside the patch")
+    p *= first.N / total
+    rolling = tang(p, x, y, first.creepage, first.friction, first.material, progress=progress)
+    status = first.status if rolling.converged else Status.NOT_CONVERGED
+    return assemble(
+        x,
+        y,
+        p,
+        rolling,
+        approach=first.approach,
+        stiffness=first.normal_stiffness,
+        iterations=first.iterations + rolling.iterations,
+        status=Status.OK if status is Status.SATURATED else status,
+        creepage=first.creepage,
+        friction=first.friction,
+        material=first.material,
+        speed=first.speed,
+        normal=first.normal,
+        tangential="halfspace",
+    )
+
+
+def _status(gap: Separation | Gap, p: Array, y: Array, converged: bool) -> Status:
+    """OK, unless there is no contact, it reaches the end of the data, or an iteration stopped at its cap."""
+    touching = p > 0.0
+    if not touching.any():
+        return Status.NO_CONTACT
+    half = 0.5 * (y[1] - y[0])
+    if isinstance(gap, Gap):
+        beyond = touching[[0, -1]].any() or touching[:, [0, -1]].any()
+    else:
+        beyond = (touching[0].any() and y[0] - half <= gap.y[0]) or (touching[-1].any() and y[-1] + half >= gap.y[-1])
+    if beyond:
+        return Status.OUT_OF_RANGE
+    return Status.OK if converged else Status.NOT_CONVERGED
+
+
+def _grid_of(
+    separation: Separation,
+    load: float | None,
+    approach: float | None,
+    material: Material,
+    division: Division,
+) -> Gap | None:
+    """The gap on elements over the undeformed overlap, inside which all contact lies; None without overlap."""
+    if approach is None:
+        assert load is not None
+        if load <= 0.0:
+            return None
+        touch = least(separation)
+        approach = touch + _ROOM * _estimate(separation, touch, load, material)
+    box = overlap(separation, approach)
+    if box is None:
+        return None
+    x, y = division.centres(box)
+    inside = (y >= separation.y[0]) & (y <= separation.y[-1])
+    return lay(separation, x, y[inside])
+
+
+def _estimate(separation: Separation, touch: float, load: float, material: Material) -> float:
+    """Approach beyond `touch` under a load, on a coarse grid that moves with the overlap: Newton's iteration."""
+    depth = 1e-3 * float(np.ptp(separation.y))
+    for _ in range(_MAX_STEPS):
+        box = overlap(separation, touch + depth)
+        if box is None:
+            depth *= 4.0
+            continue
+        grid = lay(separation, *_COARSE.centres(box))
+        found = norm(grid.h, grid.dx, grid.dy, material, approach=touch + depth, tolerance=1e-4)
+        N = float(found.p.sum()) * grid.dx * grid.dy
+        if abs(N / load - 1.0) < 1e-5:
+            break
+        # a power law through load and stiffness: N ~ depth^(k depth/N), 3/2 in Hertz contact
+        power = max(found.stiffness * depth / N, 0.5) if N > 0.0 else 1.5
+        depth *= min(max((load / max(N, 1e-3 * load)) ** (1.0 / power), 0.1), 10.0)
+    return depth
