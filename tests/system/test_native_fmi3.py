@@ -86,6 +86,20 @@ def test_an_array_is_one_variable(native_fmi3):
     assert {v.type for v in variables.values()} == {"Float64", "Int64", "UInt64", "Boolean", "Enumeration"}
 
 
+@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
+def test_every_native_fmu_is_there_in_both_versions_with_the_same_results(native, kind):
+    two = {path.name: path for path in native.parent.glob("*.fmu")}
+    three = {path.name: path for path in (native.parent / "fmi3").glob("*.fmu")}
+    assert set(two) == set(three) >= {f"{NAME}.fmu"}
+    for name, path in three.items():
+        assert validate_fmu(str(path)) == []
+        options = {"fmi_type": kind, "stop_time": 0.01, "output_interval": 1e-3}
+        one, other = (fmpy.simulate_fmu(str(file), **options) for file in (two[name], path))
+        common = [column for column in one.dtype.names if column in other.dtype.names]
+        assert len(common) > 10
+        assert [column for column in common if not np.array_equal(one[column], other[column])] == [], name
+
+
 # ---------------------------------------------------------------- the numbers
 
 
