@@ -113,7 +113,7 @@ def _require_wine() -> None:
 
 def _build(packaging: str, folder: Path) -> None:
     command = [sys.executable, ROOT / "build_fmu.py", "--packaging", packaging, "--out", folder]
-    subprocess.run(command, check=True, cwd=ROOT, timeout=300)
+    subprocess.run(command, check=True, cwd=ROOT, timeout=1200)  # kernels of three FMUs, on a machine with other work
 
 
 @pytest.fixture
