@@ -94,7 +94,7 @@ def test_extreme_values_give_finite_outputs_or_none(open_native):
     done = 0
     for _ in range(400):
         fmu.fmu.reset()
-        methods = (int(rng.integers(len(of_a_kind))) + 1 for of_a_kind in contact.methods())
+        methods = (int(rng.integers(len(of_a_kind))) + 1 for of_a_kind in contact.methods().batched)
         fmu.update(dict(zip(("method.normal", "method.tangential"), methods, strict=True)))
         for variable in rng.choice(inputs, rng.integers(1, 8)):
             magnitude = 10.0 ** rng.choice([-300.0, -30.0, -9.0, 0.0, 9.0, 30.0, 300.0]) * rng.uniform(-1.0, 1.0)
