@@ -140,15 +140,37 @@ def evaluate(sol: contact.Solution, field: np.ndarray, x: np.ndarray, y: np.ndar
     return out
 
 
+def errors_of_pressure(sol: contact.Solution, case: dict[str, Any]) -> tuple[float, float, float, float]:
+    """Relative errors of N, pmax and area, and the pressure's L2, of a patch of set D."""
+    true, full = case["contact"], np.array(case["p"])
+    ours = sol.pressure(np.array(case["x_p"])[None, :] * 1e-3, np.array(case["y_p"])[:, None] * 1e-3) / 1e6
+    return (
+        sol.N / true["N"] - 1,
+        sol.max_pressure / 1e6 / true["pmax"] - 1,
+        sol.area * 1e6 / true["area"] - 1,
+        float(np.linalg.norm(ours - full) / np.linalg.norm(full)),
+    )
+
+
+@functools.cache
+def errors_of_normal(normal: str, by_load: bool = False) -> dict[str, np.ndarray]:
+    """Errors per patch of set D at the approach, or at the load, of CONTACT's solution; with it the approach."""
+    rows = []
+    for case in patches():
+        given = {"load": case["contact"]["N"]} if by_load else {"approach": case["delta"] * 1e-3}
+        sol = contact.solve(
+            separation_of(case), contact.Creepage(), material=STEEL, normal=normal, throw=False, **given, **RESOLUTION
+        )
+        rows.append((*errors_of_pressure(sol, case), sol.approach * 1e3 / case["delta"] - 1))
+    return dict(zip(("N", "pmax", "area", "L2", "approach"), np.array(rows).T, strict=True))
+
+
 @functools.cache
 def errors_on_patches(normal: str, tangential: str) -> dict[str, np.ndarray]:
     """Errors on set D at the prescribed approach: N, pmax, area, pressure L2 per patch; force and moment per state."""
     normal_errors, force, moment = [], [], []
     for case in patches():
-        separation = contact.Separation(
-            np.array(case["y"]) * 1e-3, np.array(case["g"]) * 1e-3, np.array(case["A"]) * 1e3
-        )
-        true = case["contact"]
+        separation, true = separation_of(case), case["contact"]
         for k in range(len(case["xi"])):
             sol = contact.solve(
                 separation,
@@ -160,16 +182,7 @@ def errors_on_patches(normal: str, tangential: str) -> dict[str, np.ndarray]:
             force.append(math.hypot(*d))
             arm = math.sqrt(true["area"] / math.pi)
             moment.append(abs(sol.Mz * 1e3 / (MU * sol.N) - true["Mz"][k] / (MU * true["N"])) / arm)
-        full = np.array(case["p"])
-        ours = sol.pressure(np.array(case["x_p"])[None, :] * 1e-3, np.array(case["y_p"])[:, None] * 1e-3) / 1e6
-        normal_errors.append(
-            (
-                sol.N / true["N"] - 1,
-                sol.max_pressure / 1e6 / true["pmax"] - 1,
-                sol.area * 1e6 / true["area"] - 1,
-                float(np.linalg.norm(ours - full) / np.linalg.norm(full)),
-            )
-        )
+        normal_errors.append(errors_of_pressure(sol, case))
     N, pmax, area, L2 = np.array(normal_errors).T
     return {"N": N, "pmax": pmax, "area": area, "L2": L2, "force": np.array(force), "moment": np.array(moment)}
 

@@ -102,7 +102,10 @@ def solve_case(y, g, A, xc, case, rule, tables, space, strips, fields, result):
             fields[FIELD_P, i, k] = p0 * elements[EL_SINE, k]
     count = int(strips[STRIP_PATCH, n - 1]) + 1
     result[RES_AREA], result[RES_PMAX], result[RES_PATCHES] = area, peak_pressure(strips, n), count
-    result[RES_LENGTH], result[RES_WIDTH] = x_high - x_low, result[EDGES + 2 * count - 1] - result[EDGES]
+    y_low, y_high = math.inf, -math.inf
+    for k in range(count):
+        y_low, y_high = min(y_low, result[EDGES + 2 * k]), max(y_high, result[EDGES + 2 * k + 1])
+    result[RES_LENGTH], result[RES_WIDTH] = x_high - x_low, y_high - y_low
 
     if case[CASE_TANGENTIAL] == FASTSIM:
         fastsim(strips, n, case, table, elements, space.lanes, space.trace, fields, result)

@@ -27,6 +27,7 @@ class Method:
     spin : takes spin into account
     interacting : every strip feels the pressure of all others (normal)
     batched : a kernel over strips, which `contact.forces` and the FMUs offer too; else `contact.solve` alone
+    continuous : the load is a continuous function of the approach on every patch (normal)
     """
 
     name: str
@@ -39,6 +40,7 @@ class Method:
     spin: bool = True
     interacting: bool = False
     batched: bool = True
+    continuous: bool = True
 
 
 class Methods(NamedTuple):
@@ -55,7 +57,19 @@ class Methods(NamedTuple):
 
 ANALYN, HERTZ, STRIP_HALFSPACE = 0, 1, 2
 # solved by `normal.by_approach`, from the first of them on
-KIK_PIOTROWSKI, KIK_PIOTROWSKI_2008, LINDER, STRIPES_A, STRIPES_AB, WINKLER, SRST = range(20, 27)
+(
+    KIK_PIOTROWSKI,
+    KIK_PIOTROWSKI_2008,
+    LINDER,
+    STRIPES_A,
+    STRIPES_AB,
+    WINKLER,
+    SRST,
+    KPEC,
+    SEMI_WINKLER,
+    MULTI_HERTZ,
+    PASCAL_SAUVAGE,
+) = range(20, 31)
 FASTRIP, FASTSIM, FASTRIP_MAPPED = 0, 1, 2
 HALFSPACE = -1  # no kernel of the pipeline
 
@@ -79,12 +93,33 @@ _NORMAL = (
         "Piotrowski and Kik 2008",
         True,
         True,
+        continuous=False,
     ),
     Method("linder", LINDER, "virtual penetration with local ellipses", "Linder 1997", True, True),
     Method("stripes_a", STRIPES_A, "STRIPES with A correction", "Ayasse and Chollet 2005", True, True),
     Method("stripes_ab", STRIPES_AB, "STRIPES with AB correction", "Ayasse and Chollet 2005", True, True),
     Method("winkler", WINKLER, "elastic foundation", "Winkler 1867; Johnson 1985, ch. 4.3", True, True),
     Method("srst", SRST, "square root of half the overlap", "Alonso and Giménez 2005", True, True),
+    Method("kpec", KPEC, "virtual penetration with elliptic correction", "CONTACT 25.1", True, False, continuous=False),
+    Method("semi_winkler", SEMI_WINKLER, "elastic foundation with tied springs", "Telliskivi 2004", True, True),
+    Method(
+        "multi_hertz",
+        MULTI_HERTZ,
+        "ellipses at secondary points",
+        "Pascal and Sauvage 1993",
+        True,
+        True,
+        continuous=False,
+    ),
+    Method(
+        "pascal_sauvage",
+        PASCAL_SAUVAGE,
+        "equivalent ellipse",
+        "Pascal and Sauvage 1993",
+        False,
+        False,
+        continuous=False,
+    ),
     Method(
         "halfspace",
         HALFSPACE,

@@ -165,7 +165,7 @@ class Solution:
             a2 = np.maximum(_parabolic(knots, np.r_[0.0, a**2, 0.0], y[inside]), 0.0)
             load = np.maximum(_parabolic(knots, np.r_[0.0, p0 * a, 0.0], y[inside]), 0.0)
             square = a2 - (x[inside] - centre) ** 2
-            result[inside] = np.where(
+            result[inside] += np.where(  # the ellipses of multi_hertz may overlap
                 square > 0.0, load * np.sqrt(np.maximum(square, 0.0)) / np.where(a2 > 0.0, a2, 1.0), 0.0
             )
         return result

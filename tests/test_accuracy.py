@@ -45,6 +45,12 @@ def test_normal_contact_of_real_patches(method, N, pmax, L2):
     assert_held("L2", errors["L2"], (L2,))
 
 
+def test_kpec_is_contacts_kpec_patch_by_patch():
+    own, theirs = accuracy.errors_of_normal("kpec"), accuracy.published_on_patches("kpec_fastsim")
+    for what, tolerance in (("N", 0.006), ("pmax", 0.006), ("area", 0.006), ("L2", 0.01)):
+        np.testing.assert_allclose(own[what], theirs[what], atol=tolerance, err_msg=what)
+
+
 @pytest.mark.parametrize(("normal", "force", "moment"), [
     ("analyn", (0.0194, 0.0565, 0.1318), 0.0137),  # bar .025 / .08
     ("strip_halfspace", (0.0114, 0.0290, 0.0426), 0.0070),  # bar .012 / .03; .008

@@ -128,6 +128,8 @@ def _abilities(method: Method, kind: str) -> Iterator[str]:
         yield "slip field"
     if method.interacting:
         yield "interacting strips"
+    if not method.continuous:
+        yield "load may step"
 
 
 def show_curve(

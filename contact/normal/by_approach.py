@@ -2,7 +2,8 @@
 
 A method of this family is a kernel (y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges) that fills `strips`
 at approach delta above first touch and returns the load, the number of strips and whether a patch reaches the end of the
-data; what does not depend on delta has been prepared in `work`. Kernels take no functions: `_load_at` names the methods.
+data; what does not depend on delta has been prepared in `work`; some also take g and A. Kernels take no functions: `_load_at`
+names the methods.
 """
 
 import math
@@ -25,16 +26,31 @@ from contact._layout import (
     STRIP_P0,
 )
 from contact.normal import kik_piotrowski as kp
+from contact.normal import semi_winkler as sw
 from contact.normal import srst as sr
 from contact.normal import stripes
 from contact.normal.analyn import NO_OVERLAP, fill_strips
 from contact.normal.cut import share_gap
 from contact.normal.deepest import deepest, unit_load
 from contact.normal.kik_piotrowski_2008 import kik_piotrowski_2008
+from contact.normal.kpec import kpec
 from contact.normal.lay import at_end
 from contact.normal.linder import linder
+from contact.normal.multi_hertz import multi_hertz
+from contact.normal.pascal_sauvage import pascal_sauvage
 from contact.normal.winkler import winkler
-from contact.registry import KIK_PIOTROWSKI_2008, LINDER, SRST, STRIPES_A, STRIPES_AB, WINKLER
+from contact.registry import (
+    KIK_PIOTROWSKI_2008,
+    KPEC,
+    LINDER,
+    MULTI_HERTZ,
+    PASCAL_SAUVAGE,
+    SEMI_WINKLER,
+    SRST,
+    STRIPES_A,
+    STRIPES_AB,
+    WINKLER,
+)
 
 kik_piotrowski, srst = kp.kik_piotrowski, sr.srst
 
@@ -48,7 +64,9 @@ _DIFFERENCE = 1e-6
 def _prepare(method, y, g, A, n, point, work):
     if method in (STRIPES_A, STRIPES_AB):
         stripes.prepare(y, g, A, n, point, method == STRIPES_AB, work)
-    else:
+    elif method == SEMI_WINKLER:
+        sw.prepare(y, g, A, n, point, work)
+    elif method not in (KPEC, MULTI_HERTZ, PASCAL_SAUVAGE):
         share = kp.PENETRATION
         if method == SRST:
             share = sr.PENETRATION
@@ -58,7 +76,7 @@ def _prepare(method, y, g, A, n, point, work):
 
 
 @kernel
-def _load_at(method, y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges):
+def _load_at(method, y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges):
     if method in (STRIPES_A, STRIPES_AB):
         N, _, n_strips = fill_strips(y, xc, 0, n - 1, delta, modulus, nodes, weights, work, edges, strips)
         return N, n_strips, at_end(y, n, edges, n_strips // nodes.size)
@@ -68,6 +86,14 @@ def _load_at(method, y, xc, n, delta, modulus, point, nodes, weights, work, stri
         return linder(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
     if method == SRST:
         return srst(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
+    if method == KPEC:
+        return kpec(y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
+    if method == MULTI_HERTZ:
+        return multi_hertz(y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
+    if method == PASCAL_SAUVAGE:
+        return pascal_sauvage(y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
+    if method == SEMI_WINKLER:
+        return sw.semi_winkler(y, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
     if method == WINKLER:
         return winkler(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
     return kik_piotrowski(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
@@ -99,7 +125,7 @@ def by_approach(y, g, A, xc, case, nodes, weights, work, strips, result):
         for iteration in range(MAX_ITERATIONS):
             result[RES_ITERATIONS] = iteration + 1.0
             N, n_strips, touches_end = _load_at(
-                method, y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges
+                method, y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges
             )
             if abs(N - load) <= 1e-11 * load:
                 converged = True
@@ -120,9 +146,14 @@ def by_approach(y, g, A, xc, case, nodes, weights, work, strips, result):
             result[RES_STATUS] = 5.0
 
     further, _, _ = _load_at(
-        method, y, xc, n, delta * (1.0 + _DIFFERENCE), modulus, point, nodes, weights, work, strips, edges
+        method, y, g, A, xc, n, delta * (1.0 + _DIFFERENCE), modulus, point, nodes, weights, work, strips, edges
     )
-    N, n_strips, touches_end = _load_at(method, y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
+    N, n_strips, touches_end = _load_at(
+        method, y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges
+    )
+    if n_strips == 0 or N <= 0.0:
+        result[RES_STATUS] = 2.0
+        return 0
     result[RES_STIFFNESS] = max(further - N, 0.0) / (_DIFFERENCE * delta)
     if by_load:  # what is left of round-off, or of a step, is taken by the pressure
         for i in range(n_strips):

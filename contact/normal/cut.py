@@ -68,7 +68,7 @@ def displacement(strips, n, edges, at, a_at, peak):
     c = 2.0 * math.exp(-1.0) * a_at
     for i in range(n):
         k = int(strips[STRIP_PATCH, i])
-        if edges[2 * k] < at < edges[2 * k + 1]:
+        if peak > 0.0 and edges[2 * k] < at < edges[2 * k + 1]:
             width, own = edges[2 * k + 1] - edges[2 * k], strips[STRIP_PATCH, i]
             for s in (at - edges[2 * k], edges[2 * k + 1] - at):
                 total += 2.0 * peak * (s * math.asinh(c / s) + c * math.asinh(s / c))

@@ -8,6 +8,8 @@ from scipy.special import ellipk
 
 import contact
 from contact.normal.kik_piotrowski import PENETRATION
+from contact.normal.multi_hertz import _outside
+from contact.normal.semi_winkler import _share, _strip
 from tests.normal.test_analyn import two_lobes
 
 NO_CREEP = contact.Creepage()
@@ -42,7 +44,7 @@ def hertzian_load(share):
     return lambda A, B, delta: (*overlap(share, A, B, delta), contact.hertz(A, B, approach=delta).N)
 
 
-def stripes_a(A, B, delta):
+def hertz(A, B, delta):
     exact = contact.hertz(A, B, approach=delta)
     return exact.a, exact.b, exact.N
 
@@ -60,10 +62,13 @@ PROMISES = {
     "kik_piotrowski": kik_piotrowski,
     "kik_piotrowski_2008": kik_piotrowski_2008,
     "linder": kik_piotrowski,
-    "stripes_a": stripes_a,
+    "stripes_a": hertz,
     "stripes_ab": stripes_ab,
     "winkler": hertzian_load(1.0),
     "srst": hertzian_load(0.5),
+    "kpec": hertz,
+    "multi_hertz": hertz,
+    "pascal_sauvage": hertz,
 }
 
 
@@ -113,8 +118,86 @@ def test_local_ellipses_of_an_ellipse_are_that_ellipse(normal, aspect):
         np.testing.assert_allclose(sol.strips.aspect, expected, rtol=1e-6)
 
 
-@pytest.mark.parametrize("normal", PROMISES)
+def test_semi_winkler_is_hertz_in_patch_and_load_on_a_circle():
+    exact = contact.hertz(2.0, 2.0, load=8e4)
+    sol = contact.solve(contact.Separation.hertzian(2.0, 2.0), NO_CREEP, load=8e4, normal="semi_winkler")
+    np.testing.assert_allclose(sol.strips.a, exact.a * np.sqrt(1 - (sol.strips.y / exact.b) ** 2), rtol=1e-6)
+    assert sol.approach == pytest.approx(exact.approach, rel=1e-9)
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
+def test_semi_winkler_carries_hertz_load_on_an_ellipse(ratio):
+    A, B = 4.0, 4.0 * ratio
+    exact = contact.hertz(A, B, load=8e4)
+    sol = contact.solve(contact.Separation.hertzian(A, B), NO_CREEP, approach=exact.approach, normal="semi_winkler")
+    assert pytest.approx(exact.N, rel=1e-6) == sol.N
+    assert sol.area == pytest.approx(math.pi * exact.a * exact.b, rel=0.2), "area of Hertz, roughly, at every aspect"
+
+
+def test_semi_winkler_strip_solves_its_equation():
+    """The edge of a strip lies where the depth is l times the slope of the gap (docstring)."""
+    A, B, delta, length = 1.3, 2.1, 8e-5, 2e-3
+    for gap in np.linspace(0.0, 0.9, 10) * _share(B, length / math.sqrt(delta)) * delta:
+        a, mean = _strip(gap, A, B, delta, length)
+        slope = math.hypot(2 * A * a, math.sqrt(4 * B * gap))
+        assert delta - gap - A * a**2 == pytest.approx(length * slope, rel=1e-9)
+        x = np.linspace(-a, a, 2001)
+        bed = delta - gap - A * x**2 + 2 * length**2 * (A + B)
+        assert mean == pytest.approx(np.trapezoid(bed, x) / (2 * a), rel=1e-6)
+
+
+@pytest.mark.parametrize("aspect", [0.2, 1.0, 5.0])
+def test_displacement_outside_an_ellipse_is_that_of_its_pressure(aspect):
+    """The gutter of multi_hertz against the sum over the semi-ellipsoid of pressure."""
+    a, b = aspect, 1.0
+    c, w = np.polynomial.legendre.leggauss(400)
+    angle, radius = (c + 1) * math.pi, (c + 1) / 2
+    r, th = np.meshgrid(radius, angle, indexing="ij")
+    weight = np.outer(w / 2, w * math.pi) * a * b * r * np.sqrt(1 - r**2)
+
+    def summed(y):
+        return (weight / np.hypot(a * r * np.cos(th), y - b * r * np.sin(th))).sum() / math.pi
+
+    for y in (1.05, 1.5, 3.0, 10.0):
+        # half the interval [-1, 1] of the Gauss rule: the factor 1/2
+        assert a * b * 0.5 * _outside(y, a**2, b**2) == pytest.approx(summed(y), rel=3e-3)
+
+
+def test_the_equivalent_ellipse_keeps_the_load_of_the_contacts():
+    separation = two_lobes(5e-6)
+    several = contact.solve(separation, NO_CREEP, approach=9e-5, normal="multi_hertz")
+    one = contact.solve(separation, NO_CREEP, approach=9e-5, normal="pascal_sauvage")
+    assert (several.n_patches, one.n_patches) == (2, 1)
+    assert pytest.approx(several.N, rel=1e-9) == one.N
+    weights = several.strips.p0 * several.strips.a * several.strips.dy
+    assert one.patch_edges.mean() == pytest.approx(np.average(several.strips.y, weights=weights), abs=1e-9)
+
+
+def test_a_second_contact_feels_the_gutter_of_the_first():
+    """Two equal lobes 12 mm apart: the second is pressed less, by what the first lowers the surface there."""
+    alone = contact.hertz(1.0, 2.0, approach=9e-5)
+    sol = contact.solve(two_lobes(0.0), NO_CREEP, approach=9e-5, normal="multi_hertz")
+    loads = [0.5 * math.pi * (s.p0 * s.a * s.dy)[s.patch == k].sum() for s in [sol.strips] for k in (0, 1)]
+    assert loads[0] == pytest.approx(alone.N, rel=1e-6)
+    sunk = alone.N / (math.pi * E * 12e-3)  # of a point load
+    assert loads[1] == pytest.approx(alone.N * (1 - sunk / 9e-5) ** 1.5, rel=0.05)
+
+
+def test_pressures_of_overlapping_ellipses_add_up():
+    y = np.linspace(-20e-3, 20e-3, 401)
+    sol = contact.solve(contact.Separation(y, 2.0 * y**2 * np.where(y > 0, 0.2, 1.0), 1.0), NO_CREEP, load=8e4,
+                        normal="multi_hertz")  # fmt: skip
+    assert sol.n_patches > 1
+    (low, high), (low2, high2) = sol.patch_edges[:2]
+    assert max(low, low2) < min(high, high2), "they overlap"
+    grid = np.linspace(-20e-3, 20e-3, 801)
+    assert sol.pressure(grid[:, None], grid[None, :]).sum() * (grid[1] - grid[0]) ** 2 == pytest.approx(8e4, rel=2e-3)
+
+
+@pytest.mark.parametrize("normal", [name for name, method in contact.methods().normal.items() if method.continuous])
 def test_load_is_continuous_where_patches_are_born_and_merge(normal):
+    if normal in ("hertz", "strip_halfspace"):
+        pytest.skip("follows one lobe; iterates to a tolerance")
     separation = two_lobes(10e-6, spacing=8e-3)
     approaches = np.linspace(5e-6, 160e-6, 400)
     many = contact.forces(separation, NO_CREEP, approach=approaches, normal=normal)
@@ -122,6 +205,15 @@ def test_load_is_continuous_where_patches_are_born_and_merge(normal):
     assert counts == {1, 2}
     steps = np.diff(many.N)
     assert (steps > 0).all(), "N(approach) is monotone"
-    # the patches of 2008 move where they merge: a step of 0.8 % of the load
-    step = 0.01 * many.N.max() if normal == "kik_piotrowski_2008" else 0.3 * steps.max()
-    assert np.abs(np.diff(steps)).max() < step
+    assert np.abs(np.diff(steps)).max() < 0.3 * steps.max()
+
+
+def test_the_step_of_the_shape_correction_where_patches_merge_is_small():
+    """The patches of 2008 move where they merge: a step of 0.8 % of the load, the only one."""
+    approaches = np.linspace(5e-6, 160e-6, 400)
+    many = contact.forces(two_lobes(10e-6, spacing=8e-3), NO_CREEP, approach=approaches, normal="kik_piotrowski_2008")
+    steps = np.diff(many.N)
+    assert (steps > 0).all()
+    uneven = np.abs(np.diff(steps))
+    assert np.sort(uneven)[-3] < 0.1 * steps.max()
+    assert uneven.max() < 0.01 * many.N.max()
