@@ -36,6 +36,7 @@ lint: $(READY)   ## ruff, mypy, import-linter
 
 accuracy: $(READY) ## the accuracy tables, beside CONTACT's, into docs/accuracy.md
 	PYTHONPATH=. $(BIN)/python benchmarks/accuracy.py --write docs/accuracy.md
+	PYTHONPATH=. $(BIN)/python benchmarks/normal_methods.py --write docs/normal_methods.md
 	PYTHONPATH=. $(BIN)/python benchmarks/unseen_patches.py --cases 60
 
 smoothness: $(READY) ## sweeps: jumps, noise and resolution, into docs/smoothness.md; random cases
