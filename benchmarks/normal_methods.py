@@ -40,12 +40,12 @@ What a simulation with a prescribed wheel load meets.
 | `winkler` | a = √(δ/A), b = √(δ/B) | Hertz's |
 | `semi_winkler` | Hertz's for A = B; area within 7 % for a/b from 0.2 to 6.5 | Hertz's |
 
-Equations, sources and what is recalled rather than read stand in the docstrings of `contact/normal`. All methods hand strips with
-semi-elliptic pressure to the tangential ones. `winkler` and `semi_winkler` have another pressure along x; theirs is the semi-ellipse of
-the same length and load, whose peak is 0.85 of Winkler's parabola (L2 difference 16 %).
+Equations, sources and what is recalled rather than read stand in the docstrings of `contact/normal`. All methods hand strips
+with semi-elliptic pressure to the tangential ones. `winkler` and `semi_winkler` have another pressure along x; theirs is the
+semi-ellipse of the same length and load, whose peak is 0.85 of Winkler's parabola (L2 difference 16 %).
 
-The load of `kpec`, `multi_hertz`, `pascal_sauvage` and, by 0.8 %, `kik_piotrowski_2008` steps where zones or ellipses come and go
-(`contact.methods()`: `continuous`): they are here for comparison, not for time integration.
+The load of `kpec`, `multi_hertz`, `pascal_sauvage` and, by 0.8 %, `kik_piotrowski_2008` steps where zones or ellipses come and
+go (`contact.methods()`: `continuous`): they are here for comparison, not for time integration.
 
 ## KPEC is CONTACT's
 
