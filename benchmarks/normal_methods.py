@@ -63,7 +63,7 @@ def row(method: str, by_load: bool) -> list[str]:
 
 def report() -> str:
     """The page as Markdown."""
-    normal = list(contact.methods().normal)
+    normal = list(contact.methods().batched.normal)
     approach, load = ([row(m, by_load) for m in normal] for by_load in (False, True))
     heading = ["max pressure", "area", "pressure L2"]
     own, theirs = accuracy.errors_of_normal("kpec"), accuracy.published_on_patches("kpec_fastsim")

@@ -194,7 +194,9 @@ def test_pressures_of_overlapping_ellipses_add_up():
     assert sol.pressure(grid[:, None], grid[None, :]).sum() * (grid[1] - grid[0]) ** 2 == pytest.approx(8e4, rel=2e-3)
 
 
-@pytest.mark.parametrize("normal", [name for name, method in contact.methods().normal.items() if method.continuous])
+@pytest.mark.parametrize(
+    "normal", [name for name, method in contact.methods().batched.normal.items() if method.continuous]
+)
 def test_load_is_continuous_where_patches_are_born_and_merge(normal):
     if normal in ("hertz", "strip_halfspace"):
         pytest.skip("follows one lobe; iterates to a tolerance")
