@@ -116,13 +116,18 @@ def _at_load(
         p, n, solved = _in_window(gap - approach, dx, dy, material, p, tolerance)
         iterations += n
         rates = _stiffness(p, dx, dy, material)
+        if not rates.any():  # all was pulled off a start that lay too high
+            approach = least + 2.0 * (approach - least)
+            continue
         change = (total - p.sum()) / rates.sum()
         if abs(change) <= tolerance * (approach - least):
             converged = solved
             break
         change = max(change, -0.9 * (approach - least))
         p, approach = np.maximum(p + rates * change, 0.0), approach + change
-    return Normal(p * (total / p.sum()), approach, float(rates.sum()) * dx * dy, iterations, converged)
+    if p.any():
+        p = p * (total / p.sum())
+    return Normal(p, approach, float(rates.sum()) * dx * dy, iterations, converged)
 
 
 def _rough_overlap(h: Array, dx: float, dy: float, material: Material, total: float) -> float:
@@ -131,8 +136,8 @@ def _rough_overlap(h: Array, dx: float, dy: float, material: Material, total: fl
     for _ in range(30):
         middle = 0.5 * (low + high)
         depth = np.maximum(middle - h, 0.0)
-        size = math.sqrt(np.count_nonzero(depth) * dx * dy)
-        carried = depth.sum() * material.contact_modulus / size if size > 0.0 else 0.0
+        side = math.sqrt(np.count_nonzero(depth) * dx * dy)
+        carried = depth.sum() * material.contact_modulus / side if side > 0.0 else 0.0
         low, high = (middle, high) if carried < total else (low, middle)
     return high
 
@@ -211,7 +216,7 @@ def _conjugate_gradients(h: Array, influence: Influence, p: Array, tolerance: fl
         residual = e * touching
         z = influence.normal_inverse(residual) * touching
         before, square = square, dot(residual, z)
-        if restart:
+        if restart or before <= 0.0:
             direction = z
         else:
             beta = max((square - dot(old, z)) / before, 0.0)
@@ -219,9 +224,7 @@ def _conjugate_gradients(h: Array, influence: Influence, p: Array, tolerance: fl
         old = residual
         moved = influence.normal(direction)
         curvature = dot(direction, moved)
-        if curvature <= 0.0:  # nothing left to correct
-            return p, iteration, True
-        step = dot(residual, direction) / curvature
+        step = dot(residual, direction) / curvature if curvature > 0.0 else 0.0
         p = p - step * direction
         change = abs(step) * size(direction) / max(size(p), 1e-300)
         pulled = p < 0.0
@@ -253,6 +256,8 @@ def _stiffness(p: Array, dx: float, dy: float, material: Material) -> Array:
     for _ in range(MAX_ITERATIONS):
         z = influence.normal_inverse(residual) * inside
         before, square = square, dot(residual, z)
+        if square <= 0.0:
+            break
         direction = z + square / before * direction
         moved = influence.normal(direction) * inside
         step = square / dot(direction, moved)

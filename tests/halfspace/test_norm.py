@@ -92,6 +92,18 @@ def test_contact_conditions_hold_on_a_rough_gap():
     np.testing.assert_allclose(other.p, found.p, atol=1e-4 * found.p.max())
 
 
+@pytest.mark.parametrize("load", [1e-6, 1e-2, 1.0, 30.0, 3e3])
+def test_any_load_is_carried_by_a_rough_gap(load):
+    """From one element in contact on: no division by what may vanish."""
+    rng = np.random.default_rng(5)
+    gap, dx, dy = paraboloid(2.0, 3.0, 4e-3, 4e-3, 30)
+    gap = gap + rng.normal(0, 2e-6, gap.shape)
+    found = norm(gap, dx, dy, contact.STEEL, load=load)
+    assert found.converged
+    assert found.p.sum() * dx * dy == pytest.approx(load, rel=1e-12)
+    assert found.approach > gap.min()
+
+
 def test_mirrored_gap_gives_the_mirrored_pressure():
     gap, dx, dy = paraboloid(2.0, 3.0, 8e-3, 8e-3, 33)
     gap = gap + 200.0 * np.maximum(np.arange(33) - 16, 0)[:, None] ** 3 * dy**3
