@@ -124,7 +124,8 @@ def sample(
     y0, z0, c, s = frame
     lx, ly, lz = axle(motion[POSE_ROLL], motion[POSE_YAW])
     if grid.size > 0:
-        out[SEP_Y] = grid
+        for i in range(grid.size):
+            out[SEP_Y, i] = grid[i]
     else:
         spread(wheel, n_wheel, low, high, out[SEP_Y])
     i, j = 0, 0

@@ -196,7 +196,8 @@ def combine(lobe: Array, n: int, distance: float, angle: float, most: int) -> in
         apart = (lobe[i, LOBE_Y0] - lobe[k, LOBE_Y1]) / math.cos(0.5 * (own + last)) > distance
         if apart and abs(own - last) > angle and k < most - 1:
             k += 1
-            lobe[k, :] = lobe[i, :]
+            for row in range(N_LOBE):
+                lobe[k, row] = lobe[i, row]
         else:
             lobe[k, LOBE_Y1] = lobe[i, LOBE_Y1]
             for row in range(LOBE_WEIGHT, N_LOBE):

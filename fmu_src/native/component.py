@@ -36,7 +36,8 @@ class Component:
         Its continuous states are the rows that others are the derivatives of.
     entries : callable
         Returns Python functions by the names in `SIGNATURES`, for numba to compile. Each is given the array of all values
-        by value reference, most a second one of working memory, and after these the arrays of `data`:
+        by value reference, most a second one of working memory, and after these that of the `resources`, if there are
+        any, and the arrays of `data`:
 
         * ``model_memory(values)`` and ``model_size(values)`` count the numbers of the warm start, with which working memory
           begins, and of all working memory, for the parameters in `values`;
@@ -54,6 +55,9 @@ class Component:
         model that begins anew finds zeros as its warm start.
     data : callable
         Returns constant arrays that the kernels read.
+    resources : tuple of (str, bytes)
+        Files in resources/ that an instance reads, and the 8 bytes that each begins with (`fmu_src.profiles`). Kernels find
+        the points of one behind the other: their number n, then n numbers each of y, z and the angle.
     lazy : tuple of str
         Rows that are computed when somebody reads them.
     totals : mapping
@@ -65,6 +69,7 @@ class Component:
     table: Table
     entries: Callable[[], Mapping[str, Callable[..., Any]]]
     data: Callable[[], tuple[NDArray[np.float64], ...]]
+    resources: tuple[tuple[str, bytes], ...] = ()
     lazy: tuple[str, ...] = ()
     totals: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     warnings: Mapping[int, str] = field(default_factory=dict)

@@ -37,7 +37,23 @@ CPUS = {"v2": "x86-64-v2", "v3": "x86-64-v3"}
 
 #: What the objects may need from outside: libm and memory functions. Nothing of Python or numba, so nothing allocates, no
 #: reference is counted and no exception raised (its pickled message would remain).
-_LIBM = {"acos", "asin", "asinh", "atan", "atan2", "atanh", "cos", "exp", "log", "pow", "sin", "sqrt", "fabs"}
+_LIBM = {
+    "acos",
+    "asin",
+    "asinh",
+    "atan",
+    "atan2",
+    "atanh",
+    "cos",
+    "exp",
+    "expm1",
+    "log",
+    "pow",
+    "sin",
+    "sqrt",
+    "tan",
+    "fabs",
+}
 ALLOWED = _LIBM | {"memset", "memcpy", "memmove"}
 
 #: Platforms whose exp, log and pow come with the FMU, once for every processor: `libm.py`.
@@ -63,7 +79,7 @@ def emit(component: Component, folder: Path) -> None:
     llvm.initialize_all_asmprinters()
     arrays = component.data()
     entries = component.entries()
-    module = _linked(entries, arrays)
+    module = _linked(entries, arrays, bool(component.resources))
     text = _without_origin(str(module))
     for platform, triple in TRIPLES.items():
         target, (constants, *kernels) = llvm.Target.from_triple(triple), objects(folder, platform)
@@ -95,7 +111,7 @@ def _constants(data: Sequence[Any]) -> str:
     return "\n".join(lines)
 
 
-def _linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any]) -> Any:
+def _linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any], with_resources: bool) -> Any:
     """One module of all entries, in which these alone are visible."""
     from llvmlite import binding as llvm
     from numba import cfunc
@@ -103,9 +119,10 @@ def _linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any]) -> A
     from fmu_src.native.component import SIGNATURES
     from fmu_src.native.memory import Doubles
 
-    module, glue = None, _Glue(data)
+    module, glue = None, _Glue(data, with_resources)
     for name, (result, arguments) in SIGNATURES.items():
-        signature = result(*arguments, *(Doubles for _ in data))
+        pointers = len(data) + with_resources
+        signature = result(*arguments, *(Doubles for _ in range(pointers)))
         compiled = cfunc(signature, error_model="numpy")(entries[name])
         text = re.sub(r"^target .*$", "", compiled.inspect_llvm(), flags=re.MULTILINE)
         glue.add(name, result, arguments, compiled.native_name.removeprefix("cfunc."))
@@ -129,8 +146,8 @@ def _linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any]) -> A
 class _Glue:
     """IR of functions with C's conventions around numba's, and of the constant data that these are given."""
 
-    def __init__(self, data: Sequence[Any]) -> None:
-        self.data = data
+    def __init__(self, data: Sequence[Any], with_resources: bool) -> None:
+        self.data, self.with_resources = data, with_resources
         # Arrays of kernels belong to the caller and have no reference count; that numba's runtime is needed for nothing
         # else is what the list of allowed symbols proves.
         self.lines = ["define void @NRT_incref(ptr %0) { ret void }", "define void @NRT_decref(ptr %0) { ret void }"]
@@ -139,13 +156,14 @@ class _Glue:
 
     def add(self, name: str, result: Any, arguments: Sequence[Any], body: str) -> None:
         """A function `name` that calls numba's `body`, i32 body(result*, exception**, arguments…), which never fails."""
-        names = [f"{_TYPES[str(a)]} %a{i}" for i, a in enumerate(arguments)]
+        arguments_of_c = [*(f"{_TYPES[str(a)]} %a{i}" for i, a in enumerate(arguments)), "ptr %resources"]
+        names = arguments_of_c if self.with_resources else arguments_of_c[:-1]
         constants = [f"ptr @model_data{i}" for i in range(len(self.data))]
         kind = _TYPES[str(result)]
         types = ", ".join(["ptr", "ptr", *(n.split()[0] for n in names), *("ptr" for _ in constants)])
         self.lines += [
             f'declare i32 @"{body}"({types})',
-            f"define {kind} @{name}({', '.join(names)}) {{",
+            f"define {kind} @{name}({', '.join(arguments_of_c)}) {{",
             f"  %result = alloca {kind}",
             "  %exception = alloca ptr",
             f"  store {kind} zeroinitializer, ptr %result",

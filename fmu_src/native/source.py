@@ -28,6 +28,7 @@ def header(component: Component, guid: str) -> str:
 #define N_MESSAGES {max([0, *component.warnings, *component.failures])}
 #define N_TOTALS {len(component.totals)}
 #define N_FIELDS {len(table.fields)}
+#define N_RESOURCES {len(component.resources)}
 #define FIELD_SIZE(values) {_field_size(table)}
 enum {{
 {references}
@@ -54,6 +55,9 @@ def body(component: Component) -> str:
         f"{{{c_name(total)}, {c_name(rates[0])}, {c_name(rates[1]) if len(rates) > 1 else 'ALONE'}}}"
         for total, rates in component.totals.items()
     )
+    files = ", ".join(
+        f"{{{_string(name)}, {_string(magic.rstrip(bytes(1)).decode())}}}" for name, magic in component.resources
+    )
     return f"""/* Made from the variable table of {table.name}. */
 #include <math.h>
 #include <stddef.h>
@@ -66,6 +70,7 @@ const Variable variables[N_VALUES + N_FIELDS + 1] = {{
 const Continuous states[N_STATES] = {{{states}}};
 const Message messages[N_MESSAGES + 1] = {{{messages}}};
 const Total totals[N_TOTALS] = {{{sums}}};
+const Resource resources[N_RESOURCES] = {{{files}}};
 """
 
 

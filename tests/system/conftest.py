@@ -26,7 +26,7 @@ def fmus(tmp_path_factory) -> Path:
 
 @pytest.fixture(scope="session")
 def native(tmp_path_factory) -> Path:
-    """File of the native WheelRailContact; the first process that wants it builds it for all."""
+    """File of the native WheelRailContact, the others beside it; the first process that wants one builds them for all."""
     shared = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
         shared = shared.parent

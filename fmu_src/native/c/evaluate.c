@@ -38,15 +38,15 @@ Status prepare(Instance *instance)
     double *values = instance->is.values;
     int64_t number;
     if (instance->work && !memcmp(values, instance->prepared, N_PARAMETERS * sizeof(double))) return OK;
-    int64_t memory_size = instance->model->memory(values);
-    double *work = malloc((size_t)instance->model->size(values) * sizeof(double));
+    int64_t memory_size = instance->model->memory(values, instance->resources);
+    double *work = malloc((size_t)instance->model->size(values, instance->resources) * sizeof(double));
     double *memory = memory_size == instance->memory_size ? instance->memory : calloc(2 * (size_t)memory_size, sizeof(double));
     if (!work || !memory) {
         free(work);
         if (memory != instance->memory) free(memory);
         instance->is.phase = BROKEN;
         return report(instance, LOG_ERROR, "out of memory: this resolution takes %lld bytes",
-                      (long long)instance->model->size(values) * (long long)sizeof(double));
+                      (long long)instance->model->size(values, instance->resources) * (long long)sizeof(double));
     }
     free(instance->work);
     if (memory != instance->memory) free(instance->memory);
@@ -55,7 +55,7 @@ Status prepare(Instance *instance)
     instance->memory = memory;
     instance->memory_size = memory_size;
     memcpy(instance->prepared, values, N_PARAMETERS * sizeof(double));
-    number = instance->model->prepare(values, work);
+    number = instance->model->prepare(values, work, instance->resources);
     if (!failed(number)) return OK;
     free(instance->work);
     instance->work = NULL;
@@ -80,9 +80,9 @@ static Status keep_finite(Instance *instance, const double *before)
 int64_t evaluate(const Instance *instance, double *values, double h)
 {
     bool starting = N_STATES > 0 && instance->is.phase == INITIALIZATION;
-    int64_t number = starting ? instance->model->start(values, instance->work) : 0;
+    int64_t number = starting ? instance->model->start(values, instance->work, instance->resources) : 0;
     if (failed(number) || (starting && instance->type == CO_SIMULATION)) return number;
-    return instance->model->outputs(values, instance->work, h);
+    return instance->model->outputs(values, instance->work, h, instance->resources);
 }
 
 static double rate(const Total *t, const double *values)
@@ -139,7 +139,7 @@ Status update_lazy(Instance *instance)
     if (!instance->is.lazy_stale || prepare(instance) != OK) return OK;
     memcpy(solved, instance->is.solved, sizeof solved);
     instance->work_is_solved = false;
-    instance->model->lazy(solved, instance->work);
+    instance->model->lazy(solved, instance->work, instance->resources);
     for (size_t i = 0; i < N_VALUES; i++)
         if (variables[i].lazy) {
             if (!isfinite(solved[i]))

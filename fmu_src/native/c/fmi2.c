@@ -1,4 +1,5 @@
 /* FMI 2.0: its functions and types, in terms of those that every version shares. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "fmi2Functions.h"
@@ -25,11 +26,13 @@ fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const 
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging)
 {
-    (void)resources; /* all data are in the binary, so any location will do, even none */
     (void)visible;
     if (!functions) return NULL;
     const Log log = {write_log, (void (*)(void))functions->logger, functions->componentEnvironment};
-    return instantiate((Type)type, false, name, guid, &log, logging);
+    char *folder = path_of(resources);
+    Instance *instance = instantiate((Type)type, false, name, guid, folder, &log, logging);
+    free(folder);
+    return instance;
 }
 
 void fmi2FreeInstance(fmi2Component c) { release(c); }

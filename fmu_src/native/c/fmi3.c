@@ -26,8 +26,8 @@ fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi
                                           fmi3LogMessageCallback logger)
 {
     const Log log = {write_log, (void (*)(void))logger, environment};
-    (void)resources, (void)visible; /* all data are in the binary */
-    return instantiate(MODEL_EXCHANGE, true, name, token, &log, logging);
+    (void)visible;
+    return instantiate(MODEL_EXCHANGE, true, name, token, resources, &log, logging);
 }
 
 static fmi3Instance cannot(const Log *log, const char *name, const char *why)
@@ -44,12 +44,12 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
                                          fmi3IntermediateUpdateCallback update)
 {
     const Log log = {write_log, (void (*)(void))logger, environment};
-    (void)resources, (void)visible, (void)intermediate, (void)update;
+    (void)visible, (void)intermediate, (void)update;
     (void)early_return; /* a step is always done to its end */
     if (event_mode) return cannot(&log, name, "there is no event mode in co-simulation (hasEventMode is false)");
     if (n_intermediate > 0)
         return cannot(&log, name, "there are no intermediate updates (providesIntermediateUpdate is false)");
-    return instantiate(CO_SIMULATION, true, name, token, &log, logging);
+    return instantiate(CO_SIMULATION, true, name, token, resources, &log, logging);
 }
 
 fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name, fmi3String token, fmi3String resources,

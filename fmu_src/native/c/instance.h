@@ -17,14 +17,14 @@
 /* ---- the model: one array of all values by value reference, one of working memory that begins with the warm start;
  * component.py says what each does. Those that compute return 0 or the number of a message. */
 typedef struct {
-    int64_t (*memory)(double *values);
-    int64_t (*size)(double *values);
-    int64_t (*prepare)(double *values, double *work);
-    int64_t (*start)(double *values, double *work);
-    int64_t (*outputs)(double *values, double *work, double h);
-    int64_t (*lazy)(double *values, double *work);
-    double (*difference)(double *values, int64_t reference);
-    int64_t (*field)(double *values, double *work, int64_t k);
+    int64_t (*memory)(double *values, const double *resources);
+    int64_t (*size)(double *values, const double *resources);
+    int64_t (*prepare)(double *values, double *work, const double *resources);
+    int64_t (*start)(double *values, double *work, const double *resources);
+    int64_t (*outputs)(double *values, double *work, double h, const double *resources);
+    int64_t (*lazy)(double *values, double *work, const double *resources);
+    double (*difference)(double *values, int64_t reference, const double *resources);
+    int64_t (*field)(double *values, double *work, int64_t k, const double *resources);
 } Model;
 
 /* ---- the table */
@@ -67,6 +67,14 @@ typedef struct {
 } Continuous;
 
 extern const Continuous states[N_STATES];
+
+/* Files in resources/ that an instance reads, and how each begins. */
+typedef struct {
+    const char *name;
+    char magic[9];
+} Resource;
+
+extern const Resource resources[N_RESOURCES];
 
 /* Outputs that add up over time: the value of `total` grows at the rate of the product of two values, or of one. */
 enum { ALONE = -1 };
@@ -129,6 +137,8 @@ typedef struct {
     Content is;
     double *memory; /* twice memory_size numbers: the warm start of the next step, then that which the outputs are from */
     int64_t memory_size;
+    double *resources;       /* of each its number of points n, then n numbers each of three columns; NULL if there are none */
+    uint64_t resources_hash; /* tells instances with other resources apart */
     double *work;
     bool work_is_solved; /* and not used for anything else since */
     double prepared[N_VALUES]; /* parameters that `work` is laid out and filled for; a negative first one: none */
@@ -151,7 +161,8 @@ typedef struct {
 Status report(const Instance *instance, Category category, const char *format, ...);
 Status refuse(const Instance *instance, const char *function);
 Status choose_log(Instance *instance, const char *function, bool on, size_t n, const char *const names[]);
-Instance *instantiate(Type type, bool arrays, const char *name, const char *guid, const Log *log, bool logging);
+Instance *instantiate(Type type, bool arrays, const char *name, const char *guid, const char *folder, const Log *log,
+                      bool logging);
 void release(Instance *instance);
 Status set_up(Instance *instance, const char *function, double start, bool has_stop, double stop);
 Status enter_configuration(Instance *instance, const char *function);
@@ -160,6 +171,13 @@ Status enter_initialization(Instance *instance, const char *function);
 Status exit_initialization(Instance *instance, const char *function);
 Status terminate(Instance *instance, const char *function);
 Status reset(Instance *instance, const char *function);
+
+/* resources.c; a folder is a path, a location is an URI, and its path is to be freed */
+char *path_of(const char *location);
+bool load_resources(Instance *instance, const char *folder);
+
+/* state.c */
+uint64_t hash(const void *content, size_t size);
 
 /* variables.c: the first two check what is about to be copied, n references that stand for n_values numbers of these kinds */
 Status before_get(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds, size_t n_values);

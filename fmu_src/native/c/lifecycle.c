@@ -86,14 +86,14 @@ static void restart(Instance *instance)
 }
 
 #define ENTRIES(cpu) \
-    int64_t model_memory_##cpu(double *); \
-    int64_t model_size_##cpu(double *); \
-    int64_t model_prepare_##cpu(double *, double *); \
-    int64_t model_start_##cpu(double *, double *); \
-    int64_t model_outputs_##cpu(double *, double *, double); \
-    int64_t model_lazy_##cpu(double *, double *); \
-    double model_difference_##cpu(double *, int64_t); \
-    int64_t model_field_##cpu(double *, double *, int64_t); \
+    int64_t model_memory_##cpu(double *, const double *); \
+    int64_t model_size_##cpu(double *, const double *); \
+    int64_t model_prepare_##cpu(double *, double *, const double *); \
+    int64_t model_start_##cpu(double *, double *, const double *); \
+    int64_t model_outputs_##cpu(double *, double *, double, const double *); \
+    int64_t model_lazy_##cpu(double *, double *, const double *); \
+    double model_difference_##cpu(double *, int64_t, const double *); \
+    int64_t model_field_##cpu(double *, double *, int64_t, const double *); \
     static const Model model_##cpu = {model_memory_##cpu,  model_size_##cpu, model_prepare_##cpu,   model_start_##cpu, \
                                       model_outputs_##cpu, model_lazy_##cpu, model_difference_##cpu, model_field_##cpu};
 ENTRIES(v2)
@@ -114,7 +114,8 @@ static const Model *model_for_this_processor(void)
 }
 
 /* A new instance, or NULL with a message that says why not. */
-Instance *instantiate(Type type, bool arrays, const char *name, const char *guid, const Log *log, bool logging)
+Instance *instantiate(Type type, bool arrays, const char *name, const char *guid, const char *folder, const Log *log,
+                      bool logging)
 {
     Instance *instance;
     const Instance caller = {.categories = LOG_ERROR, .name = (char *)(name ? name : ""), .log = *log};
@@ -145,7 +146,9 @@ Instance *instantiate(Type type, bool arrays, const char *name, const char *guid
     instance->log = *log;
     instance->categories = logging ? LOG_WARNING | LOG_DISCARD | LOG_ERROR : LOG_DISCARD | LOG_ERROR;
     restart(instance);
-    return instance;
+    if (load_resources(instance, folder)) return instance;
+    release(instance);
+    return NULL;
 }
 
 void release(Instance *instance)
@@ -153,6 +156,7 @@ void release(Instance *instance)
     if (!instance) return;
     free(instance->work);
     free(instance->memory);
+    free(instance->resources);
     free(instance->name);
     free(instance);
 }

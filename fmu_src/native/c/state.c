@@ -9,17 +9,23 @@ typedef struct {
     char guid[sizeof MODEL_GUID];
     int64_t size;      /* of the whole block in bytes */
     int64_t type;
+    uint64_t resources_hash;
     int64_t memory_size;
     Content is;
     double memory[]; /* both halves */
 } State;
 
+uint64_t hash(const void *content, size_t size)
+{
+    uint64_t value = 14695981039346656037u; /* FNV-1a */
+    const unsigned char *from = content, *to = from + size;
+    while (from < to) value = (value ^ *from++) * 1099511628211u;
+    return value;
+}
+
 static uint64_t checksum(const State *state)
 {
-    uint64_t hash = 14695981039346656037u; /* FNV-1a */
-    const unsigned char *from = (const unsigned char *)state->guid, *to = (const unsigned char *)state + state->size;
-    while (from < to) hash = (hash ^ *from++) * 1099511628211u;
-    return hash;
+    return hash(state->guid, (size_t)state->size - offsetof(State, guid));
 }
 
 static size_t memory_bytes(int64_t memory_size) { return 2 * (size_t)memory_size * sizeof(double); }
@@ -41,6 +47,7 @@ Status get_state(Instance *instance, const char *function, void **target)
     memcpy(state->guid, MODEL_GUID, sizeof MODEL_GUID);
     state->size = (int64_t)size;
     state->type = instance->type;
+    state->resources_hash = instance->resources_hash;
     state->memory_size = instance->memory_size;
     state->is = instance->is;
     if (instance->memory) memcpy(state->memory, instance->memory, size - sizeof *state);
@@ -54,6 +61,8 @@ Status set_state(Instance *instance, const char *function, const void *source)
     if (!state) return report(instance, LOG_ERROR, "%s: no state is given", function);
     if (state->type != (int64_t)instance->type)
         return report(instance, LOG_ERROR, "%s: the state is of the other kind of FMU", function);
+    if (state->resources_hash != instance->resources_hash)
+        return report(instance, LOG_ERROR, "%s: the state is of an FMU with other files in resources", function);
     if (state->memory_size != instance->memory_size) {
         double *memory = malloc(memory_bytes(state->memory_size) + 1);
         if (!memory) return report(instance, LOG_ERROR, "out of memory");

@@ -15,7 +15,7 @@ size_t extent(const Instance *instance, Reference reference)
 static const double *numbers_of(const Instance *instance, double *values, Reference reference)
 {
     if (variables[reference].role != FIELD) return values + reference;
-    return instance->work + instance->model->field(values, instance->work, (int64_t)reference - N_VALUES);
+    return instance->work + instance->model->field(values, instance->work, (int64_t)reference - N_VALUES, instance->resources);
 }
 
 /* The instance's own: in `solved` is what working memory belongs to. */
@@ -102,7 +102,7 @@ static void displaced(Instance *instance, const double *seeds, double h, bool la
     instance->work_is_solved = false;
     evaluate(instance, values, 0.0);
     if (!lazy) return;
-    instance->model->lazy(values, instance->work);
+    instance->model->lazy(values, instance->work, instance->resources);
     memset(instance->work, 0, (size_t)instance->memory_size * sizeof(double));
     evaluate(instance, values, 0.0); /* for fields, which the lazy ones have left none of */
 }
@@ -135,7 +135,7 @@ Status derivative(Instance *instance, const char *function, const Reference unkn
     for (size_t k = 0; k < n_unknowns; k++) lazy |= variables[unknowns[k]].lazy;
     displaced(instance, seeds, 0.0, false, values); /* steps fit the outputs at the present values */
     for (size_t i = 0; i < N_VALUES; i++)
-        if (seeds[i] != 0.0) h = fmin(h, instance->model->difference(values, (int64_t)i) / fabs(seeds[i]));
+        if (seeds[i] != 0.0) h = fmin(h, instance->model->difference(values, (int64_t)i, instance->resources) / fabs(seeds[i]));
     if (isinf(h)) return OK;
     up = reach(instance->is.values, seeds, h);
     down = reach(instance->is.values, seeds, -h);

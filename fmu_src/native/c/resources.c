@@ -1,0 +1,134 @@
+/* Files that an instance reads when it is made: profiles, written by fmu_src/profiles.py. Their folder is given as a path or
+ * as a file URI, both in UTF-8. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <wchar.h>
+
+#ifdef _WIN32
+/* of kernel32; windows.h takes names like INPUT and ERROR for itself */
+__declspec(dllimport) int __stdcall MultiByteToWideChar(unsigned code_page, unsigned long flags, const char *from, int n,
+                                                        wchar_t *to, int room);
+enum { UTF_8 = 65001 };
+#endif
+
+#include "instance.h"
+
+#if N_RESOURCES > 0
+
+static int hexadecimal(char c)
+{
+    const char *digits = "0123456789abcdef0123456789ABCDEF", *found = c ? strchr(digits, c) : NULL;
+    return found ? (int)(found - digits) % 16 : -1;
+}
+
+/* The path of a file URI, or a copy of anything else; NULL for NULL. file:///a%20b and file:/a%20b are /a b. */
+char *path_of(const char *location)
+{
+    char *path, *end;
+    if (!location) return NULL;
+    end = path = malloc(strlen(location) + 1);
+    if (!path) return NULL;
+    if (strncmp(location, "file:", 5)) return strcpy(path, location);
+    location += 5;
+    if (!strncmp(location, "//localhost/", 12)) location += 11;
+    if (!strncmp(location, "///", 3)) location += 2;
+#ifdef _WIN32
+    if (location[0] == '/' && location[1] && location[2] == ':') location++; /* /C:/a is C:/a */
+#endif
+    while (*location) {
+        int high = *location == '%' ? hexadecimal(location[1]) : -1, low = high >= 0 ? hexadecimal(location[2]) : -1;
+        *end++ = low >= 0 ? (char)(16 * high + low) : *location;
+        location += low >= 0 ? 3 : 1;
+    }
+    *end = '\0';
+    return path;
+}
+
+static FILE *open_to_read(const char *path)
+{
+#ifdef _WIN32
+    wchar_t wide[4096];
+    return MultiByteToWideChar(UTF_8, 0, path, -1, wide, 4096) > 0 ? _wfopen(wide, L"rb") : NULL;
+#else
+    return fopen(path, "rb");
+#endif
+}
+
+enum { MOST_POINTS = 100000 };
+
+/* Append the points of a file to the instance's resources, of which there are `size` numbers; return how many there are now,
+ * or 0 if the file is not what it should be. */
+static size_t append(Instance *instance, FILE *file, const char *magic, size_t size)
+{
+    struct {
+        char magic[8];
+        uint64_t checksum; /* of everything behind it */
+        int64_t n;
+    } head;
+    size_t length;
+    double *grown, *points;
+    uint64_t checksum;
+    if (fread(&head, 1, sizeof head, file) != sizeof head || memcmp(head.magic, magic, 8)) return 0;
+    if (head.n < 4 || head.n > MOST_POINTS) return 0;
+    length = 1 + 3 * (size_t)head.n;
+    grown = realloc(instance->resources, (size + length) * sizeof(double));
+    if (!grown) return 0;
+    instance->resources = grown;
+    points = grown + size;
+    memcpy(points, &head.n, sizeof head.n); /* as in the file, for the checksum */
+    if (fread(points + 1, sizeof(double), length - 1, file) != length - 1) return 0;
+    checksum = hash(points, length * sizeof(double));
+    if (checksum != head.checksum) return 0;
+    for (size_t i = 1; i < length; i++)
+        if (!isfinite(points[i])) return 0;
+    points[0] = (double)head.n;
+    instance->resources_hash = 31 * instance->resources_hash + checksum;
+    return size + length;
+}
+
+/* Read all of the model's files; false, with a message, if one cannot be had. */
+bool load_resources(Instance *instance, const char *folder)
+{
+    size_t size = 0;
+    for (int i = 0; i < N_RESOURCES; i++) {
+        size_t room = (folder ? strlen(folder) : 0) + strlen(resources[i].name) + 2;
+        char *path = malloc(room);
+        FILE *file = NULL;
+        if (path && folder) {
+            snprintf(path, room, "%s/%s", folder, resources[i].name);
+            file = open_to_read(path);
+        }
+        free(path);
+        if (!file) {
+            report(instance, LOG_ERROR, "resource %s cannot be read in %s", resources[i].name,
+                   folder ? folder : "no folder: the resource location is NULL");
+            return false;
+        }
+        size = append(instance, file, resources[i].magic, size);
+        fclose(file);
+        if (size == 0) {
+            report(instance, LOG_ERROR, "resource %s holds no profile: it is damaged, or not made by fmu_src.profiles",
+                   resources[i].name);
+            return false;
+        }
+    }
+    return true;
+}
+
+#else /* all data are in the binary, so any folder will do, even none */
+
+char *path_of(const char *location)
+{
+    (void)location;
+    return NULL;
+}
+
+bool load_resources(Instance *instance, const char *folder)
+{
+    (void)instance, (void)folder;
+    return true;
+}
+
+#endif

@@ -1,0 +1,326 @@
+"""The pair behind the native FMU's table: what C calls, over one array of all values and one of working memory.
+
+`contact.pair.kernel.solve_pair` does the work, as in Python; here profiles, values and memory become its arguments.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import namedtuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import carray
+
+import contact
+from contact import Status, kalker, quadrature
+from contact._layout import (
+    CASE_G,
+    CASE_MU,
+    CASE_NORMAL,
+    CASE_NU,
+    CASE_TANGENTIAL,
+    MAX_PATCHES,
+    N_CASE,
+    N_FIELD_ROWS,
+    N_RES,
+    N_STRIP_ROWS,
+)
+from contact.damage import DamageParameters
+from contact.damage._kernel import (
+    DAMAGE_ARCHARD_DEPTH,
+    DAMAGE_ARCHARD_VOLUME,
+    DAMAGE_BURSTOW,
+    DAMAGE_ENERGY_INDEX,
+    DAMAGE_FATIGUE_INDEX,
+    DAMAGE_PEARCE_SHERRATT,
+    DAMAGE_STRESS_INDEX,
+    DAMAGE_T_GAMMA,
+    DAMAGE_USFD,
+    N_DAMAGE,
+    N_DAMAGE_FIELDS,
+    N_PAR,
+    PAR_HARDNESS,
+    PAR_SHEAR_YIELD,
+)
+from contact.geometry import layout as rows
+from contact.geometry.prepare import cut, facing, rail_origin, turn
+from contact.geometry.settle import DEEPEST, GIVEN_Z, NO_OVERLAP, NOT_SETTLED, TOO_DEEP
+from contact.geometry.settle import LOAD as UNDER_LOAD
+from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
+from contact.geometry.workspace import N_STRIPS as SEARCH_STRIPS
+from contact.geometry.workspace import Search
+from contact.normal import influence
+from contact.normal.analyn import N_WORK_ROWS
+from contact.normal.strip_halfspace import MEM_LN_A
+from contact.normal.strip_system import N_VECTOR_ROWS
+from contact.pair.kernel import N_TOTAL, Bench, solve_pair
+from contact.pair.layout import (
+    N_CONTACT,
+    TOTAL_AREA,
+    TOTAL_COUNT,
+    TOTAL_DAMAGE,
+    TOTAL_FX,
+    TOTAL_PMAX,
+    TOTAL_POWER,
+    TOTAL_SLIP_AREA,
+    TOTAL_STATUS,
+    TOTAL_Z,
+)
+from contact.tangential.lanes import LANES, N_LANE_ROWS, N_TRACE
+from contact.workspace import Rule, Space, Tables, Workspace
+from fmu_src.differences import creepage_steps
+from fmu_src.native.component import Component
+from fmu_src.native.memory import ahead, compiled, cube, matrix, vector
+from fmu_src.profiles import MAGIC
+from fmu_src.tables.wheel_rail_pair import LOAD_KIND, PATCH, PATCHES, RAIL, SIDE, WHEEL, table
+from fmu_src.variables import Table, identifier
+
+_METHODS = contact.methods()
+_NORMAL_IDS = np.array([float(method.id) for method in _METHODS.normal.values()])
+_TANGENTIAL_IDS = np.array([float(method.id) for method in _METHODS.tangential.values()])
+_INTERACTING = np.array([method.interacting for method in _METHODS.normal.values()])
+_UNDER_LOAD, _RIGHT = LOAD_KIND.number("NormalForce"), SIDE.number("Right")
+_DAMAGE_PARAMETERS = DamageParameters().array(contact.STEEL, 1.0, 1.0)
+_N_PATCH_ROWS = len(PATCH)
+_steps = compiled(creepage_steps)
+
+#: What discards a step, numbered behind the statuses.
+_NO_OVERLAP, _NOT_SETTLED, _TOO_DEEP, _GAUGE_POINT, _STEEP = range(6, 11)
+_FAILURES = {
+    _NO_OVERLAP: "pose.y: the profiles of wheel and rail do not overlap",
+    _NOT_SETTLED: "load.normal_force: no height was found at which the wheel carries it on this rail",
+    _TOO_DEEP: f"pose.z: the wheel lies more than {DEEPEST:g} m inside its rail",
+    _GAUGE_POINT: "track.gauge_point: the rail reaches no deeper on its gauge side",
+    _STEEP: "rail.inclination: the rail is steep at its top",
+}
+
+
+def component(inclination: float) -> Component:
+    """The FMU for a rail that is to be turned by this inclination unless told otherwise."""
+    interface = table(inclination)
+    return Component(
+        table=interface,
+        entries=lambda: _entries(interface),
+        data=lambda: (kalker.published(), *influence.tables()),
+        resources=((WHEEL, MAGIC["wheel"]), (RAIL, MAGIC["rail"])),
+        totals={"total.energy": ("power.friction",), "total.worn_volume": ("damage.archard_volume", "velocity.x")},
+        warnings={int(s): f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)},
+        failures=_FAILURES,
+    )
+
+
+class Start(NamedTuple):
+    """What `model_prepare` needs besides the bench: counts of nodes that can touch, the rail turned by its inclination."""
+
+    counts: object
+    turned: object
+
+
+def _entries(table: Table) -> dict[str, Callable[..., Any]]:
+    """`Component.entries`; data are Kalker's coefficients and the influence of strips on the centre line and off it."""
+    at = namedtuple("References", [identifier(name) for name in table.span])(
+        *(span.start for span in table.span.values())
+    )
+    n_values = len(table.scalars)
+
+    @compiled
+    def piece_size(v):
+        """Size of the memory of one patch."""
+        interacting = _INTERACTING[int(v[at.method_normal]) - 1]
+        return MEM_LN_A + (MAX_PATCHES * int(v[at.resolution_n_strips]) if interacting else 1)
+
+    @compiled
+    def start(v, work, resources):
+        """Lay out what comes first in `work`; return the memory, the rest, and where that ends."""
+        memory, end = vector(work, 0, 1 + MAX_PATCHES * piece_size(v))
+        counts, end = vector(work, end, 2)
+        n_rail = int(carray(ahead(resources, 1 + 3 * int(carray(resources, (1,))[0])), (1,))[0])
+        turned, end = matrix(work, end, 3, n_rail)
+        return memory, Start(counts, turned), end
+
+    @compiled
+    def arrange(v, work, resources, n_wheel, n_rail, centre, plane):
+        """Lay all arrays into `work` for curves of so many nodes; return them, Kalker's table, how many numbers they are."""
+        n_strips, n_elements = int(v[at.resolution_n_strips]), int(v[at.resolution_n_elements])
+        samples, capacity = int(v[at.resolution_n_samples]), MAX_PATCHES * n_strips
+        size = piece_size(v) - MEM_LN_A
+        memory, _, end = start(v, work, resources)
+        wheel, end = matrix(work, end, 3, n_wheel)
+        rail, end = matrix(work, end, 3, n_rail)
+        motion, end = vector(work, end, rows.N_MOTION)
+        patches, end = matrix(work, end, MAX_PATCHES, rows.N_PATCH)
+        separations, end = cube(work, end, MAX_PATCHES, rows.N_SEP_ROWS, samples)
+        line, end = matrix(work, end, rows.N_LINE_ROWS, n_wheel)
+        placed, end = matrix(work, end, 3, n_rail)
+        lobe, end = matrix(work, end, rows.MAX_LOBES, rows.N_LOBE)
+        wheel_plane, end = matrix(work, end, rows.N_LINE_ROWS, n_wheel)
+        rail_plane, end = matrix(work, end, 3, n_rail)
+        search_case, end = vector(work, end, N_CASE)
+        search_nodes, end = vector(work, end, SEARCH_STRIPS)
+        search_weights, end = vector(work, end, SEARCH_STRIPS)
+        search_work, end = matrix(work, end, N_WORK_ROWS, samples)
+        search_strips, end = matrix(work, end, N_STRIP_ROWS, MAX_PATCHES * SEARCH_STRIPS)
+        search_result, end = vector(work, end, N_RES)
+        nodes, end = vector(work, end, n_strips)
+        weights, end = vector(work, end, n_strips)
+        elements, end = matrix(work, end, quadrature.N_EL, n_elements)
+        cosines, end = vector(work, end, n_strips + 1)
+        cosine_logs, end = matrix(work, end, n_strips, n_strips + 1)
+        coefficients, end = matrix(work, end, kalker.N_TABLE, 8)
+        grid, end = matrix(work, end, N_WORK_ROWS, samples)
+        vectors, end = matrix(work, end, N_VECTOR_ROWS, size)
+        logs, end = matrix(work, end, size, size + MAX_PATCHES)
+        influences, end = matrix(work, end, size, size)
+        lu, end = matrix(work, end, size, size)
+        lanes, end = vector(work, end, N_LANE_ROWS * LANES)
+        trace, end = matrix(work, end, n_elements, N_TRACE * LANES)
+        case, end = vector(work, end, N_CASE)
+        strips, end = matrix(work, end, N_STRIP_ROWS, capacity)
+        fields, end = cube(work, end, N_FIELD_ROWS, capacity, n_elements)
+        result, end = vector(work, end, N_RES)
+        parameters, end = vector(work, end, N_PAR)
+        damage_fields, end = cube(work, end, N_DAMAGE_FIELDS, capacity, n_elements)
+        damage, end = vector(work, end, N_DAMAGE)
+        contacts, end = matrix(work, end, MAX_PATCHES, N_CONTACT)
+        total, end = vector(work, end, N_TOTAL)
+        anywhere, _ = vector(work, end, 0)
+        search = Search(
+            wheel, rail, motion, anywhere, patches, separations, line, placed, lobe, wheel_plane, rail_plane,
+            search_case, search_nodes, search_weights, search_work, search_strips, search_result,
+        )  # fmt: skip
+        rule = Rule(nodes, weights, elements, cosines, cosine_logs)
+        tables = Tables(coefficients, carray(centre, influence.CENTRE), carray(plane, influence.PLANE))
+        space = Space(grid, vectors, logs, influences, lu, memory, lanes, trace)
+        own = Workspace(rule, tables, space, strips, fields, result)
+        bench = Bench(search, own, case, memory, parameters, damage_fields, damage, contacts, total)
+        return bench, end
+
+    def model_memory(values, resources, published, centre, plane):
+        return 1 + MAX_PATCHES * piece_size(carray(values, (n_values,)))
+
+    def model_size(values, resources, published, centre, plane):
+        v = carray(values, (n_values,))
+        n_wheel, n_rail = int(carray(resources, (1,))[0]), start(v, values, resources)[1].turned.shape[1]
+        return arrange(v, values, resources, n_wheel, n_rail, centre, plane)[1]
+
+    def model_prepare(values, work, resources, published, centre, plane):
+        v = carray(values, (n_values,))
+        _, begin, _ = start(v, work, resources)
+        n_wheel = int(carray(resources, (1,))[0])
+        wheel = carray(ahead(resources, 1), (3, n_wheel))
+        rail = carray(ahead(resources, 2 + 3 * n_wheel), (3, begin.turned.shape[1]))
+        turn(rail, -math.atan(v[at.rail_inclination]), begin.turned)
+        wheel_from, wheel_to = facing(wheel, True)
+        rail_from, rail_to = facing(begin.turned, False)
+        if wheel_to - wheel_from < 3 or rail_to - rail_from < 3:
+            return _STEEP
+        origin_y, origin_z, deepest = rail_origin(begin.turned, v[at.track_gauge], v[at.track_gauge_point])
+        if deepest < v[at.track_gauge_point]:
+            return _GAUGE_POINT
+        begin.counts[0], begin.counts[1] = wheel_to - wheel_from, rail_to - rail_from
+        bench, _ = arrange(v, work, resources, wheel_to - wheel_from, rail_to - rail_from, centre, plane)
+        search, motion, case = bench.search, bench.search.motion, bench.case
+        cut(wheel, wheel_from, wheel_to, search.wheel)
+        cut(begin.turned, rail_from, rail_to, search.rail)
+        motion[rows.RADIUS] = v[at.wheel_radius]
+        motion[rows.TAPE] = 0.5 * v[at.wheel_flange_back] + TAPE_FROM_FLANGE_BACK
+        motion[rows.COMBINE_DISTANCE] = v[at.patches_combine_distance]
+        motion[rows.COMBINE_ANGLE] = v[at.patches_combine_angle]
+        motion[rows.MOST_PATCHES] = v[at.patches_max]
+        motion[rows.MIRROR] = 1.0 if v[at.side] == _RIGHT else -1.0
+        motion[rows.ORIGIN_Y], motion[rows.ORIGIN_Z] = origin_y, origin_z
+        quadrature.fill_fejer(search.nodes, search.weights)
+        quadrature.fill_fejer(bench.own.rule.nodes, bench.own.rule.weights)
+        quadrature.fill_elements(bench.own.rule.elements)
+        quadrature.fill_panel(bench.own.rule.cosines, bench.own.rule.cosine_logs)
+        grid = carray(published, (kalker.N_TABLE, 4, 3))
+        kalker.fill_table(grid, v[at.material_poisson_ratio], bench.own.tables.kalker)
+        case[CASE_G], case[CASE_NU] = v[at.material_shear_modulus], v[at.material_poisson_ratio]
+        search.case[CASE_G], search.case[CASE_NU] = case[CASE_G], case[CASE_NU]
+        case[CASE_NORMAL] = _NORMAL_IDS[int(v[at.method_normal]) - 1]
+        case[CASE_TANGENTIAL] = _TANGENTIAL_IDS[int(v[at.method_tangential]) - 1]
+        for i in range(N_PAR):
+            bench.damage_parameters[i] = _DAMAGE_PARAMETERS[i]
+        bench.damage_parameters[PAR_HARDNESS] = v[at.material_hardness]
+        bench.damage_parameters[PAR_SHEAR_YIELD] = v[at.material_shear_yield]
+        return 0
+
+    def model_start(values, work, resources, published, centre, plane):
+        return 0
+
+    def model_outputs(values, work, h, resources, published, centre, plane):
+        v = carray(values, (n_values,))
+        counts = start(v, work, resources)[1].counts
+        bench, _ = arrange(v, work, resources, int(counts[0]), int(counts[1]), centre, plane)
+        bench.case[CASE_MU] = v[at.friction_coefficient]
+        given = carray(ahead(values, at.pose_y), (rows.N_GIVEN,))
+        by_load = v[at.load_kind] == _UNDER_LOAD
+        code = solve_pair(UNDER_LOAD if by_load else GIVEN_Z, v[at.load_normal_force], given, bench)
+        if code == NO_OVERLAP:
+            return _NO_OVERLAP
+        if code == NOT_SETTLED:
+            return _NOT_SETTLED
+        if code == TOO_DEEP:
+            return _TOO_DEEP
+        total, speed = bench.total, v[at.velocity_x]
+        for i in range(6):
+            v[at.force_x + i] = total[TOTAL_FX + i]
+        for row in range(_N_PATCH_ROWS):
+            for k in range(PATCHES):
+                v[at.patch_n + PATCHES * row + k] = bench.contacts[k, row]
+        v[at.wheelset_z], v[at.pressure_max] = total[TOTAL_Z], total[TOTAL_PMAX]
+        v[at.patches_count], v[at.patches_area] = total[TOTAL_COUNT], total[TOTAL_AREA]
+        v[at.slip_ratio] = total[TOTAL_SLIP_AREA] / total[TOTAL_AREA] if total[TOTAL_AREA] > 0.0 else 0.0
+        v[at.power_friction], v[at.status] = speed * total[TOTAL_POWER], total[TOTAL_STATUS]
+        v[at.damage_T_gamma] = total[TOTAL_DAMAGE + DAMAGE_T_GAMMA]
+        v[at.damage_wear_rate_pearce_sherratt] = total[TOTAL_DAMAGE + DAMAGE_PEARCE_SHERRATT]
+        v[at.damage_index_burstow] = total[TOTAL_DAMAGE + DAMAGE_BURSTOW]
+        v[at.damage_wear_rate_usfd] = total[TOTAL_DAMAGE + DAMAGE_USFD]
+        v[at.damage_archard_depth_max] = total[TOTAL_DAMAGE + DAMAGE_ARCHARD_DEPTH]
+        v[at.damage_archard_volume] = total[TOTAL_DAMAGE + DAMAGE_ARCHARD_VOLUME]
+        v[at.damage_fatigue_index_surface] = total[TOTAL_DAMAGE + DAMAGE_FATIGUE_INDEX]
+        v[at.damage_stress_index_max] = total[TOTAL_DAMAGE + DAMAGE_STRESS_INDEX]
+        v[at.damage_energy_index_max] = total[TOTAL_DAMAGE + DAMAGE_ENERGY_INDEX]
+        return int(total[TOTAL_STATUS])
+
+    def model_lazy(values, work, resources, published, centre, plane):
+        return 0
+
+    def model_difference(values, reference, resources, published, centre, plane):
+        """A step in which hardly an element passes from stick to slip: a millionth of the creepage that saturates.
+
+        Positions and angles are moved by a tenth of a micrometre or what turns by that much a metre away; a height that is
+        given by a tenth of that, as the penetration is small. Under a load the height is found to 1e-9 of the load.
+        """
+        v = carray(values, (n_values,))
+        speed = v[at.velocity_x]
+        coarse = 100.0 if _INTERACTING[int(v[at.method_normal]) - 1] else 1.0  # solved to 1e-4 only
+        creepage = 1e-3 * _steps(
+            v[at.friction_coefficient], abs(v[at.force_z]), v[at.material_shear_modulus], v[at.patches_area]
+        )[0]  # fmt: skip
+        if reference == at.pose_z or reference == at.irregularity_z:
+            return coarse * 1e-8
+        if at.pose_y <= reference <= at.pose_yaw or at.irregularity_y <= reference <= at.irregularity_roll:
+            return coarse * 1e-7
+        if at.velocity_x <= reference <= at.irregularity_roll_rate:
+            lever = v[at.wheel_radius] if reference == at.velocity_spin else 1.0
+            return coarse * creepage * speed / lever
+        share = 1e-4 if reference == at.load_normal_force else 1e-6
+        return max(share * coarse * abs(v[reference]), 1e-12)
+
+    def model_field(values, work, k, resources, published, centre, plane):
+        return 0
+
+    called_by_c = (
+        model_memory,
+        model_size,
+        model_prepare,
+        model_start,
+        model_outputs,
+        model_lazy,
+        model_difference,
+        model_field,
+    )
+    return {function.__name__: function for function in called_by_c}
