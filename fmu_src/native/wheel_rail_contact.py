@@ -13,7 +13,7 @@ import numpy as np
 from numba import carray
 
 import contact
-from contact import Status, kalker, quadrature
+from contact import Status
 from contact._layout import (
     APPROACH,
     CASE_G,
@@ -38,8 +38,6 @@ from contact._layout import (
     MAX_PATCHES,
     N_CASE,
     N_FIELD_ROWS,
-    N_RES,
-    N_STRIP_ROWS,
     RES_APPROACH,
     RES_AREA,
     RES_FX,
@@ -78,27 +76,18 @@ from contact.damage._kernel import (
     PAR_WHEEL_RADIUS,
     damage_kernel,
 )
-from contact.normal import influence
-from contact.normal.analyn import N_WORK_ROWS
-from contact.normal.strip_halfspace import MEM_LN_A
-from contact.normal.strip_system import N_VECTOR_ROWS
 from contact.pipeline import solve_case
 from contact.separation import HERTZIAN_POINTS, fill_hertzian
-from contact.tangential.lanes import LANES, N_LANE_ROWS, N_TRACE
-from contact.workspace import Rule, Space, Tables, columns_shape
 from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
 from fmu_src.native.memory import compiled, cube, matrix, vector
+from fmu_src.native.solver import INTERACTING, NORMAL_IDS, TANGENTIAL_IDS, data, fill, lay_out, memory_size
 from fmu_src.tables.wheel_rail_contact import FLATTEST, GEOMETRY_KIND, LOAD_KIND, table
 from fmu_src.variables import Table, identifier
 
-_METHODS = contact.methods().batched
-_NORMAL_IDS = np.array([float(method.id) for method in _METHODS.normal.values()])
-_TANGENTIAL_IDS = np.array([float(method.id) for method in _METHODS.tangential.values()])
-_INTERACTING = np.array([method.interacting for method in _METHODS.normal.values()])
 _CURVATURES, _NORMAL_FORCE = GEOMETRY_KIND.number("Curvatures"), LOAD_KIND.number("NormalForce")
 _DAMAGE_PARAMETERS = DamageParameters().array(contact.STEEL, 1.0, 1.0)
-_steps, _columns_shape = compiled(creepage_steps), compiled(columns_shape)
+_steps = compiled(creepage_steps)
 #: Field of the table → row of the solver's fields, or what is made of strips.
 _PATCH, _Y, _AREA = range(N_FIELD_ROWS, N_FIELD_ROWS + 3)
 _FIELDS = {
@@ -133,7 +122,7 @@ def component(points: int) -> Component:
     return Component(
         table=interface,
         entries=lambda: _entries(interface),
-        data=lambda: (kalker.published(), *influence.tables()),
+        data=data,
         lazy=("creep_stiffness",),
         totals={"total.energy": ("power.friction",), "total.worn_volume": ("damage.archard_volume", "speed")},
         warnings={int(s): f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)},
@@ -150,12 +139,9 @@ class Problem(NamedTuple):
     case: object
 
 
-class Solved(NamedTuple):
-    """What `solve_case` and `damage_kernel` fill."""
+class After(NamedTuple):
+    """What comes after `solve_case`: damage, and what the host sees of the fields."""
 
-    strips: object
-    fields: object
-    result: object
     damage_parameters: object
     damage_fields: object
     damage: object
@@ -173,57 +159,27 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
     rows = np.array([_FIELDS[field.name] for field in table.fields])
 
     @compiled
-    def memory_size(v):
-        interacting = _INTERACTING[int(v[at.method_normal]) - 1]
-        return MEM_LN_A + (MAX_PATCHES * int(v[at.resolution_n_strips]) if interacting else 1)
+    def warm_start_size(v):
+        return memory_size(int(v[at.method_normal]), int(v[at.resolution_n_strips]))
 
     @compiled
-    def arrange(v, work):
+    def arrange(v, work, centre, plane):
         """Lay all arrays into `work`; return them, where the field shown to the host begins, how many numbers there are."""
         n_strips, n_elements = int(v[at.resolution_n_strips]), int(v[at.resolution_n_elements])
         capacity = MAX_PATCHES * n_strips
-        size = memory_size(v) - MEM_LN_A
-        memory, end = vector(work, 0, memory_size(v))
-        nodes, end = vector(work, end, n_strips)
-        weights, end = vector(work, end, n_strips)
-        elements, end = matrix(work, end, quadrature.N_EL, n_elements)
-        cosines, end = vector(work, end, n_strips + 1)
-        cosine_logs, end = matrix(work, end, n_strips, n_strips + 1)
-        tabulated, own, _ = _columns_shape(n_strips, size > 1)
-        columns, end = cube(work, end, tabulated, own, own)
-        coefficients, end = matrix(work, end, kalker.N_TABLE, 8)
-        grid, end = matrix(work, end, N_WORK_ROWS, samples)
-        vectors, end = matrix(work, end, N_VECTOR_ROWS, size)
-        logs, end = matrix(work, end, size, size + MAX_PATCHES)
-        influences, end = matrix(work, end, size, size)
-        lu, end = matrix(work, end, size, size)
-        lanes, end = vector(work, end, N_LANE_ROWS * LANES)
-        trace, end = matrix(work, end, n_elements, N_TRACE * LANES)
+        memory, end = vector(work, 0, warm_start_size(v))
+        own, end = lay_out(work, end, memory, n_strips, n_elements, samples, centre, plane)
         y, end = vector(work, end, samples)
         g, end = vector(work, end, samples)
         A, end = vector(work, end, samples)
         xc, end = vector(work, end, samples)
         case, end = vector(work, end, N_CASE)
-        strips, end = matrix(work, end, N_STRIP_ROWS, capacity)
-        fields, end = cube(work, end, N_FIELD_ROWS, capacity, n_elements)
-        result, end = vector(work, end, N_RES)
         parameters, end = vector(work, end, N_PAR)
         damage_fields, end = cube(work, end, N_DAMAGE_FIELDS, capacity, n_elements)
         damage, end = vector(work, end, N_DAMAGE)
         count, end = vector(work, end, 1)
         shown, total = matrix(work, end, capacity, n_elements)
-        rule = Rule(nodes, weights, elements, cosines, cosine_logs, columns)
-        space = Space(grid, vectors, logs, influences, lu, memory, lanes, trace)
-        problem = Problem(y, g, A, xc, case)
-        return (
-            rule,
-            coefficients,
-            space,
-            problem,
-            Solved(strips, fields, result, parameters, damage_fields, damage, count, shown),
-            end,
-            total,
-        )
+        return own, Problem(y, g, A, xc, case), After(parameters, damage_fields, damage, count, shown), end, total
 
     @compiled
     def pose(v, problem):
@@ -245,36 +201,30 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         case[CASE_VX], case[CASE_VY] = v[at.creepage_longitudinal], v[at.creepage_lateral]
         case[CASE_PHI], case[CASE_MU] = v[at.creepage_spin], v[at.friction_coefficient]
         case[CASE_G], case[CASE_NU] = v[at.material_shear_modulus], v[at.material_poisson_ratio]
-        case[CASE_NORMAL] = _NORMAL_IDS[int(v[at.method_normal]) - 1]
-        case[CASE_TANGENTIAL] = _TANGENTIAL_IDS[int(v[at.method_tangential]) - 1]
+        case[CASE_NORMAL] = NORMAL_IDS[int(v[at.method_normal]) - 1]
+        case[CASE_TANGENTIAL] = TANGENTIAL_IDS[int(v[at.method_tangential]) - 1]
         return n
 
     @compiled
-    def solve(n, rule, tables, space, problem, solved):
+    def solve(n, own, problem, after):
         """Solve what `pose` has left."""
         y, g, A, xc, case = problem.y[:n], problem.g[:n], problem.A[:n], problem.xc[:n], problem.case
-        count = solve_case(y, g, A, xc, case, rule, tables, space, solved.strips, solved.fields, solved.result)
-        solved.count[0] = count
+        count = solve_case(y, g, A, xc, case, own.rule, own.tables, own.space, own.strips, own.fields, own.result)
+        after.count[0] = count
         return count
 
     def model_memory(values, published, centre, plane):
-        return memory_size(carray(values, (n_values,)))
+        return warm_start_size(carray(values, (n_values,)))
 
     def model_size(values, published, centre, plane):
-        return arrange(carray(values, (n_values,)), values)[6]
+        return arrange(carray(values, (n_values,)), values, centre, plane)[4]
 
     def model_prepare(values, work, published, centre, plane):
         v = carray(values, (n_values,))
-        rule, coefficients, _, _, solved, _, _ = arrange(v, work)
-        quadrature.fill_fejer(rule.nodes, rule.weights)
-        quadrature.fill_elements(rule.elements)
-        quadrature.fill_panel(rule.cosines, rule.cosine_logs)
-        if rule.columns.size > 1:
-            influence.fill_columns(rule.cosine_logs, carray(centre, influence.CENTRE), rule.columns)
-        grid = carray(published, (kalker.N_TABLE, 4, 3))
-        kalker.fill_table(grid, v[at.material_poisson_ratio], coefficients)
+        own, _, after, _, _ = arrange(v, work, centre, plane)
+        fill(own, v[at.material_poisson_ratio], published)
         for i in range(N_PAR):
-            solved.damage_parameters[i] = _DAMAGE_PARAMETERS[i]
+            after.damage_parameters[i] = _DAMAGE_PARAMETERS[i]
         return 0
 
     def model_start(values, work, published, centre, plane):
@@ -282,14 +232,13 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
 
     def model_outputs(values, work, h, published, centre, plane):
         v = carray(values, (n_values,))
-        rule, coefficients, space, problem, solved, _, _ = arrange(v, work)
-        tables = Tables(coefficients, carray(centre, influence.CENTRE), carray(plane, influence.PLANE))
-        n = solve(pose(v, problem), rule, tables, space, problem, solved)
-        parameters, result, damage = solved.damage_parameters, solved.result, solved.damage
+        own, problem, after, _, _ = arrange(v, work, centre, plane)
+        n = solve(pose(v, problem), own, problem, after)
+        parameters, result, damage = after.damage_parameters, own.result, after.damage
         speed = v[at.speed]
         parameters[PAR_SPEED], parameters[PAR_WHEEL_RADIUS] = speed, v[at.wheel_radius]
         parameters[PAR_HARDNESS], parameters[PAR_SHEAR_YIELD] = v[at.material_hardness], v[at.material_shear_yield]
-        damage_kernel(solved.strips, n, solved.fields, problem.case, result, parameters, solved.damage_fields, damage)
+        damage_kernel(own.strips, n, own.fields, problem.case, result, parameters, after.damage_fields, damage)
         power = speed * result[RES_POWER]
         v[at.force_x], v[at.force_y], v[at.force_n] = result[RES_FX], result[RES_FY], result[RES_N]
         v[at.moment_z], v[at.approach], v[at.pressure_max] = result[RES_MZ], result[RES_APPROACH], result[RES_PMAX]
@@ -317,16 +266,15 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
 
     def model_lazy(values, work, published, centre, plane):
         v = carray(values, (n_values,))
-        rule, coefficients, space, problem, solved, _, _ = arrange(v, work)
-        tables = Tables(coefficients, carray(centre, influence.CENTRE), carray(plane, influence.PLANE))
-        n, case, result = pose(v, problem), problem.case, solved.result
+        own, problem, after, _, _ = arrange(v, work, centre, plane)
+        n, case, result = pose(v, problem), problem.case, own.result
         for j, step in enumerate(steps(v)):
             for i in range(3):
                 v[at.creep_stiffness + 3 * i + j] = 0.0
             for sign in (1.0, -1.0):
                 case[CASE_VX + j] = v[at.creepage_longitudinal + j] + sign * step
-                space.memory[0] = 0.0  # a cold start: what is found does not depend on earlier steps
-                solve(n, rule, tables, space, problem, solved)
+                own.space.memory[0] = 0.0  # a cold start: what is found does not depend on earlier steps
+                solve(n, own, problem, after)
                 for i in range(3):
                     v[at.creep_stiffness + 3 * i + j] += sign * result[RES_FX + i] / (2.0 * step)
             case[CASE_VX + j] = v[at.creepage_longitudinal + j]
@@ -344,7 +292,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
             if reference == at.creepage_spin:
                 return 1e-3 * spin
             return 1e-3 * (lateral if reference == at.creepage_lateral else longitudinal)
-        share = 1e-2 if _INTERACTING[int(v[at.method_normal]) - 1] else 1e-6
+        share = 1e-2 if INTERACTING[int(v[at.method_normal]) - 1] else 1e-6
         if at.geometry_g <= reference < at.geometry_g + points or reference == at.load_approach:
             # of the penetration; N ~ penetration^(3/2)
             penetration = 1.5 * v[at.force_n] / v[at.stiffness_normal] if v[at.stiffness_normal] > 0.0 else 1e-6
@@ -353,11 +301,11 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
 
     def model_field(values, work, k, published, centre, plane):
         v = carray(values, (n_values,))
-        _, _, _, _, solved, begin, _ = arrange(v, work)
-        n, shown = solved.count[0], solved.shown
+        own, _, after, begin, _ = arrange(v, work, centre, plane)
+        n, shown = after.count[0], after.shown
         for i in range(shown.shape[0]):
             for j in range(shown.shape[1]):
-                shown[i, j] = _element(solved.strips, solved.fields, rows[k], i, j) if i < n else 0.0
+                shown[i, j] = _element(own.strips, own.fields, rows[k], i, j) if i < n else 0.0
         return begin
 
     called_by_c = (

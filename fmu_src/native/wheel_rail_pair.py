@@ -10,11 +10,10 @@ from collections import namedtuple
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-import numpy as np
 from numba import carray
 
 import contact
-from contact import Status, kalker, quadrature
+from contact import Status, quadrature
 from contact._layout import (
     CASE_G,
     CASE_MU,
@@ -23,7 +22,6 @@ from contact._layout import (
     CASE_TANGENTIAL,
     MAX_PATCHES,
     N_CASE,
-    N_FIELD_ROWS,
     N_RES,
     N_STRIP_ROWS,
 )
@@ -51,10 +49,7 @@ from contact.geometry.settle import LOAD as UNDER_LOAD
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.geometry.workspace import N_STRIPS as SEARCH_STRIPS
 from contact.geometry.workspace import Search
-from contact.normal import influence
 from contact.normal.analyn import N_WORK_ROWS
-from contact.normal.strip_halfspace import MEM_LN_A
-from contact.normal.strip_system import N_VECTOR_ROWS
 from contact.pair.kernel import N_TOTAL, Bench, solve_pair
 from contact.pair.layout import (
     N_CONTACT,
@@ -68,19 +63,14 @@ from contact.pair.layout import (
     TOTAL_STATUS,
     TOTAL_Z,
 )
-from contact.tangential.lanes import LANES, N_LANE_ROWS, N_TRACE
-from contact.workspace import Rule, Space, Tables, Workspace
 from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
 from fmu_src.native.memory import ahead, compiled, cube, matrix, vector
+from fmu_src.native.solver import INTERACTING, NORMAL_IDS, TANGENTIAL_IDS, data, fill, lay_out, memory_size
 from fmu_src.profiles import MAGIC
 from fmu_src.tables.wheel_rail_pair import LOAD_KIND, PATCH, PATCHES, RAIL, SIDE, WHEEL, table
 from fmu_src.variables import Table, identifier
 
-_METHODS = contact.methods()
-_NORMAL_IDS = np.array([float(method.id) for method in _METHODS.normal.values()])
-_TANGENTIAL_IDS = np.array([float(method.id) for method in _METHODS.tangential.values()])
-_INTERACTING = np.array([method.interacting for method in _METHODS.normal.values()])
 _UNDER_LOAD, _RIGHT = LOAD_KIND.number("NormalForce"), SIDE.number("Right")
 _DAMAGE_PARAMETERS = DamageParameters().array(contact.STEEL, 1.0, 1.0)
 _N_PATCH_ROWS = len(PATCH)
@@ -103,7 +93,7 @@ def component(inclination: float) -> Component:
     return Component(
         table=interface,
         entries=lambda: _entries(interface),
-        data=lambda: (kalker.published(), *influence.tables()),
+        data=data,
         resources=((WHEEL, MAGIC["wheel"]), (RAIL, MAGIC["rail"])),
         totals={"total.energy": ("power.friction",), "total.worn_volume": ("damage.archard_volume", "velocity.x")},
         warnings={int(s): f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)},
@@ -128,8 +118,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
     @compiled
     def piece_size(v):
         """Size of the memory of one patch."""
-        interacting = _INTERACTING[int(v[at.method_normal]) - 1]
-        return MEM_LN_A + (MAX_PATCHES * int(v[at.resolution_n_strips]) if interacting else 1)
+        return memory_size(int(v[at.method_normal]), int(v[at.resolution_n_strips]))
 
     @compiled
     def start(v, work, resources):
@@ -142,10 +131,9 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
 
     @compiled
     def arrange(v, work, resources, n_wheel, n_rail, centre, plane):
-        """Lay all arrays into `work` for curves of so many nodes; return them, Kalker's table, how many numbers they are."""
+        """Lay all arrays into `work` for curves of so many nodes; return them, and how many numbers they are."""
         n_strips, n_elements = int(v[at.resolution_n_strips]), int(v[at.resolution_n_elements])
         samples, capacity = int(v[at.resolution_n_samples]), MAX_PATCHES * n_strips
-        size = piece_size(v) - MEM_LN_A
         memory, _, end = start(v, work, resources)
         wheel, end = matrix(work, end, 3, n_wheel)
         rail, end = matrix(work, end, 3, n_rail)
@@ -163,23 +151,10 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         search_work, end = matrix(work, end, N_WORK_ROWS, samples)
         search_strips, end = matrix(work, end, N_STRIP_ROWS, MAX_PATCHES * SEARCH_STRIPS)
         search_result, end = vector(work, end, N_RES)
-        nodes, end = vector(work, end, n_strips)
-        weights, end = vector(work, end, n_strips)
-        elements, end = matrix(work, end, quadrature.N_EL, n_elements)
-        cosines, end = vector(work, end, n_strips + 1)
-        cosine_logs, end = matrix(work, end, n_strips, n_strips + 1)
-        coefficients, end = matrix(work, end, kalker.N_TABLE, 8)
-        grid, end = matrix(work, end, N_WORK_ROWS, samples)
-        vectors, end = matrix(work, end, N_VECTOR_ROWS, size)
-        logs, end = matrix(work, end, size, size + MAX_PATCHES)
-        influences, end = matrix(work, end, size, size)
-        lu, end = matrix(work, end, size, size)
-        lanes, end = vector(work, end, N_LANE_ROWS * LANES)
-        trace, end = matrix(work, end, n_elements, N_TRACE * LANES)
+        own, end = lay_out(
+            work, end, memory[1 : 1 + piece_size(v)], n_strips, n_elements, samples, centre, plane
+        )  # fmt: skip
         case, end = vector(work, end, N_CASE)
-        strips, end = matrix(work, end, N_STRIP_ROWS, capacity)
-        fields, end = cube(work, end, N_FIELD_ROWS, capacity, n_elements)
-        result, end = vector(work, end, N_RES)
         parameters, end = vector(work, end, N_PAR)
         damage_fields, end = cube(work, end, N_DAMAGE_FIELDS, capacity, n_elements)
         damage, end = vector(work, end, N_DAMAGE)
@@ -190,10 +165,6 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
             wheel, rail, motion, anywhere, patches, separations, line, placed, lobe, wheel_plane, rail_plane,
             search_case, search_nodes, search_weights, search_work, search_strips, search_result,
         )  # fmt: skip
-        rule = Rule(nodes, weights, elements, cosines, cosine_logs)
-        tables = Tables(coefficients, carray(centre, influence.CENTRE), carray(plane, influence.PLANE))
-        space = Space(grid, vectors, logs, influences, lu, memory, lanes, trace)
-        own = Workspace(rule, tables, space, strips, fields, result)
         bench = Bench(search, own, case, memory, parameters, damage_fields, damage, contacts, total)
         return bench, end
 
@@ -232,15 +203,11 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         motion[rows.MIRROR] = 1.0 if v[at.side] == _RIGHT else -1.0
         motion[rows.ORIGIN_Y], motion[rows.ORIGIN_Z] = origin_y, origin_z
         quadrature.fill_fejer(search.nodes, search.weights)
-        quadrature.fill_fejer(bench.own.rule.nodes, bench.own.rule.weights)
-        quadrature.fill_elements(bench.own.rule.elements)
-        quadrature.fill_panel(bench.own.rule.cosines, bench.own.rule.cosine_logs)
-        grid = carray(published, (kalker.N_TABLE, 4, 3))
-        kalker.fill_table(grid, v[at.material_poisson_ratio], bench.own.tables.kalker)
+        fill(bench.own, v[at.material_poisson_ratio], published)
         case[CASE_G], case[CASE_NU] = v[at.material_shear_modulus], v[at.material_poisson_ratio]
         search.case[CASE_G], search.case[CASE_NU] = case[CASE_G], case[CASE_NU]
-        case[CASE_NORMAL] = _NORMAL_IDS[int(v[at.method_normal]) - 1]
-        case[CASE_TANGENTIAL] = _TANGENTIAL_IDS[int(v[at.method_tangential]) - 1]
+        case[CASE_NORMAL] = NORMAL_IDS[int(v[at.method_normal]) - 1]
+        case[CASE_TANGENTIAL] = TANGENTIAL_IDS[int(v[at.method_tangential]) - 1]
         for i in range(N_PAR):
             bench.damage_parameters[i] = _DAMAGE_PARAMETERS[i]
         bench.damage_parameters[PAR_HARDNESS] = v[at.material_hardness]
@@ -296,7 +263,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         """
         v = carray(values, (n_values,))
         speed = v[at.velocity_x]
-        coarse = 100.0 if _INTERACTING[int(v[at.method_normal]) - 1] else 1.0  # solved to 1e-4 only
+        coarse = 100.0 if INTERACTING[int(v[at.method_normal]) - 1] else 1.0  # solved to 1e-4 only
         creepage = 1e-3 * _steps(
             v[at.friction_coefficient], abs(v[at.force_z]), v[at.material_shear_modulus], v[at.patches_area]
         )[0]  # fmt: skip

@@ -1,0 +1,77 @@
+"""The solver's own arrays over raw memory: what `contact.workspace.allocate` is in Python; numba compiles it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import carray
+
+import contact
+from contact import kalker, quadrature
+from contact._layout import MAX_PATCHES, N_FIELD_ROWS, N_RES, N_STRIP_ROWS
+from contact.normal import influence
+from contact.normal.analyn import N_WORK_ROWS
+from contact.normal.strip_halfspace import MEM_LN_A
+from contact.normal.strip_system import N_VECTOR_ROWS
+from contact.tangential.lanes import LANES, N_LANE_ROWS, N_TRACE
+from contact.workspace import Rule, Space, Tables, Workspace, columns_shape
+from fmu_src.native.memory import compiled, cube, matrix, vector
+
+_METHODS = contact.methods().batched
+#: By the number of an item of the enumerations `method.normal` and `method.tangential`, less 1.
+NORMAL_IDS = np.array([float(method.id) for method in _METHODS.normal.values()])
+TANGENTIAL_IDS = np.array([float(method.id) for method in _METHODS.tangential.values()])
+INTERACTING = np.array([method.interacting for method in _METHODS.normal.values()])
+
+_columns_shape = compiled(columns_shape)
+
+
+def data() -> tuple[np.ndarray, ...]:
+    """Constants that `lay_out` and `fill` take: Kalker's coefficients, influence of strips on the centre line and off it."""
+    return kalker.published(), *influence.tables()
+
+
+@compiled
+def memory_size(normal, n_strips):
+    """How many numbers one patch is started from, by the item of `method.normal`."""
+    return MEM_LN_A + (MAX_PATCHES * n_strips if INTERACTING[normal - 1] else 1)
+
+
+@compiled
+def lay_out(work, end, memory, n_strips, n_elements, samples, centre, plane):
+    """Lay a workspace into `work` from `end` on; return it and where it ends. `memory` has the size of `memory_size`."""
+    capacity = MAX_PATCHES * n_strips
+    size = memory.size - MEM_LN_A
+    nodes, end = vector(work, end, n_strips)
+    weights, end = vector(work, end, n_strips)
+    elements, end = matrix(work, end, quadrature.N_EL, n_elements)
+    cosines, end = vector(work, end, n_strips + 1)
+    cosine_logs, end = matrix(work, end, n_strips, n_strips + 1)
+    tabulated, own, _ = _columns_shape(n_strips, size > 1)
+    columns, end = cube(work, end, tabulated, own, own)
+    coefficients, end = matrix(work, end, kalker.N_TABLE, 8)
+    grid, end = matrix(work, end, N_WORK_ROWS, samples)
+    vectors, end = matrix(work, end, N_VECTOR_ROWS, size)
+    logs, end = matrix(work, end, size, size + MAX_PATCHES)
+    influences, end = matrix(work, end, size, size)
+    lu, end = matrix(work, end, size, size)
+    lanes, end = vector(work, end, N_LANE_ROWS * LANES)
+    trace, end = matrix(work, end, n_elements, N_TRACE * LANES)
+    strips, end = matrix(work, end, N_STRIP_ROWS, capacity)
+    fields, end = cube(work, end, N_FIELD_ROWS, capacity, n_elements)
+    result, end = vector(work, end, N_RES)
+    rule = Rule(nodes, weights, elements, cosines, cosine_logs, columns)
+    tables = Tables(coefficients, carray(centre, influence.CENTRE), carray(plane, influence.PLANE))
+    space = Space(grid, vectors, logs, influences, lu, memory, lanes, trace)
+    return Workspace(rule, tables, space, strips, fields, result), end
+
+
+@compiled
+def fill(own, poisson_ratio, published):
+    """Fill what depends on resolution and material alone."""
+    rule, tables = own.rule, own.tables
+    quadrature.fill_fejer(rule.nodes, rule.weights)
+    quadrature.fill_elements(rule.elements)
+    quadrature.fill_panel(rule.cosines, rule.cosine_logs)
+    if rule.columns.size > 1:
+        influence.fill_columns(rule.cosine_logs, tables.centre, rule.columns)
+    kalker.fill_table(carray(published, (kalker.N_TABLE, 4, 3)), poisson_ratio, tables.kalker)
