@@ -4,8 +4,9 @@
 
 Conjugate gradients on the elements in contact, with the set of these elements changed as soon as it is seen to be wrong (after
 Polonsky and Keer 1999; the preconditioner, the inverse of C on a periodic grid, after Vollebregt 2014, is recalled: 16
-instead of 46 iterations to 1e-6 on 124 × 68 elements). A grid of half the resolution, and so on, gives the start. Contact lies inside the
-undeformed overlap h < delta, since pressure only pushes the surfaces apart: several patches need nothing special.
+instead of 46 iterations to 1e-6 on 124 × 68 elements). A grid of half the resolution, and so on, gives the start. Contact
+lies inside the undeformed overlap h < delta, since pressure only pushes the surfaces apart: several patches need nothing
+special.
 """
 
 from __future__ import annotations
@@ -158,8 +159,9 @@ def _from_coarser(gap: Array, dx: float, dy: float, material: Material, approach
     """Pressure to start from: that of half the resolution."""
     halved = _halved(gap) if min(gap.shape) >= 2 * _LEAST_SIDE else gap
     if halved is gap or approach <= halved.min():
-        # in Hertz contact of a circle the pressure vanishes where the gap is half the approach, and p² is linear in it
-        return np.sqrt(np.maximum(approach + gap.min() - 2.0 * gap, 0.0)) * material.contact_modulus
+        return (
+            np.sqrt(np.maximum(approach - gap, 0.0)) * material.contact_modulus
+        )  # any multiple: the shape of Hertz' pressure
     start = _from_coarser(halved, 2.0 * dx, 2.0 * dy, material, approach)
     p, _, _ = _in_window(halved - approach, 2.0 * dx, 2.0 * dy, material, start, 1e-2)
     return _doubled(p, gap.shape)
