@@ -20,6 +20,7 @@ import contact
 from benchmarks.robustness import table
 from contact import kalker
 from contact.geometry import profile, wheelset
+from contact.solve import N_ELEMENTS, N_STRIPS
 
 MU, LOAD = 0.3, 80e3
 PAIRS = (("analyn", "fastrip"), ("analyn", "fastrip_mapped"), ("strip_halfspace", "fastrip_mapped"))
@@ -192,13 +193,14 @@ def resolution_changes(normal: str, tangential: str) -> Array:
     """
     shapes: list[contact.Separation] = [contact.Separation.hertzian(1.0, 10.0**u) for u in (-1, -0.5, 0, 0.5, 1)]
     shapes += [at[0].separation for at in located("one plane", -8.0, 8.0, 0.5)[1]]
+    N, M = N_STRIPS, N_ELEMENTS
     rng = np.random.default_rng(3)
     sign = rng.choice([-1.0, 1.0], (3, 16))
     xi, eta, phi = sign * np.array([1e-3, 1e-3, 0.5])[:, None] * 10 ** rng.uniform(-1, 0.7, (3, 16))
     found = [
         [contact.forces(s, (xi, eta, phi), load=LOAD, friction=MU, normal=normal, tangential=tangential,
                         n_strips=n, n_elements=m) for s in shapes]
-        for n, m in ((30, 30), (60, 30), (30, 60), (60, 60))
+        for n, m in ((N, M), (2 * N, M), (N, 2 * M), (2 * N, 2 * M))
     ]  # fmt: skip
     force = np.array([[f.Fx + 1j * f.Fy for f in level] for level in found]) / (MU * LOAD)
     return np.abs(force[1:] - force[0]).reshape(3, -1)
@@ -244,7 +246,7 @@ Worst of an ellipse and four real patches.
 {sweeps}
 ## Resolution
 
-Change of the force over μN from 30 × 30 to twice the number, ellipses and real patches in 16 states each.
+Change of the force over μN from the default resolution to twice the number, ellipses and real patches in 16 states each.
 
 {resolution}"""
 

@@ -27,10 +27,12 @@ def main() -> None:
         data = json.loads(target.read_text())
     cpu = data["machine_info"].get("cpu", {}).get("brand_raw", platform.processor())
     print(f"{cpu}, {platform.python_implementation()} {platform.python_version()}; least / median of many rounds\n")
-    print("| what | least | median |\n| --- | --- | --- |")
+    print("| what | least | median | least per element |\n| --- | --- | --- | --- |")
     for row in data["benchmarks"]:
         name = row["name"].removeprefix("test_").replace("_", " ")
-        print(f"| {name} | {scaled(row['stats']['min'])} | {scaled(row['stats']['median'])} |")
+        cases, elements = row["extra_info"].get("cases", 1), row["extra_info"].get("elements")
+        least, median = row["stats"]["min"] / cases, row["stats"]["median"] / cases
+        print(f"| {name} | {scaled(least)} | {scaled(median)} | {scaled(least / elements) if elements else ''} |")
     print(f"\n{CONTACT}")
 
 

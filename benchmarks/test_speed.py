@@ -16,7 +16,7 @@ import contact
 from benchmarks import accuracy
 from contact import workspace
 from contact._layout import N_CASE
-from contact.pipeline import solve_case
+from contact.pipeline import solve_case, solve_cases
 
 PATCH = next(case for case in accuracy.patches() if case["name"].startswith("c40_dy+0"))
 SEPARATION = contact.Separation(np.array(PATCH["y"]) * 1e-3, np.array(PATCH["g"]) * 1e-3, np.array(PATCH["A"]) * 1e3)
@@ -24,17 +24,23 @@ METHODS = contact.methods().batched
 CREEP = contact.Creepage(1e-3, 5e-4, 0.1)
 
 
-def kernel_call(normal: str, tangential: str, n_strips: int, n_elements: int, *, fields: bool):
-    """A call of the kernel itself, load-prescribed, on the patch c40_dy+0; 64 calls in one so that Python hardly counts."""
+CASES = 64
+
+
+def kernel_loop(normal: str, tangential: str, n_strips: int, n_elements: int, *, fields: bool):
+    """The kernel's own loop over CASES load-prescribed cases on the patch c40_dy+0: Python hardly counts."""
     method = METHODS.normal[normal]
     own = workspace.allocate(method, 0.28, n_strips, n_elements, SEPARATION.y.size, fields=fields)
     case = np.array([0, 8e4, *(CREEP.longitudinal, CREEP.lateral, CREEP.spin), 0.3, 82e9, 0.28,
                      method.id, METHODS.tangential[tangential].id], dtype=np.float64)  # fmt: skip
     assert case.size == N_CASE
-    arguments = (SEPARATION.y, SEPARATION.g, SEPARATION.A, SEPARATION.x_c, case, *own)
+    bounds, which = np.array([0, SEPARATION.y.size]), np.zeros(CASES, dtype=np.int64)
+    results = np.empty((CASES, own.result.size))
+    arrays = SEPARATION.y, SEPARATION.g, SEPARATION.A, SEPARATION.x_c, bounds, which, np.tile(case, (CASES, 1))
+    arguments = (0, CASES, *arrays, own.rule, own.tables, own.space, own.strips, own.fields, results)
 
     def call() -> None:
-        solve_case(*arguments)
+        solve_cases(*arguments)
 
     call()
     return call
@@ -45,7 +51,10 @@ def kernel_call(normal: str, tangential: str, n_strips: int, n_elements: int, *,
 @pytest.mark.parametrize("tangential", list(METHODS.tangential))
 @pytest.mark.parametrize("normal", ["hertz", "analyn"])
 def test_kernel(benchmark, normal, tangential, n_strips, n_elements, fields):
-    benchmark(kernel_call(normal, tangential, n_strips, n_elements, fields=fields))
+    if not METHODS.tangential[tangential].compiled:
+        pytest.skip("no kernel")
+    benchmark.extra_info.update(cases=CASES, elements=n_strips * n_elements)
+    benchmark(kernel_loop(normal, tangential, n_strips, n_elements, fields=fields))
 
 
 @pytest.mark.parametrize("warm", [False, True], ids=["cold", "warm"])

@@ -1,8 +1,8 @@
 """The one numba policy of the project.
 
 * ``cache=True``: a user pays for compilation once a machine, not once a process.
-* The cache is keyed by the sources of the whole package: numba alone compares a kernel's own file only, and would go on
-  running yesterday's version of every kernel that it calls from other files.
+* The cache is keyed by the sources of the package, without those that hold no kernel: numba alone compares a kernel's own
+  file only, and would go on running yesterday's version of every kernel that it calls from other files.
 * ``error_model="numpy"``: no exception branches; a division by zero is prevented by the kernel, not caught.
 * ``nogil=True``: a kernel touches no Python object, so threads of a host run in parallel.
 * no ``fastmath``: results must not depend on the instruction set (the native FMU is compared bit for bit).
@@ -17,12 +17,16 @@ from typing import Any
 
 from numba import config, njit
 
+_WITHOUT_KERNELS = ("cli", "plot")
+
 
 def _cache_directory() -> str:
     """Directory of compiled kernels for exactly these sources; numba falls back to the user's own if it is not writable."""
     package = Path(__file__).parent
     fingerprint = hashlib.sha256()
     for path in sorted(package.rglob("*.py")):
+        if path.relative_to(package).parts[0] in _WITHOUT_KERNELS:
+            continue
         stat = path.stat()
         fingerprint.update(f"{path.relative_to(package)} {stat.st_mtime_ns} {stat.st_size}\n".encode())
     base = Path(config.CACHE_DIR) if config.CACHE_DIR else package / "__pycache__"
