@@ -14,6 +14,7 @@ from fmu_instance import DISCARD, ERROR, refused
 from random_cases import random_case
 
 import contact
+from contact.solve import N_STRIPS
 
 FIELDS = {
     "field.x": "x",
@@ -203,7 +204,7 @@ def test_fields_add_up_to_the_forces_and_keep_coulombs_bound(open_native_fmi3, n
     area, p, qx, qy = (fmu[f"field.{name}"] for name in ("area", "pressure", "traction_x", "traction_y"))
     N, mu = fmu["force.n"], fmu["friction.coefficient"]
     assert np.sum(p * area) == pytest.approx(N, rel=1e-12)
-    # forces and area are integrals in closed form, elements are 30 a strip and exact for the pressure
+    # forces and area are integrals in closed form, elements are exact for the pressure
     assert np.sum(area) == pytest.approx(fmu["patch.area"], rel=1e-3)
     assert np.sum(qx * area) == pytest.approx(fmu["force.x"], abs=2e-3 * mu * N)
     assert np.sum(qy * area) == pytest.approx(fmu["force.y"], abs=2e-3 * mu * N)
@@ -316,7 +317,7 @@ def test_resolution_is_set_in_configuration_mode_alone(open_native_fmi3):
     refused(lambda: fmu.update({"resolution.n_strips": 13}), ERROR)
     refused(fmu.fmu.enterConfigurationMode, ERROR)
     fmu.fmu.reset()
-    assert fmu["resolution.n_strips"] == 30
+    assert fmu["resolution.n_strips"] == N_STRIPS
 
 
 def test_a_resolution_out_of_range_is_discarded_by_name(open_native_fmi3):
