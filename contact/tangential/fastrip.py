@@ -134,8 +134,8 @@ def _slip_zone(elements, lanes, trace):
         recall(lanes, trace[k])
         for l in range(LANES):
             load_from, ex, ey = lanes[_LOAD + l], lanes[NOW_X + l], lanes[NOW_Y + l]
-            size = math.sqrt(ex * ex + ey * ey) + 1e-300
-            ex, ey = ex / size, ey / size
+            per_size = 1.0 / (math.sqrt(ex * ex + ey * ey) + 1e-300)
+            ex, ey = ex * per_size, ey * per_size
             first = load_before if load_before > load_from else load_from
             last = load_end if load_end > load_from else load_from
             moment_from = lanes[_MOMENT + l]

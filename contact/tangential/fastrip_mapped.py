@@ -45,14 +45,14 @@ from contact.tangential.lanes import (
     FAR,
     FREE_ROW,
     LANES,
+    N_LANE_ROWS,
     NOW_SLIDES,
     NOW_SLIP,
     NOW_STICK,
     NOW_X,
     NOW_Y,
-    decay,
+    decay_and_lag,
     keep,
-    lagging,
     turned,
 )
 
@@ -84,11 +84,10 @@ def mapped(ux, uy, o, n):
     along = o * dy
     t = square / (math.sqrt(along * along + square * (1.0 - o * o)) - along + 1e-300)
     t = t if t < 1.0 else 1.0
-    above = 1.0 - 0.5 * (2.0 + n) * t + (2.0 + n) * (1.0 + n) / 12.0 * t * t
+    # with √(1-t) = 1 - t/r, r = 1 + √(1-t), and above/below = 1 - n t (1-t/2)/below, f has no difference of like numbers
+    r = 1.0 + math.sqrt(1.0 - t)
     below = 1.0 - 0.5 * (2.0 - n) * t + (2.0 - n) * (1.0 - n) / 12.0 * t * t
-    m = 0.5 + n
-    far = (1.0 - math.sqrt(1.0 - t) * above / below) / (t + 1e-300)
-    f = far if t > 1e-4 else m * (1.0 + 0.5 * (1.0 - m) * t)
+    f = (below + n * (1.0 - 0.5 * t) * (r - t)) / (r * below)
     return dx * f, o + dy * f
 
 
@@ -152,6 +151,7 @@ def elastic_centre(strips, n, table, log_equivalent):
     _TRIAL_X,  # traction in stick, with its |u|²
     _TRIAL_Y,
     _TRIAL_USED,
+    _LEFT,  # share of the step when a strip comes to slide
     _SUM_X,
     _SUM_Y,
     _SUM_M,
@@ -161,7 +161,7 @@ def elastic_centre(strips, n, table, log_equivalent):
     _EY,
     _BOUND,  # mu p0
     _UNIT,  # of slip
-) = (FREE_ROW + row * LANES for row in range(27))
+) = (FREE_ROW + row * LANES for row in range(28))
 
 
 @kernel
@@ -172,6 +172,7 @@ def _set_strip(strips, i, case, table, y_c, y_spin, rho33, lanes, l):
     bound = case[CASE_MU] * strips[STRIP_P0, i]
     for row in (_TX, _TY, _SUM_X, _SUM_Y, _SUM_M, _POWER, _STICK):
         lanes[row + l] = 0.0
+    lanes[_LEFT + l] = 1.0
     if a <= 0.0 or bound <= NO_FRICTION * G:
         for row in (_X, _Y, _P, _XS, _YS, _SPIN, _RATE, _N, _POLE, _FROM_EDGE, _SLIPS, _USED, _EX, _EY):
             lanes[row + l] = 0.0
@@ -222,36 +223,33 @@ def _march(elements, lanes, trace):
     s = 1.0
     for k in range(elements.shape[1]):
         before, s, step, middle = s, elements[EL_S, k], elements[EL_STEP, k], elements[EL_MIDDLE, k]
-        per_bound = 1.0 / elements[EL_SINE, k] ** 2
-        sliding, sticking = 0.0, 0.0
+        bound = elements[EL_SINE, k] ** 2
+        per_bound = 1.0 / bound
+        come, slide, stick = 0, 0, 0
         for l in range(LANES):
             x = lanes[_TX + l] - step * lanes[_X + l]
             y = lanes[_TY + l] - step * (lanes[_Y + l] + 2.0 * lanes[_P + l] * middle)
             used = (x * x + y * y) * per_bound * per_bound
             lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_TRIAL_USED + l] = x, y, used
-            sliding += 1.0 if used > 1.0 else lanes[_SLIPS + l]
-        if sliding == 0.0:
-            for l in range(LANES):
-                lanes[_TX + l], lanes[_TY + l], lanes[_USED + l] = (
-                    lanes[_TRIAL_X + l],
-                    lanes[_TRIAL_Y + l],
-                    lanes[_TRIAL_USED + l],
-                )
-                lanes[NOW_SLIP + l], lanes[NOW_SLIDES + l], lanes[NOW_STICK + l] = 0.0, 0.0, 1.0
-        else:
+            slide += 1 if lanes[_SLIPS + l] > 0.5 else 0
+            come += 1 if used > 1.0 and lanes[_SLIPS + l] < 0.5 else 0
+        if come > 0:
+            _come_to_slide(lanes)
+        if come + slide > 0:
             # at the edge the direction is that of the equilibrium
-            _slide(before, s, step, middle, elements[EL_ATANH, k] if k > 0 else 0.0, 1.0 / per_bound, lanes)
-        for l in range(LANES):
-            sticking += 1.0 - lanes[_SLIPS + l]
-        if sticking > 0.0:
-            for l in range(LANES):
-                x, y = lanes[_TX + l] * per_bound, lanes[_TY + l] * per_bound
-                map_x, map_y = mapped(x, y, lanes[_POLE + l], lanes[_N + l])
-                lanes[NOW_X + l] = lanes[_EX + l] if lanes[_SLIPS + l] > 0.5 else map_x
-                lanes[NOW_Y + l] = lanes[_EY + l] if lanes[_SLIPS + l] > 0.5 else map_y
+            stop = _slide(s, step, middle, elements[EL_ATANH, k] if k > 0 else 0.0, bound, lanes)
+            if stop > 0:
+                _stop(before, s, step, per_bound, lanes)
         else:
             for l in range(LANES):
-                lanes[NOW_X + l], lanes[NOW_Y + l] = lanes[_EX + l], lanes[_EY + l]
+                lanes[_TX + l], lanes[_TY + l] = lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l]
+                lanes[_USED + l] = lanes[_TRIAL_USED + l]
+                lanes[NOW_SLIP + l], lanes[NOW_SLIDES + l], lanes[NOW_STICK + l] = 0.0, 0.0, 1.0
+        for l in range(LANES):
+            stick += 1 if lanes[_SLIPS + l] < 0.5 else 0
+            lanes[NOW_X + l], lanes[NOW_Y + l] = lanes[_EX + l], lanes[_EY + l]
+        if stick > 0:
+            _map(per_bound, lanes)
         weight = elements[EL_SINE, k] * elements[EL_DX, k]
         for l in range(LANES):
             lanes[_SUM_X + l] += weight * lanes[NOW_X + l]
@@ -263,60 +261,91 @@ def _march(elements, lanes, trace):
 
 
 @kernel
-def _slide(before, s, step, middle, stretch, bound, lanes):
-    """Step of all strips from `before` to `s` when at least one slides or comes to slide; the others stick as tried.
+def _map(per_bound, lanes):
+    """Map the traction of the strips that stick.
 
-    As `march._slide`, with unequal flexibilities.
+    The count of lanes is LANES; unknown to the compiler, which would write out so short a loop instead of using vectors.
     """
-    per_bound = 1.0 / bound
+    for l in range(lanes.size // N_LANE_ROWS):
+        x, y, slides = lanes[_TX + l] * per_bound, lanes[_TY + l] * per_bound, lanes[_SLIPS + l]
+        map_x, map_y = mapped(x, y, lanes[_POLE + l], lanes[_N + l])
+        lanes[NOW_X + l] = map_x + slides * (lanes[_EX + l] - map_x)
+        lanes[NOW_Y + l] = map_y + slides * (lanes[_EY + l] - map_y)
+
+
+@kernel
+def _come_to_slide(lanes):
+    """As `march._come_to_slide`."""
+    for l in range(LANES):
+        x, y, used, before = lanes[_TX + l], lanes[_TY + l], lanes[_TRIAL_USED + l], lanes[_USED + l]
+        comes = 1.0 - lanes[_SLIPS + l] if used > 1.0 else 0.0
+        gap = used - before
+        share = (1.0 - before) / (gap if gap > 1e-12 else 1.0)
+        x, y = x + share * (lanes[_TRIAL_X + l] - x), y + share * (lanes[_TRIAL_Y + l] - y)
+        per_size = 1.0 / (math.sqrt(x * x + y * y) + 1e-300)
+        # sums, not choices: the compiler would put roots and divisions behind a branch
+        lanes[_EX + l] += comes * (x * per_size - lanes[_EX + l])
+        lanes[_EY + l] += comes * (y * per_size - lanes[_EY + l])
+        lanes[_LEFT + l] = 1.0 - comes * share
+
+
+@kernel
+def _slide(s, step, middle, stretch, bound, lanes):
+    """As `march._slide`, with unequal flexibilities."""
+    stop = 0
     for l in range(LANES):
         Xs, Ys, spin, r = lanes[_XS + l], lanes[_YS + l], lanes[_SPIN + l], lanes[_R + l]
-        slid, x, y, ex, ey = lanes[_SLIPS + l], lanes[_TX + l], lanes[_TY + l], lanes[_EX + l], lanes[_EY + l]
+        slid, x, y, left = lanes[_SLIPS + l], lanes[_EX + l], lanes[_EY + l], lanes[_LEFT + l]
         trial_x, trial_y, used = lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_TRIAL_USED + l]
-        # where the trial traction passes the bound within the step, the direction turns over the rest of it
-        share = (1.0 - lanes[_USED + l]) / (used - lanes[_USED + l] + 1e-300)
-        share = share if used > lanes[_USED + l] else 0.0
-        x, y = x + share * (trial_x - x), y + share * (trial_y - y)
-        size = 1.0 / (math.sqrt(x * x + y * y) + 1e-300)
-        x, y = ex if slid > 0.5 else x * size, ey if slid > 0.5 else y * size
-        rest = 1.0 if slid > 0.5 else 1.0 - share
-        # slip: the direction turns towards -W
         c = -middle * (1.0 - r)
         wx, wy = Xs + c * x, Ys + 2.0 * spin * middle - c * y
-        rate = lanes[_RATE + l] * rest * stretch / (r * y * y + x * x + 1e-300)
+        rate = lanes[_RATE + l] * left * stretch / (r * y * y + x * x + 1e-300)
         far = rate * math.sqrt(wx * wx + wy * wy)
-        far = far if far < FAR else FAR
-        at = s + rest * step * (1.0 - lagging(far))
+        rest, lag = decay_and_lag(far if far < FAR else FAR)
+        at = s + left * step * (1.0 - lag)
         c = -at * (1.0 - r)
         wx, wy = Xs + c * x, Ys + 2.0 * spin * at - c * y
         w = math.sqrt(wx * wx + wy * wy) + 1e-300
-        ex, ey = turned(x, y, wx, wy, w, decay(far))
-        # a particle slides as far as its slip is positive; from there on it sticks
+        ex, ey = turned(x, y, wx, wy, w, rest)
+        slip = -2.0 * s * (r * ex * ex + ey * ey) - (Xs * ex + (Ys + 2.0 * spin * s) * ey)
+        slides = 1.0 if used > 1.0 else slid
+        stop += 1 if slides > 0.5 and slip < 0.0 else 0
+        shown = slid_at(s, ex, ey, r, lanes[_POLE + l], Xs, Ys, spin, lanes[_FROM_EDGE + l])
+        lanes[_EX + l], lanes[_EY + l] = ex, ey
+        lanes[_TX + l] = bound * ex if slides > 0.5 else trial_x
+        lanes[_TY + l] = bound * ey if slides > 0.5 else trial_y
+        lanes[_SLIPS + l], lanes[_USED + l], lanes[_LEFT + l] = slides, used, 1.0
+        lanes[NOW_SLIP + l], lanes[NOW_SLIDES + l] = shown * slides, slides
+        lanes[NOW_STICK + l] = (1.0 - slid) * (1.0 - left) if slides > 0.5 else 1.0
+        lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_TRIAL_USED + l] = x, y, slid
+    return stop
+
+
+@kernel
+def _stop(before, s, step, per_bound, lanes):
+    """As `march._stop`, with unequal flexibilities."""
+    for l in range(LANES):
+        Xs, Ys, spin, r = lanes[_XS + l], lanes[_YS + l], lanes[_SPIN + l], lanes[_R + l]
+        x, y, ex, ey = lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_EX + l], lanes[_EY + l]
+        slid = lanes[_TRIAL_USED + l]
         slip_before = -2.0 * before * (r * x * x + y * y) - (Xs * x + (Ys + 2.0 * spin * before) * y)
         slip = -2.0 * s * (r * ex * ex + ey * ey) - (Xs * ex + (Ys + 2.0 * spin * s) * ey)
-        slides = slip_before / (slip_before - slip + 1e-300)
-        slides = slides if slip_before > 0.0 else 0.0
-        ux, uy = x + slides * (ex - x), y + slides * (ey - y)
-        at, left = before - slides * step, (1.0 - slides) * step
+        share = slip_before / (slip_before - slip + 1e-300)
+        share = share if slip_before > 0.0 else 0.0
+        ux, uy = x + share * (ex - x), y + share * (ey - y)
+        at, left = before - share * step, (1.0 - share) * step
         size = (1.0 - at * at) * (1.5 - 0.5 * (ux * ux + uy * uy))
-        again_x = size * ux - left * lanes[_X + l]
-        again_y = size * uy - left * (lanes[_Y + l] + lanes[_P + l] * (at + s))
-        again_used = (again_x * again_x + again_y * again_y) * per_bound * per_bound
-        sticks = slid if slip < 0.0 else 0.0
-        sticks = sticks if again_used < 1.0 else 0.0
-
-        trial_x, trial_y = again_x if sticks > 0.5 else trial_x, again_y if sticks > 0.5 else trial_y
-        used = again_used if sticks > 0.5 else used
-        stick = 1.0 - slides if sticks > 0.5 else (0.0 if slid > 0.5 else share)
-        slid = 1.0 if used > 1.0 else slid - sticks
-        slip = slid_at(s, ex, ey, r, lanes[_POLE + l], Xs, Ys, spin, lanes[_FROM_EDGE + l])
-        lanes[_TX + l] = bound * ex if slid > 0.5 else trial_x
-        lanes[_TY + l] = bound * ey if slid > 0.5 else trial_y
-        lanes[_EX + l], lanes[_EY + l] = ex, ey
-        lanes[_SLIPS + l], lanes[_USED + l] = slid, used
-        lanes[NOW_SLIP + l] = slip * slid
-        lanes[NOW_SLIDES + l] = slid
-        lanes[NOW_STICK + l] = stick if slid + sticks > 0.5 else 1.0
+        stick_x = size * ux - left * lanes[_X + l]
+        stick_y = size * uy - left * (lanes[_Y + l] + lanes[_P + l] * (at + s))
+        used = (stick_x * stick_x + stick_y * stick_y) * per_bound * per_bound
+        stops = slip < 0.0 and slid > 0.5 and used < 1.0
+        lanes[_TX + l] = stick_x if stops else lanes[_TX + l]
+        lanes[_TY + l] = stick_y if stops else lanes[_TY + l]
+        lanes[_USED + l] = used if stops else lanes[_USED + l]
+        lanes[_SLIPS + l] = 0.0 if stops else lanes[_SLIPS + l]
+        lanes[NOW_SLIP + l] = 0.0 if stops else lanes[NOW_SLIP + l]
+        lanes[NOW_SLIDES + l] = 0.0 if stops else lanes[NOW_SLIDES + l]
+        lanes[NOW_STICK + l] = 1.0 - share if stops else lanes[NOW_STICK + l]
 
 
 @kernel

@@ -23,31 +23,30 @@ from contact.tangential.lanes import (
     NOW_STICK,
     NOW_X,
     NOW_Y,
-    decay,
+    decay_and_lag,
     keep,
-    lagging,
     turned,
 )
 
-# rows of `lanes` that the caller sets (X, Y, Z) and that the march keeps: traction, 1 in slip, utilisation squared, and the
-# trial traction in stick with its utilisation squared
-ROW_X, ROW_Y, ROW_Z, _TX, _TY, _SLIPS, _USED, _TRIAL_X, _TRIAL_Y, _TRIAL_USED = (
-    FREE_ROW + row * LANES for row in range(10)
+# rows of `lanes` that the caller sets (X, Y, Z) and that the march keeps: traction, 1 in slip, utilisation squared, the trial
+# traction in stick with its utilisation squared, and the share of the step that is left when a strip comes to slide
+ROW_X, ROW_Y, ROW_Z, _TX, _TY, _SLIPS, _USED, _TRIAL_X, _TRIAL_Y, _TRIAL_USED, _LEFT = (
+    FREE_ROW + row * LANES for row in range(11)
 )
-FREE_BEHIND_MARCH = FREE_ROW + 10 * LANES
+FREE_BEHIND_MARCH = FREE_ROW + 11 * LANES
 
 
 @kernel
 def march(elements, lanes, trace):
-    """March from the leading edge; leave traction over the bound and slip at each element in `trace`, and the share of the
-    step to it in stick.
+    """March from the leading edge; leave traction over the bound and slip at each element in `trace`.
 
-    The slip is in units of flexibility times the bound's peak over a. In stick the traction is exact, spin included.
+    Besides, whether it slides and the share of the step to it in stick. The slip is in units of flexibility times the
+    bound's peak over a. In stick the traction is exact, spin included.
     """
     for l in range(LANES):
         x, y = lanes[ROW_X + l], lanes[ROW_Y + l] + lanes[ROW_Z + l]
         size = math.sqrt(x * x + y * y) + 1e-300
-        lanes[_TX + l], lanes[_TY + l] = 0.0, 0.0
+        lanes[_TX + l], lanes[_TY + l], lanes[_LEFT + l] = 0.0, 0.0, 1.0
         lanes[NOW_X + l], lanes[NOW_Y + l] = -x / size, -y / size
         # at the edge the traction of stick rises |W|/2 times as fast as the bound
         lanes[_SLIPS + l] = 1.0 if size > 2.0 else 0.0
@@ -55,70 +54,105 @@ def march(elements, lanes, trace):
     s = 1.0
     for k in range(elements.shape[1]):
         before, s, step, middle = s, elements[EL_S, k], elements[EL_STEP, k], elements[EL_MIDDLE, k]
-        stretch = min(elements[EL_ATANH, k], FAR)
         bound = elements[EL_SINE, k] ** 2
         per_bound = 1.0 / bound
-        sliding = 0.0
+        come, slide = 0, 0
         for l in range(LANES):
             x = lanes[_TX + l] - step * lanes[ROW_X + l]
             y = lanes[_TY + l] - step * (lanes[ROW_Y + l] + lanes[ROW_Z + l] * middle)
             used = (x * x + y * y) * per_bound * per_bound
             lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_TRIAL_USED + l] = x, y, used
-            sliding += 1.0 if used > 1.0 else lanes[_SLIPS + l]
-        if sliding == 0.0:
+            slide += 1 if lanes[_SLIPS + l] > 0.5 else 0
+            come += 1 if used > 1.0 and lanes[_SLIPS + l] < 0.5 else 0
+        if come > 0:
+            _come_to_slide(lanes)
+        if come + slide > 0:
+            stop = _slide(s, step, middle, min(elements[EL_ATANH, k], FAR), bound, lanes)
+            if stop > 0:
+                _stop(before, s, step, per_bound, lanes)
+        else:
             for l in range(LANES):
                 x, y = lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l]
                 lanes[_TX + l], lanes[_TY + l], lanes[_USED + l] = x, y, lanes[_TRIAL_USED + l]
                 lanes[NOW_X + l], lanes[NOW_Y + l] = x * per_bound, y * per_bound
                 lanes[NOW_SLIP + l], lanes[NOW_SLIDES + l], lanes[NOW_STICK + l] = 0.0, 0.0, 1.0
-        else:
-            _slide(before, s, step, middle, stretch, bound, lanes)
         keep(lanes, trace[k])
 
 
 @kernel
-def _slide(before, s, step, middle, stretch, bound, lanes):
-    """Step of all strips from `before` to `s` when at least one slides or comes to slide; the others stick as tried."""
+def _come_to_slide(lanes):
+    """Where a trial traction passes the bound: its direction there, and the share of the step that is left."""
+    for l in range(LANES):
+        x, y, used, before = lanes[_TX + l], lanes[_TY + l], lanes[_TRIAL_USED + l], lanes[_USED + l]
+        comes = 1.0 - lanes[_SLIPS + l] if used > 1.0 else 0.0
+        gap = used - before
+        share = (1.0 - before) / (gap if gap > 1e-12 else 1.0)
+        x, y = x + share * (lanes[_TRIAL_X + l] - x), y + share * (lanes[_TRIAL_Y + l] - y)
+        per_size = 1.0 / (math.sqrt(x * x + y * y) + 1e-300)
+        # sums, not choices: the compiler would put roots and divisions behind a branch
+        lanes[NOW_X + l] += comes * (x * per_size - lanes[NOW_X + l])
+        lanes[NOW_Y + l] += comes * (y * per_size - lanes[NOW_Y + l])
+        lanes[_LEFT + l] = 1.0 - comes * share
+
+
+@kernel
+def _slide(s, step, middle, stretch, bound, lanes):
+    """Turn the direction of all strips that slide; the others stick as tried. Return how many slide against their slip.
+
+    They leave the direction and the length from which they started in the rows of the trial.
+    """
     per_bound = 1.0 / bound
+    stop = 0
     for l in range(LANES):
         X, Y, Z, slid = lanes[ROW_X + l], lanes[ROW_Y + l], lanes[ROW_Z + l], lanes[_SLIPS + l]
-        x, y, ex, ey = lanes[_TX + l], lanes[_TY + l], lanes[NOW_X + l], lanes[NOW_Y + l]
+        x, y, left = lanes[NOW_X + l], lanes[NOW_Y + l], lanes[_LEFT + l]
         trial_x, trial_y, used = lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_TRIAL_USED + l]
-        # where the trial traction passes the bound within the step, the direction turns over the rest of it
-        share = (1.0 - lanes[_USED + l]) / (used - lanes[_USED + l] + 1e-300)
-        share = share if used > lanes[_USED + l] else 0.0
-        x, y = x + share * (trial_x - x), y + share * (trial_y - y)
-        size = math.sqrt(x * x + y * y) + 1e-300
-        x, y = x / size, y / size
-        x, y = ex if slid > 0.5 else x, ey if slid > 0.5 else y
-        rest = 1.0 if slid > 0.5 else 1.0 - share
         wx, wy = X, Y + Z * middle
-        far = rest * stretch * math.sqrt(wx * wx + wy * wy)
-        wy = Y + Z * (s + rest * step * (1.0 - lagging(far)))
+        rest, lag = decay_and_lag(left * stretch * math.sqrt(wx * wx + wy * wy))
+        wy = Y + Z * (s + left * step * (1.0 - lag))
         w = math.sqrt(wx * wx + wy * wy) + 1e-300
-        ex, ey = turned(x, y, wx, wy, w, decay(far))
-        # a particle slides as far as its slip is positive; from there on it sticks
-        slip_before = -(X * x + (Y + Z * before) * y) - 2.0 * before
+        ex, ey = turned(x, y, wx, wy, w, rest)
         slip = -(X * ex + (Y + Z * s) * ey) - 2.0 * s
-        slides = slip_before / (slip_before - slip + 1e-300)
-        slides = slides if slip_before > 0.0 else 0.0
-        ux, uy = x + slides * (ex - x), y + slides * (ey - y)
-        at, left = before - slides * step, (1.0 - slides) * step
-        size = (1.0 - at * at) * (1.5 - 0.5 * (ux * ux + uy * uy))
-        again_x, again_y = size * ux - left * X, size * uy - left * (Y + 0.5 * Z * (at + s))
-        again_used = (again_x * again_x + again_y * again_y) * per_bound * per_bound
-        sticks = slid if slip < 0.0 else 0.0
-        sticks = sticks if again_used < 1.0 else 0.0
+        slides = 1.0 if used > 1.0 else slid
+        stop += 1 if slides > 0.5 and slip < 0.0 else 0
+        lanes[NOW_X + l] = ex if slides > 0.5 else trial_x * per_bound
+        lanes[NOW_Y + l] = ey if slides > 0.5 else trial_y * per_bound
+        lanes[_TX + l] = bound * ex if slides > 0.5 else trial_x
+        lanes[_TY + l] = bound * ey if slides > 0.5 else trial_y
+        lanes[_SLIPS + l], lanes[_USED + l], lanes[_LEFT + l] = slides, used, 1.0
+        lanes[NOW_SLIP + l], lanes[NOW_SLIDES + l] = slip * slides, slides
+        lanes[NOW_STICK + l] = (1.0 - slid) * (1.0 - left) if slides > 0.5 else 1.0
+        lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_TRIAL_USED + l] = x, y, slid
+    return stop
 
-        trial_x, trial_y = again_x if sticks > 0.5 else trial_x, again_y if sticks > 0.5 else trial_y
-        used = again_used if sticks > 0.5 else used
-        slid = 1.0 if used > 1.0 else slid - sticks
-        stick = 1.0 - slides if sticks > 0.5 else (0.0 if lanes[_SLIPS + l] > 0.5 else share)
-        lanes[NOW_X + l] = ex if slid > 0.5 else trial_x * per_bound
-        lanes[NOW_Y + l] = ey if slid > 0.5 else trial_y * per_bound
-        lanes[_TX + l] = bound * ex if slid > 0.5 else trial_x
-        lanes[_TY + l] = bound * ey if slid > 0.5 else trial_y
-        lanes[_SLIPS + l], lanes[_USED + l] = slid, used
-        lanes[NOW_SLIP + l] = slip * slid if slip > 0.0 else 0.0
-        lanes[NOW_SLIDES + l] = slid
-        lanes[NOW_STICK + l] = stick if slid + sticks > 0.5 else 1.0
+
+@kernel
+def _stop(before, s, step, per_bound, lanes):
+    """A particle slides as far as its slip is positive; from there on it sticks, unless the bound is too low for that."""
+    for l in range(LANES):
+        X, Y, Z, slid, slip = (
+            lanes[ROW_X + l],
+            lanes[ROW_Y + l],
+            lanes[ROW_Z + l],
+            lanes[_TRIAL_USED + l],
+            lanes[NOW_SLIP + l],
+        )
+        x, y, ex, ey = lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[NOW_X + l], lanes[NOW_Y + l]
+        slip_before = -(X * x + (Y + Z * before) * y) - 2.0 * before
+        share = slip_before / (slip_before - slip + 1e-300)
+        share = share if slip_before > 0.0 else 0.0
+        ux, uy = x + share * (ex - x), y + share * (ey - y)
+        at, left = before - share * step, (1.0 - share) * step
+        size = (1.0 - at * at) * (1.5 - 0.5 * (ux * ux + uy * uy))
+        stick_x, stick_y = size * ux - left * X, size * uy - left * (Y + 0.5 * Z * (at + s))
+        used = (stick_x * stick_x + stick_y * stick_y) * per_bound * per_bound
+        stops = slip < 0.0 and slid > 0.5 and used < 1.0
+        lanes[NOW_SLIP + l] = slip if slip > 0.0 else 0.0
+        lanes[NOW_X + l] = stick_x * per_bound if stops else ex
+        lanes[NOW_Y + l] = stick_y * per_bound if stops else ey
+        lanes[_TX + l] = stick_x if stops else lanes[_TX + l]
+        lanes[_TY + l] = stick_y if stops else lanes[_TY + l]
+        lanes[_USED + l] = used if stops else lanes[_USED + l]
+        lanes[_SLIPS + l] = 0.0 if stops else lanes[_SLIPS + l]
+        lanes[NOW_SLIDES + l] = 0.0 if stops else lanes[NOW_SLIDES + l]
+        lanes[NOW_STICK + l] = 1.0 - share if stops else lanes[NOW_STICK + l]
