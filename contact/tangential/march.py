@@ -108,7 +108,8 @@ def _slide(s, step, middle, stretch, bound, lanes):
         x, y, left = lanes[NOW_X + l], lanes[NOW_Y + l], lanes[_LEFT + l]
         trial_x, trial_y, used = lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_TRIAL_USED + l]
         wx, wy = X, Y + Z * middle
-        rest, lag = decay_and_lag(left * stretch * math.sqrt(wx * wx + wy * wy))
+        far = left * stretch * math.sqrt(wx * wx + wy * wy)
+        rest, lag = decay_and_lag(far if far < FAR else FAR)
         wy = Y + Z * (s + left * step * (1.0 - lag))
         w = math.sqrt(wx * wx + wy * wy) + 1e-300
         ex, ey = turned(x, y, wx, wy, w, rest)
