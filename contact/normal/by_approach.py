@@ -1,9 +1,7 @@
 """The methods whose strips follow from the approach in one go, and the search for the approach that carries a load.
 
-A method of this family is a kernel (y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges) that fills `strips`
-at approach delta above first touch and returns the load, the number of strips and whether a patch reaches the end of the
-data; what does not depend on delta has been prepared in `work`; some also take g and A. Kernels take no functions: `_load_at`
-names the methods.
+Virtual penetration is one sequence: an effective gap, prepared in `work`, is cut at the approach, the strips get their shape,
+then their pressure. `_load_at` shows it; a method's file holds what only that method does.
 """
 
 import math
@@ -23,21 +21,22 @@ from contact._layout import (
     RES_STATUS,
     RES_STIFFNESS,
     RES_TOUCH,
+    STRIP_ASPECT,
     STRIP_P0,
 )
-from contact.normal import kik_piotrowski as kp
 from contact.normal import semi_winkler as sw
 from contact.normal import srst as sr
 from contact.normal import stripes
 from contact.normal.analyn import NO_OVERLAP, fill_strips
-from contact.normal.cut import share_gap
+from contact.normal.cut import carried, cut, equivalent_aspect, press, share_gap
 from contact.normal.deepest import deepest, unit_load
-from contact.normal.kik_piotrowski_2008 import kik_piotrowski_2008
-from contact.normal.kpec import kpec
+from contact.normal.kik_piotrowski import PENETRATION, deepest_half_length
+from contact.normal.kik_piotrowski_2008 import stretch
+from contact.normal.kpec import share_parabola
 from contact.normal.lay import at_end
-from contact.normal.linder import linder
-from contact.normal.multi_hertz import multi_hertz
-from contact.normal.pascal_sauvage import pascal_sauvage
+from contact.normal.linder import local_ellipses
+from contact.normal.multi_hertz import beyond, multi_hertz
+from contact.normal.pascal_sauvage import one_ellipse
 from contact.normal.winkler import winkler
 from contact.registry import (
     KIK_PIOTROWSKI_2008,
@@ -52,8 +51,6 @@ from contact.registry import (
     WINKLER,
 )
 
-kik_piotrowski, srst = kp.kik_piotrowski, sr.srst
-
 #: Secant steps before bisection, which closes in on a step of the load, and the cap.
 _SECANT_ITERATIONS, MAX_ITERATIONS = 20, 70
 #: Relative step of the difference quotient that gives the stiffness.
@@ -67,7 +64,7 @@ def _prepare(method, y, g, A, n, point, work):
     elif method == SEMI_WINKLER:
         sw.prepare(y, g, A, n, point, work)
     elif method not in (KPEC, MULTI_HERTZ, PASCAL_SAUVAGE):
-        share = kp.PENETRATION
+        share = PENETRATION
         if method == SRST:
             share = sr.PENETRATION
         elif method == WINKLER:
@@ -77,26 +74,37 @@ def _prepare(method, y, g, A, n, point, work):
 
 @kernel
 def _load_at(method, y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges):
+    """Fill `strips` at approach delta; return load, number of strips and whether the patch reaches the end of the data."""
     if method in (STRIPES_A, STRIPES_AB):
         N, _, n_strips = fill_strips(y, xc, 0, n - 1, delta, modulus, nodes, weights, work, edges, strips)
         return N, n_strips, at_end(y, n, edges, n_strips // nodes.size)
-    if method == KIK_PIOTROWSKI_2008:
-        return kik_piotrowski_2008(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
-    if method == LINDER:
-        return linder(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
-    if method == SRST:
-        return srst(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
+    if method in (MULTI_HERTZ, PASCAL_SAUVAGE):
+        N, n_strips = multi_hertz(y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
+        if method == PASCAL_SAUVAGE:
+            n_strips = one_ellipse(y, A, xc, n, N, n_strips, delta, modulus, nodes, weights, strips, edges)
+        return N, n_strips, beyond(y, n, edges, n_strips // nodes.size)
+
+    level, log_aspect, a0, at = delta, 0.0, deepest_half_length(delta, point), point.y
     if method == KPEC:
-        return kpec(y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
-    if method == MULTI_HERTZ:
-        return multi_hertz(y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
-    if method == PASCAL_SAUVAGE:
-        return pascal_sauvage(y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
+        level, log_aspect, a0 = share_parabola(y, g, A, n, delta, point, work, edges)
+    n_strips, touches_end = cut(y, xc, n, level, nodes, weights, work, strips, edges)
     if method == SEMI_WINKLER:
-        return sw.semi_winkler(y, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
+        sw.semi_winkler(y, A, n, delta, modulus, point, nodes, weights, work, strips, n_strips)
+    elif method == KIK_PIOTROWSKI_2008:
+        factor, at = stretch(strips, n_strips, nodes.size, edges, point)
+        a0 *= factor
+    equivalent_aspect(strips, n_strips)
+    if method == KPEC:
+        strips[STRIP_ASPECT, :n_strips] = log_aspect
+    elif method == LINDER:
+        local_ellipses(strips, n_strips, edges)
     if method == WINKLER:
-        return winkler(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
-    return kik_piotrowski(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
+        winkler(strips, n_strips, delta, modulus, point)
+    elif method == SRST:
+        sr.srst(strips, n_strips, modulus, point)
+    elif method != SEMI_WINKLER:
+        press(strips, n_strips, edges, at, a0, delta, modulus)
+    return carried(strips, n_strips), n_strips, touches_end
 
 
 @kernel

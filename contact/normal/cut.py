@@ -87,7 +87,7 @@ def displacement(strips, n, edges, at, a_at, peak):
 
 @kernel
 def press(strips, n, edges, at, a_at, delta, modulus):
-    """Set p0 = kappa·a, kappa such that the displacement at `at`, half length a_at, is delta; return the load.
+    """Set p0 = kappa·a, kappa such that the displacement at `at`, half length a_at, is delta.
 
     One kappa serves all patches: the load stays continuous where patches are born and merge.
     """
@@ -96,7 +96,6 @@ def press(strips, n, edges, at, a_at, delta, modulus):
     kappa = math.pi * modulus * delta / displacement(strips, n, edges, at, a_at, a_at)
     for i in range(n):
         strips[STRIP_P0, i] *= kappa
-    return carried(strips, n)
 
 
 @kernel

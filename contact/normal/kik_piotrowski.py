@@ -11,16 +11,12 @@ their own, so that the load is continuous where they are born and merge.
 import math
 
 from contact._jit import kernel
-from contact.normal.cut import cut, equivalent_aspect, press
 
 #: Share of the approach at which the gap is cut.
 PENETRATION = 0.55
 
 
 @kernel
-def kik_piotrowski(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges):
-    """Fill `strips` at approach delta; return load, number of strips and whether the patch reaches the end of the data."""
-    n_strips, touches_end = cut(y, xc, n, delta, nodes, weights, work, strips, edges)
-    equivalent_aspect(strips, n_strips)
-    a0 = math.sqrt(delta * PENETRATION / point.A)
-    return press(strips, n_strips, edges, point.y, a0, delta, modulus), n_strips, touches_end
+def deepest_half_length(delta, point):
+    """Half length a(0) of the strip at the least point."""
+    return math.sqrt(PENETRATION * delta / point.A)

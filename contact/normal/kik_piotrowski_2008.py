@@ -14,8 +14,6 @@ import math
 
 from contact._jit import kernel
 from contact._layout import STRIP_A, STRIP_DY, STRIP_PATCH, STRIP_Y
-from contact.normal.cut import cut, equivalent_aspect, press
-from contact.normal.kik_piotrowski import PENETRATION
 
 
 @kernel
@@ -42,13 +40,10 @@ def _stretch(strips, first, last, factor, edges, at):
 
 
 @kernel
-def kik_piotrowski_2008(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges):
-    """Fill `strips` at approach delta; return load, number of strips and whether the patch reaches the end of the data."""
-    n_strips, touches_end = cut(y, xc, n, delta, nodes, weights, work, strips, edges)
+def stretch(strips, n, panel, edges, point):
+    """Stretch `n` strips, `panel` in a patch; return the factor along x and where the least point goes."""
     factor = math.exp(0.5 * (point.log_aspect - 0.5 * math.log(point.B / point.A)))
     at = point.y
-    for k in range(n_strips // nodes.size):
-        at = _stretch(strips, k * nodes.size, (k + 1) * nodes.size, factor, edges, at)
-    equivalent_aspect(strips, n_strips)
-    a0 = factor * math.sqrt(delta * PENETRATION / point.A)
-    return press(strips, n_strips, edges, at, a0, delta, modulus), n_strips, touches_end
+    for k in range(n // panel):
+        at = _stretch(strips, k * panel, (k + 1) * panel, factor, edges, at)
+    return factor, at

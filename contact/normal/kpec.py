@@ -17,10 +17,8 @@ contact elsewhere is not seen.
 import math
 
 from contact._jit import kernel
-from contact._layout import STRIP_ASPECT
 from contact.hertz import local_factors
 from contact.normal.analyn import EFFECTIVE_GAP, EFFECTIVE_SLOPE, GAP_SLOPE, STRETCHED_A, floored
-from contact.normal.cut import cut, press
 from contact.normal.lay import find_patches, slopes
 
 
@@ -35,8 +33,8 @@ def _zone(y, g, n, delta, point, work, edges):
 
 
 @kernel
-def kpec(y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges):
-    """Fill `strips` at approach delta; return load, number of strips and whether the patch reaches the end of the data."""
+def share_parabola(y, g, A, n, delta, point, work, edges):
+    """Fill effective gap and curvature; return the level to cut at, ln(a/b) of the ellipse and a(0) of the least point."""
     low, high = _zone(y, g, n, delta, point, work, edges)
     middle, half = 0.5 * (low + high), 0.5 * (high - low)
     B1 = floored(0.5 * delta / (half * half))
@@ -51,7 +49,4 @@ def kpec(y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, ed
             G = max(G, gap - delta + level)
         work[EFFECTIVE_GAP, i], work[STRETCHED_A, i] = G, A[i]
     slopes(y, work[EFFECTIVE_GAP], n, work[EFFECTIVE_SLOPE])
-    n_strips, touches_end = cut(y, xc, n, level, nodes, weights, work, strips, edges)
-    strips[STRIP_ASPECT, :n_strips] = log_aspect
-    a0 = math.sqrt(max(level - bend * (point.y - middle) ** 2, 0.0) / point.A)
-    return press(strips, n_strips, edges, point.y, a0, delta, modulus), n_strips, touches_end
+    return level, log_aspect, math.sqrt(max(level - bend * (point.y - middle) ** 2, 0.0) / point.A)

@@ -12,17 +12,14 @@ import math
 
 from contact._jit import kernel
 from contact._layout import STRIP_A, STRIP_ASPECT, STRIP_PATCH, STRIP_Y
-from contact.normal.kik_piotrowski import kik_piotrowski
 
 
 @kernel
-def linder(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges):
-    """Fill `strips` at approach delta; return load, number of strips and whether the patch reaches the end of the data."""
-    N, n_strips, touches_end = kik_piotrowski(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
-    for i in range(n_strips):
+def local_ellipses(strips, n, edges):
+    """Write ln(a_loc/b) of each strip."""
+    for i in range(n):
         k = int(strips[STRIP_PATCH, i])
         b, middle = 0.5 * (edges[2 * k + 1] - edges[2 * k]), 0.5 * (edges[2 * k + 1] + edges[2 * k])
         t = (strips[STRIP_Y, i] - middle) / b
         if strips[STRIP_A, i] > 0.0:
             strips[STRIP_ASPECT, i] = math.log(strips[STRIP_A, i] / (b * math.sqrt((1.0 - t) * (1.0 + t))))
-    return N, n_strips, touches_end

@@ -91,7 +91,7 @@ def lay_ellipse(strips, k, centre, x_c, d, A, B, modulus, nodes, weights, edges)
 
 @kernel
 def multi_hertz(y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges):
-    """Fill `strips` at approach delta; return load, number of strips and whether the patch reaches the end of the data."""
+    """Fill `strips` at approach delta; return load and number of strips."""
     h, m = work[EFFECTIVE_GAP], work[EFFECTIVE_SLOPE]
     for i in range(n):
         h[i] = g[i] - point.g
@@ -111,7 +111,13 @@ def multi_hertz(y, g, A, xc, n, delta, modulus, point, nodes, weights, work, str
         count += 1
         centre, least = _secondary(y, h, n, edges, count)
         d = delta - least
-    touches_end = False
+    return N, count * nodes.size
+
+
+@kernel
+def beyond(y, n, edges, count):
+    """Whether one of the `count` ellipses, in any order, goes beyond the data."""
+    found = False
     for k in range(count):
-        touches_end = touches_end or edges[2 * k] < y[0] or edges[2 * k + 1] > y[n - 1]
-    return N, count * nodes.size, touches_end
+        found = found or edges[2 * k] < y[0] or edges[2 * k + 1] > y[n - 1]
+    return found

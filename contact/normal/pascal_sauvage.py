@@ -12,7 +12,7 @@ from contact._jit import kernel
 from contact._layout import STRIP_A, STRIP_DY, STRIP_P0, STRIP_Y
 from contact.hertz import local_factors
 from contact.normal.lay import locate
-from contact.normal.multi_hertz import lay_ellipse, multi_hertz
+from contact.normal.multi_hertz import lay_ellipse
 
 #: ln(B/A) between which the equivalent curvature is sought.
 _LOW, _HIGH = -16.0, 16.0
@@ -34,9 +34,8 @@ def equivalent_curvature(A, N, delta, modulus):
 
 
 @kernel
-def pascal_sauvage(y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges):
-    """Fill `strips` at approach delta; return load, number of strips and whether the patch reaches the end of the data."""
-    N, n_strips, _ = multi_hertz(y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)
+def one_ellipse(y, A, xc, n, N, n_strips, delta, modulus, nodes, weights, strips, edges):
+    """Replace the strips of several ellipses that carry N by those of one; return their number."""
     load, moment = 0.0, 0.0
     for i in range(n_strips):
         part = strips[STRIP_P0, i] * strips[STRIP_A, i] * strips[STRIP_DY, i]
@@ -47,5 +46,5 @@ def pascal_sauvage(y, g, A, xc, n, delta, modulus, point, nodes, weights, work, 
     t = (centre - y[k]) / (y[k + 1] - y[k])
     A_here, x_c = (1.0 - t) * A[k] + t * A[k + 1], (1.0 - t) * xc[k] + t * xc[k + 1]
     B = equivalent_curvature(A_here, N, delta, modulus)
-    N = lay_ellipse(strips, 0, centre, x_c, delta, A_here, B, modulus, nodes, weights, edges)
-    return N, nodes.size, edges[0] < y[0] or edges[1] > y[n - 1]
+    lay_ellipse(strips, 0, centre, x_c, delta, A_here, B, modulus, nodes, weights, edges)
+    return nodes.size

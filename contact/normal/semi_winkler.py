@@ -29,7 +29,6 @@ from contact.normal.analyn import (
     floored,
     lateral_curvature,
 )
-from contact.normal.cut import carried, cut, equivalent_aspect
 from contact.normal.deepest import unit_load
 from contact.normal.lay import least_point, locate, slopes
 
@@ -76,11 +75,10 @@ def _strip(gap, A, B, delta, length):
 
 
 @kernel
-def semi_winkler(y, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges):
-    """Fill `strips` at approach delta; return load, number of strips and whether the patch reaches the end of the data."""
+def semi_winkler(y, A, n, delta, modulus, point, nodes, weights, work, strips, n_strips):
+    """Set half lengths and pressures of strips, from the depths that `cut` has left in STRIP_P0."""
     decay = _decay(point)
     length = decay * math.sqrt(delta)
-    n_strips, touches_end = cut(y, xc, n, delta, nodes, weights, work, strips, edges)
     # k: the ellipse of the least point carries Hertz's load
     volume, gap_at_edge = 0.0, _share(point.B, decay) * delta
     for i in range(nodes.size):
@@ -97,5 +95,3 @@ def semi_winkler(y, A, xc, n, delta, modulus, point, nodes, weights, work, strip
         a, mean = _strip(gap, (1.0 - t) * A[j] + t * A[j + 1], B, delta, length)
         strips[STRIP_A, i] = a
         strips[STRIP_P0, i] = 4.0 / math.pi * k * mean if a > 0.0 else 0.0
-    equivalent_aspect(strips, n_strips)
-    return carried(strips, n_strips), n_strips, touches_end

@@ -12,7 +12,6 @@ import math
 
 from contact._jit import kernel
 from contact._layout import STRIP_P0
-from contact.normal.cut import carried, cut, equivalent_aspect
 from contact.normal.deepest import unit_load
 
 #: Share of the approach at which the gap is cut.
@@ -20,11 +19,8 @@ PENETRATION = 0.5
 
 
 @kernel
-def srst(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges):
-    """Fill `strips` at approach delta; return load, number of strips and whether the patch reaches the end of the data."""
-    n_strips, touches_end = cut(y, xc, n, delta, nodes, weights, work, strips, edges)
-    equivalent_aspect(strips, n_strips)
+def srst(strips, n, modulus, point):
+    """Turn the depths that `cut` has left in STRIP_P0 into pressures."""
     K = 1.5 / math.pi * unit_load(point, modulus) * math.sqrt(point.A * point.B) * PENETRATION**-1.5
-    for i in range(n_strips):
-        strips[STRIP_P0, i] = K * math.sqrt(PENETRATION * strips[STRIP_P0, i])  # of the depth that `cut` has left
-    return carried(strips, n_strips), n_strips, touches_end
+    for i in range(n):
+        strips[STRIP_P0, i] = K * math.sqrt(PENETRATION * strips[STRIP_P0, i])

@@ -19,7 +19,6 @@ import math
 
 from contact._jit import kernel
 from contact._layout import STRIP_P0
-from contact.normal.cut import carried, cut, equivalent_aspect
 from contact.normal.deepest import unit_load
 
 #: Peak of the semi-ellipse over that of the parabola with the same length and load.
@@ -27,11 +26,8 @@ ELLIPSE_OVER_PARABOLA = 8.0 / (3.0 * math.pi)
 
 
 @kernel
-def winkler(y, xc, n, delta, modulus, point, nodes, weights, work, strips, edges):
-    """Fill `strips` at approach delta; return load, number of strips and whether the patch reaches the end of the data."""
-    n_strips, touches_end = cut(y, xc, n, delta, nodes, weights, work, strips, edges)
-    equivalent_aspect(strips, n_strips)
+def winkler(strips, n, delta, modulus, point):
+    """Turn the depths that `cut` has left in STRIP_P0 into pressures."""
     k = 2.0 / math.pi * unit_load(point, modulus) * math.sqrt(point.A * point.B / delta)
-    for i in range(n_strips):
-        strips[STRIP_P0, i] *= ELLIPSE_OVER_PARABOLA * k  # on the depth that `cut` has left
-    return carried(strips, n_strips), n_strips, touches_end
+    for i in range(n):
+        strips[STRIP_P0, i] *= ELLIPSE_OVER_PARABOLA * k
