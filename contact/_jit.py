@@ -1,8 +1,8 @@
 """The one numba policy of the project.
 
 * ``cache=True``: a user pays for compilation once a machine, not once a process.
-* The cache is keyed by the sources of the package, without those that hold no kernel: numba alone compares a kernel's own
-  file only, and would go on running yesterday's version of every kernel that it calls from other files.
+* The cache is keyed by the sources of this package, without those that hold no kernel, and of the kernel's own: numba alone
+  compares a kernel's own file only, and would go on running yesterday's version of every kernel that it calls from others.
 * ``error_model="numpy"``: no exception branches; a division by zero is prevented by the kernel, not caught.
 * ``nogil=True``: a kernel touches no Python object, so threads of a host run in parallel.
 * no ``fastmath``: results must not depend on the instruction set (the native FMU is compared bit for bit).
@@ -11,7 +11,9 @@ Kernels allocate nothing, raise nothing, take no function argument: one source s
 """
 
 import hashlib
+import sys
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -20,26 +22,25 @@ from numba import config, njit
 _WITHOUT_KERNELS = ("cli", "plot")
 
 
-def _cache_directory() -> str:
-    """Directory of compiled kernels for exactly these sources; numba falls back to the user's own if it is not writable."""
-    package = Path(__file__).parent
+@cache
+def _cache_directory(package: str) -> str:
+    """Directory of kernels of `package`, compiled from exactly these sources; numba has its own if that is not writable."""
+    own = Path(__file__).parent
     fingerprint = hashlib.sha256()
-    for path in sorted(package.rglob("*.py")):
-        if path.relative_to(package).parts[0] in _WITHOUT_KERNELS:
-            continue
-        stat = path.stat()
-        fingerprint.update(f"{path.relative_to(package)} {stat.st_mtime_ns} {stat.st_size}\n".encode())
-    base = Path(config.CACHE_DIR) if config.CACHE_DIR else package / "__pycache__"
+    for root in sorted({own, *map(Path, getattr(sys.modules[package], "__path__", ()))}):
+        for path in sorted(root.rglob("*.py")):
+            if path.relative_to(root).parts[0] in _WITHOUT_KERNELS:
+                continue
+            stat = path.stat()
+            fingerprint.update(f"{path.relative_to(root)} {stat.st_mtime_ns} {stat.st_size}\n".encode())
+    base = Path(config.CACHE_DIR) if config.CACHE_DIR else own / "__pycache__"
     return str(base / f"kernels-{fingerprint.hexdigest()[:16]}")
-
-
-_DIRECTORY = _cache_directory()
 
 
 def kernel(function: Callable[..., Any]) -> Any:
     """Compile `function` under the policy above."""
     users_choice = config.CACHE_DIR
-    config.CACHE_DIR = _DIRECTORY
+    config.CACHE_DIR = _cache_directory(function.__module__.partition(".")[0])
     try:
         return njit(cache=True, error_model="numpy", nogil=True)(function)
     finally:

@@ -67,7 +67,9 @@ def _root(table: Table, interfaces: Interfaces) -> Element:
     variables = SubElement(root, "ModelVariables")
     for reference, scalar in enumerate(table.scalars):
         variables.append(_variable(reference, scalar))
-    _structure(root, table)
+    if table.states and "ModelExchange" in interfaces:
+        _derivatives(variables, table)
+    _structure(root, table, follows=not table.states or "ModelExchange" in interfaces)
     return root
 
 
@@ -133,19 +135,32 @@ def _type_attributes(scalar: Scalar) -> Iterator[tuple[str, str]]:
         yield "start", number(scalar.start)
 
 
-def _structure(root: Element, table: Table) -> None:
-    """Outputs depend on inputs; their initial values depend on parameters too."""
+def _derivatives(variables: Element, table: Table) -> None:
+    """Say of which variable a variable is the derivative."""
+    for state, derivative in zip(table.states, table.derivatives, strict=True):
+        (reference,), (of,) = table.references(derivative.name), table.references(state.name)
+        variables[reference][0].set("derivative", str(of + 1))
+
+
+def _structure(root: Element, table: Table, follows: bool) -> None:
+    """Outputs depend on inputs and states, their initial values on parameters and inputs.
+
+    Where outputs do not follow inputs at once, as those of a model with states in co-simulation, they depend on none.
+    """
     structure = SubElement(root, "ModelStructure")
     outputs = [row for row in table.rows if row.causality is Causality.OUTPUT]
-    if outputs:
-        element = SubElement(structure, "Outputs")
-        for row in outputs:
-            _unknown(element, table, row, [k for k in table.knowns(row) if k.causality is Causality.INPUT])
-    initial = [row for row in outputs if row.initial == "calculated"]
-    if initial:
-        element = SubElement(structure, "InitialUnknowns")
-        for row in initial:
-            _unknown(element, table, row, table.knowns(row))
+    inputs = [row for row in table.rows if row.causality is Causality.INPUT and follows]
+    parameters = [row for row in table.rows if row.causality is Causality.PARAMETER]
+    states = table.states if follows else []
+    for section, rows, knowns in (
+        ("Outputs", outputs, [*inputs, *states]),
+        ("Derivatives", table.derivatives if follows else [], [*inputs, *states]),
+        ("InitialUnknowns", [row for row in outputs if row.initial == "calculated"], [*parameters, *inputs]),
+    ):
+        if rows:
+            element = SubElement(structure, section)
+            for row in rows:
+                _unknown(element, table, row, [known for known in table.knowns(row) if known in knowns])
 
 
 def _unknown(parent: Element, table: Table, row: Variable, knowns: list[Variable]) -> None:

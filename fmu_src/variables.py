@@ -74,7 +74,7 @@ class Variable:
     shape : tuple of int or str
         Empty for a scalar. In a field names of Integer parameters too: the resolution that the user chooses.
     depends : tuple of str, optional
-        Rows (inputs and parameters) that an output is a function of; None means all of them.
+        Rows (parameters, inputs and continuous states) that an output is a function of; None means all of them.
     derivative_of : str, optional
         Row of which this output is the derivative by time: in model exchange that one is a continuous state.
     """
@@ -221,12 +221,9 @@ class Table:
         return range(where.start, where.stop)
 
     def knowns(self, output: Variable) -> list[Variable]:
-        """Inputs and parameters that `output` is a function of."""
-        return [
-            row
-            for row in self.rows
-            if row.causality is not Causality.OUTPUT and (output.depends is None or row.name in output.depends)
-        ]
+        """Parameters, inputs and continuous states that `output` is a function of."""
+        known = [row for row in self.rows if row.causality is not Causality.OUTPUT or row in self.states]
+        return [row for row in known if output.depends is None or row.name in output.depends]
 
 
 def identifier(name: str) -> str:

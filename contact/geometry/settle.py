@@ -89,21 +89,31 @@ def _describe_at(z: float, first: int, start: int, end: int, space: Search) -> i
 
 
 @kernel
+def locate(space: Search) -> int:
+    """Describe the patches at motion[POSE_Z]; needs none of the arrays of the normal problem."""
+    motion = space.motion
+    first, start, end = oppose(space.wheel, space.rail, motion, space.line, space.placed)
+    if end - start < 3:
+        return NO_OVERLAP
+    if motion[POSE_Z] > touch(space.line, start, end) + DEEPEST:
+        return TOO_DEEP
+    return _describe_at(motion[POSE_Z], first, start, end, space)
+
+
+@kernel
 def settle(mode: int, amount: float, space: Search) -> int:
     """Find z as `mode` says, leave it in motion[POSE_Z] and describe the patches there.
 
     Under a load, F^(2/3) is nearly linear in the penetration (Hertz); its root is bracketed and found by the Illinois
     variant of regula falsi, usually at the fifth force, by bisection when that is slow.
     """
+    if mode == GIVEN_Z:
+        return locate(space)
     motion = space.motion
     first, start, end = oppose(space.wheel, space.rail, motion, space.line, space.placed)
     if end - start < 3:
         return NO_OVERLAP
     z0 = touch(space.line, start, end)
-    if mode == GIVEN_Z:
-        if motion[POSE_Z] > z0 + DEEPEST:
-            return TOO_DEEP
-        return _describe_at(motion[POSE_Z], first, start, end, space)
     if mode == PENETRATION or amount <= 0.0:
         return _describe_at(z0 + amount, first, start, end, space)
     target = amount ** (2.0 / 3.0)

@@ -11,6 +11,7 @@ from fmu_src.tables.wheelset import KEYWORDS, table
 from models.wheelset.model import WheelsetModel
 from models.wheelset.parameters import WheelsetParameters
 from models.wheelset.ports import (
+    CHANGE,
     CREEPAGE,
     CURVATURE,
     ENERGY,
@@ -69,6 +70,7 @@ class WheelsetSlave(TableSlave):
 def _report(model: WheelsetModel) -> Rows:
     rows: dict[str, Any] = dict(zip(MOTION, model.motion().tolist(), strict=True))
     rows |= zip(ENERGY, model.energy().tolist(), strict=True)
+    rows |= zip(CHANGE, model.change().tolist(), strict=True)
     for side in SIDES:
         problem = model.problem(side)
         rows[f"{side}.geometry.g"] = problem[GAP].tolist()

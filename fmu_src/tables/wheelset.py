@@ -11,9 +11,9 @@ from functools import cache
 
 from fmu_src.variables import Table, Variable, output, parameter, signal
 from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import POINTS, SIDES
+from models.wheelset.ports import POINTS, REACTION, SIDES
 
-#: Parameter of the FMU → keyword of `WheelsetParameters`, unit, what it is, and whether it may be negative or zero.
+#: Parameter of the FMU → keyword of `WheelsetParameters`, unit, what it is, and a key of _RANGE.
 _PARAMETERS = (
     ("speed", "speed", "m/s", "Constant forward speed", "positive"),
     ("mass", "mass", "kg", "Mass", "positive"),
@@ -29,9 +29,9 @@ _PARAMETERS = (
     ("initial.lateral_velocity", "lateral_velocity", "m/s", "Lateral velocity at the start", "any"),
     ("initial.yaw_rate", "yaw_rate", "rad/s", "Yaw rate at the start", "any"),
     ("initial.approach", "approach", "m", "Approach of wheel and rail assumed at the start", "positive"),
-    ("wheel.radius", "radius", "m", "Nominal rolling radius", "positive"),
-    ("wheel.flange_back", "flange_back", "m", "Distance of the backs of the flanges", "positive"),
-    ("track.gauge", "gauge", "m", "Track gauge", "positive"),
+    ("wheel.radius", "radius", "m", "Nominal rolling radius", "radius"),
+    ("wheel.flange_back", "flange_back", "m", "Distance of the backs of the flanges", "gauge"),
+    ("track.gauge", "gauge", "m", "Track gauge", "gauge"),
     (
         "geometry.y0",
         "window_start",
@@ -45,6 +45,8 @@ _RANGE = {
     "any": {},
     "not negative": {"minimum": 0.0},
     "positive": {"minimum": 0.0, "open_minimum": True},
+    "radius": {"minimum": 0.05, "maximum": 2.0},  # those of `contact.geometry.wheelset.Pair`
+    "gauge": {"minimum": 0.1, "maximum": 3.0},
 }
 #: Parameter of the FMU → keyword of `WheelsetParameters`
 KEYWORDS = {name: keyword for name, keyword, *_ in _PARAMETERS}
@@ -93,35 +95,53 @@ def _inputs() -> Iterable[Variable]:
     yield signal("irregularity.slope", "Slope dy/dx of the track's centre line", start=0.0)
 
 
+#: What follows what in model exchange. In co-simulation all outputs are of the end of the step and follow inputs a step late.
+_STATES = ("lateral", "yaw", "lateral_velocity", "yaw_rate", "spin")
+_GEOMETRY = ("lateral", "yaw", "irregularity.lateral", "irregularity.slope", *(f"{side}.approach" for side in SIDES))
+_KINEMATICS = (*_GEOMETRY, "lateral_velocity", "yaw_rate", "spin")
+_LOADS = (*_GEOMETRY, *(f"{side}.force.y" for side in SIDES))
+_FORCES = tuple(f"{side}.{name}" for side in SIDES for name in REACTION)
+
+
 def _outputs() -> Iterable[Variable]:
-    """All are of the end of the step: they depend on no input, and at the start on parameters alone."""
-    knowns = tuple(row.name for row in _parameters())
+    parameters = tuple(row.name for row in _parameters())
+
+    def result(name: str, description: str, unit: str, follows: tuple[str, ...], **attributes: object) -> Variable:
+        return output(name, description, unit=unit, depends=tuple(dict.fromkeys((*parameters, *follows))), **attributes)
 
     def state(name: str, description: str, unit: str, **attributes: object) -> Variable:
-        return output(name, description, unit=unit, depends=knowns, **attributes)
+        return result(name, description, unit, (name,), **attributes)
 
     yield state("lateral", "Lateral position of the centre, positive to the right", "m", nominal=1e-3)
     yield state("yaw", "Yaw angle, clockwise seen from above", "rad", nominal=1e-3)
-    yield state("lateral_velocity", "Lateral velocity of the centre", "m/s", nominal=0.1)
-    yield state("yaw_rate", "Yaw rate", "rad/s", nominal=0.1)
+    velocity = {"derivative_of": "lateral", "nominal": 0.1}
+    yield state("lateral_velocity", "Lateral velocity of the centre", "m/s", **velocity)
+    yield state("yaw_rate", "Yaw rate", "rad/s", derivative_of="yaw", nominal=0.1)
     yield state("spin", "Angular velocity about the axle, positive when rolling forward", "rad/s", nominal=100.0)
-    yield state("vertical", "Height of the centre, positive down", "m", nominal=1e-3)
-    yield state("roll", "Roll angle", "rad", nominal=1e-3)
+    yield result("vertical", "Height of the centre, positive down", "m", _GEOMETRY, nominal=1e-3)
+    yield result("roll", "Roll angle", "rad", _GEOMETRY, nominal=1e-3)
     yield state("energy.interface", "Energy that left through the contacts since the start", "J", nominal=1e3)
     yield state("energy.drive", "Energy that the drive delivered to keep the speed since the start", "J", nominal=1e3)
     yield state("energy.damper", "Energy dissipated in the suspension since the start", "J", nominal=1e3)
-    yield state("energy.mechanical", "Kinetic and potential energy", "J", nominal=1e5)
+    yield result("energy.mechanical", "Kinetic and potential energy", "J", (*_GEOMETRY, *_STATES), nominal=1e5)
+    for of, name, description, unit in (
+        ("lateral_velocity", "lateral_acceleration", "Lateral acceleration of the centre", "m/s2"),
+        ("yaw_rate", "yaw_acceleration", "Yaw acceleration", "rad/s2"),
+        ("spin", "spin_acceleration", "Angular acceleration about the axle", "rad/s2"),
+        ("energy.interface", "power.interface", "Power that leaves through the contacts", "W"),
+        ("energy.drive", "power.drive", "Power of the drive", "W"),
+        ("energy.damper", "power.damper", "Power dissipated in the suspension", "W"),
+    ):
+        yield result(name, description, unit, (*_FORCES, *_KINEMATICS), derivative_of=of)
     for side in SIDES:
-        yield state(f"{side}.geometry.g", f"Undeformed gap, {side}", "m", shape=(POINTS,), nominal=1e-4)
-        yield state(f"{side}.geometry.A", f"Half curvature along the rail, {side}", "1/m", shape=(POINTS,))
-        yield state(f"{side}.creepage.longitudinal", f"Longitudinal creepage, {side}", "1", nominal=1e-3)
-        yield state(f"{side}.creepage.lateral", f"Lateral creepage, {side}", "1", nominal=1e-3)
-        yield state(f"{side}.creepage.spin", f"Spin creepage, {side}", "rad/m", nominal=0.1)
-        yield state(f"{side}.load.normal_force", f"Normal force, {side}", "N", minimum=0.0, nominal=1e5)
+        geometry = {"shape": (POINTS,), "follows": _GEOMETRY}
+        yield result(f"{side}.geometry.g", f"Undeformed gap, {side}", "m", nominal=1e-4, **geometry)
+        yield result(f"{side}.geometry.A", f"Half curvature along the rail, {side}", "1/m", **geometry)
+        yield result(f"{side}.creepage.longitudinal", f"Longitudinal creepage, {side}", "1", _KINEMATICS, nominal=1e-3)
+        yield result(f"{side}.creepage.lateral", f"Lateral creepage, {side}", "1", _KINEMATICS, nominal=1e-3)
+        yield result(f"{side}.creepage.spin", f"Spin creepage, {side}", "rad/m", _KINEMATICS, nominal=0.1)
+        yield result(f"{side}.load.normal_force", f"Normal force, {side}", "N", _LOADS, minimum=0.0, nominal=1e5)
         for axis in "xyz":
-            yield state(
-                f"{side}.contact.{axis}",
-                f"Origin of the {side} contact frame from the centre, {axis} of the track",
-                "m",
-            )
-        yield state(f"{side}.contact.angle", f"Contact angle, {side}", "rad", nominal=0.1)
+            origin = f"Origin of the {side} contact frame from the centre, {axis} of the track"
+            yield result(f"{side}.contact.{axis}", origin, "m", _GEOMETRY)
+        yield result(f"{side}.contact.angle", f"Contact angle, {side}", "rad", _GEOMETRY, nominal=0.1)

@@ -29,8 +29,9 @@ N_STATE = 5
     YAW_DAMPING,
     AXLE_LOAD,
     SPEED,
-) = range(9)
-N_CONSTANTS = 9
+    RADIUS,  # nominal rolling radius [m]
+) = range(10)
+N_CONSTANTS = 10
 # energy[...] since start, all [J]
 INTERFACE, DRIVE, DAMPER = range(3)  # left through the contacts, delivered by the drive, spent in the suspension
 N_ENERGY = 3

@@ -32,13 +32,18 @@ REPORT = ("power.friction", "pressure.max", "slip.ratio", "status", "damage.T_ga
 MOTION = ("lateral", "yaw", "lateral_velocity", "yaw_rate", "spin", "vertical", "roll")
 #: Energies of the wheelset since start [J].
 ENERGY = ("energy.interface", "energy.drive", "energy.damper", "energy.mechanical")
+#: Rates of motion and energies that are not motion themselves: m/s², rad/s², rad/s², W, W, W.
+CHANGE = (
+    *("lateral_acceleration", "yaw_acceleration", "spin_acceleration"),
+    *("power.interface", "power.drive", "power.damper"),
+)
 #: Contact frame of one side relative to the wheelset's centre [m], [m], [m], [rad].
 FRAME = ("contact.x", "contact.y", "contact.z", "contact.angle")
 #: Lateral position of the track's centre line [m] and its slope along the track [-].
 IRREGULARITY = ("irregularity.lateral", "irregularity.slope")
 
 CONTACT_PORTS = {"problem": PROBLEM, "reaction": REACTION, "report": REPORT}
-WHEELSET_PORTS = {"motion": MOTION, "energy": ENERGY, "irregularity": IRREGULARITY} | {
+WHEELSET_PORTS = {"motion": MOTION, "energy": ENERGY, "change": CHANGE, "irregularity": IRREGULARITY} | {
     f"{side}.{port}": tuple(f"{side}.{name}" for name in names)
     for side in SIDES
     for port, names in (("problem", PROBLEM), ("reaction", REACTION), ("frame", FRAME))

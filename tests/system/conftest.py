@@ -56,6 +56,12 @@ def native_fmi3_folder(native_fmi3, tmp_path_factory) -> Path:
     return Path(fmpy.extract(str(native_fmi3), str(tmp_path_factory.mktemp("unzipped"))))
 
 
+@pytest.fixture(scope="session")
+def native_wheelset(native) -> Path:
+    """File of the native Wheelset."""
+    return native.with_name("Wheelset.fmu")
+
+
 @pytest.fixture
 def open_native(native_folder):
     """Instantiate the native WheelRailContact; all are freed at the end."""

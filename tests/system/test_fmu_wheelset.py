@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
+from wheelset_case import reactions, reported, trajectory
 
 from models.wheelset.model import WheelsetModel
 from models.wheelset.parameters import WheelsetParameters
@@ -18,32 +19,6 @@ DISCARD = 2
 @pytest.fixture
 def fmu(open_fmu):
     return open_fmu(NAME).initialize()
-
-
-def reactions(k: int) -> dict[str, dict[str, float]]:
-    """Some forces of step `k`, side by side."""
-    return {
-        side: dict(zip(REACTION, (900.0 * m * math.sin(k), -1500.0 + 300.0 * k, 5.0 * m, 7e-5 + 1e-6 * k), strict=True))
-        for side, m in zip(SIDES, (1.0, -1.0), strict=True)
-    }
-
-
-def trajectory(fmu, start: int) -> list[dict[str, float]]:
-    """Three steps with changing forces from step `start`."""
-    rows = []
-    for k in range(start, start + 3):
-        fmu.update({f"{side}.{name}": v for side, forces in reactions(k).items() for name, v in forces.items()})
-        fmu.step(k * 1e-3)
-        rows.append(fmu.all("output"))
-    return rows
-
-
-def ports(model: WheelsetModel) -> dict[str, float]:
-    """All outputs of the model by their names."""
-    values = {"motion": model.motion(), "energy": model.energy()}
-    for side in SIDES:
-        values |= {f"{side}.problem": model.problem(side), f"{side}.frame": model.frame(side)}
-    return {n: v for port, column in values.items() for n, v in zip(WHEELSET_PORTS[port], column.tolist(), strict=True)}
 
 
 def test_fmpy_finds_no_problem(fmus):
@@ -68,7 +43,7 @@ def test_every_port_of_the_model_is_a_variable_and_connects_to_the_contact(fmu, 
 def test_is_where_the_parameters_say_before_the_first_step(open_fmu):
     fmu = open_fmu(NAME)
     fmu.update({"initial.lateral": -2e-3, "initial.yaw": 1e-3, "speed": 25.0})
-    assert fmu.initialize().all("output") == ports(
+    assert fmu.initialize().all("output") == reported(
         WheelsetModel(WheelsetParameters(lateral=-2e-3, yaw=1e-3, speed=25.0))
     )
 
@@ -80,7 +55,7 @@ def test_equals_the_model_bit_by_bit(fmu):
         for side, forces in reactions(k).items():
             model.set_forces(side, *forces.values())
         model.step(1e-3)
-        assert row == ports(model)
+        assert row == reported(model)
     assert rows[-1]["lateral"] != rows[0]["lateral"]
 
 
@@ -124,7 +99,7 @@ def test_the_irregularity_reaches_the_model(fmu):
         model.set_forces(side, 0.0, 0.0, 0.0, WheelsetParameters().approach)
     model.set_irregularity(1e-3, 2e-3)
     model.step(1e-3)
-    assert fmu.all("output") == ports(model)
+    assert fmu.all("output") == reported(model)
 
 
 def discarded(fmu) -> str:

@@ -1,0 +1,82 @@
+/* A host in C that does what it reads: script LIBRARY GUID KIND (0 model exchange, 1 co-simulation). A line is a letter,
+ * a value reference or a count, and numbers: s REFERENCE VALUE sets a Real, g REFERENCE prints it, d TIME STEP does a step,
+ * t TIME sets the time, x N VALUES… sets the states and prints their derivatives. Parameters are set before `i`, initialise. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "fmi2FunctionTypes.h"
+#ifdef _WIN32
+#include <windows.h>
+#define FIND(type, name) type *name = (type *)(void *)GetProcAddress(library, "fmi2" #name)
+#else
+#include <dlfcn.h>
+#define FIND(type, name) type *name = (type *)dlsym(library, "fmi2" #name)
+#endif
+#define DO(call) \
+    do { \
+        if ((call) > fmi2Warning) return printf("%s\n", #call), 1; \
+    } while (0)
+
+static void logger(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status, fmi2String category,
+                   fmi2String message, ...)
+{
+    (void)environment, (void)instance, (void)status, (void)category;
+    puts(message);
+}
+
+int main(int n_arguments, char **arguments)
+{
+    if (n_arguments != 4) return puts("script LIBRARY GUID KIND"), 2;
+#ifdef _WIN32
+    HMODULE library = LoadLibraryA(arguments[1]);
+#else
+    void *library = dlopen(arguments[1], RTLD_NOW | RTLD_LOCAL);
+#endif
+    if (!library) return puts("the library cannot be loaded"), 2;
+    FIND(fmi2InstantiateTYPE, Instantiate);
+    FIND(fmi2SetupExperimentTYPE, SetupExperiment);
+    FIND(fmi2EnterInitializationModeTYPE, EnterInitializationMode);
+    FIND(fmi2ExitInitializationModeTYPE, ExitInitializationMode);
+    FIND(fmi2EnterContinuousTimeModeTYPE, EnterContinuousTimeMode);
+    FIND(fmi2SetRealTYPE, SetReal);
+    FIND(fmi2GetRealTYPE, GetReal);
+    FIND(fmi2DoStepTYPE, DoStep);
+    FIND(fmi2SetTimeTYPE, SetTime);
+    FIND(fmi2SetContinuousStatesTYPE, SetContinuousStates);
+    FIND(fmi2GetDerivativesTYPE, GetDerivatives);
+    FIND(fmi2FreeInstanceTYPE, FreeInstance);
+
+    fmi2CallbackFunctions callbacks = {logger, NULL, NULL, NULL, NULL};
+    fmi2Component c = Instantiate("instance", (fmi2Type)atoi(arguments[3]), arguments[2], "", &callbacks, 0, 1);
+    if (!c) return 1;
+    char letter;
+    while (scanf(" %c", &letter) == 1) {
+        unsigned n = 0;
+        double a = 0.0, b = 0.0, x[16];
+        if (letter == 'i') {
+            DO(SetupExperiment(c, fmi2False, 0.0, 0.0, fmi2False, 0.0));
+            DO(EnterInitializationMode(c));
+            DO(ExitInitializationMode(c));
+            if (atoi(arguments[3]) == fmi2ModelExchange) DO(EnterContinuousTimeMode(c));
+        } else if (letter == 's' && scanf("%u %lf", &n, &a) == 2) {
+            DO(SetReal(c, &n, 1, &a));
+        } else if (letter == 'g' && scanf("%u", &n) == 1) {
+            DO(GetReal(c, &n, 1, &a));
+            printf("%.17g\n", a);
+        } else if (letter == 'd' && scanf("%lf %lf", &a, &b) == 2) {
+            DO(DoStep(c, a, b, fmi2True));
+        } else if (letter == 't' && scanf("%lf", &a) == 1) {
+            DO(SetTime(c, a));
+        } else if (letter == 'x' && scanf("%u", &n) == 1 && n <= sizeof x / sizeof *x) {
+            for (unsigned i = 0; i < n; i++)
+                if (scanf("%lf", &x[i]) != 1) return 2;
+            DO(SetContinuousStates(c, x, n));
+            DO(GetDerivatives(c, x, n));
+            for (unsigned i = 0; i < n; i++) printf("%.17g\n", x[i]);
+        } else {
+            return printf("%c is no command\n", letter), 2;
+        }
+    }
+    FreeInstance(c);
+    return 0;
+}

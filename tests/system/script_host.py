@@ -1,0 +1,39 @@
+"""The host in C that does what it reads, `host/script.c`, compiled for a platform."""
+
+import os
+import subprocess
+from pathlib import Path
+
+import fmpy
+import numpy as np
+
+from fmu_src.native.packaging import HEADERS, compiler, run
+
+SOURCE = Path(__file__).parent / "host" / "script.c"
+_PLATFORMS = {"linux64": (".so", ["-ldl"], []), "win64": (".dll", [], ["wine"])}
+
+
+class Script:
+    """The compiled host for one platform, in a folder of its own."""
+
+    def __init__(self, platform: str, folder: Path) -> None:
+        self.platform = platform
+        self.suffix, libraries, self.before = _PLATFORMS[platform]
+        self.program = folder / f"{platform}.exe"
+        self.environment = os.environ | {"WINEPREFIX": str(folder / "wine"), "WINEDEBUG": "-all"}
+        run(*compiler(platform), "-std=gnu11", "-O1", f"-I{HEADERS}", SOURCE, "-o", self.program, *libraries)
+
+    def __call__(self, unzipped: Path, kind: int, commands: str, before: tuple[str, ...] = ()) -> np.ndarray:
+        """Run commands over an FMU as model exchange (0) or co-simulation (1); return the numbers that it prints."""
+        description = fmpy.read_model_description(str(unzipped))
+        library = unzipped / "binaries" / self.platform / (description.coSimulation.modelIdentifier + self.suffix)
+        done = subprocess.run(
+            [*before, *self.before, self.program, library, description.guid, str(kind)],
+            input=commands,
+            capture_output=True,
+            text=True,
+            timeout=300,
+            env=self.environment,
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
+        return np.array(done.stdout.split(), dtype=float)

@@ -1,0 +1,54 @@
+"""Emits the objects of a component of a few lines, in the place of real ones, which compile for a minute: FOLDER."""
+
+import math
+import os
+import sys
+from pathlib import Path
+
+from fmu_src.native.emit import ENVIRONMENT
+
+if __name__ == "__main__" and any(os.environ.get(name) != value for name, value in ENVIRONMENT.items()):
+    os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | ENVIRONMENT)
+
+import numpy as np
+
+from fmu_src.native.component import SIGNATURES, Component
+from fmu_src.native.emit import emit
+from fmu_src.native.memory import compiled, vector
+
+
+@compiled
+def energy(numbers):
+    """Something of loops and libm."""
+    total = 0.0
+    for x in numbers:
+        total += math.exp(-x) * x * x
+    return total
+
+
+def entries():
+    """All of `SIGNATURES`."""
+
+    def count(values, data):
+        return 3
+
+    def work(values, work, data):
+        return int(energy(vector(values, 0, 3)[0]) > 1.0)
+
+    def outputs(values, work, h, data):
+        values[0] = energy(vector(data, 0, 4)[0]) + h
+        return 0
+
+    def by_number(values, work, k, data):
+        return k
+
+    def difference(values, reference, data):
+        return 1e-6
+
+    special = {"model_outputs": outputs, "model_field": by_number, "model_difference": difference}
+    special |= {"model_memory": count, "model_size": count}
+    return {name: special.get(name, work) for name in SIGNATURES}
+
+
+if __name__ == "__main__":
+    emit(Component(table=None, entries=entries, data=lambda: (np.arange(4.0),)), Path(sys.argv[1]))

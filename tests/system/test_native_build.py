@@ -1,0 +1,32 @@
+"""The native FMUs are the same whenever they are built."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from fmu_src.catalogue import models
+from fmu_src.native import packaging
+
+ROOT = Path(__file__).parents[2]
+WHEELSET = next(model for model in models(41) if model.name == "wheelset")
+
+
+def test_the_same_kernels_give_the_same_bytes(native_wheelset, tmp_path):
+    """Those that the fixture has left behind. Hence the same guid, which is a hash of all that goes in."""
+    again = packaging.build(WHEELSET, tmp_path, ROOT / "build" / "native", print)
+    assert [path.read_bytes() for path in again] == [
+        path.read_bytes() for path in (native_wheelset, native_wheelset.parent / "fmi3" / native_wheelset.name)
+    ]
+
+
+def test_the_same_sources_give_the_same_kernels(tmp_path):
+    """Whatever the order of sets in the process that compiles."""
+    found = []
+    for seed in ("1", "2"):
+        (tmp_path / seed).mkdir()
+        command = [sys.executable, Path(__file__).with_name("small_component.py"), tmp_path / seed]
+        subprocess.run(command, check=True, env=os.environ | {"PYTHONHASHSEED": seed}, timeout=300)
+        found.append({path.name: path.read_bytes() for path in sorted((tmp_path / seed).iterdir())})
+    assert found[0] == found[1]
+    assert len(found[0]) == 6

@@ -1,0 +1,59 @@
+"""A short run of a wheelset under forces that change from step to step."""
+
+import math
+
+from fmu_instance import Instance
+
+from fmu_src.tables.wheelset import table
+from models.wheelset.components import DirectWheelset
+from models.wheelset.model import WheelsetModel
+from models.wheelset.ports import CHANGE, CREEPAGE, ENERGY, FRAME, MOTION, PROBLEM, REACTION, SIDES, WHEELSET_PORTS
+
+STATES = [row.name for row in table().states]
+INPUT_PORTS = {"irregularity", *(f"{side}.reaction" for side in SIDES)}
+NUMBERS = {*MOTION, *ENERGY, *CHANGE, *(f"{s}.{n}" for s in SIDES for n in (*PROBLEM[CREEPAGE], *FRAME))}
+
+
+def reactions(k: int) -> dict[str, dict[str, float]]:
+    """Some forces and approaches of step `k`, side by side."""
+    return {
+        side: dict(zip(REACTION, (900.0 * m * math.sin(k), -1500.0 + 300.0 * k, 5.0 * m, 7e-5 + 1e-6 * k), strict=True))
+        for side, m in zip(SIDES, (1.0, -1.0), strict=True)
+    }
+
+
+def inputs(k: int) -> dict[str, float]:
+    """The same by the names of the FMU's inputs."""
+    return {f"{side}.{name}": v for side, forces in reactions(k).items() for name, v in forces.items()}
+
+
+def trajectory(fmu: Instance, start: int) -> list[dict[str, float]]:
+    """Three steps with changing forces from step `start`."""
+    rows = []
+    for k in range(start, start + 3):
+        fmu.update(inputs(k))
+        fmu.step(k * 1e-3)
+        rows.append(fmu.all("output"))
+    return rows
+
+
+def reported(model: WheelsetModel) -> dict[str, float]:
+    """All outputs of the model by their names."""
+    columns = {port: DirectWheelset(model).read(port) for port in WHEELSET_PORTS if port not in INPUT_PORTS}
+    return {
+        n: v for port, column in columns.items() for n, v in zip(WHEELSET_PORTS[port], column.tolist(), strict=True)
+    }
+
+
+def commands(kind: int) -> str:
+    """For `host/script.c`: three steps, or derivatives at three states."""
+    at = {scalar.name: reference for reference, scalar in enumerate(table().scalars)}
+    lines = [f"s {at['initial.lateral']} 0.005", "i"]
+    for k in range(3):
+        lines += [f"s {at[name]} {value!r}" for name, value in inputs(k).items()]
+        if kind:
+            lines += [f"d {k * 1e-3!r} 0.001", *(f"g {r}" for name, r in at.items() if name in NUMBERS)]
+        else:
+            states = (0.002 * k, 1e-3, 0.01 * k, 0.02, 61.0, 1.0, 2.0, 3.0)
+            lines += [f"t {k * 1e-3!r}", f"x {len(states)} {' '.join(map(repr, states))}"]
+    return "\n".join(lines)
