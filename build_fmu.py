@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import time
-from importlib.util import find_spec
 from pathlib import Path
 
 try:
@@ -55,14 +54,9 @@ def main() -> None:
             print(_size(python.build(model, arguments.out)))
         build_system(arguments.out)
     if arguments.packaging != "python":
-        for model in filter(native_too, chosen):
+        for model in chosen:
             build_native(model, arguments.out / "native")
         build_system(arguments.out / "native")
-
-
-def native_too(model: Model) -> bool:
-    """Whether there is a native component of this model."""
-    return find_spec(f"fmu_src.native.{model.name}") is not None
 
 
 def build_native(model: Model, folder: Path) -> None:
