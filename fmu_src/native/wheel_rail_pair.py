@@ -22,8 +22,6 @@ from contact._layout import (
     CASE_TANGENTIAL,
     MAX_PATCHES,
     N_CASE,
-    N_RES,
-    N_STRIP_ROWS,
 )
 from contact.damage import DamageParameters
 from contact.damage._kernel import (
@@ -48,8 +46,6 @@ from contact.geometry.settle import DEEPEST, GIVEN_Z, NO_OVERLAP, NOT_SETTLED, T
 from contact.geometry.settle import LOAD as UNDER_LOAD
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.geometry.workspace import N_STRIPS as SEARCH_STRIPS
-from contact.geometry.workspace import Search
-from contact.normal.analyn import N_WORK_ROWS
 from contact.pair.kernel import N_TOTAL, Bench, solve_pair
 from contact.pair.layout import (
     N_CONTACT,
@@ -66,6 +62,7 @@ from contact.pair.layout import (
 from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
 from fmu_src.native.memory import ahead, compiled, cube, matrix, vector
+from fmu_src.native.search import lay_out as search_arrays
 from fmu_src.native.solver import INTERACTING, NORMAL_IDS, TANGENTIAL_IDS, data, fill, lay_out, memory_size
 from fmu_src.profiles import MAGIC
 from fmu_src.tables.wheel_rail_pair import LOAD_KIND, PATCH, PATCHES, RAIL, SIDE, WHEEL, table
@@ -135,22 +132,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         n_strips, n_elements = int(v[at.resolution_n_strips]), int(v[at.resolution_n_elements])
         samples, capacity = int(v[at.resolution_n_samples]), MAX_PATCHES * n_strips
         memory, _, end = start(v, work, resources)
-        wheel, end = matrix(work, end, 3, n_wheel)
-        rail, end = matrix(work, end, 3, n_rail)
-        motion, end = vector(work, end, rows.N_MOTION)
-        patches, end = matrix(work, end, MAX_PATCHES, rows.N_PATCH)
-        separations, end = cube(work, end, MAX_PATCHES, rows.N_SEP_ROWS, samples)
-        line, end = matrix(work, end, rows.N_LINE_ROWS, n_wheel)
-        placed, end = matrix(work, end, 3, n_rail)
-        lobe, end = matrix(work, end, rows.MAX_LOBES, rows.N_LOBE)
-        wheel_plane, end = matrix(work, end, rows.N_LINE_ROWS, n_wheel)
-        rail_plane, end = matrix(work, end, 3, n_rail)
-        search_case, end = vector(work, end, N_CASE)
-        search_nodes, end = vector(work, end, SEARCH_STRIPS)
-        search_weights, end = vector(work, end, SEARCH_STRIPS)
-        search_work, end = matrix(work, end, N_WORK_ROWS, samples)
-        search_strips, end = matrix(work, end, N_STRIP_ROWS, MAX_PATCHES * SEARCH_STRIPS)
-        search_result, end = vector(work, end, N_RES)
+        search, end = search_arrays(work, end, n_wheel, n_rail, 0, samples, SEARCH_STRIPS)
         own, end = lay_out(
             work, end, memory[1 : 1 + piece_size(v)], n_strips, n_elements, samples, centre, plane
         )  # fmt: skip
@@ -160,11 +142,6 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         damage, end = vector(work, end, N_DAMAGE)
         contacts, end = matrix(work, end, MAX_PATCHES, N_CONTACT)
         total, end = vector(work, end, N_TOTAL)
-        anywhere, _ = vector(work, end, 0)
-        search = Search(
-            wheel, rail, motion, anywhere, patches, separations, line, placed, lobe, wheel_plane, rail_plane,
-            search_case, search_nodes, search_weights, search_work, search_strips, search_result,
-        )  # fmt: skip
         bench = Bench(search, own, case, memory, parameters, damage_fields, damage, contacts, total)
         return bench, end
 

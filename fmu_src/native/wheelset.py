@@ -18,15 +18,9 @@ from contact.geometry import profile
 from contact.geometry.layout import (
     COMBINE_ANGLE,
     COMBINE_DISTANCE,
-    MAX_LOBES,
     MIRROR,
     MOST_PATCHES,
     N_GIVEN,
-    N_LINE_ROWS,
-    N_LOBE,
-    N_MOTION,
-    N_PATCH,
-    N_SEP_ROWS,
     ORIGIN_Y,
     RADIUS,
     TAPE,
@@ -34,9 +28,9 @@ from contact.geometry.layout import (
 from contact.geometry.prepare import N_PROFILE_ROWS, cut, facing, rail_origin, turn
 from contact.geometry.profile import Profile
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
-from contact.geometry.workspace import Search
 from fmu_src.native.component import Component
-from fmu_src.native.memory import compiled, cube, matrix, vector
+from fmu_src.native.memory import compiled, matrix, vector
+from fmu_src.native.search import lay_out
 from fmu_src.tables.wheelset import table
 from fmu_src.variables import Table
 from models.wheelset import dynamics, motion
@@ -46,6 +40,7 @@ from models.wheelset.ports import CREEPAGE, LOAD, POINTS
 _WHEEL, _RAIL = WheelsetParameters().wheel, profile.rail_60e1(inclination=0.0)
 _N_WHEEL, _N_RAIL = _WHEEL.y.size, _RAIL.y.size
 _GAUGE_POINT = WheelsetParameters().gauge_point
+_REMEMBERED = 1 + sum(math.prod(shape) for shape in motion.REMEMBERED.values())
 #: Unit → change of a variable for difference quotients: small against 0.1 mm, in which a flange root changes the geometry,
 #: large against round-off; forces enter linearly. Other units are those of parameters.
 _DIFFERENCES = {"m": 1e-7, "rad": 1e-6, "1": 1e-6, "m/s": 1e-5, "rad/s": 1e-4, "N": 1.0, "N.m": 1.0, "J": 1.0}
@@ -79,31 +74,8 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
     differences = np.array([_DIFFERENCES.get(s.unit, 1e-6 * abs(s.first)) for s in table.scalars])
 
     @compiled
-    def search(work, at, n_wheel, n_rail):
-        """The arrays of a search for a given position; one under a load would need more."""
-        wheel, _ = matrix(work, at, 3, n_wheel)
-        rail, _ = matrix(work, at + 3 * _N_WHEEL, 3, n_rail)
-        end = at + 3 * _N_WHEEL + 3 * _N_RAIL
-        pose, end = vector(work, end, N_MOTION)
-        grid, end = vector(work, end, POINTS)
-        patches, end = matrix(work, end, MAX_PATCHES, N_PATCH)
-        separations, end = cube(work, end, MAX_PATCHES, N_SEP_ROWS, POINTS)
-        line, end = matrix(work, end, N_LINE_ROWS, _N_WHEEL)
-        placed, end = matrix(work, end, 3, _N_RAIL)
-        lobe, end = matrix(work, end, MAX_LOBES, N_LOBE)
-        wheel_plane, end = matrix(work, end, N_LINE_ROWS, _N_WHEEL)
-        rail_plane, end = matrix(work, end, 3, _N_RAIL)
-        none, _ = vector(work, end, 0)
-        nothing, _ = matrix(work, end, 0, 0)
-        found = Search(
-            wheel, rail, pose, grid, patches, separations, line, placed, lobe, wheel_plane, rail_plane, none, none, none,
-            nothing, nothing, none,
-        )  # fmt: skip
-        return found, end
-
-    @compiled
-    def arrange(work):
-        """Lay all arrays into `work`; return them and how many numbers they are.
+    def arrange(work, n_wheel, n_rail):
+        """Lay all arrays into `work` for curves of so many nodes; return them and how many numbers they are.
 
         What is remembered begins with a number that is not zero once the wheelset stands on its rails.
         """
@@ -120,18 +92,25 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         resultants, end = vector(work, end, 5)
         problems, end = matrix(work, end, 2, LOAD + 1)
         rates, end = vector(work, end, dynamics.N_STATE)
-        powers, remembered = vector(work, end, dynamics.N_ENERGY)
-        constants, end = vector(work, remembered, dynamics.N_CONSTANTS)
+        powers, end = vector(work, end, dynamics.N_ENERGY)
+        sizes, end = vector(work, end, 2)
+        constants, end = vector(work, end, dynamics.N_CONSTANTS)
         given, end = vector(work, end, N_GIVEN)
         turned, end = matrix(work, end, N_PROFILE_ROWS, _N_RAIL)
-        sizes, end = vector(work, end, 2)
-        right, end = search(work, end, int(sizes[0]), int(sizes[1]))
-        left, end = search(work, end, int(sizes[0]), int(sizes[1]))
+        right, end = lay_out(work, end, n_wheel, n_rail, POINTS, POINTS, 0)
+        left, end = lay_out(work, end, n_wheel, n_rail, POINTS, POINTS, 0)
         wheelset = motion.Wheelset(
             constants, state, energy, height, irregularity, forces, approach, frames, axle, loads, resultants, problems,
             rates, powers, given, right, left,
         )  # fmt: skip
-        return wheelset, begun, turned, sizes, remembered, end
+        return wheelset, begun, turned, sizes, end
+
+    @compiled
+    def prepared(work):
+        """Return the wheelset as `model_prepare` has laid it out, and the number with which memory begins."""
+        sizes, _ = vector(work, _REMEMBERED, 2)
+        wheelset, begun, _, _, _ = arrange(work, int(sizes[0]), int(sizes[1]))
+        return wheelset, begun
 
     @compiled
     def begin(v, w):
@@ -178,10 +157,10 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         )  # fmt: skip
 
     def model_memory(values, wheel, rail):
-        return arrange(values)[4]
+        return _REMEMBERED
 
     def model_size(values, wheel, rail):
-        return arrange(values)[5]
+        return arrange(values, _N_WHEEL, _N_RAIL)[4]
 
     @compiled
     def prepare_search(v, found, mirror, origin_y, origin_z):
@@ -197,7 +176,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
 
     def model_prepare(values, work, wheel, rail):
         v = carray(values, (n_values,))
-        _, _, turned, sizes, _, _ = arrange(work)
+        _, _, turned, sizes, _ = arrange(work, _N_WHEEL, _N_RAIL)
         wheel_rows = carray(wheel, (N_PROFILE_ROWS, _N_WHEEL))
         turn(carray(rail, (N_PROFILE_ROWS, _N_RAIL)), -math.atan(v[at.rail_inclination]), turned)
         origin_y, origin_z, deepest = rail_origin(turned, v[at.track_gauge], _GAUGE_POINT)
@@ -206,7 +185,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         wheel_from, wheel_to = facing(wheel_rows, True)
         rail_from, rail_to = facing(turned, False)
         sizes[0], sizes[1] = wheel_to - wheel_from, rail_to - rail_from
-        w, _, _, _, _, _ = arrange(work)
+        w, _ = prepared(work)
         w.given[:] = 0.0
         for found, mirror in ((w.right, 1.0), (w.left, -1.0)):
             cut(wheel_rows, wheel_from, wheel_to, found.wheel)
@@ -227,7 +206,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
 
     def model_start(values, work, wheel, rail):
         v = carray(values, (n_values,))
-        w, _, _, _, _, _ = arrange(work)
+        w, _ = prepared(work)
         failure = begin(v, w)
         if failure == motion.MET:
             report(v, w)
@@ -235,7 +214,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
 
     def model_outputs(values, work, h, wheel, rail):
         v = carray(values, (n_values,))
-        w, begun, _, _, _, _ = arrange(work)
+        w, begun = prepared(work)
         failure = motion.MET
         if h > 0.0:
             if begun[0] == 0.0:
