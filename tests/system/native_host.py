@@ -10,6 +10,8 @@ import numpy as np
 from contact_case import NAME
 from random_cases import OUTPUTS, POINTS, Case
 
+from contact._layout import MAX_PATCHES
+from contact.solve import N_ELEMENTS, N_STRIPS
 from fmu_src.catalogue import models
 from fmu_src.native import source
 from fmu_src.native.packaging import HEADERS, compiler, kernels, run
@@ -40,7 +42,8 @@ class Host:
         (folder / "model.h").write_text(source.header(component(POINTS), self.guid))
         self.program = folder / f"host{program}"
         libraries = ["-ldl", "-lpthread", "-lm"] if own == "linux64" else []
-        flags = ["-std=gnu11", "-O1", f"-I{folder}", f"-I{HEADERS}", *extra]
+        elements = MAX_PATCHES * N_STRIPS * N_ELEMENTS
+        flags = ["-std=gnu11", "-O1", f"-DELEMENTS={elements}", f"-I{folder}", f"-I{HEADERS}", *extra]
         sources = [HOST / name for name in ("common.c", *code)]
         run(*compiler(own), *flags, *sources, "-o", self.program, *libraries)
         self.prefix = [] if own == "linux64" else ["wine"]

@@ -14,7 +14,10 @@ from fmu_instance import DISCARD, ERROR, refused
 from random_cases import random_case
 
 import contact
-from contact.solve import N_STRIPS
+from contact._layout import MAX_PATCHES
+from contact.solve import N_ELEMENTS, N_STRIPS
+
+SHAPE = (MAX_PATCHES, N_STRIPS, N_ELEMENTS)
 
 FIELDS = {
     "field.x": "x",
@@ -82,7 +85,7 @@ def test_an_array_is_one_variable(native_fmi3):
     variables = {v.name: v for v in fmpy.read_model_description(str(native_fmi3)).modelVariables}
     assert variables["geometry.g"].shape == variables["geometry.A"].shape == (41,)
     assert variables["creep_stiffness"].shape == (3, 3)
-    assert all(variables[name].shape == (4, 30, 30) for name in FIELDS)
+    assert all(variables[name].shape == SHAPE for name in FIELDS)
     assert variables["resolution.n_strips"].causality == "structuralParameter"
     assert {v.type for v in variables.values()} == {"Float64", "Int64", "UInt64", "Boolean", "Enumeration"}
 
@@ -138,9 +141,9 @@ def test_simulates_with_fmpy(native, native_fmi3, kind):
         str(native_fmi3), output=[*names, "field.pressure", "field.area", "field.stick"], **options
     )
     assert all(np.array_equal(two[name], three[name]) for name in ("time", *names))
-    assert three["field.pressure"].shape == (11, 4, 30, 30)
+    assert three["field.pressure"].shape == (11, *SHAPE)
     np.testing.assert_allclose(np.sum(three["field.pressure"] * three["field.area"], (1, 2, 3)), 80e3, rtol=1e-12)
-    assert three["field.stick"][-1].sum() < three["field.stick"][0].sum() == 900
+    assert three["field.stick"][-1].sum() < three["field.stick"][0].sum() == N_STRIPS * N_ELEMENTS
 
 
 def test_an_array_is_started_with_fmpy(native_fmi3):
@@ -260,7 +263,7 @@ def test_fields_have_directional_derivatives(open_native_fmi3, known):
     fmu = pose(open_native_fmi3("ModelExchange"))
     fmu.update({"creepage.longitudinal": 0.05})
     fmu.initialize()
-    slopes = derivative(fmu, ["creep_stiffness", "field.traction_x"], [known])[9:].reshape(4, 30, 30)
+    slopes = derivative(fmu, ["creep_stiffness", "field.traction_x"], [known])[9:].reshape(SHAPE)
     at, found = fmu[known], []
     for sign in (1.0, -1.0):
         fmu.update({known: at * (1.0 + sign * 1e-5)})

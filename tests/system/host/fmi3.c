@@ -21,7 +21,7 @@
 #define DECLARE(f) static fmi3##f##TYPE *f;
 FUNCTIONS(DECLARE)
 
-enum { SAMPLES = V_geometry_A - V_geometry_g, ELEMENTS = 4 * 30 * 30 };
+enum { SAMPLES = V_geometry_A - V_geometry_g }; /* ELEMENTS of a field comes from who compiles this */
 static const fmi3ValueReference load = V_load_normal_force, force = V_force_x, method = V_method_normal,
                                 strips = V_resolution_n_strips, gap = V_geometry_g, pressure = V_field_pressure,
                                 stick = V_field_stick, seconds = V_time;
