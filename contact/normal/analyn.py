@@ -123,11 +123,12 @@ def prepare(y, g, A, n, y_least, g_least, reach, work):
     lobe = g_least + reach / LEAST_ONE_BETA
     stride = max(1, int(0.2 * CURVATURE_HALF_BASE * (n - 1) / (y[n - 1] - y[0])))
     left_end = (n - 1) // 2 // stride * stride
+    right_start = n - 1 - left_end
     start = locate(y, n, y_least, 0)
-    if start <= left_end:
-        start = start // stride * stride
+    if start >= right_start:
+        start -= (start - right_start) % stride
     else:
-        start = max(left_end, start - (start - (n - 1 - left_end)) % stride)
+        start = min(start // stride * stride, left_end)
     below, above = 0, 0
     B, below, above = lateral_curvature(y, g, work[GAP_SLOPE], n, start, below, above)
     _prepare_sample(A, B, g, g_least, start, work)
