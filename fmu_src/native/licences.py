@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from importlib.metadata import distribution
 from pathlib import Path
 
 from fmu_src.native.libm import ZIG
+
+_OWN = Path(__file__).parents[2] / "LICENSE"  # FMUs are built from the source tree
 
 _OVERVIEW = """\
 What is in this FMU, and under which licence:
@@ -26,12 +27,10 @@ def licences(headers: Path) -> Iterator[tuple[str, str]]:
 
     The library for Linux has nothing linked into it that is not ours.
     """
-    own = distribution("wheelrail-contact").read_text("licenses/LICENSE")
-    assert own is not None
     interface = (headers / "fmi2Functions.h").read_text()
     interface = interface[interface.index("Copyright") :]
     yield "license.txt", _OVERVIEW
-    yield "wheelrail-contact.txt", own
+    yield "wheelrail-contact.txt", _OWN.read_text()
     yield "fmi.txt", interface[: interface.index("*/")].rstrip() + "\n"
     for name, path in (
         ("zig", "LICENSE"),
