@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 from contact.errors import require_number
 
+LARGEST_CREEPAGE = 1e6  # of a creepage [-] and a spin [1/m]: slip beyond any use, and far from where squares overflow
+
 
 @dataclass(frozen=True, slots=True)
 class Creepage:
@@ -33,4 +35,4 @@ class Creepage:
 
     def __post_init__(self) -> None:
         for name in ("longitudinal", "lateral", "spin"):
-            require_number(f"creepage.{name}", getattr(self, name), -1e6, 1e6)
+            require_number(f"creepage.{name}", getattr(self, name), -LARGEST_CREEPAGE, LARGEST_CREEPAGE)

@@ -37,7 +37,7 @@ from contact._layout import (
     RES_SLIP_AREA,
     RES_STATUS,
 )
-from contact.creepage import Creepage
+from contact.creepage import LARGEST_CREEPAGE, Creepage
 from contact.errors import ContactError
 from contact.material import STEEL, Material
 from contact.pipeline import solve_cases
@@ -119,7 +119,7 @@ def forces(
     columns = [
         _checked("load", load, 0.0) if load is not None else _checked("approach", approach, -np.inf),
         *(
-            _checked(f"creepage.{name}", value, -1e6, 1e6)
+            _checked(f"creepage.{name}", value, -LARGEST_CREEPAGE, LARGEST_CREEPAGE)
             for name, value in zip(("longitudinal", "lateral", "spin"), creepage, strict=True)
         ),
         _checked("friction", friction, 0.0),

@@ -32,6 +32,7 @@ from contact._layout import (
     STRIP_XC,
     STRIP_Y,
 )
+from contact.creepage import LARGEST_CREEPAGE
 from contact.damage._kernel import (
     DAMAGE_ARCHARD_VOLUME,
     DAMAGE_DISSIPATION,
@@ -110,6 +111,12 @@ class Bench(NamedTuple):
     damage: Array
     contacts: Array
     total: Array
+
+
+@kernel
+def _bounded(creepage):
+    """Creepage within its range; a wheelset almost at rest leaves it, deep in full slip."""
+    return min(max(creepage, -LARGEST_CREEPAGE), LARGEST_CREEPAGE)
 
 
 @kernel
@@ -210,8 +217,8 @@ def solve_pair(mode, amount, given, bench):
     for k in range(n):
         patch, sep, contact = search.patches[k], search.separations[k], bench.contacts[k]
         case[CASE_LOAD] = patch[layout.PATCH_LOAD] if mode == UNDER_LOAD else patch[layout.PATCH_APPROACH]
-        case[CASE_VX], case[CASE_VY] = patch[layout.PATCH_VX], patch[layout.PATCH_VY]
-        case[CASE_PHI] = patch[layout.PATCH_PHI]
+        case[CASE_VX], case[CASE_VY] = _bounded(patch[layout.PATCH_VX]), _bounded(patch[layout.PATCH_VY])
+        case[CASE_PHI] = _bounded(patch[layout.PATCH_PHI])
         of_patch = Space(
             space.grid, space.vectors, space.logs, space.matrix, space.lu, memory[1 + k * piece : 1 + (k + 1) * piece],
             space.lanes, space.trace,

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from functools import cache
 
 from contact._layout import MAX_PATCHES
+from contact.creepage import LARGEST_CREEPAGE
 from fmu_src.tables import solver
 from fmu_src.variables import Enumeration, Table, Variable, output, parameter, signal
 
@@ -108,9 +109,20 @@ def _inputs(points: int) -> Iterable[Variable]:
             minimum=0.0,
             open_minimum=True,
         )
-    yield signal("creepage.longitudinal", "Longitudinal creepage, wheel minus rail", start=0.0, nominal=1e-3)
-    yield signal("creepage.lateral", "Lateral creepage, wheel minus rail", start=0.0, nominal=1e-3)
-    yield signal("creepage.spin", "Spin creepage, wheel minus rail", unit="rad/m", start=0.0, nominal=0.1)
+    for name, description, unit, nominal in (
+        ("longitudinal", "Longitudinal creepage", "1", 1e-3),
+        ("lateral", "Lateral creepage", "1", 1e-3),
+        ("spin", "Spin creepage", "rad/m", 0.1),
+    ):
+        yield signal(
+            f"creepage.{name}",
+            f"{description}, wheel minus rail",
+            unit=unit,
+            start=0.0,
+            minimum=-LARGEST_CREEPAGE,
+            maximum=LARGEST_CREEPAGE,
+            nominal=nominal,
+        )
     yield signal(
         "load.normal_force",
         "Normal force, used when load.kind = NormalForce",
