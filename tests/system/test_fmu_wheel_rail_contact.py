@@ -190,7 +190,7 @@ def test_a_patch_beyond_the_separation_is_reported_once(fmu):
     [
         ("geometry.g[7]", math.nan, "]-inf, inf["),
         ("geometry.A[1]", -1.0, "[0, inf["),
-        ("creepage.spin", math.inf, "]-inf, inf["),
+        ("creepage.spin", math.inf, "[-1e+06, 1e+06]"),
         ("load.normal_force", -1.0, "[0, inf["),
         ("friction.coefficient", math.nan, "[0, inf["),
         ("speed", 0.0, "]0, inf["),
