@@ -13,9 +13,12 @@ from contact.registry import Method, Methods, methods
 from contact.separation import Separation
 from contact.solution import Solution, Status, Strips
 from contact.solve import solve
+from contact.study import Case, Comparison, compare
 
 __all__ = [
     "STEEL",
+    "Case",
+    "Comparison",
     "ContactError",
     "Creepage",
     "Forces",
@@ -27,6 +30,7 @@ __all__ = [
     "Solution",
     "Status",
     "Strips",
+    "compare",
     "forces",
     "hertz",
     "methods",

@@ -19,7 +19,7 @@ from typing import Any
 
 from numba import config, njit
 
-_WITHOUT_KERNELS = ("cli", "plot")
+_WITHOUT_KERNELS = ("cli", "plot", "study")
 
 
 @cache

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import functools
 import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any
 
 import numpy as np
 import typer
@@ -15,14 +14,14 @@ from rich.console import Console
 import contact
 from contact.cli import options as opt
 from contact.cli import problem, report
-from contact.cli.output import drawing, stop, write_csv, write_picture
+from contact.cli.compare import compare
+from contact.cli.output import drawing, reported, write_csv, write_picture
 from contact.cli.plugins import add_plugins
 from contact.cli.problem import Position, Touch
 from contact.creepage import Creepage
-from contact.errors import ContactError, require_number
+from contact.errors import require_number
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, methods
 
-Command = TypeVar("Command", bound=Callable[..., None])
 PICTURE_RESOLUTION = {"n_strips": 60, "n_elements": 60}
 
 app = typer.Typer(
@@ -34,19 +33,6 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-
-
-def reported(command: Command) -> Command:
-    """Let a command end with a message on stderr and exit code 2 when it gets bad input."""
-
-    @functools.wraps(command)
-    def wrapper(*args: Any, **kwargs: Any) -> None:
-        try:
-            command(*args, **kwargs)
-        except ContactError as error:
-            stop(str(error), 2)
-
-    return wrapper  # type: ignore[return-value]
 
 
 @app.command()
@@ -177,6 +163,9 @@ def curve(
         write_csv(rows, table)
     if plot is not None:
         write_picture(drawing().curve(values, curves, xlabel=axis, ylabel=f"{ordinate} [-]", limit=friction), plot)
+
+
+app.command()(compare)
 
 
 @app.command("methods")

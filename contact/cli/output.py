@@ -2,14 +2,30 @@
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Sequence
+import functools
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, NoReturn, TypeVar
 
 import typer
 
 from contact.errors import ContactError
+from contact.study.files import csv_of, write
+
+Command = TypeVar("Command", bound=Callable[..., None])
+
+
+def reported(command: Command) -> Command:
+    """Let a command end with a message on stderr and exit code 2 when it gets bad input."""
+
+    @functools.wraps(command)
+    def wrapper(*args: Any, **kwargs: Any) -> None:
+        try:
+            command(*args, **kwargs)
+        except ContactError as error:
+            stop(str(error), 2)
+
+    return wrapper  # type: ignore[return-value]
 
 
 def drawing() -> Any:
@@ -21,27 +37,13 @@ def drawing() -> Any:
     return plot
 
 
-PICTURES = (".png", ".pdf", ".svg")
-
-
 def write_picture(figure: Any, path: Path) -> None:
-    if path.suffix.lower() not in PICTURES:  # matplotlib would append one and write elsewhere than it says
-        raise ContactError(f"{path} cannot be written: a picture ends in one of {', '.join(PICTURES)}")
-    try:
-        figure.savefig(path)
-    except OSError as error:
-        raise ContactError(f"{path} cannot be written: {error}") from None
+    write(path, {}, lambda: figure)
     typer.echo(f"wrote {path}", err=True)
 
 
 def write_csv(rows: Sequence[dict[str, Any]], path: Path) -> None:
-    try:
-        with path.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, list(rows[0]))
-            writer.writeheader()
-            writer.writerows(rows)
-    except OSError as error:
-        raise ContactError(f"{path} cannot be written: {error.strerror}") from None
+    write(path, {".csv": lambda: csv_of(rows)})
     typer.echo(f"wrote {path}", err=True)
 
 

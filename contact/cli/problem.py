@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -58,28 +58,37 @@ def profile_named(name: str, kind: str, inclination: float, unit: str | None, dr
     return profile.read(name, kind=kind, unit=unit, side=drawn)  # type: ignore[arg-type]
 
 
-def solve_position(
-    case: Position, load: float | None, penetration: float | None, creepage: Creepage | None, options: dict[str, Any]
-) -> list[Touch]:
-    """Every patch of the wheels asked for; `load` [N] is the vertical load of each wheel."""
-    load = _load(load, penetration)
-    motion = Velocity(forward=case.speed)
-    touches = []
+def find_patches(case: Position, load: float | None, penetration: float | None) -> Iterator[tuple[str, int, Patch]]:
+    """Side, number and place of every patch of the wheels asked for; `load` [N] is the vertical load of each wheel."""
+    load = standard_load(load, penetration)
     for side in case.sides:
         found = wheelset.contacts(
             case.wheel,
             case.rail,
             case.pose,
-            motion,
+            Velocity(forward=case.speed),
             load=load,
             penetration=penetration,
             side=side,
             nominal_radius=case.radius,
         )
         for number, patch in enumerate(found, 1):
-            amount = {"approach": patch.approach} if load is None else {"load": patch.load}
-            solution = solve(patch.separation, creepage or patch.creepage, speed=case.speed, **amount, **options)
-            touches.append(Touch(solution, side, patch, number))
+            yield side, number, patch
+
+
+def amount_of(patch: Patch) -> dict[str, Any]:
+    """The load of a patch where it was found from one, else its approach."""
+    return {"approach": patch.approach} if patch.load is None else {"load": patch.load}
+
+
+def solve_position(
+    case: Position, load: float | None, penetration: float | None, creepage: Creepage | None, options: dict[str, Any]
+) -> list[Touch]:
+    """Every patch of the wheels asked for; `load` [N] is the vertical load of each wheel."""
+    touches = []
+    for side, number, patch in find_patches(case, load, penetration):
+        solution = solve(patch.separation, creepage or patch.creepage, speed=case.speed, **amount_of(patch), **options)
+        touches.append(Touch(solution, side, patch, number))
     return touches
 
 
@@ -91,7 +100,7 @@ def solve_hertzian(
     options: dict[str, Any],
 ) -> Touch:
     """The patch of two constant half curvatures [1/m] under a normal load."""
-    load = _load(load, approach)
+    load = standard_load(load, approach)
     separation = Separation.hertzian(*curvatures)
     return Touch(solve(separation, creepage or Creepage(), load=load, approach=approach, **options))
 
@@ -116,7 +125,8 @@ def sweep(
     return rows
 
 
-def _load(load: float | None, penetration: float | None) -> float | None:
+def standard_load(load: float | None, penetration: float | None) -> float | None:
+    """The load [N], that of a standard wheel when neither is given."""
     if load is not None and penetration is not None:
         raise ContactError(f"load = {load:g} and penetration = {penetration:g} exclude each other")
     return STANDARD_LOAD if load is None and penetration is None else load

@@ -14,6 +14,7 @@ from contact.damage import Damage, evaluate
 from contact.geometry.wheelset import Patch
 from contact.registry import Method, Methods
 from contact.solution import Solution
+from contact.study.table import number
 
 PLACE: Sequence[tuple[str, str, Callable[[Patch], float]]] = (
     ("contact angle", "°", lambda p: math.degrees(p.angle)),
@@ -64,15 +65,15 @@ def show(touches: Sequence[Touch], title: str, wheel_radius: float, console: Con
         table.add_column(touch.name, justify="right")
     if touches[0].patch is not None:
         for label, unit, value in PLACE:
-            table.add_row(label, unit, *(_number(value(t.patch)) for t in touches if t.patch is not None))
+            table.add_row(label, unit, *(number(value(t.patch)) for t in touches if t.patch is not None))
         table.add_section()
     for label, unit, of_solution in CONTACT:
-        table.add_row(label, unit, *(_number(of_solution(t.solution)) for t in touches))
+        table.add_row(label, unit, *(number(of_solution(t.solution)) for t in touches))
     table.add_row("status", "", *(t.solution.status.name.lower().replace("_", " ") for t in touches))
     table.add_section()
     damages = [evaluate(t.solution, wheel_radius) for t in touches]
     for label, unit, of_damage in DAMAGE:
-        table.add_row(label, unit, *(_number(of_damage(d)) for d in damages))
+        table.add_row(label, unit, *(number(of_damage(d)) for d in damages))
     console.print(table)
 
 
@@ -142,11 +143,3 @@ def show_curve(
     for k, value in enumerate(values):
         table.add_row(f"{value:.5g}", *(f"{column[k]:.4f}" for column in relative.values()))
     console.print(table)
-
-
-def _number(value: float) -> str:
-    """Four significant digits, without exponent where a reader can do without."""
-    if value == 0.0 or 1e-3 <= abs(value) < 1e5:
-        digits = 3 if value == 0.0 else max(0, 3 - math.floor(math.log10(abs(value))))
-        return f"{value:.{min(digits, 6)}f}" if value else "0"
-    return f"{value:.3e}"

@@ -9,8 +9,9 @@ try:
 except ImportError as missing:
     raise ImportError("contact.plot needs matplotlib: pip install 'wheelrail-contact[plot]'") from missing
 
+from contact.plot.comparison import comparison
 from contact.plot.lines import curve, time_histories
 from contact.plot.patches import patch
 from contact.plot.position import Wheel, position
 
-__all__ = ["Wheel", "curve", "patch", "position", "time_histories"]
+__all__ = ["Wheel", "comparison", "curve", "patch", "position", "time_histories"]

@@ -6,25 +6,42 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.plot.style import MM
+from contact.registry import methods
 from contact.solution import Solution
 
 Array = NDArray[np.float64]
 
 
+def has_fields(solution: Solution) -> bool:
+    """Whether there are traction, slip and stick over the patch."""
+    return methods().tangential[solution.tangential].fields
+
+
 class PatchMesh:
-    """Patch `k` of a solution, lengths in millimetres; arrays have the strips of this patch alone."""
+    """Patch `k` of a solution, lengths in millimetres; arrays have the strips of this patch alone.
+
+    Elements of a half space that lie outside the patch are drawn onto its outline. Of a tangential method that gives forces
+    alone there are the outline and the pressure.
+    """
 
     def __init__(self, solution: Solution, k: int) -> None:
         own = solution.strips.patch == k
         self.y = MM * solution.strips.y[own]
         self.centre, self.a = MM * solution.strips.x_c[own], MM * solution.strips.a[own]
         self.edges = MM * solution.patch_edges[k]
-        self.x, self.dA, self.stick = MM * solution.x[own], solution.dA[own], solution.stick[own]
+        back, front = (self.centre + sign * self.a for sign in (-1.0, 1.0))
+        self.x = np.clip(MM * solution.x[own], back[:, None], front[:, None])
+        self.inside = solution.p[own] > 0.0
+        self.dA = np.where(self.inside, solution.dA[own], 0.0)
+        self.has_fields = has_fields(solution)
+        self._own = own
+        if not self.has_fields:
+            return
+        self.stick = solution.stick[own]
         self.qx, self.qy = solution.qx[own], solution.qy[own]
         self._slip = np.hypot(solution.sx[own], solution.sy[own])
         bound = solution.friction * solution.p[own]
         self._reserve = np.maximum(1.0 - np.hypot(self.qx, self.qy) / np.where(bound > 0.0, bound, 1.0), 0.0)
-        self._own = own
 
     def of(self, field: Array) -> Array:
         """The part of a field of the solution that belongs to this patch."""
@@ -51,14 +68,19 @@ class PatchMesh:
         the boundary moves as either zone vanishes.
         """
         distance = np.empty(self.x.shape)
-        for i, (x, stick) in enumerate(zip(self.x, self.stick, strict=True)):
-            changes = np.flatnonzero(stick[1:] != stick[:-1])
+        for i, (x, stick, inside) in enumerate(zip(self.x, self.stick, self.inside, strict=True)):
+            changes = np.flatnonzero((stick[1:] != stick[:-1]) & inside[1:] & inside[:-1])
             if changes.size:
                 boundaries = np.array([self._boundary(i, int(j)) for j in changes])
             else:
-                boundaries = np.array([self.centre[i] + (-self.a[i] if stick[0] else self.a[i])])
+                sticks = bool(stick[inside].any())
+                boundaries = np.array([self.centre[i] + (-self.a[i] if sticks else self.a[i])])
             distance[i] = np.abs(x[:, None] - boundaries).min(axis=1)
-        return np.where(self.stick, -distance, distance)
+        # elements outside go with the nearest one inside
+        n = self.x.shape[1]
+        first, last = np.argmax(self.inside, axis=1), n - 1 - np.argmax(self.inside[:, ::-1], axis=1)
+        nearest = np.clip(np.arange(n), first[:, None], last[:, None])
+        return np.where(np.take_along_axis(self.stick, nearest, axis=1), -distance, distance)
 
     def _boundary(self, i: int, j: int) -> float:
         """Where the boundary lies between the centres of elements j and j + 1 of strip i.
@@ -81,15 +103,15 @@ class PatchMesh:
         """
         points = np.stack([np.repeat(self.y, self.x.shape[1]), self.x.ravel()])
         few = slice(None, None, 1 + points.shape[1] // 1000)
-        stick, dA = self.stick.ravel(), self.dA.ravel()
+        stick, inside, dA = self.stick.ravel(), self.inside.ravel(), self.dA.ravel()
         places = {}
-        for name, zone in (("stick", stick), ("slip", ~stick)):
+        for name, zone in (("stick", stick & inside), ("slip", ~stick & inside)):
             if dA[zone].sum() > least_share * dA.sum():
-                inside = points[:, zone][:, few]
+                own = points[:, zone][:, few]
                 around = np.hstack([points[:, ~zone][:, few], self.outline()])
-                room = np.hypot(*(inside[:, :, None] - around[:, None, :])).min(axis=1)
+                room = np.hypot(*(own[:, :, None] - around[:, None, :])).min(axis=1)
                 if room.max() >= least_room:
-                    y, x = inside[:, room.argmax()].tolist()
+                    y, x = own[:, room.argmax()].tolist()
                     places[name] = (y, x)
         return places
 

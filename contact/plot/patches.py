@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from contact.damage import evaluate
 from contact.errors import ContactError
-from contact.plot.mesh import PatchMesh
+from contact.plot.mesh import PatchMesh, has_fields
 from contact.plot.style import DPI, FAINT, INK, colour_map, nice, style
 from contact.solution import Solution
 
@@ -63,7 +63,7 @@ def patch(
     if ax is not None and len(solutions) > 1:
         raise ContactError(f"ax takes one solution; {len(solutions)} are given")
     titles = titles or [""] * len(solutions)
-    scale = Scale(solutions)
+    scale = EnergyScale(solutions)
     with style():
         if ax is not None:
             figure = ax.figure
@@ -88,22 +88,19 @@ def patch(
 
 
 class Scale:
-    """What the panels of one figure have in common."""
+    """What the panels of one figure have in common; `together` shows the same place in all."""
 
-    def __init__(self, solutions: Sequence[Solution]) -> None:
+    def __init__(self, solutions: Sequence[Solution], together: bool = False) -> None:
         touching = [s for s in solutions if s.p.size]
         meshes = [PatchMesh(s, k) for s in touching for k in range(s.n_patches)]
         self.pressure = 0.0, nice(max((s.max_pressure for s in touching), default=1e6) * 1e-6)
-        self.traction = max((float(np.hypot(s.qx, s.qy).max()) for s in touching), default=0.0)
-        energies = [evaluate(s).energy_index.field for s in touching]
-        top = max((float(e.max()) for e in energies), default=0.0)
-        bottom = min((float(e.min()) for e in energies), default=0.0)
-        self.energy_unit, self.energy_factor = ("MPa", 1e-6) if top >= 0.1e6 else ("kPa", 1e-3)
-        high, low = (nice(max(e, 1.0) * self.energy_factor) for e in (top, -bottom))
-        self.energy = (-low if bottom < -0.01 * top else 0.0, high)
+        self.traction = max((float(np.hypot(s.qx, s.qy).max()) for s in touching if has_fields(s)), default=0.0)
         # a window that holds every solution with a margin, half its size [mm]
-        boxes = [box(s) for s in solutions]
-        sizes = np.array([(y1 - y0, x1 - x0) for y0, y1, x0, x1 in boxes])
+        boxes = np.array([box(s) for s in (touching if together and touching else solutions)])
+        if together:
+            boxes = np.stack([boxes[:, 0::2].min(axis=0), boxes[:, 1::2].max(axis=0)]).T.reshape(1, 4)
+        self.box = boxes[0] if together else None
+        sizes = boxes[:, 1::2] - boxes[:, 0::2]
         self.half_y, self.half_x = 0.5 * sizes.max(axis=0) + 0.1 * sizes.max()
         largest = max((m.dA.sum() for m in meshes), default=0.0)
         main = [m for m in meshes if m.dA.sum() > 0.1 * largest]
@@ -111,9 +108,9 @@ class Scale:
         window = max(self.half_x, self.half_y)
         self.spacing = max(min(0.17 * window, 0.25 * narrowest), 0.06 * window)
 
-    def figure_size(self, n: int) -> tuple[float, float]:
-        """Width and height [inch] for n columns."""
-        inch = min(1.8 / max(self.half_y, self.half_x), 5.5 / (n * self.half_y), 0.25)  # per mm
+    def figure_size(self, n: int, panel: float = 3.6) -> tuple[float, float]:
+        """Width and height [inch] for n columns of panels whose longer side is at most `panel`."""
+        inch = min(0.5 * panel / max(self.half_y, self.half_x), 5.5 / (n * self.half_y), 0.25)  # per mm
         width, height = max(2.0 * self.half_y * inch, 2.2), max(2.0 * self.half_x * inch, 1.6)
         return max(n * (width + 0.15) + 1.6, 4.6), 2.0 * height + 1.75
 
@@ -124,6 +121,19 @@ class Scale:
         return separator.join((longest if self.traction else "no traction", "dashed: boundary of stick and slip"))
 
 
+class EnergyScale(Scale):
+    """And the limits of the energy index."""
+
+    def __init__(self, solutions: Sequence[Solution]) -> None:
+        super().__init__(solutions)
+        energies = [evaluate(s).energy_index.field for s in solutions if s.p.size]
+        top = max((float(e.max()) for e in energies), default=0.0)
+        bottom = min((float(e.min()) for e in energies), default=0.0)
+        self.energy_unit, self.energy_factor = ("MPa", 1e-6) if top >= 0.1e6 else ("kPa", 1e-3)
+        high, low = (nice(max(e, 1.0) * self.energy_factor) for e in (top, -bottom))
+        self.energy = (-low if bottom < -0.01 * top else 0.0, high)
+
+
 def _pressure(ax: Axes, solution: Solution, title: str, scale: Scale) -> ScalarMappable:
     """Pressure and tractions of one solution; returns what the colour bar needs."""
     numbers = "no contact"
@@ -132,9 +142,20 @@ def _pressure(ax: Axes, solution: Solution, title: str, scale: Scale) -> ScalarM
             f"N = {solution.N * 1e-3:.3g} kN,  $p_0$ = {solution.max_pressure * 1e-6:.4g} MPa\n"
             f"area {solution.area * 1e6:.3g} mm²,  slip {100.0 * solution.slip_ratio:.0f} %"
         )
+    heading(ax, title, numbers)
+    colours = window(ax, solution, solution.p * 1e-6, colour_map("Blues", 0.75), scale.pressure, scale)
+    arrows(ax, solution, scale)
+    return colours
+
+
+def heading(ax: Axes, title: str, numbers: str) -> None:
+    """A bold title, and below it two lines of numbers."""
     ax.set_title(numbers, loc="left", fontsize=8.0, linespacing=1.35)
     ax.annotate(title, (0.0, 1.0), (0.0, 32.0), xycoords="axes fraction", textcoords="offset points", weight="bold")
-    colours = _window(ax, solution, solution.p * 1e-6, colour_map("Blues", 0.75), scale.pressure, scale)
+
+
+def arrows(ax: Axes, solution: Solution, scale: Scale) -> None:
+    """Tractions on the wheel on a square raster."""
     for k in range(solution.n_patches):
         y, x, qy, qx = PatchMesh(solution, k).arrows(scale.spacing)
         seen = np.hypot(qx, qy) > 0.1 * scale.traction  # shorter ones would be dots
@@ -153,21 +174,25 @@ def _pressure(ax: Axes, solution: Solution, title: str, scale: Scale) -> ScalarM
                 headaxislength=4.5,
                 zorder=3,
             )
+
+
+def _energy(ax: Axes, solution: Solution, scale: EnergyScale) -> ScalarMappable:
+    """Energy index of one solution and the names of its zones; returns what the colour bar needs."""
+    values = evaluate(solution).energy_index.field * scale.energy_factor
+    colours = window(ax, solution, values, colour_map("YlOrRd", 0.85, *scale.energy), scale.energy, scale)
+    zones(ax, solution, scale)
     return colours
 
 
-def _energy(ax: Axes, solution: Solution, scale: Scale) -> ScalarMappable:
-    """Energy index of one solution and the names of its zones; returns what the colour bar needs."""
-    values = evaluate(solution).energy_index.field * scale.energy_factor
-    colours = _window(ax, solution, values, colour_map("YlOrRd", 0.85, *scale.energy), scale.energy, scale)
+def zones(ax: Axes, solution: Solution, scale: Scale) -> None:
+    """The names of the zones of stick and slip."""
     halo = [patheffects.withStroke(linewidth=2.5, foreground="white", alpha=0.8)]
     for k in range(solution.n_patches):
         for name, place in PatchMesh(solution, k).labels(least_room=0.04 * scale.half_y).items():
             ax.text(*place, name, ha="center", va="center", fontsize=8.0, clip_on=True, path_effects=halo)
-    return colours
 
 
-def _window(
+def window(
     ax: Axes, solution: Solution, values: Array, colours: Colormap, limits: tuple[float, float], scale: Scale
 ) -> ScalarMappable:
     """A field, the outline and the stick/slip boundary of every patch in the common window."""
@@ -181,10 +206,10 @@ def _window(
             norm=norm,
             rasterized=True,
         )
-        if mesh.stick.any() and not mesh.stick.all():
+        if mesh.has_fields and mesh.stick[mesh.inside].any() and not mesh.stick[mesh.inside].all():
             ax.contour(*mesh.closed(mesh.slip_distance()), levels=[0.0], colors=INK, linewidths=1.1, linestyles="--")
         ax.plot(*mesh.outline(), color=INK, lw=1.0)
-    low_y, high_y, low_x, high_x = box(solution)
+    low_y, high_y, low_x, high_x = box(solution) if scale.box is None else scale.box
     centre_y, centre_x = 0.5 * (low_y + high_y), 0.5 * (low_x + high_x)
     ax.set(
         xlim=(centre_y - scale.half_y, centre_y + scale.half_y),

@@ -1,0 +1,133 @@
+"""Cases to be compared: from a file, or from the options of `contact solve`, whose names the file uses too.
+
+TOML or JSON hold the cases under `case`, and above them what all have in common; CSV has one case a line under a line of names.
+Creepages and curvatures are lists, in CSV numbers with blanks between. What neither says is taken from the command line.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import tomllib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from contact.cli.problem import Position, amount_of, find_patches, profile_named, standard_load
+from contact.creepage import Creepage
+from contact.errors import ContactError, require_number
+from contact.geometry.wheelset import Pose
+from contact.separation import Separation
+from contact.study import Case
+
+_TEXTS = ("name", "wheel", "rail", "unit", "drawn_side", "side")
+_NUMBERS = ("inclination", "radius", "y", "roll", "yaw", "speed", "load", "penetration", "friction")
+_LISTS = {"creepage": 3, "curvatures": 2}
+_SIDES = {"left": ("left",), "right": ("right",), "both": ("left", "right")}
+
+
+def read(path: Path, defaults: Mapping[str, Any]) -> list[Case]:
+    """The cases of a file.
+
+    Raises
+    ------
+    ContactError
+        A file that cannot be read, holds no case, an unknown name or a value that is none.
+    """
+    readers = {".toml": _toml, ".json": _json, ".csv": _csv}
+    reader = readers.get(path.suffix.lower())
+    if reader is None:
+        raise ContactError(f"{path} cannot be read: a file of cases ends in one of {', '.join(readers)}")
+    try:
+        common, cases = reader(path.read_text(encoding="utf-8-sig"))
+    except OSError as error:
+        raise ContactError(f"{path} cannot be read: {error.strerror}") from None
+    except ValueError as error:  # also what tomllib and json raise, and bytes that are no UTF-8
+        raise ContactError(f"{path} cannot be read: {error}") from None
+    if not cases:
+        raise ContactError(f"{path} holds no case")
+    found: list[Case] = []
+    for k, case in enumerate(cases, 1):
+        where = f"{path}, case {k}"
+        if not isinstance(case, Mapping):
+            raise ContactError(f"{where}: {case!r} is not a table of names and values")
+        given = {name: _value(where, name, value) for name, value in (common | dict(case)).items()}
+        found += cases_of({"name": f"case {k}", **defaults, **given})
+    return found
+
+
+def cases_of(given: Mapping[str, Any]) -> list[Case]:
+    """One case a contact patch, from values under the names of the options; none without contact."""
+    creepage = None if given["creepage"] is None else Creepage(*given["creepage"])
+    common = {"friction": given["friction"], "speed": given["speed"]}
+    load, penetration, name = given["load"], given["penetration"], given.get("name", "")
+    if given["curvatures"] is not None:
+        A, B = given["curvatures"]
+        load = standard_load(load, penetration)
+        return [
+            Case(
+                Separation.hertzian(A, B),
+                creepage or Creepage(),
+                load=load,
+                approach=penetration,
+                name=name or f"half curvatures {A:g} and {B:g} 1/m",
+                **common,
+            )
+        ]
+    if given["side"] not in _SIDES:
+        raise ContactError(f"side = {given['side']!r} is none of {', '.join(_SIDES)}")
+    wheel, rail = (
+        profile_named(given[kind], kind, given["inclination"], given["unit"], given["drawn_side"])
+        for kind in ("wheel", "rail")
+    )
+    pose = Pose(y=given["y"], roll=given["roll"], yaw=given["yaw"])
+    position = Position(wheel, rail, _SIDES[given["side"]], pose, given["speed"], given["radius"])
+    found = list(find_patches(position, load, penetration))
+    name = name or f"y = {1e3 * pose.y:g} mm, yaw {1e3 * pose.yaw:g} mrad"
+    return [
+        Case(
+            patch.separation,
+            creepage or patch.creepage,
+            name=f"{name}, {side} {number}" if len(found) > 1 else name,
+            **amount_of(patch),
+            **common,
+        )
+        for side, number, patch in found
+    ]
+
+
+def _toml(text: str) -> tuple[dict[str, Any], Sequence[Any]]:
+    return _split(tomllib.loads(text))
+
+
+def _json(text: str) -> tuple[dict[str, Any], Sequence[Any]]:
+    content = json.loads(text)
+    return ({}, content) if isinstance(content, list) else _split(content)
+
+
+def _csv(text: str) -> tuple[dict[str, Any], Sequence[Any]]:
+    lines = csv.DictReader(line for line in text.splitlines() if line.strip() and not line.startswith("#"))
+    cases = list(lines)
+    if any(None in case or None in case.values() for case in cases):
+        raise ValueError("a line has more or fewer cells than names")
+    return {}, [{name.strip(): cell.strip() for name, cell in case.items() if cell.strip()} for case in cases]
+
+
+def _split(content: Any) -> tuple[dict[str, Any], Sequence[Any]]:
+    if not isinstance(content, dict) or not isinstance(content.get("case"), list):
+        raise ValueError("there is no list of cases called 'case'")
+    return {name: value for name, value in content.items() if name != "case"}, content["case"]
+
+
+def _value(where: str, name: str, value: Any) -> Any:
+    """The value under a name of the file, checked for its kind; ranges are the solver's business."""
+    if name in _TEXTS:
+        return str(value)
+    if name in _NUMBERS:
+        return require_number(f"{where}: {name}", value)
+    if name in _LISTS:
+        parts = value.split() if isinstance(value, str) else value
+        if not isinstance(parts, list) or len(parts) != _LISTS[name]:
+            raise ContactError(f"{where}: {name} = {value!r} is not a list of {_LISTS[name]} numbers")
+        return tuple(require_number(f"{where}: {name}", part) for part in parts)
+    raise ContactError(f"{where}: unknown name {name!r}; allowed: {', '.join((*_TEXTS, *_NUMBERS, *_LISTS))}")

@@ -1,0 +1,133 @@
+"""The command `compare`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from contact.cli import cases
+from contact.cli import options as opt
+from contact.cli.output import reported
+from contact.cli.progress import progress_bar
+from contact.solve import N_ELEMENTS
+from contact.study import SELECTION, Comparison, Row
+from contact.study import compare as compare_methods
+from contact.study.compare import REFERENCE_ELEMENTS
+from contact.study.files import PICTURES, require_ending
+from contact.study.table import Column, errors_of, title_of, values_of
+
+COMPARED = "Comparison"
+File = Annotated[
+    Path | None,
+    typer.Argument(help="cases in .toml, .json or .csv, under the names of the options", show_default=False),
+]
+Methods = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--method",
+        help="normal+tangential, like analyn+fastrip; repeat. Default: " + ", ".join(map(str, SELECTION)),
+        rich_help_panel=COMPARED,
+    ),
+]
+All = Annotated[bool, typer.Option("--all", help="every normal with every tangential method", rich_help_panel=COMPARED)]
+Without = Annotated[
+    bool, typer.Option("--no-reference", help="leave the half space out, and the errors", rich_help_panel=COMPARED)
+]
+Resolution = Annotated[
+    int, typer.Option(help="strips, and elements a strip, of the methods", rich_help_panel=COMPARED, show_default=True)
+]
+Elements = Annotated[
+    int, typer.Option(help="rows and columns of the half space over the overlap", rich_help_panel=COMPARED)
+]
+Files = Annotated[
+    list[Path] | None,
+    typer.Option("--out", help="write .html, .json, .csv, .png, .pdf or .svg; repeat", rich_help_panel=opt.OUTPUT),
+]
+
+
+@reported
+def compare(
+    file: File = None,
+    wheel: opt.WheelName = "s1002",
+    rail: opt.RailName = "60e1",
+    inclination: opt.Inclination = 0.025,
+    unit: opt.Unit = None,
+    drawn_side: opt.Drawn = None,
+    radius: opt.Radius = 0.46,
+    side: opt.Sides = opt.Side.right,
+    y: opt.Y = 0.0,
+    roll: opt.Roll = 0.0,
+    yaw: opt.Yaw = 0.0,
+    speed: opt.Speed = 20.0,
+    load: opt.Load = None,
+    penetration: opt.Penetration = None,
+    friction: opt.Friction = 0.3,
+    creepage: opt.Creep = None,
+    curvatures: opt.Curvatures = None,
+    methods: Methods = None,
+    every: All = False,
+    without: Without = False,
+    resolution: Resolution = N_ELEMENTS,
+    reference_elements: Elements = REFERENCE_ELEMENTS,
+    as_json: opt.Json = False,
+    out: Files = None,
+) -> None:
+    """Solve the same contact with several methods: forces, patches, times, errors against the half space.
+
+    Examples:  contact compare --y 3e-3 --yaw 2e-3 --out page.html   ·   contact compare cases.toml --all --out table.csv
+    """
+    for path in out or []:
+        require_ending(path, (".html", ".json", ".csv", *PICTURES))  # before minutes of work
+    given: dict[str, Any] = {
+        "wheel": wheel, "rail": rail, "inclination": inclination, "unit": unit, "drawn_side": drawn_side,
+        "radius": radius, "side": side.value, "y": y, "roll": roll, "yaw": yaw, "speed": speed, "load": load,
+        "penetration": penetration, "friction": friction, "creepage": creepage, "curvatures": curvatures,
+    }  # fmt: skip
+    problems = cases.cases_of(given) if file is None else cases.read(file, given)
+    if not problems:
+        Console().print("no contact: there is nothing to compare")
+        return
+    with progress_bar() as bar:
+        found = compare_methods(
+            problems,
+            [*(methods or []), "all"] if every else (methods or SELECTION),
+            reference=not without,
+            n_strips=resolution,
+            n_elements=resolution,
+            reference_elements=reference_elements,
+            progress=bar,
+        )
+    if as_json:
+        typer.echo(found.json())
+    else:
+        show(found, Console())
+    for path in out or []:
+        found.write(path)
+        typer.echo(f"wrote {path}", err=True)
+
+
+def show(found: Comparison, console: Console) -> None:
+    """Print the tables of a comparison, case by case."""
+    for case, rows, _ in found.by_case():
+        console.print(f"[bold]{title_of(case)}[/bold]")
+        console.print(_table(values_of(case), rows))
+        if found.has_reference:
+            console.print("errors against the half space, % (force of µN, moment of µN√(area/π))")
+            console.print(_table(errors_of(case), [row for row in rows if row.errors is not None]))
+
+
+def _table(columns: Sequence[Column], rows: Sequence[Row]) -> Table:
+    table = Table(box=box.SIMPLE_HEAD, header_style="bold", pad_edge=False, collapse_padding=True)
+    table.add_column("method", no_wrap=True)
+    for column in columns:
+        table.add_column(f"{column.heading}\n[dim]{column.unit}[/dim]", justify="right", vertical="bottom")
+    for row in rows:
+        status = "" if row.status in ("OK", "SATURATED") else f"\n[red]{row.status.lower().replace('_', ' ')}[/red]"
+        table.add_row(f"{row.normal}\n+ {row.tangential}{status}", *(column.cell(row) for column in columns))
+    return table

@@ -1,0 +1,110 @@
+"""Solutions of one problem by several methods, side by side: pressure above, traction with stick and slip below."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.figure import Figure, FigureBase
+
+from contact.errors import ContactError
+from contact.plot.mesh import PatchMesh, has_fields
+from contact.plot.patches import Scale, arrows, heading, window, zones
+from contact.plot.style import DPI, FAINT, colour_map, nice, style
+from contact.solution import Solution
+
+#: Most inches along a side that a picture may have: beyond, it is too large for its readers.
+_LARGEST = 400.0
+
+
+def comparison(
+    groups: Sequence[tuple[str, Sequence[Solution]]], *, reference: bool = True, columns: int = 6, panel: float = 3.6
+) -> Figure:
+    """Draw solutions side by side, one group below the other; within a group all panels have the same scales.
+
+    Parameters
+    ----------
+    groups : sequence of (str, sequence of Solution)
+        Title of a problem, and its solutions by several methods, which name their panels.
+    reference : bool
+        The first solution of each group is the one that the others are compared with: its outline is drawn, dotted, in all.
+    columns : int
+        Most panels in a row, at least 1.
+    panel : float
+        Longer side of a panel [inch].
+
+    Raises
+    ------
+    ContactError
+        No group, a group without solution, more than a picture holds.
+    """
+    if not groups or not all(solutions for _, solutions in groups):
+        raise ContactError("groups is empty or holds an empty one; at least one solution is needed")
+    if columns < 1:
+        raise ContactError(f"columns = {columns} is outside the allowed range [1, inf[")
+    columns = min(columns, max(len(solutions) for _, solutions in groups))
+    rows: list[tuple[str, Sequence[Solution], Solution | None, Scale]] = []
+    for title, solutions in groups:
+        scale, true = Scale(solutions, together=True), solutions[0] if reference else None
+        rows += [
+            (title if first == 0 else "", solutions[first : first + columns], true, scale)
+            for first in range(0, len(solutions), columns)
+        ]
+    sizes = [scale.figure_size(columns, panel) for *_, scale in rows]
+    width, heights = max(w for w, _ in sizes), [h + 0.9 for _, h in sizes]
+    if sum(heights) > _LARGEST:
+        raise ContactError(f"{len(rows)} rows of panels are more than a picture holds; compare fewer methods or cases")
+    with style():
+        figure = Figure(figsize=(width, sum(heights)), dpi=DPI, layout="constrained")
+        parts = figure.subfigures(len(rows), 1, height_ratios=heights, squeeze=False)[:, 0]
+        for part, row in zip(parts, rows, strict=True):
+            _row(part, *row, columns)
+    return figure
+
+
+def _row(
+    figure: FigureBase, title: str, solutions: Sequence[Solution], true: Solution | None, scale: Scale, columns: int
+) -> None:
+    """One row of panels, two axes each."""
+    grid = figure.subplots(2, columns, squeeze=False, sharex=True, sharey=True)
+    if title:
+        figure.suptitle(title, x=0.01, ha="left", fontsize=11.0, weight="bold")
+    for column in grid.T[len(solutions) :]:
+        for ax in column:
+            ax.set_axis_off()
+    for (above, below), solution in zip(grid.T, solutions, strict=False):
+        pressure = _pressure(above, solution, scale)
+        traction = _traction(below, solution, scale)
+        if true is not None and true is not solution:
+            for ax in (above, below):
+                for k in range(true.n_patches):
+                    ax.plot(*PatchMesh(true, k).outline(), color=FAINT, lw=1.0, ls=":")
+        below.set_xlabel("y [mm]")
+    for axes, colours, label in zip(grid, (pressure, traction), ("pressure [MPa]", "traction [MPa]"), strict=True):
+        axes[0].set_ylabel("x [mm], rolling ↑")
+        figure.colorbar(colours, ax=list(axes), label=label, pad=0.02, aspect=20.0)
+
+
+def _pressure(ax: Axes, s: Solution, scale: Scale) -> ScalarMappable:
+    numbers = "no contact"
+    if s.p.size:
+        numbers = f"$p_0$ = {s.max_pressure * 1e-6:.4g} MPa\narea {s.area * 1e6:.3g} mm²"
+    heading(ax, f"{s.normal}\n+ {s.tangential}", numbers)
+    return window(ax, s, s.p * 1e-6, colour_map("Blues", 0.75), scale.pressure, scale)
+
+
+def _traction(ax: Axes, s: Solution, scale: Scale) -> ScalarMappable:
+    """Size of the traction, arrows, stick and slip; of a method without them its forces alone."""
+    limits = 0.0, nice(max(scale.traction, 1.0) * 1e-6)
+    numbers = f"$F_x$ = {s.Fx * 1e-3:.3g} kN,  $F_y$ = {s.Fy * 1e-3:.3g} kN".replace("-", "−")
+    known = has_fields(s)
+    share = f"slip {100.0 * s.slip_ratio:.0f} %" if known else "forces alone"
+    ax.set_title(f"{numbers}\n{share}", loc="left", fontsize=8.0)
+    values = np.hypot(s.qx, s.qy) * 1e-6 if known else np.zeros(s.p.shape)
+    colours = window(ax, s, values, colour_map("YlOrRd", 0.7), limits, scale)
+    if known:
+        arrows(ax, s, scale)
+        zones(ax, s, scale)
+    return colours

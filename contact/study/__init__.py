@@ -1,0 +1,20 @@
+"""Methods side by side: on single cases, on thousands, and on the benchmarks of the literature. No kernel imports this."""
+
+from contact.study.case import Case
+from contact.study.compare import compare
+from contact.study.comparison import Comparison, Row
+from contact.study.errors import Errors
+from contact.study.pairs import REFERENCE, SELECTION, Pair, every_pair, pairs_of
+
+__all__ = [
+    "REFERENCE",
+    "SELECTION",
+    "Case",
+    "Comparison",
+    "Errors",
+    "Pair",
+    "Row",
+    "compare",
+    "every_pair",
+    "pairs_of",
+]

@@ -1,0 +1,48 @@
+"""Files that comparisons are written to: what the ending of the name says."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from contact.errors import ContactError
+
+PICTURES = (".png", ".pdf", ".svg")
+
+
+def csv_of(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Rows with one set of names as CSV; None is an empty cell."""
+    text = io.StringIO()
+    writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def require_ending(path: str | Path, endings: Sequence[str]) -> str:
+    """Return the ending of the path in lower case, one of `endings`, or raise a ContactError."""
+    ending = Path(path).suffix.lower()
+    if ending not in endings:
+        raise ContactError(f"{path} cannot be written: a file ends in one of {', '.join(endings)}")
+    return ending
+
+
+def write(path: str | Path, texts: Mapping[str, Callable[[], str]], figure: Callable[[], Any] | None = None) -> None:
+    """Write the text that the function for the path's ending makes, or the figure as a picture.
+
+    Raises
+    ------
+    ContactError
+        Another ending, or a file that cannot be written.
+    """
+    ending = require_ending(path, [*texts, *(PICTURES if figure else ())])
+    try:
+        if ending in texts:
+            Path(path).write_text(texts[ending](), encoding="utf-8", newline="")
+        elif figure is not None:
+            figure().savefig(path)
+    except OSError as error:
+        raise ContactError(f"{path} cannot be written: {error.strerror or error}") from None

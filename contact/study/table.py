@@ -1,0 +1,97 @@
+"""Columns of the tables, for the terminal and for pages alike."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from contact.study.case import Case
+from contact.study.comparison import Row
+
+
+def number(value: float | None) -> str:
+    """Four significant digits, without exponent where a reader can do without; nothing for None."""
+    if value is None:
+        return ""
+    if value == 0.0 or 1e-3 <= abs(value) < 1e5:
+        digits = 3 if value == 0.0 else max(0, 3 - math.floor(math.log10(abs(value))))
+        return f"{value:.{min(digits, 6)}f}" if value else "0"
+    return f"{value:.3e}"
+
+
+def percent(value: float | None) -> str:
+    """Two decimals below ten, one above."""
+    if value is None:
+        return ""
+    return f"{value:.2f}" if abs(value) < 10.0 else f"{value:.1f}"
+
+
+def brief(value: float | None) -> str:
+    """Two significant digits of a time."""
+    return "" if value is None else f"{value:.2g}" if value < 100.0 else f"{value:.0f}"
+
+
+class Column(NamedTuple):
+    """Heading, unit, and what stands below it; None is an empty cell."""
+
+    heading: str
+    unit: str
+    value: Callable[[Row], float | None]
+    text: Callable[[float | None], str] = number
+
+    def cell(self, row: Row) -> str:
+        """What stands in the row."""
+        return self.text(self.value(row))
+
+
+def _scaled(name: str, factor: float) -> Callable[[Row], float | None]:
+    def value(row: Row) -> float | None:
+        found = getattr(row, name)
+        return None if found is None else factor * found
+
+    return value
+
+
+def _error(name: str) -> Callable[[Row], float | None]:
+    return lambda row: None if row.errors is None else 100.0 * getattr(row.errors, name)
+
+
+_LOAD, _APPROACH = Column("normal force", "kN", _scaled("N", 1e-3)), Column("approach", "µm", _scaled("approach", 1e6))
+_VALUES = (
+    Column("peak pressure", "MPa", _scaled("max_pressure", 1e-6)),
+    Column("area", "mm²", _scaled("area", 1e6)),
+    Column("stick area", "mm²", _scaled("adhesion_area", 1e6)),
+    Column("Fx", "kN", _scaled("Fx", 1e-3)),
+    Column("Fy", "kN", _scaled("Fy", 1e-3)),
+    Column("Mz", "N m", _scaled("Mz", 1.0)),
+    Column("time", "ms", _scaled("time", 1e3), brief),
+)
+_ERRORS = (
+    Column("force", "% of µN", _error("force"), percent),
+    Column("moment", "%", _error("moment"), percent),
+    Column("peak pressure", "%", _error("max_pressure"), percent),
+    Column("pressure field", "%", _error("pressure"), percent),
+    Column("area", "%", _error("area"), percent),
+)
+
+
+def values_of(case: Case) -> Sequence[Column]:
+    """Columns of the results, the approach or the normal force before, whichever was sought."""
+    return (_APPROACH if case.approach is None else _LOAD, *_VALUES)
+
+
+def errors_of(case: Case) -> Sequence[Column]:
+    """Columns of the errors against the half space."""
+    sought = ("approach", "approach") if case.approach is None else ("normal force", "N")
+    return (*_ERRORS, Column(sought[0], "%", _error(sought[1]), percent))
+
+
+def title_of(case: Case) -> str:
+    """Name and conditions of a case in a line."""
+    c = case.creepage
+    given = f"N = {case.load * 1e-3:g} kN" if case.load is not None else f"approach {1e6 * (case.approach or 0.0):g} µm"
+    return (
+        f"{case.name}: {given}, µ = {case.friction:g}, creepages {1e3 * c.longitudinal:.3g} ‰, "
+        f"{1e3 * c.lateral:.3g} ‰, {c.spin:.3g} 1/m"
+    )

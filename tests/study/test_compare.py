@@ -1,0 +1,196 @@
+"""`contact.compare`: what the rows hold, which methods go together, what the files hold."""
+
+import csv
+import io
+import json
+import math
+import re
+import subprocess
+import sys
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+import contact
+from contact.study import REFERENCE, SELECTION, every_pair, pairs_of
+from contact.study.table import number
+from tests.study.conftest import METHODS, problem
+
+
+def test_rows_are_what_solve_returns(small):
+    case = small.cases[0]
+    for (normal, tangential), row in zip(small.pairs[1:], small.rows[1:3], strict=True):
+        s = contact.solve(**case.arguments, normal=normal, tangential=tangential, n_strips=12, n_elements=12)
+        assert (row.normal, row.tangential, row.status) == (normal, tangential, "OK")
+        for name in ("N", "approach", "Fx", "Fy", "Mz", "max_pressure", "area"):
+            assert getattr(row, name) == getattr(s, name), name
+        assert row.adhesion_area == pytest.approx(s.area - s.slip_area, rel=1e-12)
+        assert row.time > 0.0
+
+
+def test_errors_are_measured_against_the_half_space(small):
+    true, _, analyn = small.rows[:3]
+    assert (true.normal, true.tangential, true.errors) == (*REFERENCE, None)
+    e, mu_n = analyn.errors, 0.3 * 60e3
+    assert e.force == pytest.approx(math.hypot(analyn.Fx - true.Fx, analyn.Fy - true.Fy) / mu_n, rel=1e-6)
+    assert e.moment == pytest.approx(abs(analyn.Mz - true.Mz) / mu_n / math.sqrt(true.area / math.pi), rel=1e-6)
+    assert e.max_pressure == pytest.approx(analyn.max_pressure / true.max_pressure - 1.0)
+    assert e.approach == pytest.approx(analyn.approach / true.approach - 1.0)
+    # ANALYN is exact on an ellipse, so its pressure differs by the grid's error alone
+    assert 0.0 < e.pressure < 0.05
+    assert abs(e.N) < 1e-9
+
+
+def test_a_gap_that_starts_elsewhere_changes_no_error():
+    s = contact.Separation.hertzian(1.1, 0.8)
+    lifted = contact.Separation(s.y, s.g + 1e-3, s.A)
+    errors = []
+    for separation in (s, lifted):
+        case = contact.Case(separation, contact.Creepage(), load=60e3)
+        errors.append(contact.compare(case, "kik_piotrowski+fastrip", reference_elements=12).rows[1].errors.approach)
+    assert errors[1] == pytest.approx(errors[0], rel=1e-6)
+    assert abs(errors[0]) > 0.02
+
+
+def test_no_contact_is_an_answer(small):
+    for row in small.rows[3:]:
+        assert (row.status, row.N, row.area, row.adhesion_area, row.errors) == ("NO_CONTACT", 0.0, 0.0, 0.0, None)
+
+
+def test_without_a_reference_there_are_no_errors():
+    found = contact.compare(problem(), "hertz+fastrip", reference=False)
+    assert [str(pair) for pair in found.pairs] == ["hertz+fastrip"]
+    assert found.rows[0].errors is None
+    assert not found.has_reference
+
+
+def test_forces_alone_have_no_stick_area(monkeypatch):
+    monkeypatch.setattr(type(REFERENCE), "has_fields", property(lambda pair: pair.tangential != "fastsim"))
+    rows = contact.compare(problem(), METHODS, reference=False).rows
+    assert rows[0].adhesion_area is None
+    assert rows[1].adhesion_area > 0.0
+    assert next(csv.DictReader(io.StringIO(contact.study.files.csv_of([rows[0].flat()]))))["adhesion_area"] == ""
+
+
+def test_pairs_go_by_name():
+    assert pairs_of("analyn+fastrip") == pairs_of([("analyn", "fastrip")]) == (("analyn", "fastrip"),)
+    assert pairs_of(["hertz+fastsim", "all"]) == (
+        ("hertz", "fastsim"),
+        *(pair for pair in every_pair() if pair != ("hertz", "fastsim")),
+    )
+    assert set(SELECTION) < set(every_pair())
+    assert REFERENCE in every_pair()
+    known = contact.methods()
+    assert len(every_pair()) == len(known.batched.normal) * len(known.tangential) + 1
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (lambda: contact.compare([]), "cases holds something else than contact.Case, or nothing"),
+        (lambda: contact.compare([problem(), problem()]), "two are called 'ellipse'"),
+        (lambda: contact.compare(problem(), "magic+fastrip"), "normal = 'magic'"),
+        (lambda: contact.compare(problem(), "analyn"), "'analyn' is not a normal and a tangential method"),
+        (lambda: contact.compare(problem(), "halfspace+fastrip"), "halfspace+fastrip does not go together"),
+        (lambda: contact.compare(problem(), [], reference=False), "methods is empty"),
+        (lambda: contact.compare(problem(), reference_elements=2), "reference_elements = 2"),
+        (lambda: contact.compare(problem(friction=-1.0)), "friction = -1"),
+        (lambda: problem(approach=1e-5), "exactly one of load and approach"),
+        (lambda: contact.Case(1.0, contact.Creepage(), load=1.0), "separation = 1.0"),
+    ],
+)
+def test_bad_input_is_named(given, message):
+    with pytest.raises(contact.ContactError, match=re.escape(message)):
+        given()
+
+
+def test_progress_runs_from_zero_to_one():
+    told = []
+    contact.compare(problem(), METHODS, reference_elements=8, progress=lambda share, what: told.append((share, what)))
+    shares = [share for share, _ in told]
+    assert shares[0] == 0.0
+    assert shares[-1] == 1.0
+    assert shares == sorted(shares)
+    assert any("halfspace+halfspace, step" in what for _, what in told)
+
+
+def test_json_and_csv_hold_every_number(small):
+    cases = json.loads(small.json())["cases"]
+    assert [case["name"] for case in cases] == ["ellipse", "apart"]
+    assert cases[0]["creepage"]["spin"] == 0.1
+    lines = list(csv.DictReader(io.StringIO(small.csv())))
+    assert len(lines) == len(small.rows) == 6
+    for k, (row, line) in enumerate(zip(small.rows, lines, strict=True)):
+        result = cases[k // 3]["results"][k % 3]
+        assert result["Fx"] == row.Fx == float(line["Fx"])
+        assert (line["error_force"] == "") == (row.errors is None)
+    assert "NaN" not in small.json()
+
+
+class _Page(HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.links, self.cells, self.tags = [], [], []
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        self.links += [value for name, value in attrs if name in ("src", "srcset", "href", "data")]
+
+    def handle_data(self, data):
+        self.cells.append(data.strip())
+
+
+def test_the_page_needs_nothing_from_outside(small):
+    pytest.importorskip("matplotlib")
+    text = small.html()
+    page = _Page()
+    page.feed(text)
+    assert page.tags.count("picture") == 2
+    assert len(page.links) == 4
+    assert all(link.startswith("data:image/png;base64,") for link in page.links)
+    assert not re.search(r"https?://|url\(|@import", text)
+    assert "script" not in page.tags
+    assert number(small.rows[0].max_pressure * 1e-6) in page.cells
+    assert "no contact" in page.cells
+
+
+def test_names_are_text_and_not_markup_on_the_page():
+    pytest.importorskip("matplotlib")
+    text = contact.compare(problem("<b>&"), "hertz+fastrip", reference=False).html()
+    assert "<b>&" not in text
+    assert "&lt;b&gt;&amp;" in text
+
+
+def test_pictures_show_one_panel_a_method(small, tmp_path):
+    pytest.importorskip("matplotlib")
+    figure = small.figure()
+    panels = [ax for part in figure.subfigs for ax in part.axes if ax.get_title(loc="left")]
+    assert len(panels) == 2 * len(small.rows)
+    limits = {(ax.get_xlim(), ax.get_ylim()) for ax in figure.subfigs[0].axes if ax.get_title(loc="left")}
+    assert len(limits) == 1
+    small.write(tmp_path / "picture.png")
+    assert (tmp_path / "picture.png").read_bytes()[:4] == b"\x89PNG"
+
+
+def test_stick_and_slip_are_named_inside_the_patch_of_a_half_space(small):
+    pytest.importorskip("matplotlib")
+    from contact.plot.mesh import PatchMesh
+
+    mesh = PatchMesh(small.solutions[0], 0)
+    places = mesh.labels()
+    assert set(places) == {"stick", "slip"}
+    for y, x in places.values():
+        half = np.interp(y, mesh.y, mesh.a)
+        assert abs(x) < half
+
+
+@pytest.mark.parametrize("name", ["table.txt", "nowhere/at/all.csv"])
+def test_files_that_cannot_be_written(small, tmp_path, name):
+    with pytest.raises(contact.ContactError, match="cannot be written"):
+        small.write(tmp_path / name)
+
+
+def test_import_of_contact_loads_no_picture_and_no_table_library():
+    code = "import contact, sys; print([m for m in ('matplotlib', 'rich', 'xarray', 'PIL') if m in sys.modules])"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"
