@@ -3,9 +3,10 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
+READY_FOR_DOCS := $(VENV)/.ready-for-docs
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint fmu accuracy bench coupling smoothness pictures format clean
+.PHONY: help demo docs test lint fmu accuracy bench coupling smoothness pictures format clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -50,6 +51,14 @@ coupling: $(READY) ## the largest stable steps of the coupling schemes, into doc
 bench: $(READY)  ## the speed table
 	PYTHONPATH=. $(BIN)/python benchmarks/speed.py
 	PYTHONPATH=. $(BIN)/python benchmarks/fmu_speed.py
+
+$(READY_FOR_DOCS): $(READY)
+	$(BIN)/python -m pip install --quiet --editable '.[docs]'
+	@touch $@
+
+docs: $(READY_FOR_DOCS) ## the documentation as a site, into build/docs/html; figures are computed (warnings are errors)
+	$(BIN)/python -m sphinx -W --keep-going -q -b html docs build/docs/html
+	@echo "build/docs/html/index.html"
 
 pictures: $(READY) ## the pictures of the README
 	$(BIN)/python docs/pictures/make.py

@@ -1,0 +1,73 @@
+"""The documentation site: `make docs` builds it into build/docs/html; warnings are errors."""
+
+from __future__ import annotations
+
+import hashlib
+import subprocess
+import sys
+from pathlib import Path
+
+from sphinx.application import Sphinx
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT))
+
+import contact  # noqa: E402
+
+project = "wheelrail-contact"
+author = "the wheelrail-contact authors"
+copyright = f"2026, {author}"
+release = version = contact.__version__
+
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx-mathjax-offline", "sphinx.ext.viewcode", "numpydoc"]
+exclude_patterns = ["pictures"]
+myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+
+html_theme = "furo"
+html_title = "wheelrail-contact"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+html_show_sourcelink = False
+
+# Docstrings name things in single backticks: a link where Sphinx knows the name, code where it does not.
+default_role = "py:obj"
+autodoc_typehints = "none"
+autodoc_member_order = "bysource"
+numpydoc_show_class_members = False
+
+
+def _sources() -> str:
+    """A key of what executed pages compute with besides their own text."""
+    digest = hashlib.sha256()
+    for folder in ("contact", "docs"):
+        for path in sorted((ROOT / folder).rglob("*.py")):
+            digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+# A page is executed again when its text or one of these sources has changed.
+nb_execution_mode = "cache"
+nb_execution_cache_path = str(ROOT / "build" / "docs" / "executed" / _sources())
+nb_execution_timeout = 600
+nb_execution_raise_on_error = True
+nb_execution_show_tb = True
+nb_code_prompt_show = "How this is drawn"
+nb_code_prompt_hide = "How this is drawn"
+
+
+def _escape_bars(app: Sphinx, what: str, name: str, item: object, options: object, lines: list[str]) -> None:
+    """In docstrings |F| is an absolute value, in reStructuredText a substitution."""
+    lines[:] = [line.replace("|", r"\|") for line in lines]
+
+
+def _append_variables(app: Sphinx, page: str, source: list[str]) -> None:
+    """The tables of the FMUs' variables come from the FMUs' own tables."""
+    if page == "fmu":
+        command = [sys.executable, ROOT / "build_fmu.py", "--describe"]
+        source[0] += subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def setup(app: Sphinx) -> None:
+    app.connect("autodoc-process-docstring", _escape_bars, priority=400)  # before numpydoc
+    app.connect("source-read", _append_variables)

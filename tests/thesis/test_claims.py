@@ -1,0 +1,114 @@
+"""What the thesis says of the methods in words, on CONTACT's own numbers (tests/reference) or our half space.
+
+The figures quoted in a test's name are the thesis'; errors are over mu N unless a test says otherwise. The pages under
+docs/thesis draw the same.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+import contact
+from benchmarks import accuracy
+from contact import kalker
+from contact.damage import evaluate
+from contact.geometry import profile, wheelset
+
+LOAD, C, MU = accuracy.N_ELLIPSE, 5e-3, accuracy.MU
+
+
+def worst(method: str, *curves: str) -> float:
+    """Largest force error of a method on the curves of that name, a/b from 0.2 to 5."""
+    errors = accuracy.errors_on_ellipses(method)["force"]
+    return max(e for e, row in zip(errors, accuracy.ellipses(), strict=True) if row["curve"] in curves)
+
+
+def on_circle(creepage: contact.Creepage, tangential: str, n: int = 40) -> contact.Solution:
+    return contact.solve(
+        accuracy.ellipse(1.0, C, LOAD), creepage, load=LOAD, friction=MU, normal="hertz", tangential=tangential,
+        n_strips=n, n_elements=n,
+    )  # fmt: skip
+
+
+def circular(kind: int) -> float:
+    """C11, C22, C23 or C33 of the circle."""
+    return kalker.coefficients(kalker.table(accuracy.STEEL.poisson_ratio), 0.0)[kind]
+
+
+@pytest.mark.parametrize(("curves", "limit"), [
+    (("xi", "eta"), 0.10),
+    (("xi_spin",), 0.10),
+    (("eta_spin_aid", "eta_spin_opp"), 0.20),
+])  # fmt: skip
+def test_fastsim_is_within_10_percent_and_within_20_with_lateral_creepage_and_spin(curves, limit):
+    assert worst("fastsim", *curves) <= limit
+
+
+def test_fastsim_needs_the_20_percent_with_lateral_creepage_and_spin():
+    assert worst("fastsim", "eta_spin_aid", "eta_spin_opp") > 0.10
+
+
+def test_fastrip_is_within_10_percent_where_fastsim_needs_20():
+    assert worst("fastrip", "xi", "eta") <= 0.03
+    assert worst("fastrip", "eta_spin_aid", "eta_spin_opp") <= 0.10
+
+
+def test_fastsim_is_off_by_more_than_25_percent_of_the_force_at_very_large_spin():
+    """Fig. 4.15: five times the spin at which the linear theory reaches mu N, on a circle."""
+    spin = 5.0 * MU * LOAD / (accuracy.STEEL.shear_modulus * C**3 * circular(2))
+    force = {
+        method: on_circle(contact.Creepage(spin=spin), method).Fy for method in ("fastsim", "fastrip", "halfspace")
+    }
+    assert force["fastsim"] / force["halfspace"] > 1.25
+    assert abs(force["fastrip"] / force["halfspace"] - 1.0) < 0.10
+
+
+def test_the_parabolic_bound_is_33_percent_too_high_in_the_middle():
+    """Fig. 7.5 and section 4.5: full slip, traction at the centre over mu p0; odd numbers put an element there."""
+    sol = on_circle(contact.Creepage(0.1), "fastsim", n=41)
+    largest = np.hypot(sol.qx, sol.qy).max() / (MU * sol.max_pressure)
+    assert largest == pytest.approx(4.0 / 3.0, rel=2e-3)
+    assert math.hypot(sol.Fx, sol.Fy) == pytest.approx(MU * LOAD, rel=1e-3)  # at the same total
+
+
+def test_lateral_creepage_turns_the_wheel_as_4_11_says_with_its_third_line_corrected():
+    """ERRATA 4.11: Mz = +C23 G c³ vy with Mz = ∫(x qy - y qx) dA."""
+    slope = 1e-3 * MU * LOAD / (accuracy.STEEL.shear_modulus * C**2 * circular(1))
+    sol = on_circle(contact.Creepage(lateral=slope), "halfspace", n=64)
+    assert sol.Mz == pytest.approx(circular(2) * accuracy.STEEL.shear_modulus * C**3 * slope, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    "penetration", ["kik_piotrowski", "kik_piotrowski_2008", "linder", "stripes_a", "stripes_ab", "kpec"]
+)
+def test_analyn_is_better_in_pressure_than_virtual_penetration(penetration):
+    """Chapter 9; mean over the real patches, at the same approach and at the same load."""
+    for by_load in (False, True):
+        ours, theirs = (accuracy.errors_of_normal(m, by_load)["L2"].mean() for m in ("analyn", penetration))
+        assert ours < theirs
+
+
+def test_hertz_and_fastsim_miss_the_zone_of_highest_energy_index():
+    """Chapter 9: S1002 on 60E1 at 1:40, wheelset in the middle, 80 kN, free rolling."""
+    patch = wheelset.contacts(
+        profile.s1002(), profile.rail_60e1(inclination=1 / 40), wheelset.Pose(), side="right", load=80e3
+    )[0]
+
+    def peak(normal, tangential):
+        sol = contact.solve(
+            patch.separation,
+            patch.creepage,
+            load=patch.load,
+            normal=normal,
+            tangential=tangential,
+            n_strips=50,
+            n_elements=50,
+        )
+        field = evaluate(sol).energy_index.field
+        i = np.unravel_index(np.argmax(field), field.shape)
+        return np.array([sol.x[i], sol.y[i]])
+
+    true = peak("halfspace", "halfspace")
+    assert np.hypot(*(peak("analyn", "fastrip") - true)) < 1e-3
+    assert np.hypot(*(peak("hertz", "fastsim") - true)) > 10e-3  # at the other end of the patch
