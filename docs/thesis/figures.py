@@ -18,6 +18,8 @@ from myst_nb import glue
 import contact
 from contact import kalker
 from contact.geometry import profile, wheelset
+from contact.halfspace.influence import integrals
+from contact.hertz import local_factors
 from contact.plot.style import INK, LINES, style
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
@@ -124,3 +126,37 @@ def arrows(ax: plt.Axes, solution: contact.Solution, every: int = 4) -> None:
     part = slice(every // 2, None, every)
     y, x, qy, qx = (field[part, part] for field in (solution.y, solution.x, solution.qy, solution.qx))
     ax.quiver(1e3 * y, 1e3 * x, qy, qx, color=INK, pivot="mid", width=0.006)
+
+
+def on_patch(patch: wheelset.Patch, normal: str, tangential: str = "fastrip", n: int = 60) -> contact.Solution:
+    """A real patch under its load, in free rolling."""
+    return contact.solve(
+        patch.separation, patch.creepage, load=patch.load, friction=MU, normal=normal, tangential=tangential,
+        n_strips=n, n_elements=n,
+    )  # fmt: skip
+
+
+def reference(patch: wheelset.Patch, n: int = 72) -> contact.Solution:
+    """The half space on that patch."""
+    return on_patch(patch, REFERENCE, REFERENCE, n)
+
+
+def displacement(solution: contact.Solution, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Normal displacement of the half space at points (x, y) under the pressure of a solution on a grid [m]."""
+    own_x, own_y, p = solution.grid
+    dx, dy = own_x[1] - own_x[0], own_y[1] - own_y[0]
+    I1, I2, _ = integrals(x[:, None, None] - own_x, y[:, None, None] - own_y[:, None], dx, dy)
+    return ((I1 + I2) * p).sum(axis=(1, 2)) / (np.pi * solution.material.contact_modulus)
+
+
+def assumed_displacement(
+    separation: contact.Separation, y: np.ndarray, a: np.ndarray, step: float = 1e-3
+) -> np.ndarray:
+    """ANALYN's displacement on the edge (a, y), alpha A a² + beta g (theory.md 3.1), with B over a fixed step [m]."""
+    A, g, before, behind = (
+        np.interp(y + shift, separation.y, values)
+        for values, shift in ((separation.A, 0.0), (separation.g, 0.0), (separation.g, -step), (separation.g, step))
+    )
+    B = np.maximum(0.5 * (before - 2.0 * g + behind) / step**2, 0.1)
+    alpha, beta = np.array([local_factors(*pair)[:2] for pair in zip(A, B, strict=True)]).T - 1.0
+    return alpha * A * a**2 + beta * g
