@@ -19,7 +19,10 @@ from typing import Any
 
 from numba import config, njit
 
-_WITHOUT_KERNELS = ("cli", "plot", "study")
+_WITHOUT_KERNELS = (
+    *("cli", "plot", "study"),
+    *(f"geometry/{name}.py" for name in ("en15302", "files", "outline", "profile", "rigid", "smoothing", "standard")),
+)
 
 
 @cache
@@ -29,10 +32,11 @@ def _cache_directory(package: str) -> str:
     fingerprint = hashlib.sha256()
     for root in sorted({own, *map(Path, getattr(sys.modules[package], "__path__", ()))}):
         for path in sorted(root.rglob("*.py")):
-            if path.relative_to(root).parts[0] in _WITHOUT_KERNELS:
+            source = path.relative_to(root)
+            if any(source.is_relative_to(part) for part in _WITHOUT_KERNELS):
                 continue
             stat = path.stat()
-            fingerprint.update(f"{path.relative_to(root)} {stat.st_mtime_ns} {stat.st_size}\n".encode())
+            fingerprint.update(f"{source} {stat.st_mtime_ns} {stat.st_size}\n".encode())
     base = Path(config.CACHE_DIR) if config.CACHE_DIR else own / "__pycache__"
     return str(base / f"kernels-{fingerprint.hexdigest()[:16]}")
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import NamedTuple
 
-from contact.errors import ContactError
+from contact.errors import ContactError, suggestion
 
 #: The methods of the thesis, used when none is named.
 DEFAULT_NORMAL, DEFAULT_TANGENTIAL = "analyn", "fastrip"
@@ -169,5 +169,5 @@ def lookup(kind: str, name: str, *, batched: bool = False) -> Method:
     known: MappingProxyType[str, Method] = getattr(_METHODS.batched if batched else _METHODS, kind)
     if name not in known:
         what = "offered here, but by contact.solve" if name in getattr(_METHODS, kind) else "a registered method"
-        raise ContactError(f"{kind} = {name!r} is not {what}; allowed: {', '.join(known)}")
+        raise ContactError(f"{kind} = {name!r} is not {what}{suggestion(name, known)}; allowed: {', '.join(known)}")
     return known[name]

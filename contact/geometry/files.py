@@ -25,11 +25,14 @@ from numpy.typing import NDArray
 
 from contact.errors import ContactError
 from contact.geometry.profile import Kind, Profile
+from contact.geometry.smoothing import smoothed
 
 Points = NDArray[np.float64]  # shape (n, 2): y, z
 
 UNITS = {"m": 1.0, "mm": 1e-3}
 NEAREST = 1e-6  # [m]
+NARROWEST, WIDEST = 0.03, 0.2  # [m] of a wheel or a rail's head
+_FLANGE = 0.015  # [m] that a point must lie below the middle of a wheel to be a flange's tip
 _KINDS: dict[str, Kind] = {".prw": "wheel", ".prr": "rail", ".whl": "wheel", ".ban": "rail"}
 _FLANGE_BACK = 0.070  # [m] from the tape circle
 
@@ -40,6 +43,7 @@ def read(
     kind: Kind | None = None,
     unit: Literal["m", "mm"] | None = None,
     side: Literal["right", "left"] | None = None,
+    smoothing: float | None = None,
 ) -> Profile:
     """Read a profile in the right-side convention of `contact.geometry.profile`.
 
@@ -53,11 +57,18 @@ def read(
         Unit of length; needed for plain columns, overrules the format's own otherwise.
     side : {"right", "left"}, optional
         Which side the file shows, seen from behind with y to the right; a left one is mirrored. Needed for plain columns.
+    smoothing : float, optional
+        Noise of the measurement [m], root mean square, which a smoothing spline takes out (needs scipy); by default the curve
+        goes through every point. The contact depends on tangents and curvatures, which are far noisier than points: 2 µm of
+        noise on points of S1002 0.25 mm apart leave errors (root mean square) of 9.6 mrad and 63 1/m, and with
+        ``smoothing=2e-6`` 1.5 mrad and 3.7 1/m; with half of it 6.7 mrad and 39 1/m, with twice as much 3.4 mrad and 5.3 1/m
+        while the points move by 3.3 µm.
 
     Raises
     ------
     ContactError
-        A file that cannot be read, holds no profile or contradicts `kind`; arguments that are missing or unknown.
+        A file that cannot be read, holds no profile or contradicts `kind`; arguments that are missing or unknown; a profile
+        narrower than 30 mm or wider than 200 mm, as in a wrong unit; a wheel with its flange on the field side.
     """
     path = Path(path)
     suffix = path.suffix.lower()
@@ -95,7 +106,28 @@ def read(
     points = _ordered(points)
     if len(points) < 4:
         raise ContactError(f"path = {str(path)!r} holds {len(points)} distinct points; at least 4 make a profile")
-    return Profile(kind, points[:, 0], points[:, 1], name=path.stem)  # type: ignore[arg-type]
+    _plausible(points, kind, path)
+    y, z = points.T
+    angle = None
+    if smoothing is not None:
+        y, z, angle = smoothed(y, z, smoothing)
+    return Profile(kind, y, z, angle, path.stem)  # type: ignore[arg-type]
+
+
+def _plausible(points: Points, kind: Kind | None, path: Path) -> None:
+    """Refuse a profile that only a wrong unit or a wrong side explains."""
+    y, z = points.T
+    width = y.max() - y.min()
+    if not NARROWEST <= width <= WIDEST:
+        raise ContactError(
+            f"path = {str(path)!r}: the profile is {width:g} m wide, outside the range [{NARROWEST:g}, {WIDEST:g}] of wheels "
+            f"and rails; set unit to 'm' or 'mm'"
+        )
+    deepest = np.argmax(z)
+    if kind == "wheel" and z[deepest] > np.median(z) + _FLANGE and y[deepest] > y.mean():
+        raise ContactError(
+            f"path = {str(path)!r}: the flange lies on the field side, at y = {y[deepest]:g} m; set side to the other side"
+        )
 
 
 def _simpack(lines: list[str], path: Path) -> tuple[Points, float]:

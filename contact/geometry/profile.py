@@ -8,7 +8,8 @@ the mirror image and uses the same record.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from os import PathLike
 from typing import Literal
@@ -16,12 +17,14 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.errors import ContactError, require_number
+from contact.errors import ContactError, require_number, suggestion
+from contact.geometry import outline, standard
+from contact.geometry.outline import SPACING, Arc, Segment, sloped, spline_slopes
+
+__all__ = ["SPACING", "Kind", "Profile", "cone", "named", "names", "rail_60e1", "rail_arc", "read", "s1002"]
 
 Array = NDArray[np.float64]
 Kind = Literal["wheel", "rail"]
-
-SPACING = 0.25e-3  # [m] of arc between two points of an analytic profile
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,98 +96,90 @@ def _points(name: str, values: object) -> Array:
 def _spline_angles(y: Array, z: Array, chord: Array) -> Array:
     """Tangent angles of the C² cubic spline (y, z) over the chord length, with not-a-knot replaced by parabolic ends."""
     u = np.concatenate(([0.0], np.cumsum(chord)))
-    return np.unwrap(np.arctan2(_spline_slopes(u, z), _spline_slopes(u, y)))
+    return np.unwrap(np.arctan2(spline_slopes(u, z), spline_slopes(u, y)))
 
 
-def _spline_slopes(u: Array, f: Array) -> Array:
-    """First derivatives of the interpolating C² cubic spline at its knots; the end segments are parabolas."""
-    h, d = np.diff(u), np.diff(f) / np.diff(u)
-    lower, upper = np.concatenate((h[1:], [1.0])), np.concatenate(([1.0], h[:-1]))
-    middle = np.concatenate(([1.0], 2.0 * (h[1:] + h[:-1]), [1.0]))
-    right = np.concatenate(([2.0 * d[0]], 3.0 * (h[1:] * d[:-1] + h[:-1] * d[1:]), [2.0 * d[-1]]))
-    for i in range(1, u.size):  # Thomas' algorithm; row i is lower[i-1], middle[i], upper[i]
-        factor = lower[i - 1] / middle[i - 1]
-        middle[i] -= factor * upper[i - 1]
-        right[i] -= factor * right[i - 1]
-    slopes = right / middle
-    for i in range(u.size - 2, -1, -1):
-        slopes[i] = (right[i] - upper[i] * slopes[i + 1]) / middle[i]
-    return slopes
+#: Name → outline of the wheels and the rail of EN 15302, and of all rails before they are inclined.
+_WHEELS_15302 = {f"EN 15302 {letter}": outlined for letter, outlined in standard.WHEELS_15302.items()}
+_RAIL_A = "EN 15302 rail A"
+_ALIASES = {alias: name for name, head in standard.RAILS.items() for alias in head.aliases} | {"rail A": _RAIL_A}
+_ALIASES |= {f"wheel {letter}": f"EN 15302 {letter}" for letter in standard.WHEELS_15302}
+
+STANDARD_INCLINATION, STANDARD_HEIGHT, STANDARD_THICKNESS = 1.0 / 40.0, 28e-3, 32.5e-3
 
 
-# ---------------------------------------------------------------------------------------------------------------------
-# Curves with a closed form. All lengths below are millimetres, as in the standards; `_sample` turns them into metres.
-
-Piece = tuple[float, float, Callable[[Array], Array], Callable[[Array], Array]]  # y from, y to, z(y), dz/dy(y)
-
-
-def _arc(radius: float, centre_y: float, centre_z: float, branch: float) -> tuple[Callable, Callable]:
-    """z(y) and z'(y) of a circle; branch -1: above its centre (z down), a crest; +1: below, a trough."""
-
-    def z(y: Array) -> Array:
-        return centre_z + branch * np.sqrt(radius**2 - (y - centre_y) ** 2)
-
-    def slope(y: Array) -> Array:
-        return -branch * (y - centre_y) / np.sqrt(radius**2 - (y - centre_y) ** 2)
-
-    return z, slope
+def names(kind: Kind | None = None) -> tuple[str, ...]:
+    """Names of the profiles of the standards that `named` knows, of one kind or of both."""
+    wheels, rails = (*standard.TREADS, *_WHEELS_15302), (*standard.RAILS, _RAIL_A)
+    return {"wheel": wheels, "rail": rails}.get(kind, wheels + rails)  # type: ignore[arg-type]
 
 
-def _line(y0: float, z0: float, slope: float) -> tuple[Callable, Callable]:
-    return lambda y: z0 + slope * (y - y0), lambda y: np.full_like(y, slope)
+def named(
+    name: str,
+    *,
+    kind: Kind | None = None,
+    inclination: float | None = None,
+    flange_height: float | None = None,
+    flange_thickness: float | None = None,
+) -> Profile:
+    """The profile of that name in the standards.
+
+    Parameters
+    ----------
+    name : str
+        One of `names()`, or an old name (UIC60, UIC54, S54, S49, BS113A, SBB I); capitals, blanks and hyphens do not count,
+        and 1:40 is 1/40.
+    kind : {"wheel", "rail"}, optional
+        Refuse one of the other kind.
+    inclination : float, optional
+        Of a rail: tangent of the angle between its axis and the vertical, 0 ... 0.1; default 1:40. Not for rail A of
+        EN 15302, which the standard draws inclined 1:20.
+    flange_height, flange_thickness : float, optional
+        Of a wheel of EN 13715 [m]: 0.028 ... 0.032, default 0.028, and 0.0285 ... 0.0325, default 0.0325 (EPS: only that).
+
+    Raises
+    ------
+    ContactError
+        An unknown name, or an option that this profile does not have.
+
+    Notes
+    -----
+    The origin of a rail is the crown's point on its axis, that of a wheel its tape circle. 60E1, S1002 and the wheels and
+    the rail of EN 15302 are seen in two sources each; all other numbers in one transcription of the standard
+    (`contact.geometry.standard`, constants.md 12.2 and 14).
+    """
+    found = _known(name, names(kind))
+    given = {"inclination": inclination, "flange_height": flange_height, "flange_thickness": flange_thickness}
+    has = {"inclination"} if found in standard.RAILS else {"flange_height", "flange_thickness"}
+    for option, value in given.items():
+        if value is not None and (option not in has or found in (*_WHEELS_15302, _RAIL_A)):
+            raise ContactError(f"{option} = {value!r}: the profile {found} has no {option}")
+    if found in standard.RAILS:
+        return _inclined(found, STANDARD_INCLINATION if inclination is None else inclination)
+    if found in standard.TREADS:
+        return _wheel(
+            found,
+            STANDARD_HEIGHT if flange_height is None else flange_height,
+            STANDARD_THICKNESS if flange_thickness is None else flange_thickness,
+        )
+    if found == _RAIL_A:
+        return _profile("rail", standard.RAIL_A, found)
+    return _profile("wheel", _WHEELS_15302[found], found)
 
 
-def _polynomial(coefficients: tuple[float, ...]) -> tuple[Callable, Callable]:
-    p = np.polynomial.Polynomial(coefficients)
-    return p, p.deriv()
-
-
-def _sample(kind: Kind, pieces: list[Piece], name: str) -> Profile:
-    """Points at equal arcs on every piece, with a point on each joint, and their exact tangents."""
-    ys, zs, angles = [], [], []
-    for start, end, z, slope in pieces:
-        # near a vertical tangent equal steps of y would leave large arcs: cosine spacing is dense at both ends
-        fine = 0.5 * (start + end) - 0.5 * (end - start) * np.cos(np.linspace(0.0, math.pi, 2001))
-        arc = np.concatenate(([0.0], np.cumsum(np.hypot(np.diff(fine), np.diff(z(fine))))))
-        n = max(2, math.ceil(arc[-1] * 1e-3 / SPACING) + 1)
-        y = np.interp(np.linspace(0.0, arc[-1], n), arc, fine)
-        last = n - 1 if end < pieces[-1][1] else n  # a joint belongs to the piece on its field side
-        ys.append(y[:last])
-        zs.append(z(y)[:last])
-        angles.append(np.arctan(slope(y))[:last])
-    return Profile(kind, 1e-3 * np.concatenate(ys), 1e-3 * np.concatenate(zs), np.concatenate(angles), name)
-
-
-def s1002() -> Profile:
-    """Wheel S1002 (EN 13715, UIC 510-2): flange height 28 mm, thickness 32.5 mm, from the flange's inner side to 60 mm.
+def s1002(flange_height: float = STANDARD_HEIGHT, flange_thickness: float = STANDARD_THICKNESS) -> Profile:
+    """Wheel S1002 (EN 13715, UIC 510-2) from the flange's inner side to 60 mm, with a flange as for `named`.
 
     The flange tip is cut where its inner face becomes steeper than 70° (theory.md 9.1, sections A to H).
     """
-    tread: tuple[float, ...] = (0.0, -3.358537058e-2, 1.565681624e-3, -2.810427944e-5, 5.844240864e-8, -1.562379023e-8)
-    tread += (5.309217349e-15, -5.957839843e-12, 2.646656573e-13)
-    root: tuple[float, ...] = (-4.320221063e3, -1.038384026e3, -1.065501873e2, -6.051367875, -2.054332446e-1)
-    root += (-4.169739389e-3, -4.687195829e-5, -2.252755540e-7)
-    return _sample(
-        "wheel",
-        [
-            (-69.0, -62.764705882, *_arc(20.5, -49.5, 9.519259302, 1.0)),
-            (-62.764705882, -49.662510381, *_arc(12.0, -55.0, 16.0, 1.0)),
-            (-49.662510381, -39.764473993, *_arc(20.0, -58.558326413, 8.834924130, 1.0)),
-            (-39.764473993, -38.426669071, *_line(0.0, -93.576667419, -2.747477419)),
-            (-38.426669071, -35.0, *_arc(13.0, -26.210665, 16.446, -1.0)),
-            (-35.0, -26.0, *_polynomial(root)),
-            (-26.0, 32.15796, *_polynomial(tread)),
-            (32.15796, 60.0, *_line(0.0, 1.364323640, -0.066666667)),
-        ],
-        "S1002",
-    )
+    return _wheel("S1002", flange_height, flange_thickness)
 
 
-#: Half widths of the tangent points R300/R80 and R80/R13 of the 60E1 head [mm] (constants.md 12.2 and 14).
-BREAKPOINTS = {"EN 13674": (20.456 / 2.0, 52.053 / 2.0), "UIC 519": (10.5, 25.988)}
+#: Whose tangent points the head of `rail_60e1` has → its name.
+BREAKPOINTS = {"EN 13674": "60E1", "UIC 519": "60E1 UIC 519"}
 
 
-def rail_60e1(inclination: float = 1.0 / 40.0, breakpoints: str = "EN 13674") -> Profile:
+def rail_60e1(inclination: float = STANDARD_INCLINATION, breakpoints: str = "EN 13674") -> Profile:
     """Rail 60E1 (UIC 60): arcs R300, R80, R13 and the head's flanks 1:20, turned towards the track by `inclination`.
 
     Parameters
@@ -199,31 +194,9 @@ def rail_60e1(inclination: float = 1.0 / 40.0, breakpoints: str = "EN 13674") ->
     -----
     The origin is the crown's point on the rail axis (theory.md 9.2, a chain of tangents).
     """
-    require_number("inclination", inclination, 0.0, 0.1)
     if breakpoints not in BREAKPOINTS:
         raise ContactError(f"breakpoints = {breakpoints!r} is none of {', '.join(map(repr, BREAKPOINTS))}")
-    y1, y2 = BREAKPOINTS[breakpoints]
-    theta1 = math.asin(y1 / 300.0)
-    c2y, c2z = 220.0 * math.sin(theta1), 300.0 - 220.0 * math.cos(theta1)
-    theta2 = math.asin((y2 - c2y) / 80.0)
-    c3y, c3z = c2y + 67.0 * math.sin(theta2), c2z - 67.0 * math.cos(theta2)
-    theta3 = math.atan(20.0)
-    y3, z3 = c3y + 13.0 * math.sin(theta3), c3z - 13.0 * math.cos(theta3)
-    flank = 0.6  # mm of width: 12 mm of height below the tangent point
-    head = _sample(
-        "rail",
-        [
-            (-y3 - flank, -y3, *_line(-y3, z3, -20.0)),
-            (-y3, -y2, *_arc(13.0, -c3y, c3z, -1.0)),
-            (-y2, -y1, *_arc(80.0, -c2y, c2z, -1.0)),
-            (-y1, y1, *_arc(300.0, 0.0, 300.0, -1.0)),
-            (y1, y2, *_arc(80.0, c2y, c2z, -1.0)),
-            (y2, y3, *_arc(13.0, c3y, c3z, -1.0)),
-            (y3, y3 + flank, *_line(y3, z3, 20.0)),
-        ],
-        f"60E1 {breakpoints}",
-    )
-    return head.rotated(-math.atan(inclination))
+    return _inclined(BREAKPOINTS[breakpoints], inclination)
 
 
 def cone(conicity: float, half_width: float = 0.06) -> Profile:
@@ -231,15 +204,15 @@ def cone(conicity: float, half_width: float = 0.06) -> Profile:
     require_number("conicity", conicity, 0.0, 0.5)
     require_number("half_width", half_width, 1e-3, 0.2)
     w = 1e3 * half_width
-    return _sample("wheel", [(-w, w, *_line(0.0, 0.0, -conicity))], f"cone {conicity:g}")
+    return _profile("wheel", [sloped(-w, w, 0.0, -conicity)], f"cone {conicity:g}")
 
 
 def rail_arc(radius: float, half_width: float = 0.03) -> Profile:
     """A rail that is one circular arc of `radius` [m] with its crown at the origin, within ± `half_width` [m]."""
     require_number("radius", radius, 1e-3, 100.0)
     require_number("half_width", half_width, 1e-3, 0.99 * radius)
-    w = 1e3 * half_width
-    return _sample("rail", [(-w, w, *_arc(1e3 * radius, 0.0, 1e3 * radius, -1.0))], f"arc {radius:g} m")
+    r, w = 1e3 * radius, 1e3 * half_width
+    return _profile("rail", [Arc(-w, w, r, 0.0, r)], f"arc {radius:g} m")
 
 
 def read(
@@ -248,8 +221,43 @@ def read(
     kind: Kind | None = None,
     unit: Literal["m", "mm"] | None = None,
     side: Literal["right", "left"] | None = None,
+    smoothing: float | None = None,
 ) -> Profile:
-    """Read a profile from a file; see `contact.geometry.files` for the formats and their conventions."""
+    """Read a profile from a file; see `contact.geometry.files` for the formats, their conventions and `smoothing`."""
     from contact.geometry import files
 
-    return files.read(path, kind=kind, unit=unit, side=side)
+    return files.read(path, kind=kind, unit=unit, side=side, smoothing=smoothing)
+
+
+def _profile(kind: Kind, segments: Iterable[Segment], name: str) -> Profile:
+    return Profile(kind, *outline.sample(segments), name)
+
+
+def _inclined(name: str, inclination: float) -> Profile:
+    """A rail of EN 13674-1, turned towards the track."""
+    require_number("inclination", inclination, 0.0, 0.1)
+    return _profile("rail", standard.RAILS[name].outline(), name).rotated(-math.atan(inclination))
+
+
+def _wheel(name: str, height: float, thickness: float) -> Profile:
+    """A wheel of EN 13715 with its flange's size in metres."""
+    tread = standard.TREADS[name]
+    height = 1e3 * require_number("flange_height", height, 28e-3, 32e-3)
+    thinnest, thickest = (round(1e-3 * bound, 6) for bound in tread.thickness)
+    thickness = 1e3 * require_number("flange_thickness", thickness, thinnest, thickest)
+    return _profile("wheel", tread.outline(height, thickness), name)
+
+
+def _known(name: str, among: tuple[str, ...]) -> str:
+    """The name as `names` has it."""
+    keys = {_key(known): known for known in among}
+    keys |= {_key(alias): known for alias, known in _ALIASES.items() if known in among}
+    found = keys.get(_key(str(name)))
+    if found is None:
+        close = suggestion(name, (*among, *_ALIASES))
+        raise ContactError(f"name = {name!r} is no profile of the standards{close}; they are {', '.join(among)}")
+    return found
+
+
+def _key(name: str) -> str:
+    return re.sub(r"[^a-z0-9/]", "", name.lower().replace(":", "/"))

@@ -176,6 +176,13 @@ class Pair:
     def given(self, pose: Pose, velocity: Velocity | None = None, irregularity: Irregularity | None = None) -> Array:
         """The motion as kernels take it, in the order of `contact.geometry.layout`; by default steady rolling."""
         velocity, rail = velocity or _ROLLING, irregularity or _IDEAL
+        for name, argument, kind in (
+            ("pose", pose, Pose),
+            ("velocity", velocity, Velocity),
+            ("irregularity", rail, Irregularity),
+        ):
+            if not isinstance(argument, kind):
+                raise ContactError(f"{name} = {argument!r} is not a contact.geometry.wheelset.{kind.__name__}")
         spin = -velocity.forward / self.nominal_radius if velocity.spin is None else velocity.spin
         return np.array(
             [

@@ -1,5 +1,7 @@
 """Profile files: every format leads to the same right-side profile in metres."""
 
+import sys
+
 import numpy as np
 import pytest
 
@@ -124,3 +126,65 @@ def test_files_that_hold_no_profile_say_why(tmp_path, name, text, arguments, mes
         path.write_text(text)
     with pytest.raises(ContactError, match=message):
         profile.read(path, **arguments)
+
+
+@pytest.mark.parametrize(
+    ("shape", "per_metre", "unit", "message"),
+    [
+        (WHEEL, 1e3, "m", r"wheel\.txt.*is 129 m wide, outside the range \[0\.03, 0\.2\].*set unit"),
+        (WHEEL, 1.0, "mm", r"is 0\.000129 m wide"),
+        (RAIL, 1e3, "m", r"is 73\.\d+ m wide"),
+    ],
+)
+def test_wrong_unit_is_seen_from_the_width(tmp_path, shape, per_metre, unit, message):
+    path = tmp_path / f"{shape.kind}.txt"
+    path.write_text(table(per_metre * shape.y, per_metre * shape.z))
+    with pytest.raises(ContactError, match=message):
+        profile.read(path, kind=shape.kind, unit=unit, side="right")
+
+
+def test_wrong_unit_of_a_simpack_header_is_seen_and_cured_by_the_option(tmp_path):
+    path = tmp_path / "wheel.prw"
+    points = table(1e3 * WHEEL.y, 1e3 * WHEEL.z)
+    path.write_text(SIMPACK.format(type=1, shift=0, rotate=0, mirror=0, per_metre=1.0, points=points))
+    with pytest.raises(ContactError, match="129 m wide"):
+        profile.read(path)
+    same(profile.read(path, unit="mm"), WHEEL)
+
+
+@pytest.mark.parametrize("up", [1.0, -1.0])
+def test_flange_on_the_field_side_is_seen_and_cured_by_the_option(tmp_path, up):
+    path = tmp_path / "wheel.txt"
+    path.write_text(table(-WHEEL.y, up * WHEEL.z))
+    with pytest.raises(ContactError, match=r"flange lies on the field side, at y = 0\.05.*set side"):
+        profile.read(path, kind="wheel", unit="m", side="right")
+    same(profile.read(path, kind="wheel", unit="m", side="left"), WHEEL)
+
+
+def test_smoothing_takes_the_noise_out_of_tangents_and_curvatures(tmp_path):
+    noise = 2e-6 * np.random.default_rng(1).standard_normal(RAIL.y.size)
+    y, z = RAIL.y - noise * np.sin(RAIL.angle), RAIL.z + noise * np.cos(RAIL.angle)
+    path = tmp_path / "rail.txt"
+    path.write_text(table(y, z))
+    middle = slice(20, -20)  # a spline knows less at its ends
+
+    def errors(shape):
+        bend = [np.diff(s.angle) / np.hypot(np.diff(s.y), np.diff(s.z)) for s in (shape, RAIL)]
+        return [np.sqrt(np.mean(d[middle] ** 2)) for d in (shape.angle - RAIL.angle, bend[0] - bend[1])]
+
+    given = {"kind": "rail", "unit": "m", "side": "right"}
+    raw, smooth = (profile.read(path, smoothing=tolerance, **given) for tolerance in (None, 2e-6))
+    assert errors(smooth)[0] < errors(raw)[0] / 5, "tangents"
+    assert errors(smooth)[1] < errors(raw)[1] / 10, "curvatures"
+    moved = np.hypot(smooth.y - y, smooth.z - z)
+    assert np.sqrt(np.mean(moved**2)) == pytest.approx(2e-6, rel=2e-3), "no further than it was allowed"
+    with pytest.raises(ContactError, match="smoothing = 2 is outside"):
+        profile.read(path, smoothing=2.0, **given)
+
+
+def test_missing_scipy_is_named(tmp_path, monkeypatch):
+    path = tmp_path / "rail.txt"
+    path.write_text(table(RAIL.y, RAIL.z))
+    monkeypatch.setitem(sys.modules, "scipy.interpolate", None)
+    with pytest.raises(ImportError, match=r"wheelrail-contact\[profiles\]"):
+        profile.read(path, kind="rail", unit="m", side="right", smoothing=1e-6)

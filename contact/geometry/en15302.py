@@ -1,0 +1,136 @@
+"""Equivalent conicity by the procedure of EN 15302: the cone that has the wavelength of the real profiles.
+
+A wheelset that rolls without creepage moves like y'' = -Δr(y)/(e r0), with e the distance of the tape circles and r0 their
+radius. From the first integral S(y) = ∫ Δr dy, an oscillation of amplitude ŷ between y1 and y2 = y1 + 2 ŷ has the same S = C
+at both ends and the wavelength λ = 2 ∫ dy/ψ, ψ² = 2 (C - S)/(e r0). Klingel's formula of a cone then defines
+tan γe = (π/λ)² 2 e r0 (constants.md 12.1); e and r0 cancel: tan γe = π²/(∫ dy/√(C - S))².
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from contact.errors import ContactError, require_number
+from contact.geometry.profile import Profile
+from contact.geometry.rigid import ContactPoints, contact_points
+
+Array = NDArray[np.float64]
+
+STEP = 2e-5  # [m] of the table of Δr
+BEYOND = 5e-3  # [m] of that table beyond the largest amplitude, on both sides
+_NODES = 2000  # of the integral
+_FLAT = 1e-14  # [m²] of C - S that is round-off: a conicity of some 1e-8
+
+
+@dataclass(frozen=True)
+class Conicity:
+    """Equivalent conicity over the amplitude.
+
+    Attributes
+    ----------
+    amplitude : ndarray, shape (n,)
+        Amplitudes of the wheelset's lateral oscillation [m].
+    conicity : ndarray, shape (n,)
+        tan γe [-]. Negative where Δr drives the wheelset out of the middle, 0 where it has no oscillation of this amplitude.
+    centre : ndarray, shape (n,)
+        Middle between both ends of the oscillation [m], not zero for unequal wheels or rails.
+    points : ContactPoints
+        The contact points and Δr from which they are computed.
+    """
+
+    amplitude: Array
+    conicity: Array
+    centre: Array
+    points: ContactPoints
+
+    def wavelength(self, base: float = 1.5, radius: float = 0.46) -> Array:
+        """Klingel's λ = 2π √(e r0/(2 tan γe)) [m] for a distance `base` of tape circles; infinite without conicity > 0."""
+        require_number("base", base, 0.0, open_minimum=True)
+        require_number("radius", radius, 0.0, open_minimum=True)
+        with np.errstate(divide="ignore"):
+            return 2.0 * np.pi * np.sqrt(0.5 * base * radius / np.maximum(self.conicity, 0.0))
+
+
+def conicity(
+    wheel: Profile, rail: Profile, amplitudes: ArrayLike | None = None, *, step: float = STEP, **options: Any
+) -> Conicity:
+    """Equivalent conicity of wheels on rails, by default at the amplitudes 1, 2, … 7 mm.
+
+    Parameters
+    ----------
+    wheel, rail : Profile
+    amplitudes : array_like, shape (n,), optional
+        Amplitudes [m], 1e-4 to 0.02.
+    step : float
+        Of the table of Δr [m], 1e-6 to 1e-4: between its values Δr is a straight line, and a jump a slope. The reference
+        tables of the edition of 2008 come out, to 0.002, with 0.1 mm; those of 2021 with the finer default.
+    **options
+        As for `contact.geometry.contact_points`: left_wheel, left_rail, nominal_radius, left_radius, gauge, flange_back,
+        gauge_point, roll (which EN 15302 leaves out).
+
+    Raises
+    ------
+    ContactError
+        As there; and an amplitude at which no position has equal drive to both sides within 5 mm of the track's centre.
+    """
+    try:
+        wanted = np.atleast_1d(np.array(np.arange(1, 8) * 1e-3 if amplitudes is None else amplitudes, dtype=np.float64))
+    except (TypeError, ValueError):
+        raise ContactError(f"amplitudes = {amplitudes!r} is not an array of numbers") from None
+    if wanted.ndim != 1 or not wanted.size:
+        raise ContactError(f"amplitudes of shape {wanted.shape}: at least one is needed")
+    for value in wanted.tolist():
+        require_number("amplitudes", value, 1e-4, 0.02)
+    n = int(np.ceil((wanted.max() + BEYOND) / require_number("step", step, 1e-6, 1e-4)))
+    points = contact_points(wheel, rail, np.arange(-n, n + 1) * step, **options)
+    found = [_equivalent(points.y, points.radius_difference, value) for value in wanted.tolist()]
+    return Conicity(wanted, np.array([c for c, _ in found]), np.array([centre for _, centre in found]), points)
+
+
+def _equivalent(y: Array, dr: Array, amplitude: float) -> tuple[float, float]:
+    """tan γe and the middle of the oscillation of this amplitude; Δr is a straight line between its values at equal steps."""
+    h = y[1] - y[0]
+    integral = np.concatenate(([0.0], np.cumsum(0.5 * h * (dr[1:] + dr[:-1]))))
+
+    def S(at: Any) -> Any:
+        k = np.clip(((at - y[0]) / h).astype(int), 0, y.size - 2)
+        t = at - y[k]
+        return integral[k] + t * (dr[k] + 0.5 * t * (dr[k + 1] - dr[k]) / h)
+
+    def drive(centre: Array) -> Array:
+        return S(centre + amplitude) - S(centre - amplitude)
+
+    centre = _zero_nearest_the_middle(drive, y[(y >= y[0] + amplitude) & (y <= y[-1] - amplitude)], amplitude)
+    # y = centre + ŷ sin θ takes the singularities of 1/√(C - S) away; the midpoint rule avoids both ends
+    theta = (np.arange(_NODES) + 0.5) * np.pi / _NODES - 0.5 * np.pi
+    ends = centre + amplitude * np.array([-1.0, 1.0])
+    well = S(ends).mean() - S(centre + amplitude * np.sin(theta))
+    sign = 1.0 if well[_NODES // 2] > 0.0 else -1.0
+    if np.abs(well).max() < _FLAT or (sign * well <= 0.0).any():
+        return 0.0, centre
+    length = (amplitude * np.cos(theta) / np.sqrt(sign * well)).sum() * np.pi / _NODES
+    return sign * (np.pi / length) ** 2, centre
+
+
+def _zero_nearest_the_middle(drive: Any, candidates: Array, amplitude: float) -> float:
+    """Where the mean of Δr over the oscillation vanishes, the place nearest to the track's centre, by bisection."""
+    values = drive(candidates)
+    found = np.flatnonzero((values[:-1] <= 0.0) & (values[1:] >= 0.0) | (values[:-1] >= 0.0) & (values[1:] <= 0.0))
+    if not found.size:
+        raise ContactError(
+            f"amplitudes = {amplitude:g}: Δr is of one sign on average wherever the wheelset is within "
+            f"[{candidates[0]:g}, {candidates[-1]:g}] m; are the gauge, the flange backs and both radii right?"
+        )
+    k = found[np.argmin(np.abs(candidates[found] + candidates[found + 1]))]
+    ends = np.array([candidates[k], candidates[k + 1]])
+    if values[k] == 0.0 or values[k + 1] == 0.0:
+        return float(ends[0] if values[k] == 0.0 else ends[1])
+    rising = values[k + 1] > 0.0
+    for _ in range(60):
+        middle = ends.mean()
+        ends[int((drive(np.array([middle]))[0] > 0.0) == rising)] = middle
+    return float(ends.mean())

@@ -1,0 +1,150 @@
+"""Rigid contact points and equivalent conicity: cones in closed form, the reference tables of both editions of EN 15302."""
+
+import csv
+import math
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from contact import ContactError
+from contact.geometry import conicity, contact_points, profile
+from contact.geometry.wheelset import Pair, Pose
+
+CONE, ARC = profile.cone(0.05), profile.rail_arc(0.3)
+ON_ARC = {"gauge": 1.5, "gauge_point": 1e-3}
+GAUGE = 1.4351645  # places the origin of rail A 750 mm from the centre of the track, as the standard does
+AMPLITUDES = np.arange(1, 8) * 1e-3
+
+
+def reference(edition):
+    path = Path(__file__).parent.parent / "reference" / "en15302.csv"
+    lines = [line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+    return [row for row in csv.DictReader(lines) if row["edition"] == edition]
+
+
+@cache
+def computed(right, left, left_radius, step):
+    wheel, other = (profile.named(f"wheel {letter}") for letter in (right, left))
+    return conicity(
+        wheel, profile.named("rail A"), step=step, left_wheel=other, left_radius=float(left_radius), gauge=GAUGE
+    )
+
+
+def columns(row):
+    """Those amplitudes' indices that the table has, and its values there."""
+    given = [k for k in range(7) if row[str(k + 1)]]
+    return given, np.array([float(row[str(k + 1)]) for k in given])
+
+
+def of(row, step=2e-5):
+    return computed(row["right"], row["left"], row["left_radius"], step)
+
+
+@pytest.mark.parametrize("edition", ["2021", "2008"])
+def test_reference_wheels_lie_within_the_tolerances_of_the_standard(edition):
+    for row in reference(edition):
+        given, wanted = columns(row)
+        tolerance = np.maximum(np.minimum(0.05, 0.5 * wanted), 5e-4)  # zero is printed with three decimals
+        np.testing.assert_array_less(np.abs(of(row).conicity[given] - wanted), tolerance, err_msg=str(row))
+
+
+def test_conicity_of_the_edition_of_2008_comes_out_with_its_own_step():
+    for row in reference("2008"):
+        given, wanted = columns(row)
+        np.testing.assert_allclose(of(row, 1e-4).conicity[given], wanted, rtol=0, atol=2.5e-3, err_msg=str(row))
+
+
+@pytest.mark.parametrize(("edition", "tolerance"), [("2021", 2e-3), ("2008", 13e-3)])
+def test_rolling_radius_differences_are_those_of_the_tables(edition, tolerance):
+    # mm; the wheels' formulas are those of 2021, from which the tables of 2008 differ by up to 0.012 mm
+    for row in reference(edition):
+        if row["dr3"]:
+            points = of(row).points
+            dr = 1e3 * np.interp(3e-3, points.y, points.radius_difference)
+            assert dr == pytest.approx(float(row["dr3"]), abs=tolerance), row
+
+
+def test_exchanged_wheels_have_the_same_conicity_about_the_opposite_centre():
+    rail, a, b = (profile.named(name) for name in ("rail A", "wheel A", "wheel B"))
+    one = conicity(a, rail, [2e-3, 5e-3], step=1e-4, left_wheel=b, gauge=GAUGE)
+    other = conicity(b, rail, [2e-3, 5e-3], step=1e-4, left_wheel=a, gauge=GAUGE)
+    np.testing.assert_allclose(other.conicity, one.conicity, rtol=1e-9)
+    np.testing.assert_allclose(other.centre, -one.centre, atol=1e-10)
+    np.testing.assert_array_equal(other.points.radius_difference, -one.points.radius_difference[::-1])
+    np.testing.assert_array_equal(other.points.right.angle, one.points.left.angle[::-1])
+
+
+def test_cones_have_their_conicity_at_every_amplitude_and_klingels_wavelength():
+    found = conicity(CONE, ARC, **ON_ARC)
+    np.testing.assert_allclose(found.conicity, 0.05, rtol=1e-5)
+    np.testing.assert_allclose(found.wavelength(1.5, 0.46), 2 * math.pi * math.sqrt(0.75 * 0.46 / 0.05), rtol=1e-5)
+
+
+def test_cones_of_unequal_radii_run_beside_the_centre():
+    found = conicity(CONE, ARC, [1e-3, 3e-3], left_radius=0.4598, **ON_ARC)
+    np.testing.assert_allclose(found.conicity, 0.05, rtol=1e-5)
+    np.testing.assert_allclose(found.centre, -0.2e-3 / (2 * 0.05), rtol=1e-6)
+
+
+def test_cones_the_wrong_way_round_have_negative_conicity_and_no_wavelength():
+    y = np.linspace(-0.06, 0.06, 41)
+    found = conicity(profile.Profile("wheel", y, 0.03 * y), ARC, [2e-3], **ON_ARC)
+    np.testing.assert_allclose(found.conicity, -0.03, rtol=1e-5)
+    assert np.isinf(found.wavelength()).all()
+
+
+def test_cylinders_have_none():
+    found = conicity(profile.cone(0.0), ARC, [1e-3, 4e-3], **ON_ARC)
+    np.testing.assert_array_equal(found.conicity, 0.0)
+
+
+def test_cone_touches_an_arc_where_their_tangents_agree():
+    y = np.array([-4e-3, 0.0, 3e-3])
+    found = contact_points(CONE, ARC, y, **ON_ARC)
+    for side, sign in ((found.right, 1.0), (found.left, -1.0)):
+        np.testing.assert_allclose(side.angle, math.atan(0.05), rtol=1e-6)
+        np.testing.assert_allclose(side.on_rail, -0.3 * math.sin(math.atan(0.05)), rtol=1e-5)
+        np.testing.assert_allclose(np.diff(side.on_wheel), -sign * np.diff(y), atol=1e-9)
+        np.testing.assert_allclose(side.radius, 0.46 - 0.05 * side.on_wheel, atol=1e-12)
+    np.testing.assert_allclose(found.radius_difference, 2 * 0.05 * y, atol=1e-9)
+    np.testing.assert_allclose(found.angle_difference, 0.0, atol=1e-9)
+
+
+def test_rolling_wheelset_touches_with_both_wheels_at_one_height():
+    wheel, rail = profile.s1002(), profile.rail_60e1()
+    found = contact_points(wheel, rail, [-5e-3, 0.0, 2e-3, 6.5e-3], roll=True)
+    pairs = [Pair(wheel, rail, side=side) for side in ("right", "left")]
+    for y, roll in zip(found.y, found.roll, strict=True):
+        heights = [pair.touch(Pose(y=y, roll=roll)) for pair in pairs]
+        assert heights[0] == pytest.approx(heights[1], abs=1e-11)
+    assert found.roll[1] == pytest.approx(0.0, abs=1e-13)
+    assert found.roll[3] < 0.0, "a wheel that climbs at its flange lifts its side"
+
+
+def test_contact_points_are_mirror_images():
+    y = np.linspace(0.0, 8e-3, 9)
+    one, other = (contact_points(profile.s1002(), profile.rail_60e1(), sign * y) for sign in (1.0, -1.0))
+    np.testing.assert_array_equal(one.right.angle, other.left.angle)
+    np.testing.assert_array_equal(one.radius_difference, -other.radius_difference)
+    assert (np.diff(one.radius_difference) >= 0.0).all()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"amplitudes": [0.0]}, "amplitudes = 0 is outside"),
+        ({"amplitudes": "x"}, "amplitudes = 'x' is not an array"),
+        ({"amplitudes": []}, "at least one"),
+        ({"step": 1.0}, "step = 1 is outside"),
+        ({"gauge": "wide"}, "gauge = 'wide' is not a number"),
+        ({"left_radius": 0.44}, "of one sign on average"),
+        ({"left_wheel": ARC}, "is not a profile of a wheel"),
+    ],
+)
+def test_bad_input_is_named(options, message):
+    with pytest.raises(ContactError, match=message):
+        conicity(CONE, ARC, **{**ON_ARC, "amplitudes": [1e-3], "step": 1e-4, **options})
+    with pytest.raises(ContactError, match=r"y of shape \(0,\)"):
+        contact_points(CONE, ARC, [], **ON_ARC)
