@@ -50,6 +50,10 @@ class Arc:
     def moved(self, by: float) -> Self:
         return replace(self, y0=self.y0 + by, y1=self.y1 + by, cy=self.cy + by)
 
+    def between(self, y0: float, y1: float) -> Self:
+        """The part of it from y0 to y1."""
+        return replace(self, y0=y0, y1=y1)
+
 
 def trough(y0: float, y1: float, radius: float, cy: float, cz: float) -> Arc:
     """An arc that hangs below its centre, as the tip of a flange."""
@@ -73,6 +77,11 @@ class Line:
     def moved(self, by: float) -> Self:
         return replace(self, y0=self.y0 + by, y1=self.y1 + by)
 
+    def between(self, y0: float, y1: float) -> Line:
+        """The part of it from y0 to y1."""
+        slope = (self.z1 - self.z0) / (self.y1 - self.y0)
+        return sloped(y0, y1, self.z0 - slope * self.y0, slope)
+
 
 def sloped(y0: float, y1: float, constant: float, slope: float) -> Line:
     """The straight z = constant + slope·y from y0 to y1."""
@@ -94,6 +103,10 @@ class Polynomial:
 
     def moved(self, by: float) -> Self:
         return replace(self, y0=self.y0 + by, y1=self.y1 + by, shift=self.shift + by)
+
+    def between(self, y0: float, y1: float) -> Self:
+        """The part of it from y0 to y1."""
+        return replace(self, y0=y0, y1=y1)
 
 
 @dataclass(frozen=True)

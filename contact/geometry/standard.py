@@ -77,13 +77,10 @@ _T1 = -0.5
 
 @dataclass(frozen=True)
 class Tread:
-    """Segments from the flange's straight to 0.5 mm before the tape circle, from there to it, and beyond.
-
-    They are those of the thickest flange. With a thinner one the first move along, and a straight replaces the second.
-    """
+    """Segments inside the one that holds the tape circle, that one, and those outside; as with the thickest flange."""
 
     inner: Outline
-    last: Segment
+    middle: Arc | Line | Polynomial
     outer: Outline
     thickness: tuple[float, float] = (28.5, 32.5)  # [mm] that the table covers
 
@@ -91,9 +88,13 @@ class Tread:
         """The wheel with a flange of this height and thickness [mm]."""
         moved = thickness - _THICKEST
         inner = tuple(segment.moved(moved) for segment in self.inner)
-        y, z, _ = inner[-1].points()
-        last = self.last if moved == 0.0 else Line(float(y[-1]), float(z[-1]), 0.0, 0.0)
-        return (*flange(height, moved), *inner, last, *self.outer)
+        middle: Outline = (self.middle,)
+        if moved < 0.0:
+            along = self.middle.between(self.middle.y0, _T1).moved(moved)
+            y, z, _ = along.points()
+            straight = Line(float(y[-1]), float(z[-1]), 0.0, 0.0)
+            middle = (along, straight, self.middle.between(0.0, self.middle.y1))
+        return (*flange(height, moved), *inner, *middle, *self.outer)
 
 
 _LOWEST, _THICKEST = 28.0, 32.5
@@ -132,30 +133,26 @@ TREADS = {
         (
             Arc(_E1, _D1, 13.0, -26.210665, 16.446),
             Polynomial(_D1, -26.0, _S1002_ROOT),
-            Polynomial(-26.0, _T1, _S1002_TREAD),
         ),
-        Polynomial(_T1, 0.0, _S1002_TREAD),
-        (Polynomial(0.0, 32.15796, _S1002_TREAD), sloped(32.15796, 60.0, 1.364323640, -0.066666667)),
+        Polynomial(-26.0, 32.15796, _S1002_TREAD),
+        (sloped(32.15796, 60.0, 1.364323640, -0.066666667),),
     ),
     "1/40": Tread(  # the standard rounds to 0.001 mm what are points of the cone 1:40
         (
             Arc(_E1, -32.696, 13.0, -26.210665, 16.446),
             Arc(-32.696, -15.64, 36.0, -14.74, 36.38),
-            sloped(-15.64, _T1, 0.0, -0.025),
         ),
-        sloped(_T1, 0.0, 0.0, -0.025),
-        (sloped(0.0, 35.0, 0.0, -0.025), sloped(35.0, 60.0, 35.0 * (1.0 / 15.0 - 0.025), -1.0 / 15.0)),
+        sloped(-15.64, 35.0, 0.0, -0.025),
+        (sloped(35.0, 60.0, 35.0 * (1.0 / 15.0 - 0.025), -1.0 / 15.0),),
     ),
     "EPS": Tread(  # the table, in steps of 0.5 mm, meets R100 with a bend of 7° towards the rail, where no rail gets
         (
             Arc(_E1, _D1, 13.0, -26.210665, 16.446),
             Table(_D1, -26.0, _EPS_ROOT),
             Arc(-26.0, -17.587, 100.0, -6.5, 100.871),
-            Arc(-17.587, _T1, 330.0, 19.0, 329.453),
         ),
-        Arc(_T1, 0.0, 330.0, 19.0, 329.453),
+        Arc(-17.587, 19.0, 330.0, 19.0, 329.453),
         (
-            Arc(0.0, 19.0, 330.0, 19.0, 329.453),
             Line(19.0, -0.547, 29.0, -0.547),
             sloped(29.0, 60.0, -0.547 + 29.0 / 15.0, -1.0 / 15.0),
         ),

