@@ -10,6 +10,7 @@ import csv
 import json
 import tomllib
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -124,10 +125,18 @@ def _value(where: str, name: str, value: Any) -> Any:
     if name in _TEXTS:
         return str(value)
     if name in _NUMBERS:
-        return require_number(f"{where}: {name}", value)
+        return _number(f"{where}: {name}", value)
     if name in _LISTS:
         parts = value.split() if isinstance(value, str) else value
         if not isinstance(parts, list) or len(parts) != _LISTS[name]:
             raise ContactError(f"{where}: {name} = {value!r} is not a list of {_LISTS[name]} numbers")
-        return tuple(require_number(f"{where}: {name}", part) for part in parts)
+        return tuple(_number(f"{where}: {name}", part) for part in parts)
     raise ContactError(f"{where}: unknown name {name!r}; allowed: {', '.join((*_TEXTS, *_NUMBERS, *_LISTS))}")
+
+
+def _number(name: str, value: Any) -> float:
+    """A number, or the text of one: CSV knows only text."""
+    if isinstance(value, str):
+        with suppress(ValueError):  # refused below, as it was written
+            value = float(value)
+    return require_number(name, value)
