@@ -19,24 +19,14 @@ from typing import Any
 import numpy as np
 
 import contact
+from contact.study.ellipse import ellipse
+from contact.study.errors import mean_p95_max
 
 REFERENCE = Path(__file__).parent.parent / "tests" / "reference"
 STEEL = contact.Material(82e9, 0.28)
 MU = 0.3
 N_ELLIPSE = 52359.88
 RESOLUTION = {"n_strips": 40, "n_elements": 40}
-
-
-def ellipse(aspect: float, c: float, load: float, material: contact.Material = STEEL) -> contact.Separation:
-    """Separation whose Hertz ellipse under `load` has the semi-axis ratio a/b and c = sqrt(ab)."""
-    low, high = -12.0, 12.0  # ln(B/A): a/b increases with it
-    for _ in range(100):
-        u = 0.5 * (low + high)
-        shape = contact.hertz(1.0, math.exp(u), load=load, material=material)
-        low, high = (u, high) if shape.a < aspect * shape.b else (low, u)
-    # lengths scale with the cube root of N over curvature
-    A = (math.sqrt(shape.a * shape.b) / c) ** 3
-    return contact.Separation.hertzian(A, A * math.exp(u))
 
 
 @functools.cache
@@ -67,12 +57,6 @@ def separation_of(case: dict[str, Any]) -> contact.Separation:
 def digits(values: Any, n: int = 5) -> list[float]:
     """Numbers rounded to n significant digits."""
     return [float(f"{v:.{n}g}") for v in values]
-
-
-def statistics(values: Any) -> tuple[float, float, float]:
-    """Mean, 95th percentile and maximum."""
-    values = np.abs(np.asarray(values))
-    return float(values.mean()), float(np.percentile(values, 95)), float(values.max())
 
 
 @functools.cache
@@ -234,7 +218,7 @@ def table(header: list[str], rows: list[list[str]]) -> str:
 
 
 def triple(values: Any, digits: int = 4) -> str:
-    return " / ".join(f"{v:.{digits}f}" for v in statistics(values))
+    return " / ".join(f"{v:.{digits}f}" for v in mean_p95_max(values))
 
 
 def report() -> str:

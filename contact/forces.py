@@ -146,7 +146,7 @@ def forces(
         array.setflags(write=False)  # like a Separation's, so that numba compiles the solver for one signature only
     longest = max(s.y.size for s in separations)
     results = np.empty((count, N_RES))
-    which = np.ascontiguousarray(which.ravel())
+    which = np.array(which).ravel()  # a copy: numba warns of a broadcast one
 
     def work(chunks: range) -> None:
         own = workspace.allocate(method, material.poisson_ratio, n_strips, n_elements, longest, fields=False)
@@ -154,8 +154,7 @@ def forces(
             last = min(first + _CHUNK, count)
             solve_cases(first, last, y, g, A, xc, bounds, which, cases, *own[:-1], results)
 
-    available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    pieces = min(threads or available, -(-count // _CHUNK))
+    pieces = min(threads or cores(), -(-count // _CHUNK))
     if pieces <= 1:
         work(range(0, count, _CHUNK))
     else:
@@ -179,6 +178,11 @@ def forces(
         power_per_metre=column(RES_POWER),
         status=column(RES_STATUS).astype(np.int64),
     )
+
+
+def cores() -> int:
+    """Number of cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _checked(name: str, values: ArrayLike | None, minimum: float, maximum: float = np.inf) -> Array:

@@ -18,6 +18,7 @@ from contact.cli.compare import compare
 from contact.cli.output import drawing, reported, write_csv, write_picture
 from contact.cli.plugins import add_plugins
 from contact.cli.problem import Position, Touch
+from contact.cli.statistics import statistics
 from contact.creepage import Creepage
 from contact.errors import require_number
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, methods
@@ -166,6 +167,7 @@ def curve(
 
 
 app.command()(compare)
+app.command()(statistics)
 
 
 @app.command("methods")

@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich import box
 from rich.console import Console
-from rich.table import Table
 
 from contact.cli import cases
 from contact.cli import options as opt
 from contact.cli.output import reported
 from contact.cli.progress import progress_bar
+from contact.cli.tables import show_tables
 from contact.solve import N_ELEMENTS
-from contact.study import SELECTION, Comparison, Row
+from contact.study import SELECTION, Comparison
 from contact.study import compare as compare_methods
 from contact.study.compare import REFERENCE_ELEMENTS
 from contact.study.files import PICTURES, require_ending
-from contact.study.table import Column, errors_of, title_of, values_of
+from contact.study.table import tables_of, title_of
 
 COMPARED = "Comparison"
 File = Annotated[
@@ -115,19 +113,5 @@ def compare(
 def show(found: Comparison, console: Console) -> None:
     """Print the tables of a comparison, case by case."""
     for case, rows, _ in found.by_case():
-        console.print(f"[bold]{title_of(case)}[/bold]")
-        console.print(_table(values_of(case), rows))
-        if found.has_reference:
-            console.print("errors against the half space, % (force of µN, moment of µN√(area/π))")
-            console.print(_table(errors_of(case), [row for row in rows if row.errors is not None]))
-
-
-def _table(columns: Sequence[Column], rows: Sequence[Row]) -> Table:
-    table = Table(box=box.SIMPLE_HEAD, header_style="bold", pad_edge=False, collapse_padding=True)
-    table.add_column("method", no_wrap=True)
-    for column in columns:
-        table.add_column(f"{column.heading}\n[dim]{column.unit}[/dim]", justify="right", vertical="bottom")
-    for row in rows:
-        status = "" if row.status in ("OK", "SATURATED") else f"\n[red]{row.status.lower().replace('_', ' ')}[/red]"
-        table.add_row(f"{row.normal}\n+ {row.tangential}{status}", *(column.cell(row) for column in columns))
-    return table
+        console.print(title_of(case), style="bold", markup=False, highlight=False)
+        show_tables(tables_of(case, rows, found.has_reference), console)

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from contact.solution import Solution
 
@@ -51,3 +52,9 @@ def errors_against(true: Solution, s: Solution, touch: float = 0.0) -> Errors | 
         area=s.area / true.area - 1.0,
         pressure=float(np.linalg.norm(p - true.p) / np.linalg.norm(true.p)),
     )
+
+
+def mean_p95_max(values: ArrayLike) -> tuple[float, float, float]:
+    """Mean, 95th percentile and maximum of the absolute values."""
+    size = np.abs(np.asarray(values, dtype=np.float64))
+    return float(size.mean()), float(np.percentile(size, 95)), float(size.max())

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from contact.study.comparison import Comparison
-from contact.study.table import errors_of, title_of, values_of
+from contact.study.statistics import Statistics
+from contact.study.table import Table, tables_of, title_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -43,17 +44,23 @@ def page(title: str, body: Iterable[str]) -> str:
     )
 
 
-def table(caption: str, headings: Sequence[tuple[str, str]], rows: Iterable[Sequence[str]]) -> str:
-    """A table that scrolls by itself where it is too wide; headings with units, first cells may hold markup."""
-    head = "".join(f"<th>{escape(name)}<small>{escape(unit)}</small></th>" for name, unit in headings)
+def html_of(table: Table) -> str:
+    """A table that scrolls by itself where it is too wide."""
+    head = "".join(f"<th>{escape(name)}<small>{escape(unit)}</small></th>" for name, unit in table.headings)
     lines = "".join(
-        f"<tr><td>{first}</td>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>\n"
-        for first, *cells in rows
+        f"<tr><td>{_two_lines(first)}</td>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>\n"
+        for first, *cells in table.rows
     )
     return (
-        f'<div class="wide"><table><caption>{escape(caption)}</caption>\n'
+        f'<div class="wide"><table><caption>{escape(table.caption)}</caption>\n'
         f"<thead><tr>{head}</tr></thead>\n<tbody>{lines}</tbody></table></div>"
     )
+
+
+def _two_lines(name: str) -> str:
+    """Names of a pair, on two lines where there is little room."""
+    first, plus, second = name.partition(" + ")
+    return f"<span>{escape(first)}</span>" + (f" <span>+ {escape(second)}</span>" if plus else "")
 
 
 def picture(wide: Figure, narrow: Figure, text: str) -> str:
@@ -71,11 +78,6 @@ def _data(figure: Figure) -> str:
     figure.savefig(full, format="png")
     Image.open(full).convert("RGB").quantize(256).save(small, format="png", optimize=True)
     return "data:image/png;base64," + base64.b64encode(small.getvalue()).decode()
-
-
-def method(pair: Any) -> str:
-    """Names of a pair, on two lines where there is little room."""
-    return f"<span>{escape(pair.normal)}</span> <span>+ {escape(pair.tangential)}</span>"
 
 
 def comparison_page(c: Comparison) -> str:
@@ -96,25 +98,26 @@ def comparison_page(c: Comparison) -> str:
             "pictures its patch is dotted.</p>"
         )
     for case, rows, solutions in c.by_case():
-        values, errors = values_of(case), errors_of(case)
         body.append(f"<h2>{escape(title_of(case))}</h2>")
-        headings = [(column.heading, column.unit) for column in values]
-        cells = [[method(row), *(column.cell(row) for column in values)] for row in rows]
-        if any(row.status not in ("OK", "SATURATED") for row in rows):
-            headings.append(("status", ""))
-            cells = [[*line, row.status.lower().replace("_", " ")] for line, row in zip(cells, rows, strict=True)]
-        body.append(table("Results", [("method", ""), *headings], cells))
-        if c.has_reference:
-            body.append(
-                table(
-                    "Errors against the half space",
-                    [("method", ""), *((column.heading, column.unit) for column in errors)],
-                    [[method(row), *(column.cell(row) for column in errors)] for row in rows if row.errors is not None],
-                )
-            )
+        body += [html_of(table) for table in tables_of(case, rows, c.has_reference)]
         wide, narrow = (
             comparison([("", solutions)], reference=c.has_reference, columns=columns, panel=panel)
             for columns, panel in ((6, 3.6), (2, 1.8))
         )
         body.append(picture(wide, narrow, f"Pressure and traction of every method: {case.name}"))
     return page("Contact models side by side", body)
+
+
+def statistics_page(s: Statistics) -> str:
+    """Tables and the picture of the statistics."""
+    from contact import __version__
+
+    body = [
+        "<h1>Creep forces on ellipses</h1>",
+        f'<p class="faint">wheelrail-contact {__version__}. The cases are those of Vollebregt, Iwnicki, Xie and Shackleton '
+        f"(2012); errors are against our half space with {s.elements} × {s.elements} elements on the ellipse. Dimensionless "
+        "spin is chi, dimensionless creepage m.</p>",
+        *(html_of(table) for table in s.tables()),
+    ]
+    body.append(picture(s.figure(), s.figure(), "Share of the cases over the error of the force"))
+    return page("Creep forces on ellipses", body)

@@ -1,4 +1,4 @@
-"""Columns of the tables, for the terminal and for pages alike."""
+"""Tables as text in cells, for the terminal and for pages alike."""
 
 from __future__ import annotations
 
@@ -30,6 +30,14 @@ def percent(value: float | None) -> str:
 def brief(value: float | None) -> str:
     """Two significant digits of a time."""
     return "" if value is None else f"{value:.2g}" if value < 100.0 else f"{value:.0f}"
+
+
+class Table(NamedTuple):
+    """What a terminal or a page shows: caption, headings with units, rows; the first cell names a row."""
+
+    caption: str
+    headings: Sequence[tuple[str, str]]
+    rows: Sequence[Sequence[str]]
 
 
 class Column(NamedTuple):
@@ -68,7 +76,7 @@ _VALUES = (
     Column("time", "ms", _scaled("time", 1e3), brief),
 )
 _ERRORS = (
-    Column("force", "% of µN", _error("force"), percent),
+    Column("force", "%", _error("force"), percent),
     Column("moment", "%", _error("moment"), percent),
     Column("peak pressure", "%", _error("max_pressure"), percent),
     Column("pressure field", "%", _error("pressure"), percent),
@@ -95,3 +103,22 @@ def title_of(case: Case) -> str:
         f"{case.name}: {given}, µ = {case.friction:g}, creepages {1e3 * c.longitudinal:.3g} ‰, "
         f"{1e3 * c.lateral:.3g} ‰, {c.spin:.3g} 1/m"
     )
+
+
+def tables_of(case: Case, rows: Sequence[Row], has_reference: bool) -> list[Table]:
+    """Results of a case, and the errors where there is a reference."""
+    result = [_table("Results", values_of(case), rows)]
+    if has_reference:
+        caption = "Errors against the half space (force over µN, moment over µN√(area/π))"
+        result.append(_table(caption, errors_of(case), [row for row in rows if row.errors is not None]))
+    return result
+
+
+def _table(caption: str, columns: Sequence[Column], rows: Sequence[Row]) -> Table:
+    """Status is a column where it is other than solved."""
+    cells = [[f"{row.normal} + {row.tangential}", *(column.cell(row) for column in columns)] for row in rows]
+    headings = [("method", ""), *((column.heading, column.unit) for column in columns)]
+    if any(row.status not in ("OK", "SATURATED") for row in rows):
+        headings.append(("status", ""))
+        cells = [[*line, row.status.lower().replace("_", " ")] for line, row in zip(cells, rows, strict=True)]
+    return Table(caption, headings, cells)

@@ -128,7 +128,7 @@ def test_json_and_csv_hold_every_number(small):
     assert "NaN" not in small.json()
 
 
-class _Page(HTMLParser):
+class Page(HTMLParser):
     def __init__(self):
         super().__init__()
         self.links, self.cells, self.tags = [], [], []
@@ -144,7 +144,7 @@ class _Page(HTMLParser):
 def test_the_page_needs_nothing_from_outside(small):
     pytest.importorskip("matplotlib")
     text = small.html()
-    page = _Page()
+    page = Page()
     page.feed(text)
     assert page.tags.count("picture") == 2
     assert len(page.links) == 4

@@ -1,0 +1,73 @@
+"""The command `statistics`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from contact.cli import options as opt
+from contact.cli.output import reported
+from contact.cli.progress import progress_bar
+from contact.cli.tables import show_tables
+from contact.solve import N_ELEMENTS
+from contact.study.files import PICTURES, require_ending
+from contact.study.statistics import ELEMENTS
+from contact.study.statistics import statistics as compute
+
+Methods = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--tangential", help="tangential method; repeat. Default: all with a fast kernel", rich_help_panel=opt.METHOD
+    ),
+]
+Cases = Annotated[int | None, typer.Option(min=1, help="a sample of the 3220 cases", show_default="all")]
+Elements = Annotated[int, typer.Option(help="rows and columns of the half space on the ellipse")]
+Resolution = Annotated[int, typer.Option(help="strips, and elements a strip, of the methods")]
+Stored = Annotated[
+    Path | None, typer.Option(help="keep the half space's forces in this file, and go on from there next time")
+]
+Processes = Annotated[int | None, typer.Option(min=1, help="processes for the half space", show_default="all cores")]
+Files = Annotated[
+    list[Path] | None,
+    typer.Option("--out", help="write .html, .json, .csv, .png, .pdf or .svg; repeat", rich_help_panel=opt.OUTPUT),
+]
+
+
+@reported
+def statistics(
+    tangential: Methods = None,
+    cases: Cases = None,
+    elements: Elements = ELEMENTS,
+    resolution: Resolution = N_ELEMENTS,
+    stored: Stored = None,
+    processes: Processes = None,
+    as_json: opt.Json = False,
+    out: Files = None,
+) -> None:
+    """Errors of the tangential methods over 3220 cases on ellipses (Vollebregt, Iwnicki, Xie, Shackleton 2012).
+
+    Minutes for all cases. Examples:  contact statistics --cases 200   ·   contact statistics --stored ref.csv --out page.html
+    """
+    for path in out or []:
+        require_ending(path, (".html", ".json", ".csv", *PICTURES))
+    with progress_bar() as bar:
+        found = compute(
+            tangential,
+            cases=cases,
+            elements=elements,
+            n_strips=resolution,
+            n_elements=resolution,
+            stored=stored,
+            processes=processes,
+            progress=bar,
+        )
+    if as_json:
+        typer.echo(found.json())
+    else:
+        show_tables(found.tables(), Console())
+    for path in out or []:
+        found.write(path)
+        typer.echo(f"wrote {path}", err=True)

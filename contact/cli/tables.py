@@ -1,0 +1,34 @@
+"""The tables of `contact.study` in the terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from rich import box
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table as RichTable
+
+from contact.study.table import Table
+
+
+def show_tables(tables: Iterable[Table], console: Console) -> None:
+    """Print tables that fit 80 columns: a pair of methods takes two lines."""
+    for table in tables:
+        shown = RichTable(
+            box=box.SIMPLE_HEAD,
+            header_style="bold",
+            pad_edge=False,
+            show_edge=False,
+            collapse_padding=True,
+            title=escape(table.caption),
+            title_justify="left",
+            title_style="",
+        )
+        (first, _), *others = table.headings
+        shown.add_column(first, no_wrap=True)
+        for name, unit in others:
+            shown.add_column(f"{escape(name)}\n[dim]{escape(unit)}[/dim]", justify="right", vertical="bottom")
+        for name, *cells in table.rows:
+            shown.add_row(escape(name.replace(" + ", "\n+ ")), *map(escape, cells))
+        console.print(shown)

@@ -1,0 +1,249 @@
+"""Errors of the tangential methods over the 3220 cases of Vollebregt, Iwnicki, Xie and Shackleton (2012)."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.errors import ContactError
+from contact.forces import forces
+from contact.registry import lookup, methods
+from contact.solve import N_ELEMENTS, N_STRIPS
+from contact.study.design import FRICTION, LOAD, MATERIAL, Design, design
+from contact.study.errors import mean_p95_max
+from contact.study.files import csv_of, write
+from contact.study.reference import reference_forces, separation_of
+from contact.study.table import Table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Array = NDArray[np.float64]
+#: Rows and columns of the half space on the ellipse: forces within 0.004 mu N of those on a grid of 120, 0.001 in the mean.
+ELEMENTS = 60
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """Errors of one method over the class `name` of one kind of classes: mean, 95th percentile and maximum.
+
+    Force errors are |F - F_ref|/(mu N), moment errors |Mz - Mz_ref|/(mu N c).
+    """
+
+    method: str
+    classes: str
+    name: str
+    cases: int
+    force_mean: float
+    force_p95: float
+    force_max: float
+    moment_mean: float
+    moment_p95: float
+    moment_max: float
+
+
+@dataclass(frozen=True)
+class Statistics:
+    """Forces of several tangential methods on the cases of `design`, and of the half space.
+
+    Attributes
+    ----------
+    design : Design
+    elements : rows and columns of the half space
+    reference : Fx, Fy over mu N and Mz over mu N c, shape (n, 3)
+    forces : the same of each method
+    times : time a case of each method in `contact.forces`, one thread [s]
+    """
+
+    design: Design
+    elements: int
+    reference: Array
+    forces: Mapping[str, Array]
+    times: Mapping[str, float]
+
+    def errors(self, method: str) -> tuple[Array, Array]:
+        """Errors of force and moment of every case."""
+        d = self.forces[method] - self.reference
+        return np.hypot(d[:, 0], d[:, 1]), np.abs(d[:, 2])
+
+    def spreads(self) -> list[Spread]:
+        """Of every method over every class that has a case."""
+        found = []
+        for method in self.forces:
+            force, moment = self.errors(method)
+            found += [
+                Spread(method, kind, name, int(own.sum()), *mean_p95_max(force[own]), *mean_p95_max(moment[own]))
+                for kind, classes in self.design.classes().items()
+                for name, own in classes.items()
+                if own.any()
+            ]
+        return found
+
+    def tables(self) -> list[Table]:
+        """All cases, and mean errors of the force by class."""
+        spreads = self.spreads()
+        headings = [(f"{kind} {what}", "%") for kind in ("force", "moment") for what in ("mean", "95 %", "max")]
+        columns = "force_mean", "force_p95", "force_max", "moment_mean", "moment_p95", "moment_max"
+        rows = [
+            [s.method, *(_percent(getattr(s, column)) for column in columns), f"{1e6 * self.times[s.method]:.2g}"]
+            for s in spreads
+            if s.classes == "all"
+        ]
+        caption = f"Errors over {self.design.number.size} cases: force of µN, moment of µN√(ab)"
+        tables = [Table(caption, [("method", ""), *headings, ("time", "µs")], rows)]
+        for kind in ("ellipse", "spin", "creepage"):
+            own = [s for s in spreads if s.classes == kind]
+            headings = list(dict.fromkeys((s.name, f"{s.cases} cases") for s in own))
+            rows = [[m, *(_percent(s.force_mean) for s in own if s.method == m)] for m in self.forces]
+            tables.append(Table(f"Mean error of the force by {kind}, % of µN", [("method", ""), *headings], rows))
+        return tables
+
+    def figure(self) -> Figure:
+        """Error of the force that a share of the cases does not exceed, one line a method."""
+        from matplotlib.figure import Figure
+
+        from contact.plot import curve
+
+        n = self.design.number.size
+        share = 100.0 * (np.arange(n) + 0.5) / n
+        lines = {method: 100.0 * np.sort(self.errors(method)[0]) for method in self.forces}
+        top = max(float(np.percentile(line, 95.0)) for line in lines.values())
+        figure = Figure(figsize=(6.4, 4.0), dpi=150.0, layout="constrained")
+        ax = figure.subplots()
+        curve(share, lines, xlabel="share of the cases [%]", ylabel="error of the force [% of µN]", ax=ax)
+        ax.set_ylim(0.0, 1.1 * max(top, 1e-3))
+        return figure
+
+    def csv(self) -> str:
+        """One line a case: creepages, forces by the half space and by every method."""
+        d = self.design
+        columns: dict[str, Any] = {
+            name: getattr(d, name)
+            for name in ("number", "ellipse", "chi", "angle", "size", "longitudinal", "lateral", "spin")
+        }
+        for method, values in {"halfspace": self.reference, **self.forces}.items():
+            columns |= {f"{name}_{method}": values[:, k] for k, name in enumerate(("fx", "fy", "mz"))}
+        return csv_of([{name: v[i].item() for name, v in columns.items()} for i in range(d.number.size)])
+
+    def json(self) -> str:
+        """Errors by method and class, and times."""
+        from contact import __version__
+
+        content = {
+            "version": __version__,
+            "cases": int(self.design.number.size),
+            "elements": self.elements,
+            "times": dict(self.times),
+            "errors": [asdict(s) for s in self.spreads()],
+        }
+        return json.dumps(content, indent=2)
+
+    def html(self) -> str:
+        """A page by itself: tables and the picture."""
+        from contact.study.page import statistics_page
+
+        return statistics_page(self)
+
+    @property
+    def texts(self) -> dict[str, Callable[[], str]]:
+        """What makes the text of a file, by its ending."""
+        return {".json": self.json, ".csv": self.csv, ".html": self.html}
+
+    def write(self, path: str | Path) -> None:
+        """Write errors (.json), all cases (.csv), the picture (.png, .pdf, .svg) or a page (.html)."""
+        write(path, self.texts, self.figure)
+
+
+def statistics(
+    tangential: Sequence[str] | None = None,
+    *,
+    cases: int | None = None,
+    elements: int = ELEMENTS,
+    n_strips: int = N_STRIPS,
+    n_elements: int = N_ELEMENTS,
+    stored: str | Path | None = None,
+    processes: int | None = None,
+    progress: Callable[[float, str], None] | None = None,
+) -> Statistics:
+    """Solve the 3220 cases with every tangential method on Hertz's ellipse, and with the half space.
+
+    Parameters
+    ----------
+    tangential : sequence of str
+        Names of tangential methods; default all that `contact.forces` offers.
+    cases : int
+        As many of the cases, always the same ones; default all.
+    elements : int
+        Rows and columns of the half space on the ellipse, 4 to 1000.
+    n_strips, n_elements : int
+        Resolution of the methods.
+    stored : path
+        File in which the results of the half space are kept: an interrupted run goes on from there.
+    processes : int
+        For the half space; default all cores. More than one need ``if __name__ == "__main__"`` in the calling script.
+    progress : callable
+        Given the share that is done, 0 to 1, and what is being solved.
+
+    Raises
+    ------
+    ContactError
+        Unknown method, numbers outside their range, a file that cannot be used.
+    """
+    names = list(methods().batched.tangential) if tangential is None else list(dict.fromkeys(tangential))
+    if not names:
+        raise ContactError("tangential is empty; at least one method is needed")
+    for name in names:
+        lookup("tangential", name, batched=True)
+    for what, value, low in (("cases", cases, 1), ("elements", elements, 4), ("processes", processes, 1)):
+        if value is not None and not (isinstance(value, int) and low <= value <= 4000):
+            raise ContactError(f"{what} = {value!r} is not an integer in the allowed range [{low}, 4000]")
+    d = design(cases)
+    found: dict[str, Array] = {}
+    times: dict[str, float] = {}
+    for name in names:
+        found[name], times[name] = _by_method(d, name, n_strips, n_elements)
+    true = reference_forces(
+        d, elements, stored=None if stored is None else Path(stored), processes=processes, progress=progress
+    )
+    return Statistics(d, elements, true, found, times)
+
+
+def _by_method(d: Design, name: str, n_strips: int, n_elements: int) -> tuple[Array, float]:
+    """Dimensionless forces of one method, and the time a case in one thread."""
+    scale, result, spent = FRICTION * LOAD, np.empty((d.number.size, 3)), 0.0
+    for k in np.unique(d.ellipse):
+        own = d.ellipse == k
+
+        def call(own: NDArray[np.bool_], k: int = int(k)) -> Any:
+            return forces(
+                separation_of(k),
+                (d.longitudinal[own], d.lateral[own], d.spin[own]),
+                load=LOAD,
+                friction=FRICTION,
+                material=MATERIAL,
+                normal="hertz",
+                tangential=name,
+                n_strips=n_strips,
+                n_elements=n_elements,
+                threads=1,
+            )
+
+        call(np.flatnonzero(own)[:1])  # type: ignore[arg-type]  # kernels are compiled or loaded
+        start = perf_counter()
+        many = call(own)
+        spent += perf_counter() - start
+        c = d.c[own]
+        result[own] = np.stack([many.Fx / scale, many.Fy / scale, many.Mz / (scale * c)], axis=1)
+    return result, spent / d.number.size
+
+
+def _percent(value: float) -> str:
+    return f"{100.0 * value:.2f}" if not math.isclose(value, 0.0, abs_tol=1e-12) else "0"
