@@ -21,7 +21,7 @@ from contact.study.design import FRICTION, LOAD, MATERIAL, Design, design
 from contact.study.errors import mean_p95_max
 from contact.study.files import csv_of, write
 from contact.study.reference import reference_forces, separation_of
-from contact.study.table import Table
+from contact.study.table import Table, brief
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -93,7 +93,7 @@ class Statistics:
         headings = [(f"{kind} {what}", "%") for kind in ("force", "moment") for what in ("mean", "95 %", "max")]
         columns = "force_mean", "force_p95", "force_max", "moment_mean", "moment_p95", "moment_max"
         rows = [
-            [s.method, *(_percent(getattr(s, column)) for column in columns), f"{1e6 * self.times[s.method]:.2g}"]
+            [s.method, *(_percent(getattr(s, column)) for column in columns), brief(1e6 * self.times[s.method])]
             for s in spreads
             if s.classes == "all"
         ]

@@ -29,7 +29,7 @@ def percent(value: float | None) -> str:
 
 def brief(value: float | None) -> str:
     """Two significant digits of a time."""
-    return "" if value is None else f"{value:.2g}" if value < 100.0 else f"{value:.0f}"
+    return "" if value is None else f"{value:.2g}" if value < 99.5 else f"{value:.0f}"
 
 
 class Table(NamedTuple):
