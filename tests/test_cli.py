@@ -11,7 +11,7 @@ import pytest
 
 import contact
 from contact import damage
-from contact.geometry import profile, wheelset
+from contact.geometry import conicity, contact_points, profile, wheelset
 
 typer = pytest.importorskip("typer")
 
@@ -98,7 +98,13 @@ def test_no_contact_draws_nothing_and_says_so(tmp_path):
         (("solve", "--friction", "nan"), "friction = nan"),
         (("solve", "--curvatures", "0", "1"), "A = 0 is outside the allowed range ]0, inf["),
         (("solve", "--normal", "magic"), "normal = 'magic' is not a registered method"),
-        (("solve", "--wheel", "round"), "wheel = 'round' is neither a standard profile (s1002) nor a file"),
+        (("solve", "--wheel", "round"), "wheel = 'round' is no profile of the standards; they are S1002, 1/40"),
+        (("solve", "--wheel", "S1003"), "wheel = 'S1003' is no profile of the standards, did you mean 'S1002'"),
+        (("solve", "--wheel", "missing.prw"), "missing.prw' cannot be read"),
+        (("solve", "--rail", "rail A", "--inclination", "0.05"), "EN 15302 rail A has no inclination"),
+        (("conicity", "--amplitude", "3"), "amplitudes = 3 is outside the allowed range [0.0001, 0.02]"),
+        (("conicity", "--left-radius", "0.4"), "of one sign on average"),
+        (("geometry", "--gauge", "1435"), "gauge = 1435 is outside"),
         (("solve", "--load", "1", "--penetration", "1e-5"), "exclude each other"),
         (("solve", "--y", "1.0"), "pose.y = 1"),
         (("solve", "--penetration", "-1e-5"), "penetration = -1e-05"),
@@ -172,8 +178,66 @@ def test_methods_lists_the_whole_registry():
             assert name in output
 
 
+def test_conicity_gives_the_numbers_of_the_python_api(tmp_path):
+    pytest.importorskip("matplotlib")
+    paths = [tmp_path / name for name in ("conicity.csv", "conicity.png")]
+    words = ("--wheel", "wheel A", "--left-wheel", "wheel B", "--rail", "rail A", "--gauge", 1.4351645)
+    result = call("conicity", *words, "--csv", paths[0], "--plot", paths[1])
+    rail, a, b = (profile.named(name) for name in ("rail A", "wheel A", "wheel B"))
+    found = conicity(a, rail, left_wheel=b, gauge=1.4351645)
+    rows = list(csv.DictReader(paths[0].open(encoding="utf-8")))
+    assert [float(row["conicity"]) for row in rows] == found.conicity.tolist()
+    assert [float(row["wavelength"]) for row in rows] == found.wavelength().tolist()
+    assert all(f"{value:.3f}" in result.output for value in found.conicity)
+    assert paths[1].stat().st_size > 5000
+    answer = json.loads(call("conicity", *words, "--amplitude", 3e-3, "--json").stdout)
+    assert answer["conicity"] == pytest.approx([found.conicity[2]], rel=1e-4)
+
+
+def test_conicity_of_none_has_no_wavelength_in_its_files(tmp_path):
+    path = tmp_path / "conicity.csv"
+    words = ("--wheel", "wheel I", "--rail", "rail A", "--gauge", 1.4351645, "--amplitude", 1e-3)
+    assert json.loads(call("conicity", *words, "--json", "--csv", path).stdout)["wavelength"] == [None]
+    assert next(csv.DictReader(path.open(encoding="utf-8")))["wavelength"] == ""
+
+
+def test_geometry_gives_the_contact_points_of_old_names(tmp_path):
+    pytest.importorskip("matplotlib")
+    paths = [tmp_path / name for name in ("points.csv", "points.png")]
+    words = ("--wheel", "1:40", "--rail", "UIC 60", "--inclination", 0.05, "--max", 2e-3, "--step", 1e-3, "--roll")
+    result = call("geometry", *words, "--csv", paths[0], "--plot", paths[1])
+    wheel, rail = profile.named("1/40"), profile.rail_60e1(0.05)
+    found = contact_points(wheel, rail, np.linspace(-2e-3, 2e-3, 5), roll=True)
+    rows = list(csv.DictReader(paths[0].open(encoding="utf-8")))
+    for name, values in found.columns().items():
+        assert [float(row[name]) for row in rows] == values.tolist(), name
+    assert "1/40 on 60E1" in result.output
+    assert paths[1].stat().st_size > 5000
+    assert json.loads(call("geometry", *words, "--json").stdout)["right_angle"] == found.right.angle.tolist()
+
+
+def test_profiles_lists_the_whole_library():
+    output = call("profiles").output
+    assert all(name in output for name in (*profile.names(), "UIC60", "BS113A"))
+
+
+def test_profile_files_are_smoothed_on_request(tmp_path):
+    rail = profile.named("49E1")
+    path = tmp_path / "rail.txt"
+    noise = 2e-6 * np.random.default_rng(2).standard_normal(rail.y.size)
+    path.write_text("\n".join(f"{y:.9f} {z:.9f}" for y, z in zip(rail.y, rail.z + noise, strict=True)))
+    words = ("geometry", "--rail", path, "--unit", "m", "--drawn-side", "right", "--max", 1e-3, "--json")
+    raw, smooth = (json.loads(call(*words, *more).stdout)["right_angle"] for more in ((), ("--smoothing", 2e-6)))
+    true = contact_points(profile.s1002(), rail, np.linspace(-1e-3, 1e-3, 21)).right.angle
+    assert np.abs(smooth - true).mean() < 0.5 * np.abs(raw - true).mean()
+
+
 @pytest.mark.parametrize(
-    "words", [("--help",), ("solve", "--help"), ("patch", "-h"), ("curve", "-h"), ("methods", "-h")]
+    "words",
+    [
+        *(("--help",), ("solve", "--help"), ("patch", "-h"), ("curve", "-h"), ("methods", "-h")),
+        *(("geometry", "-h"), ("conicity", "-h"), ("profiles", "-h")),
+    ],
 )
 def test_help_explains_every_option(words):
     output = call(*words).output

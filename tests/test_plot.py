@@ -11,6 +11,7 @@ import contact
 mpl = pytest.importorskip("matplotlib")
 
 from contact import plot  # noqa: E402
+from contact.geometry import conicity, contact_points, equivalent_conicity, profile  # noqa: E402
 from contact.plot.mesh import PatchMesh  # noqa: E402
 from contact.plot.style import nice  # noqa: E402
 
@@ -186,3 +187,29 @@ def test_matplotlib_is_loaded_by_contact_plot_alone_and_its_absence_names_the_ex
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+def test_contact_points_are_joined_where_they_touch_and_the_differences_drawn():
+    wheel, rail = profile.s1002(), profile.rail_60e1()
+    points = contact_points(wheel, rail, np.linspace(-4e-3, 4e-3, 17))
+    joined, difference, angle = plot.contact_points(points, wheel, rail).axes
+    outlines, lines = joined.lines[:2], joined.lines[2:]
+    assert len(lines) == 17
+    np.testing.assert_allclose(sorted(line.get_xdata()[1] for line in lines), np.sort(1e3 * points.right.on_rail))
+    for line in lines:
+        for outline, y, z in zip(outlines, line.get_xdata(), line.get_ydata(), strict=True):
+            assert np.interp(y, outline.get_xdata(), outline.get_ydata()) == pytest.approx(z, abs=1e-9)
+    np.testing.assert_allclose(difference.lines[1].get_ydata(), 1e3 * points.radius_difference)
+    np.testing.assert_allclose(angle.lines[1].get_ydata(), np.degrees(points.left.angle))
+    with pytest.raises(contact.ContactError, match="at least two increasing"):
+        plot.contact_points(contact_points(wheel, rail, [0.0]), wheel, rail)
+
+
+def test_conicity_is_drawn_over_the_amplitude_beside_the_difference():
+    found = conicity(profile.s1002(), profile.rail_60e1(), [1e-3, 3e-3], step=1e-4)
+    curve = equivalent_conicity(found.points, np.linspace(1e-3, 3e-3, 9))
+    left, right = plot.conicity(curve, found, "S1002").axes
+    np.testing.assert_array_equal(left.lines[0].get_ydata(), curve.conicity)
+    np.testing.assert_array_equal(left.lines[1].get_xdata(), 1e3 * found.amplitude)
+    assert [text.get_text() for text in left.texts] == [f"{value:.3f}" for value in found.conicity]
+    np.testing.assert_allclose(right.lines[1].get_ydata(), 1e3 * found.points.radius_difference)

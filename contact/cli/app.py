@@ -1,4 +1,4 @@
-"""The commands: `solve`, `patch`, `curve`, `methods`, and those of plug-ins. All input is in SI units."""
+"""The commands: `solve`, `patch`, `curve`, `methods`, those of other modules and of plug-ins. All input is in SI units."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ import contact
 from contact.cli import options as opt
 from contact.cli import problem, report
 from contact.cli.compare import compare
+from contact.cli.geometry import conicity, list_profiles
+from contact.cli.geometry import geometry as points
 from contact.cli.output import drawing, reported, write_csv, write_picture
 from contact.cli.plugins import add_plugins
 from contact.cli.problem import Position, Touch
@@ -41,9 +43,10 @@ app = typer.Typer(
 def solve(
     wheel: opt.WheelName = "s1002",
     rail: opt.RailName = "60e1",
-    inclination: opt.Inclination = 0.025,
+    inclination: opt.Inclination = None,
     unit: opt.Unit = None,
     drawn_side: opt.Drawn = None,
+    smoothing: opt.Smoothing = None,
     radius: opt.Radius = 0.46,
     side: opt.Sides = opt.Side.right,
     y: opt.Y = 0.0,
@@ -71,7 +74,7 @@ def solve(
         touches = [problem.solve_hertzian(curvatures, load, penetration, given, options | {"speed": speed})]
         title = f"Half curvatures {curvatures[0]:g} and {curvatures[1]:g} 1/m"
     else:
-        case = _position(wheel, rail, inclination, unit, drawn_side, radius, side, y, roll, yaw, speed)
+        case = _position(wheel, rail, (inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed)
         touches = problem.solve_position(case, load, penetration, given, options)
         title = _title(case)
     if as_json:
@@ -88,9 +91,10 @@ def solve(
 def patch(
     wheel: opt.WheelName = "s1002",
     rail: opt.RailName = "60e1",
-    inclination: opt.Inclination = 0.025,
+    inclination: opt.Inclination = None,
     unit: opt.Unit = None,
     drawn_side: opt.Drawn = None,
+    smoothing: opt.Smoothing = None,
     radius: opt.Radius = 0.46,
     side: opt.Sides = opt.Side.both,
     y: opt.Y = 0.0,
@@ -109,7 +113,7 @@ def patch(
 
     Example:  contact patch --y 6e-3 --yaw 2e-3 --out flange.png
     """
-    case = _position(wheel, rail, inclination, unit, drawn_side, radius, side, y, roll, yaw, speed)
+    case = _position(wheel, rail, (inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed)
     options = {"friction": friction, "normal": normal, "tangential": tangential, **PICTURE_RESOLUTION}
     touches = problem.solve_position(
         case, load, penetration, None if creepage is None else Creepage(*creepage), options
@@ -168,6 +172,9 @@ def curve(
 
 app.command()(compare)
 app.command()(statistics)
+app.command("geometry")(points)
+app.command()(conicity)
+app.command("profiles")(list_profiles)
 
 
 @app.command("methods")
@@ -198,9 +205,7 @@ def run(arguments: Sequence[str]) -> None:
 def _position(
     wheel: str,
     rail: str,
-    inclination: float,
-    unit: str | None,
-    drawn: str | None,
+    reading: tuple[Any, ...],
     radius: float,
     side: opt.Side,
     y: float,
@@ -209,8 +214,8 @@ def _position(
     speed: float,
 ) -> Position:
     return Position(
-        problem.profile_named(wheel, "wheel", inclination, unit, drawn),
-        problem.profile_named(rail, "rail", inclination, unit, drawn),
+        problem.profile_named(wheel, "wheel", *reading),
+        problem.profile_named(rail, "rail", *reading),
         ("left", "right") if side is opt.Side.both else (side.value,),
         problem.Pose(y=y, roll=roll, yaw=yaw),
         speed,

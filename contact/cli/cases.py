@@ -22,7 +22,7 @@ from contact.separation import Separation
 from contact.study import Case
 
 _TEXTS = ("name", "wheel", "rail", "unit", "drawn_side", "side")
-_NUMBERS = ("inclination", "radius", "y", "roll", "yaw", "speed", "load", "penetration", "friction")
+_NUMBERS = ("inclination", "smoothing", "radius", "y", "roll", "yaw", "speed", "load", "penetration", "friction")
 _LISTS = {"creepage": 3, "curvatures": 2}
 _SIDES = {"left": ("left",), "right": ("right",), "both": ("left", "right")}
 
@@ -77,10 +77,8 @@ def cases_of(given: Mapping[str, Any]) -> list[Case]:
         ]
     if given["side"] not in _SIDES:
         raise ContactError(f"side = {given['side']!r} is none of {', '.join(_SIDES)}")
-    wheel, rail = (
-        profile_named(given[kind], kind, given["inclination"], given["unit"], given["drawn_side"])
-        for kind in ("wheel", "rail")
-    )
+    reading = [given[option] for option in ("inclination", "unit", "drawn_side", "smoothing")]
+    wheel, rail = (profile_named(given[kind], kind, *reading) for kind in ("wheel", "rail"))
     pose = Pose(y=given["y"], roll=given["roll"], yaw=given["yaw"])
     position = Position(wheel, rail, _SIDES[given["side"]], pose, given["speed"], given["radius"])
     found = list(find_patches(position, load, penetration))

@@ -54,9 +54,10 @@ def compare(
     file: File = None,
     wheel: opt.WheelName = "s1002",
     rail: opt.RailName = "60e1",
-    inclination: opt.Inclination = 0.025,
+    inclination: opt.Inclination = None,
     unit: opt.Unit = None,
     drawn_side: opt.Drawn = None,
+    smoothing: opt.Smoothing = None,
     radius: opt.Radius = 0.46,
     side: opt.Sides = opt.Side.right,
     y: opt.Y = 0.0,
@@ -84,8 +85,8 @@ def compare(
         require_ending(path, (".html", ".json", ".csv", *PICTURES))  # before minutes of work
     given: dict[str, Any] = {
         "wheel": wheel, "rail": rail, "inclination": inclination, "unit": unit, "drawn_side": drawn_side,
-        "radius": radius, "side": side.value, "y": y, "roll": roll, "yaw": yaw, "speed": speed, "load": load,
-        "penetration": penetration, "friction": friction, "creepage": creepage, "curvatures": curvatures,
+        "smoothing": smoothing, "radius": radius, "side": side.value, "y": y, "roll": roll, "yaw": yaw, "speed": speed,
+        "load": load, "penetration": penetration, "friction": friction, "creepage": creepage, "curvatures": curvatures,
     }  # fmt: skip
     problems = cases.cases_of(given) if file is None else cases.read(file, given)
     if not problems:

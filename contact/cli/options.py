@@ -28,11 +28,22 @@ class Motion(StrEnum):
 
 
 PROFILES, POSITION, LOADING, METHOD, OUTPUT = "Profiles", "Wheelset position", "Loading", "Method", "Output"
-WheelName = Annotated[str, typer.Option("--wheel", help="s1002 or a profile file", rich_help_panel=PROFILES)]
-RailName = Annotated[str, typer.Option("--rail", help="60e1 or a profile file", rich_help_panel=PROFILES)]
-Inclination = Annotated[float, typer.Option(help="of the rail 60e1", rich_help_panel=PROFILES)]
+TRACK = "Track and wheelset"
+WheelName = Annotated[
+    str, typer.Option("--wheel", help="a name of `contact profiles` or a file", rich_help_panel=PROFILES)
+]
+RailName = Annotated[
+    str, typer.Option("--rail", help="a name of `contact profiles` or a file", rich_help_panel=PROFILES)
+]
+Inclination = Annotated[
+    float | None, typer.Option(help="of a rail of EN 13674-1; default 0.025", rich_help_panel=PROFILES)
+]
 Unit = Annotated[str | None, typer.Option(help="unit of profile files: mm or m", rich_help_panel=PROFILES)]
 Drawn = Annotated[str | None, typer.Option(help="side shown by profile files: right or left", rich_help_panel=PROFILES)]
+Smoothing = Annotated[
+    float | None,
+    typer.Option(help="noise in m that is smoothed out of profile files, like 2e-6", rich_help_panel=PROFILES),
+]
 Radius = Annotated[float, typer.Option(help="nominal rolling radius in m", rich_help_panel=PROFILES)]
 Sides = Annotated[Side, typer.Option(help="which wheel", rich_help_panel=POSITION)]
 Y = Annotated[float, typer.Option("--y", help="lateral displacement, to the right, in m", rich_help_panel=POSITION)]
@@ -84,5 +95,25 @@ Ellipse = Annotated[
     tuple[float, float],
     typer.Option("--curvatures", help="half curvatures along x and y in 1/m", metavar="A B", rich_help_panel=LOADING),
 ]
+LeftWheel = Annotated[
+    str | None, typer.Option(help="of the left side, if it is another", rich_help_panel=PROFILES, show_default=False)
+]
+LeftRail = Annotated[
+    str | None, typer.Option(help="of the left side, if it is another", rich_help_panel=PROFILES, show_default=False)
+]
+LeftRadius = Annotated[
+    float | None, typer.Option(help="of the left wheel in m, if it is another", rich_help_panel=PROFILES)
+]
+Gauge = Annotated[float, typer.Option(help="track gauge in m, 14 mm below the top of the rails", rich_help_panel=TRACK)]
+BackToBack = Annotated[float, typer.Option(help="distance of the backs of both flanges in m", rich_help_panel=TRACK)]
+Rolls = Annotated[bool, typer.Option("--roll", help="let the wheelset roll, against EN 15302", rich_help_panel=TRACK)]
+Reach = Annotated[
+    float, typer.Option("--max", help="largest lateral displacement in m", rich_help_panel=POSITION, min=1e-4, max=0.03)
+]
+Step = Annotated[float, typer.Option(help="of the displacements in m", rich_help_panel=POSITION, min=1e-6)]
+Amplitudes = Annotated[
+    list[float] | None,
+    typer.Option("--amplitude", help="in m; repeat. Default: 1 to 7 mm", rich_help_panel=POSITION, show_default=False),
+]
 Out = Annotated[Path, typer.Option(help="the picture: .png, .pdf or .svg", rich_help_panel=OUTPUT)]
-Csv = Annotated[Path | None, typer.Option("--csv", help="write all forces to this file", rich_help_panel=OUTPUT)]
+Csv = Annotated[Path | None, typer.Option("--csv", help="write the table to this file", rich_help_panel=OUTPUT)]

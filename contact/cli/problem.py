@@ -10,7 +10,7 @@ from typing import Any
 from contact.creepage import Creepage
 from contact.errors import ContactError
 from contact.geometry import profile, wheelset
-from contact.geometry.profile import Profile
+from contact.geometry.profile import Kind, Profile
 from contact.geometry.wheelset import Patch, Pose, Velocity
 from contact.separation import Separation
 from contact.solution import Solution
@@ -46,16 +46,18 @@ class Position:
     radius: float
 
 
-def profile_named(name: str, kind: str, inclination: float, unit: str | None, drawn: str | None) -> Profile:
-    """The standard profile of that name, or the profile in the file of that name."""
-    if kind == "wheel" and name.lower() == "s1002":
-        return profile.s1002()
-    if kind == "rail" and name.lower() == "60e1":
-        return profile.rail_60e1(inclination)
-    if not Path(name).is_file():
-        standard = {"wheel": "s1002", "rail": "60e1"}[kind]
-        raise ContactError(f"{kind} = {name!r} is neither a standard profile ({standard}) nor a file")
-    return profile.read(name, kind=kind, unit=unit, side=drawn)  # type: ignore[arg-type]
+def profile_named(
+    name: str,
+    kind: Kind,
+    inclination: float | None = None,
+    unit: str | None = None,
+    drawn: str | None = None,
+    smoothing: float | None = None,
+) -> Profile:
+    """The profile in the file of that name, or the profile of the standards; these have no point in their names."""
+    if "." in name or Path(name).is_file():
+        return profile.read(name, kind=kind, unit=unit, side=drawn, smoothing=smoothing)  # type: ignore[arg-type]
+    return profile.named(name, kind=kind, inclination=inclination if kind == "rail" else None)
 
 
 def find_patches(case: Position, load: float | None, penetration: float | None) -> Iterator[tuple[str, int, Patch]]:

@@ -77,18 +77,41 @@ def conicity(
     ContactError
         As there; and an amplitude at which no position has equal drive to both sides within 5 mm of the track's centre.
     """
+    wanted = _amplitudes(np.arange(1, 8) * 1e-3 if amplitudes is None else amplitudes)
+    n = int(np.ceil((wanted.max() + BEYOND) / require_number("step", step, 1e-6, 1e-4)))
+    return equivalent_conicity(contact_points(wheel, rail, np.arange(-n, n + 1) * step, **options), wanted)
+
+
+def equivalent_conicity(points: ContactPoints, amplitudes: ArrayLike) -> Conicity:
+    """The same from contact points that are known already, at equal steps of y.
+
+    Raises
+    ------
+    ContactError
+        Steps that differ, amplitudes that reach beyond the points, and as `conicity`.
+    """
+    wanted = _amplitudes(amplitudes)
+    steps = np.diff(points.y)
+    if steps.size < 2 or not (steps > 0.0).all() or np.ptp(steps) > 1e-6 * steps.max():
+        raise ContactError("points.y does not increase in equal steps")
+    if 2.0 * wanted.max() >= points.y[-1] - points.y[0]:
+        raise ContactError(
+            f"amplitudes = {wanted.max():g} reach beyond the points, which lie within [{points.y[0]:g}, {points.y[-1]:g}] m"
+        )
+    found = [_equivalent(points.y, points.radius_difference, value) for value in wanted.tolist()]
+    return Conicity(wanted, np.array([c for c, _ in found]), np.array([centre for _, centre in found]), points)
+
+
+def _amplitudes(given: ArrayLike) -> Array:
     try:
-        wanted = np.atleast_1d(np.array(np.arange(1, 8) * 1e-3 if amplitudes is None else amplitudes, dtype=np.float64))
+        wanted = np.atleast_1d(np.array(given, dtype=np.float64))
     except (TypeError, ValueError):
-        raise ContactError(f"amplitudes = {amplitudes!r} is not an array of numbers") from None
+        raise ContactError(f"amplitudes = {given!r} is not an array of numbers") from None
     if wanted.ndim != 1 or not wanted.size:
         raise ContactError(f"amplitudes of shape {wanted.shape}: at least one is needed")
     for value in wanted.tolist():
         require_number("amplitudes", value, 1e-4, 0.02)
-    n = int(np.ceil((wanted.max() + BEYOND) / require_number("step", step, 1e-6, 1e-4)))
-    points = contact_points(wheel, rail, np.arange(-n, n + 1) * step, **options)
-    found = [_equivalent(points.y, points.radius_difference, value) for value in wanted.tolist()]
-    return Conicity(wanted, np.array([c for c, _ in found]), np.array([centre for _, centre in found]), points)
+    return wanted
 
 
 def _equivalent(y: Array, dr: Array, amplitude: float) -> tuple[float, float]:

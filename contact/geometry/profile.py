@@ -102,8 +102,9 @@ def _spline_angles(y: Array, z: Array, chord: Array) -> Array:
 #: Name → outline of the wheels and the rail of EN 15302, and of all rails before they are inclined.
 _WHEELS_15302 = {f"EN 15302 {letter}": outlined for letter, outlined in standard.WHEELS_15302.items()}
 _RAIL_A = "EN 15302 rail A"
-_ALIASES = {alias: name for name, head in standard.RAILS.items() for alias in head.aliases} | {"rail A": _RAIL_A}
-_ALIASES |= {f"wheel {letter}": f"EN 15302 {letter}" for letter in standard.WHEELS_15302}
+#: Other name → name.
+ALIASES = {alias: name for name, head in standard.RAILS.items() for alias in head.aliases} | {"rail A": _RAIL_A}
+ALIASES |= {f"wheel {letter}": f"EN 15302 {letter}" for letter in standard.WHEELS_15302}
 
 STANDARD_INCLINATION, STANDARD_HEIGHT, STANDARD_THICKNESS = 1.0 / 40.0, 28e-3, 32.5e-3
 
@@ -148,7 +149,7 @@ def named(
     the rail of EN 15302 are seen in two sources each; all other numbers in one transcription of the standard
     (`contact.geometry.standard`, constants.md 12.2 and 14).
     """
-    found = _known(name, names(kind))
+    found = _known(name, kind)
     given = {"inclination": inclination, "flange_height": flange_height, "flange_thickness": flange_thickness}
     has = {"inclination"} if found in standard.RAILS else {"flange_height", "flange_thickness"}
     for option, value in given.items():
@@ -248,14 +249,17 @@ def _wheel(name: str, height: float, thickness: float) -> Profile:
     return _profile("wheel", tread.outline(height, thickness), name)
 
 
-def _known(name: str, among: tuple[str, ...]) -> str:
+def _known(name: str, kind: Kind | None) -> str:
     """The name as `names` has it."""
+    among = names(kind)
     keys = {_key(known): known for known in among}
-    keys |= {_key(alias): known for alias, known in _ALIASES.items() if known in among}
+    keys |= {_key(alias): known for alias, known in ALIASES.items() if known in among}
     found = keys.get(_key(str(name)))
     if found is None:
-        close = suggestion(name, (*among, *_ALIASES))
-        raise ContactError(f"name = {name!r} is no profile of the standards{close}; they are {', '.join(among)}")
+        close = suggestion(name, (*among, *ALIASES))
+        raise ContactError(
+            f"{kind or 'name'} = {name!r} is no profile of the standards{close}; they are {', '.join(among)}"
+        )
     return found
 
 

@@ -62,6 +62,14 @@ class ContactPoints:
         """Contact angle of the right wheel minus that of the left [rad]."""
         return self.right.angle - self.left.angle
 
+    def columns(self) -> dict[str, Array]:
+        """All of it by name, in SI units, as a table has it."""
+        sides = {
+            f"{side}_{name}": values for side in ("right", "left") for name, values in vars(getattr(self, side)).items()
+        }
+        differences = {"radius_difference": self.radius_difference, "angle_difference": self.angle_difference}
+        return {"y": self.y, "roll": self.roll, **differences, **sides}
+
 
 def contact_points(
     wheel: Profile,

@@ -13,5 +13,6 @@ from contact.plot.comparison import comparison
 from contact.plot.lines import curve, time_histories
 from contact.plot.patches import patch
 from contact.plot.position import Wheel, position
+from contact.plot.rolling import conicity, contact_points
 
-__all__ = ["Wheel", "comparison", "curve", "patch", "position", "time_histories"]
+__all__ = ["Wheel", "comparison", "conicity", "contact_points", "curve", "patch", "position", "time_histories"]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from contact import ContactError
-from contact.geometry import conicity, contact_points, profile
+from contact.geometry import conicity, contact_points, equivalent_conicity, profile
 from contact.geometry.wheelset import Pair, Pose
 
 CONE, ARC = profile.cone(0.05), profile.rail_arc(0.3)
@@ -148,3 +148,13 @@ def test_bad_input_is_named(options, message):
         conicity(CONE, ARC, **{**ON_ARC, "amplitudes": [1e-3], "step": 1e-4, **options})
     with pytest.raises(ContactError, match=r"y of shape \(0,\)"):
         contact_points(CONE, ARC, [], **ON_ARC)
+
+
+def test_known_points_must_lie_at_equal_steps_and_far_enough():
+    points = contact_points(CONE, ARC, [-3e-3, 0.0, 1e-3], **ON_ARC)
+    with pytest.raises(ContactError, match="equal steps"):
+        equivalent_conicity(points, 1e-3)
+    points = contact_points(CONE, ARC, np.linspace(-3e-3, 3e-3, 7), **ON_ARC)
+    assert equivalent_conicity(points, 2e-3).conicity == pytest.approx(0.05, rel=1e-5)
+    with pytest.raises(ContactError, match=r"amplitudes = 0\.003 reach beyond the points"):
+        equivalent_conicity(points, 3e-3)
