@@ -259,7 +259,11 @@ def report() -> str:
             rows.append([f"`{n}` + `{t}`", triple(e["force"]), triple(e["moment"])])
     d_force = table(["method", "force, mean / p95 / max", "moment, mean / p95 / max"], rows)
 
-    own = [("`" + t + "`", list(errors_on_fields(t).values())) for t in tangential]
+    own = [
+        ("`" + t + "`", list(errors_on_fields(t).values()))
+        for t in tangential
+        if contact.methods().tangential[t].fields
+    ]
     theirs = [
         (f"CONTACT: FaStrip, {k}", [case["error_contact_fastrip"][k] for case in fields()])
         for k in ("original", "modified")

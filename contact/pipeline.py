@@ -32,7 +32,8 @@ from contact.normal.hertzian import hertzian
 from contact.normal.lay import interval_minimum
 from contact.normal.strip_halfspace import strip_halfspace
 from contact.quadrature import EL_DX, EL_S, EL_SINE
-from contact.registry import FASTRIP_MAPPED, FASTSIM, HERTZ, KIK_PIOTROWSKI, STRIP_HALFSPACE
+from contact.registry import CARTER, FASTRIP_MAPPED, FASTSIM, HERTZ, KIK_PIOTROWSKI, STRIP_HALFSPACE
+from contact.tangential.creep_force import creep_force
 from contact.tangential.fastrip import fastrip
 from contact.tangential.fastrip_mapped import fastrip_mapped
 from contact.tangential.fastsim import fastsim
@@ -111,6 +112,8 @@ def solve_case(y, g, A, xc, case, rule, tables, space, strips, fields, result):
         fastsim(strips, n, case, table, elements, space.lanes, space.trace, fields, result)
     elif case[CASE_TANGENTIAL] == FASTRIP_MAPPED:
         fastrip_mapped(strips, n, case, table, elements, space.lanes, space.trace, fields, result)
+    elif case[CASE_TANGENTIAL] >= CARTER:
+        creep_force(strips, n, case, table, fields, result)
     else:
         fastrip(strips, n, case, table, elements, space.lanes, space.trace, fields, result)
     if result[RES_STATUS] == 1.0 and case[CASE_MU] > 0.0 and result[RES_SLIP_AREA] >= area * (1.0 - 1e-12):

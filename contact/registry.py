@@ -25,6 +25,9 @@ class Method:
     several_patches : finds or serves separate patches
     fields : returns traction, slip and stick over the patch (tangential) or pressure (normal)
     spin : takes spin into account
+    lateral : takes lateral creepage into account (tangential)
+    saturates : the force never exceeds friction (tangential)
+    admissible : nowhere does the traction exceed friction times pressure (tangential)
     interacting : every strip feels the pressure of all others (normal)
     batched : a kernel over strips, which `contact.forces` and the FMUs offer too; else `contact.solve` alone
     continuous : the load is a continuous function of the approach on every patch (normal)
@@ -38,6 +41,9 @@ class Method:
     several_patches: bool
     fields: bool = True
     spin: bool = True
+    lateral: bool = True
+    saturates: bool = True
+    admissible: bool = True
     interacting: bool = False
     batched: bool = True
     continuous: bool = True
@@ -71,6 +77,8 @@ ANALYN, HERTZ, STRIP_HALFSPACE = 0, 1, 2
     PASCAL_SAUVAGE,
 ) = range(20, 31)
 FASTRIP, FASTSIM, FASTRIP_MAPPED = 0, 1, 2
+# solved by `tangential.creep_force`, from the first of them on
+CARTER, JOHNSON, VERMEULEN_JOHNSON, LINEAR, LINEAR_SATURATED, SHEN_HEDRICK_ELKINS, POLACH = range(20, 27)
 HALFSPACE = -1  # no kernel of the pipeline
 
 _NORMAL = (
@@ -133,10 +141,63 @@ _NORMAL = (
 )
 _TANGENTIAL = (
     Method("fastrip", FASTRIP, "FaStrip on local ellipses", "Sichani 2016, ch. 4 and 9, Papers D and E", True, True),
-    Method("fastsim", FASTSIM, "FASTSIM, three flexibilities, parabolic bound", "Kalker 1982", True, True),
+    Method(
+        "fastsim", FASTSIM, "FASTSIM, three flexibilities, parabolic bound", "Kalker 1982", True, True, admissible=False
+    ),
     Method(
         "fastrip_mapped", FASTRIP_MAPPED, "FaStrip in one march, mapped to the pressure", "this project", True, True
     ),
+    Method(
+        "carter",
+        CARTER,
+        "two-dimensional rolling contact, on a rectangle",
+        "Carter 1926",
+        False,
+        True,
+        fields=False,
+        spin=False,
+        lateral=False,
+    ),
+    Method(
+        "johnson",
+        JOHNSON,
+        "creepage without spin on the circle of equal area",
+        "Johnson 1958",
+        False,
+        True,
+        fields=False,
+        spin=False,
+    ),
+    Method(
+        "vermeulen_johnson",
+        VERMEULEN_JOHNSON,
+        "creepage without spin on an ellipse",
+        "Vermeulen and Johnson 1964",
+        False,
+        True,
+        fields=False,
+        spin=False,
+    ),
+    Method("linear", LINEAR, "Kalker's linear theory", "Kalker 1967", False, True, fields=False, saturates=False),
+    Method(
+        "linear_saturated",
+        LINEAR_SATURATED,
+        "Kalker's linear theory, cut at friction",
+        "thesis, ch. 5",
+        False,
+        True,
+        fields=False,
+    ),
+    Method(
+        "shen_hedrick_elkins",
+        SHEN_HEDRICK_ELKINS,
+        "Kalker's linear theory, saturated by the cubic law",
+        "Shen, Hedrick and Elkins 1983",
+        False,
+        True,
+        fields=False,
+    ),
+    Method("polach", POLACH, "creep force with spin, clean surface", "Polach 1999", False, True, fields=False),
     Method(
         "halfspace",
         HALFSPACE,

@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from contact.absence import only_with_fields
 from contact.creepage import Creepage
 from contact.material import Material
+from contact.registry import methods
 
 if TYPE_CHECKING:
     from contact.damage import Damage
@@ -65,12 +67,14 @@ class Strips:
     patch: NDArray[np.int64]
 
 
+@only_with_fields("qx", "qy", "sx", "sy", "stick")
 @dataclass(frozen=True)
 class Solution:
     """Solved contact of one wheel-rail pair in the frame of its separation.
 
     Forces act on the wheel; x in the rolling direction, y lateral, z along the common normal. Two-dimensional fields have
-    shape (n_strips, n_elements), element 0 at the leading edge. With no contact they are empty and all numbers zero.
+    shape (n_strips, n_elements), element 0 at the leading edge. With no contact they are empty and all numbers zero. Where
+    the tangential method gives forces alone, reading traction, slip or stick raises a ContactError (`has_fields`).
 
     Attributes
     ----------
@@ -130,6 +134,11 @@ class Solution:
             f"{self.n_patches} patch(es), {self.area * 1e6:.4g} mm², {self.max_pressure / 1e6:.5g} MPa; "
             f"{self.normal} + {self.tangential})"
         )
+
+    @property
+    def has_fields(self) -> bool:
+        """True if the tangential method gives traction, slip and stick over the patch."""
+        return methods().tangential[self.tangential].fields
 
     @property
     def converged(self) -> bool:

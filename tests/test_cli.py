@@ -43,6 +43,19 @@ def test_solve_gives_the_numbers_of_the_python_api():
     assert answer[0]["damage"]["archard_volume"] == d.archard.volume
 
 
+def test_a_law_without_fields_shows_what_it_has(tmp_path):
+    """Neither wear depth nor an index over the patch, and no picture of it: refused by name."""
+    words = ("--curvatures", 1.1, 0.8, "--creepage", 1e-3, 0.0, 0.1, "--tangential", "polach")
+    answer = json.loads(call("solve", *words, "--json").stdout)["patches"][0]
+    assert answer["Fx"] < 0.0 < answer["damage"]["T_gamma"]
+    assert "archard_volume" not in answer["damage"]
+    table = call("solve", *words).stdout
+    assert "T-gamma" in table
+    assert "Archard" not in table
+    refused = call("patch", "--tangential", "polach", "--out", tmp_path / "patch.png", code=2)
+    assert "'polach' gives forces alone" in " ".join(refused.stderr.split())
+
+
 def test_solve_on_rails_gives_the_numbers_of_the_geometry_and_the_solver():
     words = ("--y", 2e-3, "--yaw", 1e-3, "--load", 70e3, "--side", "left", "--speed", 30.0)
     answer = json.loads(call("solve", *words, "--json").stdout)["patches"]

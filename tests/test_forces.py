@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import contact
+from benchmarks import robustness
 
 NAMES = ("Fx", "Fy", "Mz", "N", "approach", "max_pressure", "area", "slip_ratio", "power_per_metre", "status")
 
 
-@pytest.mark.parametrize("normal", list(contact.methods().batched.normal))
-@pytest.mark.parametrize("tangential", list(contact.methods().batched.tangential))
+@pytest.mark.parametrize(("normal", "tangential"), robustness.method_pairs())
 def test_equals_solve_case_by_case(normal, tangential, ellipse):
     other = contact.Separation.hertzian(2.0, 0.7)
     creep = np.linspace(-2e-3, 2e-3, 5)

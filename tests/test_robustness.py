@@ -1,29 +1,25 @@
 """Hundreds of random but physical cases through every pair of methods; benchmarks/robustness.py runs 10⁵."""
 
-import itertools
-
 import pytest
 
 import contact
 from benchmarks import robustness
 
-PAIRS = list(itertools.product(contact.methods().batched.normal, contact.methods().batched.tangential))
 
-
-@pytest.mark.parametrize(("normal", "tangential"), PAIRS)
+@pytest.mark.parametrize(("normal", "tangential"), robustness.method_pairs())
 def test_random_physical_cases_are_solved(normal, tangential):
     found = robustness.run(normal, tangential, 320, seed=11, solved=16)
-    statuses = found["statuses"]
+    statuses, method = found["statuses"], contact.methods().tangential[tangential]
     assert sum(statuses.values()) == 320
     assert found["finite"] == 0, "results that are not finite"
     assert found["iterations"] <= robustness.CAPS[normal]
-    assert found["force"] <= 1e-9, "|F| ≤ μN"
+    assert found["force"] <= 1e-9 or not method.saturates, "|F| ≤ μN"
     assert found["power"] >= 0.0, "dissipation"
-    assert found["work"] >= (-1e-9 if tangential != "fastsim" else -0.1), "dissipation of each element"
+    assert found["work"] >= (-1e-9 if method.admissible else -0.1), "dissipation of each element"
     assert found["load"] <= 1e-9, "N = load"
     assert found["sum"] <= 1e-9, "Σ p dA = N"
     assert found["slip"] <= 1e-3, "0 ≤ slip ratio ≤ 1"
-    if tangential != "fastsim":  # its parabola exceeds mu p by design (thesis 4.2)
+    if method.admissible:
         assert found["bound"] <= 1e-9, "|q| ≤ μp"
     # strips on punches and on roughness of 2 µm: 1.2 % of many cases, and none of these on real patches
     assert statuses[contact.Status.NOT_CONVERGED] <= (9 if normal == "strip_halfspace" else 0)

@@ -44,10 +44,13 @@ DAMAGE: Sequence[tuple[str, str, Callable[[Damage], float]]] = (
     ("dissipation", "N", lambda d: d.dissipation),
     ("Pearce-Sherratt", "mm²/km", lambda d: 1e9 * d.pearce_sherratt),
     ("USFD", "mm/km", lambda d: 1e6 * d.usfd),
-    ("Archard volume", "mm³/km", lambda d: 1e12 * d.archard.volume),
-    ("Archard depth", "µm/km", lambda d: 1e9 * d.archard.depth_max),
     ("Burstow", "1e-6/axle", lambda d: 1e6 * d.burstow),
     ("surface fatigue index", "-", lambda d: d.fatigue_index),
+)
+#: What needs traction and slip over the patch.
+LOCAL_DAMAGE: Sequence[tuple[str, str, Callable[[Damage], float]]] = (
+    ("Archard volume", "mm³/km", lambda d: 1e12 * d.archard.volume),
+    ("Archard depth", "µm/km", lambda d: 1e9 * d.archard.depth_max),
     ("largest stress index", "MPa", lambda d: 1e-6 * d.stress_index.max),
     ("largest energy index", "MPa", lambda d: 1e-6 * d.energy_index.max),
 )
@@ -72,13 +75,13 @@ def show(touches: Sequence[Touch], title: str, wheel_radius: float, console: Con
     table.add_row("status", "", *(t.solution.status.name.lower().replace("_", " ") for t in touches))
     table.add_section()
     damages = [evaluate(t.solution, wheel_radius) for t in touches]
-    for label, unit, of_damage in DAMAGE:
+    for label, unit, of_damage in (*DAMAGE, *(LOCAL_DAMAGE if damages[0].has_fields else ())):
         table.add_row(label, unit, *(number(of_damage(d)) for d in damages))
     console.print(table)
 
 
 def data(touch: Touch, wheel_radius: float) -> dict[str, Any]:
-    """Everything but the fields, in SI units, under the names of the Python API."""
+    """Everything but the fields, in SI units, under the names of the Python API; no local damage without fields."""
     s, damage = touch.solution, evaluate(touch.solution, wheel_radius)
     c = s.creepage
     content: dict[str, Any] = {}
@@ -96,12 +99,14 @@ def data(touch: Touch, wheel_radius: float) -> dict[str, Any]:
     content["creepage"] = {"longitudinal": c.longitudinal, "lateral": c.lateral, "spin": c.spin}
     content |= {"friction": s.friction, "speed": s.speed, "normal": s.normal, "tangential": s.tangential}
     numbers = "T_gamma T_gamma_spin dissipation pearce_sherratt burstow usfd fatigue_index"
-    content["damage"] = {name: getattr(damage, name) for name in numbers.split()} | {
-        "archard_depth_max": damage.archard.depth_max,
-        "archard_volume": damage.archard.volume,
-        "stress_index_max": damage.stress_index.max,
-        "energy_index_max": damage.energy_index.max,
-    }
+    content["damage"] = {name: getattr(damage, name) for name in numbers.split()}
+    if damage.has_fields:
+        content["damage"] |= {
+            "archard_depth_max": damage.archard.depth_max,
+            "archard_volume": damage.archard.volume,
+            "stress_index_max": damage.stress_index.max,
+            "energy_index_max": damage.energy_index.max,
+        }
     return content
 
 
@@ -127,6 +132,10 @@ def _abilities(method: Method, kind: str) -> Iterator[str]:
         yield "spin"
     if kind == "tangential" and method.fields:
         yield "slip field"
+    if not method.lateral:
+        yield "longitudinal creepage alone"
+    if not method.saturates:
+        yield "no friction"
     if method.interacting:
         yield "interacting strips"
     if not method.continuous:

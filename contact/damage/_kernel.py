@@ -5,6 +5,7 @@ import math
 from contact._jit import kernel
 from contact._layout import (
     CASE_PHI,
+    CASE_TANGENTIAL,
     CASE_VX,
     CASE_VY,
     FIELD_DX,
@@ -32,6 +33,7 @@ from contact.damage.pearce_sherratt import pearce_sherratt_kernel
 from contact.damage.stress_index import stress_index_kernel
 from contact.damage.t_gamma import t_gamma_kernel
 from contact.damage.usfd import usfd_kernel
+from contact.registry import CARTER
 
 # parameters[...]: DamageParameters.array()
 PAR_SPEED, PAR_WHEEL_RADIUS, PAR_HARDNESS, PAR_SHEAR_YIELD, PAR_WITH_SPIN, PAR_PEARCE_SHERRATT = range(6)
@@ -66,7 +68,7 @@ def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, da
     """Fill `damage` and the first `n` strips of `damage_fields` from a solved case (see `contact._layout`).
 
     The depth of an element is spread over the circumference, so it is metre per metre rolled; the volume is that of all
-    strips, ∬ k p |s|/H dA. With n = 0 everything is zero.
+    strips, ∬ k p |s|/H dA. With n = 0 everything is zero, and what needs fields where the law gives forces alone.
     """
     damage[:] = 0.0
     damage_fields[:, :n] = 0.0
@@ -90,6 +92,8 @@ def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, da
     utilisation = math.sqrt(Fx * Fx + Fy * Fy) / result[RES_N]
     damage[DAMAGE_FATIGUE_INDEX] = fatigue_index_kernel(utilisation, result[RES_PMAX], shear_yield)
 
+    if case[CASE_TANGENTIAL] >= CARTER:
+        return
     depth_max, volume, stress_max, energy_max = 0.0, 0.0, -math.inf, -math.inf
     for i in range(n):
         lost = 0.0  # by a particle that crosses the patch along this strip [m]

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from contact._layout import (
     CASE_PHI,
+    CASE_TANGENTIAL,
     CASE_VX,
     CASE_VY,
     FIELD_DX,
@@ -33,6 +34,7 @@ from contact._layout import (
     STRIP_DY,
     STRIP_Y,
 )
+from contact.absence import only_with_fields
 from contact.damage._kernel import (
     DAMAGE_ARCHARD_DEPTH,
     DAMAGE_ARCHARD_VOLUME,
@@ -58,6 +60,7 @@ from contact.damage.pearce_sherratt import PearceSherratt
 from contact.damage.usfd import Usfd
 from contact.errors import require_number
 from contact.material import Material
+from contact.registry import methods
 
 if TYPE_CHECKING:
     from contact.solution import Solution
@@ -135,11 +138,14 @@ class ArchardWear:
         return 2.0 * np.pi * self.wheel_radius * self.depth_per_strip
 
 
-@dataclass(frozen=True, slots=True)
+@only_with_fields("archard", "stress_index", "energy_index")
+@dataclass(frozen=True)
 class Damage:
     """Damage indices of one solution; everything is zero without contact.
 
-    Rates count per metre rolled, that is per metre of the wheel's way; times 2πr they count per revolution.
+    Rates count per metre rolled, that is per metre of the wheel's way; times 2πr they count per revolution. Where the
+    tangential method gives forces alone, reading what needs its fields (archard, stress_index, energy_index) raises a
+    ContactError (`has_fields`); the dissipation is then -(F·v + Mz phi).
 
     Attributes
     ----------
@@ -160,17 +166,20 @@ class Damage:
     pearce_sherratt: float
     burstow: float
     usfd: float
-    archard: ArchardWear
+    archard: ArchardWear = field(repr=False)
     fatigue_index: float
-    stress_index: IndexField
-    energy_index: IndexField
+    stress_index: IndexField = field(repr=False)
+    energy_index: IndexField = field(repr=False)
+    tangential: str
+
+    @property
+    def has_fields(self) -> bool:
+        """True if the tangential method gives traction and slip over the patch."""
+        return methods().tangential[self.tangential].fields
 
 
 def evaluate(solution: Solution, wheel_radius: float = 0.46, parameters: DamageParameters | None = None) -> Damage:
     """Every damage index of a solution.
-
-    Archard's law and the stress index need the slip and traction fields of the tangential method; a method without them
-    (see `contact.methods`) wears nothing there.
 
     Parameters
     ----------
@@ -209,6 +218,7 @@ def evaluate(solution: Solution, wheel_radius: float = 0.46, parameters: DamageP
         fatigue_index=number[DAMAGE_FATIGUE_INDEX],
         stress_index=IndexField(damage_fields[DFIELD_STRESS_INDEX], number[DAMAGE_STRESS_INDEX]),
         energy_index=IndexField(damage_fields[DFIELD_ENERGY_INDEX], number[DAMAGE_ENERGY_INDEX]),
+        tangential=solution.tangential,
     )
 
 
@@ -220,10 +230,12 @@ def _arrays(solution: Solution) -> tuple[Array, Array, Array, Array]:
     fields = np.zeros((N_FIELD_ROWS, *shape))
     fields[FIELD_X], fields[FIELD_P] = solution.x, solution.p
     fields[FIELD_DX] = solution.dA / strips[STRIP_DY][:, None]
-    fields[FIELD_QX], fields[FIELD_QY] = solution.qx, solution.qy
-    fields[FIELD_SX], fields[FIELD_SY] = solution.sx, solution.sy
+    if solution.has_fields:
+        fields[FIELD_QX], fields[FIELD_QY] = solution.qx, solution.qy
+        fields[FIELD_SX], fields[FIELD_SY] = solution.sx, solution.sy
     case, result = np.zeros(N_CASE), np.zeros(N_RES)
     creepage = solution.creepage
+    case[CASE_TANGENTIAL] = methods().tangential[solution.tangential].id
     case[CASE_VX], case[CASE_VY], case[CASE_PHI] = creepage.longitudinal, creepage.lateral, creepage.spin
     result[RES_FX], result[RES_FY], result[RES_MZ], result[RES_N] = solution.Fx, solution.Fy, solution.Mz, solution.N
     result[RES_PMAX], result[RES_AREA] = solution.max_pressure, solution.area

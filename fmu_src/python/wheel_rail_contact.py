@@ -35,7 +35,10 @@ class WheelRailContactSlave(TableSlave):
             self.log(f"status {solution.status.name}: {solution.status.message}", Fmi2Status.warning)
         power = values["speed"] * solution.power_per_metre
         damage = evaluate(solution, values["wheel.radius"])
-        worn = values["speed"] * damage.archard.volume * step_size
+        depth, volume, stress, energy = 0.0, 0.0, 0.0, 0.0
+        if damage.has_fields:
+            depth, volume = damage.archard.depth_max, damage.archard.volume
+            stress, energy = damage.stress_index.max, damage.energy_index.max
         return {
             "force.x": solution.Fx,
             "force.y": solution.Fy,
@@ -53,15 +56,15 @@ class WheelRailContactSlave(TableSlave):
             "damage.wear_rate_pearce_sherratt": damage.pearce_sherratt,
             "damage.index_burstow": damage.burstow,
             "damage.wear_rate_usfd": damage.usfd,
-            "damage.archard_depth_max": damage.archard.depth_max,
-            "damage.archard_volume": damage.archard.volume,
+            "damage.archard_depth_max": depth,
+            "damage.archard_volume": volume,
             "damage.fatigue_index_surface": damage.fatigue_index,
-            "damage.stress_index_max": damage.stress_index.max,
-            "damage.energy_index_max": damage.energy_index.max,
+            "damage.stress_index_max": stress,
+            "damage.energy_index_max": energy,
             "stiffness.normal": solution.normal_stiffness,
             "status": int(solution.status),
             "total.energy": values["total.energy"] + power * step_size,
-            "total.worn_volume": values["total.worn_volume"] + worn,
+            "total.worn_volume": values["total.worn_volume"] + values["speed"] * volume * step_size,
         }
 
     def on_demand(self, values: Values) -> Rows:

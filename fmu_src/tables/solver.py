@@ -26,7 +26,7 @@ def parameters() -> Iterable[Variable]:
     )
     yield parameter(
         "method.tangential",
-        "Method for the tangential problem",
+        "Method for the tangential problem; creep force laws leave traction, slip, wear depth and indices of fields at zero",
         enumeration=TANGENTIAL_METHOD,
         start=registry.DEFAULT_TANGENTIAL,
     )

@@ -45,6 +45,8 @@ def numbers(record):
     values = []
     for f in record_fields(record):
         value = getattr(record, f.name)
+        if isinstance(value, str):
+            continue
         values.extend(numbers(value) if hasattr(value, "__dataclass_fields__") else np.ravel(value))
     return np.array(values)
 

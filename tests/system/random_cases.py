@@ -36,12 +36,16 @@ class Case:
         s = self.solution
         d = evaluate(s, self.values["wheel.radius"])
         power = s.speed * s.power_per_metre
+        local = (0.0,) * 4
+        if d.has_fields:
+            local = d.archard.depth_max, d.archard.volume, d.stress_index.max, d.energy_index.max
+        depth, volume, stress, energy = local
         return np.array(
             [
                 *(s.Fx, s.Fy, s.N, s.Mz, s.approach, s.max_pressure, s.area, s.length, s.width, s.slip_ratio, power),
-                *(d.T_gamma, d.pearce_sherratt, d.burstow, d.usfd, d.archard.depth_max, d.archard.volume),
-                *(d.fatigue_index, d.stress_index.max, d.energy_index.max, s.normal_stiffness),
-                *(STEP * power, STEP * s.speed * d.archard.volume, s.n_patches, s.status),
+                *(d.T_gamma, d.pearce_sherratt, d.burstow, d.usfd, depth, volume),
+                *(d.fatigue_index, stress, energy, s.normal_stiffness),
+                *(STEP * power, STEP * s.speed * volume, s.n_patches, s.status),
             ]
         )
 
