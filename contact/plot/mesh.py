@@ -6,15 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.plot.style import MM
-from contact.registry import methods
 from contact.solution import Solution
 
 Array = NDArray[np.float64]
-
-
-def has_fields(solution: Solution) -> bool:
-    """Whether there are traction, slip and stick over the patch."""
-    return methods().tangential[solution.tangential].fields
 
 
 class PatchMesh:
@@ -33,7 +27,7 @@ class PatchMesh:
         self.x = np.clip(MM * solution.x[own], back[:, None], front[:, None])
         self.inside = solution.p[own] > 0.0
         self.dA = np.where(self.inside, solution.dA[own], 0.0)
-        self.has_fields = has_fields(solution)
+        self.has_fields = solution.has_fields
         self._own = own
         if not self.has_fields:
             return

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from contact.damage import evaluate
 from contact.errors import ContactError
-from contact.plot.mesh import PatchMesh, has_fields
+from contact.plot.mesh import PatchMesh
 from contact.plot.style import DPI, FAINT, INK, colour_map, nice, style
 from contact.solution import Solution
 
@@ -94,7 +94,7 @@ class Scale:
         touching = [s for s in solutions if s.p.size]
         meshes = [PatchMesh(s, k) for s in touching for k in range(s.n_patches)]
         self.pressure = 0.0, nice(max((s.max_pressure for s in touching), default=1e6) * 1e-6)
-        self.traction = max((float(np.hypot(s.qx, s.qy).max()) for s in touching if has_fields(s)), default=0.0)
+        self.traction = max((float(np.hypot(s.qx, s.qy).max()) for s in touching if s.has_fields), default=0.0)
         # a window that holds every solution with a margin, half its size [mm]
         boxes = np.array([box(s) for s in (touching if together and touching else solutions)])
         if together:
