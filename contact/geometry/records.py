@@ -80,6 +80,9 @@ class Patch:
         Contact angle [rad]; the contact frame is the track frame turned by it about x.
     position : tuple of float
         Reference point (x, y, z) on the rail [m]: mean over the interpenetration of the undeformed profiles.
+    wheel_position : tuple of float
+        The wheel's point (x, y, z) opposite it [m], deeper by the interpenetration there. Creepages are taken there, and the
+        forces on the wheel act there: only so their power on the motion is that of force times creepage.
     on_rail, on_wheel : tuple of float
         (y, z) of the reference point in rail and of its opposite in wheel profile coordinates (right-side convention) [m].
     rolling_radius : float
@@ -96,6 +99,7 @@ class Patch:
     creepage: Creepage
     angle: float
     position: tuple[float, float, float]
+    wheel_position: tuple[float, float, float]
     on_rail: tuple[float, float]
     on_wheel: tuple[float, float]
     rolling_radius: float

@@ -225,6 +225,7 @@ class Pair:
             creepage=Creepage(p[layout.PATCH_VX], m * p[layout.PATCH_VY], m * p[layout.PATCH_PHI]),
             angle=m * p[layout.PATCH_ANGLE],
             position=(p[layout.PATCH_X], m * p[layout.PATCH_Y], p[layout.PATCH_Z]),
+            wheel_position=(p[layout.PATCH_X], m * p[layout.PATCH_POINT_Y], p[layout.PATCH_POINT_Z]),
             on_rail=(p[layout.PATCH_RAIL_Y], p[layout.PATCH_RAIL_Z]),
             on_wheel=(p[layout.PATCH_WHEEL_Y], p[layout.PATCH_WHEEL_Z]),
             rolling_radius=p[layout.PATCH_RADIUS],

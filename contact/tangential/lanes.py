@@ -9,7 +9,7 @@ exponential is a rational function. One strip after the other took 17 ns an elem
 
 from contact._jit import kernel
 
-LANES = 8
+LANES = 16
 
 #: First rows of `lanes`: what the present element leaves in a row of `trace` (n_elements, N_TRACE·LANES).
 NOW_X, NOW_Y, NOW_SLIP, NOW_SLIDES, NOW_STICK = (row * LANES for row in range(5))

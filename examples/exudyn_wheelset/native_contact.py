@@ -85,7 +85,7 @@ class NativeContact:
         pose = Pose(y=centre[1], z=centre[2] + self._radius, roll=math.asin(axle[2]), yaw=math.atan2(-axle[0], axle[1]))
         total = np.zeros(6)
         for patch in self._pair.contacts(pose):
-            arm = patch.position - centre
+            arm = patch.wheel_position - centre
             tangent = np.array([0.0, math.cos(patch.angle), math.sin(patch.angle)])
             normal = np.array([0.0, -tangent[2], tangent[1]])  # from the wheel into the rail
             slip = velocity + np.cross(rotation, arm)

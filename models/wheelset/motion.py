@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from contact._jit import kernel
 from contact.geometry.layout import (
     PATCH_ANGLE,
-    PATCH_Y,
-    PATCH_Z,
+    PATCH_POINT_Y,
+    PATCH_POINT_Z,
     POSE_ROLL,
     POSE_Y,
     POSE_YAW,
@@ -210,8 +210,8 @@ def _lay_frame(w: Wheelset, search: Search, side: int, y: float, z: float, roll:
         return False
     m = 1.0 if side == RIGHT else -1.0  # the left side is the mirror image of the right
     patch, separation, frame, problem = search.patches[0], search.separations[0], w.frames[side], w.problems[side]
-    frame[Y] = m * patch[PATCH_Y] - y
-    frame[Z] = patch[PATCH_Z] - (z - w.constants[RADIUS])
+    frame[Y] = m * patch[PATCH_POINT_Y] - y
+    frame[Z] = patch[PATCH_POINT_Z] - (z - w.constants[RADIUS])
     frame[ANGLE] = m * patch[PATCH_ANGLE]
     frame[X] = dynamics.locus(frame, w.axle)
     for i in range(POINTS):
