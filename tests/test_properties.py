@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import contact
 from benchmarks import robustness
+from contact.normal import strip_halfspace
 from tests.test_solve import assert_post_conditions
 
 NORMAL, METHODS = list(contact.methods().batched.normal), contact.methods().batched.tangential
@@ -62,15 +63,15 @@ def test_opposite_creepages_give_opposite_forces(separation, creepage, load, nor
 
 
 @pytest.mark.parametrize(
-    ("normal", "kinds"),
+    ("normal", "kinds", "accuracy"),
     [
-        ("analyn", ("pose", "worn", "ellipse", "near-conformal", "asymmetric")),
-        ("strip_halfspace", ("pose", "worn", "ellipse")),
+        ("analyn", ("pose", "worn", "ellipse", "near-conformal", "asymmetric"), 1e-6),
+        ("strip_halfspace", ("pose", "worn", "ellipse"), strip_halfspace.TOLERANCE),  # 3e-5 seen in 600 cases
     ],
 )
 @few
 @given(st.data(), creepages, st.floats(1e3, 2e5), tangentials)
-def test_the_mirror_image_has_the_mirrored_forces(normal, kinds, data, creepage, load, tangential):
+def test_the_mirror_image_has_the_mirrored_forces(normal, kinds, accuracy, data, creepage, load, tangential):
     """theory.md 2.6: y → −y turns Fy and Mz. Of more than four patches the last ones are merged, from the left."""
     separation = data.draw(separations(kinds=kinds))
     mirrored = contact.Separation(-separation.y[::-1], separation.g[::-1], separation.A[::-1], separation.x_c[::-1])
@@ -78,8 +79,8 @@ def test_the_mirror_image_has_the_mirrored_forces(normal, kinds, data, creepage,
     one = solve(separation, creepage, load=load, normal=normal, tangential=tangential)
     assume(one.n_patches < 4)
     other = solve(mirrored, (xi, -eta, -phi), load=load, normal=normal, tangential=tangential)
-    assert other.approach == pytest.approx(one.approach, rel=1e-6, abs=1e-12)
-    np.testing.assert_allclose(force(other), force(one) * (1, -1, -1), atol=1e-5)
+    assert other.approach == pytest.approx(one.approach, rel=accuracy, abs=1e-12)
+    np.testing.assert_allclose(force(other), force(one) * (1, -1, -1), atol=10.0 * accuracy)
 
 
 @few

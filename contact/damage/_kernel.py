@@ -78,6 +78,7 @@ def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, da
     Fx, Fy, Mz = result[RES_FX], result[RES_FY], result[RES_MZ]
     radius, shear_yield = parameters[PAR_WHEEL_RADIUS], parameters[PAR_SHEAR_YIELD]
     circumference = 2.0 * math.pi * radius
+    per_circumference = 1.0 / circumference
 
     T_gamma = t_gamma_kernel(Fx, Fy, 0.0, vx, vy, 0.0)
     T_gamma_spin = t_gamma_kernel(Fx, Fy, Mz, vx, vy, phi)
@@ -95,27 +96,28 @@ def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, da
     if case[CASE_TANGENTIAL] >= CARTER:
         return
     depth_max, volume, stress_max, energy_max = 0.0, 0.0, -math.inf, -math.inf
+    speed, hardness, archard = parameters[PAR_SPEED], parameters[PAR_HARDNESS], parameters[PAR_ARCHARD:N_PAR]
+    columns = fields.shape[2]
     for i in range(n):
-        lost = 0.0  # by a particle that crosses the patch along this strip [m]
-        for j in range(fields.shape[2]):
-            qx, qy = fields[FIELD_QX, i, j], fields[FIELD_QY, i, j]
+        y = strips[STRIP_Y, i]
+        # one loop an index: with more the compiler gives up vector instructions
+        for j in range(columns):
             slip = math.sqrt(fields[FIELD_SX, i, j] ** 2 + fields[FIELD_SY, i, j] ** 2)
-            depth = wear_depth_kernel(
-                slip,
-                fields[FIELD_P, i, j],
-                fields[FIELD_DX, i, j],
-                parameters[PAR_SPEED],
-                parameters[PAR_HARDNESS],
-                parameters[PAR_ARCHARD:N_PAR],
-            )
-            stress = stress_index_kernel(qx, qy, shear_yield)
-            energy = energy_index_kernel(qx, qy, fields[FIELD_X, i, j], strips[STRIP_Y, i], vx, vy, phi)
-            lost += depth
-            stress_max, energy_max = max(stress_max, stress), max(energy_max, energy)
-            damage_fields[DFIELD_DEPTH, i, j] = depth / circumference
+            depth = wear_depth_kernel(slip, fields[FIELD_P, i, j], fields[FIELD_DX, i, j], speed, hardness, archard)
+            damage_fields[DFIELD_DEPTH, i, j] = depth * per_circumference
+        for j in range(columns):
+            stress = stress_index_kernel(fields[FIELD_QX, i, j], fields[FIELD_QY, i, j], shear_yield)
             damage_fields[DFIELD_STRESS_INDEX, i, j] = stress
-            damage_fields[DFIELD_ENERGY_INDEX, i, j] = energy
-        depth_max = max(depth_max, lost / circumference)
-        volume += lost * strips[STRIP_DY, i]
+        for j in range(columns):
+            damage_fields[DFIELD_ENERGY_INDEX, i, j] = energy_index_kernel(
+                fields[FIELD_QX, i, j], fields[FIELD_QY, i, j], fields[FIELD_X, i, j], y, vx, vy, phi
+            )
+        lost = 0.0  # by a particle that crosses the patch along this strip, over the circumference
+        for j in range(columns):
+            lost += damage_fields[DFIELD_DEPTH, i, j]
+            stress_max = max(stress_max, damage_fields[DFIELD_STRESS_INDEX, i, j])
+            energy_max = max(energy_max, damage_fields[DFIELD_ENERGY_INDEX, i, j])
+        depth_max = max(depth_max, lost)
+        volume += lost * circumference * strips[STRIP_DY, i]
     damage[DAMAGE_ARCHARD_DEPTH], damage[DAMAGE_ARCHARD_VOLUME] = depth_max, volume
     damage[DAMAGE_STRESS_INDEX], damage[DAMAGE_ENERGY_INDEX] = stress_max, energy_max

@@ -66,13 +66,10 @@ class ArchardMap:
 @kernel
 def wear_coefficient_kernel(velocity, pressure, hardness, constants):
     """Archard's k [-] for sliding velocity [m/s], pressure and hardness [Pa]."""
-    if pressure > constants[6] * hardness:
-        return constants[3]
-    if velocity < constants[4]:
-        return constants[0]
-    if velocity <= constants[5]:
-        return constants[1]
-    return constants[2]
+    mild, severe, mild_fast, seizure = constants[0], constants[1], constants[2], constants[3]
+    k = severe if velocity <= constants[5] else mild_fast  # choices, not branches: for vector instructions
+    k = mild if velocity < constants[4] else k
+    return seizure if pressure > constants[6] * hardness else k
 
 
 @kernel

@@ -45,9 +45,11 @@ from contact._layout import (
 )
 from contact.quadrature import EL_DX, EL_LOAD_END, EL_MOMENT_END, EL_S, EL_SINE
 from contact.tangential.fastsim import NO_FRICTION, equivalent_ellipse
-from contact.tangential.lanes import LANES, NOW_SLIP, NOW_X, NOW_Y, keep, recall
+from contact.tangential.lanes import LANES, N_LANE_ROWS, NOW_SLIDES, NOW_SLIP, NOW_STICK, NOW_X, NOW_Y, keep, recall
 from contact.tangential.march import FREE_BEHIND_MARCH, ROW_X, ROW_Y, ROW_Z, march
 from contact.tangential.strip_theory import stick_resultants, stick_zone
+
+_NOW_SX, _NOW_SY = NOW_SLIP, NOW_SLIDES  # where `_show` leaves the slip velocity
 
 # rows of `lanes` behind those of the march
 (
@@ -123,8 +125,11 @@ def _set_strip(strips, i, case, table, c_patch, lanes, l):
 
 
 @kernel
-def _slip_zone(elements, lanes, trace):
-    """Sum the slip zones of a block: magnitude mu·p, exact over each element, direction of the march; leave the slip."""
+def _slip_zone(elements, lanes, trace, shown):
+    """Sum the slip zones of a block: magnitude mu·p, exact over each element, direction of the march.
+
+    With `shown` the fields are left in `trace`.
+    """
     for l in range(LANES):
         lanes[_FX + l], lanes[_FY + l], lanes[_MZ + l], lanes[_POWER + l] = 0.0, 0.0, 0.0, 0.0
     load_before, moment_before = 0.0, 0.0
@@ -159,28 +164,43 @@ def _slip_zone(elements, lanes, trace):
             slip = slip if s <= 2.0 * e - 1.0 else 0.0
             lanes[_POWER + l] += sine * dx * slip
             lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_SLIP + l] = ex, ey, slip
-        keep(lanes, trace[k])
+        if shown:
+            _show(s, sine, lanes)
+            keep(lanes, trace[k])
         load_before, moment_before = load_end, moment_end
 
 
 @kernel
-def _write_fields(elements, bound, l, lanes, trace, fields, row):
+def _show(s, sine, lanes):
+    """Replace what the march leaves by traction over mu p0, slip velocity and 1 in stick, for the fields."""
+    per_square, sticks = 1.0 / (sine * sine), 0
+    for l in range(LANES):
+        ex, ey, slip = lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_SLIP + l]
+        stick = 1.0 if s > 2.0 * lanes[_E + l] - 1.0 else 0.0
+        sticks += 1 if stick > 0.5 else 0
+        lanes[NOW_X + l], lanes[NOW_Y + l] = sine * ex, sine * ey
+        lanes[_NOW_SX + l], lanes[_NOW_SY + l], lanes[NOW_STICK + l] = -slip * ex, -slip * ey, stick
+    if sticks == 0:
+        return
+    for l in range(lanes.size // N_LANE_ROWS):
+        e, stick = lanes[_E + l], lanes[NOW_STICK + l]
+        S2 = (1.0 - e) * (1.0 - e) - (s - e) * (s - e)
+        S = math.sqrt(0.5 * (S2 + abs(S2)))  # no choice: the compiler would branch around the root
+        qx, qy = lanes[_KAPPA + l] * (sine - S), lanes[_LAMBDA + l] * sine - lanes[_LAMBDA1 + l] * S
+        used = (qx * qx + qy * qy) * per_square
+        # the field stays admissible; the closed-form resultants do not need it
+        per_excess = 1.0 / math.sqrt(used if used > 1.0 else 1.0)
+        lanes[NOW_X + l] += stick * (qx * per_excess - lanes[NOW_X + l])
+        lanes[NOW_Y + l] += stick * (qy * per_excess - lanes[NOW_Y + l])
+
+
+@kernel
+def _write_fields(bound, l, trace, fields, row):
     """Traction, slip and stick flag of one strip."""
-    e, kappa, lam, lam1 = lanes[_E + l], lanes[_KAPPA + l], lanes[_LAMBDA + l], lanes[_LAMBDA1 + l]
-    for k in range(elements.shape[1]):
-        s, sine = elements[EL_S, k], elements[EL_SINE, k]
-        ex, ey, slip = trace[k, NOW_X + l], trace[k, NOW_Y + l], trace[k, NOW_SLIP + l]
-        qx, qy, stick = ex * sine, ey * sine, 0.0
-        if s > 2.0 * e - 1.0:
-            stick = 1.0
-            S = math.sqrt((1.0 - e) ** 2 - (s - e) ** 2)
-            qx, qy = kappa * (sine - S), lam * sine - lam1 * S
-            used = math.sqrt(qx * qx + qy * qy) / sine
-            if used > 1.0:  # the field stays admissible; the closed-form resultants do not need it
-                qx, qy = qx / used, qy / used
-        fields[FIELD_QX, row, k], fields[FIELD_QY, row, k] = bound * qx, bound * qy
-        fields[FIELD_SX, row, k], fields[FIELD_SY, row, k] = -slip * ex, -slip * ey
-        fields[FIELD_STICK, row, k] = stick
+    for k in range(trace.shape[0]):
+        fields[FIELD_QX, row, k], fields[FIELD_QY, row, k] = bound * trace[k, NOW_X + l], bound * trace[k, NOW_Y + l]
+        fields[FIELD_SX, row, k], fields[FIELD_SY, row, k] = trace[k, _NOW_SX + l], trace[k, _NOW_SY + l]
+        fields[FIELD_STICK, row, k] = trace[k, NOW_STICK + l]
 
 
 @kernel
@@ -193,7 +213,7 @@ def fastrip(strips, n, case, table, elements, lanes, trace, fields, result):
         for l in range(LANES):
             _set_strip(strips, min(block + l, n - 1), case, table, c_patch, lanes, l)
         march(elements, lanes, trace)
-        _slip_zone(elements, lanes, trace)
+        _slip_zone(elements, lanes, trace, block < fields.shape[1])
         for l in range(min(LANES, n - block)):
             i = block + l
             a, dy, y, xc = strips[STRIP_A, i], strips[STRIP_DY, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
@@ -214,6 +234,6 @@ def fastrip(strips, n, case, table, elements, lanes, trace, fields, result):
             Mz += mz + xc * fy - y * fx
             power += strip * lanes[_POWER + l]
             if i < fields.shape[1]:
-                _write_fields(elements, bound, l, lanes, trace, fields, i)
+                _write_fields(bound, l, trace, fields, i)
     result[RES_FX], result[RES_FY], result[RES_MZ] = Fx, Fy, Mz
     result[RES_POWER], result[RES_SLIP_AREA] = power, slip_area
