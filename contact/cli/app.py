@@ -17,6 +17,7 @@ from contact.cli import problem, report
 from contact.cli.compare import compare
 from contact.cli.geometry import conicity, list_profiles
 from contact.cli.geometry import geometry as points
+from contact.cli.manchester import manchester
 from contact.cli.output import drawing, reported, write_csv, write_picture
 from contact.cli.plugins import add_plugins
 from contact.cli.problem import Position, Touch
@@ -175,6 +176,7 @@ app.command()(statistics)
 app.command("geometry")(points)
 app.command()(conicity)
 app.command("profiles")(list_profiles)
+app.command()(manchester)
 
 
 @app.command("methods")

@@ -10,14 +10,13 @@ from rich.console import Console
 
 from contact.cli import cases
 from contact.cli import options as opt
-from contact.cli.output import reported
+from contact.cli.output import reported, require_endings, write_all
 from contact.cli.progress import progress_bar
 from contact.cli.tables import show_tables
 from contact.solve import N_ELEMENTS
 from contact.study import SELECTION, Comparison
 from contact.study import compare as compare_methods
 from contact.study.compare import REFERENCE_ELEMENTS
-from contact.study.files import PICTURES, require_ending
 from contact.study.table import tables_of, title_of
 
 COMPARED = "Comparison"
@@ -42,10 +41,6 @@ Resolution = Annotated[
 ]
 Elements = Annotated[
     int, typer.Option(help="rows and columns of the half space over the overlap", rich_help_panel=COMPARED)
-]
-Files = Annotated[
-    list[Path] | None,
-    typer.Option("--out", help="write .html, .json, .csv, .png, .pdf or .svg; repeat", rich_help_panel=opt.OUTPUT),
 ]
 
 
@@ -75,14 +70,13 @@ def compare(
     resolution: Resolution = N_ELEMENTS,
     reference_elements: Elements = REFERENCE_ELEMENTS,
     as_json: opt.Json = False,
-    out: Files = None,
+    out: opt.Files = None,
 ) -> None:
     """Solve the same contact with several methods: forces, patches, times, errors against the half space.
 
     Examples:  contact compare --y 3e-3 --yaw 2e-3 --out page.html   ·   contact compare cases.toml --all --out table.csv
     """
-    for path in out or []:
-        require_ending(path, (".html", ".json", ".csv", *PICTURES))  # before minutes of work
+    require_endings(out or [])
     given: dict[str, Any] = {
         "wheel": wheel, "rail": rail, "inclination": inclination, "unit": unit, "drawn_side": drawn_side,
         "smoothing": smoothing, "radius": radius, "side": side.value, "y": y, "roll": roll, "yaw": yaw, "speed": speed,
@@ -106,9 +100,7 @@ def compare(
         typer.echo(found.json())
     else:
         show(found, Console())
-    for path in out or []:
-        found.write(path)
-        typer.echo(f"wrote {path}", err=True)
+    write_all(found, out or [])
 
 
 def show(found: Comparison, console: Console) -> None:

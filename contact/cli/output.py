@@ -10,7 +10,7 @@ from typing import Any, NoReturn, TypeVar
 import typer
 
 from contact.errors import ContactError
-from contact.study.files import csv_of, write
+from contact.study.files import PICTURES, csv_of, require_ending, write
 
 Command = TypeVar("Command", bound=Callable[..., None])
 
@@ -45,6 +45,22 @@ def write_picture(figure: Any, path: Path) -> None:
 def write_csv(rows: Sequence[dict[str, Any]], path: Path) -> None:
     write(path, {".csv": lambda: csv_of(rows)})
     typer.echo(f"wrote {path}", err=True)
+
+
+def require_endings(paths: Sequence[Path]) -> None:
+    """Refuse, before minutes of work, a file that the results of a study cannot be written to."""
+    for path in paths:
+        require_ending(path, (".html", ".json", ".csv", *PICTURES))
+
+
+def write_all(found: Any, paths: Sequence[Path]) -> None:
+    """Write the results of a study to each of the files."""
+    for path in paths:
+        try:
+            found.write(path)
+        except ImportError as error:
+            stop(str(error), 1)
+        typer.echo(f"wrote {path}", err=True)
 
 
 def stop(message: str, code: int) -> NoReturn:

@@ -9,11 +9,10 @@ import typer
 from rich.console import Console
 
 from contact.cli import options as opt
-from contact.cli.output import reported
+from contact.cli.output import reported, require_endings, write_all
 from contact.cli.progress import progress_bar
 from contact.cli.tables import show_tables
 from contact.solve import N_ELEMENTS
-from contact.study.files import PICTURES, require_ending
 from contact.study.statistics import ELEMENTS
 from contact.study.statistics import statistics as compute
 
@@ -30,10 +29,6 @@ Stored = Annotated[
     Path | None, typer.Option(help="keep the half space's forces in this file, and go on from there next time")
 ]
 Processes = Annotated[int | None, typer.Option(min=1, help="processes for the half space", show_default="all cores")]
-Files = Annotated[
-    list[Path] | None,
-    typer.Option("--out", help="write .html, .json, .csv, .png, .pdf or .svg; repeat", rich_help_panel=opt.OUTPUT),
-]
 
 
 @reported
@@ -45,14 +40,13 @@ def statistics(
     stored: Stored = None,
     processes: Processes = None,
     as_json: opt.Json = False,
-    out: Files = None,
+    out: opt.Files = None,
 ) -> None:
     """Errors of the tangential methods over 3220 cases on ellipses (Vollebregt, Iwnicki, Xie, Shackleton 2012).
 
     Minutes for all cases. Examples:  contact statistics --cases 200   ·   contact statistics --stored ref.csv --out page.html
     """
-    for path in out or []:
-        require_ending(path, (".html", ".json", ".csv", *PICTURES))
+    require_endings(out or [])
     with progress_bar() as bar:
         found = compute(
             tangential,
@@ -68,6 +62,4 @@ def statistics(
         typer.echo(found.json())
     else:
         show_tables(found.tables(), Console())
-    for path in out or []:
-        found.write(path)
-        typer.echo(f"wrote {path}", err=True)
+    write_all(found, out or [])

@@ -1,4 +1,7 @@
-"""Methods side by side: on single cases, on thousands, and on the benchmarks of the literature. No kernel imports this."""
+"""Methods side by side: on single cases, on thousands, and on the benchmarks of the literature. No kernel imports this.
+
+`contact.study.statistics` and `contact.study.manchester` are imported by those who want them: they take their time.
+"""
 
 from contact.study.case import Case
 from contact.study.compare import compare

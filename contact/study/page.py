@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from html import escape
 from typing import TYPE_CHECKING
 
 from contact.study.comparison import Comparison
+from contact.study.manchester import NOTES, Manchester
 from contact.study.statistics import Statistics
 from contact.study.table import Table, tables_of, title_of
 
@@ -75,7 +76,7 @@ def _data(figure: Figure) -> str:
     from PIL import Image  # comes with matplotlib
 
     full, small = io.BytesIO(), io.BytesIO()
-    figure.savefig(full, format="png")
+    figure.savefig(full, format="png", dpi=110.0)
     Image.open(full).convert("RGB").quantize(256).save(small, format="png", optimize=True)
     return "data:image/png;base64," + base64.b64encode(small.getvalue()).decode()
 
@@ -83,7 +84,6 @@ def _data(figure: Figure) -> str:
 def comparison_page(c: Comparison) -> str:
     """Tables and pictures of a comparison, case by case."""
     from contact import __version__
-    from contact.plot import comparison
 
     body = [
         "<h1>Contact models side by side</h1>",
@@ -97,15 +97,21 @@ def comparison_page(c: Comparison) -> str:
             "over µN, of the moment over µN√(area/π), all others relative; the pressure field’s in the L2 norm. In the "
             "pictures its patch is dotted.</p>"
         )
+    return page("Contact models side by side", [*body, *_cases(c)])
+
+
+def _cases(c: Comparison) -> Iterator[str]:
+    """Heading, tables and picture of every case."""
+    from contact.plot import comparison
+
     for case, rows, solutions in c.by_case():
-        body.append(f"<h2>{escape(title_of(case))}</h2>")
-        body += [html_of(table) for table in tables_of(case, rows, c.has_reference)]
+        yield f"<h2>{escape(title_of(case))}</h2>"
+        yield from map(html_of, tables_of(case, rows, c.has_reference))
         wide, narrow = (
             comparison([("", solutions)], reference=c.has_reference, columns=columns, panel=panel)
             for columns, panel in ((6, 3.6), (2, 1.8))
         )
-        body.append(picture(wide, narrow, f"Pressure and traction of every method: {case.name}"))
-    return page("Contact models side by side", body)
+        yield picture(wide, narrow, f"Pressure and traction of every method: {case.name}")
 
 
 def statistics_page(s: Statistics) -> str:
@@ -121,3 +127,19 @@ def statistics_page(s: Statistics) -> str:
     ]
     body.append(picture(s.figure(), s.figure(), "Share of the cases over the error of the force"))
     return page("Creep forces on ellipses", body)
+
+
+def manchester_page(m: Manchester) -> str:
+    """Tables, notes and the comparison of every place."""
+    from contact import __version__
+
+    body = [
+        "<h1>Manchester contact benchmark, A-2.2</h1>",
+        f'<p class="faint">wheelrail-contact {__version__} beside CONTACT. A wheelset on straight track, displaced and yawed '
+        "by 2.4 mrad a millimetre, 10 kN on each wheel. Forces act on the wheel. The height of the wheel is the one at which "
+        "our half space carries the load; all methods have its normal force.</p>",
+        *map(html_of, m.tables()),
+        *(f'<p class="faint">{escape(note)}</p>' for note in NOTES),
+        *_cases(m.comparison),
+    ]
+    return page("Manchester contact benchmark", body)

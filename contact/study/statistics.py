@@ -111,13 +111,15 @@ class Statistics:
         from matplotlib.figure import Figure
 
         from contact.plot import curve
+        from contact.plot.style import DPI, style
 
         n = self.design.number.size
         share = 100.0 * (np.arange(n) + 0.5) / n
         lines = {method: 100.0 * np.sort(self.errors(method)[0]) for method in self.forces}
         top = max(float(np.percentile(line, 95.0)) for line in lines.values())
-        figure = Figure(figsize=(6.4, 4.0), dpi=150.0, layout="constrained")
-        ax = figure.subplots()
+        figure = Figure(figsize=(6.4, 4.0), dpi=DPI, layout="constrained")
+        with style():
+            ax = figure.subplots()
         curve(share, lines, xlabel="share of the cases [%]", ylabel="error of the force [% of µN]", ax=ax)
         ax.set_ylim(0.0, 1.1 * max(top, 1e-3))
         return figure

@@ -1,0 +1,59 @@
+"""The command `manchester`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from contact.cli import options as opt
+from contact.cli.compare import COMPARED, All, Elements, Resolution
+from contact.cli.output import reported, require_endings, write_all
+from contact.cli.progress import progress_bar
+from contact.cli.tables import show_tables
+from contact.solve import N_ELEMENTS
+from contact.study.compare import REFERENCE_ELEMENTS
+from contact.study.manchester import METHODS, NOTES
+from contact.study.manchester import manchester as compute
+
+Methods = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--method",
+        help="normal+tangential, like analyn+fastrip; repeat. Default: " + ", ".join(map(str, METHODS)),
+        rich_help_panel=COMPARED,
+    ),
+]
+
+
+@reported
+def manchester(
+    methods: Methods = None,
+    every: All = False,
+    resolution: Resolution = N_ELEMENTS,
+    reference_elements: Elements = REFERENCE_ELEMENTS,
+    as_json: opt.Json = False,
+    out: opt.Files = None,
+) -> None:
+    """The Manchester contact benchmark (A-2.2) beside the numbers of CONTACT.
+
+    Example:  contact manchester --method analyn+fastrip --method hertz+fastsim --out page.html
+    """
+    require_endings(out or [])
+    with progress_bar() as bar:
+        found = compute(
+            [*(methods or []), "all"] if every else (methods or METHODS),
+            n_strips=resolution,
+            n_elements=resolution,
+            reference_elements=reference_elements,
+            progress=bar,
+        )
+    if as_json:
+        typer.echo(found.json())
+    else:
+        console = Console()
+        show_tables(found.tables(), console)
+        for note in NOTES:
+            console.print(note, style="dim", highlight=False)
+    write_all(found, out or [])
