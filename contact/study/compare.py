@@ -123,7 +123,7 @@ def _row(case: Case, pair: Pair, s: Solution, seconds: float, true: Solution | N
         Mz=s.Mz,
         max_pressure=s.max_pressure,
         area=s.area,
-        adhesion_area=max(s.area - s.slip_area, 0.0) if pair.has_fields else None,
+        adhesion_area=max(s.area - s.slip_area, 0.0) if s.has_fields else None,
         time=seconds,
         errors=None if true is None or true is s else errors_against(true, s, least(case.separation)),
     )

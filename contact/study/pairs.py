@@ -18,11 +18,6 @@ class Pair(NamedTuple):
     def __str__(self) -> str:
         return "+".join(self)
 
-    @property
-    def has_fields(self) -> bool:
-        """Whether traction, slip and stick over the patch come out, or forces alone."""
-        return lookup("tangential", self.tangential).fields
-
 
 #: Kalker's complete theory on a grid: what all others are measured against.
 REFERENCE = Pair("halfspace", "halfspace")
