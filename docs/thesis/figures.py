@@ -34,8 +34,12 @@ CIRCLE = contact.Material(82e9, 0.25)  # Poisson's ratio of the thesis' circular
 WHEEL_LOAD = 80e3
 WHEEL, RAIL = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
 REFERENCE = "halfspace"
-#: Line of the reference, and of the others in order.
-LOOK = {REFERENCE: {"color": INK, "lw": 2.6, "alpha": 0.55}}
+#: A method has one colour on all pages; of those that meet in a figure no two have the same.
+_COLOURS = {
+    "fastsim": 0, "fastrip": 1, "fastrip_mapped": 2, "strip_theory": 3, "carter": 4, "vermeulen_johnson": 4,
+    "linear_saturated": 5, "shen_hedrick_elkins": 3, "polach": 4,
+    "analyn": 1, "hertz": 0, "kik_piotrowski": 2, "kik_piotrowski_2008": 3, "stripes_ab": 4,
+}  # fmt: skip
 
 
 def ellipse(aspect: float = 1.0) -> contact.Separation:
@@ -87,12 +91,18 @@ def note(name: str, value: float) -> None:
     glue(name, float(value), display=False)
 
 
+def look(name: str) -> dict[str, object]:
+    """How the line of a method is drawn; of a pair "normal + tangential" the normal one counts."""
+    first = name.split()[0]
+    if first in (REFERENCE, "half"):
+        return {"color": INK, "lw": 2.6, "alpha": 0.55, "label": "half space"}
+    return {"color": LINES[_COLOURS[first.rstrip(":")]], "lw": 1.5, "label": name}
+
+
 def lines(ax: plt.Axes, x: np.ndarray, curves: Mapping[str, np.ndarray]) -> None:
     """Curves over one abscissa; the reference is broad and grey, below the others."""
-    colour = iter(LINES)
     for name, values in curves.items():
-        look = LOOK.get(name) or {"color": next(colour), "lw": 1.5}
-        ax.plot(x, values, label=name, **look)
+        ax.plot(x, values, **look(name))
     ax.grid(visible=True)
     ax.margins(x=0.0)
 
