@@ -52,6 +52,7 @@ nb_execution_cache_path = str(ROOT / "build" / "docs" / "executed" / _sources())
 nb_execution_timeout = 600
 nb_execution_raise_on_error = True
 nb_execution_show_tb = True
+nb_render_markdown_format = "myst"
 nb_code_prompt_show = "How this is drawn"
 nb_code_prompt_hide = "How this is drawn"
 

@@ -72,6 +72,28 @@ def test_the_parabolic_bound_is_33_percent_too_high_in_the_middle():
     assert math.hypot(sol.Fx, sol.Fy) == pytest.approx(MU * LOAD, rel=1e-3)  # at the same total
 
 
+def test_shen_hedrick_elkins_is_good_without_spin_and_bad_with_it():
+    """Chapter 5: within 5 % for one creepage, worse than 50 % under spin."""
+    assert worst("shen_hedrick_elkins", "xi", "eta") <= 0.05
+    assert worst("shen_hedrick_elkins", "phi") > 0.5
+    assert worst("shen_hedrick_elkins", "xi_spin") > 0.5
+
+
+def test_vermeulen_and_johnson_are_about_20_percent_too_stiff_on_a_circle():
+    """Section 4.2, nu = 1/4: 19 % (longitudinal) and 16 % (lateral) above Kalker's slope."""
+    material = contact.Material(82e9, 0.25)
+    separation = accuracy.ellipse(1.0, C, LOAD, material)
+    c11, c22, *_ = kalker.coefficients(kalker.table(0.25), 0.0)
+    small, stiffness = 1e-6, material.shear_modulus * C**2
+    ratios = []
+    for creepage, c in ((contact.Creepage(small), c11), (contact.Creepage(lateral=small), c22)):
+        sol = contact.solve(
+            separation, creepage, load=LOAD, material=material, normal="hertz", tangential="vermeulen_johnson"
+        )
+        ratios.append(math.hypot(sol.Fx, sol.Fy) / (c * stiffness * small))
+    assert ratios == pytest.approx([1.19, 1.16], abs=0.01)
+
+
 def test_lateral_creepage_turns_the_wheel_as_4_11_says_with_its_third_line_corrected():
     """ERRATA 4.11: Mz = +C23 G c³ vy with Mz = ∫(x qy - y qx) dA."""
     slope = 1e-3 * MU * LOAD / (accuracy.STEEL.shear_modulus * C**2 * circular(1))
