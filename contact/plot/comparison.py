@@ -17,6 +17,8 @@ from contact.solution import Solution
 
 #: Most inches along a side that a picture may have: beyond, it is too large for its readers.
 _LARGEST = 400.0
+#: Inches for colour bars and labels beside a row of panels, between them, and for titles and labels above and below.
+_BESIDE, _GAP, _ABOVE = 1.6, 0.15, 2.4
 
 
 def comparison(
@@ -52,8 +54,9 @@ def comparison(
             (title if first == 0 else "", solutions[first : first + columns], true, scale)
             for first in range(0, len(solutions), columns)
         ]
-    sizes = [scale.figure_size(columns, panel) for *_, scale in rows]
-    width, heights = max(w for w, _ in sizes), [h + 0.9 for _, h in sizes]
+    width = max(scale.figure_size(columns, panel)[0] for *_, scale in rows)
+    own = (width - _BESIDE) / columns - _GAP
+    heights = [2.0 * min(own * scale.half_x / scale.half_y, panel) + _ABOVE for *_, scale in rows]
     if sum(heights) > _LARGEST:
         raise ContactError(f"{len(rows)} rows of panels are more than a picture holds; compare fewer methods or cases")
     with style():

@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError
-from contact.plot.style import DPI, FAINT, colours, style
+from contact.plot.style import DPI, FAINT, LINES, colours, style
 
 Lines = Mapping[str, ArrayLike]
 
@@ -48,9 +48,9 @@ def curve(
         if ax is None:
             ax = Figure(figsize=(5.6, 3.6), dpi=DPI, layout="constrained").subplots()
         sides = set()  # of zero on which there are curves
-        for (name, values), colour in zip(curves.items(), colours(len(curves)), strict=True):
+        for k, ((name, values), colour) in enumerate(zip(curves.items(), colours(len(curves)), strict=True)):
             ordinate = _ordinate(name, values, abscissa)
-            ax.plot(abscissa, ordinate, color=colour, lw=1.6, label=name)
+            ax.plot(abscissa, ordinate, color=colour, lw=1.6, ls="-" if k < len(LINES) else "-.", label=name)
             sides.update(np.sign(ordinate[ordinate != 0.0]).tolist())
         if limit is not None:
             for side in sides:

@@ -17,6 +17,9 @@ from contact.study.pairs import REFERENCE, Pair
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+#: Pairs up to which a picture shows every one.
+MOST_PANELS = 24
+
 
 @dataclass(frozen=True, slots=True)
 class Row:
@@ -94,12 +97,26 @@ class Comparison:
             for k, case in enumerate(self.cases)
         ]
 
+    @property
+    def drawn(self) -> tuple[int, ...]:
+        """Places of the pairs that pictures show: all, or of many those with which a method with fields comes first."""
+        if len(self.pairs) <= MOST_PANELS:
+            return tuple(range(len(self.pairs)))
+        seen: set[tuple[str, str]] = set()
+        chosen = []
+        for k, (pair, solution) in enumerate(zip(self.pairs, self.solutions, strict=False)):
+            own = {("normal", pair.normal), ("tangential", pair.tangential)}
+            if solution.has_fields and not own <= seen:
+                chosen.append(k)
+                seen |= own
+        return tuple(chosen)
+
     def figure(self, columns: int = 6) -> Figure:
-        """Patches, pressures, stick and slip of all methods, one scale a case (`contact.plot.comparison`)."""
+        """Patches, pressures, stick and slip, one scale a case (`contact.plot.comparison`), of the pairs in `drawn`."""
         from contact.plot import comparison
 
         return comparison(
-            [(case.name, solutions) for case, _, solutions in self.by_case()],
+            [(case.name, [solutions[k] for k in self.drawn]) for case, _, solutions in self.by_case()],
             reference=self.has_reference,
             columns=columns,
         )

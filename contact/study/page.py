@@ -108,9 +108,11 @@ def _cases(c: Comparison) -> Iterator[str]:
         yield f"<h2>{escape(title_of(case))}</h2>"
         yield from map(html_of, tables_of(case, rows, c.has_reference))
         wide, narrow = (
-            comparison([("", solutions)], reference=c.has_reference, columns=columns, panel=panel)
+            comparison([("", [solutions[k] for k in c.drawn])], reference=c.has_reference, columns=columns, panel=panel)
             for columns, panel in ((6, 3.6), (2, 1.8))
         )
+        if len(c.drawn) < len(c.pairs):
+            yield '<p class="faint">The picture shows each normal and each tangential method with fields once.</p>'
         yield picture(wide, narrow, f"Pressure and traction of every method: {case.name}")
 
 

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import contact
-from contact.study import REFERENCE, SELECTION, every_pair, pairs_of
+from contact.study import REFERENCE, SELECTION, comparison, every_pair, pairs_of
 from contact.study.table import number
 from tests.study.conftest import METHODS, problem
 
@@ -185,6 +185,13 @@ def test_stick_and_slip_are_named_inside_the_patch_of_a_half_space(small):
     for y, x in places.values():
         half = np.interp(y, mesh.y, mesh.a)
         assert abs(x) < half
+
+
+def test_of_many_pairs_every_method_with_fields_is_drawn_once(monkeypatch):
+    monkeypatch.setattr(comparison, "MOST_PANELS", 3)
+    methods = ("hertz+polach", "hertz+fastsim", "analyn+fastsim", "hertz+fastrip", "analyn+fastrip")
+    found = contact.compare(problem(), methods, reference=False)
+    assert [str(found.pairs[k]) for k in found.drawn] == ["hertz+fastsim", "analyn+fastsim", "hertz+fastrip"]
 
 
 @pytest.mark.parametrize("name", ["table.txt", "nowhere/at/all.csv"])
