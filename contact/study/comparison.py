@@ -163,22 +163,22 @@ class Comparison:
         write(path, self.texts, self.figure)
 
     def to_xarray(self) -> Any:
-        """The rows as an `xarray.Dataset` over case and method; NaN where there is no value. Needs xarray."""
+        """The rows as an `xarray.Dataset` over case and pair; NaN where there is no value. Needs xarray."""
         try:
             import xarray
         except ImportError:
-            raise ImportError("Comparison.to_xarray needs xarray: pip install xarray") from None
+            raise ImportError("Comparison.to_xarray needs xarray: pip install 'wheelrail-contact[xarray]'") from None
         import numpy as np
 
         shape = len(self.cases), len(self.pairs)
         flat = [row.flat() for row in self.rows]
         values = {
-            name: (("case", "method"), np.array([row[name] for row in flat], dtype=object).reshape(shape))
+            name: (("case", "pair"), np.array([row[name] for row in flat], dtype=object).reshape(shape))
             for name in flat[0]
             if name not in ("case", "normal", "tangential")
         }
         for name, (dims, array) in values.items():
             values[name] = (dims, array.astype(str if name == "status" else np.float64))
         return xarray.Dataset(
-            values, coords={"case": [case.name for case in self.cases], "method": [str(pair) for pair in self.pairs]}
+            values, coords={"case": [case.name for case in self.cases], "pair": [str(pair) for pair in self.pairs]}
         )

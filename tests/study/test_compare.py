@@ -130,6 +130,17 @@ def test_json_and_csv_hold_every_number(small):
     assert "NaN" not in small.json()
 
 
+def test_the_dataset_is_labelled_by_case_and_method(small):
+    pytest.importorskip("xarray")
+    data = small.to_xarray()
+    assert dict(data.sizes) == {"case": 2, "pair": 3}
+    at = data.sel(case="ellipse", pair="analyn+fastrip")
+    assert float(at.Fx) == small.rows[2].Fx
+    assert float(at.error_force) == small.rows[2].errors.force
+    assert np.isnan(data.error_force.sel(pair=str(REFERENCE))).all()
+    assert data.status.sel(case="apart").values.tolist() == ["NO_CONTACT"] * 3
+
+
 class Page(HTMLParser):
     def __init__(self):
         super().__init__()
