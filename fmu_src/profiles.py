@@ -1,6 +1,6 @@
 """Profiles as resources of an FMU: points with their tangents, which both packagings read when they are instantiated.
 
-`python -m fmu_src.profiles FMU [--wheel FILE] [--rail FILE]` exchanges them in a finished FMU, without a compiler.
+`python -m fmu_src.profiles FMU [--wheel NAME|FILE] [--rail NAME|FILE]` exchanges them in a finished FMU, without a compiler.
 
 A resource is: 8 bytes that tell a wheel from a rail, a checksum of all that follows (FNV-1a, 64 bits), the number n of
 points (64 bits), then n doubles each of y, z [m] and the angle of the tangent [rad]; all little-endian.
@@ -83,10 +83,12 @@ def exchange(fmu: Path, profiles: dict[Kind, Profile]) -> None:
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    """Options by which a command line names profile files, for `chosen`."""
+    """Options by which a command line names profiles, for `chosen`."""
     for kind in MAGIC:
         parser.add_argument(
-            f"--{kind}", type=Path, metavar="FILE", help=f"profile of the {kind}; formats: contact.geometry.files"
+            f"--{kind}",
+            metavar="NAME|FILE",
+            help=f"profile of the {kind}: a name of `contact profiles`, or a file (formats: contact.geometry.files)",
         )
     parser.add_argument("--unit", choices=["m", "mm"], help="unit of the profile files, for plain columns")
     parser.add_argument("--side", choices=["right", "left"], help="side that the files show, for plain columns")
@@ -95,9 +97,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def chosen(arguments: argparse.Namespace) -> dict[Kind, Profile]:
     """The profiles that a command line names."""
     return {
-        kind: profile.read(path, kind=kind, unit=arguments.unit, side=arguments.side)
+        kind: profile.load(name, kind, unit=arguments.unit, side=arguments.side)
         for kind in MAGIC
-        if (path := getattr(arguments, kind))
+        if (name := getattr(arguments, kind))
     }
 
 

@@ -115,6 +115,10 @@ def test_no_contact_draws_nothing_and_says_so(tmp_path):
         (("solve", "--wheel", "S1003"), "wheel = 'S1003' is no profile of the standards, did you mean 'S1002'"),
         (("solve", "--wheel", "missing.prw"), "missing.prw' cannot be read"),
         (("solve", "--rail", "rail A", "--inclination", "0.05"), "EN 15302 rail A has no inclination"),
+        (
+            ("solve", "--rail", "some.prr", "--inclination", "0.05"),
+            "the rail in the file 'some.prr' is taken as it lies",
+        ),
         (("conicity", "--amplitude", "3"), "amplitudes = 3 is outside the allowed range [0.0001, 0.02]"),
         (("conicity", "--left-radius", "0.4"), "of one sign on average"),
         (("geometry", "--gauge", "1435"), "gauge = 1435 is outside"),

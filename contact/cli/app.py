@@ -24,6 +24,7 @@ from contact.cli.problem import Position, Touch
 from contact.cli.statistics import statistics
 from contact.creepage import Creepage
 from contact.errors import require_number
+from contact.geometry import profile
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, methods
 
 PICTURE_RESOLUTION = {"n_strips": 60, "n_elements": 60}
@@ -75,7 +76,9 @@ def solve(
         touches = [problem.solve_hertzian(curvatures, load, penetration, given, options | {"speed": speed})]
         title = f"Half curvatures {curvatures[0]:g} and {curvatures[1]:g} 1/m"
     else:
-        case = _position(wheel, rail, (inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed)
+        case = _position(
+            wheel, rail, opt.reading(inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed
+        )
         touches = problem.solve_position(case, load, penetration, given, options)
         title = _title(case)
     if as_json:
@@ -114,7 +117,9 @@ def patch(
 
     Example:  contact patch --y 6e-3 --yaw 2e-3 --out flange.png
     """
-    case = _position(wheel, rail, (inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed)
+    case = _position(
+        wheel, rail, opt.reading(inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed
+    )
     options = {"friction": friction, "normal": normal, "tangential": tangential, **PICTURE_RESOLUTION}
     touches = problem.solve_position(
         case, load, penetration, None if creepage is None else Creepage(*creepage), options
@@ -207,7 +212,7 @@ def run(arguments: Sequence[str]) -> None:
 def _position(
     wheel: str,
     rail: str,
-    reading: tuple[Any, ...],
+    reading: dict[str, Any],
     radius: float,
     side: opt.Side,
     y: float,
@@ -216,8 +221,8 @@ def _position(
     speed: float,
 ) -> Position:
     return Position(
-        problem.profile_named(wheel, "wheel", *reading),
-        problem.profile_named(rail, "rail", *reading),
+        profile.load(wheel, "wheel", **reading),
+        profile.load(rail, "rail", **reading),
         ("left", "right") if side is opt.Side.both else (side.value,),
         problem.Pose(y=y, roll=roll, yaw=yaw),
         speed,

@@ -14,9 +14,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from contact.cli.problem import Position, amount_of, find_patches, profile_named, standard_load
+from contact.cli import options as opt
+from contact.cli.problem import Position, amount_of, find_patches, standard_load
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
+from contact.geometry import profile
 from contact.geometry.wheelset import Pose
 from contact.separation import Separation
 from contact.study import Case
@@ -77,8 +79,8 @@ def cases_of(given: Mapping[str, Any]) -> list[Case]:
         ]
     if given["side"] not in _SIDES:
         raise ContactError(f"side = {given['side']!r} is none of {', '.join(_SIDES)}")
-    reading = [given[option] for option in ("inclination", "unit", "drawn_side", "smoothing")]
-    wheel, rail = (profile_named(given[kind], kind, *reading) for kind in ("wheel", "rail"))
+    reading = opt.reading(*(given[option] for option in ("inclination", "unit", "drawn_side", "smoothing")))
+    wheel, rail = (profile.load(given[kind], kind, **reading) for kind in ("wheel", "rail"))
     pose = Pose(y=given["y"], roll=given["roll"], yaw=given["yaw"])
     position = Position(wheel, rail, _SIDES[given["side"]], pose, given["speed"], given["radius"])
     found = list(find_patches(position, load, penetration))

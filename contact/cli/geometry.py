@@ -16,7 +16,6 @@ from rich.table import Table
 import contact
 from contact.cli import options as opt
 from contact.cli.output import drawing, reported, write_csv, write_picture
-from contact.cli.problem import profile_named
 from contact.geometry import conicity as conicity_of
 from contact.geometry import contact_points, equivalent_conicity, profile
 
@@ -63,7 +62,7 @@ def geometry(
 
     Example:  contact geometry --wheel 1/40 --rail UIC60 --inclination 0.05 --max 8e-3 --plot points.png
     """
-    reading = (inclination, unit, drawn_side, smoothing)
+    reading = opt.reading(inclination, unit, drawn_side, smoothing)
     pair = _pair(wheel, rail, left_wheel, left_rail, reading, radius, left_radius, gauge, back_to_back, roll)
     n = max(1, round(reach / step))
     found = contact_points(**pair, y=np.linspace(-reach, reach, 2 * n + 1))
@@ -102,7 +101,7 @@ def conicity(
 
     Example:  contact conicity --wheel s1002 --rail 60e2 --gauge 1.432 --plot conicity.png
     """
-    reading = (inclination, unit, drawn_side, smoothing)
+    reading = opt.reading(inclination, unit, drawn_side, smoothing)
     pair = _pair(wheel, rail, left_wheel, left_rail, reading, radius, left_radius, gauge, back_to_back, roll)
     found = conicity_of(**pair, amplitudes=amplitude or None)
     wave = found.wavelength(back_to_back + 2.0 * 0.07, radius)
@@ -141,7 +140,7 @@ def _pair(
     rail: str,
     left_wheel: str | None,
     left_rail: str | None,
-    reading: tuple[Any, ...],
+    reading: dict[str, Any],
     radius: float,
     left_radius: float | None,
     gauge: float,
@@ -150,10 +149,10 @@ def _pair(
 ) -> dict[str, Any]:
     """The arguments of `contact_points` and `conicity`."""
     return {
-        "wheel": profile_named(wheel, "wheel", *reading),
-        "rail": profile_named(rail, "rail", *reading),
-        "left_wheel": left_wheel and profile_named(left_wheel, "wheel", *reading),
-        "left_rail": left_rail and profile_named(left_rail, "rail", *reading),
+        "wheel": profile.load(wheel, "wheel", **reading),
+        "rail": profile.load(rail, "rail", **reading),
+        "left_wheel": left_wheel and profile.load(left_wheel, "wheel", **reading),
+        "left_rail": left_rail and profile.load(left_rail, "rail", **reading),
         "nominal_radius": radius,
         "left_radius": left_radius,
         "gauge": gauge,

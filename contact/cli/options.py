@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -121,3 +121,10 @@ Files = Annotated[
     list[Path] | None,
     typer.Option("--out", help="write .html, .json, .csv, .png, .pdf or .svg; repeat", rich_help_panel=OUTPUT),
 ]
+
+
+def reading(
+    inclination: float | None, unit: str | None, drawn_side: str | None, smoothing: float | None
+) -> dict[str, Any]:
+    """The options of profiles as `contact.geometry.profile.load` takes them."""
+    return {"inclination": inclination, "unit": unit, "side": drawn_side, "smoothing": smoothing}

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
-from pathlib import Path
 from typing import Any
 
 from contact.creepage import Creepage
 from contact.errors import ContactError
-from contact.geometry import profile, wheelset
-from contact.geometry.profile import Kind, Profile
+from contact.geometry import wheelset
+from contact.geometry.profile import Profile
 from contact.geometry.wheelset import Patch, Pose, Velocity
 from contact.separation import Separation
 from contact.solution import Solution
@@ -44,20 +43,6 @@ class Position:
     pose: Pose
     speed: float
     radius: float
-
-
-def profile_named(
-    name: str,
-    kind: Kind,
-    inclination: float | None = None,
-    unit: str | None = None,
-    drawn: str | None = None,
-    smoothing: float | None = None,
-) -> Profile:
-    """The profile in the file of that name, or the profile of the standards; these have no point in their names."""
-    if "." in name or Path(name).is_file():
-        return profile.read(name, kind=kind, unit=unit, side=drawn, smoothing=smoothing)  # type: ignore[arg-type]
-    return profile.named(name, kind=kind, inclination=inclination if kind == "rail" else None)
 
 
 def find_patches(case: Position, load: float | None, penetration: float | None) -> Iterator[tuple[str, int, Patch]]:

@@ -12,6 +12,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from os import PathLike
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
@@ -21,7 +22,7 @@ from contact.errors import ContactError, require_number, suggestion
 from contact.geometry import outline, standard
 from contact.geometry.outline import SPACING, Arc, Segment, sloped, spline_slopes
 
-__all__ = ["SPACING", "Kind", "Profile", "cone", "named", "names", "rail_60e1", "rail_arc", "read", "s1002"]
+__all__ = ["SPACING", "Kind", "Profile", "cone", "load", "named", "names", "rail_60e1", "rail_arc", "read", "s1002"]
 
 Array = NDArray[np.float64]
 Kind = Literal["wheel", "rail"]
@@ -228,6 +229,33 @@ def read(
     from contact.geometry import files
 
     return files.read(path, kind=kind, unit=unit, side=side, smoothing=smoothing)
+
+
+def load(
+    name: str,
+    kind: Kind,
+    *,
+    inclination: float | None = None,
+    unit: Literal["m", "mm"] | None = None,
+    side: Literal["right", "left"] | None = None,
+    smoothing: float | None = None,
+) -> Profile:
+    """The profile in the file of that name, or the profile of the standards: what command lines take.
+
+    A name with a point in it is that of a file, as `read` takes it with `unit`, `side` and `smoothing`, which say nothing of
+    a profile of the standards; that is `named`, with `inclination` when it is a rail.
+
+    Raises
+    ------
+    ContactError
+        As `read` and `named`; an inclination for a rail from a file, which is taken as it lies there.
+    """
+    rail_inclination = inclination if kind == "rail" else None
+    if "." not in name and not Path(name).is_file():
+        return named(name, kind=kind, inclination=rail_inclination)
+    if rail_inclination is not None:
+        raise ContactError(f"inclination = {inclination}: the rail in the file {name!r} is taken as it lies there")
+    return read(name, kind=kind, unit=unit, side=side, smoothing=smoothing)
 
 
 def _profile(kind: Kind, segments: Iterable[Segment], name: str) -> Profile:
