@@ -40,6 +40,8 @@ accuracy: $(READY) ## the accuracy tables, beside CONTACT's, into docs/accuracy.
 	PYTHONPATH=. $(BIN)/python benchmarks/normal_methods.py --write docs/normal_methods.md
 	PYTHONPATH=. $(BIN)/python benchmarks/unseen_patches.py --cases 60
 	PYTHONPATH=. $(BIN)/python benchmarks/halfspace.py --write docs/halfspace.md
+	$(BIN)/contact manchester --out docs/manchester.md
+	$(BIN)/contact statistics --out docs/statistics.md
 
 smoothness: $(READY) ## sweeps: jumps, noise and resolution, into docs/smoothness.md; random cases
 	PYTHONPATH=. $(BIN)/python benchmarks/smoothness.py --write docs/smoothness.md

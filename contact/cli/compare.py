@@ -14,10 +14,9 @@ from contact.cli.output import reported, require_endings, write_all
 from contact.cli.progress import progress_bar
 from contact.cli.tables import show_tables
 from contact.solve import N_ELEMENTS
-from contact.study import SELECTION, Comparison
+from contact.study import SELECTION
 from contact.study import compare as compare_methods
 from contact.study.compare import REFERENCE_ELEMENTS
-from contact.study.table import tables_of, title_of
 
 COMPARED = "Comparison"
 File = Annotated[
@@ -99,12 +98,5 @@ def compare(
     if as_json:
         typer.echo(found.json())
     else:
-        show(found, Console())
+        show_tables(found.tables(), Console())
     write_all(found, out or [])
-
-
-def show(found: Comparison, console: Console) -> None:
-    """Print the tables of a comparison, case by case."""
-    for case, rows, _ in found.by_case():
-        console.print(title_of(case), style="bold", markup=False, highlight=False)
-        show_tables(tables_of(case, rows, found.has_reference), console)

@@ -119,7 +119,7 @@ Out = Annotated[Path, typer.Option(help="the picture: .png, .pdf or .svg", rich_
 Csv = Annotated[Path | None, typer.Option("--csv", help="write the table to this file", rich_help_panel=OUTPUT)]
 Files = Annotated[
     list[Path] | None,
-    typer.Option("--out", help="write .html, .json, .csv, .png, .pdf or .svg; repeat", rich_help_panel=OUTPUT),
+    typer.Option("--out", help="write .html, .md, .json, .csv, .png, .pdf or .svg; repeat", rich_help_panel=OUTPUT),
 ]
 
 

@@ -50,7 +50,7 @@ def write_csv(rows: Sequence[dict[str, Any]], path: Path) -> None:
 def require_endings(paths: Sequence[Path]) -> None:
     """Refuse, before minutes of work, a file that the results of a study cannot be written to."""
     for path in paths:
-        require_ending(path, (".html", ".json", ".csv", *PICTURES))
+        require_ending(path, (".html", ".md", ".json", ".csv", *PICTURES))
 
 
 def write_all(found: Any, paths: Sequence[Path]) -> None:

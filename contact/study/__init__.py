@@ -5,9 +5,10 @@
 
 from contact.study.case import Case
 from contact.study.compare import compare
-from contact.study.comparison import Comparison, Row
+from contact.study.comparison import Comparison
 from contact.study.errors import Errors
 from contact.study.pairs import REFERENCE, SELECTION, Pair, every_pair, pairs_of
+from contact.study.row import Row
 
 __all__ = [
     "REFERENCE",

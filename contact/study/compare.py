@@ -15,9 +15,10 @@ from contact.separation import Separation
 from contact.solution import Solution
 from contact.solve import N_ELEMENTS, N_STRIPS, solve
 from contact.study.case import Case
-from contact.study.comparison import Comparison, Row
+from contact.study.comparison import Comparison
 from contact.study.errors import errors_against
 from contact.study.pairs import REFERENCE, SELECTION, Pair, pairs_of
+from contact.study.row import Row
 
 #: Rows and columns of the reference: creep forces within 0.002 mu N of those on a much finer grid, at 0.1 s a case.
 REFERENCE_ELEMENTS = 80
@@ -50,7 +51,8 @@ def compare(
     n_strips, n_elements : int
         Resolution of the methods, as in `contact.solve`.
     reference_elements : int
-        Rows and columns of the half space over the undeformed overlap, 4 to 1000, of which contact takes about 0.7 each way.
+        Rows and columns of the half space over the undeformed overlap, 4 to 1000, of which contact takes about 0.7 each way;
+        also of its tangential part on the pressure of another method.
     progress : callable
         Given the share that is done, 0 to 1, and what is being solved.
 
@@ -81,7 +83,8 @@ def compare(
         true = None
         for pair in pairs:
             what = f"{case.name}: {pair}"
-            division = (reference_elements,) * 2 if pair == REFERENCE else (n_strips, n_elements)
+            on_grid = pair.tangential == REFERENCE.tangential
+            division = (reference_elements,) * 2 if on_grid else (n_strips, n_elements)
             solution, seconds = timed(case, pair, division, _inner(progress, done / total, what))
             if pair == REFERENCE and reference:
                 true = solution

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from contact.solution import Solution
 from contact.study.case import Case
-from contact.study.errors import Errors
-from contact.study.files import csv_of, write
+from contact.study.files import csv_of
 from contact.study.pairs import REFERENCE, Pair
+from contact.study.report import Report
+from contact.study.row import Row
+from contact.study.table import Table, tables_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -21,48 +22,8 @@ if TYPE_CHECKING:
 MOST_PANELS = 24
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
-    """One case by one pair of methods; SI units, forces on the wheel.
-
-    Attributes
-    ----------
-    case, normal, tangential, status : str
-    N, Fx, Fy, Mz, approach, max_pressure, area : float
-        As in `Solution`.
-    adhesion_area : float or None
-        [m²]; None where the tangential method gives forces alone.
-    time : float
-        Least wall time of a warm `contact.solve` [s].
-    errors : Errors or None
-        Against the reference; None for the reference itself, without one, or without contact.
-    """
-
-    case: str
-    normal: str
-    tangential: str
-    status: str
-    N: float
-    approach: float
-    Fx: float
-    Fy: float
-    Mz: float
-    max_pressure: float
-    area: float
-    adhesion_area: float | None
-    time: float
-    errors: Errors | None
-
-    def flat(self) -> dict[str, Any]:
-        """One level of names, `error_force` and so on; None where there is no value."""
-        content = asdict(self)
-        errors = content.pop("errors") or {}
-        names = Errors.__dataclass_fields__
-        return content | {f"error_{name}": errors.get(name) for name in names}
-
-
 @dataclass(frozen=True)
-class Comparison:
+class Comparison(Report):
     """Cases solved by several pairs of methods.
 
     Attributes
@@ -141,26 +102,34 @@ class Comparison:
         """One line a row, SI units."""
         return csv_of([row.flat() for row in self.rows])
 
-    def html(self) -> str:
-        """A page by itself: tables and pictures, nothing outside is needed."""
-        from contact.study.page import comparison_page
-
-        return comparison_page(self)
+    title: ClassVar[str] = "Contact models side by side"
 
     @property
-    def texts(self) -> dict[str, Callable[[], str]]:
-        """What makes the text of a file, by its ending."""
-        return {".json": self.json, ".csv": self.csv, ".html": self.html}
+    def about(self) -> list[str]:
+        """What a reader of the tables needs to know."""
+        from contact import __version__
 
-    def write(self, path: str | Path) -> None:
-        """Write a table (.json, .csv), a picture (.png, .pdf, .svg) or a page (.html), as the name of the file says.
+        found = [
+            f"wheelrail-contact {__version__}. Forces act on the wheel, in the contact frame: x in the rolling direction, y to "
+            "the right, z into the rail. Times are the least of several warm solves on the machine that wrote this page."
+        ]
+        if self.has_reference:
+            found.append(
+                "Errors are against the element-wise half space (Kalker's complete theory): those of the force over µN, of the "
+                "moment over µN√(area/π), all others relative; the pressure field's in the L2 norm. In pictures its patch is "
+                "dotted."
+            )
+        return found
 
-        Raises
-        ------
-        ContactError
-            Another ending, or a file that cannot be written.
-        """
-        write(path, self.texts, self.figure)
+    def tables(self) -> list[Table]:
+        """Results of every case, and its errors where there is a reference."""
+        return [table for case, rows, _ in self.by_case() for table in tables_of(case, rows, self.has_reference)]
+
+    def parts(self) -> Iterable[str]:
+        """Tables and picture of every case."""
+        from contact.study.page import cases_of
+
+        return cases_of(self)
 
     def to_xarray(self) -> Any:
         """The rows as an `xarray.Dataset` over case and pair; NaN where there is no value. Needs xarray."""

@@ -13,8 +13,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
 from importlib import resources
-from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from contact.errors import ContactError
 from contact.geometry import profile
@@ -24,9 +23,11 @@ from contact.solution import Solution
 from contact.solve import N_ELEMENTS, N_STRIPS, solve
 from contact.study.case import Case
 from contact.study.compare import REFERENCE_ELEMENTS, Progress, compare
-from contact.study.comparison import Comparison, Row
-from contact.study.files import csv_of, write
+from contact.study.comparison import Comparison
+from contact.study.files import csv_of
 from contact.study.pairs import REFERENCE, SELECTION, Pair
+from contact.study.report import Report
+from contact.study.row import Row
 from contact.study.table import Table, number, percent
 
 if TYPE_CHECKING:
@@ -103,7 +104,7 @@ def places() -> tuple[Place, ...]:
 
 
 @dataclass(frozen=True)
-class Manchester:
+class Manchester(Report):
     """Our results at the places of the benchmark.
 
     Attributes
@@ -178,20 +179,27 @@ class Manchester:
             case |= {"angle": patch.angle, "contact": asdict(place)}
         return json.dumps(content | {"notes": NOTES}, indent=2)
 
-    def html(self) -> str:
-        """A page by itself: tables and pictures."""
-        from contact.study.page import manchester_page
-
-        return manchester_page(self)
+    title: ClassVar[str] = "Manchester contact benchmark, A-2.2"
 
     @property
-    def texts(self) -> dict[str, Callable[[], str]]:
-        """What makes the text of a file, by its ending."""
-        return {".json": self.json, ".csv": self.csv, ".html": self.html}
+    def about(self) -> list[str]:
+        """What a reader of the tables needs to know."""
+        from contact import __version__
 
-    def write(self, path: str | Path) -> None:
-        """Write tables (.json, .csv), a picture (.png, .pdf, .svg) or a page (.html)."""
-        write(path, self.texts, self.figure)
+        return [
+            f"wheelrail-contact {__version__} beside CONTACT (Apache-2.0; 25.1, rev 2707, and the examples of rev 2447). "
+            "S1002 on UIC 60 1:40: a wheelset on straight track, displaced and yawed by 2.4 mrad a millimetre, 10 kN on each "
+            "wheel. Forces act on the wheel. The height of the wheel is the one at which our half space carries the load; all "
+            "methods have its normal force.",
+            *NOTES,
+        ]
+
+    def parts(self) -> Iterable[str]:
+        """Tables, and the comparison of every place."""
+        from contact.study.page import html_of
+
+        yield from map(html_of, self.tables())
+        yield from self.comparison.parts()
 
 
 def manchester(

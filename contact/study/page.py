@@ -8,13 +8,12 @@ from collections.abc import Iterable, Iterator
 from html import escape
 from typing import TYPE_CHECKING
 
-from contact.study.comparison import Comparison
-from contact.study.manchester import NOTES, Manchester
-from contact.study.statistics import Statistics
-from contact.study.table import Table, tables_of, title_of
+from contact.study.table import Table, tables_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from contact.study.comparison import Comparison
 
 _STYLE = """
 :root { color-scheme: light; --ink: #22262b; --faint: #6d747d; --rule: #dfe3e7; }
@@ -81,67 +80,27 @@ def _data(figure: Figure) -> str:
     return "data:image/png;base64," + base64.b64encode(small.getvalue()).decode()
 
 
-def comparison_page(c: Comparison) -> str:
-    """Tables and pictures of a comparison, case by case."""
-    from contact import __version__
-
-    body = [
-        "<h1>Contact models side by side</h1>",
-        f'<p class="faint">wheelrail-contact {__version__}. Forces act on the wheel, in the contact frame: x in the rolling '
-        "direction, y to the right, z into the rail. Times are the least of several warm solves on the machine that wrote "
-        "this page.</p>",
-    ]
-    if c.has_reference:
-        body.append(
-            '<p class="faint">Errors are against the element-wise half space (Kalker’s complete theory): those of the force '
-            "over µN, of the moment over µN√(area/π), all others relative; the pressure field’s in the L2 norm. In the "
-            "pictures its patch is dotted.</p>"
-        )
-    return page("Contact models side by side", [*body, *_cases(c)])
+def document(title: str, about: Iterable[str], parts: Iterable[str]) -> str:
+    """A page with a title, paragraphs and parts in HTML."""
+    return page(title, [f"<h1>{escape(title)}</h1>", *map(faint, about), *parts])
 
 
-def _cases(c: Comparison) -> Iterator[str]:
+def faint(text: str) -> str:
+    """A paragraph of explanation."""
+    return f'<p class="faint">{escape(text)}</p>'
+
+
+def cases_of(c: Comparison) -> Iterator[str]:
     """Heading, tables and picture of every case."""
     from contact.plot import comparison
 
     for case, rows, solutions in c.by_case():
-        yield f"<h2>{escape(title_of(case))}</h2>"
+        yield f"<h2>{escape(case.name)}</h2>"
         yield from map(html_of, tables_of(case, rows, c.has_reference))
         wide, narrow = (
             comparison([("", [solutions[k] for k in c.drawn])], reference=c.has_reference, columns=columns, panel=panel)
             for columns, panel in ((6, 3.6), (2, 1.8))
         )
         if len(c.drawn) < len(c.pairs):
-            yield '<p class="faint">The picture shows each normal and each tangential method with fields once.</p>'
+            yield faint("The picture shows each normal and each tangential method with fields once.")
         yield picture(wide, narrow, f"Pressure and traction of every method: {case.name}")
-
-
-def statistics_page(s: Statistics) -> str:
-    """Tables and the picture of the statistics."""
-    from contact import __version__
-
-    body = [
-        "<h1>Creep forces on ellipses</h1>",
-        f'<p class="faint">wheelrail-contact {__version__}. The cases are those of Vollebregt, Iwnicki, Xie and Shackleton '
-        f"(2012); errors are against our half space with {s.elements} × {s.elements} elements on the ellipse. Dimensionless "
-        "spin is chi, dimensionless creepage m.</p>",
-        *(html_of(table) for table in s.tables()),
-    ]
-    body.append(picture(s.figure(), s.figure(), "Share of the cases over the error of the force"))
-    return page("Creep forces on ellipses", body)
-
-
-def manchester_page(m: Manchester) -> str:
-    """Tables, notes and the comparison of every place."""
-    from contact import __version__
-
-    body = [
-        "<h1>Manchester contact benchmark, A-2.2</h1>",
-        f'<p class="faint">wheelrail-contact {__version__} beside CONTACT. A wheelset on straight track, displaced and yawed '
-        "by 2.4 mrad a millimetre, 10 kN on each wheel. Forces act on the wheel. The height of the wheel is the one at which "
-        "our half space carries the load; all methods have its normal force.</p>",
-        *map(html_of, m.tables()),
-        *(f'<p class="faint">{escape(note)}</p>' for note in NOTES),
-        *_cases(m.comparison),
-    ]
-    return page("Manchester contact benchmark", body)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,8 +19,9 @@ from contact.registry import lookup, methods
 from contact.solve import N_ELEMENTS, N_STRIPS
 from contact.study.design import FRICTION, LOAD, MATERIAL, Design, design
 from contact.study.errors import mean_p95_max
-from contact.study.files import csv_of, write
+from contact.study.files import csv_of
 from contact.study.reference import reference_forces, separation_of
+from contact.study.report import Report
 from contact.study.table import Table, brief
 
 if TYPE_CHECKING:
@@ -53,7 +54,7 @@ class Spread:
 
 
 @dataclass(frozen=True)
-class Statistics:
+class Statistics(Report):
     """Forces of several tangential methods on the cases of `design`, and of the half space.
 
     Attributes
@@ -150,20 +151,26 @@ class Statistics:
         }
         return json.dumps(content, indent=2)
 
-    def html(self) -> str:
-        """A page by itself: tables and the picture."""
-        from contact.study.page import statistics_page
-
-        return statistics_page(self)
+    title: ClassVar[str] = "Creep forces on ellipses"
 
     @property
-    def texts(self) -> dict[str, Callable[[], str]]:
-        """What makes the text of a file, by its ending."""
-        return {".json": self.json, ".csv": self.csv, ".html": self.html}
+    def about(self) -> list[str]:
+        """What a reader of the tables needs to know."""
+        from contact import __version__
 
-    def write(self, path: str | Path) -> None:
-        """Write errors (.json), all cases (.csv), the picture (.png, .pdf, .svg) or a page (.html)."""
-        write(path, self.texts, self.figure)
+        return [
+            f"wheelrail-contact {__version__}. Cases of Vollebregt, Iwnicki, Xie and Shackleton (2012): five ellipses, spin "
+            "chi, size m and direction of the creepage. Errors are against our half space with "
+            f"{self.elements} × {self.elements} elements on the ellipse; times are those of a case in one thread."
+        ]
+
+    def parts(self) -> Iterable[str]:
+        """Tables and the picture."""
+        from contact.study.page import html_of, picture
+
+        yield from map(html_of, self.tables())
+        figure = self.figure()
+        yield picture(figure, figure, "Share of the cases over the error of the force")
 
 
 def statistics(

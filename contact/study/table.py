@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from contact.study.case import Case
-from contact.study.comparison import Row
+from contact.study.row import Row
 
 
 def number(value: float | None) -> str:
@@ -38,6 +38,12 @@ class Table(NamedTuple):
     caption: str
     headings: Sequence[tuple[str, str]]
     rows: Sequence[Sequence[str]]
+
+    def markdown(self) -> str:
+        """The table in Markdown, its caption as a heading."""
+        head = [f"{name} [{unit}]" if unit else name or " " for name, unit in self.headings]
+        marks = ["---", *["---:"] * (len(head) - 1)]
+        return "\n".join([f"## {self.caption}", "", *(f"| {' | '.join(line)} |" for line in (head, marks, *self.rows))])
 
 
 class Column(NamedTuple):
@@ -107,9 +113,9 @@ def title_of(case: Case) -> str:
 
 def tables_of(case: Case, rows: Sequence[Row], has_reference: bool) -> list[Table]:
     """Results of a case, and the errors where there is a reference."""
-    result = [_table("Results", values_of(case), rows)]
+    result = [_table(title_of(case), values_of(case), rows)]
     if has_reference:
-        caption = "Errors against the half space (force over µN, moment over µN√(area/π))"
+        caption = f"{case.name}: errors against the half space, force over µN, moment over µN√(area/π)"
         result.append(_table(caption, errors_of(case), [row for row in rows if row.errors is not None]))
     return result
 

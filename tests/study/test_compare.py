@@ -128,6 +128,9 @@ def test_json_and_csv_hold_every_number(small):
         assert result["Fx"] == row.Fx == float(line["Fx"])
         assert (line["error_force"] == "") == (row.errors is None)
     assert "NaN" not in small.json()
+    lines = small.markdown().splitlines()
+    assert "| method | approach [µm] | peak pressure [MPa] |" in next(line for line in lines if "peak pressure" in line)
+    assert sum(line.startswith("| hertz + fastsim |") for line in lines) == 3  # no errors without contact
 
 
 def test_the_dataset_is_labelled_by_case_and_method(small):

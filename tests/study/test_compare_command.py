@@ -71,7 +71,7 @@ def test_tables_and_files(tmp_path):
     words = [word for path in files for word in ("--out", path)]
     result = call("compare", "--curvatures", 1.1, 0.8, "--creepage", 1e-3, 0, 0, *QUICK, *words)
     assert all(path.stat().st_size > 500 for path in files)
-    for word in ("hertz", "+ fastsim", "Errors against the half space", "approach"):
+    for word in ("hertz", "+ fastsim", "errors against the half space", "approach"):
         assert word in result.stdout
 
 

@@ -62,6 +62,7 @@ def test_files_hold_ours_and_contacts(three):
     assert float(lines[0]["max_pressure_contact"]) == 741.3e6
     content = json.loads(three.json())
     assert content["cases"][0]["contact"]["N"] == 9827.0
+    assert "|   CONTACT | -69.60 | 9827 |" in three.markdown()
     c = three.comparison
     first = Comparison(c.cases[:1], c.pairs, c.rows[:2], c.solutions[:2])
     one = Manchester(three.places[:1], three.patches[:1], first, {name: s[:1] for name, s in three.fast.items()})

@@ -138,12 +138,13 @@ def test_bad_input_is_named(given, message):
 
 def test_files_hold_the_errors(sample, tmp_path):
     pytest.importorskip("matplotlib")
-    for ending in ("json", "csv", "html", "png"):
+    for ending in ("json", "csv", "html", "md", "png"):
         sample.write(tmp_path / f"out.{ending}")
     content = json.loads((tmp_path / "out.json").read_text())
     assert content["cases"] == 12
     assert {e["method"] for e in content["errors"]} == set(TESTED)
     assert len((tmp_path / "out.csv").read_text().splitlines()) == 13
+    assert "| fastrip | " in (tmp_path / "out.md").read_text()
     page = Page()
     page.feed((tmp_path / "out.html").read_text())
     assert all(link.startswith("data:image/png;base64,") for link in page.links)
