@@ -1,0 +1,115 @@
+"""Histograms as NetCDF files that explain themselves: units, provenance, the profile and the constants of the models."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from importlib.metadata import version
+from os import PathLike
+from typing import Any
+
+from contact.accumulation.histogram import MAXIMA, SUMS, Histogram
+from contact.damage import ArchardMap, Burstow, DamageParameters, PearceSherratt, Usfd
+from contact.errors import ContactError
+from contact.geometry.profile import Profile
+from contact.material import Material
+
+FORMAT = "wheelrail-contact damage histogram 1"
+
+
+def save(histogram: Histogram, path: str | PathLike[str]) -> None:
+    """Write a histogram as NetCDF (version 3, by xarray and scipy), every number to the last bit.
+
+    Raises
+    ------
+    ImportError
+        Without xarray.
+    """
+    to_xarray(histogram).to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
+
+
+def to_xarray(histogram: Histogram) -> Any:
+    """The histogram as an `xarray.Dataset`; the variables carry `units` and `long_name`."""
+    profile, h = histogram.profile, histogram
+    units = {name: what[0] for name, what in (SUMS | MAXIMA).items()}
+    if profile.kind == "rail":
+        units["wear"] = "m2"
+    variables = {name: ("bin", h[name], _described(units[name], what[1])) for name, what in (SUMS | MAXIMA).items()}
+    points = {
+        "profile_y": ("point", profile.y, _described("m", "lateral, to the field side")),
+        "profile_z": ("point", profile.z, _described("m", "vertical, down")),
+        "profile_angle": ("point", profile.angle, _described("rad", "of the tangent")),
+    }
+    coordinates = {
+        "arc": ("bin", h.centres, _described("m", "arc length of the middle of the bin")),
+        "edge": ("edge", h.edges, _described("m", "arc length of the edges of the bins")),
+    }
+    attributes = {
+        "format": FORMAT,
+        "source": f"wheelrail-contact {version('wheelrail-contact')}",
+        "kind": profile.kind,
+        "profile": profile.name,
+        "width": h.width,
+        "radius": h.radius,
+        "distance": h.distance,
+        "methods": json.dumps(sorted(h.methods)),
+        "materials": json.dumps(sorted((asdict(material) for material in h.materials), key=str)),
+        "parameters": json.dumps(asdict(h.parameters)),
+    }
+    return _xarray().Dataset(variables | points, coordinates, attributes)
+
+
+def load(path: str | PathLike[str]) -> Histogram:
+    """Read what `save` has written.
+
+    Raises
+    ------
+    ContactError
+        If it is a file of something else.
+    ImportError
+        Without xarray.
+    OSError
+        If there is no such file.
+    """
+    stored = _xarray().load_dataset(path, engine="scipy")
+    given = stored.attrs
+    if given.get("format") != FORMAT:
+        raise ContactError(f"path = {str(path)!r} is no {FORMAT}")
+    constants = json.loads(given["parameters"])
+    for name, model in _MODELS.items():
+        constants[name] = model(**constants[name])
+    y, z, angle = (stored[f"profile_{name}"].values for name in ("y", "z", "angle"))
+    histogram = Histogram(
+        Profile(given["kind"], y, z, angle, given["profile"]),
+        width=float(given["width"]),
+        radius=float(given["radius"]),
+        parameters=DamageParameters(**constants),
+    )
+    histogram.restore(
+        {name: stored[name].values for name in SUMS | MAXIMA},
+        float(given["distance"]),
+        set(json.loads(given["methods"])),
+        {Material(**material) for material in json.loads(given["materials"])},
+    )
+    return histogram
+
+
+_MODELS: dict[str, Any] = {
+    "pearce_sherratt": PearceSherratt,
+    "burstow": Burstow,
+    "usfd": Usfd,
+    "archard": ArchardMap,
+}
+
+
+def _described(unit: str, meaning: str) -> dict[str, str]:
+    return {"units": unit, "long_name": meaning}
+
+
+def _xarray() -> Any:
+    try:
+        import scipy.io  # noqa: F401
+        import xarray
+    except ImportError as missing:
+        raise ImportError("histograms in files need xarray: pip install 'wheelrail-contact[xarray]'") from missing
+    return xarray

@@ -1,0 +1,217 @@
+"""`Histogram`: wear and fatigue in bins over the arc length of a wheel's or a rail's own profile."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.accumulation.strips import arc_length, edges_on, rates, shares
+from contact.damage import DamageParameters, evaluate
+from contact.errors import ContactError, require_number
+from contact.geometry.profile import Profile
+from contact.geometry.records import Patch
+from contact.material import Material
+from contact.solution import Solution
+
+Array = NDArray[np.float64]
+Per = Literal["metre", "revolution", "pass"]
+
+#: Name → unit and meaning of what adds up. Volume and T-gamma are those of the bin, the rest are means over its width.
+SUMS = {
+    "contact": ("m", "distance rolled in contact"),
+    "wear": ("m", "depth worn off a wheel; of a rail depth times distance [m²]"),
+    "volume": ("m3", "volume worn off"),
+    "T_gamma": ("N m", "T-gamma times distance, shared over the contact area"),
+    "energy_index": ("Pa m", "mean energy index along the strip times distance"),
+    "stress_exceedance": ("m", "distance rolled with a positive stress index somewhere along the strip"),
+    "fatigue_exceedance": ("m", "distance rolled with a positive surface fatigue index of the patch"),
+}
+#: Name → unit and meaning of what is the greatest so far, 0 where there was no contact.
+MAXIMA = {"energy_index_max": ("Pa", "greatest energy index")}
+
+_NAMES = (*SUMS, *MAXIMA)
+_OF_THE_BIN = np.array([name in ("volume", "T_gamma") for name in SUMS])
+
+
+class Histogram:
+    """Damage that has accumulated on one profile; `a + b` is that of both.
+
+    Bins are of equal width along the profile, so that depth, taken along the profile's normal, times width is the area
+    lost. What a strip does is shared over the bins that it overlaps: nothing is lost, not even beyond the profile's ends,
+    which belongs to the outermost bins. Both sides of a wheelset are taken in the right-side convention, as profiles are.
+
+    Parameters
+    ----------
+    profile : Profile
+        Of a wheel or a rail; the patches must have been found with it.
+    width : float
+        Of a bin [m], 1e-5 ... 1e-2. Edges are multiples of it.
+    radius : float
+        Nominal radius of the wheel [m]: a revolution is 2π·radius rolled.
+    parameters : DamageParameters, optional
+        Constants of the damage models.
+
+    Attributes
+    ----------
+    edges, centres : ndarray, shape (n + 1,) and (n,)
+        Arc length [m] from the profile's point nearest to y = 0, positive to the field side.
+    distance : float
+        Rolled so far [m].
+    methods, materials : set of str, set of Material
+        What the solutions came from.
+
+    Raises
+    ------
+    ContactError
+        For arguments outside their range.
+
+    Notes
+    -----
+    ``histogram[name]`` is a copy of one quantity over the bins, totals in the units of `SUMS` and `MAXIMA`; `per` divides.
+    The depth of a wheel is spread over its circumference; a metre of a rail sees each axle once, so that its depth belongs
+    to a pass and its totals are those of one pass times the distance.
+    """
+
+    def __init__(
+        self,
+        profile: Profile,
+        *,
+        width: float = 5e-4,
+        radius: float = 0.46,
+        parameters: DamageParameters | None = None,
+    ) -> None:
+        if not isinstance(profile, Profile):
+            raise ContactError(f"profile = {profile!r} is not a contact.geometry.profile.Profile")
+        self.profile = profile
+        self.width = require_number("width", width, 1e-5, 1e-2)
+        self.radius = require_number("radius", radius, 0.05, 2.0)
+        self.parameters = parameters or DamageParameters()
+        self.arc = arc_length(profile)
+        first, last = np.floor(self.arc[0] / width), np.ceil(self.arc[-1] / width)
+        self.edges = self.width * np.arange(first, last + 1.0)
+        self.distance = 0.0
+        self.methods: set[str] = set()
+        self.materials: set[Material] = set()
+        self._values = np.zeros((len(_NAMES), self.edges.size - 1))
+
+    def __getitem__(self, name: str) -> Array:
+        if name not in _NAMES:
+            raise ContactError(f"quantity = {name!r} is none of {', '.join(_NAMES)}")
+        return self._values[_NAMES.index(name)].copy()
+
+    @property
+    def centres(self) -> Array:
+        """Middle of each bin [m]."""
+        return 0.5 * (self.edges[:-1] + self.edges[1:])
+
+    def add(
+        self, patches: Patch | Sequence[Patch], solutions: Solution | Sequence[Solution], *, distance: float
+    ) -> None:
+        """Let the wheel roll `distance` with these patches.
+
+        Parameters
+        ----------
+        patches, solutions : Patch and Solution, or as many of each
+            All patches of this wheel at one instant and what was solved for them; none when it does not touch.
+        distance : float
+            [m], not negative.
+
+        Raises
+        ------
+        ContactError
+            A patch that does not lie on the profile, unequal numbers, a distance outside its range, and a solution of a
+            creep force law, which has neither wear nor indices. Nothing is added then.
+        """
+        distance = require_number("distance", distance, 0.0)
+        patches = (patches,) if isinstance(patches, Patch) else tuple(patches)
+        solutions = (solutions,) if isinstance(solutions, Solution) else tuple(solutions)
+        if len(patches) != len(solutions):
+            raise ContactError(f"{len(patches)} patches have {len(solutions)} solutions")
+        touching = [pair for pair in zip(patches, solutions, strict=True) if pair[1].strips.y.size]
+        values = self._values.copy()
+        for patch, solution in touching:
+            self._deposit(patch, solution, distance, values)
+        self._values = values
+        self.distance += distance
+        self.methods |= {f"{solution.normal} + {solution.tangential}" for _, solution in touching}
+        self.materials |= {solution.material for _, solution in touching}
+
+    def _deposit(self, patch: Patch, solution: Solution, distance: float, values: Array) -> None:
+        damage = evaluate(solution, patch.rolling_radius, self.parameters)
+        share = shares(*edges_on(self.profile, self.arc, patch, solution), self.edges)
+        deposited = (distance * solution.strips.dy * rates(self.profile.kind, solution, damage)) @ share
+        values[: len(SUMS)] += np.where(_OF_THE_BIN[:, None], deposited, deposited / self.width)
+        if distance > 0.0:
+            greatest = np.where(share > 0.0, damage.energy_index.field.max(axis=1)[:, None], 0.0).max(axis=0)
+            values[len(SUMS)] = np.maximum(values[len(SUMS)], greatest)
+
+    def __add__(self, other: Histogram) -> Histogram:
+        if not isinstance(other, Histogram):
+            return NotImplemented
+        self._require_same_bins(other)
+        both = Histogram(self.profile, width=self.width, radius=self.radius, parameters=self.parameters)
+        n = len(SUMS)
+        both._values[:n] = self._values[:n] + other._values[:n]
+        both._values[n:] = np.maximum(self._values[n:], other._values[n:])
+        both.distance = self.distance + other.distance
+        both.methods, both.materials = self.methods | other.methods, self.materials | other.materials
+        return both
+
+    def restore(
+        self, values: Mapping[str, Array], distance: float, methods: set[str], materials: set[Material]
+    ) -> None:
+        """Replace what has accumulated: every quantity over the bins, and the attributes of these names."""
+        self._values = np.array([values[name] for name in _NAMES], dtype=np.float64)
+        self.distance, self.methods, self.materials = distance, methods, materials
+
+    def _require_same_bins(self, other: Histogram) -> None:
+        a, b = self.profile, other.profile
+        if a.kind != b.kind or not (np.array_equal(a.y, b.y) and np.array_equal(a.z, b.z)):
+            raise ContactError(f"histograms over different profiles do not add up: {a!r} and {b!r}")
+        for name in ("width", "radius", "parameters"):
+            mine, others = getattr(self, name), getattr(other, name)
+            if mine != others:
+                raise ContactError(f"histograms of different {name} do not add up: {mine} and {others}")
+
+    def per(self, unit: Per) -> dict[str, Array]:
+        """All sums per metre rolled, per revolution of the wheel, or per axle pass at a cross-section of the rail.
+
+        Parameters
+        ----------
+        unit : {"metre", "revolution", "pass"}
+            For a rail "metre" and "pass" are the same numbers: the mean over the distance of what one pass does.
+
+        Raises
+        ------
+        ContactError
+            For another unit, a revolution of a rail, a pass of a wheel, and before anything has rolled.
+        """
+        of_the_other = "pass" if self.profile.kind == "wheel" else "revolution"
+        if unit not in get_args(Per) or unit == of_the_other:
+            allowed = ", ".join(repr(known) for known in get_args(Per) if known != of_the_other)
+            raise ContactError(f"unit = {unit!r} is none of {allowed}, which a {self.profile.kind} has")
+        if self.distance <= 0.0:
+            raise ContactError("distance = 0: nothing has rolled yet")
+        number = self.distance / (2.0 * np.pi * self.radius) if unit == "revolution" else self.distance
+        return {name: self._values[k] / number for k, name in enumerate(SUMS)}
+
+    @property
+    def depth(self) -> Array:
+        """Depth worn off along the profile's normal [m]: of a wheel all of it, of a rail that of one axle pass (0 before)."""
+        if self.profile.kind == "wheel" or self.distance <= 0.0:
+            return self["wear"]
+        return self.per("pass")["wear"]
+
+    @property
+    def volume(self) -> float:
+        """Volume worn off [m³]: from this wheel, or from the rail along the distance."""
+        return float(self["volume"].sum())
+
+    def __repr__(self) -> str:
+        return (
+            f"Histogram({self.profile!r}, {self.edges.size - 1} bins of {1e3 * self.width:g} mm, "
+            f"{self.distance:.6g} m rolled, {1e9 * self.volume:.4g} mm³ worn off)"
+        )
