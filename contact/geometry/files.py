@@ -60,9 +60,9 @@ def read(
     smoothing : float, optional
         Noise of the measurement [m], root mean square, which a smoothing spline takes out (needs scipy); by default the curve
         goes through every point. The contact depends on tangents and curvatures, which are far noisier than points: 2 µm of
-        noise on points of S1002 0.25 mm apart leave errors (root mean square) of 9.6 mrad and 63 1/m, and with
-        ``smoothing=2e-6`` 1.5 mrad and 3.7 1/m; with half of it 6.7 mrad and 39 1/m, with twice as much 3.4 mrad and 5.3 1/m
-        while the points move by 3.3 µm.
+        noise on points of S1002 0.25 mm apart leave errors (root mean square) of 9.6 mrad and 62 1/m, and with
+        ``smoothing=2e-6`` 1.6 mrad and 3.9 1/m; with half of it 6.4 mrad and 36 1/m, with twice as much 3.6 mrad and 5.4 1/m
+        while the points are 3.5 µm off.
 
     Raises
     ------
