@@ -24,6 +24,8 @@ from contact.study.row import Row
 REFERENCE_ELEMENTS = 80
 #: A solve is repeated until it has taken this long in all, and this often at most.
 _TIMED, _REPEATS = 0.03, 50
+#: Share of the area below which there is no stick: slip is summed over the elements.
+_ROUND_OFF = 1e-12
 
 Progress = Callable[[float, str], None]
 
@@ -114,6 +116,7 @@ def timed(
 
 
 def _row(case: Case, pair: Pair, s: Solution, seconds: float, true: Solution | None) -> Row:
+    stick = s.area - s.slip_area if s.slip_area < (1.0 - _ROUND_OFF) * s.area else 0.0
     return Row(
         case=case.name,
         normal=pair.normal,
@@ -126,7 +129,7 @@ def _row(case: Case, pair: Pair, s: Solution, seconds: float, true: Solution | N
         Mz=s.Mz,
         max_pressure=s.max_pressure,
         area=s.area,
-        adhesion_area=max(s.area - s.slip_area, 0.0) if s.has_fields else None,
+        adhesion_area=stick if s.has_fields else None,
         time=seconds,
         errors=None if true is None or true is s else errors_against(true, s, least(case.separation)),
     )

@@ -21,12 +21,12 @@ body { font: 16px/1.5 system-ui, sans-serif; color: var(--ink); background: whit
   padding: 1rem; }
 h1 { font-size: 1.5rem; margin: .5rem 0; } h2 { font-size: 1.15rem; margin: 2rem 0 .5rem; }
 p { max-width: 50rem; } .faint { color: var(--faint); font-size: .875rem; }
-.wide { overflow-x: auto; margin: .75rem 0; }
+.wide { overflow-x: auto; margin: .25rem 0 .75rem; }
 table { border-collapse: collapse; font-size: .875rem; font-variant-numeric: tabular-nums; white-space: nowrap; }
 th, td { padding: .3rem .7rem; text-align: right; border-bottom: 1px solid var(--rule); }
 th { font-weight: 600; vertical-align: bottom; } th small { display: block; font-weight: 400; color: var(--faint); }
 th:first-child, td:first-child { text-align: left; position: sticky; left: 0; background: white; }
-caption { text-align: left; font-weight: 600; padding: .3rem 0; position: sticky; left: 0; }
+h3 { font-size: 1rem; margin: 1rem 0 0; }
 img { max-width: 100%; height: auto; }
 @media (max-width: 700px) { body { padding: .75rem; }
   th, td { padding: .3rem .45rem; } td:first-child span { display: block; } }
@@ -52,7 +52,7 @@ def html_of(table: Table) -> str:
         for first, *cells in table.rows
     )
     return (
-        f'<div class="wide"><table><caption>{escape(table.caption)}</caption>\n'
+        f'<h3>{escape(table.caption)}</h3>\n<div class="wide"><table>\n'
         f"<thead><tr>{head}</tr></thead>\n<tbody>{lines}</tbody></table></div>"
     )
 

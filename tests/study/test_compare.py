@@ -217,3 +217,9 @@ def test_files_that_cannot_be_written(small, tmp_path, name):
 def test_import_of_contact_loads_no_picture_and_no_table_library():
     code = "import contact, sys; print([m for m in ('matplotlib', 'rich', 'xarray', 'PIL') if m in sys.modules])"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"
+
+
+def test_full_slip_leaves_no_stick():
+    slipping = contact.Case(contact.Separation.hertzian(1.1, 0.8), contact.Creepage(0.1, 0.1, 0.0), load=60e3)
+    rows = contact.compare(slipping, METHODS, reference=False).rows
+    assert [(row.status, row.adhesion_area) for row in rows] == [("SATURATED", 0.0)] * 2
