@@ -49,7 +49,7 @@ def _sources() -> str:
 # A page is executed again when its text or one of these sources has changed.
 nb_execution_mode = "cache"
 nb_execution_cache_path = str(ROOT / "build" / "docs" / "executed" / _sources())
-nb_execution_timeout = 600
+nb_execution_timeout = 1800  # [s] a cell; the first one may compile all kernels on a busy machine
 nb_execution_raise_on_error = True
 nb_execution_show_tb = True
 nb_render_markdown_format = "myst"
@@ -62,6 +62,11 @@ def _escape_bars(app: Sphinx, what: str, name: str, item: object, options: objec
     lines[:] = [line.replace("|", r"\|") for line in lines]
 
 
+def _is_alias(app: Sphinx, what: str, name: str, item: object, skip: bool, options: object) -> bool | None:
+    """Fields of a named tuple have no documentation of their own: the class has it."""
+    return True if (item.__doc__ or "").startswith("Alias for field number") else None
+
+
 def _append_variables(app: Sphinx, page: str, source: list[str]) -> None:
     """The tables of the FMUs' variables come from the FMUs' own tables."""
     if page == "fmu":
@@ -71,4 +76,5 @@ def _append_variables(app: Sphinx, page: str, source: list[str]) -> None:
 
 def setup(app: Sphinx) -> None:
     app.connect("autodoc-process-docstring", _escape_bars, priority=400)  # before numpydoc
+    app.connect("autodoc-skip-member", _is_alias)
     app.connect("source-read", _append_variables)

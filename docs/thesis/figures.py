@@ -36,7 +36,8 @@ WHEEL, RAIL = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
 REFERENCE = "halfspace"
 #: A method has one colour on all pages; of those that meet in a figure no two have the same.
 _COLOURS = {
-    "fastsim": 0, "fastrip": 1, "fastrip_mapped": 2, "strip_theory": 3, "carter": 4, "vermeulen_johnson": 4,
+    "fastsim": 0, "fastsim_one": 3, "fastsim_elliptic": 4, "fastrip": 1, "fastrip_mapped": 2,
+    "strip_theory": 3, "carter": 4, "vermeulen_johnson": 4,
     "linear_saturated": 5, "shen_hedrick_elkins": 3, "polach": 4,
     "analyn": 1, "hertz": 0, "kik_piotrowski": 2, "kik_piotrowski_2008": 3, "stripes_ab": 4,
 }  # fmt: skip
