@@ -72,7 +72,7 @@ class Histogram:
     -----
     ``histogram[name]`` is a copy of one quantity over the bins, totals in the units of `SUMS` and `MAXIMA`; `per` divides.
     The depth of a wheel is spread over its circumference; a metre of a rail sees each axle once, so that its depth belongs
-    to a pass and its totals are those of one pass times the distance.
+    to a pass and its totals are those of one pass times the distance. Bins much narrower than the strips show these as steps.
     """
 
     def __init__(

@@ -14,5 +14,19 @@ from contact.plot.lines import curve, time_histories
 from contact.plot.patches import patch
 from contact.plot.position import Wheel, position
 from contact.plot.rolling import conicity, contact_points
+from contact.plot.shakedown import shakedown
+from contact.plot.wear import wear, worn_profile
 
-__all__ = ["Wheel", "comparison", "conicity", "contact_points", "curve", "patch", "position", "time_histories"]
+__all__ = [
+    "Wheel",
+    "comparison",
+    "conicity",
+    "contact_points",
+    "curve",
+    "patch",
+    "position",
+    "shakedown",
+    "time_histories",
+    "wear",
+    "worn_profile",
+]

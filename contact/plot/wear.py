@@ -1,0 +1,114 @@
+"""Wear over a profile: stacked histograms, and the profile before and after."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from contact.errors import ContactError, require_number
+from contact.plot.style import DPI, FAINT, INK, LINES, MM, colours, style
+
+if TYPE_CHECKING:
+    from contact.accumulation import Histogram
+    from contact.geometry.profile import Profile
+
+_UM = 1e6
+_THOUSAND = 1e3  # metres or axle passes
+
+
+def wear(histograms: Mapping[str, Histogram], title: str = "") -> Figure:
+    """Draw wear depths of one profile upon each other, and the profile below them.
+
+    Of a wheel the shares of each histogram in a kilometre of all the distance are drawn, of a rail those in a thousand axle
+    passes.
+
+    Parameters
+    ----------
+    histograms : mapping of str to contact.accumulation.Histogram
+        By name, over one profile.
+    title : str
+        Of the whole.
+
+    Raises
+    ------
+    ContactError
+        No histogram, nothing rolled, or histograms over different profiles.
+    """
+    if not histograms:
+        raise ContactError("histograms is empty; at least one is needed")
+    first, *others = histograms.values()
+    total = first
+    for other in others:
+        total = total + other  # which refuses what does not belong together
+    if total.distance <= 0.0:
+        raise ContactError("distance = 0: nothing has rolled yet")
+    profile = total.profile
+    scale = _UM * _THOUSAND / total.distance
+    edges = MM * np.interp(total.edges, total.arc, profile.y)
+    with style():
+        figure = Figure(figsize=(7.4, 4.6), dpi=DPI, layout="constrained")
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=[1.6, 1.0])
+        base = np.zeros(total.centres.size)
+        for (name, histogram), colour in zip(histograms.items(), colours(len(histograms)), strict=True):
+            top = base + scale * histogram["wear"]
+            above.stairs(top, edges, baseline=base, fill=True, color=colour, lw=0.0, label=name)
+            base = top
+        above.stairs(base, edges, color=INK, lw=0.8)
+        above.set_ylabel("depth [µm per km]" if profile.kind == "wheel" else "depth [µm per 1000 axle passes]")
+        above.set_ylim(0.0)
+        above.legend()
+        above.grid(visible=True)
+        _outline(below, profile, INK, profile.name or profile.kind)
+        if title:
+            figure.suptitle(title, x=0.01, ha="left", fontsize=10.0)
+    return figure
+
+
+def worn_profile(before: Profile, after: Profile, *, magnified: float = 1.0, title: str = "") -> Figure:
+    """Draw a profile before and after it has worn, and the depth taken off along its normal.
+
+    Parameters
+    ----------
+    before, after : Profile
+        With as many points, one for one as `contact.accumulation.worn_profile` gives them; say in `title` how the
+        depth was smoothed.
+    magnified : float
+        By how much the drawn displacement is larger than it is, positive. The depth below is drawn as it is.
+    title : str
+        Of the whole.
+
+    Raises
+    ------
+    ContactError
+        Profiles of different kinds or numbers of points.
+    """
+    require_number("magnified", magnified, 0.0, open_minimum=True)
+    if before.kind != after.kind or before.y.size != after.y.size:
+        raise ContactError(f"before = {before!r} and after = {after!r} do not belong point to point")
+    y, z = (a + magnified * (b - a) for a, b in ((before.y, after.y), (before.z, after.z)))
+    with style():
+        figure = Figure(figsize=(7.4, 4.6), dpi=DPI, layout="constrained")
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=[1.2, 1.0])
+        _outline(above, before, FAINT, "before")
+        above.plot(
+            MM * y, MM * z, color=LINES[1], lw=1.4, label="after" + f" (wear × {magnified:g})" * (magnified != 1.0)
+        )
+        above.set_xlabel("")
+        above.legend()
+        below.plot(MM * before.y, MM * np.hypot(after.y - before.y, after.z - before.z), color=LINES[1], lw=1.4)
+        below.set(xlabel="y [mm], to the field side", ylabel="depth worn off [mm]")
+        below.set_ylim(0.0)
+        below.grid(visible=True)
+        if title:
+            figure.suptitle(title, x=0.01, ha="left", fontsize=10.0)
+    return figure
+
+
+def _outline(ax: Axes, profile: Profile, colour: str, name: str) -> None:
+    ax.plot(MM * profile.y, MM * profile.z, color=colour, lw=1.4, label=name)
+    ax.set(xlabel="y [mm], to the field side", ylabel="z [mm], down")
+    ax.invert_yaxis()

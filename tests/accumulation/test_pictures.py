@@ -1,0 +1,87 @@
+"""Pictures of accumulated damage: what is drawn is what the histograms and the solutions hold."""
+
+import numpy as np
+import pytest
+
+import contact
+from contact.accumulation import Histogram, worn_profile
+from contact.errors import ContactError
+from contact.geometry.profile import rail_60e1, s1002
+from contact.geometry.wheelset import Pair, Pose
+
+pytest.importorskip("matplotlib")
+
+from contact import plot
+from contact.plot.shakedown import SUBSURFACE
+
+WHEEL, RAIL = s1002(), rail_60e1()
+
+
+@pytest.fixture(scope="module")
+def runs():
+    """Name → wheel, rail and solutions after 50 m and 100 m with two poses."""
+    pair, made = Pair(WHEEL, RAIL), {}
+    for name, pose, distance in (("middle", Pose(yaw=2e-3), 50.0), ("flange", Pose(y=5e-3, yaw=4e-3), 100.0)):
+        patches = pair.contacts(pose, load=60e3)
+        solutions = [contact.solve(p.separation, p.creepage, load=p.load, speed=30.0) for p in patches]
+        made[name] = Histogram(WHEEL), Histogram(RAIL), solutions
+        for histogram in made[name][:2]:
+            histogram.add(patches, solutions, distance=distance)
+    return made
+
+
+@pytest.mark.parametrize("body", [0, 1])
+def test_stacks_end_at_the_depth_of_the_merged_histogram(runs, body):
+    parts = {name: run[body] for name, run in runs.items()}
+    above = plot.wear(parts, "wear").axes[0]
+    total = parts["middle"] + parts["flange"]
+    first, second, outline = (patch.get_data() for patch in above.patches)
+    expected = 1e9 * total.per("metre")["wear"]  # µm per km, or per thousand passes
+    np.testing.assert_allclose(outline.values, expected, rtol=1e-13)
+    np.testing.assert_allclose(second.values, expected, rtol=1e-13)
+    np.testing.assert_array_equal(second.baseline, first.values)
+    assert first.values.max() > 0.0
+
+
+def test_worn_profile_is_drawn_with_its_wear_magnified(runs):
+    histogram = runs["flange"][0]
+    worn = worn_profile(histogram, 1e-4 / histogram.depth.max())
+    above, below = plot.worn_profile(WHEEL, worn, magnified=5.0, title="smoothed over 2 mm").axes
+    before, after = above.lines
+    np.testing.assert_allclose(after.get_ydata() - before.get_ydata(), 5e3 * (worn.z - WHEEL.z), rtol=1e-9, atol=1e-12)
+    deepest = 1e3 * np.hypot(worn.y - WHEEL.y, worn.z - WHEEL.z).max()
+    assert below.lines[0].get_ydata().max() == pytest.approx(deepest, rel=1e-12)
+    assert "× 5" in after.get_label()
+
+
+def test_working_points_lie_where_utilisation_and_pressure_say(runs):
+    clouds = {name: run[2] for name, run in runs.items()}
+    (ax,) = plot.shakedown(clouds).axes
+    drawn = {line.get_label(): line for line in ax.lines}
+    for name, (solution,) in clouds.items():
+        x, y = drawn[name].get_xydata()[0]
+        assert x == pytest.approx(np.hypot(solution.Fx, solution.Fy) / solution.N, rel=1e-15)
+        assert y == pytest.approx(solution.max_pressure / 300e6, rel=1e-15)
+        assert solution.damage.fatigue_index == pytest.approx(x - 1.0 / y, rel=1e-12), "positive above 1/x"
+
+
+def test_both_limits_of_the_map_meet():
+    x, y = SUBSURFACE[-1]
+    assert y == pytest.approx(1.0 / x, rel=2e-3)
+    assert SUBSURFACE[0, 1] == 4.0, "Johnson's limit of the frictionless line contact"
+    assert (np.diff(SUBSURFACE, axis=0) * [1.0, -1.0] > 0.0).all()
+
+
+def test_pictures_refuse_what_they_cannot_draw(runs):
+    wheel, rail = runs["middle"][:2]
+    apart = contact.solve(contact.Separation.hertzian(1.0, 1.0), contact.Creepage(), approach=-1e-5)
+    for draw, message in (
+        (lambda: plot.wear({}), "histograms is empty"),
+        (lambda: plot.wear({"new": Histogram(WHEEL)}), "nothing has rolled"),
+        (lambda: plot.wear({"a": wheel, "b": rail}), "different profiles"),
+        (lambda: plot.worn_profile(WHEEL, RAIL), "point to point"),
+        (lambda: plot.worn_profile(WHEEL, WHEEL, magnified=0.0), "magnified"),
+        (lambda: plot.shakedown({"air": [apart]}), "no solution with contact"),
+    ):
+        with pytest.raises(ContactError, match=message):
+            draw()
