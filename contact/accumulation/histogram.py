@@ -70,9 +70,13 @@ class Histogram:
 
     Notes
     -----
-    ``histogram[name]`` is a copy of one quantity over the bins, totals in the units of `SUMS` and `MAXIMA`; `per` divides.
+    ``histogram[name]`` is a copy of one quantity over the bins; `per` divides the sums, `SUMS` and `MAXIMA` hold units and
+    meanings: ``contact`` [m], ``wear`` [m] (of a rail [m²]), ``volume`` [m³], ``T_gamma`` [N m], ``energy_index`` [Pa m],
+    ``stress_exceedance`` and ``fatigue_exceedance`` [m], ``energy_index_max`` [Pa].
+
     The depth of a wheel is spread over its circumference; a metre of a rail sees each axle once, so that its depth belongs
-    to a pass and its totals are those of one pass times the distance. Bins much narrower than the strips show these as steps.
+    to a pass and its totals are those of one pass times the distance. Bins much narrower than the strips show these as
+    steps; patches that overlap (``multi_hertz``) count each.
     """
 
     def __init__(

@@ -192,6 +192,20 @@ def test_the_worn_profile_has_lost_the_worn_area(profile, contacts):
     assert np.abs(chord_minus_tangent(worn) - chord_minus_tangent(profile)).max() < 1e-3, "angles belong to the points"
 
 
+def test_worn_profiles_run_on_each_other_and_wear_on(contacts):
+    worn = []
+    for new in (WHEEL, RAIL):
+        histogram = run(new, contacts[:2])
+        worn.append(worn_profile(histogram, 2e-4 / histogram.depth.max()))
+    wheel, rail = worn
+    patches, solutions = solved(POSES[0], wheel=wheel, rail=rail)
+    second = [run(profile, [(patches, solutions)]) for profile in worn]
+    assert second[0].volume == pytest.approx(second[1].volume, rel=1e-12)
+    assert second[0].volume > 0.0
+    with pytest.raises(ContactError, match="different profiles"):
+        second[0] + run(WHEEL, contacts[:1])
+
+
 def test_no_wear_leaves_the_profile(profile):
     worn = worn_profile(Histogram(profile))
     for name in ("y", "z", "angle"):
