@@ -15,7 +15,20 @@ from scipy.interpolate import CubicSpline
 import contact
 from benchmarks import accuracy
 from contact import workspace
-from contact._layout import N_CASE
+from contact._layout import (
+    CASE_G,
+    CASE_LOAD,
+    CASE_LOAD_KIND,
+    CASE_NORMAL,
+    CASE_NU,
+    CASE_PHI,
+    CASE_TANGENTIAL,
+    CASE_VX,
+    CASE_VY,
+    LOAD,
+    N_CASE,
+)
+from contact.friction import Friction, fill
 from contact.pipeline import solve_case, solve_cases
 
 PATCH = next(case for case in accuracy.patches() if case["name"].startswith("c40_dy+0"))
@@ -27,13 +40,21 @@ CREEP = contact.Creepage(1e-3, 5e-4, 0.1)
 CASES = 64
 
 
+def case_of(normal, tangential):
+    """A load-prescribed case, with constant friction."""
+    case = np.zeros(N_CASE)
+    case[CASE_LOAD_KIND], case[CASE_LOAD], case[CASE_G], case[CASE_NU] = LOAD, 8e4, 82e9, 0.28
+    case[CASE_VX], case[CASE_VY], case[CASE_PHI] = CREEP.longitudinal, CREEP.lateral, CREEP.spin
+    case[CASE_NORMAL], case[CASE_TANGENTIAL] = normal.id, tangential.id
+    fill(case, Friction(0.3), 20.0)
+    return case
+
+
 def kernel_loop(normal: str, tangential: str, n_strips: int, n_elements: int, *, fields: bool):
     """The kernel's own loop over CASES load-prescribed cases on the patch c40_dy+0: Python hardly counts."""
     method = METHODS.normal[normal]
     own = workspace.allocate(method, 0.28, n_strips, n_elements, SEPARATION.y.size, fields=fields)
-    case = np.array([0, 8e4, *(CREEP.longitudinal, CREEP.lateral, CREEP.spin), 0.3, 82e9, 0.28,
-                     method.id, METHODS.tangential[tangential].id], dtype=np.float64)  # fmt: skip
-    assert case.size == N_CASE
+    case = case_of(method, METHODS.tangential[tangential])
     bounds, which = np.array([0, SEPARATION.y.size]), np.zeros(CASES, dtype=np.int64)
     results = np.empty((CASES, own.result.size))
     arrays = SEPARATION.y, SEPARATION.g, SEPARATION.A, SEPARATION.x_c, bounds, which, np.tile(case, (CASES, 1))
@@ -61,8 +82,7 @@ def test_strip_halfspace_kernel(benchmark, n_strips, warm):
     """Warm: the separation moves to and fro by 0.02 mm from call to call, as between the time steps of a vehicle model."""
     method = METHODS.normal["strip_halfspace"]
     own = workspace.allocate(method, 0.28, n_strips, 20, SEPARATION.y.size, fields=False)
-    case = np.array([0, 8e4, *(CREEP.longitudinal, CREEP.lateral, CREEP.spin), 0.3, 82e9, 0.28,
-                     method.id, METHODS.tangential["fastrip_mapped"].id], dtype=np.float64)  # fmt: skip
+    case = case_of(method, METHODS.tangential["fastrip_mapped"])
     y = SEPARATION.y
     shifts = 2e-5 * np.concatenate((np.arange(26), np.arange(24, 0, -1)))
     gap = CubicSpline(y, SEPARATION.g)

@@ -15,13 +15,20 @@ N_FIELD_ROWS = 8
     CASE_VX,
     CASE_VY,
     CASE_PHI,
-    CASE_MU,
+    CASE_MU,  # coefficient of friction; at rest, when it falls
     CASE_G,  # shear modulus
     CASE_NU,
     CASE_NORMAL,  # id of the normal method
     CASE_TANGENTIAL,  # id of the tangential method
-) = range(10)
-N_CASE = 10
+    CASE_LAW,  # friction law, see `contact.friction`
+    CASE_KINETIC,  # coefficient in fast sliding
+    CASE_HALF_SPEED,  # [m/s]
+    CASE_SLOPE,  # factor on the creep stiffness at small creepage, its limit at large, its rate
+    CASE_SLOPE_FAR,
+    CASE_SLOPE_RATE,
+    CASE_SPEED,  # [m/s]
+) = range(17)
+N_CASE = 17
 LOAD, APPROACH = 0.0, 1.0
 
 # result[...]: what a solver says besides fields

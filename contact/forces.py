@@ -39,6 +39,7 @@ from contact._layout import (
 )
 from contact.creepage import LARGEST_CREEPAGE, Creepage
 from contact.errors import ContactError
+from contact.friction import Friction, fill
 from contact.material import STEEL, Material
 from contact.pipeline import solve_cases
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
@@ -71,7 +72,8 @@ def forces(
     *,
     load: ArrayLike | None = None,
     approach: ArrayLike | None = None,
-    friction: ArrayLike = 0.3,
+    friction: ArrayLike | Friction = 0.3,
+    speed: ArrayLike = 20.0,
     material: Material = STEEL,
     normal: str = DEFAULT_NORMAL,
     tangential: str = DEFAULT_TANGENTIAL,
@@ -89,7 +91,9 @@ def forces(
         Arrays [-], [-], [1/m], broadcast against all other input.
     load, approach : array_like
         Exactly one of them: normal force [N] or rigid approach [m].
-    friction : array_like
+    friction : array_like or contact.friction.Friction
+    speed : array_like
+        Rolling speed [m/s] > 0; forces depend on it only if friction does.
     material, normal, tangential, n_strips, n_elements :
         As in `contact.solve`, common to all cases.
     threads : int
@@ -115,6 +119,7 @@ def forces(
         raise ContactError(f"creepage has {len(creepage)} parts; (longitudinal, lateral, spin) is needed")
     if (load is None) == (approach is None):
         raise ContactError("exactly one of load and approach is needed")
+    surface, coefficients = (friction, friction.static) if isinstance(friction, Friction) else (None, friction)
     index = np.arange(len(separations)) if not isinstance(separation, Separation) else np.array(0)
     columns = [
         _checked("load", load, 0.0) if load is not None else _checked("approach", approach, -np.inf),
@@ -122,19 +127,23 @@ def forces(
             _checked(f"creepage.{name}", value, -LARGEST_CREEPAGE, LARGEST_CREEPAGE)
             for name, value in zip(("longitudinal", "lateral", "spin"), creepage, strict=True)
         ),
-        _checked("friction", friction, 0.0),
+        _checked("friction", coefficients, 0.0),
+        _checked("speed", speed, np.nextafter(0.0, 1.0)),
         index,
     ]
     try:
-        amount, vx, vy, phi, mu, which = np.broadcast_arrays(*columns)
+        amount, vx, vy, phi, mu, V, which = np.broadcast_arrays(*columns)
     except ValueError:
         shapes = ", ".join(str(np.shape(c)) for c in columns)
-        raise ContactError(f"shapes of load, creepages, friction and separation do not broadcast: {shapes}") from None
+        raise ContactError(
+            f"shapes of load, creepages, friction, speed and separation do not broadcast: {shapes}"
+        ) from None
     n_strips, n_elements = require_resolution(n_strips, n_elements)
     method = lookup("normal", normal, batched=True)
     shape, count = amount.shape, amount.size
     cases = np.empty((count, N_CASE))
     cases[:, CASE_LOAD_KIND] = LOAD if load is not None else APPROACH
+    fill(cases, surface or Friction(0.0), V.ravel())
     for row, values in ((CASE_LOAD, amount), (CASE_VX, vx), (CASE_VY, vy), (CASE_PHI, phi), (CASE_MU, mu)):
         cases[:, row] = values.ravel()
     cases[:, CASE_G], cases[:, CASE_NU] = material.shear_modulus, material.poisson_ratio

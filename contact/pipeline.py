@@ -2,16 +2,22 @@
 
 import math
 
+from contact import kalker
 from contact._jit import kernel
 from contact._layout import (
+    CASE_G,
     CASE_MU,
     CASE_NORMAL,
+    CASE_PHI,
+    CASE_SLOPE,
+    CASE_SLOPE_FAR,
     CASE_TANGENTIAL,
     FIELD_DX,
     FIELD_P,
     FIELD_X,
     RES_AREA,
     RES_LENGTH,
+    RES_N,
     RES_PATCHES,
     RES_PMAX,
     RES_SLIP_AREA,
@@ -26,6 +32,7 @@ from contact._layout import (
     STRIP_Y,
 )
 from contact._layout import RES_EDGES as EDGES
+from contact.friction import of_case, slope_of_case
 from contact.normal.analyn import analyn
 from contact.normal.by_approach import by_approach
 from contact.normal.hertzian import hertzian
@@ -36,7 +43,7 @@ from contact.registry import CARTER, FASTRIP_MAPPED, FASTSIM, HERTZ, KIK_PIOTROW
 from contact.tangential.creep_force import creep_force
 from contact.tangential.fastrip import fastrip
 from contact.tangential.fastrip_mapped import fastrip_mapped
-from contact.tangential.fastsim import fastsim
+from contact.tangential.fastsim import equivalent_ellipse, fastsim
 
 
 @kernel
@@ -73,6 +80,27 @@ def peak_pressure(strips, n):
 
 
 @kernel
+def _roll(strips, n, case, tables, elements, space, fields, result):
+    """Solve the tangential problem with the friction and the creep stiffness of the surface."""
+    table = tables.kalker
+    static, G = case[CASE_MU], case[CASE_G]
+    case[CASE_MU] = of_case(case)
+    if case[CASE_SLOPE] != 1.0 or case[CASE_SLOPE_FAR] != 1.0:
+        a, b = equivalent_ellipse(strips, n)
+        c11, _, _, _ = kalker.coefficients(table, math.log(a / b))
+        case[CASE_G] = G * slope_of_case(case, a, b, c11, case[CASE_MU] * result[RES_N], case[CASE_PHI] * a)
+    if case[CASE_TANGENTIAL] == FASTSIM:
+        fastsim(strips, n, case, table, elements, space.lanes, space.trace, fields, result)
+    elif case[CASE_TANGENTIAL] == FASTRIP_MAPPED:
+        fastrip_mapped(strips, n, case, table, elements, space.lanes, space.trace, fields, result)
+    elif case[CASE_TANGENTIAL] >= CARTER:
+        creep_force(strips, n, case, table, fields, result)
+    else:
+        fastrip(strips, n, case, table, elements, space.lanes, space.trace, fields, result)
+    case[CASE_MU], case[CASE_G] = static, G
+
+
+@kernel
 def solve_case(y, g, A, xc, case, rule, tables, space, strips, fields, result):
     """Solve one case; fill strips, fields and result (see `_layout`). Return the strip count.
 
@@ -91,7 +119,7 @@ def solve_case(y, g, A, xc, case, rule, tables, space, strips, fields, result):
     if n == 0:
         return 0
 
-    elements, table = rule.elements, tables.kalker
+    elements = rule.elements
     area, x_low, x_high = 0.0, math.inf, -math.inf
     for i in range(n):
         a, xc_i, p0 = strips[STRIP_A, i], strips[STRIP_XC, i], strips[STRIP_P0, i]
@@ -108,14 +136,7 @@ def solve_case(y, g, A, xc, case, rule, tables, space, strips, fields, result):
         y_low, y_high = min(y_low, result[EDGES + 2 * k]), max(y_high, result[EDGES + 2 * k + 1])
     result[RES_LENGTH], result[RES_WIDTH] = x_high - x_low, y_high - y_low
 
-    if case[CASE_TANGENTIAL] == FASTSIM:
-        fastsim(strips, n, case, table, elements, space.lanes, space.trace, fields, result)
-    elif case[CASE_TANGENTIAL] == FASTRIP_MAPPED:
-        fastrip_mapped(strips, n, case, table, elements, space.lanes, space.trace, fields, result)
-    elif case[CASE_TANGENTIAL] >= CARTER:
-        creep_force(strips, n, case, table, fields, result)
-    else:
-        fastrip(strips, n, case, table, elements, space.lanes, space.trace, fields, result)
+    _roll(strips, n, case, tables, elements, space, fields, result)
     if result[RES_STATUS] == 1.0 and case[CASE_MU] > 0.0 and result[RES_SLIP_AREA] >= area * (1.0 - 1e-12):
         result[RES_STATUS] = 3.0
     for i in range(n):

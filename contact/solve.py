@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -9,6 +10,15 @@ import numpy as np
 from contact import workspace
 from contact._layout import (
     APPROACH,
+    CASE_G,
+    CASE_LOAD,
+    CASE_LOAD_KIND,
+    CASE_NORMAL,
+    CASE_NU,
+    CASE_PHI,
+    CASE_TANGENTIAL,
+    CASE_VX,
+    CASE_VY,
     FIELD_DX,
     FIELD_P,
     FIELD_QX,
@@ -18,6 +28,7 @@ from contact._layout import (
     FIELD_SY,
     FIELD_X,
     LOAD,
+    N_CASE,
     RES_APPROACH,
     RES_AREA,
     RES_EDGES,
@@ -44,6 +55,7 @@ from contact._layout import (
 )
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
+from contact.friction import Friction, as_friction, fill, of_case
 from contact.halfspace.gap import Division, Gap
 from contact.halfspace.solve import solve_gap, solve_pressure
 from contact.material import STEEL, Material
@@ -70,7 +82,7 @@ def solve(
     *,
     load: float | None = None,
     approach: float | None = None,
-    friction: float = 0.3,
+    friction: float | Friction = 0.3,
     material: Material = STEEL,
     speed: float = 20.0,
     normal: str = DEFAULT_NORMAL,
@@ -92,11 +104,11 @@ def solve(
         Relative rigid motion, wheel minus rail over speed.
     load, approach : float
         Exactly one of them: normal force [N] ≥ 0, or rigid approach [m] measured from g = 0 (negative: apart).
-    friction : float
-        Coulomb's coefficient mu ≥ 0 [-].
+    friction : float or contact.friction.Friction
+        Coulomb's coefficient mu ≥ 0 [-], or a surface on which it falls with the sliding velocity.
     material : Material
     speed : float
-        Rolling speed [m/s] > 0; forces do not depend on it, sliding velocities and powers scale with it.
+        Rolling speed [m/s] > 0; sliding velocities and powers scale with it. Forces depend on it only if friction does.
     normal, tangential : str
         Names from `contact.methods()`.
     n_strips, n_elements : int
@@ -133,11 +145,16 @@ def solve(
         kind, amount = LOAD, require_number("load", load, 0.0)
     else:
         kind, amount = APPROACH, require_number("approach", approach)
-    mu = require_number("friction", friction, 0.0)
+    surface = as_friction(friction)
     speed = require_number("speed", speed, 0.0, open_minimum=True)
+    mu = float(surface.coefficient(speed * math.hypot(creepage.longitudinal, creepage.lateral)))
     n_strips, n_elements = require_resolution(n_strips, n_elements)
     method, rolling = lookup("normal", normal), lookup("tangential", tangential)
     division = Division(n_strips, n_elements, _pair(spacing))
+    if not rolling.batched and (surface.slope, surface.slope_far) != (1.0, 1.0):
+        raise ContactError(
+            f"friction.slope = {surface.slope:g}: tangential = {tangential!r} knows the half space alone, slope 1"
+        )
     if not method.batched:
         if rolling.batched:
             raise ContactError(f"tangential = {tangential!r} does not serve normal = {normal!r}; allowed: halfspace")
@@ -156,7 +173,7 @@ def solve(
         raise ContactError(f"normal = {normal!r} needs a contact.Separation; separation = {separation!r} is on a grid")
     else:
         solution = _on_strips(
-            separation, creepage, (kind, amount), mu, material, speed, method, rolling, n_strips, n_elements, start
+            separation, creepage, (kind, amount), surface, material, speed, method, rolling, n_strips, n_elements, start
         )
         if not rolling.batched:
             solution = solve_pressure(solution, division, progress)
@@ -184,7 +201,7 @@ def _on_strips(
     separation: Separation,
     creepage: Creepage,
     amount: tuple[float, float],
-    mu: float,
+    surface: Friction,
     material: Material,
     speed: float,
     method: Method,
@@ -195,19 +212,12 @@ def _on_strips(
 ) -> Solution:
     """Call the kernel; of a tangential method without kernel the default one stands in."""
     stands_in = rolling if rolling.batched else lookup("tangential", DEFAULT_TANGENTIAL)
-    case = np.array(
-        [
-            *amount,
-            creepage.longitudinal,
-            creepage.lateral,
-            creepage.spin,
-            mu,
-            material.shear_modulus,
-            material.poisson_ratio,
-            method.id,
-            stands_in.id,
-        ]
-    )
+    case = np.zeros(N_CASE)
+    case[CASE_LOAD_KIND], case[CASE_LOAD] = amount
+    case[CASE_VX], case[CASE_VY], case[CASE_PHI] = creepage.longitudinal, creepage.lateral, creepage.spin
+    case[CASE_G], case[CASE_NU] = material.shear_modulus, material.poisson_ratio
+    case[CASE_NORMAL], case[CASE_TANGENTIAL] = method.id, stands_in.id
+    fill(case, surface, speed)
     own = workspace.allocate(method, material.poisson_ratio, n_strips, n_elements, separation.y.size)
     if start is not None and start.memory.size == own.space.memory.size:
         own.space.memory[:] = start.memory
@@ -250,7 +260,7 @@ def _on_strips(
         stick=fields[FIELD_STICK] > 0.5,
         dA=fields[FIELD_DX] * strips[STRIP_DY][:, None],
         creepage=creepage,
-        friction=mu,
+        friction=float(of_case(case)),
         material=material,
         speed=speed,
         normal=method.name,

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact import workspace
-from contact._layout import CASE_G, CASE_MU, CASE_NORMAL, CASE_NU, CASE_TANGENTIAL, MAX_PATCHES, N_CASE
+from contact._layout import CASE_G, CASE_NORMAL, CASE_NU, CASE_TANGENTIAL, MAX_PATCHES, N_CASE
 from contact.creepage import Creepage
 from contact.damage import DamageParameters
 from contact.damage._kernel import N_DAMAGE, N_DAMAGE_FIELDS
-from contact.errors import require_number
+from contact.friction import Friction, as_friction, fill
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.wheelset import Pair
 from contact.material import STEEL, Material
@@ -156,7 +156,7 @@ class WheelRailPair:
         load: float | None = None,
         penetration: float | None = None,
         irregularity: Irregularity | None = None,
-        friction: float = 0.3,
+        friction: float | Friction = 0.3,
     ) -> PairSolution:
         """Solve every patch at one instant.
 
@@ -164,8 +164,8 @@ class WheelRailPair:
         ----------
         pose, velocity, load, penetration, irregularity :
             As for `contact.geometry.wheelset.contacts`.
-        friction : float
-            Coulomb's coefficient mu ≥ 0 [-].
+        friction : float or contact.friction.Friction
+            Coulomb's coefficient mu ≥ 0 [-], or a surface on which it falls with the sliding velocity of each patch.
 
         Returns
         -------
@@ -179,7 +179,7 @@ class WheelRailPair:
             For input outside its range, where the profiles do not lie above each other, and for a load that no z carries.
         """
         mode, amount = self.pair.prescribed(load, penetration)
-        self.bench.case[CASE_MU] = require_number("friction", friction, 0.0)
+        fill(self.bench.case, as_friction(friction), (velocity or Velocity()).forward)
         code = solve_pair(mode, amount, self.pair.given(pose, velocity, irregularity), self.bench)
         self.pair.require_found(code, pose, load)
         total = self.bench.total.tolist()

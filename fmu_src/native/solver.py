@@ -7,7 +7,20 @@ from numba import carray
 
 import contact
 from contact import kalker, quadrature
-from contact._layout import MAX_PATCHES, N_FIELD_ROWS, N_RES, N_STRIP_ROWS
+from contact._layout import (
+    CASE_HALF_SPEED,
+    CASE_KINETIC,
+    CASE_LAW,
+    CASE_MU,
+    CASE_SLOPE,
+    CASE_SLOPE_FAR,
+    CASE_SLOPE_RATE,
+    CASE_SPEED,
+    MAX_PATCHES,
+    N_FIELD_ROWS,
+    N_RES,
+    N_STRIP_ROWS,
+)
 from contact.normal import influence
 from contact.normal.analyn import N_WORK_ROWS
 from contact.normal.strip_halfspace import MEM_LN_A
@@ -63,6 +76,15 @@ def lay_out(work, end, memory, n_strips, n_elements, samples, centre, plane):
     tables = Tables(coefficients, carray(centre, influence.CENTRE), carray(plane, influence.PLANE))
     space = Space(grid, vectors, logs, influences, lu, memory, lanes, trace)
     return Workspace(rule, tables, space, strips, fields, result), end
+
+
+@compiled
+def fill_friction(v, coefficient, law, speed, case):
+    """Friction and speed of a case; `law` is the place of friction.law, behind which the table has the law's parameters."""
+    case[CASE_MU], case[CASE_LAW] = v[coefficient], v[law] - 1.0
+    case[CASE_KINETIC], case[CASE_HALF_SPEED] = v[law + 1], v[law + 2]
+    case[CASE_SLOPE], case[CASE_SLOPE_FAR], case[CASE_SLOPE_RATE] = v[law + 3], v[law + 4], v[law + 5]
+    case[CASE_SPEED] = speed
 
 
 @compiled

@@ -19,7 +19,6 @@ from contact._layout import (
     CASE_G,
     CASE_LOAD,
     CASE_LOAD_KIND,
-    CASE_MU,
     CASE_NORMAL,
     CASE_NU,
     CASE_PHI,
@@ -81,7 +80,16 @@ from contact.separation import HERTZIAN_POINTS, fill_hertzian
 from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
 from fmu_src.native.memory import compiled, cube, matrix, vector
-from fmu_src.native.solver import INTERACTING, NORMAL_IDS, TANGENTIAL_IDS, data, fill, lay_out, memory_size
+from fmu_src.native.solver import (
+    INTERACTING,
+    NORMAL_IDS,
+    TANGENTIAL_IDS,
+    data,
+    fill,
+    fill_friction,
+    lay_out,
+    memory_size,
+)
 from fmu_src.tables.wheel_rail_contact import FLATTEST, GEOMETRY_KIND, LOAD_KIND, table
 from fmu_src.variables import Table, identifier
 
@@ -199,7 +207,8 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         case[CASE_LOAD_KIND] = LOAD if by_load else APPROACH
         case[CASE_LOAD] = v[at.load_normal_force] if by_load else v[at.load_approach]
         case[CASE_VX], case[CASE_VY] = v[at.creepage_longitudinal], v[at.creepage_lateral]
-        case[CASE_PHI], case[CASE_MU] = v[at.creepage_spin], v[at.friction_coefficient]
+        case[CASE_PHI] = v[at.creepage_spin]
+        fill_friction(v, at.friction_coefficient, at.friction_law, v[at.speed], case)
         case[CASE_G], case[CASE_NU] = v[at.material_shear_modulus], v[at.material_poisson_ratio]
         case[CASE_NORMAL] = NORMAL_IDS[int(v[at.method_normal]) - 1]
         case[CASE_TANGENTIAL] = TANGENTIAL_IDS[int(v[at.method_tangential]) - 1]

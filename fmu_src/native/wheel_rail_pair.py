@@ -16,7 +16,6 @@ import contact
 from contact import Status, quadrature
 from contact._layout import (
     CASE_G,
-    CASE_MU,
     CASE_NORMAL,
     CASE_NU,
     CASE_TANGENTIAL,
@@ -63,7 +62,16 @@ from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
 from fmu_src.native.memory import ahead, compiled, cube, matrix, vector
 from fmu_src.native.search import lay_out as search_arrays
-from fmu_src.native.solver import INTERACTING, NORMAL_IDS, TANGENTIAL_IDS, data, fill, lay_out, memory_size
+from fmu_src.native.solver import (
+    INTERACTING,
+    NORMAL_IDS,
+    TANGENTIAL_IDS,
+    data,
+    fill,
+    fill_friction,
+    lay_out,
+    memory_size,
+)
 from fmu_src.profiles import MAGIC
 from fmu_src.tables.wheel_rail_pair import LOAD_KIND, PATCH, PATCHES, RAIL, SIDE, WHEEL, table
 from fmu_src.variables import Table, identifier
@@ -198,7 +206,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         v = carray(values, (n_values,))
         counts = start(v, work, resources)[1].counts
         bench, _ = arrange(v, work, resources, int(counts[0]), int(counts[1]), centre, plane)
-        bench.case[CASE_MU] = v[at.friction_coefficient]
+        fill_friction(v, at.friction_coefficient, at.friction_law, v[at.velocity_x], bench.case)
         given = carray(ahead(values, at.pose_y), (rows.N_GIVEN,))
         by_load = v[at.load_kind] == _UNDER_LOAD
         code = solve_pair(UNDER_LOAD if by_load else GIVEN_Z, v[at.load_normal_force], given, bench)

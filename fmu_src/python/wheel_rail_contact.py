@@ -12,6 +12,7 @@ import contact
 from contact import Creepage, Material, Separation, Solution, Status
 from contact.damage import evaluate
 from fmu_src.differences import creepage_steps
+from fmu_src.python.friction import friction
 from fmu_src.python.slave import TableSlave
 from fmu_src.python.values import Rows, Values
 from fmu_src.tables.wheel_rail_contact import FLATTEST, table
@@ -98,7 +99,7 @@ def _solve(values: Values, creepage: Creepage) -> Solution:
         creepage,
         load=values["load.normal_force"] if load_driven else None,
         approach=None if load_driven else values["load.approach"],
-        friction=values["friction.coefficient"],
+        friction=friction(values),
         material=material,
         speed=values["speed"],
         normal=values.item("method.normal"),

@@ -25,6 +25,7 @@ from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.wheelset import Pair
 from contact.pair import Contact, WheelRailPair
 from fmu_src import profiles
+from fmu_src.python.friction import friction
 from fmu_src.python.slave import TableSlave
 from fmu_src.python.values import Rows, Values
 from fmu_src.tables.wheel_rail_pair import MOTION, PATCH, PATCHES, table
@@ -70,7 +71,7 @@ class WheelRailPairSlave(TableSlave):
                 Velocity(*motion[4:10]),
                 irregularity=Irregularity(*motion[10:]),
                 load=values["load.normal_force"] if values.item("load.kind") == "NormalForce" else None,
-                friction=values["friction.coefficient"],
+                friction=friction(values),
             )
             rows = {name: float(solution.damage[i]) for name, i in _DAMAGE.items()}
             power, worn = (values["velocity.x"] * x for x in (solution.power_per_metre, rows["damage.archard_volume"]))

@@ -13,7 +13,16 @@ NORMAL_METHOD = Enumeration("NormalMethod", tuple((m.name, m.title) for m in con
 TANGENTIAL_METHOD = Enumeration(
     "TangentialMethod", tuple((m.name, m.title) for m in contact.methods().batched.tangential.values())
 )
-FRICTION_LAW = Enumeration("FrictionLaw", (("Coulomb", "constant coefficient of friction"),))
+FRICTION_LAW = Enumeration(
+    "FrictionLaw",  # in the order of contact.friction.LAWS
+    (
+        ("Coulomb", "constant coefficient of friction"),
+        ("Linear", "falls linearly with the sliding velocity s/friction.half_speed, until twice that"),
+        ("Rational", "falls as 1/(1 + s)"),
+        ("RationalSquare", "falls as 1/(1 + s²)"),
+        ("Exponential", "falls as 2^-s"),
+    ),
+)
 _STATUS_NAMES = ("OK", "NoContact", "Saturated", "OutOfRange", "NotConverged")
 STATUS = Enumeration("Status", tuple(zip(_STATUS_NAMES, (status.message for status in Status), strict=True)))
 
@@ -68,7 +77,34 @@ def parameters() -> Iterable[Variable]:
     yield parameter(
         "resolution.n_elements", "Elements per strip", integer=True, start=N_ELEMENTS, minimum=4, maximum=1000
     )
-    yield parameter("friction.law", "Friction law", enumeration=FRICTION_LAW, start="Coulomb")
+    yield parameter("friction.law", "Friction over sliding velocity", enumeration=FRICTION_LAW, start="Coulomb")
+    yield parameter(
+        "friction.kinetic", "Coefficient of friction in fast sliding; not for Coulomb", start=0.3, minimum=0.0
+    )
+    yield parameter(
+        "friction.half_speed",
+        "Sliding velocity at which friction is halfway from friction.coefficient to friction.kinetic",
+        unit="m/s",
+        start=1.0,
+        minimum=0.0,
+        open_minimum=True,
+    )
+    yield parameter(
+        "friction.slope",
+        "Factor on the creep stiffness of the clean half space at small creepage",
+        start=1.0,
+        minimum=0.0,
+        maximum=1.0,
+        open_minimum=True,
+    )
+    yield parameter(
+        "friction.slope_far",
+        "What the factor tends to at large creepage, over friction.slope",
+        start=1.0,
+        minimum=0.0,
+        maximum=1.0,
+    )
+    yield parameter("friction.slope_rate", "How soon the factor falls", start=1.0, minimum=0.0)
 
 
 def damage() -> Iterable[Variable]:

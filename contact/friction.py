@@ -1,0 +1,162 @@
+"""Friction that falls with the sliding velocity, and surfaces softer at small creepage (theory.md 8.1, 8.2)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from contact._jit import kernel
+from contact._layout import (
+    CASE_G,
+    CASE_HALF_SPEED,
+    CASE_KINETIC,
+    CASE_LAW,
+    CASE_MU,
+    CASE_SLOPE,
+    CASE_SLOPE_FAR,
+    CASE_SLOPE_RATE,
+    CASE_SPEED,
+    CASE_VX,
+    CASE_VY,
+)
+from contact.errors import ContactError, require_number
+
+COULOMB, LINEAR, RATIONAL, RATIONAL_SQUARE, EXPONENTIAL = range(5)
+#: Names of the laws; the place is the number by which kernels know a law.
+LAWS = ("coulomb", "linear", "rational", "rational_square", "exponential")
+
+
+@kernel
+def coefficient(law, static, kinetic, half_speed, velocity):
+    """Coefficient of friction at a sliding velocity [m/s]; halfway from static to kinetic at `half_speed` (theory.md 8.1)."""
+    if law == COULOMB:
+        return static
+    s = velocity / half_speed
+    if law == LINEAR:
+        share = max(0.0, 1.0 - 0.5 * s)
+    elif law == RATIONAL:
+        share = 1.0 / (1.0 + s)
+    elif law == RATIONAL_SQUARE:
+        share = 1.0 / (1.0 + s * s)
+    else:
+        share = math.exp(-math.log(2.0) * s)
+    return kinetic + (static - kinetic) * share
+
+
+@kernel
+def of_case(case):
+    """Coefficient of friction at the global slip velocity V√(ξ² + η²) of a case: unique, as no local slip decides."""
+    velocity = case[CASE_SPEED] * math.sqrt(case[CASE_VX] ** 2 + case[CASE_VY] ** 2)
+    return coefficient(case[CASE_LAW], case[CASE_MU], case[CASE_KINETIC], case[CASE_HALF_SPEED], velocity)
+
+
+@kernel
+def slope_of_case(case, a, b, c11, limit, phi_arm):
+    """Factor on the flexibility's inverse, k = k0 (far + (1 - far)/(1 + rate·eps)) (Spiryagin et al. 2013; theory.md 8.2).
+
+    eps = G π a b k0 C11 v/(4 mu N), v² = ξ² + η_φ², η_φ = η + phi·a if that is larger; `limit` is mu N, `phi_arm` phi·a.
+    """
+    k0, far = case[CASE_SLOPE], case[CASE_SLOPE_FAR]
+    if far == 1.0 or limit <= 0.0:
+        return k0
+    with_spin = case[CASE_VY] + phi_arm
+    lateral = with_spin if abs(with_spin) > abs(case[CASE_VY]) else case[CASE_VY]
+    v = math.sqrt(case[CASE_VX] ** 2 + lateral * lateral)
+    eps = 0.25 * math.pi * case[CASE_G] * a * b * k0 * c11 * v / limit
+    return k0 * (far + (1.0 - far) / (1.0 + case[CASE_SLOPE_RATE] * eps))
+
+
+@dataclass(frozen=True, slots=True)
+class Friction:
+    """Friction of a real surface, in place of a constant coefficient.
+
+    The coefficient follows the global slip velocity, speed·√(longitudinal² + lateral²), so it is one number for a contact and
+    the answer is unique (a law of the local velocity has several, theory.md 8.1). With Δ = static - kinetic and s the velocity
+    over `half_speed`, mu = kinetic + Δ f: linear f = max(0, 1 - s/2), rational 1/(1 + s), rational_square 1/(1 + s²),
+    exponential 2^-s.
+
+    Real surfaces are softer than the half space at small creepage: all creep stiffness is multiplied by
+    k = slope (slope_far + (1 - slope_far)/(1 + slope_rate·eps)), eps Polach's creepage over that of saturation
+    (Spiryagin, Polach and Cole 2013). It takes the place of G in the tangential problem, so the stick zone follows as well.
+
+    Parameters
+    ----------
+    static : float
+        Coefficient at rest [-], not negative.
+    kinetic : float
+        Coefficient in fast sliding [-]; by default as at rest.
+    half_speed : float
+        Sliding velocity at which half of the difference is gone [m/s], positive.
+    law : str
+        One of `LAWS`.
+    slope, slope_far, slope_rate : float
+        k0, α_inf and β; slope in ]0, 1], slope_far in [0, 1], slope_rate not negative. 1, 1, 1: the half space. The
+        published set is .54, .02, .64 (constants.md 7; the source contradicts itself in β: .62).
+
+    Raises
+    ------
+    ContactError
+        For values outside their range.
+    """
+
+    static: float
+    kinetic: float | None = None
+    half_speed: float = 1.0
+    law: str = "coulomb"
+    slope: float = 1.0
+    slope_far: float = 1.0
+    slope_rate: float = 1.0
+
+    def __post_init__(self) -> None:
+        require_number("friction.static", self.static, 0.0)
+        if self.kinetic is not None:
+            require_number("friction.kinetic", self.kinetic, 0.0)
+        require_number("friction.half_speed", self.half_speed, 0.0, open_minimum=True)
+        if self.law not in LAWS:
+            raise ContactError(f"friction.law = {self.law!r} is unknown; allowed: {', '.join(LAWS)}")
+        require_number("friction.slope", self.slope, 0.0, 1.0, open_minimum=True)
+        require_number("friction.slope_far", self.slope_far, 0.0, 1.0)
+        require_number("friction.slope_rate", self.slope_rate, 0.0)
+
+    @classmethod
+    def polach(cls, static: float = 0.55, A: float = 0.4, B: float = 0.6, **slopes: float) -> Friction:
+        """mu = static ((1 - A) exp(-B w) + A) over the sliding velocity w [m/s] (Polach 2005, Eq. for falling friction).
+
+        The defaults are his typical values for dry rails, .30, .40, .20 those for wet ones (Wear 258, Table 2; constants.md 6).
+        """
+        require_number("friction.A", A, 0.0)
+        require_number("friction.B", B, 0.0, open_minimum=True)
+        return cls(static, A * static, math.log(2.0) / B, "exponential", **slopes)
+
+    def coefficient(self, velocity: ArrayLike) -> float | NDArray[np.float64]:
+        """Coefficient at sliding velocities [m/s], not negative."""
+        velocities = np.asarray(velocity, dtype=np.float64)
+        if not (np.isfinite(velocities).all() and (velocities >= 0.0).all()):
+            raise ContactError(
+                f"velocity = {velocities.min():g} … {velocities.max():g} is outside the allowed range [0, inf["
+            )
+        law, static, kinetic, half_speed = self.rows()[:4]
+        values = np.array([coefficient(law, static, kinetic, half_speed, float(v)) for v in velocities.ravel()])
+        return values.reshape(velocities.shape) if velocities.ndim else float(values[0])
+
+    def rows(self) -> tuple[float, float, float, float, float, float, float]:
+        """Law, static, kinetic, half speed, slope, its limit and its rate, as kernels take them."""
+        kinetic = self.static if self.kinetic is None else self.kinetic
+        law = float(LAWS.index(self.law))
+        return law, self.static, kinetic, self.half_speed, self.slope, self.slope_far, self.slope_rate
+
+
+def as_friction(friction: object) -> Friction:
+    """A coefficient, or a `Friction` itself."""
+    return friction if isinstance(friction, Friction) else Friction(require_number("friction", friction, 0.0))
+
+
+def fill(case: NDArray[np.float64], friction: Friction, speed: ArrayLike) -> None:
+    """Write friction and speed [m/s] into one case or, along the first axis, many."""
+    rows = (CASE_LAW, CASE_MU, CASE_KINETIC, CASE_HALF_SPEED, CASE_SLOPE, CASE_SLOPE_FAR, CASE_SLOPE_RATE)
+    for row, value in zip(rows, friction.rows(), strict=True):
+        case[..., row] = value
+    case[..., CASE_SPEED] = speed

@@ -1,0 +1,15 @@
+"""The surface that the rows `friction.…` describe."""
+
+from contact.friction import LAWS, Friction
+from fmu_src.python.values import Values
+
+
+def friction(values: Values) -> Friction:
+    """Friction of both contact FMUs."""
+    return Friction(
+        values["friction.coefficient"],
+        values["friction.kinetic"],
+        values["friction.half_speed"],
+        LAWS[int(values["friction.law"]) - 1],
+        *(values[f"friction.{name}"] for name in ("slope", "slope_far", "slope_rate")),
+    )

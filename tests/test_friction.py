@@ -1,0 +1,105 @@
+"""Falling friction and reduced creep stiffness (theory.md 8.1, 8.2; constants.md 6, 7)."""
+
+import math
+
+import numpy as np
+import pytest
+
+import contact
+from contact.friction import LAWS, Friction
+
+FALLING = [law for law in LAWS if law != "coulomb"]
+SEPARATION = contact.Separation.hertzian(1.0, 2.0)
+TANGENTIAL = list(contact.methods().batched.tangential)
+
+
+def solve(creepage, **options):
+    return contact.solve(SEPARATION, contact.Creepage(*creepage), load=8e4, **options)
+
+
+@pytest.mark.parametrize("law", FALLING)
+def test_half_of_the_fall_is_at_the_half_speed(law):
+    friction = Friction(0.5, 0.2, half_speed=1.5, law=law)
+    assert friction.coefficient(0.0) == 0.5
+    assert friction.coefficient(1.5) == pytest.approx(0.35, rel=1e-14)
+    values = friction.coefficient(np.linspace(0.0, 30.0, 61))
+    assert (np.diff(values) <= 0.0).all()
+    assert 0.2 <= values[-1] < 0.23
+
+
+def test_the_linear_law_is_kinetic_from_twice_the_half_speed_on():
+    friction = Friction(0.5, 0.2, half_speed=1.5, law="linear")
+    assert friction.coefficient(3.0) == 0.2
+
+
+@pytest.mark.parametrize(("static", "A", "B"), [(0.55, 0.40, 0.60), (0.30, 0.40, 0.20)])
+def test_polachs_dry_and_wet_rails_are_his_equation(static, A, B):
+    w = np.array([0.0, 0.1, 1.0, 5.0])
+    expected = static * ((1.0 - A) * np.exp(-B * w) + A)
+    np.testing.assert_allclose(Friction.polach(static, A, B).coefficient(w), expected, rtol=1e-14)
+
+
+@pytest.mark.parametrize("tangential", [*TANGENTIAL, "halfspace"])
+def test_a_falling_law_gives_the_forces_of_its_coefficient_at_the_global_slip_velocity(tangential):
+    creepage, speed = (4e-3, 3e-3, 0.2), 30.0
+    friction = Friction.polach()
+    options = {"tangential": tangential, "n_strips": 10, "n_elements": 10}
+    if tangential == "halfspace":
+        options["normal"] = "halfspace"
+    one = solve(creepage, friction=friction, speed=speed, **options)
+    assert one.friction == pytest.approx(friction.coefficient(30.0 * 5e-3), rel=1e-14)
+    other = solve(creepage, friction=one.friction, speed=speed, **options)
+    np.testing.assert_allclose((one.Fx, one.Fy, one.Mz), (other.Fx, other.Fy, other.Mz), rtol=1e-12)
+
+
+def test_adhesion_over_creepage_has_a_maximum_and_falls_to_the_kinetic_part():
+    xi = np.geomspace(1e-5, 1.0, 40)
+    Fx = -contact.forces(SEPARATION, (xi, 0.0, 0.0), load=8e4, friction=Friction.polach(), speed=20.0).Fx / 8e4
+    top = int(np.argmax(Fx))
+    assert 0 < top < 39
+    assert (np.diff(Fx[: top + 1]) > 0.0).all()
+    assert (np.diff(Fx[top:]) < 0.0).all()
+    assert Fx[-1] == pytest.approx(0.4 * 0.55, rel=1e-4)
+
+
+@pytest.mark.parametrize("tangential", TANGENTIAL)
+def test_the_slope_scales_the_linear_range_and_leaves_saturation(tangential):
+    small, large = (1e-7, 1e-7, 1e-5), (0.1, 0.1, 0.0)
+    clean, dirty = Friction(0.3), Friction(0.3, slope=0.4)
+    for attribute in ("Fx", "Fy"):
+        one, other = (getattr(solve(small, tangential=tangential, friction=f), attribute) for f in (clean, dirty))
+        assert other == pytest.approx(0.4 * one, rel=2e-3)
+    if contact.methods().tangential[tangential].saturates:
+        one, other = (solve(large, tangential=tangential, friction=f) for f in (clean, dirty))
+        assert math.hypot(other.Fx, other.Fy) == pytest.approx(math.hypot(one.Fx, one.Fy), rel=2e-2)
+
+
+def test_spiryagins_factor_falls_from_k0_to_its_limit():
+    """k = k0 (α + (1 - α)/(1 + β eps)), where eps of longitudinal creepage is π/4 k0 of the linear force over mu N."""
+    published = Friction(0.36, slope=0.54, slope_far=0.02, slope_rate=0.64)
+
+    for xi in (1e-9, 1e-4, 1e-3, 1e-2, 1.0):
+        clean = solve((xi, 0.0, 0.0), tangential="linear").Fx
+        eps = 0.25 * math.pi * 0.54 * abs(clean) / (0.36 * 8e4)
+        dirty = solve((xi, 0.0, 0.0), tangential="linear", friction=published).Fx
+        assert dirty == pytest.approx(0.54 * (0.02 + 0.98 / (1.0 + 0.64 * eps)) * clean, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"static": -0.1}, "friction.static = -0.1 is outside the allowed range [0, inf["),
+        ({"static": 0.3, "half_speed": 0.0}, "friction.half_speed = 0 is outside the allowed range ]0, inf["),
+        ({"static": 0.3, "law": "stribeck"}, "friction.law = 'stribeck' is unknown; allowed: coulomb, linear"),
+        ({"static": 0.3, "slope": 1.2}, "friction.slope = 1.2 is outside the allowed range ]0, 1]"),
+    ],
+)
+def test_bad_values_are_refused_by_name(options, message):
+    with pytest.raises(contact.ContactError) as error:
+        Friction(**options)
+    assert str(error.value).startswith(message)
+
+
+def test_the_reference_knows_no_slope():
+    with pytest.raises(contact.ContactError, match=r"friction.slope = 0.5: tangential = 'halfspace'"):
+        solve((1e-3, 0.0, 0.0), friction=Friction(0.3, slope=0.5), normal="halfspace", tangential="halfspace")
