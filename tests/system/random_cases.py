@@ -9,6 +9,7 @@ from contact_case import CREEPAGES
 
 import contact
 from contact.damage import evaluate
+from contact.friction import LAWS, Friction
 
 METHODS = contact.methods().batched
 #: Outputs after one step of STEP, without the creep stiffness.
@@ -69,7 +70,7 @@ class Case:
 
 
 def random_case(seed: int) -> Case:
-    """All methods, both kinds of geometry and of load; now and then lift-off, no friction, vanishing or great creepage."""
+    """All methods, friction laws, both kinds of geometry and of load; now and then lift-off, no friction, vanishing or great creepage."""
     rng = np.random.default_rng(seed)
     y0, dy = rng.uniform(-0.022, -0.018), rng.uniform(0.9e-3, 1.1e-3)
     y = y0 + dy * np.arange(POINTS)
@@ -89,6 +90,8 @@ def random_case(seed: int) -> Case:
     mu = 0.0 if rare[1] else mu
     creepages *= 1e-6 if rare[2] else 1.0
     creepages[rng.integers(3)] *= 0.0 if rare[3] else 1.0
+    law, kinetic, half_speed = int(rng.integers(len(LAWS))), mu * rng.uniform(0.2, 1.0), 10 ** rng.uniform(-2.0, 1.0)
+    slopes = (rng.uniform(0.2, 1.0), rng.uniform(0.0, 1.0), rng.uniform(0.1, 2.0)) if rng.random() < 0.5 else (1.0, 1.0, 1.0)
     values = {
         "geometry.kind": 2 if curvatures else 1,
         "geometry.y0": y0,
@@ -106,6 +109,10 @@ def random_case(seed: int) -> Case:
         "material.hardness": H,
         "material.shear_yield": k,
         "friction.coefficient": mu,
+        "friction.law": law + 1,
+        "friction.kinetic": kinetic,
+        "friction.half_speed": half_speed,
+        **dict(zip(("friction.slope", "friction.slope_far", "friction.slope_rate"), slopes, strict=True)),
         "speed": speed,
         "wheel.radius": radius,
         "method.normal": normal + 1,
@@ -118,7 +125,7 @@ def random_case(seed: int) -> Case:
         contact.Creepage(*creepages),
         load=load if by_load else None,
         approach=None if by_load else approach,
-        friction=mu,
+        friction=Friction(mu, kinetic, half_speed, LAWS[law], *slopes),
         material=contact.Material(G, nu, hardness=H, shear_yield=k),
         speed=speed,
         normal=list(METHODS.normal)[normal],
