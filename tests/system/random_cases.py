@@ -70,7 +70,7 @@ class Case:
 
 
 def random_case(seed: int) -> Case:
-    """All methods, friction laws, both kinds of geometry and of load; now and then lift-off, no friction, vanishing or great creepage."""
+    """All methods, friction laws, kinds of geometry and load; some lift-off, no friction, vanishing or great creepage."""
     rng = np.random.default_rng(seed)
     y0, dy = rng.uniform(-0.022, -0.018), rng.uniform(0.9e-3, 1.1e-3)
     y = y0 + dy * np.arange(POINTS)
@@ -91,7 +91,9 @@ def random_case(seed: int) -> Case:
     creepages *= 1e-6 if rare[2] else 1.0
     creepages[rng.integers(3)] *= 0.0 if rare[3] else 1.0
     law, kinetic, half_speed = int(rng.integers(len(LAWS))), mu * rng.uniform(0.2, 1.0), 10 ** rng.uniform(-2.0, 1.0)
-    slopes = (rng.uniform(0.2, 1.0), rng.uniform(0.0, 1.0), rng.uniform(0.1, 2.0)) if rng.random() < 0.5 else (1.0, 1.0, 1.0)
+    slopes = (
+        (rng.uniform(0.2, 1.0), rng.uniform(0.0, 1.0), rng.uniform(0.1, 2.0)) if rng.random() < 0.5 else (1.0, 1.0, 1.0)
+    )
     values = {
         "geometry.kind": 2 if curvatures else 1,
         "geometry.y0": y0,
