@@ -39,7 +39,16 @@ from contact.normal.hertzian import hertzian
 from contact.normal.lay import interval_minimum
 from contact.normal.strip_halfspace import strip_halfspace
 from contact.quadrature import EL_DX, EL_S, EL_SINE
-from contact.registry import CARTER, FASTRIP_MAPPED, FASTSIM, HERTZ, KIK_PIOTROWSKI, STRIP_HALFSPACE
+from contact.registry import (
+    CARTER,
+    FASTRIP_MAPPED,
+    FASTSIM,
+    FASTSIM_ONE,
+    FASTSIM_STRIPES,
+    HERTZ,
+    KIK_PIOTROWSKI,
+    STRIP_HALFSPACE,
+)
 from contact.tangential.creep_force import creep_force
 from contact.tangential.fastrip import fastrip
 from contact.tangential.fastrip_mapped import fastrip_mapped
@@ -89,7 +98,7 @@ def _roll(strips, n, case, tables, elements, space, fields, result):
         a, b = equivalent_ellipse(strips, n)
         c11, _, _, _ = kalker.coefficients(table, math.log(a / b))
         case[CASE_G] = G * slope_of_case(case, a, b, c11, case[CASE_MU] * result[RES_N], case[CASE_PHI] * a)
-    if case[CASE_TANGENTIAL] == FASTSIM:
+    if case[CASE_TANGENTIAL] == FASTSIM or FASTSIM_ONE <= case[CASE_TANGENTIAL] <= FASTSIM_STRIPES:
         fastsim(strips, n, case, table, elements, space.lanes, space.trace, fields, result)
     elif case[CASE_TANGENTIAL] == FASTRIP_MAPPED:
         fastrip_mapped(strips, n, case, table, elements, space.lanes, space.trace, fields, result)

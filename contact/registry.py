@@ -76,7 +76,9 @@ ANALYN, HERTZ, STRIP_HALFSPACE = 0, 1, 2
     MULTI_HERTZ,
     PASCAL_SAUVAGE,
 ) = range(20, 31)
-FASTRIP, FASTSIM, FASTRIP_MAPPED = 0, 1, 2
+FASTRIP, FASTSIM, FASTRIP_MAPPED, STRIP_THEORY = 0, 1, 2, 3
+# solved by `tangential.fastsim`, like FASTSIM
+FASTSIM_ONE, FASTSIM_ELLIPTIC, FASTSIM_LINDER, FASTSIM_STRIPES = range(4, 8)
 # solved by `tangential.creep_force`, from the first of them on
 CARTER, JOHNSON, VERMEULEN_JOHNSON, LINEAR, LINEAR_SATURATED, SHEN_HEDRICK_ELKINS, POLACH = range(20, 27)
 HALFSPACE = -1  # no kernel of the pipeline
@@ -147,6 +149,37 @@ _TANGENTIAL = (
     Method(
         "fastrip_mapped", FASTRIP_MAPPED, "FaStrip in one march, mapped to the pressure", "this project", True, True
     ),
+    Method(
+        "fastsim_one",
+        FASTSIM_ONE,
+        "FASTSIM, one weighted flexibility, parabolic bound",
+        "Kalker 1982",
+        True,
+        True,
+        admissible=False,
+    ),
+    Method(
+        "fastsim_elliptic", FASTSIM_ELLIPTIC, "FASTSIM, three flexibilities, elliptic bound", "Kalker 1982", True, True
+    ),
+    Method(
+        "fastsim_linder",
+        FASTSIM_LINDER,
+        "FASTSIM with the flexibilities of Linder's local ellipses",
+        "Linder 1997",
+        True,
+        True,
+        admissible=False,
+    ),
+    Method(
+        "fastsim_stripes",
+        FASTSIM_STRIPES,
+        "FASTSIM with the flexibilities of STRIPES' local ellipses",
+        "Ayasse and Chollet 2005",
+        True,
+        True,
+        admissible=False,
+    ),
+    Method("strip_theory", STRIP_THEORY, "strip theory", "Haines and Ollerton 1963; Kalker 1967", True, True),
     Method(
         "carter",
         CARTER,

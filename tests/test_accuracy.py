@@ -21,6 +21,9 @@ def assert_held(name, values, reached):
     ("fastrip", (0.0136, 0.0422, 0.0973), (0.0082, 0.0252, 0.0600), 0.0221),  # bar .0165 / .058 / .17
     ("fastrip_mapped", (0.0077, 0.0228, 0.0509), (0.0062, 0.0198, 0.0408), 0.0293),  # bar .009 / .027 / .06; .007 / .022
     ("fastsim", (0.0320, 0.0906, 0.1827), (0.0331, 0.0860, 0.1321), 0.0665),
+    ("fastsim_one", (0.0567, 0.1795, 0.3010), (0.0559, 0.1383, 0.2580), 0.140),  # CONTACT's own: .0547 / .1774 / .2900
+    ("fastsim_elliptic", (0.0372, 0.1002, 0.1910), (0.0167, 0.0513, 0.1542), 0.130),
+    ("strip_theory", (0.1265, 0.4370, 0.9240), (0.0665, 0.2252, 0.5370), 0.149),
 ])  # fmt: skip
 def test_creep_forces_on_ellipses(method, force, moment, adhesion):
     errors = accuracy.errors_on_ellipses(method)

@@ -15,11 +15,17 @@ from contact._layout import STRIP_A, STRIP_ASPECT, STRIP_PATCH, STRIP_Y
 
 
 @kernel
+def local_ellipse(a, y, low, high):
+    """Semi-axes of the ellipse from y = `low` to `high` on which a strip at y has the half length a."""
+    b = 0.5 * (high - low)
+    return a * b / math.sqrt(max((y - low) * (high - y), 1e-12 * b * b)), b
+
+
+@kernel
 def local_ellipses(strips, n, edges):
     """Write ln(a_loc/b) of each strip."""
     for i in range(n):
         k = int(strips[STRIP_PATCH, i])
-        b, middle = 0.5 * (edges[2 * k + 1] - edges[2 * k]), 0.5 * (edges[2 * k + 1] + edges[2 * k])
-        t = (strips[STRIP_Y, i] - middle) / b
         if strips[STRIP_A, i] > 0.0:
-            strips[STRIP_ASPECT, i] = math.log(strips[STRIP_A, i] / (b * math.sqrt((1.0 - t) * (1.0 + t))))
+            a, b = local_ellipse(strips[STRIP_A, i], strips[STRIP_Y, i], edges[2 * k], edges[2 * k + 1])
+            strips[STRIP_ASPECT, i] = math.log(a / b)

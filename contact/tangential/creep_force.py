@@ -33,7 +33,7 @@ from contact._layout import (
 )
 from contact.registry import CARTER, JOHNSON, LINEAR, POLACH, SHEN_HEDRICK_ELKINS, VERMEULEN_JOHNSON
 from contact.tangential.carter import carter, creepage_of_full_slip
-from contact.tangential.fastsim import equivalent_ellipse
+from contact.tangential.ellipses import equivalent_ellipse
 from contact.tangential.linear import linear, saturated
 from contact.tangential.polach import polach
 from contact.tangential.vermeulen_johnson import vermeulen_johnson

@@ -1,5 +1,9 @@
 """FaStrip: strip theory amended by Kalker's coefficients, with FASTSIM's directions in the slip zone (theory.md 4).
 
+`strip_theory` (Haines and Ollerton 1963; Kalker 1967; thesis Eqs. 4.14-4.26) is the same without either: its own coefficients,
+and in slip one direction for each strip, that of the traction where stick ends (4.23) or, where the whole strip slips, of the
+rigid slip at its middle (4.25). So its force jumps where a strip comes to slip under combined creepage, as published.
+
 Every strip is the central strip of a local ellipse with its own half length a(y), peak pressure p0(y) and aspect ratio, so
 the method needs no elliptic patch; on an ellipse it is the published method. Stick-zone forces are integrated in closed
 form; in the slip zone the magnitude mu·p is integrated exactly over each element and only the direction is the element's.
@@ -24,6 +28,7 @@ from contact._layout import (
     CASE_MU,
     CASE_NU,
     CASE_PHI,
+    CASE_TANGENTIAL,
     CASE_VX,
     CASE_VY,
     FIELD_QX,
@@ -44,10 +49,12 @@ from contact._layout import (
     STRIP_Y,
 )
 from contact.quadrature import EL_DX, EL_LOAD_END, EL_MOMENT_END, EL_S, EL_SINE
-from contact.tangential.fastsim import NO_FRICTION, equivalent_ellipse
+from contact.registry import STRIP_THEORY
+from contact.tangential.ellipses import equivalent_ellipse
+from contact.tangential.fastsim import NO_FRICTION
 from contact.tangential.lanes import LANES, N_LANE_ROWS, NOW_SLIDES, NOW_SLIP, NOW_STICK, NOW_X, NOW_Y, keep, recall
 from contact.tangential.march import FREE_BEHIND_MARCH, ROW_X, ROW_Y, ROW_Z, march
-from contact.tangential.strip_theory import stick_resultants, stick_zone
+from contact.tangential.strip_theory import coefficients, stick_resultants, stick_zone
 
 _NOW_SX, _NOW_SY = NOW_SLIP, NOW_SLIDES  # where `_show` leaves the slip velocity
 
@@ -103,6 +110,8 @@ def _set_strip(strips, i, case, table, c_patch, lanes, l):
         return 0.0
     c11, c22, c23, _ = kalker.coefficients(table, strips[STRIP_ASPECT, i])
     root_aspect = math.exp(0.5 * strips[STRIP_ASPECT, i])  # √(a/b) = a/c
+    if case[CASE_TANGENTIAL] == STRIP_THEORY:
+        c11, c22, c23 = coefficients(root_aspect, nu)
     phi = case[CASE_PHI]
     vx, vy = case[CASE_VX] - phi * y, case[CASE_VY] + phi * xc
 
@@ -122,6 +131,18 @@ def _set_strip(strips, i, case, table, c_patch, lanes, l):
     lanes[_FLEXIBILITY_Y + l] = 0.5 * math.pi**2 * bound / (G * c22)
     lanes[_VX + l], lanes[_VY + l], lanes[_SPIN + l] = vx, vy, phi * a
     return bound
+
+
+@kernel
+def _keep_direction(lanes, trace):
+    """Strip theory in place of the march: one direction of slip for each strip (thesis 4.23-4.26)."""
+    for l in range(LANES):
+        x, y = lanes[_KAPPA + l], lanes[_LAMBDA + l]
+        if lanes[_E + l] >= 1.0:
+            x, y = -lanes[_VX + l], -lanes[_VY + l]
+        lanes[NOW_X + l], lanes[NOW_Y + l] = x, y
+    for k in range(trace.shape[0]):
+        keep(lanes, trace[k])
 
 
 @kernel
@@ -212,7 +233,10 @@ def fastrip(strips, n, case, table, elements, lanes, trace, fields, result):
     for block in range(0, n, LANES):
         for l in range(LANES):
             _set_strip(strips, min(block + l, n - 1), case, table, c_patch, lanes, l)
-        march(elements, lanes, trace)
+        if case[CASE_TANGENTIAL] == STRIP_THEORY:
+            _keep_direction(lanes, trace)
+        else:
+            march(False, elements, lanes, trace)
         _slip_zone(elements, lanes, trace, block < fields.shape[1])
         for l in range(min(LANES, n - block)):
             i = block + l

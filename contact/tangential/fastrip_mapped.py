@@ -40,7 +40,8 @@ from contact._layout import (
     STRIP_Y,
 )
 from contact.quadrature import EL_ATANH, EL_DX, EL_MIDDLE, EL_S, EL_SINE, EL_STEP
-from contact.tangential.fastsim import NO_FRICTION, equivalent_ellipse
+from contact.tangential.ellipses import equivalent_ellipse
+from contact.tangential.fastsim import NO_FRICTION
 from contact.tangential.lanes import (
     FAR,
     FREE_ROW,

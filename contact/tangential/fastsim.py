@@ -1,18 +1,26 @@
-"""FASTSIM (Kalker 1982) on any patch, three flexibilities, parabolic bound (theory.md 2.5).
+"""FASTSIM (Kalker 1982) on any patch: simplified theory, with a choice of flexibilities and bound (theory.md 2.5).
 
-The flexibilities are those of the equivalent ellipse: the patch's area with the longest strip as semi-axis a. The bound of
-a strip is the parabola with peak proportional to its p0·a, scaled so that the bounds carry the normal load: on an ellipse
-this is Kalker's paraboloid exactly, on any patch full slip gives mu N.
+    fastsim           three flexibilities, parabolic bound
+    fastsim_one       one flexibility, weighted by the creepages, parabolic bound
+    fastsim_elliptic  three flexibilities, elliptic bound mu p
+    fastsim_linder    three of each strip's own ellipse, as wide as the patch (Linder 1997; `normal.linder`)
+    fastsim_stripes   three of each strip's own ellipse, as long as the patch, with a/b of the local curvatures (Ayasse and
+                      Chollet 2005, as theory.md 4.4 has it; the published length of this ellipse is not at hand)
+
+The first three take the equivalent ellipse: the patch's area with the longest strip as semi-axis a. On an ellipse the local
+ones are that ellipse too, and the last two methods are the first. The parabolic bound of a strip has its peak proportional
+to its p0·a, scaled so that the bounds carry the normal load: on an ellipse this is Kalker's paraboloid exactly, on any patch
+full slip gives mu N. The weighted flexibility changes with the ratio of the creepages, at any size of them.
 """
 
 import math
 
-from contact import kalker
 from contact._jit import kernel
 from contact._layout import (
     CASE_G,
     CASE_MU,
     CASE_PHI,
+    CASE_TANGENTIAL,
     CASE_VX,
     CASE_VY,
     FIELD_QX,
@@ -20,6 +28,7 @@ from contact._layout import (
     FIELD_STICK,
     FIELD_SX,
     FIELD_SY,
+    RES_EDGES,
     RES_FX,
     RES_FY,
     RES_MZ,
@@ -27,74 +36,88 @@ from contact._layout import (
     RES_POWER,
     RES_SLIP_AREA,
     STRIP_A,
+    STRIP_ASPECT,
     STRIP_DY,
     STRIP_P0,
+    STRIP_PATCH,
     STRIP_XC,
     STRIP_Y,
 )
+from contact.normal.linder import local_ellipse
 from contact.quadrature import EL_DX, EL_S, EL_SINE, EL_STEP
+from contact.registry import FASTSIM_ELLIPTIC, FASTSIM_LINDER, FASTSIM_ONE, FASTSIM_STRIPES
+from contact.tangential.ellipses import equivalent_ellipse, flexibilities, weighted
 from contact.tangential.lanes import LANES, NOW_SLIDES, NOW_SLIP, NOW_STICK, NOW_X, NOW_Y
-from contact.tangential.march import ROW_X, ROW_Y, ROW_Z, march
+from contact.tangential.march import FREE_BEHIND_MARCH, ROW_X, ROW_Y, ROW_Z, march
 
 #: A traction bound below this fraction of G is none: creepage over it would overflow.
 NO_FRICTION = 1e-15
 
+# rows of `lanes` behind those of the march
+_PEAK, _L1, _L2 = (FREE_BEHIND_MARCH + row * LANES for row in range(3))
+
 
 @kernel
-def equivalent_ellipse(strips, n):
-    """Semi-axes of the ellipse with the longest strip as a and the area of the patch."""
-    a = 0.0
-    area = 0.0
+def _own_ellipse(strips, i, method, a0, edges):
+    """Semi-axes of the ellipse to which strip i belongs by Linder or STRIPES."""
+    if method == FASTSIM_STRIPES:
+        return a0, a0 * math.exp(-strips[STRIP_ASPECT, i])
+    k = int(strips[STRIP_PATCH, i])
+    return local_ellipse(strips[STRIP_A, i], strips[STRIP_Y, i], edges[2 * k], edges[2 * k + 1])
+
+
+@kernel
+def _peak_per_load(strips, n, elements, mu, N, elliptic):
+    """Peak of a strip's bound over p0 (elliptic) or p0·a: parabolas that carry the load, by the fields' quadrature."""
+    if elliptic:
+        return mu
+    cubes, spread = 0.0, 0.0
+    for k in range(elements.shape[1]):
+        cubes += elements[EL_SINE, k] ** 2 * elements[EL_DX, k]
     for i in range(n):
-        a = max(a, strips[STRIP_A, i])
-        area += 2.0 * strips[STRIP_A, i] * strips[STRIP_DY, i]
-    return a, (area / (math.pi * a) if a > 0.0 else 0.0)
+        spread += cubes * strips[STRIP_P0, i] * strips[STRIP_A, i] ** 2 * strips[STRIP_DY, i]
+    return mu * N / spread if spread > 0.0 else 0.0
 
 
 @kernel
 def fastsim(strips, n, case, table, elements, lanes, trace, fields, result):
     """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`."""
-    mu, G = case[CASE_MU], case[CASE_G]
+    method, G = case[CASE_TANGENTIAL], case[CASE_G]
     vx, vy, phi = case[CASE_VX], case[CASE_VY], case[CASE_PHI]
     Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
+    elliptic, local = method == FASTSIM_ELLIPTIC, method in (FASTSIM_LINDER, FASTSIM_STRIPES)
     a0, b0 = equivalent_ellipse(strips, n)
-    L1, L2, L3, spread = 1.0, 1.0, 1.0, 1.0
-    if a0 > 0.0:
-        c11, c22, c23, _ = kalker.coefficients(table, math.log(a0 / b0))
-        L1 = 8.0 * a0 / (3.0 * G * c11)
-        L2 = 8.0 * a0 / (3.0 * G * c22)
-        L3 = math.pi * a0 * a0 / (4.0 * G * math.sqrt(a0 * b0) * c23)
-        cubes = 0.0
-        for k in range(elements.shape[1]):
-            cubes += elements[EL_SINE, k] ** 2 * elements[EL_DX, k]
-        spread = 0.0  # load of parabolas of peak p0·a, by the quadrature of the fields
-        for i in range(n):
-            spread += cubes * strips[STRIP_P0, i] * strips[STRIP_A, i] ** 2 * strips[STRIP_DY, i]
+    L1, L2, L3 = flexibilities(G, a0, b0, table)
+    if method == FASTSIM_ONE:
+        L1 = L2 = L3 = weighted(vx, vy, phi, math.sqrt(a0 * b0), L1, L2, L3)
+    per_load = _peak_per_load(strips, n, elements, case[CASE_MU], result[RES_N], elliptic)
     for block in range(0, n, LANES):
         for l in range(LANES):
             i = min(block + l, n - 1)
             a = strips[STRIP_A, i]
-            peak = mu * result[RES_N] / spread * strips[STRIP_P0, i] * a
+            peak = per_load * strips[STRIP_P0, i] * (1.0 if elliptic else a)
             scale = a / peak if peak > NO_FRICTION * G else 0.0
+            if local:
+                own_a, own_b = _own_ellipse(strips, i, method, a0, result[RES_EDGES:])
+                L1, L2, L3 = flexibilities(G, own_a, own_b, table)
+            lanes[_PEAK + l], lanes[_L1 + l], lanes[_L2 + l] = peak if scale > 0.0 else 0.0, L1, L2
             lanes[ROW_X + l] = scale * (vx / L1 - phi * strips[STRIP_Y, i] / L3)
             lanes[ROW_Y + l] = scale * (vy / L2 + phi * strips[STRIP_XC, i] / L3)
             lanes[ROW_Z + l] = scale * a * phi / L3
-        march(elements, lanes, trace)
+        march(elliptic, elements, lanes, trace)
         for l in range(min(LANES, n - block)):
             i = block + l
             row = min(i, fields.shape[1] - 1)  # one row serves all strips when only forces are asked for
             a, y, dy = strips[STRIP_A, i], strips[STRIP_Y, i], strips[STRIP_DY, i]
-            peak = mu * result[RES_N] / spread * strips[STRIP_P0, i] * a
-            frictionless = peak <= NO_FRICTION * G
-            if frictionless:
-                peak = 0.0
+            peak, of_x, of_y = lanes[_PEAK + l], lanes[_L1 + l], lanes[_L2 + l]
+            frictionless = peak <= 0.0
             for k in range(elements.shape[1]):
                 ex, ey = trace[k, NOW_X + l], trace[k, NOW_Y + l]
                 stick, slip = trace[k, NOW_STICK + l], trace[k, NOW_SLIP + l]
-                size = peak * elements[EL_SINE, k] ** 2
+                size = peak * (elements[EL_SINE, k] if elliptic else elements[EL_SINE, k] ** 2)
                 qx, qy = size * ex, size * ey
                 slip *= peak / a if a > 0.0 else 0.0
-                sx, sy = -L1 * slip * ex, -L2 * slip * ey
+                sx, sy = -of_x * slip * ex, -of_y * slip * ey
                 stick = 0.0 if frictionless else stick
                 fields[FIELD_QX, row, k], fields[FIELD_QY, row, k] = qx, qy
                 fields[FIELD_SX, row, k], fields[FIELD_SY, row, k] = sx, sy

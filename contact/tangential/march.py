@@ -1,11 +1,12 @@
-"""FASTSIM's march along eight strips in normalised form, shared by FASTSIM and by FaStrip's direction pass.
+"""FASTSIM's march along eight strips in normalised form, shared by the FASTSIM methods and by FaStrip's direction pass.
 
-With x = x_c + a s, traction tau and the parabolic bound 1 - s² both divided by the peak of the bound, the rigid slip over
-flexibility is W = (X, Y + Z s): X = a vx/(L1 g0), Y = a vy/(L2 g0), Z = a² phi/(L3 g0) (theory.md 2.5; Kalker 1982).
+With x = x_c + a s, traction tau and the bound g, parabolic 1 - s² or elliptic √(1 - s²), both divided by the peak of the
+bound, the rigid slip over flexibility is W = (X, Y + Z s): X = a vx/(L1 g0), Y = a vy/(L2 g0), Z = a² phi/(L3 g0)
+(theory.md 2.5; Kalker 1982).
 
 Kalker's scaling of the trial traction back onto the bound is of first order in the element length: at 30 elements it left
 0.9 % of mu N under lateral creepage with spin. Here the direction of a sliding particle follows the same equation exactly
-for a constant W: in slip (1 - s²) d(angle) = |W| sin(angle to -W) ds, so tan(angle/2) decays with exp(-|W| ∫ds/(1 - s²)).
+for a constant W: in slip g d(angle) = |W| sin(angle to -W) ds, so tan(angle/2) decays with exp(-|W| ∫ds/g).
 A particle passes from stick to slip, or back, within an element, where the traction reaches the bound or the slip ends.
 This is of second order and stable at both edges, where the bound vanishes (mapped_strip.md 3, step 3, for one flexibility).
 """
@@ -13,7 +14,7 @@ This is of second order and stable at both edges, where the bound vanishes (mapp
 import math
 
 from contact._jit import kernel
-from contact.quadrature import EL_ATANH, EL_MIDDLE, EL_S, EL_SINE, EL_STEP
+from contact.quadrature import EL_ATANH, EL_DX, EL_MIDDLE, EL_S, EL_SINE, EL_STEP
 from contact.tangential.lanes import (
     FAR,
     FREE_ROW,
@@ -37,24 +38,32 @@ FREE_BEHIND_MARCH = FREE_ROW + 11 * LANES
 
 
 @kernel
-def march(elements, lanes, trace):
+def march(elliptic, elements, lanes, trace):
     """March from the leading edge; leave traction over the bound and slip at each element in `trace`.
 
     Besides, whether it slides and the share of the step to it in stick. The slip is in units of flexibility times the
-    bound's peak over a. In stick the traction is exact, spin included.
+    bound's peak over a. In stick the traction is exact, spin included. The bound is `elliptic` or parabolic.
     """
+    # at the edge the traction of stick rises |W|/2 times as fast as the parabola; the ellipse is infinitely steep there
+    steepest, start = (math.inf, 0.0) if elliptic else (2.0, 0.25)
     for l in range(LANES):
         x, y = lanes[ROW_X + l], lanes[ROW_Y + l] + lanes[ROW_Z + l]
         size = math.sqrt(x * x + y * y) + 1e-300
         lanes[_TX + l], lanes[_TY + l], lanes[_LEFT + l] = 0.0, 0.0, 1.0
         lanes[NOW_X + l], lanes[NOW_Y + l] = -x / size, -y / size
-        # at the edge the traction of stick rises |W|/2 times as fast as the bound
-        lanes[_SLIPS + l] = 1.0 if size > 2.0 else 0.0
-        lanes[_USED + l] = 0.25 * size * size
-    s = 1.0
+        lanes[_SLIPS + l] = 1.0 if size > steepest else 0.0
+        lanes[_USED + l] = start * size * size
+    s, slope = 1.0, 2.0
     for k in range(elements.shape[1]):
         before, s, step, middle = s, elements[EL_S, k], elements[EL_STEP, k], elements[EL_MIDDLE, k]
-        bound = elements[EL_SINE, k] ** 2
+        sine, slope_before = elements[EL_SINE, k], slope
+        bound, slope, stretch = sine * sine, 2.0 * s, min(elements[EL_ATANH, k], FAR)  # slope: fall of the bound over s
+        if elliptic:
+            bound, slope, stretch = (
+                sine,
+                s / sine,
+                elements[EL_DX, k] / sine if k > 0 else 0.5 * elements[EL_DX, k] / sine,
+            )
         per_bound = 1.0 / bound
         come, slide = 0, 0
         for l in range(LANES):
@@ -67,9 +76,9 @@ def march(elements, lanes, trace):
         if come > 0:
             _come_to_slide(lanes)
         if come + slide > 0:
-            stop = _slide(s, step, middle, min(elements[EL_ATANH, k], FAR), bound, lanes)
+            stop = _slide(s, step, middle, stretch, bound, slope, lanes)
             if stop > 0:
-                _stop(before, s, step, per_bound, lanes)
+                _stop(elliptic, before, s, step, per_bound, slope_before, lanes)
         else:
             for l in range(LANES):
                 x, y = lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l]
@@ -96,7 +105,7 @@ def _come_to_slide(lanes):
 
 
 @kernel
-def _slide(s, step, middle, stretch, bound, lanes):
+def _slide(s, step, middle, stretch, bound, slope, lanes):
     """Turn the direction of all strips that slide; the others stick as tried. Return how many slide against their slip.
 
     They leave the direction and the length from which they started in the rows of the trial.
@@ -113,7 +122,7 @@ def _slide(s, step, middle, stretch, bound, lanes):
         wy = Y + Z * (s + left * step * (1.0 - lag))
         w = math.sqrt(wx * wx + wy * wy) + 1e-300
         ex, ey = turned(x, y, wx, wy, w, rest)
-        slip = -(X * ex + (Y + Z * s) * ey) - 2.0 * s
+        slip = -(X * ex + (Y + Z * s) * ey) - slope
         slides = 1.0 if used > 1.0 else slid
         stop += 1 if slides > 0.5 and slip < 0.0 else 0
         lanes[NOW_X + l] = ex if slides > 0.5 else trial_x * per_bound
@@ -128,7 +137,7 @@ def _slide(s, step, middle, stretch, bound, lanes):
 
 
 @kernel
-def _stop(before, s, step, per_bound, lanes):
+def _stop(elliptic, before, s, step, per_bound, slope_before, lanes):
     """A particle slides as far as its slip is positive; from there on it sticks, unless the bound is too low for that."""
     for l in range(LANES):
         X, Y, Z, slid, slip = (
@@ -139,12 +148,13 @@ def _stop(before, s, step, per_bound, lanes):
             lanes[NOW_SLIP + l],
         )
         x, y, ex, ey = lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[NOW_X + l], lanes[NOW_Y + l]
-        slip_before = -(X * x + (Y + Z * before) * y) - 2.0 * before
+        slip_before = -(X * x + (Y + Z * before) * y) - slope_before
         share = slip_before / (slip_before - slip + 1e-300)
         share = share if slip_before > 0.0 else 0.0
         ux, uy = x + share * (ex - x), y + share * (ey - y)
         at, left = before - share * step, (1.0 - share) * step
-        size = (1.0 - at * at) * (1.5 - 0.5 * (ux * ux + uy * uy))
+        parabola = 1.0 - at * at
+        size = (math.sqrt(parabola) if elliptic else parabola) * (1.5 - 0.5 * (ux * ux + uy * uy))
         stick_x, stick_y = size * ux - left * X, size * uy - left * (Y + 0.5 * Z * (at + s))
         used = (stick_x * stick_x + stick_y * stick_y) * per_bound * per_bound
         stops = slip < 0.0 and slid > 0.5 and used < 1.0

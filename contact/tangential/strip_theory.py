@@ -11,6 +11,12 @@ from contact._jit import kernel
 
 
 @kernel
+def coefficients(root_aspect, nu):
+    """Strip theory's own C11, C22, C23: Kalker's in the limit a/b → 0; `root_aspect` is √(a/b)."""
+    return 0.25 * math.pi**2 / (1.0 - nu), 0.25 * math.pi**2, math.pi / 3.0 * root_aspect
+
+
+@kernel
 def stick_zone(xi, eta, psi, nu):
     """Half slip length e and the directions kappa, lambda, lambda' of a strip; e = 1 if all of it slips.
 

@@ -60,7 +60,8 @@ def test_pure_creepage_follows_the_closed_form(linear, value, B):
 @pytest.mark.parametrize("tangential", TANGENTIAL)
 def test_full_slip_gives_mu_N_against_the_creepage(tangential, ellipse):
     sol = contact.solve(ellipse, contact.Creepage(-0.3, 0.4, 0.0), load=N, friction=MU, tangential=tangential)
-    assert sol.status is contact.Status.SATURATED
+    # the elliptic bound is infinitely steep at the leading edge: a sliver behind it sticks at any creepage
+    assert sol.status is (contact.Status.OK if tangential == "fastsim_elliptic" else contact.Status.SATURATED)
     assert math.hypot(sol.Fx, sol.Fy) == pytest.approx(MU * N, rel=1e-6)
     direction = (sol.Fx / (MU * N), sol.Fy / (MU * N))
     # three flexibilities turn FASTSIM's traction towards the softer direction; FaStrip repeats with one (thesis 4.4)
