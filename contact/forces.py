@@ -139,7 +139,7 @@ def forces(
             f"shapes of load, creepages, friction, speed and separation do not broadcast: {shapes}"
         ) from None
     n_strips, n_elements = require_resolution(n_strips, n_elements)
-    method = lookup("normal", normal, batched=True)
+    method, rolling = (lookup(*kind, batched=True) for kind in (("normal", normal), ("tangential", tangential)))
     shape, count = amount.shape, amount.size
     cases = np.empty((count, N_CASE))
     cases[:, CASE_LOAD_KIND] = LOAD if load is not None else APPROACH
@@ -147,7 +147,7 @@ def forces(
     for row, values in ((CASE_LOAD, amount), (CASE_VX, vx), (CASE_VY, vy), (CASE_PHI, phi), (CASE_MU, mu)):
         cases[:, row] = values.ravel()
     cases[:, CASE_G], cases[:, CASE_NU] = material.shear_modulus, material.poisson_ratio
-    cases[:, CASE_NORMAL], cases[:, CASE_TANGENTIAL] = method.id, lookup("tangential", tangential, batched=True).id
+    cases[:, CASE_NORMAL], cases[:, CASE_TANGENTIAL] = method.id, rolling.id
 
     bounds = np.cumsum([0, *(s.y.size for s in separations)])
     y, g, A, xc = (np.concatenate([getattr(s, name) for s in separations]) for name in ("y", "g", "A", "x_c"))
@@ -158,7 +158,9 @@ def forces(
     which = np.array(which).ravel()  # a copy: numba warns of a broadcast one
 
     def work(chunks: range) -> None:
-        own = workspace.allocate(method, material.poisson_ratio, n_strips, n_elements, longest, fields=False)
+        own = workspace.allocate(
+            method, material.poisson_ratio, n_strips, n_elements, longest, fields=False, tabulated=rolling.tabulated
+        )
         for first in chunks:
             last = min(first + _CHUNK, count)
             solve_cases(first, last, y, g, A, xc, bounds, which, cases, *own[:-1], results)

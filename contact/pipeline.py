@@ -103,7 +103,7 @@ def _roll(strips, n, case, tables, elements, space, fields, result):
     elif case[CASE_TANGENTIAL] == FASTRIP_MAPPED:
         fastrip_mapped(strips, n, case, table, elements, space.lanes, space.trace, fields, result)
     elif case[CASE_TANGENTIAL] >= CARTER:
-        creep_force(strips, n, case, table, fields, result)
+        creep_force(strips, n, case, tables, fields, result)
     else:
         fastrip(strips, n, case, table, elements, space.lanes, space.trace, fields, result)
     case[CASE_MU], case[CASE_G] = static, G

@@ -27,6 +27,7 @@ class Method:
     spin : takes spin into account
     lateral : takes lateral creepage into account (tangential)
     saturates : the force never exceeds friction (tangential)
+    tabulated : reads the table of creep forces (tangential)
     admissible : nowhere does the traction exceed friction times pressure (tangential)
     interacting : every strip feels the pressure of all others (normal)
     batched : a kernel over strips, which `contact.forces` and the FMUs offer too; else `contact.solve` alone
@@ -43,6 +44,7 @@ class Method:
     spin: bool = True
     lateral: bool = True
     saturates: bool = True
+    tabulated: bool = False
     admissible: bool = True
     interacting: bool = False
     batched: bool = True
@@ -80,7 +82,7 @@ FASTRIP, FASTSIM, FASTRIP_MAPPED, STRIP_THEORY = 0, 1, 2, 3
 # solved by `tangential.fastsim`, like FASTSIM
 FASTSIM_ONE, FASTSIM_ELLIPTIC, FASTSIM_LINDER, FASTSIM_STRIPES = range(4, 8)
 # solved by `tangential.creep_force`, from the first of them on
-CARTER, JOHNSON, VERMEULEN_JOHNSON, LINEAR, LINEAR_SATURATED, SHEN_HEDRICK_ELKINS, POLACH = range(20, 27)
+CARTER, JOHNSON, VERMEULEN_JOHNSON, LINEAR, LINEAR_SATURATED, SHEN_HEDRICK_ELKINS, POLACH, TABLE = range(20, 28)
 HALFSPACE = -1  # no kernel of the pipeline
 
 _NORMAL = (
@@ -231,6 +233,16 @@ _TANGENTIAL = (
         fields=False,
     ),
     Method("polach", POLACH, "creep force with spin, clean surface", "Polach 1999", False, True, fields=False),
+    Method(
+        "table",
+        TABLE,
+        "table of the half space's creep forces on ellipses",
+        "this project, after Kalker 1996 (USETAB)",
+        False,
+        True,
+        fields=False,
+        tabulated=True,
+    ),
     Method(
         "halfspace",
         HALFSPACE,

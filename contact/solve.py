@@ -218,7 +218,9 @@ def _on_strips(
     case[CASE_G], case[CASE_NU] = material.shear_modulus, material.poisson_ratio
     case[CASE_NORMAL], case[CASE_TANGENTIAL] = method.id, stands_in.id
     fill(case, surface, speed)
-    own = workspace.allocate(method, material.poisson_ratio, n_strips, n_elements, separation.y.size)
+    own = workspace.allocate(
+        method, material.poisson_ratio, n_strips, n_elements, separation.y.size, tabulated=stands_in.tabulated
+    )
     if start is not None and start.memory.size == own.space.memory.size:
         own.space.memory[:] = start.memory
     n = solve_case(separation.y, separation.g, separation.A, separation.x_c, case, *own)

@@ -15,6 +15,7 @@ from contact.normal.analyn import N_WORK_ROWS
 from contact.normal.strip_halfspace import MEM_LN_A
 from contact.normal.strip_system import N_VECTOR_ROWS
 from contact.registry import Method
+from contact.tangential import table
 from contact.tangential.lanes import LANES, N_LANE_ROWS, N_TRACE
 
 Array = NDArray[np.float64]
@@ -32,11 +33,12 @@ class Rule(NamedTuple):
 
 
 class Tables(NamedTuple):
-    """Interpolated functions: Kalker's coefficients for one Poisson ratio, influence of strips. Read-only."""
+    """Interpolated functions: Kalker's coefficients for one Poisson ratio, influence of strips, creep forces. Read-only."""
 
     kalker: Array
     centre: Array
     plane: Array
+    creep: Array
 
 
 class Space(NamedTuple):
@@ -81,21 +83,36 @@ def rule(n_strips: int, n_elements: int, interacting: bool) -> Rule:
 
 
 @functools.lru_cache(maxsize=64)
-def tables(poisson_ratio: float, interacting: bool) -> Tables:
-    """Return the (cached) tables; those of the strips' influence only for methods with `interacting` strips."""
-    empty = np.zeros((1, 2)), np.zeros((1, 1))
-    return Tables(kalker.table(poisson_ratio), *(influence.tables() if interacting else empty))
+def tables(poisson_ratio: float, interacting: bool, tabulated: bool) -> Tables:
+    """Return the (cached) tables; influence of strips and creep forces only for methods that need them."""
+    empty, no_forces = (np.zeros((1, 2)), np.zeros((1, 1))), np.zeros((1, 1, 1, 1, 1))
+    no_forces.setflags(write=False)  # as the table is: one signature for numba
+    return Tables(
+        kalker.table(poisson_ratio),
+        *(influence.tables() if interacting else empty),
+        table.load() if tabulated else no_forces,
+    )
 
 
 def allocate(
-    normal: Method, poisson_ratio: float, n_strips: int, n_elements: int, n_samples: int, *, fields: bool = True
+    normal: Method,
+    poisson_ratio: float,
+    n_strips: int,
+    n_elements: int,
+    n_samples: int,
+    *,
+    fields: bool = True,
+    tabulated: bool = False,
 ) -> Workspace:
-    """Allocate a workspace for separations of at most `n_samples` points; without `fields`, for forces alone."""
+    """Allocate a workspace for separations of at most `n_samples` points; without `fields`, for forces alone.
+
+    `tabulated`: for a tangential method that reads the table of creep forces.
+    """
     capacity = MAX_PATCHES * n_strips
     size = capacity if normal.interacting else 1
     return Workspace(
         rule(n_strips, n_elements, normal.interacting),
-        tables(poisson_ratio, normal.interacting),
+        tables(poisson_ratio, normal.interacting, tabulated),
         Space(
             grid=np.empty((N_WORK_ROWS, n_samples)),
             vectors=np.empty((N_VECTOR_ROWS, size)),

@@ -24,6 +24,7 @@ def assert_held(name, values, reached):
     ("fastsim_one", (0.0567, 0.1795, 0.3010), (0.0559, 0.1383, 0.2580), 0.140),  # CONTACT's own: .0547 / .1774 / .2900
     ("fastsim_elliptic", (0.0372, 0.1002, 0.1910), (0.0167, 0.0513, 0.1542), 0.130),
     ("strip_theory", (0.1265, 0.4370, 0.9240), (0.0665, 0.2252, 0.5370), 0.149),
+    ("table", (0.0041, 0.0134, 0.0317), (0.0024, 0.0065, 0.0334), 0.0091),
 ])  # fmt: skip
 def test_creep_forces_on_ellipses(method, force, moment, adhesion):
     errors = accuracy.errors_on_ellipses(method)

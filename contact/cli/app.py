@@ -12,8 +12,8 @@ import typer
 from rich.console import Console
 
 import contact
+from contact.cli import creep_table, problem, report
 from contact.cli import options as opt
-from contact.cli import problem, report
 from contact.cli.compare import compare
 from contact.cli.geometry import conicity, list_profiles
 from contact.cli.geometry import geometry as points
@@ -182,6 +182,7 @@ app.command("geometry")(points)
 app.command()(conicity)
 app.command("profiles")(list_profiles)
 app.command()(manchester)
+app.add_typer(creep_table.app)
 
 
 @app.command("methods")
@@ -202,7 +203,8 @@ def version(
 
 def run(arguments: Sequence[str]) -> None:
     """Run the command; plug-ins are loaded unless a command of our own is named, so they cost nothing then."""
-    own = {command.name or command.callback.__name__ for command in app.registered_commands if command.callback}
+    own: set[str | None] = {c.name or c.callback.__name__ for c in app.registered_commands if c.callback}
+    own |= {group.typer_instance.info.name for group in app.registered_groups if group.typer_instance}
     if next((word for word in arguments if not word.startswith("-")), None) not in own:
         for problem_line in add_plugins(app):
             typer.echo(f"contact: {problem_line}", err=True)

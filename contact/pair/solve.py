@@ -129,13 +129,15 @@ class WheelRailPair:
         n_elements: int = N_ELEMENTS,
     ) -> None:
         self.pair = pair
-        method = lookup("normal", normal, batched=True)
+        method, rolling = (lookup(*kind, batched=True) for kind in (("normal", normal), ("tangential", tangential)))
         n_strips, n_elements = require_resolution(n_strips, n_elements)
         n_samples = pair.separations.shape[2]
-        own = workspace.allocate(method, material.poisson_ratio, n_strips, n_elements, n_samples)
+        own = workspace.allocate(
+            method, material.poisson_ratio, n_strips, n_elements, n_samples, tabulated=rolling.tabulated
+        )
         case = np.zeros(N_CASE)
         case[CASE_G], case[CASE_NU] = material.shear_modulus, material.poisson_ratio
-        case[CASE_NORMAL], case[CASE_TANGENTIAL] = method.id, lookup("tangential", tangential, batched=True).id
+        case[CASE_NORMAL], case[CASE_TANGENTIAL] = method.id, rolling.id
         self.bench = Bench(
             search=pair.space,
             own=own,

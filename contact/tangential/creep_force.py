@@ -31,16 +31,17 @@ from contact._layout import (
     STRIP_XC,
     STRIP_Y,
 )
-from contact.registry import CARTER, JOHNSON, LINEAR, POLACH, SHEN_HEDRICK_ELKINS, VERMEULEN_JOHNSON
+from contact.registry import CARTER, JOHNSON, LINEAR, POLACH, SHEN_HEDRICK_ELKINS, TABLE, VERMEULEN_JOHNSON
 from contact.tangential.carter import carter, creepage_of_full_slip
 from contact.tangential.ellipses import equivalent_ellipse
 from contact.tangential.linear import linear, saturated
 from contact.tangential.polach import polach
+from contact.tangential.table import lookup
 from contact.tangential.vermeulen_johnson import vermeulen_johnson
 
 
 @kernel
-def of_ellipse(law, vx, vy, phi, a, b, limit, G, nu, table):
+def of_ellipse(law, vx, vy, phi, a, b, limit, G, nu, table, creep):
     """Fx, Fy, Mz and the share of slip of one ellipse; `limit` is mu N, `law` the id of the registry."""
     if law == CARTER:
         force, slip = carter(vx, creepage_of_full_slip(limit, math.pi * a * b, G, nu))
@@ -50,7 +51,10 @@ def of_ellipse(law, vx, vy, phi, a, b, limit, G, nu, table):
         return vermeulen_johnson(vx, vy, G, c, c, nu, limit)
     if law == VERMEULEN_JOHNSON:
         return vermeulen_johnson(vx, vy, G, a, b, nu, limit)
-    c11, c22, c23, c33 = kalker.coefficients(table, math.log(a / b))
+    log_aspect = math.log(a / b)
+    c11, c22, c23, c33 = kalker.coefficients(table, log_aspect)
+    if law == TABLE:
+        return lookup(vx, vy, phi, G, c, log_aspect, c11, c22, c23, c33, limit, creep)
     if law == POLACH:
         return polach(vx, vy, phi, G, a, b, c11, c22, c23, limit, 1.0, 1.0)
     Fx, Fy, Mz, slip = linear(vx, vy, phi, G, c, c11, c22, c23, c33)
@@ -60,7 +64,7 @@ def of_ellipse(law, vx, vy, phi, a, b, limit, G, nu, table):
 
 
 @kernel
-def creep_force(strips, n, case, table, fields, result):
+def creep_force(strips, n, case, tables, fields, result):
     """Fill the tangential part of `result`; traction and slip of the fields are zero."""
     rows = min(n, fields.shape[1])
     fields[FIELD_QX : FIELD_STICK + 1, :rows, :] = 0.0
@@ -82,7 +86,7 @@ def creep_force(strips, n, case, table, fields, result):
         vx, vy, phi = case[CASE_VX] - case[CASE_PHI] * y, case[CASE_VY] + case[CASE_PHI] * x, case[CASE_PHI]
         limit = case[CASE_MU] * load
         Fx, Fy, Mz, slip = of_ellipse(
-            case[CASE_TANGENTIAL], vx, vy, phi, a, b, limit, case[CASE_G], case[CASE_NU], table
+            case[CASE_TANGENTIAL], vx, vy, phi, a, b, limit, case[CASE_G], case[CASE_NU], tables.kalker, tables.creep
         )
         result[RES_FX] += Fx
         result[RES_FY] += Fy

@@ -25,6 +25,7 @@ from contact.normal import influence
 from contact.normal.analyn import N_WORK_ROWS
 from contact.normal.strip_halfspace import MEM_LN_A
 from contact.normal.strip_system import N_VECTOR_ROWS
+from contact.tangential import table
 from contact.tangential.lanes import LANES, N_LANE_ROWS, N_TRACE
 from contact.workspace import Rule, Space, Tables, Workspace, columns_shape
 from fmu_src.native.memory import compiled, cube, matrix, vector
@@ -39,8 +40,8 @@ _columns_shape = compiled(columns_shape)
 
 
 def data() -> tuple[np.ndarray, ...]:
-    """Constants that `lay_out` and `fill` take: Kalker's coefficients, influence of strips on the centre line and off it."""
-    return kalker.published(), *influence.tables()
+    """Constants for `lay_out` and `fill`: Kalker's coefficients, influence of strips on the centre line and off it, forces."""
+    return kalker.published(), *influence.tables(), table.load()
 
 
 @compiled
@@ -50,7 +51,7 @@ def memory_size(normal, n_strips):
 
 
 @compiled
-def lay_out(work, end, memory, n_strips, n_elements, samples, centre, plane):
+def lay_out(work, end, memory, n_strips, n_elements, samples, centre, plane, creep):
     """Lay a workspace into `work` from `end` on; return it and where it ends. `memory` has the size of `memory_size`."""
     capacity = MAX_PATCHES * n_strips
     size = memory.size - MEM_LN_A
@@ -73,7 +74,9 @@ def lay_out(work, end, memory, n_strips, n_elements, samples, centre, plane):
     fields, end = cube(work, end, N_FIELD_ROWS, capacity, n_elements)
     result, end = vector(work, end, N_RES)
     rule = Rule(nodes, weights, elements, cosines, cosine_logs, columns)
-    tables = Tables(coefficients, carray(centre, influence.CENTRE), carray(plane, influence.PLANE))
+    tables = Tables(
+        coefficients, carray(centre, influence.CENTRE), carray(plane, influence.PLANE), carray(creep, table.SHAPE)
+    )
     space = Space(grid, vectors, logs, influences, lu, memory, lanes, trace)
     return Workspace(rule, tables, space, strips, fields, result), end
 

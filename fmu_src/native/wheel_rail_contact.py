@@ -171,12 +171,12 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         return memory_size(int(v[at.method_normal]), int(v[at.resolution_n_strips]))
 
     @compiled
-    def arrange(v, work, centre, plane):
+    def arrange(v, work, centre, plane, creep):
         """Lay all arrays into `work`; return them, where the field shown to the host begins, how many numbers there are."""
         n_strips, n_elements = int(v[at.resolution_n_strips]), int(v[at.resolution_n_elements])
         capacity = MAX_PATCHES * n_strips
         memory, end = vector(work, 0, warm_start_size(v))
-        own, end = lay_out(work, end, memory, n_strips, n_elements, samples, centre, plane)
+        own, end = lay_out(work, end, memory, n_strips, n_elements, samples, centre, plane, creep)
         y, end = vector(work, end, samples)
         g, end = vector(work, end, samples)
         A, end = vector(work, end, samples)
@@ -222,26 +222,26 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         after.count[0] = count
         return count
 
-    def model_memory(values, published, centre, plane):
+    def model_memory(values, published, centre, plane, creep):
         return warm_start_size(carray(values, (n_values,)))
 
-    def model_size(values, published, centre, plane):
-        return arrange(carray(values, (n_values,)), values, centre, plane)[4]
+    def model_size(values, published, centre, plane, creep):
+        return arrange(carray(values, (n_values,)), values, centre, plane, creep)[4]
 
-    def model_prepare(values, work, published, centre, plane):
+    def model_prepare(values, work, published, centre, plane, creep):
         v = carray(values, (n_values,))
-        own, _, after, _, _ = arrange(v, work, centre, plane)
+        own, _, after, _, _ = arrange(v, work, centre, plane, creep)
         fill(own, v[at.material_poisson_ratio], published)
         for i in range(N_PAR):
             after.damage_parameters[i] = _DAMAGE_PARAMETERS[i]
         return 0
 
-    def model_start(values, work, published, centre, plane):
+    def model_start(values, work, published, centre, plane, creep):
         return 0
 
-    def model_outputs(values, work, h, published, centre, plane):
+    def model_outputs(values, work, h, published, centre, plane, creep):
         v = carray(values, (n_values,))
-        own, problem, after, _, _ = arrange(v, work, centre, plane)
+        own, problem, after, _, _ = arrange(v, work, centre, plane, creep)
         n = solve(pose(v, problem), own, problem, after)
         parameters, result, damage = after.damage_parameters, own.result, after.damage
         speed = v[at.speed]
@@ -273,9 +273,9 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
     def steps(v):
         return _steps(v[at.friction_coefficient], v[at.force_n], v[at.material_shear_modulus], v[at.patch_area])
 
-    def model_lazy(values, work, published, centre, plane):
+    def model_lazy(values, work, published, centre, plane, creep):
         v = carray(values, (n_values,))
-        own, problem, after, _, _ = arrange(v, work, centre, plane)
+        own, problem, after, _, _ = arrange(v, work, centre, plane, creep)
         n, case, result = pose(v, problem), problem.case, own.result
         for j, step in enumerate(steps(v)):
             for i in range(3):
@@ -289,7 +289,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
             case[CASE_VX + j] = v[at.creepage_longitudinal + j]
         return 0
 
-    def model_difference(values, reference, published, centre, plane):
+    def model_difference(values, reference, published, centre, plane, creep):
         """A step so small that hardly ever an element passes from stick to slip within it: forces have kinks there.
 
         A thousandth of the step of `creep_stiffness`, which is meant to average over the kinks, or a millionth of a value.
@@ -308,9 +308,9 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
             return share * penetration
         return max(share * abs(v[reference]), 1e-12)
 
-    def model_field(values, work, k, published, centre, plane):
+    def model_field(values, work, k, published, centre, plane, creep):
         v = carray(values, (n_values,))
-        own, _, after, begin, _ = arrange(v, work, centre, plane)
+        own, _, after, begin, _ = arrange(v, work, centre, plane, creep)
         n, shown = after.count[0], after.shown
         for i in range(shown.shape[0]):
             for j in range(shown.shape[1]):

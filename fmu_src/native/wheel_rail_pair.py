@@ -135,7 +135,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         return memory, Start(counts, turned), end
 
     @compiled
-    def arrange(v, work, resources, n_wheel, n_rail, centre, plane):
+    def arrange(v, work, resources, n_wheel, n_rail, centre, plane, creep):
         """Lay all arrays into `work` for curves of so many nodes; return them, and how many numbers they are."""
         n_strips, n_elements = int(v[at.resolution_n_strips]), int(v[at.resolution_n_elements])
         samples, capacity = int(v[at.resolution_n_samples]), MAX_PATCHES * n_strips
@@ -153,15 +153,15 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         bench = Bench(search, own, case, memory, parameters, damage_fields, damage, contacts, total)
         return bench, end
 
-    def model_memory(values, resources, published, centre, plane):
+    def model_memory(values, resources, published, centre, plane, creep):
         return 1 + MAX_PATCHES * piece_size(carray(values, (n_values,)))
 
-    def model_size(values, resources, published, centre, plane):
+    def model_size(values, resources, published, centre, plane, creep):
         v = carray(values, (n_values,))
         n_wheel, n_rail = int(carray(resources, (1,))[0]), start(v, values, resources)[1].turned.shape[1]
-        return arrange(v, values, resources, n_wheel, n_rail, centre, plane)[1]
+        return arrange(v, values, resources, n_wheel, n_rail, centre, plane, creep)[1]
 
-    def model_prepare(values, work, resources, published, centre, plane):
+    def model_prepare(values, work, resources, published, centre, plane, creep):
         v = carray(values, (n_values,))
         _, begin, _ = start(v, work, resources)
         n_wheel = int(carray(resources, (1,))[0])
@@ -176,7 +176,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         if deepest < v[at.track_gauge_point]:
             return _GAUGE_POINT
         begin.counts[0], begin.counts[1] = wheel_to - wheel_from, rail_to - rail_from
-        bench, _ = arrange(v, work, resources, wheel_to - wheel_from, rail_to - rail_from, centre, plane)
+        bench, _ = arrange(v, work, resources, wheel_to - wheel_from, rail_to - rail_from, centre, plane, creep)
         search, motion, case = bench.search, bench.search.motion, bench.case
         cut(wheel, wheel_from, wheel_to, search.wheel)
         cut(begin.turned, rail_from, rail_to, search.rail)
@@ -199,13 +199,13 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         bench.damage_parameters[PAR_SHEAR_YIELD] = v[at.material_shear_yield]
         return 0
 
-    def model_start(values, work, resources, published, centre, plane):
+    def model_start(values, work, resources, published, centre, plane, creep):
         return 0
 
-    def model_outputs(values, work, h, resources, published, centre, plane):
+    def model_outputs(values, work, h, resources, published, centre, plane, creep):
         v = carray(values, (n_values,))
         counts = start(v, work, resources)[1].counts
-        bench, _ = arrange(v, work, resources, int(counts[0]), int(counts[1]), centre, plane)
+        bench, _ = arrange(v, work, resources, int(counts[0]), int(counts[1]), centre, plane, creep)
         fill_friction(v, at.friction_coefficient, at.friction_law, v[at.velocity_x], bench.case)
         given = carray(ahead(values, at.pose_y), (rows.N_GIVEN,))
         by_load = v[at.load_kind] == _UNDER_LOAD
@@ -237,10 +237,10 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         v[at.damage_energy_index_max] = total[TOTAL_DAMAGE + DAMAGE_ENERGY_INDEX]
         return int(total[TOTAL_STATUS])
 
-    def model_lazy(values, work, resources, published, centre, plane):
+    def model_lazy(values, work, resources, published, centre, plane, creep):
         return 0
 
-    def model_difference(values, reference, resources, published, centre, plane):
+    def model_difference(values, reference, resources, published, centre, plane, creep):
         """A step in which hardly an element passes from stick to slip: a millionth of the creepage that saturates.
 
         Positions and angles are moved by a tenth of a micrometre or what turns by that much a metre away; a height that is
@@ -262,7 +262,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         share = 1e-4 if reference == at.load_normal_force else 1e-6
         return max(share * coarse * abs(v[reference]), 1e-12)
 
-    def model_field(values, work, k, resources, published, centre, plane):
+    def model_field(values, work, k, resources, published, centre, plane, creep):
         return 0
 
     called_by_c = (

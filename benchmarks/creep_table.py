@@ -1,0 +1,87 @@
+"""Interpolation error of the table of creep forces: random cases that it has not seen, solved by the half space.
+
+    python benchmarks/creep_table.py [--cases 300] [--write tests/reference/creep_table_unseen.csv]
+
+a/b is log-uniform within the table, the direction in the table's coordinates uniform on the sphere, the size r log-uniform from
+.05 to 20.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import math
+from pathlib import Path
+
+import numpy as np
+
+import contact
+from contact import kalker
+from contact.study.ellipse import ellipse
+from contact.tangential import table
+
+MATERIAL, LOAD, MU, C, ELEMENTS = contact.Material(82e9, table.NU), 82e3, 0.3, 6e-3, 40
+UNSEEN = Path(__file__).parent.parent / "tests" / "reference" / "creep_table_unseen.csv"
+
+
+def random_case(rng: np.random.Generator) -> tuple[float, float, float, float]:
+    """a/b and creepages [-], [-], [1/m]."""
+    log_aspect = rng.uniform(-table.LOG_ASPECT_MAX, table.LOG_ASPECT_MAX)
+    c11, c22, c23, _ = kalker.coefficients(kalker.table(table.NU), log_aspect)
+    x, y, z = rng.normal(size=3)
+    unit = 10 ** rng.uniform(math.log10(0.05), math.log10(20.0)) / math.sqrt(x * x + y * y + z * z)
+    unit *= MU * LOAD / (MATERIAL.shear_modulus * C * C)
+    spin = z / table.spin_weight(log_aspect, c11, c22, c23)
+    return math.exp(log_aspect), unit * x / c11, unit * y / c22, unit * spin / (c23 * C)
+
+
+def solve(a_over_b: float, *creepage: float, tangential: str, n: int = ELEMENTS) -> np.ndarray:
+    """Fx, Fy over mu N, Mz over mu N c, share of slip."""
+    sol = contact.solve(
+        ellipse(a_over_b, C, LOAD, MATERIAL), contact.Creepage(*creepage), load=LOAD, friction=MU, material=MATERIAL,
+        normal="hertz", tangential=tangential, n_strips=n, n_elements=n,
+    )  # fmt: skip
+    return np.array([sol.Fx, sol.Fy, sol.Mz / C, MU * LOAD * sol.slip_ratio]) / (MU * LOAD)
+
+
+def unseen(path: Path = UNSEEN) -> tuple[np.ndarray, np.ndarray]:
+    """Cases (n, 4) and the half space's results (n, 4)."""
+    with open(path) as file:
+        rows = np.array([[float(v) for v in row] for row in csv.reader(line for line in file if line[0] not in "#a")])
+    return rows[:, :4], rows[:, 4:]
+
+
+def errors(cases: np.ndarray, true: np.ndarray, tangential: str = "table") -> dict[str, np.ndarray]:
+    """Errors of force, moment and share of slip."""
+    d = np.array([solve(*case, tangential=tangential) for case in cases]) - true
+    return {"force": np.hypot(d[:, 0], d[:, 1]), "moment": np.abs(d[:, 2]), "slip": np.abs(d[:, 3])}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--cases", type=int, default=300)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--write", type=Path, help="also write cases and the half space's results to this file")
+    arguments = parser.parse_args()
+    rng = np.random.default_rng(arguments.seed)
+    cases = np.array([random_case(rng) for _ in range(arguments.cases)])
+    true = np.array([solve(*case, tangential="halfspace") for case in cases])
+    if arguments.write:
+        lines = [
+            ",".join([*(f"{v:.7g}" for v in c), *(f"{v:.5f}" for v in t)]) for c, t in zip(cases, true, strict=True)
+        ]
+        heading = (
+            f"# Random ellipses and creepages by our half space (TANG on Hertz's pressure, {ELEMENTS} x {ELEMENTS} elements), "
+            f"seed {arguments.seed}:\n# benchmarks/creep_table.py; forces over mu N, moment over mu N c\n"
+            "a_over_b,longitudinal,lateral,spin,fx,fy,mz,slip\n"
+        )
+        arguments.write.write_text(heading + "\n".join(lines) + "\n")
+    for method in ("table", "fastrip", "fastrip_mapped", "polach"):
+        for name, values in errors(cases, true, method).items():
+            print(
+                f"{method} {name}: mean {values.mean():.4f}, p95 {np.percentile(values, 95):.4f}, max {values.max():.4f}"
+            )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,39 @@
+"""The command `table`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from contact.cli.output import reported
+from contact.cli.progress import progress_bar
+from contact.study import creep_table
+
+app = typer.Typer(
+    name="table", help="The table of creep forces that the tangential method `table` reads.", no_args_is_help=True
+)
+
+
+@app.callback()
+def table() -> None:
+    """Make a command of a single one a group."""
+
+
+@app.command()
+@reported
+def build(
+    out: Annotated[Path, typer.Option(help="CSV file; what it holds already is not computed again")],
+    elements: Annotated[
+        int, typer.Option(min=10, max=400, help="rows and columns of the half space on the ellipse")
+    ] = 40,
+    processes: Annotated[int | None, typer.Option(min=1, help="processes", show_default="all cores")] = None,
+) -> None:
+    """Compute the table with the half space: 4104 cases, some minutes. It goes on where it was interrupted.
+
+    Example:  contact table build --out creep_table.csv, to take the place of the package's contact/tangential/creep_table.csv
+    """
+    with progress_bar() as bar:
+        creep_table.build(out, elements, processes=processes, progress=bar)
+    typer.echo(f"wrote {out}", err=True)

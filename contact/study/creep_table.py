@@ -1,0 +1,119 @@
+"""Build the table of `contact.tangential.table` with the half space, on all cores; an interrupted run goes on."""
+
+from __future__ import annotations
+
+import math
+import multiprocessing
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+
+from contact import kalker
+from contact.creepage import Creepage
+from contact.errors import ContactError
+from contact.forces import cores
+from contact.material import Material
+from contact.solve import solve
+from contact.study.ellipse import ellipse
+from contact.tangential import table
+
+_MATERIAL, _LOAD, _FRICTION, _C = Material(82e9, table.NU), 82e3, 0.3, 6e-3
+#: r in place of infinity: deep in full slip.
+_FAR = 1e3
+
+
+def build(
+    path: Path,
+    elements: int = 40,
+    *,
+    processes: int | None = None,
+    progress: Callable[[float, str], None] | None = None,
+) -> None:
+    """Compute the table's rows that `path` does not hold yet and add them to it.
+
+    Each value is one solution of TANG on Hertz's pressure with `elements` rows and columns on the ellipse.
+
+    Raises
+    ------
+    ContactError
+        A file that holds something else, or cannot be written.
+    """
+    todo = table.rows()
+    heading = _heading(elements)
+    try:
+        known = path.read_text(encoding="utf-8") if path.exists() else ""
+        if known and not known.startswith(heading):
+            raise ContactError(f"{path} holds something else than the beginning of this table")
+        lines = known[len(heading) :].split("\n")[:-1] if known else []
+        path.write_text(heading + "".join(line + "\n" for line in lines), encoding="utf-8")
+        jobs = [(*row, elements) for row in todo[len(lines) :]]
+        with path.open("a", encoding="utf-8") as file:
+            for n, line in enumerate(_solved(jobs, processes), len(lines) + 1):
+                file.write(line + "\n")
+                file.flush()
+                if progress is not None:
+                    progress(n / len(todo), f"row {n} of {len(todo)}")
+    except OSError as error:
+        raise ContactError(f"{path} cannot be written: {error.strerror}") from None
+
+
+def _solved(jobs: list[tuple[int, int, int, int]], processes: int | None) -> Iterator[str]:
+    """Lines of the jobs in their order."""
+    count = min(processes or cores(), len(jobs))
+    if count <= 1:
+        yield from map(_row, jobs)
+        return
+    with ProcessPoolExecutor(count, mp_context=multiprocessing.get_context("spawn")) as pool:
+        yield from pool.map(_row, jobs)
+
+
+def _heading(elements: int) -> str:
+    names = ", ".join(f"{what} at rho = {k}/{table.N_RHO - 1}" for k in (1, 2) for what in ("Fx", "Fy", "Mz", "slip"))
+    return (
+        "# Creep forces over mu N, moment over mu N c, share of slip, on ellipses of Hertz at Poisson's ratio "
+        f"{table.NU}: contact/tangential/table.py\n"
+        f"# Computed by `contact table build` (TANG of contact.halfspace, {elements} x {elements} elements on the ellipse)\n"
+        f"# A row for each a/b, spin and direction, in the order of table.rows(); {names}, ...\n"
+    )
+
+
+def creepage(log_aspect: float, alpha: float, beta: float, rho: float) -> Creepage:
+    """Creepages of a node on the ellipse of the calculation."""
+    c11, c22, c23, _ = kalker.coefficients(kalker.table(table.NU), log_aspect)
+    r = table.R0 * rho / (1.0 - rho) if rho < 1.0 else _FAR
+    unit = r * _FRICTION * _LOAD / (_MATERIAL.shear_modulus * _C**2)
+    spin = math.sin(beta) / table.spin_weight(log_aspect, c11, c22, c23)
+    return Creepage(
+        unit * math.cos(beta) * math.cos(alpha) / c11,
+        unit * math.cos(beta) * math.sin(alpha) / c22,
+        unit * spin / (c23 * _C),
+    )
+
+
+def _row(job: tuple[int, int, int, int]) -> str:
+    """One line of the file; runs in a process of its own."""
+    i, j, k, elements = job
+    log_aspect, alpha, beta, rho = table.nodes()
+    separation = ellipse(math.exp(log_aspect[i]), _C, _LOAD, _MATERIAL)
+    numbers = []
+    for share in rho[1:]:
+        s = solve(
+            separation,
+            creepage(float(log_aspect[i]), float(alpha[j]), float(beta[k]), float(share)),
+            load=_LOAD,
+            friction=_FRICTION,
+            material=_MATERIAL,
+            normal="hertz",
+            tangential="halfspace",
+            n_strips=elements,
+            n_elements=elements,
+        )
+        scale = _FRICTION * _LOAD
+        numbers += [s.Fx / scale, s.Fy / scale, s.Mz / (scale * _C), s.slip_ratio]
+    return ",".join(_short(number) for number in numbers)
+
+
+def _short(number: float) -> str:
+    """Four decimals, without the zero before the point."""
+    text = f"{round(number, 4) + 0.0:.4f}"
+    return text.replace("0.", ".", 1) if abs(number) < 0.99995 else text
