@@ -203,8 +203,7 @@ def version(
 
 def run(arguments: Sequence[str]) -> None:
     """Run the command; plug-ins are loaded unless a command of our own is named, so they cost nothing then."""
-    own: set[str | None] = {c.name or c.callback.__name__ for c in app.registered_commands if c.callback}
-    own |= {group.typer_instance.info.name for group in app.registered_groups if group.typer_instance}
+    own = {command.name or command.callback.__name__ for command in app.registered_commands if command.callback}
     if next((word for word in arguments if not word.startswith("-")), None) not in own:
         for problem_line in add_plugins(app):
             typer.echo(f"contact: {problem_line}", err=True)

@@ -133,3 +133,17 @@ def test_a_build_that_was_interrupted_goes_on(tmp_path, monkeypatch):
     path.write_text("something else\n")
     with pytest.raises(contact.ContactError, match="something else"):
         creep_table.build(path, 20, processes=1)
+
+
+def test_the_command_builds_a_table(tmp_path, monkeypatch):
+    pytest.importorskip("typer")
+    from typer.testing import CliRunner
+
+    from contact.cli.app import app
+
+    rows = table.rows()
+    monkeypatch.setattr(table, "rows", lambda: rows[300:301])
+    path = tmp_path / "table.csv"
+    result = CliRunner().invoke(app, ["table", "build", "--out", str(path), "--elements", "12", "--processes", "1"])
+    assert result.exit_code == 0, result.output
+    assert np.loadtxt(path, delimiter=",").shape == (32,)
