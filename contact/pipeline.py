@@ -50,9 +50,10 @@ from contact.registry import (
     STRIP_HALFSPACE,
 )
 from contact.tangential.creep_force import creep_force
+from contact.tangential.ellipses import equivalent_ellipse
 from contact.tangential.fastrip import fastrip
 from contact.tangential.fastrip_mapped import fastrip_mapped
-from contact.tangential.fastsim import equivalent_ellipse, fastsim
+from contact.tangential.fastsim import fastsim
 
 
 @kernel
