@@ -142,7 +142,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         memory, _, end = start(v, work, resources)
         search, end = search_arrays(work, end, n_wheel, n_rail, 0, samples, SEARCH_STRIPS)
         own, end = lay_out(
-            work, end, memory[1 : 1 + piece_size(v)], n_strips, n_elements, samples, centre, plane
+            work, end, memory[1 : 1 + piece_size(v)], n_strips, n_elements, samples, centre, plane, creep
         )  # fmt: skip
         case, end = vector(work, end, N_CASE)
         parameters, end = vector(work, end, N_PAR)
