@@ -72,6 +72,26 @@ def test_the_parabolic_bound_is_33_percent_too_high_in_the_middle():
     assert math.hypot(sol.Fx, sol.Fy) == pytest.approx(MU * LOAD, rel=1e-3)  # at the same total
 
 
+@pytest.mark.parametrize(("aspect", "spin", "percent", "of"), [
+    (1.0, False, 25.0, "strip_theory"),
+    (1.0, True, 40.0, "strip_theory"),
+    (0.2, True, 20.0, "halfspace"),
+])  # fmt: skip
+def test_strip_theory_is_25_percent_low_in_creepage_and_20_to_40_in_spin(aspect, spin, percent, of):
+    """Section 4.4; the figures for the circle count from strip theory's force, the other from the half space's."""
+    unit = 0.1 * MU * LOAD / (accuracy.STEEL.shear_modulus * C**2)
+    c11, _, c23, _ = kalker.coefficients(kalker.table(accuracy.STEEL.poisson_ratio), math.log(aspect))
+    creepage = contact.Creepage(spin=unit / (c23 * C)) if spin else contact.Creepage(unit / c11)
+    force = {}
+    for method in ("strip_theory", "halfspace"):
+        sol = contact.solve(
+            accuracy.ellipse(aspect, C, LOAD), creepage, load=LOAD, friction=MU, normal="hertz", tangential=method,
+            n_strips=48, n_elements=48,
+        )  # fmt: skip
+        force[method] = math.hypot(sol.Fx, sol.Fy)
+    assert 100.0 * (force["halfspace"] - force["strip_theory"]) / force[of] == pytest.approx(percent, abs=5.0)
+
+
 def test_shen_hedrick_elkins_is_good_without_spin_and_bad_with_it():
     """Chapter 5: within 5 % for one creepage, worse than 50 % under spin."""
     assert worst("shen_hedrick_elkins", "xi", "eta") <= 0.05
