@@ -39,7 +39,7 @@ from contact._layout import (
 )
 from contact.creepage import LARGEST_CREEPAGE, Creepage
 from contact.errors import ContactError
-from contact.friction import Friction, fill
+from contact.friction import LARGEST, Friction, fill
 from contact.material import STEEL, Material
 from contact.pipeline import solve_cases
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
@@ -127,7 +127,7 @@ def forces(
             _checked(f"creepage.{name}", value, -LARGEST_CREEPAGE, LARGEST_CREEPAGE)
             for name, value in zip(("longitudinal", "lateral", "spin"), creepage, strict=True)
         ),
-        _checked("friction", coefficients, 0.0),
+        _checked("friction", coefficients, 0.0, LARGEST),
         _checked("speed", speed, np.nextafter(0.0, 1.0)),
         index,
     ]

@@ -25,6 +25,8 @@ from contact._layout import (
 from contact.errors import ContactError, require_number
 
 COULOMB, LINEAR, RATIONAL, RATIONAL_SQUARE, EXPONENTIAL = range(5)
+#: Greatest coefficient [-]: adhesion beyond any use, and far from where squares overflow.
+LARGEST = 1e6
 #: Names of the laws; the place is the number by which kernels know a law.
 LAWS = ("coulomb", "linear", "rational", "rational_square", "exponential")
 
@@ -85,7 +87,7 @@ class Friction:
     Parameters
     ----------
     static : float
-        Coefficient at rest [-], not negative.
+        Coefficient at rest [-], 0 to 1e6.
     kinetic : float
         Coefficient in fast sliding [-]; by default as at rest.
     half_speed : float
@@ -111,9 +113,9 @@ class Friction:
     slope_rate: float = 1.0
 
     def __post_init__(self) -> None:
-        require_number("friction.static", self.static, 0.0)
+        require_number("friction.static", self.static, 0.0, LARGEST)
         if self.kinetic is not None:
-            require_number("friction.kinetic", self.kinetic, 0.0)
+            require_number("friction.kinetic", self.kinetic, 0.0, LARGEST)
         require_number("friction.half_speed", self.half_speed, 0.0, open_minimum=True)
         if self.law not in LAWS:
             raise ContactError(f"friction.law = {self.law!r} is unknown; allowed: {', '.join(LAWS)}")
@@ -151,7 +153,7 @@ class Friction:
 
 def as_friction(friction: object) -> Friction:
     """A coefficient, or a `Friction` itself."""
-    return friction if isinstance(friction, Friction) else Friction(require_number("friction", friction, 0.0))
+    return friction if isinstance(friction, Friction) else Friction(require_number("friction", friction, 0.0, LARGEST))
 
 
 def fill(case: NDArray[np.float64], friction: Friction, speed: ArrayLike) -> None:

@@ -88,7 +88,7 @@ def test_spiryagins_factor_falls_from_k0_to_its_limit():
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"static": -0.1}, "friction.static = -0.1 is outside the allowed range [0, inf["),
+        ({"static": -0.1}, "friction.static = -0.1 is outside the allowed range [0, 1e+06]"),
         ({"static": 0.3, "half_speed": 0.0}, "friction.half_speed = 0 is outside the allowed range ]0, inf["),
         ({"static": 0.3, "law": "stribeck"}, "friction.law = 'stribeck' is unknown; allowed: coulomb, linear"),
         ({"static": 0.3, "slope": 1.2}, "friction.slope = 1.2 is outside the allowed range ]0, 1]"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import contact
-from contact import Status, registry
+from contact import Status, friction, registry
 from contact.solve import N_ELEMENTS, N_STRIPS
 from fmu_src.variables import Enumeration, Variable, output, parameter
 
@@ -79,7 +79,11 @@ def parameters() -> Iterable[Variable]:
     )
     yield parameter("friction.law", "Friction over sliding velocity", enumeration=FRICTION_LAW, start="Coulomb")
     yield parameter(
-        "friction.kinetic", "Coefficient of friction in fast sliding; not for Coulomb", start=0.3, minimum=0.0
+        "friction.kinetic",
+        "Coefficient of friction in fast sliding; not for Coulomb",
+        start=0.3,
+        minimum=0.0,
+        maximum=friction.LARGEST,
     )
     yield parameter(
         "friction.half_speed",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import cache
 
+from contact import friction
 from contact._layout import MAX_PATCHES
 from contact.creepage import LARGEST_CREEPAGE
 from fmu_src.tables import solver
@@ -147,7 +148,7 @@ def _inputs(points: int) -> Iterable[Variable]:
         open_minimum=True,
         nominal=10.0,
     )
-    yield signal("friction.coefficient", "Coefficient of friction", start=0.3, minimum=0.0)
+    yield signal("friction.coefficient", "Coefficient of friction", start=0.3, minimum=0.0, maximum=friction.LARGEST)
 
 
 def _outputs() -> Iterable[Variable]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable
 from functools import cache
 
+from contact import friction
 from contact.geometry.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL
 from contact.geometry.wheelset import SAMPLES
 from fmu_src.tables import solver
@@ -153,7 +154,7 @@ def _inputs() -> Iterable[Variable]:
         minimum=0.0,
         nominal=1e5,
     )
-    yield signal("friction.coefficient", "Coefficient of friction", start=0.3, minimum=0.0)
+    yield signal("friction.coefficient", "Coefficient of friction", start=0.3, minimum=0.0, maximum=friction.LARGEST)
 
 
 def _outputs() -> Iterable[Variable]:
