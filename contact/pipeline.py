@@ -97,7 +97,7 @@ def _roll(strips, n, case, tables, elements, space, fields, result):
     case[CASE_MU] = of_case(case)
     if case[CASE_SLOPE] != 1.0 or case[CASE_SLOPE_FAR] != 1.0:
         a, b = equivalent_ellipse(strips, n)
-        c11, _, _, _ = kalker.coefficients(table, math.log(a / b))
+        c11 = kalker.coefficients(table, math.log(a / b))[0] if b > 0.0 else 0.0
         case[CASE_G] = G * slope_of_case(case, a, b, c11, case[CASE_MU] * result[RES_N], case[CASE_PHI] * a)
     if case[CASE_TANGENTIAL] == FASTSIM or FASTSIM_ONE <= case[CASE_TANGENTIAL] <= FASTSIM_STRIPES:
         fastsim(strips, n, case, table, elements, space.lanes, space.trace, fields, result)

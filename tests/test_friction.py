@@ -85,6 +85,17 @@ def test_spiryagins_factor_falls_from_k0_to_its_limit():
         assert dirty == pytest.approx(0.54 * (0.02 + 0.98 / (1.0 + 0.64 * eps)) * clean, rel=1e-9)
 
 
+@pytest.mark.parametrize("tangential", TANGENTIAL)
+@pytest.mark.parametrize("load", [1e-300, 1e-100, 1e-12])
+def test_a_vanishing_load_gives_finite_forces(tangential, load):
+    surface = Friction(0.36, slope=0.54, slope_far=0.02, slope_rate=0.64)
+    for B in (1.0, 1e6):
+        separation = contact.Separation.hertzian(1.0 / B, B)
+        creepage = contact.Creepage(1e-3, 1e-3, 0.1)
+        sol = contact.solve(separation, creepage, load=load, friction=surface, tangential=tangential, throw=False)
+        assert all(map(math.isfinite, (sol.Fx, sol.Fy, sol.Mz, sol.power_per_metre, sol.slip_area)))
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [

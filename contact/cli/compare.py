@@ -10,9 +10,9 @@ from rich.console import Console
 
 from contact.cli import cases
 from contact.cli import options as opt
-from contact.cli.output import reported, require_endings, write_all
+from contact.cli.output import reported, require_endings
 from contact.cli.progress import progress_bar
-from contact.cli.tables import show_tables
+from contact.cli.tables import show_study
 from contact.solve import N_ELEMENTS
 from contact.study import SELECTION
 from contact.study import compare as compare_methods
@@ -95,8 +95,4 @@ def compare(
             reference_elements=reference_elements,
             progress=bar,
         )
-    if as_json:
-        typer.echo(found.json())
-    else:
-        show_tables(found.tables(), Console())
-    write_all(found, out or [])
+    show_study(found, as_json=as_json, out=out)

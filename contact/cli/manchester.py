@@ -5,13 +5,12 @@ from __future__ import annotations
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from contact.cli import options as opt
 from contact.cli.compare import COMPARED, All, Elements, Resolution
-from contact.cli.output import reported, require_endings, write_all
+from contact.cli.output import reported, require_endings
 from contact.cli.progress import progress_bar
-from contact.cli.tables import show_tables
+from contact.cli.tables import show_study
 from contact.solve import N_ELEMENTS
 from contact.study.compare import REFERENCE_ELEMENTS
 from contact.study.manchester import METHODS, NOTES
@@ -49,11 +48,4 @@ def manchester(
             reference_elements=reference_elements,
             progress=bar,
         )
-    if as_json:
-        typer.echo(found.json())
-    else:
-        console = Console()
-        show_tables(found.tables(), console)
-        for note in NOTES:
-            console.print(note, style="dim", highlight=False)
-    write_all(found, out or [])
+    show_study(found, as_json=as_json, out=out, notes=NOTES)

@@ -6,12 +6,11 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from contact.cli import options as opt
-from contact.cli.output import reported, require_endings, write_all
+from contact.cli.output import reported, require_endings
 from contact.cli.progress import progress_bar
-from contact.cli.tables import show_tables
+from contact.cli.tables import show_study
 from contact.solve import N_ELEMENTS
 from contact.study.statistics import ELEMENTS
 from contact.study.statistics import statistics as compute
@@ -58,8 +57,4 @@ def statistics(
             processes=processes,
             progress=bar,
         )
-    if as_json:
-        typer.echo(found.json())
-    else:
-        show_tables(found.tables(), Console())
-    write_all(found, out or [])
+    show_study(found, as_json=as_json, out=out)

@@ -2,14 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
 
+import typer
 from rich import box
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table as RichTable
 
+from contact.cli.output import write_all
 from contact.study.table import Table
+
+
+def show_study(found: Any, *, as_json: bool, out: Sequence[Path] | None, notes: Iterable[str] = ()) -> None:
+    """Print the tables of a study and its notes, or JSON, and write its files."""
+    if as_json:
+        typer.echo(found.json())
+    else:
+        console = Console()
+        show_tables(found.tables(), console)
+        for note in notes:
+            console.print(note, style="dim", highlight=False)
+    write_all(found, out or [])
 
 
 def show_tables(tables: Iterable[Table], console: Console) -> None:

@@ -34,6 +34,7 @@ from contact._layout import (
 from contact.registry import CARTER, JOHNSON, LINEAR, POLACH, SHEN_HEDRICK_ELKINS, TABLE, VERMEULEN_JOHNSON
 from contact.tangential.carter import carter, creepage_of_full_slip
 from contact.tangential.ellipses import equivalent_ellipse
+from contact.tangential.fastsim import NO_FRICTION
 from contact.tangential.linear import linear, saturated
 from contact.tangential.polach import polach
 from contact.tangential.table import lookup
@@ -85,6 +86,8 @@ def creep_force(strips, n, case, tables, fields, result):
         y, x = load_y / load, load_x / load
         vx, vy, phi = case[CASE_VX] - case[CASE_PHI] * y, case[CASE_VY] + case[CASE_PHI] * x, case[CASE_PHI]
         limit = case[CASE_MU] * load
+        if limit <= NO_FRICTION * case[CASE_G] * a * b:
+            limit = 0.0
         Fx, Fy, Mz, slip = of_ellipse(
             case[CASE_TANGENTIAL], vx, vy, phi, a, b, limit, case[CASE_G], case[CASE_NU], tables.kalker, tables.creep
         )
