@@ -12,6 +12,7 @@ try:
     from fmu_src.catalogue import Model, models
     from fmu_src.documentation import markdown
     from fmu_src.python import packaging as python
+    from models.wheelset import ports
 except ModuleNotFoundError as error:
     raise SystemExit(f"{error}: install what building needs with  pip install '.[fmu,native]'") from None
 
@@ -32,8 +33,8 @@ def main() -> None:
     parser.add_argument(
         "--points",
         type=int,
-        default=41,
-        help="samples of the separation of WheelRailContact, at least 3 (default: 41, what Wheelset gives)",
+        default=ports.POINTS,
+        help=f"samples of the separation of WheelRailContact, at least 3 (default: {ports.POINTS}, what Wheelset gives)",
     )
     profiles.add_options(parser)
     parser.add_argument("--describe", action="store_true", help="print the variables as Markdown and build nothing")
@@ -43,7 +44,7 @@ def main() -> None:
 
     try:
         chosen = models(arguments.points, profiles.chosen(arguments))
-    except ContactError as error:
+    except (ContactError, ImportError) as error:
         parser.error(str(error))
     if arguments.describe:
         print("\n".join(markdown(model.table) for model in chosen))
@@ -74,8 +75,10 @@ def build_native(model: Model, folder: Path) -> None:
 
 
 def build_system(folder: Path) -> None:
-    """Build the coupled wheelset of the FMUs in a folder, unless one of them is missing or has other samples."""
-    if ssp.fits(folder):
+    """Build the coupled wheelset of the FMUs in a folder, or say why it cannot be."""
+    if obstacle := ssp.obstacle(folder):
+        print(f"{ssp.NAME}, a system of these: not made, {obstacle}")
+    else:
         print(f"{ssp.NAME}, a system of these: {_size(ssp.build(folder))}")
 
 

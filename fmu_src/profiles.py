@@ -1,6 +1,7 @@
 """Profiles as resources of an FMU: points with their tangents, which both packagings read when they are instantiated.
 
-`python -m fmu_src.profiles FMU [--wheel NAME|FILE] [--rail NAME|FILE]` exchanges them in a finished FMU, without a compiler.
+`python -m fmu_src.profiles FMU [--wheel NAME|FILE] [--rail NAME|FILE] [--smoothing M]` exchanges them in a finished FMU,
+without a compiler.
 
 A resource is: 8 bytes that tell a wheel from a rail, a checksum of all that follows (FNV-1a, 64 bits), the number n of
 points (64 bits), then n doubles each of y, z [m] and the angle of the tangent [rad]; all little-endian.
@@ -92,12 +93,18 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         )
     parser.add_argument("--unit", choices=["m", "mm"], help="unit of the profile files, for plain columns")
     parser.add_argument("--side", choices=["right", "left"], help="side that the files show, for plain columns")
+    parser.add_argument(
+        "--smoothing",
+        type=float,
+        metavar="M",
+        help="noise in m that is smoothed out of the files, like 2e-6 (needs scipy)",
+    )
 
 
 def chosen(arguments: argparse.Namespace) -> dict[Kind, Profile]:
     """The profiles that a command line names."""
     return {
-        kind: profile.load(name, kind, unit=arguments.unit, side=arguments.side)
+        kind: profile.load(name, kind, unit=arguments.unit, side=arguments.side, smoothing=arguments.smoothing)
         for kind in MAGIC
         if (name := getattr(arguments, kind))
     }
@@ -118,7 +125,7 @@ def main() -> None:
     arguments = parser.parse_args()
     try:
         exchange(arguments.fmu, chosen(arguments))
-    except (ContactError, OSError) as error:
+    except (ContactError, ImportError, OSError) as error:
         parser.error(str(error))
 
 

@@ -66,14 +66,16 @@ def wheelset_on_rails(parameters: WheelsetParameters) -> tuple[list[Component], 
     return components, connections
 
 
-def fits(folder: Path) -> bool:
-    """Whether the FMUs of the system lie in `folder`, the contact with as many samples as the wheelset gives."""
+def obstacle(folder: Path) -> str:
+    """What keeps the FMUs in `folder` from being this system, or "": the contact needs the samples that the wheelset gives."""
     components, _ = wheelset_on_rails(WheelsetParameters())
-    return all(
-        path.is_file() and _inputs(path) == {s.name for s in table.scalars if s.row.causality is Causality.INPUT}
-        for table in (c.table for c in components)
-        for path in [folder / f"{table.name}.fmu"]
-    )
+    for table in (c.table for c in components):
+        path = folder / f"{table.name}.fmu"
+        if not path.is_file():
+            return f"{path} is missing"
+        if _inputs(path) != {s.name for s in table.scalars if s.row.causality is Causality.INPUT}:
+            return f"{path.name} does not take the {POINTS} samples of a separation that Wheelset.fmu gives (--points)"
+    return ""
 
 
 def _inputs(fmu: Path) -> set[str]:

@@ -43,6 +43,7 @@ app = typer.Typer(
 @app.command()
 @reported
 def solve(
+    context: typer.Context,
     wheel: opt.WheelName = "s1002",
     rail: opt.RailName = "60e1",
     inclination: opt.Inclination = None,
@@ -72,6 +73,7 @@ def solve(
     options = {"friction": friction, "normal": normal, "tangential": tangential}
     options |= PICTURE_RESOLUTION if plot else {}
     given = None if creepage is None else Creepage(*creepage)
+    opt.require_use(context)
     if curvatures is not None:
         touches = [problem.solve_hertzian(curvatures, load, penetration, given, options | {"speed": speed})]
         title = f"Half curvatures {curvatures[0]:g} and {curvatures[1]:g} 1/m"

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from contact.cli import options as opt
-from contact.cli.problem import Position, amount_of, find_patches, standard_load
+from contact.cli.problem import OF_A_POSITION, Position, amount_of, find_patches, standard_load
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
 from contact.geometry import profile
@@ -54,6 +54,8 @@ def read(path: Path, defaults: Mapping[str, Any]) -> list[Case]:
         where = f"{path}, case {k}"
         if not isinstance(case, Mapping):
             raise ContactError(f"{where}: {case!r} is not a table of names and values")
+        if "curvatures" in case and (idle := sorted(OF_A_POSITION.intersection(case))):
+            raise ContactError(f"{where}: {', '.join(idle)}: curvatures stand in place of wheel, rail and position")
         given = {name: _value(where, name, value) for name, value in (common | dict(case)).items()}
         found += cases_of({"name": f"case {k}", **defaults, **given})
     return found

@@ -45,6 +45,7 @@ Elements = Annotated[
 
 @reported
 def compare(
+    context: typer.Context,
     file: File = None,
     wheel: opt.WheelName = "s1002",
     rail: opt.RailName = "60e1",
@@ -76,6 +77,7 @@ def compare(
     Examples:  contact compare --y 3e-3 --yaw 2e-3 --out page.html   ·   contact compare cases.toml --all --out table.csv
     """
     require_endings(out or [])
+    opt.require_use(context)
     given: dict[str, Any] = {
         "wheel": wheel, "rail": rail, "inclination": inclination, "unit": unit, "drawn_side": drawn_side,
         "smoothing": smoothing, "radius": radius, "side": side.value, "y": y, "roll": roll, "yaw": yaw, "speed": speed,

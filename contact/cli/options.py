@@ -8,7 +8,8 @@ from typing import Annotated, Any
 
 import typer
 
-from contact.cli.problem import STANDARD_LOAD
+from contact.cli.problem import OF_A_POSITION, STANDARD_LOAD
+from contact.errors import ContactError
 
 
 class Side(StrEnum):
@@ -121,6 +122,23 @@ Files = Annotated[
     list[Path] | None,
     typer.Option("--out", help="write .html, .md, .json, .csv, .png, .pdf or .svg; repeat", rich_help_panel=OUTPUT),
 ]
+
+
+def require_use(context: typer.Context) -> None:
+    """Refuse options of the running command that say nothing of two bodies given by --curvatures.
+
+    Raises
+    ------
+    ContactError
+        If one of a wheel, a rail or their position is given beside --curvatures.
+    """
+    if context.params["curvatures"] is None:
+        return
+    options = [option for option in context.command.params if option.name in OF_A_POSITION]
+    sources = {option.opts[0]: context.get_parameter_source(str(option.name)) for option in options}
+    idle = [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
+    if idle:
+        raise ContactError(f"{', '.join(idle)}: --curvatures stands in place of wheel, rail and position")
 
 
 def reading(
