@@ -1,6 +1,6 @@
 """Rules for FMUs that the validators we know do not check: ``python -m fmu_src.lint FILE.fmu …``
 
-Those for descriptions are of FMI 2.0.5; fmpy checks more of one of FMI 3.0.
+Those for descriptions are of FMI 2.0.5, and of FMI 3.0 where it has them too; clauses are those of the former.
 Each rule is a function from the root of a modelDescription.xml to findings; its docstring is the rule.
 """
 
@@ -17,8 +17,16 @@ from xml.etree.ElementTree import Element
 from zipfile import ZipFile
 
 _ELEMENTS = (
-    *("ModelExchange", "CoSimulation", "UnitDefinitions", "TypeDefinitions", "LogCategories", "DefaultExperiment"),
-    *("VendorAnnotations", "ModelVariables", "ModelStructure"),
+    *(
+        "ModelExchange",
+        "CoSimulation",
+        "ScheduledExecution",
+        "UnitDefinitions",
+        "TypeDefinitions",
+        "LogCategories",
+        "DefaultExperiment",
+    ),
+    *("VendorAnnotations", "ModelVariables", "ModelStructure", "Annotations"),
 )
 _INDEX = r"\[\d+(?:,\d+)*\]"
 _IDENTIFIER = rf"(?:[A-Za-z_]\w*|'(?:[^'\\]|\\.)+')(?:{_INDEX})?"
@@ -29,19 +37,30 @@ _BASE_UNITS = {"kg", "m", "s", "A", "K", "mol", "cd", "rad"}
 #: causality → what variability it may have (2.2.7)
 _VARIABILITY = {
     "parameter": {"fixed", "tunable"},
+    "structuralParameter": {"fixed", "tunable"},
     "calculatedParameter": {"fixed", "tunable"},
     "input": {"discrete", "continuous"},
     "output": {"constant", "discrete", "continuous"},
     "local": {"constant", "fixed", "tunable", "discrete", "continuous"},
     "independent": {"continuous"},
 }
-_LIBRARIES = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib", "x86_64-linux": ".so", "x86_64-windows": ".dll"}
+_CONTINUOUS = {"Real", "Float64", "Float32"}
+_SECTIONS = {  # of ModelStructure: where FMI 2.0 and FMI 3.0 have their elements
+    "Outputs": ("Outputs/Unknown", "Output"),
+    "Derivatives": ("Derivatives/Unknown", "ContinuousStateDerivative"),
+    "InitialUnknowns": ("InitialUnknowns/Unknown", "InitialUnknown"),
+}
+#: platform of FMI 2.0 or 3.0 → how its libraries end
+_LIBRARIES = {
+    **{"linux64": ".so", "win64": ".dll", "darwin64": ".dylib"},
+    **{"x86_64-linux": ".so", "x86_64-windows": ".dll", "x86_64-darwin": ".dylib", "aarch64-darwin": ".dylib"},
+}
 
 
 def check(description: str) -> list[str]:
-    """Return what is wrong with the text of a modelDescription.xml, for versions other than 2.0 nothing."""
+    """Return what is wrong with the text of a modelDescription.xml, for versions other than 2.0 and 3.0 nothing."""
     root = ElementTree.fromstring(description)
-    if root.get("fmiVersion") != "2.0":
+    if root.get("fmiVersion") not in ("2.0", "3.0"):
         return []
     return [f"{rule.__doc__} {finding}" for rule in RULES for finding in rule(root)]
 
@@ -62,7 +81,19 @@ def check_file(path: Path) -> list[str]:
 
 
 def _variables(root: Element) -> list[Element]:
-    return root.findall("ModelVariables/ScalarVariable")
+    return root.findall("ModelVariables/*")
+
+
+def _is_3(root: Element) -> bool:
+    return root.get("fmiVersion") == "3.0"
+
+
+def _numbered(root: Element) -> dict[int, Element]:
+    """Variables by what dependencies and derivatives call them: in FMI 2.0 their index, in FMI 3.0 their value reference."""
+    variables = _variables(root)
+    return (
+        {int(v.get("valueReference", -1)): v for v in variables} if _is_3(root) else dict(enumerate(variables, start=1))
+    )
 
 
 def _interfaces(root: Element) -> list[Element]:
@@ -74,34 +105,46 @@ def _causality(variable: Element) -> str:
 
 
 def _variability(variable: Element) -> str:
-    return variable.get("variability", "continuous")  # the default, also of an Integer, where it is not allowed
+    """What it says, or the default: in FMI 2.0 also that of an Integer, where it is not allowed."""
+    discrete = variable.tag != "ScalarVariable" and variable.tag not in _CONTINUOUS
+    return variable.get("variability", "discrete" if discrete else "continuous")
 
 
 def _initial(variable: Element) -> str | None:
     """What it says, or the default (2.2.7)."""
-    exact = _causality(variable) == "parameter" or _variability(variable) == "constant"
+    exact = _causality(variable) in ("parameter", "structuralParameter") or _variability(variable) == "constant"
     none = _causality(variable) in ("input", "independent")
     return variable.get("initial") or ("exact" if exact else None if none else "calculated")
 
 
 def _type(variable: Element) -> Element:
-    return next(element for element in variable if element.tag != "Annotations")
+    """The element that has start, unit and range: in FMI 3.0 the variable itself."""
+    return next(e for e in variable if e.tag != "Annotations") if variable.tag == "ScalarVariable" else variable
 
 
 def _of_type(root: Element, variable: Element, attribute: str) -> str | None:
     """An attribute of the variable's type, or of the type that this one is declared as."""
     kind = _type(variable)
-    declared = root.find(f"TypeDefinitions/SimpleType[@name='{kind.get('declaredType')}']/{kind.tag}")
+    declared = root.find(
+        f"TypeDefinitions/{{}}[@name='{kind.get('declaredType')}']{{}}".format(
+            *((f"{kind.tag}Type", "") if _is_3(root) else ("SimpleType", f"/{kind.tag}"))
+        )
+    )
     return kind.get(attribute, declared.get(attribute) if declared is not None else None)
 
 
+def _unknowns(root: Element, section: str) -> list[tuple[int, Element]]:
+    """What a section of ModelStructure lists, by number."""
+    key = "valueReference" if _is_3(root) else "index"
+    return [(int(u.get(key, 0)), u) for u in root.findall(f"ModelStructure/{_SECTIONS[section][_is_3(root)]}")]
+
+
 def _listed(root: Element, section: str) -> list[int]:
-    return [int(unknown.get("index", 0)) for unknown in root.findall(f"ModelStructure/{section}/Unknown")]
+    return [number for number, _ in _unknowns(root, section)]
 
 
 def _states(root: Element) -> set[int]:
-    variables = _variables(root)
-    return {int(_type(v).get("derivative", 0)) for v in variables} - {0}
+    return {int(of) for v in _variables(root) if (of := _type(v).get("derivative"))}
 
 
 # ---------------------------------------------------------------- rules for a description
@@ -141,6 +184,23 @@ def arrays_are_whole(root: Element) -> Iterator[str]:
             yield name
 
 
+def dimensions_fit(root: Element) -> Iterator[str]:
+    """Dimensions of arrays are structural parameters or numbers, and there is a start for every element, or one for all:"""
+    structural = {n: v for n, v in _numbered(root).items() if _causality(v) == "structuralParameter"}
+    for variable in _variables(root):
+        sizes = []
+        for dimension in variable.findall("Dimension"):
+            by = int(dimension.get("valueReference", -1))
+            if dimension.get("start") is None and by not in structural:
+                yield f"{variable.get('name')} has the dimension of variable {by}"
+            sizes.append(
+                int(dimension.get("start") or (structural[by].get("start") if by in structural else None) or 0)
+            )
+        starts = (variable.get("start") or "").split()
+        if sizes and starts and len(starts) not in (1, math.prod(sizes)):
+            yield f"{variable.get('name')} has {len(starts)} starts for {math.prod(sizes)} elements"
+
+
 def references_are_unique(root: Element) -> Iterator[str]:
     """Value references are not shared:"""
     seen: dict[str | None, str | None] = {}
@@ -157,7 +217,7 @@ def variability_fits(root: Element) -> Iterator[str]:
         causality, variability = _causality(variable), _variability(variable)
         if variability not in _VARIABILITY[causality]:
             yield f"{variable.get('name')} is a {variability} {causality}"
-        elif variability == "continuous" and _type(variable).tag != "Real":
+        elif variability == "continuous" and _type(variable).tag not in _CONTINUOUS:
             yield f"{variable.get('name')} is a continuous {_type(variable).tag}"
 
 
@@ -175,19 +235,20 @@ def numbers_are_within_range(root: Element) -> Iterator[str]:
     """min, start and max are finite and in this order, a nominal is not zero:"""
     for variable in _variables(root):
         kind, name = _type(variable), variable.get("name")
-        if kind.tag not in ("Real", "Integer", "Enumeration"):
+        if kind.tag in ("Boolean", "String", "Binary", "Clock"):
             continue
-        minimum, maximum, start = (_of_type(root, variable, key) for key in ("min", "max", "start"))
-        numbers = [float(number) for number in (minimum, start, maximum) if number is not None]
-        if numbers != sorted(numbers) or not all(map(math.isfinite, numbers)):
-            yield f"{name}: min {minimum}, start {start}, max {maximum}"
+        minimum, maximum, starts = (_of_type(root, variable, key) for key in ("min", "max", "start"))
+        for start in [None] if starts is None else starts.split():
+            numbers = [float(number) for number in (minimum, start, maximum) if number is not None]
+            if numbers != sorted(numbers) or not all(map(math.isfinite, numbers)):
+                yield f"{name}: min {minimum}, start {start}, max {maximum}"
         nominal = float(_of_type(root, variable, "nominal") or 1.0)
         if nominal == 0.0 or not math.isfinite(nominal):
             yield f"{name}: nominal {nominal:g}"
 
 
 def units_are_defined(root: Element) -> Iterator[str]:
-    """Every Real has a unit, defined by integer exponents of SI base units:"""
+    """Every Real has a unit (an array in FMI 3.0 may have several), defined by integer exponents of SI base units:"""
     defined = {unit.get("name"): unit.find("BaseUnit") for unit in root.findall("UnitDefinitions/Unit")}
     for name, base in defined.items():
         exponents = {
@@ -196,20 +257,22 @@ def units_are_defined(root: Element) -> Iterator[str]:
         if not set(exponents) <= _BASE_UNITS or not all(re.fullmatch(r"-?\d+", e) for e in exponents.values()):
             yield f"{name} is not"
     for variable in _variables(root):
-        if _type(variable).tag == "Real" and _of_type(root, variable, "unit") not in defined:
-            yield f"{variable.get('name')} has {_of_type(root, variable, 'unit')}"
+        unit = _of_type(root, variable, "unit")
+        mixed = unit is None and variable.find("Dimension") is not None
+        if _type(variable).tag in _CONTINUOUS and unit not in defined and not mixed:
+            yield f"{variable.get('name')} has {unit}"
 
 
 def types_are_declared(root: Element) -> Iterator[str]:
     """Declared types exist, for that kind of variable, and an enumeration's start is one of its items:"""
-    types = {declared.get("name"): declared[0] for declared in root.findall("TypeDefinitions/SimpleType")}
+    types = {d.get("name"): d if _is_3(root) else d[0] for d in root.findall("TypeDefinitions/*")}
     for variable in _variables(root):
         kind, name = _type(variable), variable.get("name")
         declared = types.get(kind.get("declaredType"))
         if declared is None:
             if kind.tag == "Enumeration" or kind.get("declaredType"):
                 yield f"{name}: {kind.get('declaredType')}"
-        elif declared.tag != kind.tag:
+        elif declared.tag.removesuffix("Type") != kind.tag:
             yield f"{name} is of kind {kind.tag}, {kind.get('declaredType')} of kind {declared.tag}"
         elif kind.get("start") and declared.findall("Item"):
             values = [item.get("value") for item in declared.findall("Item")]
@@ -218,8 +281,8 @@ def types_are_declared(root: Element) -> Iterator[str]:
 
 
 def structure_is_complete(root: Element) -> Iterator[str]:
-    """ModelStructure lists all outputs, derivatives and initial unknowns, these by index:"""
-    variables = dict(enumerate(_variables(root), start=1))
+    """ModelStructure lists all outputs, derivatives and initial unknowns, in FMI 2.0 these by index:"""
+    variables, ordered = _numbered(root), sorted if _is_3(root) else list
     states = _states(root)
     derivatives = [i for i, v in variables.items() if _type(v).get("derivative")]
     unknown = [
@@ -230,14 +293,14 @@ def structure_is_complete(root: Element) -> Iterator[str]:
     ]
     outputs = [i for i, v in variables.items() if _causality(v) == "output"]
     for section, wanted in (("Outputs", outputs), ("InitialUnknowns", unknown)):
-        if _listed(root, section) != wanted:
+        if ordered(_listed(root, section)) != ordered(wanted):
             yield f"{section} are {_listed(root, section)}, not {wanted}"
     if sorted(_listed(root, "Derivatives")) != derivatives:
         yield f"Derivatives are {_listed(root, 'Derivatives')}, not {derivatives}"
     for state in states:
         if (
             state not in variables
-            or _type(variables[state]).tag != "Real"
+            or _type(variables[state]).tag not in _CONTINUOUS
             or _variability(variables[state]) != "continuous"
         ):
             yield f"variable {state} is no continuous Real, but has a derivative"
@@ -245,7 +308,7 @@ def structure_is_complete(root: Element) -> Iterator[str]:
 
 def dependencies_are_known(root: Element) -> Iterator[str]:
     """Dependencies name knowns, each once:"""
-    variables = dict(enumerate(_variables(root), start=1))
+    variables = _numbered(root)
     inputs = {i for i, v in variables.items() if _causality(v) in ("input", "independent")}
     exact = {i for i, v in variables.items() if _initial(v) == "exact"}
     for section, knowns in (
@@ -253,13 +316,13 @@ def dependencies_are_known(root: Element) -> Iterator[str]:
         ("Derivatives", inputs | _states(root)),
         ("InitialUnknowns", inputs | exact),
     ):
-        for unknown in root.findall(f"ModelStructure/{section}/Unknown"):
+        for number, unknown in _unknowns(root, section):
             found = [int(i) for i in unknown.get("dependencies", "").split()]
             kinds = unknown.get("dependenciesKind")
             if not set(found) <= knowns or len(set(found)) < len(found):
-                yield f"{section} {unknown.get('index')} depends on {unknown.get('dependencies')}"
+                yield f"{section} {number} depends on {unknown.get('dependencies')}"
             if kinds is not None and len(kinds.split()) != len(found):
-                yield f"{section} {unknown.get('index')} has {len(kinds.split())} kinds of {len(found)} dependencies"
+                yield f"{section} {number} has {len(kinds.split())} kinds of {len(found)} dependencies"
 
 
 def capabilities_are_consistent(root: Element) -> Iterator[str]:
@@ -269,8 +332,9 @@ def capabilities_are_consistent(root: Element) -> Iterator[str]:
     for interface in _interfaces(root):
         if not re.fullmatch(r"[A-Za-z_]\w*", interface.get("modelIdentifier", ""), re.ASCII):
             yield f"{interface.tag} has the modelIdentifier {interface.get('modelIdentifier')}"
-        if interface.get("canSerializeFMUstate") == "true" and interface.get("canGetAndSetFMUstate") != "true":
-            yield f"{interface.tag} serialises a state that it cannot get"
+        for state in ("FMUstate", "FMUState"):
+            if interface.get(f"canSerialize{state}") == "true" and interface.get(f"canGetAndSet{state}") != "true":
+                yield f"{interface.tag} serialises a state that it cannot get"
 
 
 def experiment_is_one(root: Element) -> Iterator[str]:
@@ -286,8 +350,15 @@ def experiment_is_one(root: Element) -> Iterator[str]:
 _EXPERIMENT = {"startTime": "0", "stopTime": "1", "stepSize": "1"}
 
 RULES = (
-    *(elements_in_order, names_are_structured, arrays_are_whole, references_are_unique, variability_fits),
-    *(starts_are_given, numbers_are_within_range, units_are_defined, types_are_declared, structure_is_complete),
+    *(elements_in_order, names_are_structured, arrays_are_whole, dimensions_fit, references_are_unique),
+    *(
+        variability_fits,
+        starts_are_given,
+        numbers_are_within_range,
+        units_are_defined,
+        types_are_declared,
+        structure_is_complete,
+    ),
     *(dependencies_are_known, capabilities_are_consistent, experiment_is_one),
 )
 

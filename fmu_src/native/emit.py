@@ -13,7 +13,7 @@ import os
 import re
 import struct
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -30,8 +30,12 @@ ENVIRONMENT = {
     "NUMBA_DISABLE_INTEL_SVML": "1",
 }
 
-#: Platform of FMI 2.0 → triple of LLVM.
-TRIPLES = {"linux64": "x86_64-unknown-linux-gnu", "win64": "x86_64-w64-windows-gnu"}
+#: Platform of FMI 2.0 → triple of LLVM. Code is optimised for the first: the others call functions in another way, no more.
+TRIPLES = {
+    "linux64": "x86_64-unknown-linux-gnu",
+    "win64": "x86_64-w64-windows-gnu",
+    "darwin64": "x86_64-apple-macosx11.0.0",
+}
 #: Processors that there are kernels for: every one since 2009, and those with AVX2 since 2013; the wrapper chooses.
 CPUS = {"v2": "x86-64-v2", "v3": "x86-64-v3"}
 
@@ -81,25 +85,28 @@ def emit(component: Component, folder: Path) -> None:
     entries = component.entries()
     module = _linked(entries, arrays, bool(component.resources))
     text = _without_origin(str(module))
-    for platform, triple in TRIPLES.items():
-        target, (constants, *kernels) = llvm.Target.from_triple(triple), objects(folder, platform)
-        machine = target.create_target_machine(reloc="pic", codemodel="default")
-        _write(llvm.parse_assembly(_constants(arrays)), machine, triple, constants)
-        for (suffix, cpu), path in zip(CPUS.items(), kernels, strict=True):
-            machine = target.create_target_machine(cpu=cpu, opt=3, reloc="pic", codemodel="default")
-            compiled = llvm.parse_assembly(text)
-            for name in entries:
-                compiled.get_function(name).name = f"{name}_{suffix}"
-            _optimise(compiled, machine, triple)
-            _refuse_the_rest(compiled, platform)
-            _write(compiled, machine, triple, path)
+    optimised = {suffix: _optimised(text, entries, suffix, cpu) for suffix, cpu in CPUS.items()}
+    for platform in TRIPLES:
+        constants, *kernels = objects(folder, platform)
+        _write(llvm.parse_assembly(_constants(arrays)), platform, "", constants)
+        for (suffix, compiled), path in zip(optimised.items(), kernels, strict=True):
+            _write(compiled.clone(), platform, CPUS[suffix], path)
             if platform in OWN_LIBM:
                 path.write_bytes(_with_own_libm(path.read_bytes(), suffix))
 
 
-def _write(module: Any, machine: Any, triple: str, path: Path) -> None:
-    module.triple, module.data_layout = triple, str(machine.target_data)
-    path.write_bytes(machine.emit_object(module))
+def _direct(module: Any, platform: str, cpu: str) -> Any:
+    """Direct a module to a platform; return the machine for it."""
+    from llvmlite import binding as llvm
+
+    target = llvm.Target.from_triple(TRIPLES[platform])
+    machine = target.create_target_machine(cpu=cpu, opt=3, reloc="pic", codemodel="default")
+    module.triple, module.data_layout = TRIPLES[platform], str(machine.target_data)
+    return machine
+
+
+def _write(module: Any, platform: str, cpu: str, path: Path) -> None:
+    path.write_bytes(_direct(module, platform, cpu).emit_object(module))
 
 
 def _constants(data: Sequence[Any]) -> str:
@@ -190,13 +197,18 @@ def _without_origin(text: str) -> str:
     )
 
 
-def _optimise(module: Any, machine: Any, triple: str) -> None:
+def _optimised(text: str, entries: Iterable[str], suffix: str, cpu: str) -> Any:
+    """The module for a processor, whose name is added to those of the entries."""
     from llvmlite import binding as llvm
 
-    module.triple, module.data_layout = triple, str(machine.target_data)
-    options = llvm.create_pipeline_tuning_options(speed_level=3)
-    builder = llvm.create_pass_builder(machine, options)
+    module = llvm.parse_assembly(text)
+    for name in entries:
+        module.get_function(name).name = f"{name}_{suffix}"
+    machine = _direct(module, next(iter(TRIPLES)), cpu)
+    builder = llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options(speed_level=3))
     builder.getModulePassManager().run(module, builder)
+    _refuse_the_rest(module)
+    return module
 
 
 def _with_own_libm(code: bytes, suffix: str) -> bytes:
@@ -214,14 +226,12 @@ def _with_own_libm(code: bytes, suffix: str) -> bytes:
     return bytes(changed)
 
 
-def _refuse_the_rest(module: Any, platform: str) -> None:
+def _refuse_the_rest(module: Any) -> None:
     needed = {f.name for f in module.functions if f.is_declaration and not f.name.startswith("llvm.")}
     needed |= {g.name for g in module.global_variables if g.is_declaration and not g.name.startswith("model_data")}
     needed |= {g.name for g in module.global_variables if g.name.startswith((".const.pickle", "numba.dynamic"))}
     if needed - ALLOWED:
-        raise RuntimeError(
-            f"the kernels need more than the {platform} FMU may have: {', '.join(sorted(needed - ALLOWED))}"
-        )
+        raise RuntimeError(f"the kernels need more than the FMU may have: {', '.join(sorted(needed - ALLOWED))}")
 
 
 def main() -> None:

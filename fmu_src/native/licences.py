@@ -15,9 +15,11 @@ What is in this FMU, and under which licence:
 wheelrail-contact.txt   the model, on all platforms (MIT)
 fmi.txt                 the declarations of the Functional Mock-up Interface that it is compiled with (2-clause BSD)
 
-In the library for Windows, linked into it by zig, besides these:
-mingw-w64.txt           start-up code (Zope Public License 2.1, parts in the public domain)
+In the libraries for Windows and macOS, linked into them by zig, besides these:
 zig.txt                 compiler-rt: memory and mathematical functions (MIT)
+
+In the library for Windows, too:
+mingw-w64.txt           start-up code (Zope Public License 2.1, parts in the public domain)
 musl.txt                exp, log and pow, by Arm; mathematical functions that zig has translated (MIT)
 """
 

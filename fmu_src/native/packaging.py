@@ -63,9 +63,14 @@ WRAPPER = Path(__file__).parent / "c"
 HEADERS = Path(fmpy.__file__).parent / "c-code"  # the FMI project's own, under the 2-clause BSD licence
 #: Contraction to fused operations would make results differ between processors.
 FLAGS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-Wall", "-Wextra", "-shared", "-s")
-_LINKED_AS = {"linux64": ".so", "win64": ".dll"}
-_FMI3 = {"linux64": "x86_64-linux", "win64": "x86_64-windows"}
-_ZIG = {"linux64": "x86_64-linux-gnu.2.17", "win64": "x86_64-windows-gnu"}
+_LINKED_AS = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib"}
+_FMI3 = {"linux64": "x86_64-linux", "win64": "x86_64-windows", "darwin64": "x86_64-darwin"}
+_ZIG = {"linux64": "x86_64-linux-gnu.2.17", "win64": "x86_64-windows-gnu", "darwin64": "x86_64-macos.11.0"}
+#: For readers of the documentation in an FMU.
+_TRIED = """
+The libraries are for 64-bit Linux (glibc 2.17 or newer), Windows and macOS (11 or newer, Intel) and need nothing but the
+system's C library. That for Linux is tested, that for Windows under Wine; that for macOS is linked, but UNTESTED: never run.
+"""
 
 
 def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -> list[Path]:
@@ -91,7 +96,7 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -
         (generated / "model.h").write_text(source.header(component, guid))
         (generated / "model.c").write_text(source.body(component))
         documents = [
-            (f"documentation/{table.name}.md", markdown(table).encode()),
+            (f"documentation/{table.name}.md", (markdown(table) + _TRIED).encode()),
             *((f"resources/{resource}", content) for resource, content in model.resources.items()),
             *((f"documentation/licenses/{name}", text.encode()) for name, text in licences(HEADERS)),
         ]
@@ -124,9 +129,15 @@ def link(platform: str, name: str, kernels: list[Path], generated: Path) -> Path
     run(
         *compiler(platform), *FLAGS, f"-I{generated}", f"-I{WRAPPER}", f"-I{HEADERS}", *sources, *kernels, *libm,
         "-o", library,
-        *(["-fPIC", "-Wl,-z,defs", "-lm"] if platform == "linux64" else []),
+        *_own_flags(platform, library.name),
     )  # fmt: skip
     return library
+
+
+def _own_flags(platform: str, name: str) -> list[str]:
+    """What a platform's linker wants besides; a library for macOS holds its own path, which is not to be that of the build."""
+    own = {"linux64": ["-fPIC", "-Wl,-z,defs", "-lm"], "darwin64": ["-fPIC", f"-Wl,-install_name,@rpath/{name}"]}
+    return own.get(platform, [])
 
 
 def compiler(platform: str) -> list[str]:

@@ -81,7 +81,6 @@ from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
 from fmu_src.native.memory import compiled, cube, matrix, vector
 from fmu_src.native.solver import (
-    INTERACTING,
     NORMAL_IDS,
     TANGENTIAL_IDS,
     data,
@@ -292,8 +291,10 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
     def model_difference(values, reference, published, centre, plane, creep):
         """A step so small that hardly ever an element passes from stick to slip within it: forces have kinks there.
 
-        A thousandth of the step of `creep_stiffness`, which is meant to average over the kinks, or a millionth of a value.
-        Interacting strips are solved to 1e-4 only, so that they need a hundredth.
+        A thousandth of the step of `creep_stiffness`, which is meant to average over the kinks, or a millionth of a value:
+        of the penetration for the approach, and for the gap where that is less: along the geometry as a whole, samples
+        outside the patch then leave those inside a step above round-off. Every difference begins anew, from nothing, so
+        that the error which interacting strips are solved to, 1e-4, is the same on both sides.
         """
         v = carray(values, (n_values,))
         if at.creepage_longitudinal <= reference <= at.creepage_spin:
@@ -301,12 +302,17 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
             if reference == at.creepage_spin:
                 return 1e-3 * spin
             return 1e-3 * (lateral if reference == at.creepage_lateral else longitudinal)
-        share = 1e-2 if INTERACTING[int(v[at.method_normal]) - 1] else 1e-6
-        if at.geometry_g <= reference < at.geometry_g + points or reference == at.load_approach:
-            # of the penetration; N ~ penetration^(3/2)
-            penetration = 1.5 * v[at.force_n] / v[at.stiffness_normal] if v[at.stiffness_normal] > 0.0 else 1e-6
-            return share * penetration
-        return max(share * abs(v[reference]), 1e-12)
+        penetration = (
+            1.5 * v[at.force_n] / v[at.stiffness_normal] if v[at.stiffness_normal] > 0.0 else 1e-6
+        )  # N ~ its ^3/2
+        if reference == at.load_approach:
+            return 1e-6 * penetration
+        if at.geometry_g <= reference < at.geometry_g + points:
+            least = v[at.geometry_g]
+            for i in range(1, points):
+                least = min(least, v[at.geometry_g + i])
+            return 1e-6 * max(penetration, v[reference] - least)
+        return max(1e-6 * abs(v[reference]), 1e-12)
 
     def model_field(values, work, k, published, centre, plane, creep):
         v = carray(values, (n_values,))

@@ -63,7 +63,6 @@ from fmu_src.native.component import Component
 from fmu_src.native.memory import ahead, compiled, cube, matrix, vector
 from fmu_src.native.search import lay_out as search_arrays
 from fmu_src.native.solver import (
-    INTERACTING,
     NORMAL_IDS,
     TANGENTIAL_IDS,
     data,
@@ -244,23 +243,24 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         """A step in which hardly an element passes from stick to slip: a millionth of the creepage that saturates.
 
         Positions and angles are moved by a tenth of a micrometre or what turns by that much a metre away; a height that is
-        given by a tenth of that, as the penetration is small. Under a load the height is found to 1e-9 of the load.
+        given by a tenth of that, as the penetration is small. Under a load the height is found to 1e-9 of the load. Every
+        difference begins anew, from nothing, so that the error which interacting strips are solved to, 1e-4, is the same
+        on both sides.
         """
         v = carray(values, (n_values,))
         speed = v[at.velocity_x]
-        coarse = 100.0 if INTERACTING[int(v[at.method_normal]) - 1] else 1.0  # solved to 1e-4 only
         creepage = 1e-3 * _steps(
             v[at.friction_coefficient], abs(v[at.force_z]), v[at.material_shear_modulus], v[at.patches_area]
         )[0]  # fmt: skip
         if reference == at.pose_z or reference == at.irregularity_z:
-            return coarse * 1e-8
+            return 1e-8
         if at.pose_y <= reference <= at.pose_yaw or at.irregularity_y <= reference <= at.irregularity_roll:
-            return coarse * 1e-7
+            return 1e-7
         if at.velocity_x <= reference <= at.irregularity_roll_rate:
             lever = v[at.wheel_radius] if reference == at.velocity_spin else 1.0
-            return coarse * creepage * speed / lever
+            return creepage * speed / lever
         share = 1e-4 if reference == at.load_normal_force else 1e-6
-        return max(share * coarse * abs(v[reference]), 1e-12)
+        return max(share * abs(v[reference]), 1e-12)
 
     def model_field(values, work, k, resources, published, centre, plane, creep):
         return 0

@@ -84,28 +84,80 @@ FAULTS = [  # rule, what is replaced by what
 ]
 
 
+DESCRIPTION_3 = """<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="3.0" modelName="M" instantiationToken="{123}" variableNamingConvention="structured">
+  <CoSimulation modelIdentifier="M" canGetAndSetFMUState="true" canSerializeFMUState="true"/>
+  <UnitDefinitions><Unit name="m"><BaseUnit m="1"/></Unit><Unit name="m/s"><BaseUnit m="1" s="-1"/></Unit></UnitDefinitions>
+  <TypeDefinitions><EnumerationType name="T"><Item name="A" value="1"/><Item name="B" value="2"/></EnumerationType>
+  </TypeDefinitions>
+  <DefaultExperiment startTime="0" stopTime="1" stepSize="0.1"/>
+  <ModelVariables>
+    <UInt64 name="size" valueReference="9" causality="structuralParameter" variability="fixed" start="2"/>
+    <Enumeration name="mode" valueReference="0" causality="parameter" variability="fixed" declaredType="T" start="1"/>
+    <Float64 name="u" valueReference="1" causality="input" unit="m" min="0" max="9" start="4 5">
+      <Dimension valueReference="9"/></Float64>
+    <Float64 name="x" valueReference="3" causality="output" unit="m" initial="exact" start="0"/>
+    <Float64 name="der(x)" valueReference="4" causality="output" unit="m/s" derivative="3"/>
+    <Float64 name="K" valueReference="6" causality="output"><Dimension start="2"/></Float64>
+    <Int64 name="n" valueReference="5" causality="output" min="0"/>
+    <Float64 name="a" valueReference="7" unit="m"/><Float64 name="b" valueReference="8" unit="m"/>
+  </ModelVariables>
+  <ModelStructure>
+    <Output valueReference="3" dependencies=""/><Output valueReference="4" dependencies="1 3"/><Output valueReference="6"/>
+    <Output valueReference="5" dependencies="1"/>
+    <ContinuousStateDerivative valueReference="4" dependencies="1 3"/>
+    <InitialUnknown valueReference="4" dependencies="0 1 3"/><InitialUnknown valueReference="6"/>
+    <InitialUnknown valueReference="5" dependencies="9"/>
+  </ModelStructure>
+</fmiModelDescription>
+"""
+FAULTS_3 = [
+    (lint.elements_in_order, r"(<Unit.*)(<TypeDef.*</TypeDefinitions>)", r"\2\1"),
+    (lint.names_are_structured, 'name="n"', 'name="n-1"'),
+    (lint.dimensions_fit, 'Dimension valueReference="9"', 'Dimension valueReference="0"'),
+    (lint.dimensions_fit, 'start="4 5"', 'start="4 5 6"'),
+    (lint.references_are_unique, 'valueReference="8"', 'valueReference="7"'),
+    (lint.variability_fits, 'output" min', 'output" variability="continuous" min'),
+    (lint.starts_are_given, ' start="4 5"', ""),
+    (lint.numbers_are_within_range, 'start="4 5"', 'start="4 9.5"'),
+    (lint.units_are_defined, 'unit="m/s"', 'unit="kg"'),
+    (lint.types_are_declared, 'declaredType="T" start="1"', 'declaredType="T" start="3"'),
+    (lint.structure_is_complete, '<InitialUnknown valueReference="6"/>', ""),
+    (lint.structure_is_complete, "<ContinuousStateD.*?/>", ""),
+    (lint.dependencies_are_known, 'dependencies="0 1 3"', 'dependencies="0 1 5"'),
+    (lint.capabilities_are_consistent, 'canGetAndSetFMUState="true"', ""),
+    (lint.experiment_is_one, 'stopTime="1"', 'stopTime="0"'),
+]
+
+
 def rules(findings):
     """Which rules the findings are of."""
     return [rule for rule in (*lint.RULES, *lint.FILE_RULES) if any(f.startswith(rule.__doc__) for f in findings)]
 
 
-def test_a_description_without_faults_passes():
-    assert lint.check(DESCRIPTION) == []
+@pytest.mark.parametrize("description", [DESCRIPTION, DESCRIPTION_3])
+def test_a_description_without_faults_passes(description):
+    assert lint.check(description) == []
 
 
-@pytest.mark.parametrize(("rule", "old", "new"), FAULTS)
-def test_a_fault_is_found(rule, old, new):
-    broken, count = re.subn(old, new, DESCRIPTION, flags=re.DOTALL)
+@pytest.mark.parametrize(
+    ("description", "rule", "old", "new"),
+    [*((DESCRIPTION, *fault) for fault in FAULTS), *((DESCRIPTION_3, *fault) for fault in FAULTS_3)],
+)
+def test_a_fault_is_found(description, rule, old, new):
+    broken, count = re.subn(old, new, description, flags=re.DOTALL)
     assert count
     assert rule in rules(lint.check(broken))
 
 
-def test_every_rule_has_a_fault_that_it_alone_finds():
+@pytest.mark.parametrize(("description", "faults"), [(DESCRIPTION, FAULTS), (DESCRIPTION_3, FAULTS_3)])
+def test_every_rule_has_a_fault_that_it_alone_finds(description, faults):
     alone = set()
-    for _, old, new in FAULTS:
-        found = rules(lint.check(re.sub(old, new, DESCRIPTION, flags=re.DOTALL)))
+    for _, old, new in faults:
+        found = rules(lint.check(re.sub(old, new, description, flags=re.DOTALL)))
         alone |= {found[0]} if len(found) == 1 else set()
-    assert alone == set(lint.RULES)
+    of_the_other = lint.arrays_are_whole if description is DESCRIPTION_3 else lint.dimensions_fit
+    assert alone == {*lint.RULES} - {of_the_other}
 
 
 FILES = {

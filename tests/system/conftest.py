@@ -5,10 +5,12 @@ import os
 import shutil
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import fmpy
 import pytest
+from contact_case import NAME
 from fmu_instance import Instance
 from fmu_instance_fmi3 import Instance3
 from native_host import Host
@@ -87,16 +89,33 @@ def _opened(make):
 
 
 @pytest.fixture(scope="session")
-def host(native_folder, tmp_path_factory):
-    """A host in C."""
-    return Host("linux64", tmp_path_factory.mktemp("linux"), native_folder)
+def hosts(native, tmp_path_factory):
+    """A host in C for a platform and an FMU by their names, each made once; "win64" runs under Wine."""
+
+    @cache
+    def unzipped(name: str) -> Path:
+        folder = tmp_path_factory.mktemp("unzipped") / "with blanks, ümläuts and 100 %"
+        return Path(fmpy.extract(str(native.with_name(f"{name}.fmu")), str(folder)))
+
+    @cache
+    def make(platform: str, name: str) -> Host:
+        if platform == "win64":
+            _require_wine()
+        return Host(platform, tmp_path_factory.mktemp(platform), unzipped(name), name)
+
+    return make
 
 
 @pytest.fixture(scope="session")
-def windows(native_folder, tmp_path_factory):
+def host(hosts):
+    """A host in C of WheelRailContact."""
+    return hosts("linux64", NAME)
+
+
+@pytest.fixture(scope="session")
+def windows(hosts):
     """The same for Windows, under Wine."""
-    _require_wine()
-    return Host("win64", tmp_path_factory.mktemp("windows"), native_folder)
+    return hosts("win64", NAME)
 
 
 @pytest.fixture(scope="session")

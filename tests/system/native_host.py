@@ -1,4 +1,4 @@
-"""The hosts in C, in the folder `host`, compiled for a platform and run over a native WheelRailContact."""
+"""The hosts in C, in the folder `host`, compiled for a platform and run over a native FMU."""
 
 import os
 import subprocess
@@ -29,31 +29,59 @@ PLATFORMS = {
     "x86_64-windows": ("win64", _FMI3),
 }
 SUFFIX = {"linux64": ("so", ""), "win64": ("dll", ".exe")}
+#: FMU → which of its variables the hosts use, and for what: inputs that are set, one whose NaN is refused and what it takes
+#: instead, the first output, two results that tell instances apart, two choices of integers, the coarsest resolution.
+ROLES = {
+    NAME: {
+        "LOAD": "load.normal_force", "VARIED": "creepage.longitudinal", "REFUSED": "speed", "TAKEN": 20.0,
+        "RESULT": "force.x", "SUM": "total.energy", "LATE": "creep_stiffness",
+        "CHOICE": "method.normal", "OTHER_CHOICE": "method.tangential",
+        "COARSEST": {"resolution.n_strips": 4, "resolution.n_elements": 4},
+    },
+    "WheelRailPair": {
+        "LOAD": "load.normal_force", "VARIED": "velocity.y", "REFUSED": "velocity.x", "TAKEN": 20.0,
+        "RESULT": "force.x", "SUM": "total.energy", "LATE": "moment.z",
+        "CHOICE": "method.normal", "OTHER_CHOICE": "method.tangential",
+        "COARSEST": {"resolution.n_strips": 4, "resolution.n_elements": 4, "resolution.n_samples": 5},
+    },
+    "Wheelset": {
+        "LOAD": "right.force.x", "VARIED": "right.force.y", "REFUSED": "irregularity.lateral", "TAKEN": 0.0,
+        "RESULT": "lateral", "SUM": "energy.interface", "LATE": "yaw_acceleration",
+        "CHOICE": "resolution.substeps", "OTHER_CHOICE": "resolution.substeps",
+        "COARSEST": {"resolution.substeps": 1},
+    },
+}  # fmt: skip
 
 
 class Host:
     """The compiled host for one platform of one version of FMI."""
 
-    def __init__(self, platform: str, folder: Path, unzipped: Path, extra: tuple[str, ...] = ()) -> None:
+    def __init__(self, platform: str, folder: Path, unzipped: Path, name: str = NAME) -> None:
         own, code = PLATFORMS[platform]
         library, program = SUFFIX[own]
         self.guid = fmpy.read_model_description(str(unzipped)).guid
-        self.library = unzipped / "binaries" / platform / f"{NAME}.{library}"
-        (folder / "model.h").write_text(source.header(component(POINTS), self.guid))
+        self.library = unzipped / "binaries" / platform / f"{name}.{library}"
+        self.resources = resources_of(unzipped, own)
+        (model,) = (model for model in models(POINTS) if model.table.name == name)
+        (folder / "model.h").write_text(source.header(model.module("native").component(**model.options), self.guid))
+        (folder / "roles.h").write_text(roles(name))
         self.program = folder / f"host{program}"
         libraries = ["-ldl", "-lpthread", "-lm"] if own == "linux64" else []
         elements = MAX_PATCHES * N_STRIPS * N_ELEMENTS
-        flags = ["-std=gnu11", "-O1", f"-DELEMENTS={elements}", f"-I{folder}", f"-I{HEADERS}", *extra]
+        flags = ["-std=gnu11", "-O1", f"-DELEMENTS={elements}", f"-I{folder}", f"-I{HEADERS}"]
+        flags += ["-DCONTACT"] if name == NAME else []
         sources = [HOST / name for name in ("common.c", *code)]
         run(*compiler(own), *flags, *sources, "-o", self.program, *libraries)
+        self.fmi2 = code is _FMI2
         self.prefix = [] if own == "linux64" else ["wine"]
-        self.environment = os.environ | {"WINEPREFIX": str(folder / "wine"), "WINEDEBUG": "-all"}
+        self.environment = os.environ | {"WINEPREFIX": str(folder.parent / "wine"), "WINEDEBUG": "-all"}
 
     def __call__(self, command: str, *arguments: object, stdin: str | None = None, before: tuple[str, ...] = ()) -> str:
         """Run a command of the host, the first argument a number; return what it prints."""
-        words = [*before, *self.prefix, self.program, self.library, self.guid, command, *(arguments or (0,))]
+        given = (self.library, self.guid, *((self.resources,) if self.fmi2 else ()))
+        words = [*before, *self.prefix, self.program, *given, command, *(arguments or (0,))]
         done = subprocess.run(
-            list(map(str, words)), input=stdin, capture_output=True, text=True, timeout=300, env=self.environment
+            list(map(str, words)), input=stdin, capture_output=True, text=True, timeout=3000, env=self.environment
         )
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
         return done.stdout
@@ -69,6 +97,23 @@ class Host:
             lines.append(f"{len(case.values)} {' '.join(words)}")
         rows = np.loadtxt(self("cases", stdin="\n".join(lines)).splitlines(), ndmin=2)
         return rows[:, [names.index(name) - names.index("force.x") for name in OUTPUTS]]
+
+
+def resources_of(unzipped: Path, platform: str) -> str:
+    """The URI of the resources of an unzipped FMU; Wine has the files of Linux on its drive Z."""
+    uri = (unzipped / "resources").resolve().as_uri()
+    return uri if platform == "linux64" else uri.replace("file:///", "file:///Z:/")
+
+
+def roles(name: str) -> str:
+    """roles.h for an FMU."""
+    given = ROLES[name]
+    coarsest = given["COARSEST"]
+    lines = [f"#define {role} {source.c_name(of)}" for role, of in given.items() if isinstance(of, str)]
+    lines += [f'#define VARIED_NAME "{given["VARIED"]}"', f"#define TAKEN {given['TAKEN']}"]
+    lines += [f"#define RESOLUTION {{{', '.join(map(source.c_name, coarsest))}}}"]
+    lines += [f"#define COARSEST {{{', '.join(map(str, coarsest.values()))}}}"]
+    return "\n".join(lines) + "\n"
 
 
 def kernel_objects() -> list[Path]:

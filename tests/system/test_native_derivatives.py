@@ -3,6 +3,10 @@
 import numpy as np
 import pytest
 from contact_case import CREEPAGES, geometry, posed
+from differences import Tally, derivative, parts, quotient
+from random_cases import METHODS, Case, random_case
+
+from contact import Status
 
 
 @pytest.fixture
@@ -36,17 +40,8 @@ def test_directional_derivatives_are_those_of_the_solver(open_native, scale):
     fmu.update({name: scale * value for name, value in CREEPAGES.items()})
     fmu.initialize()
     for unknown, known in DERIVATIVES:
-        (slope,) = fmu.fmu.getDirectionalDerivative(
-            [fmu.variables[unknown].valueReference], [fmu.variables[known].valueReference], [1.0]
-        )
-        at = fmu[known]
-        h = 3e-10 if known == "geometry.g[23]" else 3e-6 * abs(at)
-        found = []
-        for k in (-2, -1, 1, 2):
-            fmu.update({known: at + k * h})
-            found.append(fmu[unknown])
-        fmu.update({known: at})
-        wanted = (found[0] - 8.0 * found[1] + 8.0 * found[2] - found[3]) / (12.0 * h)
+        (slope,), at = derivative(fmu, [unknown], {known: 1.0}), fmu[known]
+        (wanted,) = quotient(fmu, [unknown], {known: 1.0}, 3e-10 if known == "geometry.g[23]" else 3e-6 * abs(at))
         bound = 1e-4 * max(abs(wanted), 1e-3 * abs(fmu[unknown] / at))
         assert slope == pytest.approx(wanted, abs=bound), (unknown, known)
 
@@ -57,17 +52,49 @@ def test_forces_by_the_scale_of_the_geometry(open_native, scale):
     fmu = posed(open_native("ModelExchange"))
     fmu.update({name: scale * value for name, value in CREEPAGES.items()})
     fmu.initialize()
-    start = geometry()
     unknowns = ("force.x", "force.y", "moment.z", "approach", "pressure.max")
-    references = ([fmu.variables[name].valueReference for name in names] for names in (unknowns, start))
-    slopes = fmu.fmu.getDirectionalDerivative(*references, list(start.values()))
-    h, found = 3e-6, []
-    for k in (-2, -1, 1, 2):
-        fmu.update({name: (1.0 + k * h) * value for name, value in start.items()})
-        found.append(np.array(list(fmu.read(unknowns).values())))
-    wanted = (found[0] - 8.0 * found[1] + 8.0 * found[2] - found[3]) / (12.0 * h)
-    np.testing.assert_allclose(slopes, wanted, rtol=1e-4)
-    assert (np.abs(wanted) > 0.01 * np.abs(found[0])).all()
+    wanted = quotient(fmu, unknowns, geometry(), 3e-6)
+    np.testing.assert_allclose(derivative(fmu, unknowns, geometry()), wanted, rtol=1e-4)
+    assert (np.abs(wanted) > 0.01 * np.abs(list(fmu.read(unknowns).values()))).all()
+
+
+def directions(case: Case) -> dict[str, tuple[dict[str, float], float]]:
+    """What the forces of a case are differentiated by: knowns with their seeds, and a change that is great."""
+    v, s = case.values, case.solution
+    saturates = s.friction * s.N / (s.material.shear_modulus * s.area)
+    load = "load.normal_force" if v["load.kind"] == 1 else "load.approach"
+    shape = ["geometry.A0", "geometry.B0"] if v["geometry.kind"] == 2 else geometry()
+    return {
+        "creepage.longitudinal": ({"creepage.longitudinal": 1.0}, saturates),
+        "creepage.lateral": ({"creepage.lateral": 1.0}, saturates),
+        "creepage.spin": ({"creepage.spin": 1.0}, saturates / np.sqrt(s.area / np.pi)),
+        load: ({load: 1.0}, abs(v[load])),
+        "friction.coefficient": ({"friction.coefficient": 1.0}, s.friction),
+        "scale": ({name: v[name] for name in shape}, 1.0),
+    }
+
+
+def test_forces_of_random_contacts(open_native):
+    """Of all continuous methods, to 1e-4 of the slope of the force and of the moment, wherever these are smooth."""
+    fmu, tally, unknowns = open_native("ModelExchange"), Tally(), ("force.x", "force.y", "moment.z")
+    continuous = [method.continuous for method in METHODS.normal.values()]
+    for case in map(random_case, range(100)):
+        s = case.solution
+        carries = s.status in (Status.OK, Status.SATURATED) and s.friction > 0.0
+        if not carries or not continuous[case.values["method.normal"] - 1]:
+            continue
+        fmu.fmu.reset()
+        fmu.update(case.values)
+        fmu.initialize()
+        for name, (direction, great) in directions(case).items():
+            quotients = [quotient(fmu, unknowns, direction, share * great) for share in (3e-6, 0.7e-6)]
+            force = s.friction * s.N / great
+            least = 1e-3 * np.array([force, force, np.sqrt(s.area / np.pi) * force])
+            scale = np.maximum(parts([(0, 1), (2,)], quotients[0]), least)
+            tally.add((case.seed, name), derivative(fmu, unknowns, direction), quotients, scale)
+    print(f"{tally.smooth} smooth, {len(tally.rough)} not")
+    assert not tally.wrong
+    assert len(tally.rough) < 0.05 * tally.smooth
 
 
 def test_a_directional_derivative_adds_up_what_its_seed_says(open_native):

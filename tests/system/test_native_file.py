@@ -4,6 +4,7 @@ import re
 import subprocess
 from pathlib import Path
 
+import lief
 from contact_case import NAME
 from fmpy.validation import validate_fmu
 
@@ -45,34 +46,44 @@ def test_the_windows_library_needs_windows_alone(native_folder):
     assert all(name == "kernel32.dll" or name.startswith("api-ms-win-crt-") for name in needed)
 
 
+#: Functions of libc and libm that a library may ask its system for.
+C_LIBRARY = {
+    *("bcmp", "calloc", "free", "malloc", "memcmp", "memcpy", "memmove", "memset", "strcmp", "strcpy", "strlen"),
+    *("vsnprintf", "acos", "asin", "asinh", "atan", "atan2", "atanh", "cos", "exp", "log", "pow", "sin", "sincos"),
+}
+
+
+def functions(native_folder) -> set[str]:
+    """What the library for Linux offers."""
+    library = native_folder / "binaries" / "linux64" / f"{NAME}.so"
+    symbols = subprocess.run(["nm", "-D", library], check=True, capture_output=True, text=True).stdout
+    return set(re.findall(r" [A-TV-Z] (\w+)", symbols))
+
+
 def test_the_library_needs_the_c_library_alone(native_folder):
     """Of others it asks for libm; what it offers are FMI's functions."""
     library = native_folder / "binaries" / "linux64" / f"{NAME}.so"
     symbols = subprocess.run(["nm", "-D", library], check=True, capture_output=True, text=True).stdout
     needed = set(re.findall(r" [Uw] (\w+)", symbols))
     weak = {"_ITM_deregisterTMCloneTable", "_ITM_registerTMCloneTable", "__cxa_finalize", "__gmon_start__"}
-    memory = {
-        "bcmp",
-        "calloc",
-        "free",
-        "malloc",
-        "memcmp",
-        "memcpy",
-        "memmove",
-        "memset",
-        "strcmp",
-        "strcpy",
-        "strlen",
-        "vsnprintf",
-    }
-    libm = {"acos", "asin", "asinh", "atan", "atan2", "atanh", "cos", "exp", "log", "pow", "sin", "sincos"}
-    assert needed - weak <= memory | libm
-    offered = set(re.findall(r" [A-TV-Z] (\w+)", symbols))
+    assert needed - weak <= C_LIBRARY
+    offered = functions(native_folder)
     versions = {v: {name for name in offered if name.startswith(v)} for v in ("fmi2", "fmi3")}
     assert offered == versions["fmi2"] | versions["fmi3"]
     assert {v: len(names) for v, names in versions.items()} == {"fmi2": 44, "fmi3": 75}  # all functions there are
     dynamic = subprocess.run(["readelf", "-d", library], check=True, capture_output=True, text=True).stdout
     assert set(re.findall(r"NEEDED.*\[(.+)\]", dynamic)) <= {"libc.so.6", "libm.so.6"}
+
+
+def test_the_library_for_macos_needs_its_c_library_alone(native_folder):
+    """It is looked at, since nothing here can run it."""
+    library = lief.parse(native_folder / "binaries" / "darwin64" / f"{NAME}.dylib")
+    own, system = f"@rpath/{NAME}.dylib", "/usr/lib/libSystem.B.dylib"
+    assert [needed.name for needed in library.libraries] == [own, system]
+    memory = {"___bzero", "dyld_stub_binder"} | {f"_{name}" for name in C_LIBRARY}
+    assert {symbol.name for symbol in library.imported_symbols} <= memory
+    offered = {symbol.name for symbol in library.exported_symbols}
+    assert offered - {"__mh_dylib_header", "___dso_handle"} == {f"_{name}" for name in functions(native_folder)}
 
 
 def test_nothing_of_the_library_can_be_written(native_folder):

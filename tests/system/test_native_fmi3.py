@@ -75,7 +75,11 @@ def test_fmpy_finds_no_problem(native_fmi3):
 
 def test_both_versions_have_the_same_libraries(native, native_fmi3):
     with ZipFile(native) as two, ZipFile(native_fmi3) as three:
-        for platform, tuple_, library in (("linux64", "x86_64-linux", "so"), ("win64", "x86_64-windows", "dll")):
+        for platform, tuple_, library in (
+            ("linux64", "x86_64-linux", "so"),
+            ("win64", "x86_64-windows", "dll"),
+            ("darwin64", "x86_64-darwin", "dylib"),
+        ):
             one, other = f"binaries/{platform}/{NAME}.{library}", f"binaries/{tuple_}/{NAME}.{library}"
             assert two.read(one) == three.read(other)
         assert not [name for name in three.namelist() if "linux64" in name or "win64" in name]

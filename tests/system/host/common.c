@@ -15,7 +15,7 @@ void start(Thread *thread, Work *work, void *argument) { pthread_create(thread, 
 void join(Thread thread) { pthread_join(thread, NULL); }
 #endif
 
-const char *guid;
+const char *guid, *resources;
 int failures, messages;
 char last_message[1024];
 

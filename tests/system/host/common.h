@@ -18,7 +18,7 @@ typedef pthread_t Thread;
 #define THREAD_RESULT void *
 #endif
 
-extern const char *guid;
+extern const char *guid, *resources; /* of the FMU that is tested; a URI */
 extern int failures, messages;
 extern char last_message[1024];
 

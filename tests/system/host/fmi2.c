@@ -27,7 +27,7 @@ LOGGER(quiet)
 fmi2Component make(fmi2Type type, fmi2CallbackLogger log)
 {
     fmi2CallbackFunctions callbacks = {log, NULL, NULL, NULL, NULL};
-    fmi2Component c = Instantiate("instance", type, guid, "file:///nowhere%20at/all", &callbacks, fmi2False, fmi2True);
+    fmi2Component c = Instantiate("instance", type, guid, resources, &callbacks, fmi2False, fmi2True);
     memset((void *)&callbacks, 0, sizeof callbacks);
     return c;
 }
@@ -58,26 +58,33 @@ int whole(fmi2Component c, fmi2ValueReference r)
     return value;
 }
 
-/* LIBRARY GUID COMMAND NUMBER [PATH GUID]. What fails is printed; the exit code says so. */
+double any(fmi2Component c, fmi2ValueReference r)
+{
+    double value;
+    return GetReal(c, &r, 1, &value) > fmi2Warning ? whole(c, r) : value;
+}
+
+/* LIBRARY GUID RESOURCES COMMAND NUMBER [PATH GUID | NUMBER]. What fails is printed; the exit code says so. */
 int main(int n_arguments, char **arguments)
 {
     double begin = now();
-    void *library = n_arguments > 4 ? open_library(arguments[1]) : NULL;
-    const char *command = n_arguments > 4 ? arguments[3] : "";
-    int number = n_arguments > 4 ? atoi(arguments[4]) : 0;
+    void *library = n_arguments > 5 ? open_library(arguments[1]) : NULL;
+    const char *command = n_arguments > 5 ? arguments[4] : "", *path = n_arguments > 6 ? arguments[6] : "";
+    int number = n_arguments > 5 ? atoi(arguments[5]) : 0;
     if (!library) return puts("the library cannot be loaded"), 2;
     use(library, arguments[2]);
+    resources = arguments[3];
     if (!strcmp(command, "instantiate")) instantiate();
     else if (!strcmp(command, "every_call")) every_call();
     else if (!strcmp(command, "fuzz")) fuzz(number);
     else if (!strcmp(command, "status_functions")) status_functions();
     else if (!strcmp(command, "log_categories")) log_categories();
     else if (!strcmp(command, "threads")) threads();
-    else if (!strcmp(command, "soak")) soak(number);
+    else if (!strcmp(command, "soak")) soak(number, atoi(path));
     else if (!strcmp(command, "cases")) cases();
-    else if (!strcmp(command, "two_libraries") && n_arguments > 6) two_libraries(library, arguments[5], arguments[6]);
+    else if (!strcmp(command, "two_libraries") && n_arguments > 7) two_libraries(library, path, arguments[7]);
     else if (!strcmp(command, "first_step")) first_step(begin);
-    else if (!strcmp(command, "speed") && n_arguments > 5) speed(number, arguments[5]);
+    else if (!strcmp(command, "speed")) speed(number, path);
     else return printf("%s is no command\n", command), 2;
     return failures != 0;
 }

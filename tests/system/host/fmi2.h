@@ -6,6 +6,7 @@
 #include "common.h"
 #include "fmi2FunctionTypes.h"
 #include "model.h"
+#include "roles.h" /* made by native_host.py: which variables of the FMU the commands below use, and for what */
 
 #define FUNCTIONS(X) \
     X(GetTypesPlatform) X(GetVersion) X(SetDebugLogging) X(Instantiate) X(FreeInstance) X(SetupExperiment) \
@@ -32,6 +33,7 @@ fmi2Status set_real(fmi2Component c, fmi2ValueReference r, double value);
 fmi2Status set_integer(fmi2Component c, fmi2ValueReference r, int value);
 double real(fmi2Component c, fmi2ValueReference r);
 int whole(fmi2Component c, fmi2ValueReference r);
+double any(fmi2Component c, fmi2ValueReference r); /* a Real or an Integer, of an instance that is `quiet` */
 
 /* calls.c: what is legal when */
 void instantiate(void);
@@ -42,7 +44,7 @@ void log_categories(void);
 
 /* runs.c: many steps, many instances, cases from standard input */
 void threads(void);
-void soak(int cycles);
+void soak(int cycles, int steps);
 void cases(void);
 void two_libraries(void *library, const char *path, const char *its_guid);
 

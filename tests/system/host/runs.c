@@ -15,12 +15,12 @@ static void advance(int i, double result[2])
 {
     fmi2Component c = crowd[i];
     for (int k = 0; k < N_STEPS; k++) {
-        set_real(c, V_creepage_longitudinal, 1e-5 * (i + 1) * (k + 1));
-        set_real(c, V_load_normal_force, 5e4 + 1e3 * i);
+        set_real(c, VARIED, 1e-5 * (i + 1) * (k + 1));
+        set_real(c, LOAD, 5e4 + 1e3 * i);
         DoStep(c, 1e-3 * k, 1e-3, fmi2True);
     }
-    result[0] = real(c, V_total_energy);
-    result[1] = real(c, V_creep_stiffness);
+    result[0] = real(c, SUM);
+    result[1] = real(c, LATE);
 }
 
 static THREAD_RESULT worker(void *first_instance)
@@ -33,8 +33,8 @@ static void crowd_starts(void)
 {
     for (int i = 0; i < N_INSTANCES; i++) {
         crowd[i] = make(fmi2CoSimulation, quiet);
-        set_integer(crowd[i], V_method_normal, 1 + i % 3);
-        set_integer(crowd[i], V_method_tangential, 1 + i / 3 % 3);
+        set_integer(crowd[i], CHOICE, 1 + i % 3);
+        set_integer(crowd[i], OTHER_CHOICE, 1 + i / 3 % 3);
         EnterInitializationMode(crowd[i]);
         ExitInitializationMode(crowd[i]);
     }
@@ -50,7 +50,7 @@ void threads(void)
     for (int t = 0; t < N_THREADS; t++) start(&thread[t], worker, (void *)(size_t)t);
     for (int t = 0; t < N_THREADS; t++) join(thread[t]);
     check(!memcmp(serial, parallel, sizeof serial), "parallel equals serial", "");
-    check(serial[0][0] > 0.0 && serial[0][0] != serial[1][0], "instances differ", "");
+    check(serial[0][0] != 0.0 && serial[0][0] != serial[1][0], "instances differ", "");
     for (int i = 0; i < N_INSTANCES; i++) FreeInstance(crowd[i]);
 }
 
@@ -104,16 +104,17 @@ static long resident(void)
 }
 #endif
 
-/* Instances that come and go, and a hundred times as many steps of one, at the coarsest resolution. */
-void soak(int cycles)
+/* Instances that come and go, and steps of one, at the coarsest resolution. */
+void soak(int cycles, int steps)
 {
-    static const fmi2ValueReference resolution[] = {V_resolution_n_strips, V_resolution_n_elements};
-    static const fmi2Integer least[] = {4, 4};
+    static const fmi2ValueReference resolution[] = RESOLUTION;
+    static const fmi2Integer least[] = COARSEST;
+    enum { N = sizeof resolution / sizeof *resolution };
     fmi2FMUstate saved = NULL;
     long before = 0, grown;
     for (int i = 0; i < cycles + 100; i++) {
         fmi2Component c = make(fmi2CoSimulation, quiet);
-        SetInteger(c, resolution, 2, least);
+        SetInteger(c, resolution, N, least);
         EnterInitializationMode(c);
         ExitInitializationMode(c);
         DoStep(c, 0.0, 1e-3, fmi2True);
@@ -127,16 +128,16 @@ void soak(int cycles)
     printf("%ld bytes in %d cycles\n", grown, cycles);
     check(grown < 1 << 20, "memory", "of cycles grows");
     fmi2Component c = make(fmi2CoSimulation, quiet);
-    SetInteger(c, resolution, 2, least);
+    SetInteger(c, resolution, N, least);
     EnterInitializationMode(c);
     ExitInitializationMode(c);
-    for (int i = 0; i < 100 * cycles; i++) {
-        if (i == cycles) before = resident();
-        set_real(c, V_creepage_longitudinal, 1e-5 * (i % 1000));
+    for (int i = 0; i < steps; i++) {
+        if (i == steps / 100) before = resident();
+        set_real(c, VARIED, 1e-5 * (i % 1000));
         check(DoStep(c, 1e-3 * i, 1e-3, fmi2True) == fmi2OK, "step", "of many");
     }
     grown = resident() - before;
-    printf("%ld bytes in %d steps\n", grown, 100 * cycles);
+    printf("%ld bytes in %d steps\n", grown, steps);
     check(grown < 1 << 16, "memory", "of steps grows");
     FreeInstance(c);
 }
@@ -147,7 +148,7 @@ void soak(int cycles)
 void cases(void)
 {
     int n;
-    fmi2Component c = make(fmi2CoSimulation, logger);
+    fmi2Component c = make(fmi2CoSimulation, quiet);
     while (scanf("%d", &n) == 1) {
         Reset(c);
         for (int i = 0; i < n; i++) {
@@ -155,13 +156,12 @@ void cases(void)
             char type;
             double value;
             if (scanf("%u %c %lf", &r, &type, &value) != 3) exit(2);
-            check((type == 'r' ? set_real(c, r, value) : set_integer(c, r, (int)value)) == fmi2OK, "set", last_message);
+            check((type == 'r' ? set_real(c, r, value) : set_integer(c, r, (int)value)) == fmi2OK, "set", "a value");
         }
         EnterInitializationMode(c);
         ExitInitializationMode(c);
-        check(DoStep(c, 0.0, 1e-3, fmi2True) <= fmi2Warning, "step", last_message);
-        for (fmi2ValueReference r = V_force_x; r < N_VALUES; r++)
-            printf("%.17g ", r == V_patch_count || r == V_status ? (double)whole(c, r) : real(c, r));
+        check(DoStep(c, 0.0, 1e-3, fmi2True) <= fmi2Warning, "step", "of a case");
+        for (fmi2ValueReference r = RESULT; r < N_VALUES; r++) printf("%.17g ", any(c, r));
         printf("\n");
     }
     FreeInstance(c);
