@@ -20,7 +20,7 @@ from typing import Any
 from numba import config, njit
 
 _WITHOUT_KERNELS = (
-    *("accumulation", "cli", "plot", "study"),
+    *("accumulation", "cli", "life", "plot", "study"),
     *(f"geometry/{name}.py" for name in ("en15302", "files", "outline", "profile", "rigid", "smoothing", "standard")),
 )
 

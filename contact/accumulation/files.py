@@ -72,9 +72,22 @@ def load(path: str | PathLike[str]) -> Histogram:
         If there is no such file.
     """
     stored = _xarray().load_dataset(path, engine="scipy")
+    if stored.attrs.get("format") != FORMAT:
+        raise ContactError(f"path = {str(path)!r} is no {FORMAT}")
+    return from_xarray(stored)
+
+
+def from_xarray(stored: Any) -> Histogram:
+    """The histogram that `to_xarray` has made this `xarray.Dataset` of.
+
+    Raises
+    ------
+    ContactError
+        If it is one of something else.
+    """
     given = stored.attrs
     if given.get("format") != FORMAT:
-        raise ContactError(f"path = {str(path)!r} is no {FORMAT}")
+        raise ContactError(f"format = {given.get('format')!r}: the dataset is no {FORMAT}")
     constants = json.loads(given["parameters"])
     for name, model in _MODELS.items():
         constants[name] = model(**constants[name])

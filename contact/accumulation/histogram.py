@@ -164,6 +164,20 @@ class Histogram:
         both.methods, both.materials = self.methods | other.methods, self.materials | other.materials
         return both
 
+    def scaled(self, times: float) -> Histogram:
+        """The histogram after `times` the distance under the same conditions: a share of a mileage.
+
+        Raises
+        ------
+        ContactError
+            If `times` is negative.
+        """
+        require_number("times", times, 0.0)
+        later = Histogram(self.profile, width=self.width, radius=self.radius, parameters=self.parameters)
+        values = dict(zip(_NAMES, self._values, strict=True)) | {n: times * self[n] for n in SUMS}
+        later.restore(values, times * self.distance, set(self.methods), set(self.materials))
+        return later
+
     def restore(
         self, values: Mapping[str, Array], distance: float, methods: set[str], materials: set[Material]
     ) -> None:

@@ -187,6 +187,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         sizes[0], sizes[1] = wheel_to - wheel_from, rail_to - rail_from
         w, _ = prepared(work)
         w.given[:] = 0.0
+        w.constants[:] = 0.0
         for found, mirror in ((w.right, 1.0), (w.left, -1.0)):
             cut(wheel_rows, wheel_from, wheel_to, found.wheel)
             cut(turned, rail_from, rail_to, found.rail)

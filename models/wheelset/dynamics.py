@@ -30,8 +30,12 @@ N_STATE = 5
     AXLE_LOAD,
     SPEED,
     RADIUS,  # nominal rolling radius [m]
-) = range(10)
-N_CONSTANTS = 10
+    CURVATURE,  # of the track, positive to the right [1/m]
+    LATERAL_LOAD,  # of the surroundings on the wheelset [N]
+    ROLL_LOAD,  # [N m]
+    YAW_LOAD,
+) = range(14)
+N_CONSTANTS = 14
 # energy[...] since start, all [J]
 INTERFACE, DRIVE, DAMPER = range(3)  # left through the contacts, delivered by the drive, spent in the suspension
 N_ENERGY = 3
@@ -53,9 +57,9 @@ def locus(frame, axle):
 
 
 @kernel
-def normal_loads(frames, forces, axle_load, loads):
+def normal_loads(frames, forces, axle_load, roll_load, loads):
     """Solve vertical and roll equilibrium (4, 5) for loads[side] [N]; a wheel that would pull is unloaded instead."""
-    vertical, roll = axle_load, 0.0
+    vertical, roll = axle_load, roll_load
     for side in range(2):
         sine, cosine = math.sin(frames[side, ANGLE]), math.cos(frames[side, ANGLE])
         vertical += forces[side, FY] * sine
@@ -105,7 +109,7 @@ def creepages(frame, state, axle, z_rate, roll_rate, speed, out):
 @kernel
 def resultants(frames, forces, loads, axle, out):
     """Generalised forces of both contacts: out = (lateral [N], yaw, spin [N m], longitudinal [N],
-    roll [N m]) (2, 3). The last is zero while both wheels carry (5)."""
+    roll [N m]) (2, 3). The last is the roll load, reversed, while both wheels carry (5)."""
     out[:] = 0.0
     for side in range(2):
         x, y, z = frames[side, X], frames[side, Y], frames[side, Z]
@@ -138,11 +142,18 @@ def _kicked(velocity, mass, force, damping, h):
 
 
 @kernel
+def along_track(Q, constants, lateral):
+    """Force of the contacts along the track's centre line [N]: what moves with V is Q_x (1 - κ y) + κ Q_ψ (11)."""
+    return Q[3] * (1.0 - constants[CURVATURE] * lateral) + Q[1] * constants[CURVATURE]
+
+
+@kernel
 def kick(state, constants, Q, h, energy):
     """Advance the velocities by `h` [s] with positions and contact forces `Q` held; book the work done."""
     lateral, yaw = state[LATERAL], state[YAW]
-    spring_y = -constants[LATERAL_STIFFNESS] * lateral
-    spring_psi = -constants[YAW_STIFFNESS] * yaw
+    load_y, load_psi = constants[LATERAL_LOAD], constants[YAW_LOAD]
+    spring_y = load_y - constants[LATERAL_STIFFNESS] * lateral
+    spring_psi = load_psi - constants[YAW_STIFFNESS] * yaw
     c_y, c_psi = constants[LATERAL_DAMPING], constants[YAW_DAMPING]
     m, inertia, spin_inertia = constants[MASS], constants[YAW_INERTIA], constants[SPIN_INERTIA]
     before = m * state[LATERAL_VELOCITY] ** 2 + inertia * state[YAW_RATE] ** 2
@@ -150,10 +161,9 @@ def kick(state, constants, Q, h, energy):
     w, mean_w = _kicked(state[YAW_RATE], inertia, Q[1] + spring_psi, c_psi, h)
     spin_gain = Q[2] * h / spin_inertia
     work = (Q[0] + spring_y) * mean_v * h + (Q[1] + spring_psi) * mean_w * h
-    energy[INTERFACE] -= (
-        Q[0] * mean_v + Q[1] * mean_w + Q[2] * (state[SPIN] + 0.5 * spin_gain) + Q[3] * constants[SPEED]
-    ) * h
-    energy[DRIVE] -= Q[3] * constants[SPEED] * h
+    carried = along_track(Q, constants, lateral) * constants[SPEED]
+    energy[INTERFACE] -= (Q[0] * mean_v + Q[1] * mean_w + Q[2] * (state[SPIN] + 0.5 * spin_gain) + carried) * h
+    energy[DRIVE] += (load_y * mean_v + load_psi * mean_w - carried) * h
     energy[DAMPER] += work - 0.5 * (m * v * v + inertia * w * w - before)
     state[LATERAL_VELOCITY], state[YAW_RATE] = v, w
     state[SPIN] += spin_gain

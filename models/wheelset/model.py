@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 class WheelsetModel:
-    """One wheelset on straight track whose contact forces come from outside.
+    """One wheelset whose contact forces come from outside.
 
     Between two calls of `step` the model is at one instant and all outputs belong to it. `side` is "right" or "left".
 
@@ -80,6 +80,27 @@ class WheelsetModel:
             require_number("irregularity.lateral", lateral),
             require_number("irregularity.slope", slope),
         )
+
+    def set_running(
+        self,
+        speed: float,
+        *,
+        curvature: float = 0.0,
+        lateral_load: float = 0.0,
+        roll_load: float = 0.0,
+        yaw_load: float = 0.0,
+    ) -> None:
+        """Speed [m/s], curvature of the track, positive to the right [1/m], and loads of the surroundings on the wheelset.
+
+        The loads are a force to the right through the wheelset's centre [N] and moments about x and z [N m] (readme, Curves).
+        All are held until they are set again; `save` leaves them out.
+        """
+        c = self._wheelset.constants
+        c[dynamics.SPEED] = require_number("speed", speed, 0.0, open_minimum=True)
+        c[dynamics.CURVATURE] = require_number("curvature", curvature, -0.02, 0.02)
+        c[dynamics.LATERAL_LOAD] = require_number("lateral_load", lateral_load)
+        c[dynamics.ROLL_LOAD] = require_number("roll_load", roll_load)
+        c[dynamics.YAW_LOAD] = require_number("yaw_load", yaw_load)
 
     # motion
 
@@ -149,7 +170,7 @@ class WheelsetModel:
 
 def _constants(p: WheelsetParameters) -> Array:
     """As the kernels of `dynamics` want them."""
-    constants = np.empty(dynamics.N_CONSTANTS)
+    constants = np.zeros(dynamics.N_CONSTANTS)
     for index, value in (
         (dynamics.MASS, p.mass),
         (dynamics.YAW_INERTIA, p.yaw_inertia),

@@ -33,11 +33,13 @@ from models.wheelset import dynamics
 from models.wheelset.dynamics import (
     ANGLE,
     AXLE_LOAD,
+    CURVATURE,
     DAMPER,
     DRIVE,
     INTERFACE,
     LATERAL,
     LATERAL_DAMPING,
+    LATERAL_LOAD,
     LATERAL_STIFFNESS,
     LATERAL_VELOCITY,
     LEFT,
@@ -45,12 +47,14 @@ from models.wheelset.dynamics import (
     N_STATE,
     RADIUS,
     RIGHT,
+    ROLL_LOAD,
     SPEED,
     SPIN,
     SPIN_INERTIA,
     YAW,
     YAW_DAMPING,
     YAW_INERTIA,
+    YAW_LOAD,
     YAW_RATE,
     YAW_STIFFNESS,
     X,
@@ -276,7 +280,7 @@ def _settle(w: Wheelset, y: float, yaw: float) -> int:
 @kernel
 def balance(w: Wheelset) -> None:
     """Normal loads and generalised forces of the present frames and held creep forces, and what follows from them."""
-    dynamics.normal_loads(w.frames, w.forces, w.constants[AXLE_LOAD], w.loads)
+    dynamics.normal_loads(w.frames, w.forces, w.constants[AXLE_LOAD], w.constants[ROLL_LOAD], w.loads)
     dynamics.resultants(w.frames, w.forces, w.loads, w.axle, w.resultants)
 
 
@@ -288,15 +292,19 @@ def report(w: Wheelset) -> None:
         relative[i] = state[i]
     relative[LATERAL_VELOCITY] -= speed * w.irregularity[1]
     z_rate, roll_rate = dynamics.follow(w.frames, relative)
+    relative[YAW_RATE] += speed * w.constants[CURVATURE]
+    forward = speed * (1.0 - w.constants[CURVATURE] * state[LATERAL])
     for side in range(2):
         creepage = w.problems[side, _CREEPAGE:LOAD]
-        dynamics.creepages(w.frames[side], relative, w.axle, z_rate, roll_rate, speed, creepage)
+        dynamics.creepages(w.frames[side], relative, w.axle, z_rate, roll_rate, forward, creepage)
         w.problems[side, LOAD] = w.loads[side]
     change(w)
     Q, powers, constants = w.resultants, w.powers, w.constants
-    powers[INTERFACE] = constants[AXLE_LOAD] * z_rate - Q[3] * speed - Q[4] * roll_rate
+    carried = dynamics.along_track(Q, constants, state[LATERAL]) * speed
+    powers[INTERFACE] = constants[AXLE_LOAD] * z_rate - carried - Q[4] * roll_rate
     powers[INTERFACE] -= Q[0] * state[LATERAL_VELOCITY] + Q[1] * state[YAW_RATE] + Q[2] * state[SPIN]
-    powers[DRIVE] = -Q[3] * speed - Q[4] * roll_rate
+    powers[DRIVE] = -carried - Q[4] * roll_rate
+    powers[DRIVE] += constants[LATERAL_LOAD] * state[LATERAL_VELOCITY] + constants[YAW_LOAD] * state[YAW_RATE]
     powers[DAMPER] = constants[LATERAL_DAMPING] * state[LATERAL_VELOCITY] ** 2
     powers[DAMPER] += constants[YAW_DAMPING] * state[YAW_RATE] ** 2
 
@@ -307,8 +315,9 @@ def change(w: Wheelset) -> None:
     c, Q, state, rates = w.constants, w.resultants, w.state, w.rates
     y, yaw, v, yaw_rate = state[LATERAL], state[YAW], state[LATERAL_VELOCITY], state[YAW_RATE]
     rates[LATERAL], rates[YAW] = v, yaw_rate
-    rates[LATERAL_VELOCITY] = (Q[0] - c[LATERAL_STIFFNESS] * y - c[LATERAL_DAMPING] * v) / c[MASS]
-    rates[YAW_RATE] = (Q[1] - c[YAW_STIFFNESS] * yaw - c[YAW_DAMPING] * yaw_rate) / c[YAW_INERTIA]
+    force, moment = Q[0] + c[LATERAL_LOAD], Q[1] + c[YAW_LOAD]
+    rates[LATERAL_VELOCITY] = (force - c[LATERAL_STIFFNESS] * y - c[LATERAL_DAMPING] * v) / c[MASS]
+    rates[YAW_RATE] = (moment - c[YAW_STIFFNESS] * yaw - c[YAW_DAMPING] * yaw_rate) / c[YAW_INERTIA]
     rates[SPIN] = Q[2] / c[SPIN_INERTIA]
 
 

@@ -33,19 +33,20 @@ def force(frame, row, load):
     return np.array([row[d.FX], 0.0, 0.0]) + row[d.FY] * ey - load * ez
 
 
-def solved(frames, forces):
+def solved(frames, forces, roll_load=0.0):
     loads = np.empty(2)
-    d.normal_loads(frames, forces, W, loads)
+    d.normal_loads(frames, forces, W, roll_load, loads)
     return loads
 
 
-def test_normal_loads_balance_weight_and_roll_moment(pose):
+@pytest.mark.parametrize("roll_load", [0.0, -6e3])
+def test_normal_loads_balance_weight_and_roll_moment(pose, roll_load):
     frames, _, _, forces = pose
-    loads = solved(frames, forces)
+    loads = solved(frames, forces, roll_load)
     total = sum(force(f, q, n) for f, q, n in zip(frames, forces, loads, strict=True))
     moment = sum(np.cross(f[:3], force(f, q, n)) for f, q, n in zip(frames, forces, loads, strict=True))
     assert total[2] + W == pytest.approx(0.0, abs=1e-9 * W)
-    assert moment[0] == pytest.approx(0.0, abs=1e-9 * W)
+    assert moment[0] + roll_load == pytest.approx(0.0, abs=1e-9 * W)
 
 
 def test_a_lifted_wheel_carries_nothing_and_the_other_everything(pose):
@@ -94,7 +95,7 @@ def constants(**changes):
         )
     )
     values |= {"YAW_DAMPING": 1e4, "AXLE_LOAD": W, "SPEED": V} | changes
-    out = np.empty(d.N_CONSTANTS)
+    out = np.zeros(d.N_CONSTANTS)
     for name, value in values.items():
         out[getattr(d, name)] = value
     return out
@@ -124,9 +125,12 @@ def test_integrator_converges_with_second_order_to_the_exact_motion():
     assert advance(start.copy(), c, Q, T / 50, 50)[0][d.SPIN] == pytest.approx(exact[d.SPIN], rel=1e-12)
 
 
-def test_energy_is_booked_completely():
+@pytest.mark.parametrize(
+    "loads", [{}, {"CURVATURE": 2e-3, "LATERAL_LOAD": -8e3, "YAW_LOAD": 900.0}], ids=["straight", "curve"]
+)
+def test_energy_is_booked_completely(loads):
     """What the bodies hold changes by what left through the contacts, what the drive gave and what the dampers took."""
-    c, Q = constants(), np.array([900.0, -400.0, 15.0, -700.0])
+    c, Q = constants(**loads), np.array([900.0, -400.0, 15.0, -700.0])
     start = np.array([0.005, -0.004, 0.0, 0.1, V / R0])
 
     def held(s):

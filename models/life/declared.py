@@ -1,0 +1,87 @@
+"""What a TOML file declares, as dataclasses: unknown keys, missing ones and wrong types are refused by name."""
+
+from __future__ import annotations
+
+import tomllib
+import types
+from dataclasses import MISSING, fields, is_dataclass
+from os import PathLike
+from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
+
+from contact.errors import ContactError, suggestion
+
+Kind = TypeVar("Kind")
+
+
+def read_table(path: str | PathLike[str]) -> dict[str, Any]:
+    """The tables of a TOML file.
+
+    Raises
+    ------
+    ContactError
+        A file that cannot be read or is no TOML; the message has line and column.
+    """
+    try:
+        with open(path, "rb") as file:
+            return tomllib.load(file)
+    except OSError as error:
+        raise ContactError(f"path = {str(path)!r}: {error.strerror}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ContactError(f"{path} is no TOML: {error}") from None
+
+
+def build(kind: type[Kind], table: object, where: str) -> Kind:
+    """An object of the dataclass `kind` from a table.
+
+    Parameters
+    ----------
+    kind : type
+        A dataclass whose fields are numbers, texts, dataclasses, tuples of these, or unions of them.
+    table : dict
+        As `tomllib` reads it.
+    where : str
+        What messages call the table.
+
+    Raises
+    ------
+    ContactError
+        For an unknown, a missing or an ill-typed key, and for values that `kind` refuses; the message says where.
+    """
+    if not isinstance(table, dict):
+        raise ContactError(f"{where} = {table!r} is not a table")
+    hints = get_type_hints(kind)
+    known = {entry.name: entry for entry in fields(kind) if entry.init}  # type: ignore[arg-type]
+    for key in table:
+        if key not in known:
+            raise ContactError(f"{where}.{key} is unknown{suggestion(key, known)}; allowed: {', '.join(known)}")
+    for name, entry in known.items():
+        if name not in table and entry.default is MISSING and entry.default_factory is MISSING:
+            raise ContactError(f"{where}.{name} is missing")
+    values = {key: _convert(hints[key], value, f"{where}.{key}") for key, value in table.items()}
+    try:
+        return kind(**values)
+    except ContactError as error:
+        raise ContactError(f"{where}: {error}") from None
+
+
+def _convert(hint: Any, value: object, where: str) -> Any:
+    options = get_args(hint) if get_origin(hint) in (Union, types.UnionType) else (hint,)
+    for option in options:
+        if is_dataclass(option) and isinstance(value, dict):
+            return build(option, value, where)
+        if get_origin(option) is tuple and isinstance(value, list):
+            item = get_args(option)[0]
+            return tuple(_convert(item, entry, f"{where}[{k}]") for k, entry in enumerate(value))
+        if option is float and isinstance(value, int | float) and not isinstance(value, bool):
+            return float(value)
+        if option in (int, str, bool) and type(value) is option:
+            return value
+    raise ContactError(f"{where} = {value!r} is not {' or '.join(_named(o) for o in options if o is not type(None))}")
+
+
+def _named(option: Any) -> str:
+    if is_dataclass(option):
+        return "a table"
+    if get_origin(option) is tuple:
+        return "an array"
+    return {float: "a number", int: "an integer", str: "a text", bool: "true or false"}[option]

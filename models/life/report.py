@@ -1,0 +1,151 @@
+"""The page of a run: what was run, what happened, what it did to the profiles."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from contact import plot
+from contact.accumulation import Histogram
+from contact.study.page import document, faint, html_of, picture
+from contact.study.table import Table, number
+from models.life.harvest import BODIES
+from models.life.run import BALANCE, Run
+from models.wheelset.ports import SIDES
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_WIDE, _NARROW = 9.0, 4.6  # [inch]
+
+
+def page_of(run: Run) -> str:
+    """One HTML file that needs nothing else."""
+    scenario, d = run.scenario, run.scenario.declared
+    about = [
+        f"{d.length:g} m, of which the first {d.recording.settling:g} m leave no damage; wheel {scenario.wheel.name}, rail "
+        f"{scenario.rail.name}; {d.methods.normal} + {d.methods.tangential}; wheelset {d.wheelset.set!r}.",
+        "Forces act on the wheel, y is to the right. Damage is that of patches with a contact plane each, under the vertical "
+        "loads of the coupled run. The track's alignment alone is irregular: gauge, cross-level and vertical irregularities, "
+        "and the vehicle above the wheelset, are not modelled.",
+    ]
+    return document(scenario.name, about, _parts(run))
+
+
+def illustrated(draw: Callable[[], Figure], text: str) -> str:
+    """A picture for wide and for narrow pages."""
+    return picture(_resized(draw(), _WIDE), _resized(draw(), _NARROW), text)
+
+
+def _resized(figure: Figure, width: float) -> Figure:
+    height = figure.get_size_inches()[1]
+    figure.set_size_inches(width, height)
+    return figure
+
+
+def _parts(run: Run) -> Iterator[str]:
+    yield html_of(_summary(run))
+    for heading, panels in _panels(run.series).items():
+        yield f"<h2>{heading}</h2>"
+        yield illustrated(
+            lambda panels=panels: plot.time_histories(run.series["distance"], panels, xlabel="distance [m]"), heading
+        )
+    for body in BODIES:
+        own = {side: run.harvest.histograms[side, body] for side in SIDES}
+        if not all(h.distance > 0.0 for h in own.values()):
+            continue
+        yield f"<h2>Damage of the {body}s</h2>"
+        yield html_of(_damage(own))
+        yield illustrated(
+            lambda own=own, body=body: plot.wear(own, f"wear of both {body}s: the share of each in their mean"),
+            f"Wear over the profile of the {body}s",
+        )
+    yield "<h2>Energy</h2>"
+    yield html_of(_energy(run))
+    yield "<h2>Declaration</h2>"
+    for entry in fields(run.scenario.declared):
+        yield faint(f"{entry.name} = {getattr(run.scenario.declared, entry.name)!r}")
+    yield faint(f"fingerprint {run.scenario.fingerprint}, step {1e3 * run.scenario.step:.4g} ms, {run.steps} steps")
+
+
+def _panels(s: dict[str, Any]) -> dict[str, dict[str, dict[str, Any]]]:
+    def both(name: str, factor: float) -> dict[str, Any]:
+        return {side: factor * s[f"{side}_{name}"] for side in SIDES}
+
+    return {
+        "Track": {
+            "speed [m/s]": {"speed": s["speed"]},
+            "curvature [1/km]": {"curvature": 1e3 * s["curvature"]},
+            "alignment [mm]": {"alignment": 1e3 * s["alignment"]},
+        },
+        "Motion": {
+            "y − alignment [mm]": {"wheelset": 1e3 * (s["lateral"] - s["alignment"])},
+            "yaw [mrad]": {"wheelset": 1e3 * s["yaw"]},
+            "contact angle [°]": both("contact_angle", math.degrees(1.0)),
+        },
+        "Forces": {
+            "lateral [kN]": both("lateral_force", 1e-3),
+            "vertical [kN]": both("vertical_force", 1e-3),
+            "T-gamma [N]": both("T_gamma", 1.0),
+            "pressure [MPa]": both("max_pressure", 1e-6),
+        },
+    }
+
+
+def _summary(run: Run) -> Table:
+    s, wheels = run.series, [run.harvest.histograms[side, "wheel"] for side in SIDES]
+    rows = [("samples", str(s["distance"].size))]
+    if s["distance"].size:
+        ratio = max(np.abs(s[f"{side}_lateral_force"] / s[f"{side}_vertical_force"]).max() for side in SIDES)
+        rows += [
+            ("lateral displacement, greatest", f"{1e3 * np.abs(s['lateral'] - s['alignment']).max():.3g} mm"),
+            ("lateral over vertical force, greatest", f"{ratio:.3g}"),
+            ("pressure, greatest", f"{1e-6 * max(s[f'{side}_max_pressure'].max() for side in SIDES):.4g} MPa"),
+            ("T-gamma, mean of a wheel", f"{np.mean([s[f'{side}_T_gamma'].mean() for side in SIDES]):.3g} N"),
+        ]
+    if all(h.distance > 0.0 for h in wheels):
+        deepest = max(h.per("metre")["wear"].max() for h in wheels)
+        rows.append(("wear of a wheel, deepest", f"{1e12 * deepest:.3g} µm per 1000 km"))
+    return Table("The run in numbers", [("", ""), ("", "")], rows)
+
+
+def _damage(own: dict[str, Histogram]) -> Table:
+    rows = []
+    for side, h in own.items():
+        rolled = h.distance
+        rows.append(
+            (
+                side,
+                number(1e12 * h.volume / rolled),
+                number(1e12 * h.per("metre")["wear"].max()),
+                number(float(h["T_gamma"].sum()) / rolled),
+                number(100.0 * h["stress_exceedance"].max() / rolled),
+                number(100.0 * h["fatigue_exceedance"].max() / rolled),
+            )
+        )
+    deepest = "nm/km" if next(iter(own.values())).profile.kind == "wheel" else "µm/10⁶ passes"
+    return Table(
+        "Per kilometre rolled",
+        [
+            ("side", ""),
+            ("worn", "mm³/km"),
+            ("deepest", deepest),
+            ("mean T-gamma", "N"),
+            ("stress index > 0", "% of the way"),
+            ("surface fatigue > 0", "% of the way"),
+        ],
+        rows,
+    )
+
+
+def _energy(run: Run) -> Table:
+    balance = run.balance
+    return Table(
+        "Energies of the whole run",
+        [("", ""), ("value", "J"), ("what", "")],
+        [(name, number(balance[name]), BALANCE[name]) for name in BALANCE if name != "untrusted"],
+    )

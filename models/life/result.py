@@ -1,0 +1,89 @@
+"""The result of a run as one xarray dataset: time series, damage on both wheels and rails, energies, provenance."""
+
+from __future__ import annotations
+
+import json
+from importlib.metadata import version
+from os import PathLike
+from typing import Any
+
+from contact.accumulation import Histogram, from_xarray, to_xarray
+from contact.errors import ContactError
+from models.life.harvest import BODIES
+from models.life.run import BALANCE, COLUMNS, Run
+from models.wheelset.ports import SIDES
+
+FORMAT = "wheelrail-contact run 1"
+
+
+def dataset(run: Run) -> Any:
+    """Time series over `distance`; the histogram of each side and body with its names behind ``right_wheel_`` and so on.
+
+    Nothing in it depends on when or where the run took place: the same scenario gives the same bytes. Attributes: the
+    scenario, and energies under ``balance_…`` (`models.life.run.BALANCE`).
+    """
+    import xarray
+
+    scenario = run.scenario
+    series = {
+        name: ("distance", values, {"units": COLUMNS[name][0], "long_name": COLUMNS[name][1]})
+        for name, values in run.series.items()
+    }
+    attributes = {
+        "format": FORMAT,
+        "source": f"wheelrail-contact {version('wheelrail-contact')}",
+        "name": scenario.name,
+        "scenario": repr(scenario.declared),
+        "draw": json.dumps(scenario.draw),
+        "fingerprint": scenario.fingerprint,
+        "step": scenario.step,
+        **{f"balance_{name}": value for name, value in run.balance.items()},
+    }
+    distance = series.pop("distance")
+    whole = xarray.Dataset(series, {"distance": distance}, attributes)
+    for side in SIDES:
+        for body in BODIES:
+            whole = _joined(whole, to_xarray(run.harvest.histograms[side, body]), _prefix(side, body))
+    return whole
+
+
+def histogram(stored: Any, side: str, body: str) -> Histogram:
+    """One histogram out of a result.
+
+    Parameters
+    ----------
+    stored : xarray.Dataset
+        What `dataset` gave, or its file read again.
+    side, body : "right" or "left", "wheel" or "rail"
+
+    Raises
+    ------
+    ContactError
+        If `stored` is something else.
+    """
+    if stored.attrs.get("format") != FORMAT:
+        raise ContactError(f"format = {stored.attrs.get('format')!r}: the dataset is no {FORMAT}")
+    prefix = _prefix(side, body)
+    own = stored[[name for name in stored.variables if str(name).startswith(prefix)]]
+    names = {name: str(name).removeprefix(prefix) for name in [*own.variables, *own.dims]}
+    own = own.rename({name: new for name, new in names.items() if name in own.variables or name in own.dims})
+    own.attrs = {name.removeprefix(prefix): value for name, value in stored.attrs.items() if name.startswith(prefix)}
+    return from_xarray(own)
+
+
+def write(whole: Any, path: str | PathLike[str]) -> None:
+    """As NetCDF, version 3."""
+    whole.to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
+
+
+def _prefix(side: str, body: str) -> str:
+    return f"{side}_{body}_"
+
+
+def _joined(whole: Any, part: Any, prefix: str) -> Any:
+    attributes = {f"{prefix}{name}": value for name, value in part.attrs.items()}
+    renamed = part.rename({name: f"{prefix}{name}" for name in {*part.variables, *part.dims}})
+    return whole.merge(renamed, combine_attrs="override").assign_attrs(attributes)
+
+
+__all__ = ["BALANCE", "FORMAT", "dataset", "histogram", "write"]

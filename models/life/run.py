@@ -1,0 +1,217 @@
+"""A run of a scenario: the wheelset and its two contacts, step by step, with time series, damage and energies."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.errors import ContactError
+from contact.geometry.wheelset import Pose, Velocity
+from contact.material import STEEL
+from models.life.harvest import Harvest
+from models.life.plane import APPROACH, FX, FY, MZ, POWER, STATUS, PlaneContact
+from models.life.scenario import Scenario
+from models.life.track import Place
+from models.wheelset import dynamics
+from models.wheelset.model import WheelsetModel
+from models.wheelset.ports import CREEPAGE, LOAD, SIDES
+
+Array = NDArray[np.float64]
+
+#: Column of the time series → unit and meaning. Lateral positions and angles are relative to the ideal track.
+TRACK = {
+    "distance": ("m", "distance run"),
+    "time": ("s", "time"),
+    "speed": ("m/s", "speed"),
+    "curvature": ("1/m", "curvature of the track, positive to the right"),
+    "cant": ("rad", "cant angle, positive where the left rail is higher"),
+    "alignment": ("m", "lateral irregularity of the centre line"),
+    "lateral": ("m", "lateral displacement of the wheelset"),
+    "yaw": ("rad", "yaw, clockwise seen from above"),
+    "roll": ("rad", "roll"),
+    "spin": ("rad/s", "rotation about the axle"),
+}
+WHEEL = {
+    "normal_force": ("N", "normal force of the coupled run"),
+    "contact_angle": ("rad", "contact angle of the coupled run"),
+    "lateral_force": ("N", "force of the rail on the wheel to the right"),
+    "vertical_force": ("N", "force of the wheel on the rail downwards"),
+    "longitudinal_creepage": ("1", "longitudinal creepage of the coupled run"),
+    "lateral_creepage": ("1", "lateral creepage of the coupled run"),
+    "spin_creepage": ("1/m", "spin creepage of the coupled run"),
+    "T_gamma": ("N", "T-gamma, all patches"),
+    "dissipation": ("N", "frictional energy per metre, all patches"),
+    "max_pressure": ("Pa", "greatest pressure of all patches"),
+    "patches": ("1", "number of patches"),
+}
+COLUMNS = {**TRACK, **{f"{side}_{name}": what for side in SIDES for name, what in WHEEL.items()}}
+#: Energies of a run [J], steps whose solutions are not to be trusted.
+BALANCE = {
+    "drive": "delivered by what keeps the speed and by the loads of the surroundings",
+    "damper": "spent in the suspension",
+    "interface": "left the wheelset through the contacts",
+    "dissipated": "of that, creep forces times creepages of the coupled run",
+    "alignment": "of that, work on the irregularities of the alignment",
+    "elastic": "of that, stored in the contacts since the second step (2/5 load times approach)",
+    "residual": "of that, what the coupling has lost",
+    "counted": "frictional energy of the coupled run where damage was counted",
+    "harvested": "the same, of the patches that the damage is from",
+    "untrusted": "contacts of the coupled run without a trustworthy solution",
+}
+DISSIPATED, ALIGNMENT, ELASTIC, COUNTED, UNTRUSTED, INTERFACE_FIRST, ELASTIC_FIRST = range(7)
+_UNTRUSTED_FROM = 4.0  # the statuses OUT_OF_RANGE and NOT_CONVERGED
+
+
+class Run:
+    """A scenario under way.
+
+    Coupled by Gauss-Seidel as in `models.wheelset.master`. `save` and `restore` are bit for bit: a run that goes on from a
+    saved one ends as the uninterrupted one does.
+
+    Attributes
+    ----------
+    scenario : Scenario
+    harvest : Harvest
+        Damage so far.
+    steps : int
+        Done so far.
+    distance : float
+        Run so far [m].
+    """
+
+    def __init__(self, scenario: Scenario) -> None:
+        self.scenario = scenario
+        self._p = scenario.parameters
+        self._line, self._h = scenario.line(), scenario.step
+        self._model = WheelsetModel(self._p)
+        self._contacts = [PlaneContact(self._p, scenario.friction, scenario.declared.methods, STEEL) for _ in SIDES]
+        self.harvest = Harvest(scenario)
+        self.steps, self.distance = 0, 0.0
+        self._sampled = scenario.declared.recording.settling  # up to where damage is counted [m]
+        self._books, self._power = np.zeros(7), 0.0
+        self._rows: list[Array] = []
+
+    @property
+    def done(self) -> bool:
+        """Whether the whole length has been run."""
+        return self.distance >= self.scenario.declared.length
+
+    @property
+    def share(self) -> float:
+        """Part of the length that has been run."""
+        return min(self.distance / self.scenario.declared.length, 1.0)
+
+    def advance(self) -> None:
+        """One step of the coupled system.
+
+        Raises
+        ------
+        ContactError
+            When a wheel leaves its rail; the message says where.
+        """
+        s, model = self.distance, self._model
+        speed, place = self.scenario.speed(s), self._line.at(s)
+        loads = self.scenario.declared.wheelset.loads(self._p, speed, place.curvature, place.cant)
+        try:
+            model.set_running(speed, curvature=place.curvature, **loads)
+            model.set_irregularity(place.lateral, place.slope)
+            problems = [model.problem(side) for side in SIDES]
+            answers = [c.solve(problem, speed) for c, problem in zip(self._contacts, problems, strict=True)]
+            self._book(problems, answers, speed, place.slope)
+            if s - self._sampled >= self.scenario.declared.recording.spacing:
+                self._sample(place, problems, answers, speed)
+            for side, a in zip(SIDES, answers, strict=True):
+                model.set_forces(side, a[FX], a[FY], a[MZ], a[APPROACH])
+            model.step(self._h)
+        except ContactError as error:
+            raise ContactError(f"{self.scenario.name} at {s:.2f} m, {speed:g} m/s: {error}") from None
+        self.steps += 1
+        self.distance += speed * self._h
+
+    def _book(self, problems: list[Array], answers: list[Array], speed: float, slope: float) -> None:
+        """Energies by the trapezoidal rule; they count from the second step, before it the approach is an assumed one."""
+        books, power, elastic, lateral = self._books, 0.0, 0.0, 0.0
+        for side, problem, a in zip(SIDES, problems, answers, strict=True):
+            angle = self._model.frame(side)[dynamics.ANGLE]
+            power -= speed * float(problem[CREEPAGE] @ a[FX : MZ + 1])
+            elastic += 0.4 * float(problem[LOAD] * a[APPROACH])
+            lateral += float(a[FY] * np.cos(angle) + problem[LOAD] * np.sin(angle))
+            books[UNTRUSTED] += a[STATUS] >= _UNTRUSTED_FROM
+        if self.steps > 1:
+            books[DISSIPATED] += 0.5 * (power + self._power) * self._h
+            books[ALIGNMENT] -= lateral * speed * slope * self._h
+        else:
+            books[INTERFACE_FIRST], books[ELASTIC_FIRST] = self._model.energy()[0], elastic
+        self._power, books[ELASTIC] = power, elastic
+
+    def _sample(self, place: Place, problems: list[Array], answers: list[Array], speed: float) -> None:
+        """Damage of the way since the last sample, and a row of the time series."""
+        s, model = self.distance, self._model
+        distance, self._sampled = s - self._sampled, s
+        y, yaw, y_rate, yaw_rate, spin, _, roll = model.motion().tolist()
+        frames = np.array([model.frame(side) for side in SIDES])
+        relative = np.array([y, yaw, y_rate - speed * place.slope, yaw_rate, spin])
+        z_rate, roll_rate = dynamics.follow(frames, relative)
+        normal = np.array([problem[LOAD] for problem in problems])
+        lateral, vertical = _track_forces(frames, np.array(answers), normal)
+        found = self.harvest.add(
+            Pose(y - place.lateral, 0.0, roll, yaw - place.slope),
+            Velocity(
+                speed * (1.0 - place.curvature * y),
+                relative[dynamics.LATERAL_VELOCITY],
+                z_rate,
+                roll_rate,
+                yaw_rate + speed * place.curvature,
+                -spin,
+            ),
+            speed,
+            normal * np.cos(frames[:, dynamics.ANGLE]),
+            distance,
+        )
+        self._books[COUNTED] += distance * float(sum(a[POWER] for a in answers))
+        row = [s, self.steps * self._h, speed, place.curvature, place.cant, place.lateral, y, yaw, roll, spin]
+        for i, problem in enumerate(problems):
+            row += [normal[i], frames[i, dynamics.ANGLE], lateral[i], vertical[i], *problem[CREEPAGE], *found[i]]
+        self._rows.append(np.array(row))
+
+    @property
+    def series(self) -> dict[str, Array]:
+        """The time series, a column each of `COLUMNS`."""
+        rows = np.array(self._rows).reshape(-1, len(COLUMNS))
+        return {name: rows[:, k] for k, name in enumerate(COLUMNS)}
+
+    @property
+    def balance(self) -> dict[str, float]:
+        """Energies of the whole run, as in `BALANCE`."""
+        interface, drive, damper, _ = self._model.energy().tolist()
+        dissipated, alignment, elastic, counted, untrusted, interface_first, elastic_first = self._books.tolist()
+        left, stored = interface - interface_first, elastic - elastic_first
+        values = (drive, damper, left, dissipated, alignment, stored, left - dissipated - alignment - stored)
+        return dict(zip(BALANCE, (*values, counted, float(self.harvest.energy.sum()), untrusted), strict=True))
+
+    def save(self) -> dict[str, Array]:
+        """All of the run as arrays."""
+        return {
+            "model": np.frombuffer(self._model.save()),
+            "progress": np.array([self.steps, self.distance, self._sampled, self._power, self._h]),
+            "books": self._books.copy(),
+            "rows": np.array(self._rows).reshape(-1, len(COLUMNS)),
+            **self.harvest.save(),
+        }
+
+    def restore(self, saved: Mapping[str, Array]) -> None:
+        """Go on from a `save` of the same scenario."""
+        self._model.restore(saved["model"].tobytes())
+        steps, self.distance, self._sampled, self._power, self._h = saved["progress"].tolist()
+        self.steps = int(steps)
+        self._books[:] = saved["books"]
+        self._rows = list(saved["rows"])
+        self.harvest.restore(saved)
+
+
+def _track_forces(frames: Array, answers: Array, normal: Array) -> tuple[Array, Array]:
+    """Lateral force of the rails on the wheels and vertical force of the wheels on the rails, both wheels [N]."""
+    sine, cosine = np.sin(frames[:, dynamics.ANGLE]), np.cos(frames[:, dynamics.ANGLE])
+    return answers[:, FY] * cosine + normal * sine, normal * cosine - answers[:, FY] * sine

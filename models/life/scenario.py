@@ -1,0 +1,207 @@
+"""A scenario: everything that a run depends on, read from one TOML file."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass, field, replace
+from importlib.metadata import version
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from contact.damage import DamageParameters
+from contact.errors import ContactError, require_number
+from contact.friction import Friction, as_friction
+from contact.geometry import profile
+from contact.geometry.profile import Profile
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
+from contact.solve import N_ELEMENTS, N_STRIPS, require_resolution
+from models.life.declared import build, read_table
+from models.life.track import Line, Speed, Track
+from models.life.vehicle import Vehicle
+from models.wheelset.parameters import WheelsetParameters
+
+_CREEP_COEFFICIENT = (
+    12e6  # [N] a little above the longitudinal one of the default wheel under 54.5 kN (docs/coupling.md)
+)
+_SHARE_OF_STABLE = 0.7
+_LONGEST_STEP = 1e-3  # [s]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Profiles:
+    """Names of the standards, or files, of the right side; a file's path is relative to that of the scenario."""
+
+    wheel: str = "S1002"
+    rail: str = "60E1"
+    inclination: float | None = None
+    unit: str | None = None
+    smoothing: float | None = None
+
+    def load(self, folder: Path) -> tuple[Profile, Profile]:
+        """Wheel and rail."""
+        given: dict[str, Any] = {"unit": self.unit, "smoothing": self.smoothing, "inclination": self.inclination}
+        wheel, rail = (str(folder / name) if (folder / name).is_file() else name for name in (self.wheel, self.rail))
+        return profile.load(wheel, "wheel", **given), profile.load(rail, "rail", **given)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Methods:
+    """Contact methods by name, and their resolution."""
+
+    normal: str = DEFAULT_NORMAL
+    tangential: str = DEFAULT_TANGENTIAL
+    strips: int = N_STRIPS
+    elements: int = N_ELEMENTS
+
+    def __post_init__(self) -> None:
+        lookup("normal", self.normal, batched=True)
+        if not lookup("tangential", self.tangential, batched=True).fields:
+            raise ContactError(f"tangential = {self.tangential!r} gives forces alone; damage needs traction and slip")
+        require_resolution(self.strips, self.elements)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Recording:
+    """How finely a run is followed.
+
+    Parameters
+    ----------
+    settling : distance at the start that leaves no damage, along which the irregularities grow from nothing [m]
+    spacing : distance between two samples of damage and time series [m], 0.01 to 10
+    step : of the coupled system [s], 1e-5 to 5e-3; by default 0.7 of what is stable, at most 1 ms (docs/coupling.md)
+    bins : width of the bins of damage along the profiles [m], 1e-4 to 5e-3
+    """
+
+    settling: float = 30.0
+    spacing: float = 0.25
+    step: float | None = None
+    bins: float = 5e-4
+
+    def __post_init__(self) -> None:
+        require_number("settling", self.settling, 0.0)
+        require_number("spacing", self.spacing, 0.01, 10.0)
+        require_number("bins", self.bins, 1e-4, 5e-3)
+        if self.step is not None:
+            require_number("step", self.step, 1e-5, 5e-3)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Declaration:
+    """A scenario as its file declares it, SI units throughout.
+
+    Parameters
+    ----------
+    name : of the run, for titles
+    length : distance to run [m], longer than recording.settling
+    speed : one number, 1 to 150 [m/s], or places and values
+    seed : of the random irregularities, not negative
+    track, wheelset, friction, profiles, methods, damage, recording : tables of their own
+    """
+
+    name: str
+    length: float
+    speed: float | Speed
+    seed: int = 0
+    track: Track = field(default_factory=Track)
+    wheelset: Vehicle = field(default_factory=Vehicle)
+    friction: float | Friction = 0.3
+    profiles: Profiles = field(default_factory=Profiles)
+    methods: Methods = field(default_factory=Methods)
+    damage: DamageParameters = field(default_factory=DamageParameters)
+    recording: Recording = field(default_factory=Recording)
+
+    def __post_init__(self) -> None:
+        require_number("length", self.length, self.recording.settling + self.recording.spacing, 1e6)
+        require_number("seed", self.seed, 0)
+        if isinstance(self.speed, float):
+            require_number("speed", self.speed, 1.0, 150.0)
+        as_friction(self.friction)
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """A declaration with its profiles: what `Run` runs.
+
+    Attributes
+    ----------
+    declared : Declaration
+    wheel, rail : Profile
+        Of the right side; the left side is the mirror image.
+    draw : tuple of int
+        Beside the seed, which of all realisations of the irregularities this is: the mileage step of a wear run.
+    """
+
+    declared: Declaration
+    wheel: Profile
+    rail: Profile
+    draw: tuple[int, ...] = ()
+
+    @property
+    def name(self) -> str:
+        return self.declared.name
+
+    def speed(self, s: float) -> float:
+        """Speed [m/s] at the distance `s` [m]."""
+        given = self.declared.speed
+        return given(s) if isinstance(given, Speed) else given
+
+    @property
+    def parameters(self) -> WheelsetParameters:
+        """Of the wheelset at the start."""
+        return self.declared.wheelset.parameters(self.wheel, self.rail, self.speed(0.0))
+
+    @property
+    def friction(self) -> Friction:
+        return as_friction(self.declared.friction)
+
+    @property
+    def step(self) -> float:
+        """Of the coupled system [s]: what is declared, or a share of what the axle's spin bears, I_s V/(f r²)."""
+        given = self.declared.recording.step
+        if given is not None:
+            return given
+        p, speeds = self.parameters, self.declared.speed
+        slowest = min(speeds.values) if isinstance(speeds, Speed) else speeds
+        stable = p.spin_inertia * slowest / (_CREEP_COEFFICIENT * p.radius**2)
+        return min(_LONGEST_STEP, _SHARE_OF_STABLE * stable * min(1.0, (109.1e3 / p.axle_load) ** (2.0 / 3.0)))
+
+    def line(self) -> Line:
+        """The track with its irregularities."""
+        d = self.declared
+        return Line(d.track, (d.seed, *self.draw), d.recording.settling)
+
+    def worn(self, wheel: Profile, draw: int) -> Scenario:
+        """The same with another wheel and other irregularities of the same spectrum."""
+        return replace(self, wheel=wheel, draw=(draw,))
+
+    @property
+    def fingerprint(self) -> str:
+        """The same for runs that have the same result."""
+        digest = hashlib.sha256(f"{version('wheelrail-contact')} {self.declared!r} {self.draw!r}".encode())
+        for shape in (self.wheel, self.rail):
+            for row in (shape.y, shape.z, shape.angle):
+                digest.update(row.tobytes())
+        return digest.hexdigest()[:32]
+
+
+def read(path: str | PathLike[str]) -> Scenario:
+    """The scenario in a TOML file.
+
+    Raises
+    ------
+    ContactError
+        What is not TOML, unknown or missing keys, values of the wrong type or outside their range: the message names file,
+        key, value and what is allowed.
+    """
+    return from_table(read_table(path), Path(path))
+
+
+def from_table(table: dict[str, Any], path: Path) -> Scenario:
+    """The scenario that the tables of the file `path` declare."""
+    declared = build(Declaration, table, path.name)
+    try:
+        wheel, rail = declared.profiles.load(path.parent)
+    except (ContactError, OSError) as error:
+        raise ContactError(f"{path.name}.profiles: {error}") from None
+    return Scenario(declared, wheel, rail)

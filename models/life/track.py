@@ -1,0 +1,137 @@
+"""A track over its length: curves with transitions and cant, random alignment."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from contact.errors import ContactError, require_number
+from models.life.spectra import Irregularities, Realisation
+
+RAIL_DISTANCE = 1.5  # [m] of the rails' centres, over which cant is measured
+
+
+@dataclass(frozen=True, kw_only=True)
+class Curve:
+    """Transition, circle, transition; curvature and cant grow along the transitions in proportion to the distance.
+
+    Parameters
+    ----------
+    start : where the first transition begins [m]
+    radius : of the circle [m], 100 to 100000
+    length, transition : of the circle, of each transition [m]; a transition has 1 m at least
+    cant : height of the outer rail above the inner [m], 0 to 0.2
+    direction : "right" or "left"
+    """
+
+    start: float
+    radius: float
+    length: float
+    transition: float = 50.0
+    cant: float = 0.0
+    direction: str = "right"
+
+    def __post_init__(self) -> None:
+        require_number("start", self.start, 0.0)
+        require_number("radius", self.radius, 100.0, 1e5)
+        require_number("length", self.length, 0.0)
+        require_number("transition", self.transition, 1.0)
+        require_number("cant", self.cant, 0.0, 0.2)
+        if self.direction not in ("right", "left"):
+            raise ContactError(f"direction = {self.direction!r} is neither 'right' nor 'left'")
+
+    @property
+    def end(self) -> float:
+        """Where the last transition ends [m]."""
+        return self.start + self.length + 2.0 * self.transition
+
+    def share(self, s: float) -> float:
+        """Part of curvature and cant that is reached at `s` [m], negative for a curve to the left."""
+        share = min(s - self.start, self.end - s) / self.transition
+        return math.copysign(min(max(share, 0.0), 1.0), 1.0 if self.direction == "right" else -1.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Track:
+    """Straight but for its `curves`, which must not overlap; `alignment` is random, or none."""
+
+    curves: tuple[Curve, ...] = ()
+    alignment: Irregularities | None = None
+
+    def __post_init__(self) -> None:
+        ordered = sorted(self.curves, key=lambda curve: curve.start)
+        for before, after in itertools.pairwise(ordered):
+            if after.start < before.end:
+                raise ContactError(
+                    f"curves: the one that starts at {after.start:g} m begins before {before.end:g} m, where the one "
+                    f"before it ends"
+                )
+
+
+class Place(NamedTuple):
+    """What the track is like below the wheelset."""
+
+    curvature: float  # [1/m], positive to the right
+    cant: float  # angle [rad], positive where the left rail is higher
+    lateral: float  # of the centre line [m]
+    slope: float
+
+
+class Line:
+    """A track as it is run on: with its irregularities drawn, which grow from nothing over the first `settling` metres."""
+
+    def __init__(self, track: Track, seed: tuple[int, ...], settling: float) -> None:
+        self._curves, self._settling = track.curves, settling
+        self._alignment: Realisation | None = track.alignment.realise(seed) if track.alignment else None
+
+    def at(self, s: float) -> Place:
+        """The track at the distance `s` [m]."""
+        curvature = cant = lateral = slope = 0.0
+        for curve in self._curves:
+            share = curve.share(s)
+            curvature += share / curve.radius
+            cant += share * math.asin(curve.cant / RAIL_DISTANCE)
+        if self._alignment is not None:
+            y, rise = self._alignment.at(s)
+            grown, growth = _grown(s, self._settling)
+            lateral, slope = grown * y, grown * rise + growth * y
+        return Place(curvature, cant, lateral, slope)
+
+
+def _grown(s: float, over: float) -> tuple[float, float]:
+    """A smooth step from 0 to 1 over `over` metres, and its slope."""
+    if over <= 0.0 or s >= over:
+        return 1.0, 0.0
+    t = max(s / over, 0.0)
+    return t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t) / over
+
+
+@dataclass(frozen=True, kw_only=True)
+class Speed:
+    """Speed over the distance, straight between the places.
+
+    Parameters
+    ----------
+    at : places [m], increasing
+    values : speed there [m/s], 1 to 150; before the first and behind the last place it is constant
+    """
+
+    at: tuple[float, ...]
+    values: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        if len(self.at) != len(self.values) or not self.at:
+            raise ContactError(
+                f"at has {len(self.at)} places and values {len(self.values)} speeds; equally many needed"
+            )
+        for k, place in enumerate(self.at):
+            require_number(f"at[{k}]", place, self.at[k - 1] if k else -math.inf, open_minimum=k > 0)
+        for k, value in enumerate(self.values):
+            require_number(f"values[{k}]", value, 1.0, 150.0)
+
+    def __call__(self, s: float) -> float:
+        return float(np.interp(s, self.at, self.values))

@@ -1,0 +1,70 @@
+"""`contact run` from file to report, over an interruption."""
+
+import pytest
+import typer
+from typer.testing import CliRunner
+
+from models.life import commands, report
+from models.life.run import Run
+
+SCENARIO = """
+name = "short & sharp"
+length = 3.0
+speed = 20.0
+friction = 0.4
+[track.alignment]
+spectrum = "ERRI B176 low"
+[recording]
+settling = 0.5
+"""
+
+
+@pytest.fixture
+def call(tmp_path):
+    app = typer.Typer(pretty_exceptions_enable=False)
+    app.command()(commands.run)
+    (tmp_path / "case.toml").write_text(SCENARIO, encoding="utf-8")
+
+    def invoke(out: str, *options: str):
+        return CliRunner().invoke(app, [str(tmp_path / "case.toml"), "--out", str(tmp_path / out), *options])
+
+    return invoke
+
+
+def test_interrupted_run_goes_on_to_the_same_files(call, tmp_path, monkeypatch):
+    monkeypatch.setattr(report, "page_of", lambda run: repr(run.balance))  # pictures take their time
+    assert call("whole").exit_code == 0
+    advance = Run.advance
+
+    def interrupted(self):
+        if self.steps == 150:
+            raise KeyboardInterrupt
+        advance(self)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Run, "advance", interrupted)
+        broken = call("broken", "--every", "0")
+    assert broken.exit_code == 130
+    assert "the same command goes on from" in broken.output
+    assert not (tmp_path / "broken" / "result.nc").exists()
+    resumed = call("broken")
+    assert "goes on at 1.2 m" in resumed.output
+    for name in ("result.nc", "report.html"):
+        assert (tmp_path / "broken" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
+    assert sorted(path.name for path in (tmp_path / "broken").iterdir()) == ["report.html", "result.nc"]
+
+
+def test_report_stands_by_itself(call, tmp_path):
+    assert call("out").exit_code == 0
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert "<h1>short &amp; sharp</h1>" in page
+    assert page.count("<picture>") == 5
+    assert "http" not in page
+    assert 'src="data:image/png;base64,' in page
+
+
+def test_bad_scenario_ends_with_a_message(call, tmp_path):
+    (tmp_path / "case.toml").write_text(SCENARIO + "spacing = 'wide'", encoding="utf-8")
+    ended = call("out")
+    assert ended.exit_code == 2
+    assert "case.toml.recording.spacing = 'wide' is not a number" in ended.output

@@ -1,0 +1,126 @@
+"""Scenarios: what a file may say, what it may not, and the track that comes of it."""
+
+import math
+from pathlib import Path
+
+import pytest
+
+from contact.errors import ContactError
+from contact.friction import Friction
+from models.life import scenario
+from models.life.track import Curve, Track
+
+EXAMPLES = Path(__file__).parents[2] / "examples" / "scenarios"
+LEAST = 'name = "x"\nlength = 100.0\nspeed = 20.0\n'
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "case.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("length = 100.0\nspeed = 20.0", r"case.toml.name is missing"),
+        (LEAST + "sped = 3", r"case.toml.sped is unknown, did you mean 'speed'\?; allowed: name, length"),
+        (LEAST.replace("20.0", '"fast"'), r"case.toml.speed = 'fast' is not a number or a table"),
+        (LEAST.replace("20.0", "0.5"), r"case.toml: speed = 0.5 is outside the allowed range \[1, 150\]"),
+        (LEAST.replace("100.0", "10.0"), r"case.toml: length = 10 is outside the allowed range \[30.25, "),
+        (LEAST + "seed = 1.5", r"case.toml.seed = 1.5 is not an integer"),
+        (LEAST + "friction = -0.1", r"case.toml: friction = -0.1 is outside"),
+        (
+            LEAST + "[friction]\nstatic = 0.3\nlaw = 'falling'",
+            r"case.toml.friction: friction.law = 'falling' is unknown",
+        ),
+        (
+            LEAST + "[[track.curves]]\nstart = 0.0\nradius = 50.0\nlength = 10.0",
+            r"case.toml.track.curves\[0\]: radius = 50 is outside the allowed range \[100, 100000\]",
+        ),
+        (LEAST + "[track]\ncurves = 3", r"case.toml.track.curves = 3 is not an array"),
+        (
+            LEAST + "[track.alignment]\nspectrum = 'ERRI B176 medium'",
+            r"case.toml.track.alignment: spectrum = 'ERRI B176 medium' is unknown",
+        ),
+        (
+            LEAST + "[wheelset]\nset = 'manchster'",
+            r"case.toml.wheelset: set = 'manchster' is unknown, did you mean 'manchester'",
+        ),
+        (LEAST + "[wheelset]\nmass = 0.0", r"case.toml.wheelset: mass = 0 is outside the allowed range \]0, inf\["),
+        (LEAST + "[profiles]\nwheel = 'S1003'", r"case.toml.profiles: wheel = 'S1003' is no profile"),
+        (LEAST + "[methods]\ntangential = 'polach'", r"case.toml.methods: tangential = 'polach' gives forces alone"),
+        (LEAST + "[damage.archard]\nmild = -1.0", r"case.toml.damage.archard: archard.mild = -1 is outside"),
+        (
+            LEAST + "[recording]\nstep = 0.1",
+            r"case.toml.recording: step = 0.1 is outside the allowed range \[1e-05, 0.005\]",
+        ),
+        (LEAST + "seed = one\n", r"case.toml is no TOML: .*line 4"),
+        (LEAST.replace("20.0", "{ at = [0.0, 0.0], values = [20.0, 10.0] }"), r"at\[1\] = 0 is outside .*\]0, inf\["),
+    ],
+)
+def test_what_is_wrong_is_said_with_key_value_and_range(tmp_path, text, message):
+    with pytest.raises(ContactError, match=message):
+        scenario.read(written(tmp_path, text))
+
+
+def test_missing_file_is_named(tmp_path):
+    with pytest.raises(ContactError, match=r"none\.toml"):
+        scenario.read(tmp_path / "none.toml")
+
+
+@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
+def test_examples_are_scenarios_or_sets_of_them(path):
+    if "scenarios" in path.read_text(encoding="utf-8"):
+        pytest.skip("a set")
+    found = scenario.read(path)
+    assert found.step <= 1e-3
+    assert found.parameters.speed == found.speed(0.0)
+
+
+def test_least_scenario_takes_the_defaults_of_the_models(tmp_path):
+    found = scenario.read(written(tmp_path, LEAST))
+    assert found.friction == Friction(0.3)
+    assert (found.wheel.name, found.rail.name) == ("S1002", "60E1")
+    assert found.parameters.mass == 1813.0
+    assert found.line().at(50.0) == (0.0, 0.0, 0.0, 0.0)
+
+
+def test_fingerprint_follows_input_profiles_and_draw(tmp_path):
+    one = scenario.read(written(tmp_path, LEAST))
+    assert scenario.read(written(tmp_path, "# a comment\n" + LEAST)).fingerprint == one.fingerprint
+    others = [scenario.read(written(tmp_path, LEAST + more)) for more in ("seed = 1", "[profiles]\nwheel = '1/40'")]
+    assert len({one.fingerprint, *(other.fingerprint for other in others), one.worn(one.wheel, 1).fingerprint}) == 4
+
+
+def test_curve_has_transitions_circle_and_cant():
+    track = Track(curves=(Curve(start=10.0, radius=500.0, length=40.0, transition=20.0, cant=0.15, direction="left"),))
+    line = scenario.Line(track, (0,), 0.0)
+    for s, share in ((0.0, 0.0), (10.0, 0.0), (20.0, 0.5), (30.0, 1.0), (70.0, 1.0), (85.0, 0.25), (90.0, 0.0)):
+        place = line.at(s)
+        assert place.curvature == pytest.approx(-share / 500.0)
+        assert place.cant == pytest.approx(-share * math.asin(0.1))
+
+
+def test_overlapping_curves_are_refused():
+    with pytest.raises(ContactError, match="starts at 100 m begins before 140 m"):
+        Track(curves=tuple(Curve(start=start, radius=500.0, length=40.0) for start in (0.0, 100.0)))
+
+
+def test_balanced_cant_leaves_the_wheelset_alone():
+    """V² κ = g φ: neither lateral nor roll load; twice the speed presses it to the outside with its axle load's share."""
+    found = scenario.Declaration(name="x", length=100.0, speed=20.0).wheelset
+    p = found.parameters(*scenario.Profiles().load(Path()), 20.0)
+    cant, curvature = 0.05, 0.05 * 9.81 / 20.0**2
+    assert found.loads(p, 20.0, curvature, cant)["lateral_load"] == pytest.approx(0.0, abs=1e-9)
+    fast = found.loads(p, 40.0, curvature, cant)
+    assert fast["lateral_load"] == pytest.approx(-3.0 * cant * p.axle_load)
+    assert fast["roll_load"] == pytest.approx(0.98 * fast["lateral_load"])
+
+
+def test_manchester_wheelset_has_the_published_primary_suspension(tmp_path):
+    """constants.md 13.4, two axle boxes 2.0 m apart."""
+    p = scenario.read(written(tmp_path, LEAST + "[wheelset]\nset = 'manchester'\nmass = 1900.0")).parameters
+    assert p.lateral_stiffness == pytest.approx(7.768e6)
+    assert p.yaw_stiffness == pytest.approx(62.782e6)
+    assert p.mass == 1900.0
