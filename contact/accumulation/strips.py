@@ -70,11 +70,12 @@ def shares(low: Array, high: Array, edges: Array) -> Array:
 def rates(kind: str, solution: Solution, damage: Damage) -> Array:
     """What each strip does per metre rolled, in the order of `histogram.SUMS`, shape (7, n_strips).
 
-    What is spread over the whole patch (T-gamma, as the laws over T-gamma/A take it) is shared by contact area.
+    What is spread over the whole patch (T-gamma, as the laws over T-gamma/A take it) is shared by contact area. A strip may
+    have none, where a patch is about to part.
     """
     strips, wear = solution.strips, damage.archard
     area = solution.dA.sum(axis=1)
-    energy = (damage.energy_index.field * solution.dA).sum(axis=1) / area
+    energy = (damage.energy_index.field * solution.dA).sum(axis=1) / np.maximum(area, np.finfo(float).tiny)
     everywhere = np.ones(strips.y.size)
     return np.stack(
         (

@@ -1,0 +1,138 @@
+"""A set of scenarios and how long their mix is to wear a wheel, read from one TOML file."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass, field
+from importlib.metadata import version
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+
+from contact.errors import ContactError, require_number
+from contact.geometry.profile import Profile
+from models.life import scenario
+from models.life.declared import build, read_table
+from models.life.flange import Flange
+from models.life.scenario import Scenario
+
+
+@dataclass(frozen=True, kw_only=True)
+class Share:
+    """One scenario of the set: its file, relative to that of the set, and its weight, the part of the mileage, > 0."""
+
+    file: str
+    weight: float
+
+    def __post_init__(self) -> None:
+        require_number("weight", self.weight, 0.0, open_minimum=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Steps:
+    """How far the profile may go before the vehicle runs on it again.
+
+    Parameters
+    ----------
+    distance : at most, of one step [m], 1e3 to 1e9
+    depth : at most, of the smoothed wear of one step where it is deepest [m], 1e-7 to 1e-3
+    smoothing : standard deviation of the Gaussian that the depth of a step is smoothed with [m], 5e-4 to 0.02
+    """
+
+    distance: float = 1e7
+    depth: float = 5e-5
+    smoothing: float = 2e-3
+
+    def __post_init__(self) -> None:
+        require_number("distance", self.distance, 1e3, 1e9)
+        require_number("depth", self.depth, 1e-7, 1e-3)
+        require_number("smoothing", self.smoothing, 5e-4, 0.02)
+
+    def length(self, rate: float, left: float) -> float:
+        """Mileage of a step [m] at a smoothed wear `rate` [m/m], `left` [m] before the end."""
+        allowed = min(self.distance, left)
+        return min(allowed, self.depth / rate) if rate * allowed > self.depth else allowed
+
+
+@dataclass(frozen=True, kw_only=True)
+class Declaration:
+    """A set as its file declares it.
+
+    Parameters
+    ----------
+    name : for titles
+    mileage : at which the wheel is done [m], positive
+    scenarios : at least one
+    steps : see `Steps`
+    limits : at which the wheel is done as well, see `models.life.flange`
+    amplitudes : at which the equivalent conicity is told [m]
+    """
+
+    name: str
+    mileage: float
+    scenarios: tuple[Share, ...]
+    steps: Steps = field(default_factory=Steps)
+    limits: Flange = field(default_factory=Flange.limits)
+    amplitudes: tuple[float, ...] = (1e-3, 2e-3, 3e-3, 4e-3, 5e-3)
+
+    def __post_init__(self) -> None:
+        require_number("mileage", self.mileage, 0.0, 1e10, open_minimum=True)
+        if not self.scenarios:
+            raise ContactError("scenarios is empty; at least one is needed")
+        for k, value in enumerate(self.amplitudes):
+            require_number(f"amplitudes[{k}]", value, 1e-4, 0.02)
+
+
+@dataclass(frozen=True)
+class ScenarioSet:
+    """A declaration with its scenarios, which share one wheel."""
+
+    declared: Declaration
+    scenarios: tuple[Scenario, ...]
+
+    @property
+    def name(self) -> str:
+        return self.declared.name
+
+    @property
+    def wheel(self) -> Profile:
+        """Unworn."""
+        return self.scenarios[0].wheel
+
+    @property
+    def weights(self) -> tuple[float, ...]:
+        """Parts of the mileage, together 1."""
+        given = [share.weight for share in self.declared.scenarios]
+        return tuple(weight / sum(given) for weight in given)
+
+    @property
+    def fingerprint(self) -> str:
+        """The same for sets that have the same result."""
+        parts = (version("wheelrail-contact"), repr(self.declared), *(each.fingerprint for each in self.scenarios))
+        return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:32]
+
+
+def read(path: str | PathLike[str]) -> ScenarioSet:
+    """The set in a TOML file, with the scenarios in theirs.
+
+    Raises
+    ------
+    ContactError
+        As `scenario.read`, and for scenarios whose wheels are not one.
+    """
+    path = Path(path)
+    declared = build(Declaration, read_table(path), path.name)
+    scenarios = tuple(scenario.read(path.parent / share.file) for share in declared.scenarios)
+    first = scenarios[0]
+    for share, other in zip(declared.scenarios, scenarios, strict=True):
+        same = np.array_equal(first.wheel.y, other.wheel.y) and np.array_equal(first.wheel.z, other.wheel.z)
+        if not same or (first.parameters.radius, first.declared.recording.bins, first.declared.damage) != (
+            other.parameters.radius,
+            other.declared.recording.bins,
+            other.declared.damage,
+        ):
+            raise ContactError(
+                f"{path.name}: {share.file} has another wheel, radius, bins or damage than {declared.scenarios[0].file}"
+            )
+    return ScenarioSet(declared, scenarios)

@@ -1,0 +1,201 @@
+"""Wear over a mileage: the vehicle runs, the profile changes, the vehicle runs on it again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import reduce
+from operator import add
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.accumulation import Histogram, worn_profile
+from contact.errors import ContactError
+from contact.geometry import conicity
+from contact.geometry.profile import Profile
+from models.life.declared_set import ScenarioSet
+from models.life.flange import Flange
+from models.life.harvest import Harvest
+from models.life.run import Run
+from models.life.scale import Workers
+from models.life.scenario import Scenario
+from models.wheelset.ports import SIDES
+
+Array = NDArray[np.float64]
+
+DENSITY = 7850.0  # of steel [kg/m³]
+#: Column of the steps → unit and meaning. Sizes and conicity are those at the end of a step, 0 for the unworn wheel.
+COLUMNS = {
+    "mileage": ("m", "mileage at the end of the step"),
+    "deepest": ("m", "greatest smoothed depth worn off in the step"),
+    "area": ("m2", "cross-section worn off in the step, before smoothing"),
+    "area_smoothed": ("m2", "the same after smoothing, between the profiles before and after"),
+    "mass": ("kg", "mass worn off a wheel in the step"),
+    "energy": ("J", "frictional energy of a wheel in the step"),
+    "flange_height": ("m", "Sh"),
+    "flange_thickness": ("m", "Sd"),
+    "qR": ("m", "qR"),
+    "tread_depth": ("m", "depth worn off at the tape circle since the start"),
+    "untrusted": ("1", "contacts without a trustworthy solution in the runs of the step"),
+}
+
+
+def harvest(scenario: Scenario) -> dict[str, Array]:
+    """Run a scenario to its end; its damage as `Harvest.save` gives it, and how many contacts are not to be trusted."""
+    run = Run(scenario)
+    while not run.done:
+        run.advance()
+    return run.harvest.save() | {"untrusted": np.array(run.balance["untrusted"])}
+
+
+class Life:
+    """A wheel that wears under a set of scenarios.
+
+    Both wheels of the wheelset wear alike, by the mean of what the runs do to them: as many curves to the right as to the
+    left. The rails stay as they are. Each step draws its own irregularities.
+
+    Attributes
+    ----------
+    plan : ScenarioSet
+    wheels : list of Profile
+        Unworn, and at the end of each step.
+    rows : list of ndarray
+        One for each profile, in the order of `COLUMNS`.
+    shares : ndarray, shape (scenarios, points)
+        Smoothed depth that each scenario has worn off at each point of the profile [m].
+    conicities : list of ndarray
+        Equivalent conicity at the amplitudes of the plan, of each profile on the rail of the first scenario.
+    latest : dict
+        Scenario's name → wear of the last step as a histogram: its share of the mileage, mean of both wheels.
+    """
+
+    def __init__(self, plan: ScenarioSet) -> None:
+        self.plan = plan
+        self.wheels = [plan.wheel]
+        self.shares = np.zeros((len(plan.scenarios), plan.wheel.y.size))
+        self.latest: dict[str, Histogram] = {}
+        self.rows = [self._row(0.0, {}, plan.wheel)]
+        self.conicities = [self._conicity(plan.wheel)]
+
+    @property
+    def wheel(self) -> Profile:
+        """As it is now."""
+        return self.wheels[-1]
+
+    @property
+    def mileage(self) -> float:
+        """So far [m]."""
+        return float(self.rows[-1][0])
+
+    def __getitem__(self, column: str) -> Array:
+        return np.array(self.rows)[:, list(COLUMNS).index(column)]
+
+    @property
+    def ended(self) -> str:
+        """Why it is over: the mileage or a limit; nothing as long as it is not."""
+        limit = Flange.measured(self.wheel).exceeded(self.plan.declared.limits)
+        if limit:
+            return limit
+        return "mileage" if self.mileage >= self.plan.declared.mileage else ""
+
+    def step(self, workers: Workers, watch: Callable[[int, int], None] = lambda done, total: None) -> None:
+        """Run all scenarios on the present wheel, and wear it as far as the rule of the steps allows.
+
+        Raises
+        ------
+        ContactError
+            When a run fails, as `Run.advance`, or wears nothing off.
+        """
+        number = len(self.wheels) - 1
+        scenarios = [each.worn(self.wheel, number) for each in self.plan.scenarios]
+        found = workers.map(harvest, scenarios, watch)
+        harvests = [Harvest(each) for each in scenarios]
+        for each, saved in zip(harvests, found, strict=True):
+            each.restore(saved)
+        per_metre = [self._share(each, w) for each, w in zip(harvests, self.plan.weights, strict=True)]
+        smoothing = self.plan.declared.steps.smoothing
+        total = reduce(add, per_metre)
+        rate = float(_depth(self.wheel, worn_profile(total, smoothing=smoothing)).max())
+        if rate <= 0.0:
+            raise ContactError(f"{self.plan.name}: step {number + 1} wears nothing off")
+        length = self.plan.declared.steps.length(rate, self.plan.declared.mileage - self.mileage)
+        worn = worn_profile(total, length, smoothing=smoothing)
+        wheel = Profile("wheel", worn.y, worn.z, worn.angle, self.plan.wheel.name)
+        for k, histogram in enumerate(per_metre):
+            self.shares[k] += _depth(self.wheel, worn_profile(histogram, length, smoothing=smoothing))
+        energies = [float(each.energy.sum()) / _rolled(each) for each in harvests]
+        booked = {
+            "deepest": length * rate,
+            "area": length * float(total["wear"].sum()) * total.width,
+            "area_smoothed": _area_between(self.wheel, wheel),
+            "mass": DENSITY * length * total.volume,
+            "energy": length * float(np.dot(self.plan.weights, energies)),
+            "untrusted": float(sum(saved["untrusted"] for saved in found)),
+        }
+        names = [share.file for share in self.plan.declared.scenarios]
+        self.latest = {name: h.scaled(length) for name, h in zip(names, per_metre, strict=True)}
+        self.rows.append(self._row(self.mileage + length, booked, wheel))
+        self.wheels.append(wheel)
+        self.conicities.append(self._conicity(wheel))
+
+    @staticmethod
+    def _share(each: Harvest, weight: float) -> Histogram:
+        """A scenario's part of a metre of the mix, mean of both wheels."""
+        both = reduce(add, (each.histograms[side, "wheel"] for side in SIDES))
+        return both.scaled(weight / both.distance)
+
+    def _row(self, mileage: float, booked: dict[str, float], wheel: Profile) -> Array:
+        size = Flange.measured(wheel)
+        told = {
+            "mileage": mileage,
+            "flange_height": size.height,
+            "flange_thickness": size.thickness,
+            "qR": size.qR,
+            "tread_depth": float(np.interp(0.0, self.plan.wheel.y, _depth(self.plan.wheel, wheel))),
+        }
+        return np.array([(booked | told).get(name, 0.0) for name in COLUMNS])
+
+    def _conicity(self, wheel: Profile) -> Array:
+        p = self.plan.scenarios[0].parameters
+        found = conicity(
+            wheel,
+            p.rail,
+            self.plan.declared.amplitudes,
+            nominal_radius=p.radius,
+            gauge=p.gauge,
+            flange_back=p.flange_back,
+            gauge_point=p.gauge_point,
+        )
+        return found.conicity
+
+    def save(self) -> dict[str, Array]:
+        """All of it as arrays; the last step's histograms are not among them."""
+        return {
+            "rows": np.array(self.rows),
+            "wheels": np.array([(w.y, w.z, w.angle) for w in self.wheels]),
+            "shares": self.shares.copy(),
+            "conicities": np.array(self.conicities),
+        }
+
+    def restore(self, saved: Mapping[str, Array]) -> None:
+        """Go on from a `save` of the same set."""
+        name = self.plan.wheel.name
+        self.rows, self.conicities = list(saved["rows"]), list(saved["conicities"])
+        self.wheels = [self.plan.wheel, *(Profile("wheel", *rows, name) for rows in saved["wheels"][1:])]
+        self.shares[:] = saved["shares"]
+
+
+def _rolled(each: Harvest) -> float:
+    """Distance of both wheels together [m]."""
+    return float(sum(each.histograms[side, "wheel"].distance for side in SIDES))
+
+
+def _depth(before: Profile, after: Profile) -> Array:
+    """How far each point has moved [m]."""
+    return np.hypot(after.y - before.y, after.z - before.z)
+
+
+def _area_between(before: Profile, after: Profile) -> float:
+    """Area of the polygon between two profiles whose ends lie on each other, or nearly so [m²], by the shoelace formula."""
+    y, z = (np.concatenate((a, b[::-1])) for a, b in ((before.y, after.y), (before.z, after.z)))
+    return abs(0.5 * float(np.dot(y, np.roll(z, -1)) - np.dot(z, np.roll(y, -1))))

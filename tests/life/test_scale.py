@@ -1,0 +1,39 @@
+"""Runs on several workers: the order, the number and the death of workers change nothing."""
+
+import os
+import signal
+from pathlib import Path
+
+import pytest
+
+from contact.errors import ContactError
+from models.life.scale import Workers
+
+
+def deadly(item: tuple[str, int]) -> int:
+    """Kills its worker the first time; then the square."""
+    folder, number = item
+    mark = Path(folder) / "killed"
+    if number == 2 and not mark.exists():
+        mark.touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return number * number
+
+
+def test_here_is_one_after_the_other():
+    seen = []
+    with Workers() as pool:
+        assert pool.map(abs, [-3, 2, -1], lambda done, total: seen.append((done, total))) == [3, 2, 1]
+    assert seen == [(1, 3), (2, 3), (3, 3)]
+
+
+def test_killed_worker_loses_nothing(tmp_path):
+    pytest.importorskip("distributed")
+    with Workers(2) as pool:
+        assert pool.map(deadly, [(str(tmp_path), k) for k in range(5)]) == [0, 1, 4, 9, 16]
+    assert (tmp_path / "killed").exists()
+
+
+def test_number_of_workers_has_a_range():
+    with pytest.raises(ContactError, match=r"workers = 0 is outside the allowed range \[1, 512\]"):
+        Workers(0)

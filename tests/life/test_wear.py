@@ -1,0 +1,227 @@
+"""Wear over a mileage: the rule of the steps, limits, balances, bits."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import typer
+from typer.testing import CliRunner
+
+from contact.errors import ContactError
+from contact.geometry import profile
+from models.life import commands, declared_set, wear_report
+from models.life.declared_set import Steps
+from models.life.flange import Flange
+from models.life.scale import Workers
+from models.life.wear import DENSITY, Life
+
+EXAMPLES = Path(__file__).parents[2] / "examples" / "scenarios"
+STRAIGHT = """
+name = "straight"
+length = 2.0
+speed = 20.0
+[track.alignment]
+spectrum = "ERRI B176 high"
+[recording]
+settling = 0.5
+[profiles]
+wheel = "1/40"
+"""
+CURVE = (
+    STRAIGHT.replace("straight", "curve")
+    + "[[track.curves]]\nstart = 0.0\nradius = 300.0\nlength = 5.0\ntransition = 1.0\n"
+)
+SET = """
+name = "short"
+mileage = 1e6
+amplitudes = [3e-3]
+[[scenarios]]
+file = "straight.toml"
+weight = 3.0
+[[scenarios]]
+file = "curve.toml"
+weight = 1.0
+[steps]
+distance = 4e5
+"""
+
+
+@pytest.fixture
+def plan(tmp_path) -> Path:
+    for name, text in (("straight", STRAIGHT), ("curve", CURVE), ("set", SET)):
+        (tmp_path / f"{name}.toml").write_text(text, encoding="utf-8")
+    return tmp_path / "set.toml"
+
+
+@pytest.fixture(scope="module")
+def life(tmp_path_factory) -> Life:
+    folder = tmp_path_factory.mktemp("set")
+    for name, text in (("straight", STRAIGHT), ("curve", CURVE), ("set", SET)):
+        (folder / f"{name}.toml").write_text(text, encoding="utf-8")
+    return completed(Life(declared_set.read(folder / "set.toml")))
+
+
+def completed(life: Life) -> Life:
+    with Workers() as pool:
+        while not life.ended:
+            life.step(pool)
+    return life
+
+
+@pytest.mark.parametrize(
+    ("rate", "left", "length"),
+    [
+        (1e-12, 1e9, 1e7),  # the distance
+        (1e-11, 1e9, 5e6),  # the depth: 50 µm
+        (1e-11, 2e6, 2e6),  # the end
+        (0.0, 1e9, 1e7),
+    ],
+)
+def test_step_ends_at_distance_depth_or_mileage(rate, left, length):
+    assert Steps(distance=1e7, depth=5e-5).length(rate, left) == pytest.approx(length, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("height", "thickness", "qR"), [(28e-3, 32.5e-3, 10.8e-3), (30e-3, 32.5e-3, 10.9e-3)], ids=["h 28", "h 30"]
+)
+def test_unworn_flange_has_the_sizes_of_the_standard(height, thickness, qR):
+    """S1002 (EN 13715): h and e are what it is built from; qR of the new profile is known as 10.8 mm."""
+    flange = Flange.measured(profile.s1002(height, thickness))
+    assert flange.height == pytest.approx(height, abs=1e-6)
+    assert flange.thickness == pytest.approx(thickness, abs=2e-6)
+    assert flange.qR == pytest.approx(qR, abs=5e-5)
+
+
+@pytest.mark.parametrize(
+    ("size", "said"),
+    [
+        (Flange(height=36.5e-3, thickness=30e-3, qR=9e-3), r"flange height 36.50 mm \(limit 36.00 mm\)"),
+        (Flange(height=30e-3, thickness=21e-3, qR=6e-3), "flange thickness 21.00 mm .*, qR 6.00 mm"),
+    ],
+)
+def test_limits_are_told_by_name(size, said):
+    import re
+
+    assert re.match(said, size.exceeded(Flange.limits()))
+    assert Flange(height=30e-3, thickness=30e-3, qR=9e-3).exceeded(Flange.limits()) == ""
+
+
+def test_profile_without_a_flange_has_no_sizes():
+    with pytest.raises(ContactError, match="no flange"):
+        Flange.measured(profile.cone(0.05))
+
+
+def test_wear_goes_on_to_the_mileage_in_steps_that_obey_the_rule(life):
+    assert life.ended == "mileage"
+    steps, length = life.plan.declared.steps, np.diff(life["mileage"])
+    assert life.mileage == pytest.approx(1e6, rel=1e-15)
+    assert (length <= steps.distance * (1.0 + 1e-12)).all()
+    assert (life["deepest"] <= steps.depth * (1.0 + 1e-12)).all()
+    held = np.isclose(length, steps.distance) | np.isclose(life["deepest"][1:], steps.depth)
+    assert held[:-1].all()  # the last one ends at the mileage
+    assert len(length) >= 3
+
+
+def test_worn_cross_section_survives_smoothing(life):
+    """∫ depth over the profile before smoothing is the area between the profiles after it; a Gaussian keeps it."""
+    assert (life["area"][1:] > 0.0).all()
+    assert life["area_smoothed"] == pytest.approx(life["area"], rel=2e-3)
+
+
+def test_mass_is_that_of_the_cross_section_around_the_wheel(life):
+    """Within the spread of the rolling radii."""
+    assert life["mass"] == pytest.approx(DENSITY * 2.0 * np.pi * 0.46 * life["area"], rel=0.01)
+
+
+def test_depth_is_the_sum_of_the_scenarios(life):
+    moved = np.hypot(life.wheel.y - life.plan.wheel.y, life.wheel.z - life.plan.wheel.z)
+    assert life.shares.sum(axis=0) == pytest.approx(moved, abs=0.01 * moved.max())
+    assert (life.shares.max(axis=1) > 0.0).all()
+
+
+def test_worn_profile_stays_one_curve(life):
+    """After many updates points and tangents still belong together."""
+    y, z, angle = life.wheel.y, life.wheel.z, life.wheel.angle
+    fresh = profile.Profile("wheel", y, z)
+    inner = slice(5, -5)
+    before = profile.Profile("wheel", life.plan.wheel.y, life.plan.wheel.z)
+    off = np.abs((angle - fresh.angle) - (life.plan.wheel.angle - before.angle))
+    assert off[inner].max() < 1e-4
+
+
+def test_resumed_wear_equals_the_uninterrupted_one_bit_for_bit(life):
+    first = Life(life.plan)
+    with Workers() as pool:
+        first.step(pool)
+    second = Life(life.plan)
+    second.restore(first.save())
+    assert second.mileage == life["mileage"][1]
+    ours, theirs = completed(second).save(), life.save()
+    assert all(np.array_equal(ours[name], theirs[name]) for name in theirs)
+
+
+def test_limit_ends_the_wear(plan):
+    plan.write_text(SET + "[limits]\nheight = 28.0e-3\n", encoding="utf-8")
+    assert Life(declared_set.read(plan)).ended.startswith("flange height 28.00 mm")
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (SET.replace("mileage = 1e6", "mileage = 0"), r"set.toml: mileage = 0 is outside the allowed range \]0, "),
+        (SET.replace("weight = 1.0", "weight = -1.0"), r"set.toml.scenarios\[1\]: weight = -1 is outside"),
+        (SET.replace("distance", "distanse"), r"set.toml.steps.distanse is unknown, did you mean 'distance'"),
+        (SET.replace("curve.toml", "none.toml"), r"none.toml'?: No such file"),
+    ],
+)
+def test_what_is_wrong_with_a_set_is_said(plan, text, message):
+    plan.write_text(text, encoding="utf-8")
+    with pytest.raises(ContactError, match=message):
+        declared_set.read(plan)
+
+
+def test_scenarios_must_share_the_wheel(plan):
+    (plan.parent / "curve.toml").write_text(CURVE.replace("1/40", "S1002"), encoding="utf-8")
+    with pytest.raises(
+        ContactError, match=r"curve\.toml has another wheel, radius, bins or damage than straight\.toml"
+    ):
+        declared_set.read(plan)
+
+
+def test_example_set_is_one():
+    found = declared_set.read(EXAMPLES / "wear_set.toml")
+    assert sum(found.weights) == pytest.approx(1.0)
+    assert found.wheel.name == "S1002"
+
+
+def test_command_writes_result_and_page_and_goes_on_from_its_checkpoint(plan, tmp_path, monkeypatch, life):
+    xarray = pytest.importorskip("xarray")
+    plan.write_text(SET.replace("1e6", "8e5"), encoding="utf-8")
+    app = typer.Typer(pretty_exceptions_enable=False)
+    app.command()(commands.wear)
+    arguments = [str(plan), "--out", str(tmp_path / "out")]
+    step = Life.step
+
+    def interrupted(self, *given):
+        if len(self.wheels) == 2:
+            raise KeyboardInterrupt
+        step(self, *given)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Life, "step", interrupted)
+        assert CliRunner().invoke(app, arguments).exit_code == 130
+    resumed = CliRunner().invoke(app, arguments)
+    assert resumed.exit_code == 0, resumed.output
+    assert f"goes on at {1e-3 * life['mileage'][1]:.0f} km" in resumed.output
+    assert "800 km in" in resumed.output
+    stored = xarray.load_dataset(tmp_path / "out" / "result.nc", engine="scipy")
+    assert stored["mileage"].values[-1] == pytest.approx(8e5)
+    assert stored["conicity"].shape == (stored["mileage"].size, 1)
+    last = int(np.searchsorted(life["mileage"], 8e5 * (1.0 - 1e-9)))  # the wheels before it are those of the longer run
+    assert (stored["wheel_z"].values[:last] == np.array([w.z for w in life.wheels[:last]])).all()
+    assert "<h1>short</h1>" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+
+
+def test_page_of_an_unworn_wheel_needs_no_pictures_of_wear(life):
+    page = wear_report.page_of(Life(life.plan))
+    assert page.count("<picture>") == 1
