@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
 
 from contact.errors import ContactError, require_number
 from contact.plot.style import DPI, FAINT, INK, LINES, MM, colours, style
@@ -59,6 +60,46 @@ def wear(histograms: Mapping[str, Histogram], title: str = "") -> Figure:
             base = top
         above.stairs(base, edges, color=INK, lw=0.8)
         above.set_ylabel("depth [µm per km]" if profile.kind == "wheel" else "depth [µm per 1000 axle passes]")
+        above.set_ylim(0.0)
+        above.legend()
+        above.grid(visible=True)
+        _outline(below, profile, INK, profile.name or profile.kind)
+        if title:
+            figure.suptitle(title, x=0.01, ha="left", fontsize=10.0)
+    return figure
+
+
+def shares(profile: Profile, depths: Mapping[str, ArrayLike], title: str = "") -> Figure:
+    """Draw depths worn off at the points of a profile upon each other, and the profile below them.
+
+    Parameters
+    ----------
+    profile : Profile
+        Of n points.
+    depths : mapping of str to array_like, shape (n,)
+        Depth [m] by name of what has worn it off.
+    title : str
+        Of the whole.
+
+    Raises
+    ------
+    ContactError
+        No depths, or not one for each point.
+    """
+    if not depths:
+        raise ContactError("depths is empty; at least one is needed")
+    with style():
+        figure = Figure(figsize=(7.4, 4.6), dpi=DPI, layout="constrained")
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=[1.6, 1.0])
+        base = np.zeros(profile.y.size)
+        for (name, depth), colour in zip(depths.items(), colours(len(depths)), strict=True):
+            values = _UM * np.asarray(depth, dtype=np.float64)
+            if values.shape != base.shape:
+                raise ContactError(f"depths[{name!r}] has shape {values.shape}; the profile has {base.size} points")
+            above.fill_between(MM * profile.y, base, base + values, color=colour, lw=0.0, label=name)
+            base = base + values
+        above.plot(MM * profile.y, base, color=INK, lw=0.8)
+        above.set_ylabel("depth worn off [µm]")
         above.set_ylim(0.0)
         above.legend()
         above.grid(visible=True)

@@ -53,7 +53,7 @@ class Workers:
         address: Any = self._scheduler
         if address is None:
             address = self._stack.enter_context(
-                LocalCluster(n_workers=self._count, threads_per_worker=1, dashboard_address=None)
+                LocalCluster(n_workers=self._count, threads_per_worker=1, dashboard_address=":0")
             )
         try:
             self._client = self._stack.enter_context(Client(address, timeout="20s"))

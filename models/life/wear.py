@@ -65,15 +65,12 @@ class Life:
         Smoothed depth that each scenario has worn off at each point of the profile [m].
     conicities : list of ndarray
         Equivalent conicity at the amplitudes of the plan, of each profile on the rail of the first scenario.
-    latest : dict
-        Scenario's name → wear of the last step as a histogram: its share of the mileage, mean of both wheels.
     """
 
     def __init__(self, plan: ScenarioSet) -> None:
         self.plan = plan
         self.wheels = [plan.wheel]
         self.shares = np.zeros((len(plan.scenarios), plan.wheel.y.size))
-        self.latest: dict[str, Histogram] = {}
         self.rows = [self._row(0.0, {}, plan.wheel)]
         self.conicities = [self._conicity(plan.wheel)]
 
@@ -132,8 +129,6 @@ class Life:
             "energy": length * float(np.dot(self.plan.weights, energies)),
             "untrusted": float(sum(saved["untrusted"] for saved in found)),
         }
-        names = [share.file for share in self.plan.declared.scenarios]
-        self.latest = {name: h.scaled(length) for name, h in zip(names, per_metre, strict=True)}
         self.rows.append(self._row(self.mileage + length, booked, wheel))
         self.wheels.append(wheel)
         self.conicities.append(self._conicity(wheel))
@@ -169,7 +164,7 @@ class Life:
         return found.conicity
 
     def save(self) -> dict[str, Array]:
-        """All of it as arrays; the last step's histograms are not among them."""
+        """All of it as arrays."""
         return {
             "rows": np.array(self.rows),
             "wheels": np.array([(w.y, w.z, w.angle) for w in self.wheels]),

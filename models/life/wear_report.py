@@ -84,9 +84,9 @@ def _parts(life: Life) -> Iterator[str]:
         lambda: plot.worn_profile(before, after, magnified=magnified, title=f"after {life.mileage * _KM:.0f} km"),
         "The wheel before and after",
     )
-    if life.latest:
-        yield "<h2>Wear of the last step</h2>"
-        yield illustrated(lambda: plot.wear(life.latest, "shares of the scenarios"), "Wear over the profile, stacked")
+    depths = {share.file: own for share, own in zip(life.plan.declared.scenarios, life.shares, strict=True)}
+    yield "<h2>What the scenarios have worn off</h2>"
+    yield illustrated(lambda: plot.shares(before, depths), "Depth worn off over the profile, stacked")
     km = life["mileage"] * _KM
     if km.size > 1:
         yield "<h2>Over the mileage</h2>"

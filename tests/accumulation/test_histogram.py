@@ -1,5 +1,6 @@
 """Accumulated damage: linear growth, nothing lost, merging in any order, both sides alike, files to the last bit."""
 
+import dataclasses
 from itertools import permutations
 
 import numpy as np
@@ -280,3 +281,26 @@ def test_bad_input_is_refused_and_nothing_is_added(contacts):
         worn_profile(histogram, smoothing=1e-4)
     assert histogram.distance == 0.0
     assert not values(histogram).any()
+
+
+def test_strip_without_area_leaves_no_damage_and_no_nan(contacts):
+    """Where a patch is about to part a strip may have no length."""
+    (patch, *_), (solution, *_) = contacts[0]
+    dA = solution.dA.copy()
+    dA[3] = 0.0
+    histogram = Histogram(WHEEL)
+    histogram.add(patch, dataclasses.replace(solution, dA=dA), distance=10.0)
+    for name in (*SUMS, *MAXIMA):
+        assert np.isfinite(histogram[name]).all(), name
+
+
+@pytest.mark.parametrize("times", [0.0, 0.3, 7.0])
+def test_scaled_histogram_is_that_of_another_distance(profile, contacts, times):
+    histogram = run(profile, contacts)
+    later = histogram.scaled(times)
+    assert later.distance == times * histogram.distance
+    for name in SUMS:
+        np.testing.assert_array_equal(later[name], times * histogram[name])
+    np.testing.assert_array_equal(later["energy_index_max"], histogram["energy_index_max"])
+    with pytest.raises(ContactError, match="times = -1"):
+        histogram.scaled(-1.0)

@@ -43,6 +43,18 @@ def test_stacks_end_at_the_depth_of_the_merged_histogram(runs, body):
     assert first.values.max() > 0.0
 
 
+def test_shares_are_stacked_over_the_points_of_the_profile():
+    depths = {"one": 1e-6 * np.cos(WHEEL.y) ** 2, "two": np.full(WHEEL.y.size, 3e-6)}
+    above = plot.shares(WHEEL, depths, "shares").axes[0]
+    np.testing.assert_allclose(above.lines[0].get_ydata(), 1e6 * (depths["one"] + depths["two"]), rtol=1e-13)
+    tops = [collection.get_paths()[0].vertices[:, 1].max() for collection in above.collections]
+    assert tops == pytest.approx([1e6 * depths["one"].max(), above.lines[0].get_ydata().max()])
+    with pytest.raises(ContactError, match=r"depths\['one'\] has shape \(3,\)"):
+        plot.shares(WHEEL, {"one": np.ones(3)})
+    with pytest.raises(ContactError, match="depths is empty"):
+        plot.shares(WHEEL, {})
+
+
 def test_worn_profile_is_drawn_with_its_wear_magnified(runs):
     histogram = runs["flange"][0]
     worn = worn_profile(histogram, 1e-4 / histogram.depth.max())
