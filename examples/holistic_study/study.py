@@ -99,18 +99,23 @@ def study(positions: int, creepages: int, pool: Workers, watch: Any = lambda don
 
 
 def draw(found: Any) -> Any:
-    """Over position: T-gamma and the share of contacts that fatigue the surface, of each pair of profiles."""
+    """Over position: T-gamma, pressure and the share of contacts that fatigue the surface, of each pair of profiles."""
+    from matplotlib.figure import Figure
+
     from contact import plot
 
     middle = found.sel(load=70e3, friction=0.3)
-    panels = {
-        "T-gamma [N]": {str(pair): middle["T_gamma"].sel(pair=pair).values for pair in found["pair"].values},
-        "p [MPa]": {str(pair): 1e-6 * middle["max_pressure"].sel(pair=pair).values for pair in found["pair"].values},
-        "FI > 0 [%]": {str(pair): 100.0 * middle["fatigue"].sel(pair=pair).values for pair in found["pair"].values},
-    }
-    return plot.time_histories(
-        1e3 * found["position"].values, panels, xlabel="y [mm]", title="70 kN, μ = 0.3, mean over all creepages"
-    )
+    figure = Figure(figsize=(7.4, 7.4), dpi=150.0, layout="constrained")
+    panels = (("T_gamma", 1.0, "T-gamma [N]"), ("max_pressure", 1e-6, "p [MPa]"), ("fatigue", 100.0, "FI > 0 [%]"))
+    for ax, (name, factor, label) in zip(figure.subplots(3, 1, sharex=True), panels, strict=True):
+        curves = {str(pair): factor * middle[name].sel(pair=pair).values for pair in found["pair"].values}
+        plot.curve(1e3 * found["position"].values, curves, xlabel="", ylabel=label, ax=ax)
+        ax.grid(visible=True)
+        if name != "max_pressure":
+            ax.get_legend().remove()
+    ax.set_xlabel("lateral displacement of the wheelset [mm]")
+    figure.suptitle("70 kN, μ = 0.3, mean over all creepages", x=0.01, ha="left", fontsize=10.0)
+    return figure
 
 
 def main() -> None:
