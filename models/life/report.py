@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import fields
+from dataclasses import MISSING, Field, fields, is_dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -66,9 +66,10 @@ def _parts(run: Run) -> Iterator[str]:
         )
     yield "<h2>Energy</h2>"
     yield html_of(_energy(run))
+    yield faint("; ".join(f"{name}: {what}" for name, what in BALANCE.items()) + ".")
     yield "<h2>Declaration</h2>"
     for entry in fields(run.scenario.declared):
-        yield faint(f"{entry.name} = {getattr(run.scenario.declared, entry.name)!r}")
+        yield faint(f"{entry.name}: {_told(getattr(run.scenario.declared, entry.name))}")
     yield faint(f"fingerprint {run.scenario.fingerprint}, step {1e3 * run.scenario.step:.4g} ms, {run.steps} steps")
 
 
@@ -146,6 +147,24 @@ def _energy(run: Run) -> Table:
     balance = run.balance
     return Table(
         "Energies of the whole run",
-        [("", ""), ("value", "J"), ("what", "")],
-        [(name, number(balance[name]), BALANCE[name]) for name in BALANCE if name != "untrusted"],
+        [("", ""), ("", "J")],
+        [(name, number(balance[name])) for name in BALANCE if name != "untrusted"],
     )
+
+
+def _told(value: object) -> str:
+    """What was declared; what is as by default is not told."""
+    if isinstance(value, tuple):
+        return "; ".join(map(_told, value)) or "none"
+    if not is_dataclass(value):
+        return str(value)
+    told = [
+        f"{entry.name} {_told(own)}"
+        for entry in fields(value)
+        if (own := getattr(value, entry.name)) != _default(entry)
+    ]
+    return ", ".join(told) or "as by default"
+
+
+def _default(entry: Field[Any]) -> object:
+    return entry.default_factory() if entry.default_factory is not MISSING else entry.default

@@ -4,10 +4,14 @@ import os
 import signal
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from contact.errors import ContactError
+from models.life import declared_set
 from models.life.scale import Workers
+from models.life.wear import Life
+from tests.life.short_set import written
 
 
 def deadly(item: tuple[str, int]) -> int:
@@ -37,3 +41,14 @@ def test_killed_worker_loses_nothing(tmp_path):
 def test_number_of_workers_has_a_range():
     with pytest.raises(ContactError, match=r"workers = 0 is outside the allowed range \[1, 512\]"):
         Workers(0)
+
+
+def test_wear_has_the_same_bits_with_any_number_of_workers(tmp_path):
+    pytest.importorskip("distributed")
+    saved = []
+    for count in (1, 2):
+        life = Life(declared_set.read(written(tmp_path)))
+        with Workers(count) as pool:
+            life.step(pool)
+        saved.append(life.save())
+    assert all(np.array_equal(saved[0][name], saved[1][name]) for name in saved[0])

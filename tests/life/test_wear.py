@@ -1,5 +1,6 @@
 """Wear over a mileage: the rule of the steps, limits, balances, bits."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -14,51 +15,19 @@ from models.life.declared_set import Steps
 from models.life.flange import Flange
 from models.life.scale import Workers
 from models.life.wear import DENSITY, Life
+from tests.life.short_set import CURVE, SET, written
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "scenarios"
-STRAIGHT = """
-name = "straight"
-length = 2.0
-speed = 20.0
-[track.alignment]
-spectrum = "ERRI B176 high"
-[recording]
-settling = 0.5
-[profiles]
-wheel = "1/40"
-"""
-CURVE = (
-    STRAIGHT.replace("straight", "curve")
-    + "[[track.curves]]\nstart = 0.0\nradius = 300.0\nlength = 5.0\ntransition = 1.0\n"
-)
-SET = """
-name = "short"
-mileage = 1e6
-amplitudes = [3e-3]
-[[scenarios]]
-file = "straight.toml"
-weight = 3.0
-[[scenarios]]
-file = "curve.toml"
-weight = 1.0
-[steps]
-distance = 4e5
-"""
 
 
 @pytest.fixture
 def plan(tmp_path) -> Path:
-    for name, text in (("straight", STRAIGHT), ("curve", CURVE), ("set", SET)):
-        (tmp_path / f"{name}.toml").write_text(text, encoding="utf-8")
-    return tmp_path / "set.toml"
+    return written(tmp_path)
 
 
 @pytest.fixture(scope="module")
 def life(tmp_path_factory) -> Life:
-    folder = tmp_path_factory.mktemp("set")
-    for name, text in (("straight", STRAIGHT), ("curve", CURVE), ("set", SET)):
-        (folder / f"{name}.toml").write_text(text, encoding="utf-8")
-    return completed(Life(declared_set.read(folder / "set.toml")))
+    return completed(Life(declared_set.read(written(tmp_path_factory.mktemp("set")))))
 
 
 def completed(life: Life) -> Life:
@@ -100,8 +69,6 @@ def test_unworn_flange_has_the_sizes_of_the_standard(height, thickness, qR):
     ],
 )
 def test_limits_are_told_by_name(size, said):
-    import re
-
     assert re.match(said, size.exceeded(Flange.limits()))
     assert Flange(height=30e-3, thickness=30e-3, qR=9e-3).exceeded(Flange.limits()) == ""
 

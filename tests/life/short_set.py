@@ -1,0 +1,39 @@
+"""A set of two scenarios of two metres."""
+
+from pathlib import Path
+
+STRAIGHT = """
+name = "straight"
+length = 2.0
+speed = 20.0
+[track.alignment]
+spectrum = "ERRI B176 high"
+[recording]
+settling = 0.5
+[profiles]
+wheel = "1/40"
+"""
+CURVE = (
+    STRAIGHT.replace("straight", "curve")
+    + "[[track.curves]]\nstart = 0.0\nradius = 300.0\nlength = 5.0\ntransition = 1.0\n"
+)
+SET = """
+name = "short"
+mileage = 1e6
+amplitudes = [3e-3]
+[[scenarios]]
+file = "straight.toml"
+weight = 3.0
+[[scenarios]]
+file = "curve.toml"
+weight = 1.0
+[steps]
+distance = 4e5
+"""
+
+
+def written(folder: Path) -> Path:
+    """The files of the set in `folder`; returns that of the set."""
+    for name, text in (("straight", STRAIGHT), ("curve", CURVE), ("set", SET)):
+        (folder / f"{name}.toml").write_text(text, encoding="utf-8")
+    return folder / "set.toml"
