@@ -23,12 +23,13 @@ N_FIELD_ROWS = 8
     CASE_LAW,  # friction law, see `contact.friction`
     CASE_KINETIC,  # coefficient in fast sliding
     CASE_HALF_SPEED,  # [m/s]
+    CASE_VELOCITY,  # GLOBAL, LOCAL or GREATEST slip velocity of `contact.friction`
     CASE_SLOPE,  # factor on the creep stiffness at small creepage, its limit at large, its rate
     CASE_SLOPE_FAR,
     CASE_SLOPE_RATE,
     CASE_SPEED,  # [m/s]
-) = range(17)
-N_CASE = 17
+) = range(18)
+N_CASE = 18
 LOAD, APPROACH = 0.0, 1.0
 
 # result[...]: what a solver says besides fields

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,16 +20,22 @@ from contact._layout import (
     CASE_SLOPE_FAR,
     CASE_SLOPE_RATE,
     CASE_SPEED,
+    CASE_TANGENTIAL,
+    CASE_VELOCITY,
     CASE_VX,
     CASE_VY,
 )
 from contact.errors import ContactError, require_number
+from contact.registry import CARTER
 
 COULOMB, LINEAR, RATIONAL, RATIONAL_SQUARE, EXPONENTIAL = range(5)
 #: Greatest coefficient [-]: adhesion beyond any use, and far from where squares overflow.
 LARGEST = 1e6
 #: Names of the laws; the place is the number by which kernels know a law.
 LAWS = ("coulomb", "linear", "rational", "rational_square", "exponential")
+GLOBAL, LOCAL, GREATEST = range(3)
+#: Slip velocities that a law may follow; the place is the number by which kernels know them.
+VELOCITIES = ("global", "local", "greatest")
 
 
 @kernel
@@ -49,8 +56,31 @@ def coefficient(law, static, kinetic, half_speed, velocity):
 
 
 @kernel
+def falls_locally(case):
+    """Whether the coefficient differs from element to element; methods that give forces alone have no local slip."""
+    return case[CASE_VELOCITY] != GLOBAL and case[CASE_LAW] != COULOMB and case[CASE_TANGENTIAL] < CARTER
+
+
+@kernel
+def fallen(case, slip, stick, before):
+    """Coefficient over the static one of an element with `slip` over V; `before` is that of the element before it.
+
+    It never rises above 1, nor, after the greatest slip velocity, above that of the element before. Where slip begins within
+    the element, the share `stick` of it keeps 1: so forces are continuous as the place moves from element to element.
+    """
+    most = before if case[CASE_VELOCITY] == GREATEST else 1.0
+    if slip <= 0.0 or case[CASE_MU] <= 0.0:
+        return most
+    kinetic = min(case[CASE_KINETIC] / case[CASE_MU], 1.0)
+    own = coefficient(case[CASE_LAW], 1.0, kinetic, case[CASE_HALF_SPEED], case[CASE_SPEED] * slip)
+    return min(own + stick * (1.0 - own), most)
+
+
+@kernel
 def of_case(case):
-    """Coefficient of friction at the global slip velocity V√(ξ² + η²) of a case: unique, as no local slip decides."""
+    """Coefficient of friction at the global slip velocity V√(ξ² + η²) of a case; that at rest, where the local one counts."""
+    if falls_locally(case):
+        return case[CASE_MU]
     velocity = case[CASE_SPEED] * math.sqrt(case[CASE_VX] ** 2 + case[CASE_VY] ** 2)
     return coefficient(case[CASE_LAW], case[CASE_MU], case[CASE_KINETIC], case[CASE_HALF_SPEED], velocity)
 
@@ -75,10 +105,18 @@ def slope_of_case(case, a, b, c11, limit, phi_arm):
 class Friction:
     """Friction of a real surface, in place of a constant coefficient.
 
-    The coefficient follows the global slip velocity, speed·√(longitudinal² + lateral²), so it is one number for a contact and
-    the answer is unique (a law of the local velocity has several, theory.md 8.1). With Δ = static - kinetic and s the velocity
-    over `half_speed`, mu = kinetic + Δ f: linear f = max(0, 1 - s/2), rational 1/(1 + s), rational_square 1/(1 + s²),
-    exponential 2^-s.
+    With Δ = static - kinetic and s the slip velocity over `half_speed`, mu = kinetic + Δ f: linear f = max(0, 1 - s/2),
+    rational 1/(1 + s), rational_square 1/(1 + s²), exponential 2^-s. The velocity is
+
+    * `global`: speed·√(longitudinal² + lateral²), so the coefficient is one number for a contact;
+    * `local`: each element's own. Strips stick up to the static coefficient; an element that slips has the coefficient of the
+      slip velocity that it would have under the static one. So the answer is unique and continuous: the velocity under its
+      own coefficient would leave several answers (theory.md 8.1);
+    * `greatest`: the greatest local one of a particle since it entered the patch; what has slipped keeps the lower coefficient
+      until it leaves (Piotrowski 2010), in stick too.
+
+    A local coefficient never exceeds the static one. Methods that give forces alone take the global velocity; the element-wise
+    half space iterates on the velocity under its own coefficient.
 
     Real surfaces are softer than the half space at small creepage: all creep stiffness is multiplied by
     k = slope (slope_far + (1 - slope_far)/(1 + slope_rate·eps)), eps Polach's creepage over that of saturation
@@ -94,6 +132,8 @@ class Friction:
         Sliding velocity at which half of the difference is gone [m/s], positive.
     law : str
         One of `LAWS`.
+    velocity : str
+        One of `VELOCITIES`.
     slope, slope_far, slope_rate : float
         k0, α_inf and β; slope in ]0, 1], slope_far in [0, 1], slope_rate not negative. 1, 1, 1: the half space. The
         published set is .54, .02, .64 (constants.md 7; the source contradicts itself in β: .62).
@@ -111,6 +151,7 @@ class Friction:
     slope: float = 1.0
     slope_far: float = 1.0
     slope_rate: float = 1.0
+    velocity: str = "global"
 
     def __post_init__(self) -> None:
         require_number("friction.static", self.static, 0.0, LARGEST)
@@ -119,22 +160,24 @@ class Friction:
         require_number("friction.half_speed", self.half_speed, 0.0, open_minimum=True)
         if self.law not in LAWS:
             raise ContactError(f"friction.law = {self.law!r} is unknown; allowed: {', '.join(LAWS)}")
+        if self.velocity not in VELOCITIES:
+            raise ContactError(f"friction.velocity = {self.velocity!r} is unknown; allowed: {', '.join(VELOCITIES)}")
         require_number("friction.slope", self.slope, 0.0, 1.0, open_minimum=True)
         require_number("friction.slope_far", self.slope_far, 0.0, 1.0)
         require_number("friction.slope_rate", self.slope_rate, 0.0)
 
     @classmethod
-    def polach(cls, static: float = 0.55, A: float = 0.4, B: float = 0.6, **slopes: float) -> Friction:
+    def polach(cls, static: float = 0.55, A: float = 0.4, B: float = 0.6, **others: Any) -> Friction:
         """mu = static ((1 - A) exp(-B w) + A) over the sliding velocity w [m/s] (Polach 2005, Eq. for falling friction).
 
         The defaults are his typical values for dry rails, .30, .40, .20 those for wet ones (Wear 258, Table 2; constants.md 6).
         """
         require_number("friction.A", A, 0.0)
         require_number("friction.B", B, 0.0, open_minimum=True)
-        return cls(static, A * static, math.log(2.0) / B, "exponential", **slopes)
+        return cls(static, A * static, math.log(2.0) / B, "exponential", **others)
 
     def coefficient(self, velocity: ArrayLike) -> float | NDArray[np.float64]:
-        """Coefficient at sliding velocities [m/s], not negative."""
+        """Coefficient at slip velocities [m/s], not negative."""
         velocities = np.asarray(velocity, dtype=np.float64)
         if not (np.isfinite(velocities).all() and (velocities >= 0.0).all()):
             raise ContactError(
@@ -144,11 +187,24 @@ class Friction:
         values = np.array([coefficient(law, static, kinetic, half_speed, float(v)) for v in velocities.ravel()])
         return values.reshape(velocities.shape) if velocities.ndim else float(values[0])
 
-    def rows(self) -> tuple[float, float, float, float, float, float, float]:
-        """Law, static, kinetic, half speed, slope, its limit and its rate, as kernels take them."""
+    def rows(self) -> tuple[float, ...]:
+        """Law, static, kinetic, half speed, slope, its limit and its rate, velocity, as kernels take them."""
         kinetic = self.static if self.kinetic is None else self.kinetic
         law = float(LAWS.index(self.law))
-        return law, self.static, kinetic, self.half_speed, self.slope, self.slope_far, self.slope_rate
+        velocity = float(VELOCITIES.index(self.velocity))
+        return law, self.static, kinetic, self.half_speed, self.slope, self.slope_far, self.slope_rate, velocity
+
+
+_ROWS = (
+    CASE_LAW,
+    CASE_MU,
+    CASE_KINETIC,
+    CASE_HALF_SPEED,
+    CASE_SLOPE,
+    CASE_SLOPE_FAR,
+    CASE_SLOPE_RATE,
+    CASE_VELOCITY,
+)
 
 
 def as_friction(friction: object) -> Friction:
@@ -158,7 +214,6 @@ def as_friction(friction: object) -> Friction:
 
 def fill(case: NDArray[np.float64], friction: Friction, speed: ArrayLike) -> None:
     """Write friction and speed [m/s] into one case or, along the first axis, many."""
-    rows = (CASE_LAW, CASE_MU, CASE_KINETIC, CASE_HALF_SPEED, CASE_SLOPE, CASE_SLOPE_FAR, CASE_SLOPE_RATE)
-    for row, value in zip(rows, friction.rows(), strict=True):
+    for row, value in zip(_ROWS, friction.rows(), strict=True):
         case[..., row] = value
     case[..., CASE_SPEED] = speed

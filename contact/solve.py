@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 
 import numpy as np
@@ -147,7 +146,6 @@ def solve(
         kind, amount = APPROACH, require_number("approach", approach)
     surface = as_friction(friction)
     speed = require_number("speed", speed, 0.0, open_minimum=True)
-    mu = float(surface.coefficient(speed * math.hypot(creepage.longitudinal, creepage.lateral)))
     n_strips, n_elements = require_resolution(n_strips, n_elements)
     method, rolling = lookup("normal", normal), lookup("tangential", tangential)
     division = Division(n_strips, n_elements, _pair(spacing))
@@ -164,7 +162,7 @@ def solve(
             division,
             load=load,
             approach=approach,
-            friction=mu,
+            friction=surface,
             material=material,
             speed=speed,
             progress=progress,
@@ -176,7 +174,7 @@ def solve(
             separation, creepage, (kind, amount), surface, material, speed, method, rolling, n_strips, n_elements, start
         )
         if not rolling.batched:
-            solution = solve_pressure(solution, division, progress)
+            solution = solve_pressure(solution, surface, division, progress)
     if throw and solution.status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED):
         what = "load" if load is not None else "approach"
         raise ContactError(

@@ -1,5 +1,6 @@
 """Falling friction and reduced creep stiffness (theory.md 8.1, 8.2; constants.md 6, 7)."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -102,6 +103,10 @@ def test_a_vanishing_load_gives_finite_forces(tangential, load):
         ({"static": -0.1}, "friction.static = -0.1 is outside the allowed range [0, 1e+06]"),
         ({"static": 0.3, "half_speed": 0.0}, "friction.half_speed = 0 is outside the allowed range ]0, inf["),
         ({"static": 0.3, "law": "stribeck"}, "friction.law = 'stribeck' is unknown; allowed: coulomb, linear"),
+        (
+            {"static": 0.3, "velocity": "mean"},
+            "friction.velocity = 'mean' is unknown; allowed: global, local, greatest",
+        ),
         ({"static": 0.3, "slope": 1.2}, "friction.slope = 1.2 is outside the allowed range ]0, 1]"),
     ],
 )
@@ -114,3 +119,108 @@ def test_bad_values_are_refused_by_name(options, message):
 def test_the_reference_knows_no_slope():
     with pytest.raises(contact.ContactError, match=r"friction.slope = 0.5: tangential = 'halfspace'"):
         solve((1e-3, 0.0, 0.0), friction=Friction(0.3, slope=0.5), normal="halfspace", tangential="halfspace")
+
+
+FIELDS = [name for name in TANGENTIAL if contact.methods().tangential[name].fields]
+LOCAL = ["local", "greatest"]
+#: Partial slip, full slip, stick after slip.
+CREEPAGES = [(1e-3, 5e-4, 0.3), (2e-2, 5e-3, 0.0), (0.0, 2e-3, -0.9)]
+
+
+def numbers(sol):
+    return (
+        sol.Fx,
+        sol.Fy,
+        sol.Mz,
+        sol.power_per_metre,
+        sol.slip_area,
+        *(f.sum() for f in (sol.qx, sol.qy, sol.sx, sol.sy)),
+    )
+
+
+@pytest.mark.parametrize("velocity", LOCAL)
+@pytest.mark.parametrize("tangential", FIELDS)
+@pytest.mark.parametrize("law", FALLING)
+def test_local_friction_that_does_not_fall_is_coulombs_bit_for_bit(law, tangential, velocity):
+    for creepage in CREEPAGES:
+        coulomb = numbers(solve(creepage, tangential=tangential))
+        for friction in (Friction(0.3, 0.3, 1e-3, law), Friction(0.3, 0.1, 1e300, law)):
+            same = dataclasses.replace(friction, velocity=velocity)
+            assert numbers(solve(creepage, tangential=tangential, friction=same)) == coulomb
+
+
+@pytest.mark.parametrize("velocity", LOCAL)
+@pytest.mark.parametrize("tangential", [*FIELDS, "halfspace"])
+def test_full_sliding_has_the_coefficient_of_the_rigid_slip(tangential, velocity):
+    """Far beyond saturation the elastic part of the slip vanishes: F = μ(V √(ξ² + η²)) N, as with the global velocity."""
+    options = {"normal": "halfspace", "spacing": 1e-3} if tangential == "halfspace" else {}
+    one = solve(
+        (0.3, 0.4, 0.0), tangential=tangential, friction=Friction.polach(velocity=velocity), speed=2.0, **options
+    )
+    assert math.hypot(one.Fx, one.Fy) == pytest.approx(Friction.polach().coefficient(1.0) * one.N, rel=3e-3)
+
+
+@pytest.mark.parametrize("velocity", LOCAL)
+@pytest.mark.parametrize("tangential", [*FIELDS, "halfspace"])
+def test_every_element_has_the_coefficient_of_its_slip_and_sticks_up_to_the_static_one(tangential, velocity):
+    options = {"normal": "halfspace", "spacing": 1e-3} if tangential == "halfspace" else {}
+    friction = Friction(0.5, 0.2, 0.05, "linear", velocity=velocity)
+    for creepage in CREEPAGES:
+        sol = solve(creepage, tangential=tangential, friction=friction, **options)
+        p, q = sol.p, np.hypot(sol.qx, sol.qy)
+        assert sol.friction == 0.5
+        if contact.methods().tangential[tangential].admissible:
+            assert (q <= 0.5 * p * (1.0 + 1e-12)).all()
+            own = friction.coefficient(20.0 * np.hypot(sol.sx, sol.sy)) * p
+            slips = ~sol.stick & (p > 0.0)
+            slips[:, 1:] &= ~sol.stick[:, :-1]  # where slip begins within an element, a part of it keeps the static one
+            if velocity == "local":
+                np.testing.assert_allclose(q[slips], own[slips], rtol=1e-2 if tangential == "halfspace" else 1e-9)
+            else:
+                assert (q[slips] <= own[slips] * (1.0 + (1e-2 if tangential == "halfspace" else 1e-9))).all()
+        assert (q >= 0.0).all()
+        assert sol.power_per_metre >= 0.0
+
+
+@pytest.mark.parametrize("tangential", FIELDS)
+def test_memory_never_raises_a_coefficient(tangential):
+    for creepage in CREEPAGES:
+        fields = []
+        for velocity in LOCAL:
+            friction = Friction(0.5, 0.2, 0.02, "exponential", velocity=velocity)
+            sol = solve(creepage, tangential=tangential, friction=friction)
+            fields.append(np.hypot(sol.qx, sol.qy))
+        assert (fields[1] <= fields[0] * (1.0 + 1e-12)).all()
+
+
+@pytest.mark.parametrize("velocity", LOCAL)
+@pytest.mark.parametrize("tangential", FIELDS)
+def test_local_friction_keeps_the_symmetries(tangential, velocity):
+    friction = Friction.polach(velocity=velocity)
+    for xi, eta, phi in CREEPAGES:
+        one, negative, mirrored = (
+            solve(c, tangential=tangential, friction=friction)
+            for c in ((xi, eta, phi), (-xi, -eta, -phi), (xi, -eta, -phi))
+        )
+        unit = 0.55 * one.N
+        assert (negative.Fx, negative.Fy) == pytest.approx((-one.Fx, -one.Fy), abs=1e-12 * unit)
+        assert (mirrored.Fx, mirrored.Fy) == pytest.approx((one.Fx, -one.Fy), abs=1e-6 * unit)
+        assert negative.Mz == pytest.approx(-one.Mz, abs=1e-14 * unit)
+
+
+@pytest.mark.parametrize("tangential", FIELDS)
+def test_forces_are_continuous_in_the_creepage_where_local_friction_falls_steeply(tangential):
+    """Steps of 1e-5 in creepage; the largest change of force stays near the mean one, with memory too."""
+    xi = np.arange(1, 1200) * 1e-5
+    for velocity in LOCAL:
+        friction = Friction(0.5, 0.1, 0.02, "exponential", velocity=velocity)
+        Fx = contact.forces(SEPARATION, (xi, 1e-3, 0.2), load=8e4, friction=friction, tangential=tangential).Fx / 4e4
+        assert np.abs(np.diff(Fx)).max() < 4e-3
+
+
+def test_methods_that_give_forces_alone_take_the_global_velocity():
+    one, other = (
+        solve((1e-2, 0.0, 0.0), tangential="polach", friction=Friction.polach(velocity=v)) for v in ("local", "global")
+    )
+    assert one.Fx == other.Fx
+    assert one.friction == other.friction < 0.55

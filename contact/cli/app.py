@@ -59,6 +59,8 @@ def solve(
     load: opt.Load = None,
     penetration: opt.Penetration = None,
     friction: opt.Friction = 0.3,
+    falling: opt.Falling = None,
+    slip_velocity: opt.SlipVelocity = "global",
     creepage: opt.Creep = None,
     curvatures: opt.Curvatures = None,
     normal: opt.Normal = DEFAULT_NORMAL,
@@ -70,7 +72,7 @@ def solve(
 
     Examples:  contact solve --y 3e-3 --load 80e3   ·   contact solve --curvatures 1.1 0.8 --creepage 1e-3 0 0.1
     """
-    options = {"friction": friction, "normal": normal, "tangential": tangential}
+    options = {"friction": opt.surface(friction, falling, slip_velocity), "normal": normal, "tangential": tangential}
     options |= PICTURE_RESOLUTION if plot else {}
     given = None if creepage is None else Creepage(*creepage)
     opt.require_use(context)
@@ -110,6 +112,8 @@ def patch(
     load: opt.Load = None,
     penetration: opt.Penetration = None,
     friction: opt.Friction = 0.3,
+    falling: opt.Falling = None,
+    slip_velocity: opt.SlipVelocity = "global",
     creepage: opt.Creep = None,
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangential = DEFAULT_TANGENTIAL,
@@ -122,7 +126,8 @@ def patch(
     case = _position(
         wheel, rail, opt.reading(inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed
     )
-    options = {"friction": friction, "normal": normal, "tangential": tangential, **PICTURE_RESOLUTION}
+    surface = opt.surface(friction, falling, slip_velocity)
+    options = {"friction": surface, "normal": normal, "tangential": tangential, **PICTURE_RESOLUTION}
     touches = problem.solve_position(
         case, load, penetration, None if creepage is None else Creepage(*creepage), options
     )
@@ -150,7 +155,10 @@ def curve(
     curvatures: opt.Ellipse = (1.09, 0.83),
     creepage: opt.Creep = None,
     load: opt.Load = None,
+    speed: opt.Speed = 20.0,
     friction: opt.Friction = 0.3,
+    falling: opt.Falling = None,
+    slip_velocity: opt.SlipVelocity = "global",
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangentials = [DEFAULT_TANGENTIAL],  # noqa: B006 (typer copies it)
     table: opt.Csv = None,
@@ -163,7 +171,7 @@ def curve(
     end = largest if largest is not None else (1.0 if over is opt.Motion.spin else 0.01)
     start = Creepage() if creepage is None else Creepage(*creepage)
     values = np.linspace(0.0, require_number("max", end), points).tolist()
-    options = {"friction": friction, "normal": normal}
+    options = {"friction": opt.surface(friction, falling, slip_velocity), "normal": normal, "speed": speed}
     rows = problem.sweep(over.value, values, start, curvatures, load, tangential, options)
     force, unit = ("Fx" if over is opt.Motion.longitudinal else "Fy"), ("1/m" if over is opt.Motion.spin else "-")
     axis, ordinate = f"{over} creepage [{unit}]", f"−{force}/N"

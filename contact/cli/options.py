@@ -8,8 +8,10 @@ from typing import Annotated, Any
 
 import typer
 
+from contact import friction
 from contact.cli.problem import OF_A_POSITION, STANDARD_LOAD
 from contact.errors import ContactError
+from contact.friction import LAWS, VELOCITIES
 
 
 class Side(StrEnum):
@@ -63,6 +65,19 @@ Penetration = Annotated[
     typer.Option(help="instead of a load: depth below first touch, or approach in m", rich_help_panel=LOADING),
 ]
 Friction = Annotated[float, typer.Option(help="coefficient of friction", rich_help_panel=LOADING)]
+Falling = Annotated[
+    tuple[str, float, float] | None,
+    typer.Option(
+        help=f"friction falls from --friction at rest: law ({', '.join(LAWS[1:])}), coefficient in fast sliding, velocity "
+        "halfway in m/s",
+        metavar="LAW KINETIC HALF_SPEED",
+        rich_help_panel=LOADING,
+    ),
+]
+SlipVelocity = Annotated[
+    str,
+    typer.Option(help=f"velocity over which friction falls: {', '.join(VELOCITIES)}", rich_help_panel=LOADING),
+]
 Creep = Annotated[
     tuple[float, float, float] | None,
     typer.Option(
@@ -139,6 +154,14 @@ def require_use(context: typer.Context) -> None:
     idle = [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
     if idle:
         raise ContactError(f"{', '.join(idle)}: --curvatures stands in place of wheel, rail and position")
+
+
+def surface(static: float, falling: tuple[str, float, float] | None, velocity: str) -> float | friction.Friction:
+    """The options of friction as `contact.solve` takes them."""
+    if falling is None:
+        return static
+    law, kinetic, half_speed = falling
+    return friction.Friction(static, kinetic, half_speed, law, velocity=velocity)
 
 
 def reading(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -10,10 +11,11 @@ from numpy.typing import NDArray
 
 from contact.creepage import Creepage
 from contact.errors import ContactError
+from contact.friction import Friction
 from contact.halfspace.gap import Division, Gap, lay, least, overlap
 from contact.halfspace.norm import Normal, norm
 from contact.halfspace.solution import GridSolution, assemble
-from contact.halfspace.tang import tang
+from contact.halfspace.tang import Tangential, tang
 from contact.material import Material
 from contact.separation import Separation
 from contact.solution import Solution, Status
@@ -22,6 +24,8 @@ Array = NDArray[np.float64]
 
 #: Elements on which the approach under a load is estimated, and the cap of that estimate.
 _COARSE, _MAX_STEPS = Division(20, 20), 40
+#: Steps of a friction law that follows the local slip velocity: cap, share of each change taken over, when to stop.
+_MAX_FALLS, _FALL_SHARE, _FALL_TOLERANCE = 60, 0.5, 1e-3
 #: The grid reaches as far as the overlap at this multiple of the estimated approach.
 _ROOM = 1.02
 
@@ -33,7 +37,7 @@ def solve_gap(
     *,
     load: float | None,
     approach: float | None,
-    friction: float,
+    friction: Friction,
     material: Material,
     speed: float,
     progress: Callable[[int, float], None] | None,
@@ -47,7 +51,7 @@ def solve_gap(
         x, y = grid.x, grid.y
         found = norm(grid.h, grid.dx, grid.dy, material, load=load, approach=approach)
     p = found.p
-    rolling = tang(p, x, y, creepage, friction, material, progress=progress)
+    rolling, coefficient = _roll(p, x, y, creepage, friction, material, speed, progress)
     return assemble(
         x,
         y,
@@ -58,7 +62,7 @@ def solve_gap(
         iterations=found.iterations + rolling.iterations,
         status=_status(gap, p, y, found.converged and rolling.converged),
         creepage=creepage,
-        friction=friction,
+        friction=coefficient,
         material=material,
         speed=speed,
         normal="halfspace",
@@ -66,7 +70,9 @@ def solve_gap(
     )
 
 
-def solve_pressure(first: Solution, division: Division, progress: Callable[[int, float], None] | None) -> Solution:
+def solve_pressure(
+    first: Solution, friction: Friction, division: Division, progress: Callable[[int, float], None] | None
+) -> Solution:
     """TANG on the pressure of another solution, whose N, approach and normal stiffness are kept."""
     if first.N <= 0.0:
         return replace(first, tangential="halfspace")
@@ -78,7 +84,7 @@ def solve_pressure(first: Solution, division: Division, progress: Callable[[int,
     if not total > 0.0:
         raise ContactError(f"{division} leaves no element inside the patch")
     p *= first.N / total
-    rolling = tang(p, x, y, first.creepage, first.friction, first.material, progress=progress)
+    rolling, coefficient = _roll(p, x, y, first.creepage, friction, first.material, first.speed, progress)
     status = first.status if rolling.converged else Status.NOT_CONVERGED
     return assemble(
         x,
@@ -90,12 +96,44 @@ def solve_pressure(first: Solution, division: Division, progress: Callable[[int,
         iterations=first.iterations + rolling.iterations,
         status=Status.OK if status is Status.SATURATED else status,
         creepage=first.creepage,
-        friction=first.friction,
+        friction=coefficient,
         material=first.material,
         speed=first.speed,
         normal=first.normal,
         tangential="halfspace",
     )
+
+
+def _roll(
+    p: Array,
+    x: Array,
+    y: Array,
+    creepage: Creepage,
+    friction: Friction,
+    material: Material,
+    speed: float,
+    progress: Callable[[int, float], None] | None,
+) -> tuple[Tangential, float]:
+    """TANG with a law of friction; the solution and the coefficient that nowhere is exceeded.
+
+    Where the law follows the local slip velocity, each step solves with the coefficients of the slip before, from stick on;
+    of what a law wants only a share is taken over, as several solutions and oscillation between them are possible.
+    """
+    if friction.velocity == "global" or friction.law == "coulomb":
+        mu = float(friction.coefficient(speed * math.hypot(creepage.longitudinal, creepage.lateral)))
+        return tang(p, x, y, creepage, mu, material, progress=progress), mu
+    field = np.full(p.shape, friction.static)
+    rolling = tang(p, x, y, creepage, field, material, progress=progress)
+    for _ in range(_MAX_FALLS):
+        wanted = np.minimum(friction.coefficient(speed * np.hypot(rolling.sx, rolling.sy)), friction.static)
+        if friction.velocity == "greatest":  # particles come from the leading edge, x = max
+            wanted = np.minimum.accumulate(wanted[:, ::-1], axis=1)[:, ::-1]
+        change = wanted - field
+        field = field + _FALL_SHARE * change
+        rolling = tang(p, x, y, creepage, field, material, start=(rolling.qx, rolling.qy), progress=progress)
+        if abs(change * (p > 0.0)).max() <= _FALL_TOLERANCE * friction.static:
+            return rolling, friction.static
+    return replace(rolling, converged=False), friction.static
 
 
 def _status(gap: Separation | Gap, p: Array, y: Array, converged: bool) -> Status:

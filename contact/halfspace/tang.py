@@ -72,7 +72,7 @@ def tang(
     x: Array,
     y: Array,
     creepage: Creepage,
-    friction: float,
+    friction: float | Array,
     material: Material,
     *,
     offset: float = OFFSET,
@@ -90,7 +90,7 @@ def tang(
         Centres of the elements [m], evenly spaced, increasing.
     creepage : Creepage
         Wheel minus rail over V at the origin.
-    friction : float
+    friction : float or ndarray, shape (ny, nx)
         mu [-].
     material : Material
     offset : float
@@ -104,7 +104,8 @@ def tang(
     """
     whole = np.zeros((5, *p.shape))
     touching = p > 0.0
-    if not touching.any() or friction <= 0.0:
+    bound = friction * p
+    if not bound.any():
         rigid = np.zeros((2, *p.shape))
         if touching.any():
             rigid[:, touching] = _rigid_slip(x, y, creepage, 0.0)[:, touching]
@@ -113,7 +114,7 @@ def tang(
     window = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
     dx, dy = float(x[1] - x[0]), float(y[1] - y[0])
     w = _rigid_slip(x[window[1]], y[window[0]], creepage, offset * dx)
-    rolling = _Rolling(np.ascontiguousarray(friction * p[window]), w, dx, dy, material, tolerance, progress)
+    rolling = _Rolling(np.ascontiguousarray(bound[window]), w, dx, dy, material, tolerance, progress)
     q = np.zeros_like(w) if start is None else np.stack([field[window] for field in start])
     q, residual = rolling.steady(q)
     s = rolling.slip(q, w)

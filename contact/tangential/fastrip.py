@@ -48,6 +48,7 @@ from contact._layout import (
     STRIP_XC,
     STRIP_Y,
 )
+from contact.friction import fallen, falls_locally
 from contact.quadrature import EL_DX, EL_LOAD_END, EL_MOMENT_END, EL_S, EL_SINE
 from contact.registry import STRIP_THEORY
 from contact.tangential.ellipses import equivalent_ellipse
@@ -75,7 +76,8 @@ _NOW_SX, _NOW_SY = NOW_SLIP, NOW_SLIDES  # where `_show` leaves the slip velocit
     _FY,
     _MZ,
     _POWER,
-) = (FREE_BEHIND_MARCH + row * LANES for row in range(15))
+    _FALL,  # coefficient of friction over the static one
+) = (FREE_BEHIND_MARCH + row * LANES for row in range(16))
 
 
 @kernel
@@ -146,12 +148,15 @@ def _keep_direction(lanes, trace):
 
 
 @kernel
-def _slip_zone(elements, lanes, trace, shown):
+def _slip_zone(elements, lanes, trace, shown, falling):
     """Sum the slip zones of a block: magnitude mu·p, exact over each element, direction of the march.
 
-    With `shown` the fields are left in `trace`.
+    With `shown` the fields are left in `trace`. `falling` is the case where friction falls with the local slip, or None: numba
+    compiles each on its own, the second without what belongs to the first.
     """
     for l in range(LANES):
+        if falling is not None:
+            lanes[_FALL + l] = 1.0
         lanes[_FX + l], lanes[_FY + l], lanes[_MZ + l], lanes[_POWER + l] = 0.0, 0.0, 0.0, 0.0
     load_before, moment_before = 0.0, 0.0
     for k in range(elements.shape[1]):
@@ -168,9 +173,6 @@ def _slip_zone(elements, lanes, trace, shown):
             moment_start = moment_before if load_before > load_from else moment_from
             share, share_s = last - first, moment_end - moment_start
             share_s = share_s if load_end > load_from else 0.0
-            lanes[_FX + l] += share * ex
-            lanes[_FY + l] += share * ey
-            lanes[_MZ + l] += share_s * ey
             # behind a stick zone: strip theory; in a strip that slips as a whole: rigid and elastic slip against the traction
             e, flex_x, flex_y = lanes[_E + l], lanes[_FLEXIBILITY_X + l], lanes[_FLEXIBILITY_Y + l]
             W2 = (s - e) * (s - e) - (1.0 - e) * (1.0 - e)
@@ -183,23 +185,34 @@ def _slip_zone(elements, lanes, trace, shown):
             whole = whole if whole > 0.0 else 0.0
             slip = behind if e < 1.0 else whole
             slip = slip if s <= 2.0 * e - 1.0 else 0.0
-            lanes[_POWER + l] += sine * dx * slip
+            weight = sine * dx
+            if falling is not None:
+                fall = fallen(falling, slip, 0.0, lanes[_FALL + l])
+                lanes[_FALL + l] = fall
+                share, share_s, weight = share * fall, share_s * fall, weight * fall
+            lanes[_FX + l] += share * ex
+            lanes[_FY + l] += share * ey
+            lanes[_MZ + l] += share_s * ey
+            lanes[_POWER + l] += weight * slip
             lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_SLIP + l] = ex, ey, slip
         if shown:
-            _show(s, sine, lanes)
+            _show(s, sine, lanes, falling)
             keep(lanes, trace[k])
         load_before, moment_before = load_end, moment_end
 
 
 @kernel
-def _show(s, sine, lanes):
+def _show(s, sine, lanes, falling):
     """Replace what the march leaves by traction over mu p0, slip velocity and 1 in stick, for the fields."""
     per_square, sticks = 1.0 / (sine * sine), 0
     for l in range(LANES):
         ex, ey, slip = lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_SLIP + l]
         stick = 1.0 if s > 2.0 * lanes[_E + l] - 1.0 else 0.0
         sticks += 1 if stick > 0.5 else 0
-        lanes[NOW_X + l], lanes[NOW_Y + l] = sine * ex, sine * ey
+        size = sine
+        if falling is not None:
+            size = sine * lanes[_FALL + l]
+        lanes[NOW_X + l], lanes[NOW_Y + l] = size * ex, size * ey
         lanes[_NOW_SX + l], lanes[_NOW_SY + l], lanes[NOW_STICK + l] = -slip * ex, -slip * ey, stick
     if sticks == 0:
         return
@@ -237,7 +250,10 @@ def fastrip(strips, n, case, table, elements, lanes, trace, fields, result):
             _keep_direction(lanes, trace)
         else:
             march(False, elements, lanes, trace)
-        _slip_zone(elements, lanes, trace, block < fields.shape[1])
+        if falls_locally(case):
+            _slip_zone(elements, lanes, trace, block < fields.shape[1], case)
+        else:
+            _slip_zone(elements, lanes, trace, block < fields.shape[1], None)
         for l in range(min(LANES, n - block)):
             i = block + l
             a, dy, y, xc = strips[STRIP_A, i], strips[STRIP_DY, i], strips[STRIP_Y, i], strips[STRIP_XC, i]

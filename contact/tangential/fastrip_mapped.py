@@ -39,6 +39,7 @@ from contact._layout import (
     STRIP_XC,
     STRIP_Y,
 )
+from contact.friction import fallen, falls_locally
 from contact.quadrature import EL_ATANH, EL_DX, EL_MIDDLE, EL_S, EL_SINE, EL_STEP
 from contact.tangential.ellipses import equivalent_ellipse
 from contact.tangential.fastsim import NO_FRICTION
@@ -57,6 +58,7 @@ from contact.tangential.lanes import (
     turned,
 )
 
+_NOW_SHARE = NOW_STICK  # where `_fall` leaves the share of the traction that friction still bears
 _LOG_ASPECT_FIT = 1.7  # ln(a/b) up to which the constants were fitted; frozen beyond
 
 
@@ -350,6 +352,28 @@ def _stop(before, s, step, per_bound, lanes):
 
 
 @kernel
+def _fall(case, elements, unit, lanes, trace, l):
+    """Let friction of lane l fall with the local slip: coefficients over the static one into `trace`, new sums."""
+    fall, sum_x, sum_y, sum_m, power, stick = 1.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for k in range(elements.shape[1]):
+        qx, qy, slip = trace[k, NOW_X + l], trace[k, NOW_Y + l], trace[k, NOW_SLIP + l]
+        fall = fallen(case, slip * unit, trace[k, NOW_STICK + l], fall)
+        used, share = math.sqrt(qx * qx + qy * qy), 1.0
+        if fall < 1.0 and used > fall:
+            share = fall / used
+            trace[k, NOW_SLIDES + l], trace[k, NOW_STICK + l] = 1.0, 0.0
+        weight = elements[EL_SINE, k] * elements[EL_DX, k]
+        sum_x += weight * (qx * share)
+        sum_y += weight * (qy * share)
+        sum_m += weight * elements[EL_S, k] * (qy * share)
+        power += weight * slip * share
+        stick += elements[EL_STEP, k] * trace[k, NOW_STICK + l]
+        trace[k, _NOW_SHARE + l] = share
+    lanes[_SUM_X + l], lanes[_SUM_Y + l], lanes[_SUM_M + l] = sum_x, sum_y, sum_m
+    lanes[_POWER + l], lanes[_STICK + l] = power, stick
+
+
+@kernel
 def fastrip_mapped(strips, n, case, table, elements, lanes, trace, fields, result):
     """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`."""
     Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
@@ -358,6 +382,7 @@ def fastrip_mapped(strips, n, case, table, elements, lanes, trace, fields, resul
     if a_e > 0.0:
         y_c, y_spin, rho33 = elastic_centre(strips, n, table, math.log(a_e / b_e))
     behind = 1.0 + elements[EL_S, -1]  # the middle of the last element
+    falling = falls_locally(case)
     for block in range(0, n, LANES):
         for l in range(LANES):
             bound, unit = _set_strip(strips, min(block + l, n - 1), case, table, y_c, y_spin, rho33, lanes, l)
@@ -367,6 +392,8 @@ def fastrip_mapped(strips, n, case, table, elements, lanes, trace, fields, resul
             i = block + l
             a, dy, y, xc = strips[STRIP_A, i], strips[STRIP_DY, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
             bound, unit = lanes[_BOUND + l], lanes[_UNIT + l]
+            if falling:
+                _fall(case, elements, unit, lanes, trace, l)
             load = bound * a * dy
             Fx += load * lanes[_SUM_X + l]
             Fy += load * lanes[_SUM_Y + l]
@@ -378,8 +405,8 @@ def fastrip_mapped(strips, n, case, table, elements, lanes, trace, fields, resul
                 continue
             for k in range(elements.shape[1]):
                 qx, qy, slip = trace[k, NOW_X + l], trace[k, NOW_Y + l], trace[k, NOW_SLIP + l] * unit
-                sine = elements[EL_SINE, k]
-                fields[FIELD_QX, i, k], fields[FIELD_QY, i, k] = bound * sine * qx, bound * sine * qy
+                size = bound * elements[EL_SINE, k] * (trace[k, _NOW_SHARE + l] if falling else 1.0)
+                fields[FIELD_QX, i, k], fields[FIELD_QY, i, k] = size * qx, size * qy
                 fields[FIELD_SX, i, k], fields[FIELD_SY, i, k] = -slip * qx, -slip * qy
                 fields[FIELD_STICK, i, k] = 1.0 - trace[k, NOW_SLIDES + l] if bound > 0.0 else 0.0
     result[RES_FX], result[RES_FY], result[RES_MZ] = Fx, Fy, Mz

@@ -43,6 +43,7 @@ from contact._layout import (
     STRIP_XC,
     STRIP_Y,
 )
+from contact.friction import fallen, falls_locally
 from contact.normal.linder import local_ellipse
 from contact.quadrature import EL_DX, EL_S, EL_SINE, EL_STEP
 from contact.registry import FASTSIM_ELLIPTIC, FASTSIM_LINDER, FASTSIM_ONE, FASTSIM_STRIPES
@@ -90,6 +91,7 @@ def fastsim(strips, n, case, table, elements, lanes, trace, fields, result):
     L1, L2, L3 = flexibilities(G, a0, b0, table)
     if method == FASTSIM_ONE:
         L1 = L2 = L3 = weighted(vx, vy, phi, math.sqrt(a0 * b0), L1, L2, L3)
+    local_friction = falls_locally(case)
     per_load = _peak_per_load(strips, n, elements, case[CASE_MU], result[RES_N], elliptic)
     for block in range(0, n, LANES):
         for l in range(LANES):
@@ -111,6 +113,7 @@ def fastsim(strips, n, case, table, elements, lanes, trace, fields, result):
             a, y, dy = strips[STRIP_A, i], strips[STRIP_Y, i], strips[STRIP_DY, i]
             peak, of_x, of_y = lanes[_PEAK + l], lanes[_L1 + l], lanes[_L2 + l]
             frictionless = peak <= 0.0
+            fall = 1.0
             for k in range(elements.shape[1]):
                 ex, ey = trace[k, NOW_X + l], trace[k, NOW_Y + l]
                 stick, slip = trace[k, NOW_STICK + l], trace[k, NOW_SLIP + l]
@@ -119,9 +122,16 @@ def fastsim(strips, n, case, table, elements, lanes, trace, fields, result):
                 slip *= peak / a if a > 0.0 else 0.0
                 sx, sy = -of_x * slip * ex, -of_y * slip * ey
                 stick = 0.0 if frictionless else stick
+                slides = trace[k, NOW_SLIDES + l]
+                if local_friction:
+                    fall = fallen(case, math.sqrt(sx * sx + sy * sy), stick, fall)
+                    used = math.sqrt(ex * ex + ey * ey)
+                    if fall < 1.0 and used > fall:
+                        qx, qy = qx * (fall / used), qy * (fall / used)
+                        stick, slides = 0.0, 1.0
                 fields[FIELD_QX, row, k], fields[FIELD_QY, row, k] = qx, qy
                 fields[FIELD_SX, row, k], fields[FIELD_SY, row, k] = sx, sy
-                fields[FIELD_STICK, row, k] = 0.0 if frictionless else 1.0 - trace[k, NOW_SLIDES + l]
+                fields[FIELD_STICK, row, k] = 0.0 if frictionless else 1.0 - slides
                 dA = a * elements[EL_DX, k] * dy
                 Fx += qx * dA
                 Fy += qy * dA

@@ -16,6 +16,7 @@ from contact._layout import (
     CASE_SLOPE_FAR,
     CASE_SLOPE_RATE,
     CASE_SPEED,
+    CASE_VELOCITY,
     MAX_PATCHES,
     N_FIELD_ROWS,
     N_RES,
@@ -87,6 +88,7 @@ def fill_friction(v, coefficient, law, speed, case):
     case[CASE_MU], case[CASE_LAW] = v[coefficient], v[law] - 1.0
     case[CASE_KINETIC], case[CASE_HALF_SPEED] = v[law + 1], v[law + 2]
     case[CASE_SLOPE], case[CASE_SLOPE_FAR], case[CASE_SLOPE_RATE] = v[law + 3], v[law + 4], v[law + 5]
+    case[CASE_VELOCITY] = v[law + 6] - 1.0
     case[CASE_SPEED] = speed
 
 

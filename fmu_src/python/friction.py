@@ -1,6 +1,6 @@
 """The surface that the rows `friction.…` describe."""
 
-from contact.friction import LAWS, Friction
+from contact.friction import LAWS, VELOCITIES, Friction
 from fmu_src.python.values import Values
 
 
@@ -12,4 +12,5 @@ def friction(values: Values) -> Friction:
         values["friction.half_speed"],
         LAWS[int(values["friction.law"]) - 1],
         *(values[f"friction.{name}"] for name in ("slope", "slope_far", "slope_rate")),
+        VELOCITIES[int(values["friction.velocity"]) - 1],
     )

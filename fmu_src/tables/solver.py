@@ -23,6 +23,17 @@ FRICTION_LAW = Enumeration(
         ("Exponential", "falls as 2^-s"),
     ),
 )
+FRICTION_VELOCITY = Enumeration(
+    "FrictionVelocity",  # in the order of contact.friction.VELOCITIES
+    (
+        ("Global", "speed times the size of longitudinal and lateral creepage"),
+        ("Local", "of each element; the global one where the tangential method gives forces alone"),
+        (
+            "Greatest",
+            "the greatest local one since a particle entered the patch: what has slipped keeps the lower coefficient",
+        ),
+    ),
+)
 _STATUS_NAMES = ("OK", "NoContact", "Saturated", "OutOfRange", "NotConverged")
 STATUS = Enumeration("Status", tuple(zip(_STATUS_NAMES, (status.message for status in Status), strict=True)))
 
@@ -109,6 +120,9 @@ def parameters() -> Iterable[Variable]:
         maximum=1.0,
     )
     yield parameter("friction.slope_rate", "How soon the factor falls", start=1.0, minimum=0.0)
+    yield parameter(
+        "friction.velocity", "Slip velocity that the law follows", enumeration=FRICTION_VELOCITY, start="Global"
+    )
 
 
 def damage() -> Iterable[Variable]:

@@ -9,7 +9,7 @@ from contact_case import CREEPAGES
 
 import contact
 from contact.damage import evaluate
-from contact.friction import LAWS, Friction
+from contact.friction import LAWS, VELOCITIES, Friction
 
 METHODS = contact.methods().batched
 #: Outputs after one step of STEP, without the creep stiffness.
@@ -94,6 +94,7 @@ def random_case(seed: int) -> Case:
     slopes = (
         (rng.uniform(0.2, 1.0), rng.uniform(0.0, 1.0), rng.uniform(0.1, 2.0)) if rng.random() < 0.5 else (1.0, 1.0, 1.0)
     )
+    velocity = int(rng.integers(len(VELOCITIES)))
     values = {
         "geometry.kind": 2 if curvatures else 1,
         "geometry.y0": y0,
@@ -115,6 +116,7 @@ def random_case(seed: int) -> Case:
         "friction.kinetic": kinetic,
         "friction.half_speed": half_speed,
         **dict(zip(("friction.slope", "friction.slope_far", "friction.slope_rate"), slopes, strict=True)),
+        "friction.velocity": velocity + 1,
         "speed": speed,
         "wheel.radius": radius,
         "method.normal": normal + 1,
@@ -127,7 +129,7 @@ def random_case(seed: int) -> Case:
         contact.Creepage(*creepages),
         load=load if by_load else None,
         approach=None if by_load else approach,
-        friction=Friction(mu, kinetic, half_speed, LAWS[law], *slopes),
+        friction=Friction(mu, kinetic, half_speed, LAWS[law], *slopes, VELOCITIES[velocity]),
         material=contact.Material(G, nu, hardness=H, shear_yield=k),
         speed=speed,
         normal=list(METHODS.normal)[normal],
