@@ -20,7 +20,7 @@ from typing import Any
 from numba import config, njit
 
 _WITHOUT_KERNELS = (
-    *("accumulation", "cli", "life", "plot", "study"),
+    *("accumulation", "cli", "life", "plot", "study", "temperature.py"),
     *(f"geometry/{name}.py" for name in ("en15302", "files", "outline", "profile", "rigid", "smoothing", "standard")),
 )
 
