@@ -1,8 +1,17 @@
 """Where each number lives in the arrays that kernels share. Names, not indices, are written everywhere else."""
 
 # strips[ROW, i]: longitudinal strips of all patches, one panel of strips after the other
-STRIP_Y, STRIP_DY, STRIP_XC, STRIP_A, STRIP_P0, STRIP_ASPECT, STRIP_PATCH = range(7)
-N_STRIP_ROWS = 7
+(
+    STRIP_Y,
+    STRIP_DY,
+    STRIP_XC,
+    STRIP_A,  # half length
+    STRIP_P0,  # peak of the semi-elliptic pressure, or of the one with the strip's load where the pressure is cut
+    STRIP_ASPECT,
+    STRIP_PATCH,
+    STRIP_BOUND,  # peak over the patch's coefficient of friction of the semi-ellipse that bounds the traction
+) = range(8)
+N_STRIP_ROWS = 8
 
 # fields[ROW, strip, element]: element 0 is at the leading edge (x = x_c + a)
 FIELD_X, FIELD_DX, FIELD_P, FIELD_QX, FIELD_QY, FIELD_SX, FIELD_SY, FIELD_STICK = range(8)
@@ -18,6 +27,7 @@ N_FIELD_ROWS = 8
     CASE_MU,  # coefficient of friction; at rest, when it falls
     CASE_G,  # shear modulus
     CASE_NU,
+    CASE_PRESSURE_LIMIT,  # [Pa]; 0 or infinite for none
     CASE_NORMAL,  # id of the normal method
     CASE_TANGENTIAL,  # id of the tangential method
     CASE_LAW,  # friction law, see `contact.friction`
@@ -27,9 +37,12 @@ N_FIELD_ROWS = 8
     CASE_SLOPE,  # factor on the creep stiffness at small creepage, its limit at large, its rate
     CASE_SLOPE_FAR,
     CASE_SLOPE_RATE,
+    CASE_GAUGE_FACTOR,  # on the coefficient of friction on one side of the border
+    CASE_BORDER,  # [m]
+    CASE_BORDER_WIDTH,  # [m]; its sign says on which side
     CASE_SPEED,  # [m/s]
-) = range(18)
-N_CASE = 18
+) = range(22)
+N_CASE = 22
 LOAD, APPROACH = 0.0, 1.0
 
 # result[...]: what a solver says besides fields

@@ -20,6 +20,7 @@ from contact._layout import (
     CASE_NORMAL,
     CASE_NU,
     CASE_PHI,
+    CASE_PRESSURE_LIMIT,
     CASE_TANGENTIAL,
     CASE_VX,
     CASE_VY,
@@ -147,6 +148,7 @@ def forces(
     for row, values in ((CASE_LOAD, amount), (CASE_VX, vx), (CASE_VY, vy), (CASE_PHI, phi), (CASE_MU, mu)):
         cases[:, row] = values.ravel()
     cases[:, CASE_G], cases[:, CASE_NU] = material.shear_modulus, material.poisson_ratio
+    cases[:, CASE_PRESSURE_LIMIT] = material.pressure_limit
     cases[:, CASE_NORMAL], cases[:, CASE_TANGENTIAL] = method.id, rolling.id
 
     bounds = np.cumsum([0, *(s.y.size for s in separations)])

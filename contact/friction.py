@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact._jit import kernel
 from contact._layout import (
+    CASE_BORDER,
+    CASE_BORDER_WIDTH,
     CASE_G,
+    CASE_GAUGE_FACTOR,
     CASE_HALF_SPEED,
     CASE_KINETIC,
     CASE_LAW,
@@ -86,6 +89,17 @@ def of_case(case):
 
 
 @kernel
+def over_profile(factor, border, width, y):
+    """Factor on the coefficient of friction at y: `factor` where (border - y)/width > 1/2, 1 below -1/2, smooth between."""
+    if width == 0.0:
+        share = 1.0 if y < border else 0.0
+    else:
+        t = min(max(0.5 + (border - y) / width, 0.0), 1.0)
+        share = t * t * (3.0 - 2.0 * t)
+    return 1.0 + (factor - 1.0) * share
+
+
+@kernel
 def slope_of_case(case, a, b, c11, limit, phi_arm):
     """Factor on the flexibility's inverse, k = k0 (far + (1 - far)/(1 + rate·eps)) (Spiryagin et al. 2013; theory.md 8.2).
 
@@ -134,6 +148,11 @@ class Friction:
         One of `LAWS`.
     velocity : str
         One of `VELOCITIES`.
+    gauge_factor, border, border_width : float
+        Over the profile: within the gauge side, y < `border` [m], all coefficients are `gauge_factor` (0 to 100) times those
+        on the other side, with a smooth transition over `border_width` [m] around the border. y is the lateral position in
+        the plane of the separation; for `contact.pair` that in the rail's profile, of either side, where the gauge face
+        lies at negative y. A negative width puts the gauge side at y > `border`, as on a left rail; 0 makes a step.
     slope, slope_far, slope_rate : float
         k0, α_inf and β; slope in ]0, 1], slope_far in [0, 1], slope_rate not negative. 1, 1, 1: the half space. The
         published set is .54, .02, .64 (constants.md 7; the source contradicts itself in β: .62).
@@ -152,6 +171,9 @@ class Friction:
     slope_far: float = 1.0
     slope_rate: float = 1.0
     velocity: str = "global"
+    gauge_factor: float = 1.0
+    border: float = 0.0
+    border_width: float = 5e-3
 
     def __post_init__(self) -> None:
         require_number("friction.static", self.static, 0.0, LARGEST)
@@ -165,6 +187,10 @@ class Friction:
         require_number("friction.slope", self.slope, 0.0, 1.0, open_minimum=True)
         require_number("friction.slope_far", self.slope_far, 0.0, 1.0)
         require_number("friction.slope_rate", self.slope_rate, 0.0)
+
+        require_number("friction.gauge_factor", self.gauge_factor, 0.0, 100.0)
+        require_number("friction.border", self.border)
+        require_number("friction.border_width", self.border_width)
 
     @classmethod
     def polach(cls, static: float = 0.55, A: float = 0.4, B: float = 0.6, **others: Any) -> Friction:
@@ -187,12 +213,27 @@ class Friction:
         values = np.array([coefficient(law, static, kinetic, half_speed, float(v)) for v in velocities.ravel()])
         return values.reshape(velocities.shape) if velocities.ndim else float(values[0])
 
+    def factor(self, y: ArrayLike) -> NDArray[np.float64]:
+        """Factor on all coefficients at lateral positions `y` [m]."""
+        at = np.asarray(y, dtype=np.float64)
+        values = [over_profile(self.gauge_factor, self.border, self.border_width, float(v)) for v in at.ravel()]
+        return np.array(values).reshape(at.shape)
+
+    def placed(self, y: float, angle: float, mirror: float = 1.0) -> Friction:
+        """The same surface seen from a patch whose reference point lies at `y` [m] of the profile, its plane at `angle` [rad].
+
+        `mirror` is -1 on the left side, whose plane is the mirror image.
+        """
+        scale = mirror / math.cos(angle)
+        return replace(self, border=scale * (self.border - y), border_width=scale * self.border_width)
+
     def rows(self) -> tuple[float, ...]:
-        """Law, static, kinetic, half speed, slope, its limit and its rate, velocity, as kernels take them."""
+        """The case's numbers in the order of `_ROWS`, as kernels take them."""
         kinetic = self.static if self.kinetic is None else self.kinetic
         law = float(LAWS.index(self.law))
-        velocity = float(VELOCITIES.index(self.velocity))
-        return law, self.static, kinetic, self.half_speed, self.slope, self.slope_far, self.slope_rate, velocity
+        slopes = self.slope, self.slope_far, self.slope_rate
+        velocity, side = float(VELOCITIES.index(self.velocity)), (self.gauge_factor, self.border, self.border_width)
+        return law, self.static, kinetic, self.half_speed, *slopes, velocity, *side
 
 
 _ROWS = (
@@ -204,6 +245,9 @@ _ROWS = (
     CASE_SLOPE_FAR,
     CASE_SLOPE_RATE,
     CASE_VELOCITY,
+    CASE_GAUGE_FACTOR,
+    CASE_BORDER,
+    CASE_BORDER_WIDTH,
 )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from contact.errors import require_number
@@ -23,6 +24,11 @@ class Material:
         Yield stress k in shear [Pa]; fatigue and stress index. Default 300 MPa (order of R260: 211 at first
         plasticity, 288 at high plastic work, torsion tests of Meyer et al. 2020, doi 10.1016/j.euromechsol.2020.103977).
 
+    pressure_limit : float
+        Pressure p_c at which the softer body yields as a whole [Pa]: the elastic pressure is cut there and the bodies approach
+        further (elastic-perfectly plastic, theory.md 8.4). Default infinite. Scales: first yield 3.1 to 3.3 k, shakedown 4.0
+        (line) to 4.7 k (circle), full indentation about 5 k [R].
+
     Raises
     ------
     ContactError
@@ -33,12 +39,15 @@ class Material:
     poisson_ratio: float
     hardness: float = 2.7e9
     shear_yield: float = 300e6
+    pressure_limit: float = math.inf
 
     def __post_init__(self) -> None:
         require_number("shear_modulus", self.shear_modulus, 0.0, open_minimum=True)
         require_number("poisson_ratio", self.poisson_ratio, 0.0, 0.5)
         require_number("hardness", self.hardness, 0.0, open_minimum=True)
         require_number("shear_yield", self.shear_yield, 0.0, open_minimum=True)
+        if self.pressure_limit != math.inf:
+            require_number("pressure_limit", self.pressure_limit, 0.0, open_minimum=True)
 
     @property
     def contact_modulus(self) -> float:
@@ -46,17 +55,16 @@ class Material:
         return self.shear_modulus / (1.0 - self.poisson_ratio)
 
     @classmethod
-    def from_pair(
-        cls, E1: float, nu1: float, E2: float, nu2: float, *, hardness: float = 2.7e9, shear_yield: float = 300e6
-    ) -> Material:
+    def from_pair(cls, E1: float, nu1: float, E2: float, nu2: float, **strength: float) -> Material:
         """Combine two bodies with Young's moduli `E1`, `E2` [Pa] and Poisson ratios `nu1`, `nu2` (Kalker 1990).
 
-        The normal problem of dissimilar bodies is exact; their normal-tangential coupling is left out.
+        `strength` are the other parameters. The normal problem of dissimilar bodies is exact; their normal-tangential
+        coupling is left out.
         """
         G1 = require_number("E1", E1, 0.0, open_minimum=True) / (2.0 * (1.0 + require_number("nu1", nu1, 0.0, 0.5)))
         G2 = require_number("E2", E2, 0.0, open_minimum=True) / (2.0 * (1.0 + require_number("nu2", nu2, 0.0, 0.5)))
         G = 2.0 / (1.0 / G1 + 1.0 / G2)
-        return cls(G, 0.5 * G * (nu1 / G1 + nu2 / G2), hardness=hardness, shear_yield=shear_yield)
+        return cls(G, 0.5 * G * (nu1 / G1 + nu2 / G2), **strength)
 
 
 #: Wheel steel on rail steel, the constants of the reference computations (G = 82 GPa, nu = 0.28).

@@ -5,15 +5,20 @@ import math
 from contact import kalker
 from contact._jit import kernel
 from contact._layout import (
+    CASE_BORDER,
+    CASE_BORDER_WIDTH,
     CASE_G,
+    CASE_GAUGE_FACTOR,
     CASE_MU,
-    CASE_NORMAL,
     CASE_PHI,
+    CASE_PRESSURE_LIMIT,
     CASE_SLOPE,
     CASE_SLOPE_FAR,
     CASE_TANGENTIAL,
     FIELD_DX,
     FIELD_P,
+    FIELD_QX,
+    FIELD_QY,
     FIELD_X,
     RES_AREA,
     RES_LENGTH,
@@ -25,6 +30,7 @@ from contact._layout import (
     RES_WIDTH,
     STRIP_A,
     STRIP_ASPECT,
+    STRIP_BOUND,
     STRIP_DY,
     STRIP_P0,
     STRIP_PATCH,
@@ -32,12 +38,9 @@ from contact._layout import (
     STRIP_Y,
 )
 from contact._layout import RES_EDGES as EDGES
-from contact.friction import of_case, slope_of_case
-from contact.normal.analyn import analyn
-from contact.normal.by_approach import by_approach
-from contact.normal.hertzian import hertzian
+from contact.friction import of_case, over_profile, slope_of_case
 from contact.normal.lay import interval_minimum
-from contact.normal.strip_halfspace import strip_halfspace
+from contact.normal.press import fill_cut, press, share_of
 from contact.quadrature import EL_DX, EL_S, EL_SINE
 from contact.registry import (
     CARTER,
@@ -45,9 +48,6 @@ from contact.registry import (
     FASTSIM,
     FASTSIM_ONE,
     FASTSIM_STRIPES,
-    HERTZ,
-    KIK_PIOTROWSKI,
-    STRIP_HALFSPACE,
 )
 from contact.tangential.creep_force import creep_force
 from contact.tangential.ellipses import equivalent_ellipse
@@ -90,6 +90,45 @@ def peak_pressure(strips, n):
 
 
 @kernel
+def _cut(strips, n, limit, elements, fields, N):
+    """Cut the pressure at the limit: in the fields, and in the strips by semi-ellipses of the same load; together N."""
+    total = 0.0
+    for i in range(n):
+        p0 = strips[STRIP_P0, i]
+        if p0 > limit and i < fields.shape[1]:
+            fill_cut(elements, p0, limit, fields[FIELD_P, i])
+        strips[STRIP_P0, i] = p0 * share_of(p0, limit)
+        total += 0.5 * math.pi * strips[STRIP_P0, i] * strips[STRIP_A, i] * strips[STRIP_DY, i]
+    for i in range(n):  # what the iteration has left over
+        strips[STRIP_P0, i] *= N / total
+        for k in range(elements.shape[1] if i < fields.shape[1] else 0):
+            fields[FIELD_P, i, k] *= N / total
+
+
+@kernel
+def _bear(strips, n, elements, fields):
+    """Carry the utilisation of friction under the semi-ellipses over to the cut pressure."""
+    for i in range(min(n, fields.shape[1])):
+        for k in range(elements.shape[1]):
+            under = strips[STRIP_P0, i] * elements[EL_SINE, k]
+            share = fields[FIELD_P, i, k] / under if under > 0.0 else 0.0
+            fields[FIELD_QX, i, k] *= share
+            fields[FIELD_QY, i, k] *= share
+
+
+@kernel
+def _bound(strips, n, case):
+    """What friction acts on: the pressure, times the factor of the side of the profile on which a strip lies."""
+    factor = case[CASE_GAUGE_FACTOR]
+    for i in range(n):
+        strips[STRIP_BOUND, i] = strips[STRIP_P0, i]
+        if factor != 1.0:
+            strips[STRIP_BOUND, i] *= over_profile(
+                factor, case[CASE_BORDER], case[CASE_BORDER_WIDTH], strips[STRIP_Y, i]
+            )
+
+
+@kernel
 def _roll(strips, n, case, tables, elements, space, fields, result):
     """Solve the tangential problem with the friction and the creep stiffness of the surface."""
     table = tables.kalker
@@ -117,15 +156,7 @@ def solve_case(y, g, A, xc, case, rule, tables, space, strips, fields, result):
     All arrays are the caller's: `workspace.allocate` makes a fitting set. With a single row of fields only strips and result
     are meant to be read.
     """
-    result[:] = 0.0
-    if case[CASE_NORMAL] == HERTZ:
-        n = hertzian(y, g, A, xc, case, rule.nodes, rule.weights, space.grid, strips, result)
-    elif case[CASE_NORMAL] == STRIP_HALFSPACE:
-        n = strip_halfspace(y, g, A, xc, case, rule, tables, space, strips, result)
-    elif case[CASE_NORMAL] >= KIK_PIOTROWSKI:
-        n = by_approach(y, g, A, xc, case, rule.nodes, rule.weights, space.grid, strips, result)
-    else:
-        n = analyn(y, g, A, xc, case, rule.nodes, rule.weights, space.grid, strips, result)
+    n = press(y, g, A, xc, case, rule, tables, space, strips, result)
     if n == 0:
         return 0
 
@@ -141,12 +172,20 @@ def solve_case(y, g, A, xc, case, rule, tables, space, strips, fields, result):
             fields[FIELD_P, i, k] = p0 * elements[EL_SINE, k]
     count = int(strips[STRIP_PATCH, n - 1]) + 1
     result[RES_AREA], result[RES_PMAX], result[RES_PATCHES] = area, peak_pressure(strips, n), count
+    limit = case[CASE_PRESSURE_LIMIT]
+    yields = 0.0 < limit < result[RES_PMAX]
+    if yields:
+        result[RES_PMAX] = limit
+        _cut(strips, n, limit, elements, fields, result[RES_N])
+    _bound(strips, n, case)
     y_low, y_high = math.inf, -math.inf
     for k in range(count):
         y_low, y_high = min(y_low, result[EDGES + 2 * k]), max(y_high, result[EDGES + 2 * k + 1])
     result[RES_LENGTH], result[RES_WIDTH] = x_high - x_low, y_high - y_low
 
     _roll(strips, n, case, tables, elements, space, fields, result)
+    if yields:
+        _bear(strips, n, elements, fields)
     if result[RES_STATUS] == 1.0 and case[CASE_MU] > 0.0 and result[RES_SLIP_AREA] >= area * (1.0 - 1e-12):
         result[RES_STATUS] = 3.0
     for i in range(n):

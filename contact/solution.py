@@ -161,7 +161,8 @@ class Solution:
         """Evaluate the contact pressure [Pa] at points `x`, `y` [m] of the contact plane (broadcast); 0 outside.
 
         Across the strips a² and p0·a, both of which vanish at the edges of a patch, are interpolated by the parabola through
-        the nearest three of strips and edges (exact for an ellipse); along a strip the pressure is semi-elliptic.
+        the nearest three of strips and edges (exact for an ellipse); along a strip the pressure is semi-elliptic, cut at the
+        material's limit.
         """
         x, y = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64))
         result = np.zeros(x.shape)
@@ -174,10 +175,26 @@ class Solution:
             a2 = np.maximum(_parabolic(knots, np.r_[0.0, a**2, 0.0], y[inside]), 0.0)
             load = np.maximum(_parabolic(knots, np.r_[0.0, p0 * a, 0.0], y[inside]), 0.0)
             square = a2 - (x[inside] - centre) ** 2
+            limit, load = self.material.pressure_limit, load * _uncut(load, a2, self.material.pressure_limit)
             result[inside] += np.where(  # the ellipses of multi_hertz may overlap
-                square > 0.0, load * np.sqrt(np.maximum(square, 0.0)) / np.where(a2 > 0.0, a2, 1.0), 0.0
+                square > 0.0,
+                np.minimum(load * np.sqrt(np.maximum(square, 0.0)) / np.where(a2 > 0.0, a2, 1.0), limit),
+                0.0,
             )
         return result
+
+
+def _uncut(load: Array, a2: Array, limit: float) -> Array | float:
+    """Elastic over actual load of strips that are cut at `limit`; `load` is peak times half length, a2 its square.
+
+    Inverts `normal.press.kept` by interpolation, to 1e-5.
+    """
+    if limit == np.inf:
+        return 1.0
+    c = np.sin(np.linspace(1e-3, 0.5 * np.pi, 2001))
+    share = 2.0 / np.pi * (c * np.sqrt(1.0 - c * c) + np.arcsin(c))
+    peak = load / np.sqrt(np.where(a2 > 0.0, a2, 1.0)) / limit
+    return np.asarray(1.0 / np.interp(-peak, -share / c, share))
 
 
 def _parabolic(knots: Array, values: Array, at: Array) -> Array:

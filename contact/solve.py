@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -15,6 +16,7 @@ from contact._layout import (
     CASE_NORMAL,
     CASE_NU,
     CASE_PHI,
+    CASE_PRESSURE_LIMIT,
     CASE_TANGENTIAL,
     CASE_VX,
     CASE_VY,
@@ -153,6 +155,10 @@ def solve(
         raise ContactError(
             f"friction.slope = {surface.slope:g}: tangential = {tangential!r} knows the half space alone, slope 1"
         )
+    if not method.batched and material.pressure_limit < math.inf:
+        raise ContactError(
+            f"material.pressure_limit = {material.pressure_limit:g}: normal = {normal!r} is elastic; allowed: inf"
+        )
     if not method.batched:
         if rolling.batched:
             raise ContactError(f"tangential = {tangential!r} does not serve normal = {normal!r}; allowed: halfspace")
@@ -214,6 +220,7 @@ def _on_strips(
     case[CASE_LOAD_KIND], case[CASE_LOAD] = amount
     case[CASE_VX], case[CASE_VY], case[CASE_PHI] = creepage.longitudinal, creepage.lateral, creepage.spin
     case[CASE_G], case[CASE_NU] = material.shear_modulus, material.poisson_ratio
+    case[CASE_PRESSURE_LIMIT] = material.pressure_limit
     case[CASE_NORMAL], case[CASE_TANGENTIAL] = method.id, stands_in.id
     fill(case, surface, speed)
     own = workspace.allocate(

@@ -8,6 +8,9 @@ import pytest
 
 import contact
 from contact.friction import LAWS, Friction
+from contact.geometry import profile, wheelset
+from contact.geometry.wheelset import Pair, Pose
+from contact.pair import WheelRailPair
 
 FALLING = [law for law in LAWS if law != "coulomb"]
 SEPARATION = contact.Separation.hertzian(1.0, 2.0)
@@ -224,3 +227,69 @@ def test_methods_that_give_forces_alone_take_the_global_velocity():
     )
     assert one.Fx == other.Fx
     assert one.friction == other.friction < 0.55
+
+
+def sided(**options):
+    return Friction(0.4, gauge_factor=0.25, border=-1e-3, border_width=4e-3, **options)
+
+
+def test_the_factor_over_the_profile_is_smooth_between_its_two_values():
+    y = np.linspace(-5e-3, 3e-3, 801)
+    factor = sided().factor(y)
+    assert (factor[y <= -3e-3] == 0.25).all()
+    assert (factor[y >= 1e-3] == 1.0).all()
+    assert factor[400] == pytest.approx(0.625)
+    assert abs(np.diff(factor, 2)).max() <= 1.001 * 6.0 * 0.75 * (1e-5 / 4e-3) ** 2
+    np.testing.assert_allclose(dataclasses.replace(sided(), border_width=-4e-3).factor(-2e-3 - y), factor, rtol=1e-12)
+    assert dataclasses.replace(sided(), border_width=0.0).factor([-1.1e-3, -1e-3]).tolist() == [0.25, 1.0]
+
+
+@pytest.mark.parametrize("tangential", [*TANGENTIAL, "halfspace"])
+def test_full_slip_has_the_friction_of_each_place(tangential):
+    """F = ∫ mu(y) p dA, for the law that saturates."""
+    options = {"normal": "halfspace", "spacing": 0.5e-3} if tangential == "halfspace" else {}
+    sol = solve((0.3, 0.0, 0.0), tangential=tangential, friction=sided(), **options)
+    expected = 0.4 * (sided().factor(sol.y) * sol.p * sol.dA).sum()
+    if contact.methods().tangential[tangential].saturates:
+        # parabolas have another share of the load on each strip
+        admissible = contact.methods().tangential[tangential].admissible
+        assert -sol.Fx == pytest.approx(expected, rel=2e-3 if admissible else 3e-2)
+    if contact.methods().tangential[tangential].admissible and tangential in FIELDS:
+        assert (np.hypot(sol.qx, sol.qy) <= 0.4 * sided().factor(sol.y) * sol.p * (1.0 + 1e-12)).all()
+
+
+@pytest.mark.parametrize("tangential", TANGENTIAL)
+def test_a_border_far_away_leaves_one_coefficient(tangential):
+    creepage = (1e-3, 5e-4, 0.3)
+    for border, coefficient in ((-1.0, 0.4), (1.0, 0.1)):
+        one = solve(creepage, tangential=tangential, friction=dataclasses.replace(sided(), border=border))
+        other = solve(creepage, tangential=tangential, friction=coefficient)
+        np.testing.assert_allclose((one.Fx, one.Fy, one.Mz), (other.Fx, other.Fy, other.Mz), rtol=1e-12)
+
+
+def test_forces_and_local_laws_know_the_sides_too():
+    friction = sided(kinetic=0.2, law="linear", half_speed=0.1, velocity="local")
+    one = solve((1e-3, 5e-4, 0.3), friction=friction)
+    many = contact.forces(SEPARATION, (1e-3, 5e-4, 0.3), load=8e4, friction=friction)
+    assert float(many.Fx) == one.Fx
+    assert abs(one.Fx) < abs(solve((1e-3, 5e-4, 0.3), friction=dataclasses.replace(friction, gauge_factor=1.0)).Fx)
+
+
+@pytest.mark.parametrize("y", [0.0, 5.5e-3])
+def test_the_border_of_a_pair_lies_in_the_rails_profile_on_either_side(y):
+    """Left and right are mirror images, and each patch has the forces of `contact.solve` on the friction placed on it."""
+    wheel, rail = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
+    friction = Friction(0.4, gauge_factor=0.25, border=-8e-3, border_width=2e-2)
+    forces = []
+    for side, mirror in (("right", 1.0), ("left", -1.0)):
+        pair = WheelRailPair(Pair(wheel, rail, side=side))
+        pose = Pose(y=mirror * y, yaw=mirror * 3e-3)
+        found = pair.solve(pose, load=8e4, friction=friction)
+        forces.append((found.force[0], mirror * found.force[1], found.force[2]))
+        patches = wheelset.contacts(wheel, rail, pose, load=8e4, side=side)
+        for contact_, patch in zip(found.contacts, patches, strict=True):
+            placed = friction.placed(patch.on_rail[0], patch.angle, mirror)
+            alone = contact.solve(patch.separation, patch.creepage, load=patch.load, friction=placed)
+            assert alone.Fy == pytest.approx(contact_.Fy, rel=1e-9)
+            assert (placed.factor(alone.strips.y) < 1.0).any()
+    assert forces[0] == forces[1]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated, Any
@@ -61,6 +62,8 @@ def solve(
     friction: opt.Friction = 0.3,
     falling: opt.Falling = None,
     slip_velocity: opt.SlipVelocity = "global",
+    gauge_friction: opt.GaugeFriction = None,
+    pressure_limit: opt.PressureLimit = math.inf,
     creepage: opt.Creep = None,
     curvatures: opt.Curvatures = None,
     normal: opt.Normal = DEFAULT_NORMAL,
@@ -72,7 +75,8 @@ def solve(
 
     Examples:  contact solve --y 3e-3 --load 80e3   ·   contact solve --curvatures 1.1 0.8 --creepage 1e-3 0 0.1
     """
-    options = {"friction": opt.surface(friction, falling, slip_velocity), "normal": normal, "tangential": tangential}
+    surface, material = opt.surface(friction, falling, slip_velocity, gauge_friction), opt.steel(pressure_limit)
+    options = {"friction": surface, "material": material, "normal": normal, "tangential": tangential}
     options |= PICTURE_RESOLUTION if plot else {}
     given = None if creepage is None else Creepage(*creepage)
     opt.require_use(context)
@@ -114,6 +118,8 @@ def patch(
     friction: opt.Friction = 0.3,
     falling: opt.Falling = None,
     slip_velocity: opt.SlipVelocity = "global",
+    gauge_friction: opt.GaugeFriction = None,
+    pressure_limit: opt.PressureLimit = math.inf,
     creepage: opt.Creep = None,
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangential = DEFAULT_TANGENTIAL,
@@ -126,8 +132,14 @@ def patch(
     case = _position(
         wheel, rail, opt.reading(inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed
     )
-    surface = opt.surface(friction, falling, slip_velocity)
-    options = {"friction": surface, "normal": normal, "tangential": tangential, **PICTURE_RESOLUTION}
+    surface, material = opt.surface(friction, falling, slip_velocity, gauge_friction), opt.steel(pressure_limit)
+    options = {
+        "friction": surface,
+        "material": material,
+        "normal": normal,
+        "tangential": tangential,
+        **PICTURE_RESOLUTION,
+    }
     touches = problem.solve_position(
         case, load, penetration, None if creepage is None else Creepage(*creepage), options
     )

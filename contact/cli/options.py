@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any
@@ -12,6 +13,7 @@ from contact import friction
 from contact.cli.problem import OF_A_POSITION, STANDARD_LOAD
 from contact.errors import ContactError
 from contact.friction import LAWS, VELOCITIES
+from contact.material import STEEL, Material
 
 
 class Side(StrEnum):
@@ -77,6 +79,19 @@ Falling = Annotated[
 SlipVelocity = Annotated[
     str,
     typer.Option(help=f"velocity over which friction falls: {', '.join(VELOCITIES)}", rich_help_panel=LOADING),
+]
+GaugeFriction = Annotated[
+    tuple[float, float, float] | None,
+    typer.Option(
+        help="factor on friction on the gauge side of the rail, y in its profile (negative) below which that is, width of the "
+        "transition, both in m",
+        metavar="FACTOR Y WIDTH",
+        rich_help_panel=LOADING,
+    ),
+]
+PressureLimit = Annotated[
+    float,
+    typer.Option(help="pressure in Pa that is not exceeded, elastic-perfectly plastic", rich_help_panel=LOADING),
 ]
 Creep = Annotated[
     tuple[float, float, float] | None,
@@ -156,12 +171,30 @@ def require_use(context: typer.Context) -> None:
         raise ContactError(f"{', '.join(idle)}: --curvatures stands in place of wheel, rail and position")
 
 
-def surface(static: float, falling: tuple[str, float, float] | None, velocity: str) -> float | friction.Friction:
+def surface(
+    static: float,
+    falling: tuple[str, float, float] | None,
+    velocity: str,
+    gauge: tuple[float, float, float] | None = None,
+) -> friction.Friction:
     """The options of friction as `contact.solve` takes them."""
-    if falling is None:
-        return static
-    law, kinetic, half_speed = falling
-    return friction.Friction(static, kinetic, half_speed, law, velocity=velocity)
+    law, kinetic, half_speed = falling or ("coulomb", static, 1.0)
+    factor, border, width = gauge or (1.0, 0.0, 1.0)
+    return replace(
+        friction.as_friction(static),
+        kinetic=kinetic,
+        half_speed=half_speed,
+        law=law,
+        velocity=velocity,
+        gauge_factor=factor,
+        border=border,
+        border_width=width,
+    )
+
+
+def steel(pressure_limit: float) -> Material:
+    """STEEL with a limit of the pressure [Pa]."""
+    return replace(STEEL, pressure_limit=pressure_limit)
 
 
 def reading(

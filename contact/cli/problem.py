@@ -78,7 +78,15 @@ def solve_position(
     """Every patch of the wheels asked for; `load` [N] is the vertical load of each wheel."""
     touches = []
     for side, number, patch in find_patches(case, load, penetration):
-        solution = solve(patch.separation, creepage or patch.creepage, speed=case.speed, **amount_of(patch), **options)
+        mirror = -1.0 if side == "left" else 1.0
+        friction = options["friction"].placed(patch.on_rail[0], patch.angle, mirror)
+        solution = solve(
+            patch.separation,
+            creepage or patch.creepage,
+            speed=case.speed,
+            **amount_of(patch),
+            **options | {"friction": friction},
+        )
         touches.append(Touch(solution, side, patch, number))
     return touches
 

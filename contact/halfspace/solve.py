@@ -119,18 +119,19 @@ def _roll(
     Where the law follows the local slip velocity, each step solves with the coefficients of the slip before, from stick on;
     of what a law wants only a share is taken over, as several solutions and oscillation between them are possible.
     """
+    factor = friction.factor(y)[:, None] if friction.gauge_factor != 1.0 else np.ones((1, 1))
     if friction.velocity == "global" or friction.law == "coulomb":
         mu = float(friction.coefficient(speed * math.hypot(creepage.longitudinal, creepage.lateral)))
-        return tang(p, x, y, creepage, mu, material, progress=progress), mu
+        return tang(p, x, y, creepage, mu * factor, material, progress=progress), mu
     field = np.full(p.shape, friction.static)
-    rolling = tang(p, x, y, creepage, field, material, progress=progress)
+    rolling = tang(p, x, y, creepage, field * factor, material, progress=progress)
     for _ in range(_MAX_FALLS):
         wanted = np.minimum(friction.coefficient(speed * np.hypot(rolling.sx, rolling.sy)), friction.static)
         if friction.velocity == "greatest":  # particles come from the leading edge, x = max
             wanted = np.minimum.accumulate(wanted[:, ::-1], axis=1)[:, ::-1]
         change = wanted - field
         field = field + _FALL_SHARE * change
-        rolling = tang(p, x, y, creepage, field, material, start=(rolling.qx, rolling.qy), progress=progress)
+        rolling = tang(p, x, y, creepage, field * factor, material, start=(rolling.qx, rolling.qy), progress=progress)
         if abs(change * (p > 0.0)).max() <= _FALL_TOLERANCE * friction.static:
             return rolling, friction.static
     return replace(rolling, converged=False), friction.static

@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 from contact._jit import kernel
 from contact._layout import (
     APPROACH,
+    CASE_BORDER,
+    CASE_BORDER_WIDTH,
     CASE_LOAD,
     CASE_LOAD_KIND,
     CASE_PHI,
@@ -214,11 +216,16 @@ def solve_pair(mode, amount, given, bench):
     space, strips, fields, result = own.space, own.strips, own.fields, own.result
     parameters, damage = bench.damage_parameters, bench.damage
     case[CASE_LOAD_KIND] = LOAD if mode == UNDER_LOAD else APPROACH
+    border, border_width = case[CASE_BORDER], case[CASE_BORDER_WIDTH]
     for k in range(n):
         patch, sep, contact = search.patches[k], search.separations[k], bench.contacts[k]
         case[CASE_LOAD] = patch[layout.PATCH_LOAD] if mode == UNDER_LOAD else patch[layout.PATCH_APPROACH]
         case[CASE_VX], case[CASE_VY] = _bounded(patch[layout.PATCH_VX]), _bounded(patch[layout.PATCH_VY])
         case[CASE_PHI] = _bounded(patch[layout.PATCH_PHI])
+        # from the rail's profile into the plane of the patch
+        per_cosine = 1.0 / math.cos(patch[layout.PATCH_ANGLE] - motion[layout.RAIL_ROLL])
+        case[CASE_BORDER] = (border - patch[layout.PATCH_RAIL_Y]) * per_cosine
+        case[CASE_BORDER_WIDTH] = border_width * per_cosine
         of_patch = Space(
             space.grid, space.vectors, space.logs, space.matrix, space.lu, memory[1 + k * piece : 1 + (k + 1) * piece],
             space.lanes, space.trace,
@@ -234,6 +241,7 @@ def solve_pair(mode, amount, given, bench):
         if n_strips > 0:
             _add_wrench(contact, motion[layout.POSE_Y], motion[layout.POSE_Z] - motion[layout.RADIUS], total)
             _add_results(result, damage, total)
+    case[CASE_BORDER], case[CASE_BORDER_WIDTH] = border, border_width
     total[TOTAL_Z], total[TOTAL_COUNT] = motion[layout.POSE_Z], n
     for i in _ODD_TOTAL:
         total[i] *= motion[layout.MIRROR]

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact import workspace
-from contact._layout import CASE_G, CASE_NORMAL, CASE_NU, CASE_TANGENTIAL, MAX_PATCHES, N_CASE
+from contact._layout import CASE_G, CASE_NORMAL, CASE_NU, CASE_PRESSURE_LIMIT, CASE_TANGENTIAL, MAX_PATCHES, N_CASE
 from contact.creepage import Creepage
 from contact.damage import DamageParameters
 from contact.damage._kernel import N_DAMAGE, N_DAMAGE_FIELDS
@@ -137,6 +137,7 @@ class WheelRailPair:
         )
         case = np.zeros(N_CASE)
         case[CASE_G], case[CASE_NU] = material.shear_modulus, material.poisson_ratio
+        case[CASE_PRESSURE_LIMIT] = material.pressure_limit
         case[CASE_NORMAL], case[CASE_TANGENTIAL] = method.id, rolling.id
         self.bench = Bench(
             search=pair.space,

@@ -25,6 +25,7 @@ from contact._layout import (
     RES_POWER,
     RES_SLIP_AREA,
     STRIP_A,
+    STRIP_BOUND,
     STRIP_DY,
     STRIP_P0,
     STRIP_PATCH,
@@ -72,10 +73,11 @@ def creep_force(strips, n, case, tables, fields, result):
     first = 0
     while first < n:
         last = first
-        load, load_y, load_x = 0.0, 0.0, 0.0
+        load, load_y, load_x, bound = 0.0, 0.0, 0.0, 0.0
         while last < n and strips[STRIP_PATCH, last] == strips[STRIP_PATCH, first]:
             share = 0.5 * math.pi * strips[STRIP_P0, last] * strips[STRIP_A, last] * strips[STRIP_DY, last]
             load += share
+            bound += 0.5 * math.pi * strips[STRIP_BOUND, last] * strips[STRIP_A, last] * strips[STRIP_DY, last]
             load_y += share * strips[STRIP_Y, last]
             load_x += share * strips[STRIP_XC, last]
             last += 1
@@ -85,7 +87,7 @@ def creep_force(strips, n, case, tables, fields, result):
             continue
         y, x = load_y / load, load_x / load
         vx, vy, phi = case[CASE_VX] - case[CASE_PHI] * y, case[CASE_VY] + case[CASE_PHI] * x, case[CASE_PHI]
-        limit = case[CASE_MU] * load
+        limit = case[CASE_MU] * bound
         if limit <= NO_FRICTION * case[CASE_G] * a * b:
             limit = 0.0
         Fx, Fy, Mz, slip = of_ellipse(

@@ -43,8 +43,8 @@ from contact._layout import (
     RES_SLIP_AREA,
     STRIP_A,
     STRIP_ASPECT,
+    STRIP_BOUND,
     STRIP_DY,
-    STRIP_P0,
     STRIP_XC,
     STRIP_Y,
 )
@@ -104,7 +104,7 @@ def _set_strip(strips, i, case, table, c_patch, lanes, l):
     """Amended strip theory of strip i (theory.md 4.1) and the set-up of its march, into lane l; return mu p0, or 0."""
     G, nu = case[CASE_G], case[CASE_NU]
     a, y, xc = strips[STRIP_A, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
-    bound = case[CASE_MU] * strips[STRIP_P0, i]
+    bound = case[CASE_MU] * strips[STRIP_BOUND, i]
     if a <= 0.0 or bound <= NO_FRICTION * G:
         for row in (ROW_X, ROW_Y, ROW_Z, _KAPPA, _LAMBDA, _LAMBDA1, _FLEXIBILITY_X, _FLEXIBILITY_Y, _VX, _VY, _SPIN):
             lanes[row + l] = 0.0
@@ -257,7 +257,7 @@ def fastrip(strips, n, case, table, elements, lanes, trace, fields, result):
         for l in range(min(LANES, n - block)):
             i = block + l
             a, dy, y, xc = strips[STRIP_A, i], strips[STRIP_DY, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
-            bound = case[CASE_MU] * strips[STRIP_P0, i]
+            bound = case[CASE_MU] * strips[STRIP_BOUND, i]
             e = lanes[_E + l]
             slip_area += 2.0 * a * e * dy
             if lanes[_LOAD + l] == 0.0 and bound <= NO_FRICTION * case[CASE_G]:

@@ -34,8 +34,8 @@ from contact._layout import (
     RES_SLIP_AREA,
     STRIP_A,
     STRIP_ASPECT,
+    STRIP_BOUND,
     STRIP_DY,
-    STRIP_P0,
     STRIP_XC,
     STRIP_Y,
 )
@@ -172,7 +172,7 @@ def _set_strip(strips, i, case, table, y_c, y_spin, rho33, lanes, l):
     """Steps 1 and 2 of mapped_strip.md 3 for strip i, into lane l; return mu p0 and the unit of slip, or zeros."""
     G, phi = case[CASE_G], case[CASE_PHI]
     a, y, xc = strips[STRIP_A, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
-    bound = case[CASE_MU] * strips[STRIP_P0, i]
+    bound = case[CASE_MU] * strips[STRIP_BOUND, i]
     for row in (_TX, _TY, _SUM_X, _SUM_Y, _SUM_M, _POWER, _STICK):
         lanes[row + l] = 0.0
     lanes[_LEFT + l] = 1.0

@@ -37,6 +37,7 @@ from contact._layout import (
     RES_SLIP_AREA,
     STRIP_A,
     STRIP_ASPECT,
+    STRIP_BOUND,
     STRIP_DY,
     STRIP_P0,
     STRIP_PATCH,
@@ -97,7 +98,7 @@ def fastsim(strips, n, case, table, elements, lanes, trace, fields, result):
         for l in range(LANES):
             i = min(block + l, n - 1)
             a = strips[STRIP_A, i]
-            peak = per_load * strips[STRIP_P0, i] * (1.0 if elliptic else a)
+            peak = per_load * strips[STRIP_BOUND, i] * (1.0 if elliptic else a)
             scale = a / peak if peak > NO_FRICTION * G else 0.0
             if local:
                 own_a, own_b = _own_ellipse(strips, i, method, a0, result[RES_EDGES:])

@@ -8,6 +8,9 @@ from numba import carray
 import contact
 from contact import kalker, quadrature
 from contact._layout import (
+    CASE_BORDER,
+    CASE_BORDER_WIDTH,
+    CASE_GAUGE_FACTOR,
     CASE_HALF_SPEED,
     CASE_KINETIC,
     CASE_LAW,
@@ -89,6 +92,7 @@ def fill_friction(v, coefficient, law, speed, case):
     case[CASE_KINETIC], case[CASE_HALF_SPEED] = v[law + 1], v[law + 2]
     case[CASE_SLOPE], case[CASE_SLOPE_FAR], case[CASE_SLOPE_RATE] = v[law + 3], v[law + 4], v[law + 5]
     case[CASE_VELOCITY] = v[law + 6] - 1.0
+    case[CASE_GAUGE_FACTOR], case[CASE_BORDER], case[CASE_BORDER_WIDTH] = v[law + 7], v[law + 8], v[law + 9]
     case[CASE_SPEED] = speed
 
 

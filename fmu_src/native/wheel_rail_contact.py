@@ -22,6 +22,7 @@ from contact._layout import (
     CASE_NORMAL,
     CASE_NU,
     CASE_PHI,
+    CASE_PRESSURE_LIMIT,
     CASE_TANGENTIAL,
     CASE_VX,
     CASE_VY,
@@ -209,6 +210,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         case[CASE_PHI] = v[at.creepage_spin]
         fill_friction(v, at.friction_coefficient, at.friction_law, v[at.speed], case)
         case[CASE_G], case[CASE_NU] = v[at.material_shear_modulus], v[at.material_poisson_ratio]
+        case[CASE_PRESSURE_LIMIT] = v[at.material_pressure_limit]
         case[CASE_NORMAL] = NORMAL_IDS[int(v[at.method_normal]) - 1]
         case[CASE_TANGENTIAL] = TANGENTIAL_IDS[int(v[at.method_tangential]) - 1]
         return n

@@ -18,6 +18,7 @@ from contact._layout import (
     CASE_G,
     CASE_NORMAL,
     CASE_NU,
+    CASE_PRESSURE_LIMIT,
     CASE_TANGENTIAL,
     MAX_PATCHES,
     N_CASE,
@@ -189,6 +190,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         quadrature.fill_fejer(search.nodes, search.weights)
         fill(bench.own, v[at.material_poisson_ratio], published)
         case[CASE_G], case[CASE_NU] = v[at.material_shear_modulus], v[at.material_poisson_ratio]
+        case[CASE_PRESSURE_LIMIT] = v[at.material_pressure_limit]
         search.case[CASE_G], search.case[CASE_NU] = case[CASE_G], case[CASE_NU]
         case[CASE_NORMAL] = NORMAL_IDS[int(v[at.method_normal]) - 1]
         case[CASE_TANGENTIAL] = TANGENTIAL_IDS[int(v[at.method_tangential]) - 1]

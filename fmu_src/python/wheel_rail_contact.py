@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from types import MappingProxyType
 from typing import Any
 
@@ -92,6 +93,7 @@ def _solve(values: Values, creepage: Creepage) -> Solution:
         values["material.poisson_ratio"],
         hardness=values["material.hardness"],
         shear_yield=values["material.shear_yield"],
+        pressure_limit=values["material.pressure_limit"] or math.inf,
     )
     load_driven = values.item("load.kind") == "NormalForce"
     return contact.solve(

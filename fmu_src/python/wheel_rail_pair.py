@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -120,6 +121,7 @@ class WheelRailPairSlave(TableSlave):
                 values["material.poisson_ratio"],
                 hardness=values["material.hardness"],
                 shear_yield=values["material.shear_yield"],
+                pressure_limit=values["material.pressure_limit"] or math.inf,
             )
             geometry = Pair(
                 wheel,

@@ -84,6 +84,14 @@ def parameters() -> Iterable[Variable]:
         open_minimum=True,
         nominal=1e8,
     )
+    yield parameter(
+        "material.pressure_limit",
+        "Pressure that is not exceeded, elastic-perfectly plastic; 0: none",
+        unit="Pa",
+        start=0.0,
+        minimum=0.0,
+        nominal=1e9,
+    )
     yield parameter("resolution.n_strips", "Strips per patch", integer=True, start=N_STRIPS, minimum=4, maximum=1000)
     yield parameter(
         "resolution.n_elements", "Elements per strip", integer=True, start=N_ELEMENTS, minimum=4, maximum=1000
@@ -122,6 +130,26 @@ def parameters() -> Iterable[Variable]:
     yield parameter("friction.slope_rate", "How soon the factor falls", start=1.0, minimum=0.0)
     yield parameter(
         "friction.velocity", "Slip velocity that the law follows", enumeration=FRICTION_VELOCITY, start="Global"
+    )
+    yield parameter(
+        "friction.gauge_factor",
+        "Factor on all coefficients of friction on the gauge side of the profile",
+        start=1.0,
+        minimum=0.0,
+        maximum=100.0,
+    )
+    yield parameter(
+        "friction.border",
+        "Where the gauge side, y below it, ends: in the plane of the separation, or in the rail's profile of either side",
+        unit="m",
+        start=0.0,
+    )
+    yield parameter(
+        "friction.border_width",
+        "Width of the smooth transition; negative: the gauge side is y above friction.border",
+        unit="m",
+        start=5e-3,
+        nominal=1e-3,
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -95,6 +96,9 @@ def random_case(seed: int) -> Case:
         (rng.uniform(0.2, 1.0), rng.uniform(0.0, 1.0), rng.uniform(0.1, 2.0)) if rng.random() < 0.5 else (1.0, 1.0, 1.0)
     )
     velocity = int(rng.integers(len(VELOCITIES)))
+    sides = (rng.uniform(0.1, 2.0), rng.uniform(-5e-3, 5e-3), rng.uniform(-5e-3, 5e-3))
+    sides = sides if rng.random() < 0.5 else (1.0, 0.0, 5e-3)
+    limit = rng.uniform(3e8, 2e9) if rng.random() < 0.3 else 0.0
     values = {
         "geometry.kind": 2 if curvatures else 1,
         "geometry.y0": y0,
@@ -111,12 +115,14 @@ def random_case(seed: int) -> Case:
         "material.poisson_ratio": nu,
         "material.hardness": H,
         "material.shear_yield": k,
+        "material.pressure_limit": limit,
         "friction.coefficient": mu,
         "friction.law": law + 1,
         "friction.kinetic": kinetic,
         "friction.half_speed": half_speed,
         **dict(zip(("friction.slope", "friction.slope_far", "friction.slope_rate"), slopes, strict=True)),
         "friction.velocity": velocity + 1,
+        **dict(zip(("friction.gauge_factor", "friction.border", "friction.border_width"), sides, strict=True)),
         "speed": speed,
         "wheel.radius": radius,
         "method.normal": normal + 1,
@@ -129,8 +135,8 @@ def random_case(seed: int) -> Case:
         contact.Creepage(*creepages),
         load=load if by_load else None,
         approach=None if by_load else approach,
-        friction=Friction(mu, kinetic, half_speed, LAWS[law], *slopes, VELOCITIES[velocity]),
-        material=contact.Material(G, nu, hardness=H, shear_yield=k),
+        friction=Friction(mu, kinetic, half_speed, LAWS[law], *slopes, VELOCITIES[velocity], *sides),
+        material=contact.Material(G, nu, hardness=H, shear_yield=k, pressure_limit=limit or math.inf),
         speed=speed,
         normal=list(METHODS.normal)[normal],
         tangential=list(METHODS.tangential)[tangential],
