@@ -12,7 +12,7 @@ from contact.errors import ContactError, require_number
 Item = TypeVar("Item")
 Answer = TypeVar("Answer")
 
-_RETRIES = 5  # of a task whose worker died
+_DEATHS = 5  # of workers over one task, after which it is held to be the killer
 
 
 class Workers:
@@ -49,7 +49,7 @@ class Workers:
             from dask.distributed import Client, LocalCluster
         except ImportError as missing:
             raise ImportError("several workers need dask: pip install 'wheelrail-contact[scale]'") from missing
-        self._stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": _RETRIES}))
+        self._stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": _DEATHS}))
         address: Any = self._scheduler
         if address is None:
             address = self._stack.enter_context(
@@ -82,7 +82,7 @@ class Workers:
             return answers
         from dask.distributed import as_completed
 
-        futures = self._client.map(function, items, pure=False, retries=_RETRIES)
+        futures = self._client.map(function, items, pure=False)
         for k, _ in enumerate(as_completed(futures)):
             watch(k + 1, len(items))
         return self._client.gather(futures)

@@ -12,7 +12,10 @@ from models.life.run import COLUMNS, Run
 from models.life.scenario import Declaration, Profiles, Recording, Scenario
 from models.life.spectra import Irregularities
 from models.life.track import Curve, Track
-from models.wheelset.ports import SIDES
+from models.life.vehicle import Vehicle
+from models.wheelset import master
+from models.wheelset.components import direct
+from models.wheelset.ports import MOTION, SIDES
 
 SHORT = Recording(settling=0.5, spacing=0.25)
 CURVED = Track(
@@ -70,6 +73,17 @@ def test_checkpoint_of_another_run_is_refused(curved, tmp_path):
     path.write_bytes(path.read_bytes()[:1000])
     with pytest.raises(ContactError, match="no checkpoint"):
         checkpoint.read(path, curved.scenario.fingerprint)
+
+
+def test_motion_is_that_of_the_example_master():
+    """Gauss-Seidel with `contact.solve` as its contacts, on straight track."""
+    ours = Run(scenario(wheelset=Vehicle(lateral=2e-3)))
+    p, step, steps = ours.scenario.parameters, ours.scenario.step, 60
+    wheelset, contacts = direct(p, 0.3)
+    history = master.run(wheelset, contacts, speed=20.0, step=step, duration=(steps + 1) * step)
+    for k in range(steps):
+        np.testing.assert_allclose(ours._model.motion(), [history[name][k] for name in MOTION], rtol=1e-12, atol=1e-15)
+        ours.advance()
 
 
 def test_constant_conditions_give_linear_growth():
