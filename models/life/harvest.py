@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 import contact
 from contact.accumulation import MAXIMA, SUMS, Histogram
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.material import STEEL
 from models.life.scenario import Scenario
 from models.wheelset.ports import SIDES
 
@@ -45,6 +44,7 @@ class Harvest:
             "tangential": d.methods.tangential,
             "n_strips": d.methods.strips,
             "n_elements": d.methods.elements,
+            "material": d.methods.material,
             "throw": False,
         }
         self._pairs = {
@@ -106,4 +106,4 @@ class Harvest:
             values = dict(zip(_NAMES, saved[f"harvest.{side}.{body}"], strict=True))
             distance = float(saved[f"harvest.{side}.{body}.distance"])
             methods = set(saved[f"harvest.{side}.{body}.methods"].tolist())
-            h.restore(values, distance, methods, {STEEL} if methods else set())
+            h.restore(values, distance, methods, {self._options["material"]} if methods else set())

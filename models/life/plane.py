@@ -13,6 +13,7 @@ from contact._layout import (
     CASE_NORMAL,
     CASE_NU,
     CASE_PHI,
+    CASE_PRESSURE_LIMIT,
     CASE_SPEED,
     CASE_TANGENTIAL,
     CASE_VX,
@@ -27,7 +28,6 @@ from contact._layout import (
     RES_STATUS,
 )
 from contact.friction import Friction, fill
-from contact.material import Material
 from contact.pipeline import solve_case
 from contact.registry import lookup
 from models.life.scenario import Methods
@@ -44,7 +44,8 @@ _ANSWER = [RES_FX, RES_FY, RES_MZ, RES_APPROACH, RES_PMAX, RES_POWER, RES_STATUS
 class PlaneContact:
     """The solver for problems in the order of `models.wheelset.ports.PROBLEM`; no call starts from another one."""
 
-    def __init__(self, p: WheelsetParameters, friction: Friction, methods: Methods, material: Material) -> None:
+    def __init__(self, p: WheelsetParameters, friction: Friction, methods: Methods) -> None:
+        material = methods.material
         normal = lookup("normal", methods.normal, batched=True)
         tangential = lookup("tangential", methods.tangential, batched=True)
         self._own = workspace.allocate(
@@ -61,6 +62,7 @@ class PlaneContact:
         self._case = np.zeros(N_CASE)
         self._case[CASE_LOAD_KIND] = LOAD
         self._case[CASE_G], self._case[CASE_NU] = material.shear_modulus, material.poisson_ratio
+        self._case[CASE_PRESSURE_LIMIT] = material.pressure_limit
         self._case[CASE_NORMAL], self._case[CASE_TANGENTIAL] = normal.id, tangential.id
         fill(self._case, friction, p.speed)
 

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from contact.errors import ContactError
 from contact.geometry.wheelset import Pose, Velocity
-from contact.material import STEEL
 from models.life.harvest import Harvest
 from models.life.plane import APPROACH, FX, FY, MZ, POWER, STATUS, PlaneContact
 from models.life.scenario import Scenario
@@ -86,7 +85,7 @@ class Run:
         self._p = scenario.parameters
         self._line, self._h = scenario.line(), scenario.step
         self._model = WheelsetModel(self._p)
-        self._contacts = [PlaneContact(self._p, scenario.friction, scenario.declared.methods, STEEL) for _ in SIDES]
+        self._contacts = [PlaneContact(self._p, scenario.friction, scenario.declared.methods) for _ in SIDES]
         self.harvest = Harvest(scenario)
         self.steps, self.distance = 0, 0.0
         self._sampled = scenario.declared.recording.settling  # up to where damage is counted [m]

@@ -14,6 +14,7 @@ from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry import profile
 from contact.geometry.profile import Profile
+from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solve import N_ELEMENTS, N_STRIPS, require_resolution
 from models.life.declared import build, read_table
@@ -47,18 +48,25 @@ class Profiles:
 
 @dataclass(frozen=True, kw_only=True)
 class Methods:
-    """Contact methods by name, and their resolution."""
+    """Contact methods by name, their resolution, and the pressure at which steel flows [Pa] (`contact.Material`)."""
 
     normal: str = DEFAULT_NORMAL
     tangential: str = DEFAULT_TANGENTIAL
     strips: int = N_STRIPS
     elements: int = N_ELEMENTS
+    pressure_limit: float | None = None
 
     def __post_init__(self) -> None:
+        _ = self.material
         lookup("normal", self.normal, batched=True)
         if not lookup("tangential", self.tangential, batched=True).fields:
             raise ContactError(f"tangential = {self.tangential!r} gives forces alone; damage needs traction and slip")
         require_resolution(self.strips, self.elements)
+
+    @property
+    def material(self) -> Material:
+        """Steel, elastic up to the limit."""
+        return STEEL if self.pressure_limit is None else replace(STEEL, pressure_limit=self.pressure_limit)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,7 +124,11 @@ class Declaration:
         require_number("seed", self.seed, 0)
         if isinstance(self.speed, float):
             require_number("speed", self.speed, 1.0, 150.0)
-        as_friction(self.friction)
+        factor = as_friction(self.friction).gauge_factor
+        if factor != 1.0:
+            raise ContactError(
+                f"friction.gauge_factor = {factor:g}: a run knows one friction over the profile; allowed: 1"
+            )
 
 
 @dataclass(frozen=True)

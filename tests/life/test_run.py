@@ -9,7 +9,7 @@ from contact.accumulation import SUMS
 from contact.errors import ContactError
 from models.life import checkpoint, result
 from models.life.run import COLUMNS, Run
-from models.life.scenario import Declaration, Profiles, Recording, Scenario
+from models.life.scenario import Declaration, Methods, Profiles, Recording, Scenario
 from models.life.spectra import Irregularities
 from models.life.track import Curve, Track
 from models.life.vehicle import Vehicle
@@ -84,6 +84,15 @@ def test_motion_is_that_of_the_example_master():
     for k in range(steps):
         np.testing.assert_allclose(ours._model.motion(), [history[name][k] for name in MOTION], rtol=1e-12, atol=1e-15)
         ours.advance()
+
+
+def test_steel_that_flows_limits_the_pressure(curved):
+    limit = 0.9 * max(curved.series[f"{side}_max_pressure"].max() for side in SIDES)
+    soft = completed(Run(scenario(track=CURVED, seed=4, methods=Methods(pressure_limit=limit))))
+    pressure = max(soft.series[f"{side}_max_pressure"].max() for side in SIDES)
+    assert pressure == pytest.approx(limit, rel=1e-6)
+    (material,) = soft.harvest.histograms["right", "wheel"].materials
+    assert material.pressure_limit == limit
 
 
 def test_constant_conditions_give_linear_growth():

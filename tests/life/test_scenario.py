@@ -50,6 +50,11 @@ def written(folder: Path, text: str) -> Path:
         (LEAST + "[wheelset]\nmass = 0.0", r"case.toml.wheelset: mass = 0 is outside the allowed range \]0, inf\["),
         (LEAST + "[profiles]\nwheel = 'S1003'", r"case.toml.profiles: wheel = 'S1003' is no profile"),
         (LEAST + "[methods]\ntangential = 'polach'", r"case.toml.methods: tangential = 'polach' gives forces alone"),
+        (LEAST + "[methods]\npressure_limit = -1.0", r"case.toml.methods: .*pressure_limit = -1 is outside"),
+        (
+            LEAST + "[friction]\nstatic = 0.3\ngauge_factor = 0.5",
+            r"friction.gauge_factor = 0.5: a run knows one .*allowed: 1",
+        ),
         (LEAST + "[damage.archard]\nmild = -1.0", r"case.toml.damage.archard: archard.mild = -1 is outside"),
         (
             LEAST + "[recording]\nstep = 0.1",
