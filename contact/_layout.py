@@ -41,8 +41,10 @@ N_FIELD_ROWS = 8
     CASE_BORDER,  # [m]
     CASE_BORDER_WIDTH,  # [m]; its sign says on which side
     CASE_SPEED,  # [m/s]
-) = range(22)
-N_CASE = 22
+    CASE_K_A,  # Polach's reduction factors, of adhesion and of slip
+    CASE_K_S,
+) = range(24)
+N_CASE = 24
 LOAD, APPROACH = 0.0, 1.0
 
 # result[...]: what a solver says besides fields

@@ -16,6 +16,8 @@ from contact._layout import (
     CASE_G,
     CASE_GAUGE_FACTOR,
     CASE_HALF_SPEED,
+    CASE_K_A,
+    CASE_K_S,
     CASE_KINETIC,
     CASE_LAW,
     CASE_MU,
@@ -156,6 +158,11 @@ class Friction:
     slope, slope_far, slope_rate : float
         k0, α_inf and β; slope in ]0, 1], slope_far in [0, 1], slope_rate not negative. 1, 1, 1: the half space. The
         published set is .54, .02, .64 (constants.md 7; the source contradicts itself in β: .62).
+    k_A, k_S : float
+        Reduction factors of `tangential="polach"` alone, in the area of adhesion and that of slip, each in ]0, 1], k_S not
+        above k_A in his theory. 1, 1: the clean surface; typical of dry rails are 1, .4, of wet ones .3, .1 (Polach 2005,
+        Table 2; constants.md 6, two sources). At vanishing creepage the force is (k_A + k_S)/2 of Kalker's: not to be
+        combined with `slope`, which says the same for every method.
 
     Raises
     ------
@@ -174,6 +181,8 @@ class Friction:
     gauge_factor: float = 1.0
     border: float = 0.0
     border_width: float = 5e-3
+    k_A: float = 1.0
+    k_S: float = 1.0
 
     def __post_init__(self) -> None:
         require_number("friction.static", self.static, 0.0, LARGEST)
@@ -191,6 +200,8 @@ class Friction:
         require_number("friction.gauge_factor", self.gauge_factor, 0.0, 100.0)
         require_number("friction.border", self.border)
         require_number("friction.border_width", self.border_width)
+        require_number("friction.k_A", self.k_A, 0.0, 1.0, open_minimum=True)
+        require_number("friction.k_S", self.k_S, 0.0, 1.0, open_minimum=True)
 
     @classmethod
     def polach(cls, static: float = 0.55, A: float = 0.4, B: float = 0.6, **others: Any) -> Friction:
@@ -233,7 +244,7 @@ class Friction:
         law = float(LAWS.index(self.law))
         slopes = self.slope, self.slope_far, self.slope_rate
         velocity, side = float(VELOCITIES.index(self.velocity)), (self.gauge_factor, self.border, self.border_width)
-        return law, self.static, kinetic, self.half_speed, *slopes, velocity, *side
+        return law, self.static, kinetic, self.half_speed, *slopes, velocity, *side, self.k_A, self.k_S
 
 
 _ROWS = (
@@ -248,6 +259,8 @@ _ROWS = (
     CASE_GAUGE_FACTOR,
     CASE_BORDER,
     CASE_BORDER_WIDTH,
+    CASE_K_A,
+    CASE_K_S,
 )
 
 

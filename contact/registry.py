@@ -232,7 +232,7 @@ _TANGENTIAL = (
         True,
         fields=False,
     ),
-    Method("polach", POLACH, "creep force with spin, clean surface", "Polach 1999", False, True, fields=False),
+    Method("polach", POLACH, "creep force with spin", "Polach 1999", False, True, fields=False),
     Method(
         "table",
         TABLE,

@@ -110,6 +110,7 @@ def test_a_vanishing_load_gives_finite_forces(tangential, load):
             {"static": 0.3, "velocity": "mean"},
             "friction.velocity = 'mean' is unknown; allowed: global, local, greatest",
         ),
+        ({"static": 0.3, "k_A": 0.0}, "friction.k_A = 0 is outside the allowed range ]0, 1]"),
         ({"static": 0.3, "slope": 1.2}, "friction.slope = 1.2 is outside the allowed range ]0, 1]"),
     ],
 )

@@ -11,6 +11,8 @@ from contact import kalker
 from contact._jit import kernel
 from contact._layout import (
     CASE_G,
+    CASE_K_A,
+    CASE_K_S,
     CASE_MU,
     CASE_NU,
     CASE_PHI,
@@ -43,8 +45,9 @@ from contact.tangential.vermeulen_johnson import vermeulen_johnson
 
 
 @kernel
-def of_ellipse(law, vx, vy, phi, a, b, limit, G, nu, table, creep):
-    """Fx, Fy, Mz and the share of slip of one ellipse; `limit` is mu N, `law` the id of the registry."""
+def of_ellipse(case, vx, vy, phi, a, b, limit, table, creep):
+    """Fx, Fy, Mz and the share of slip of one ellipse that rolls with these creepages; `limit` is mu N."""
+    law, G, nu = case[CASE_TANGENTIAL], case[CASE_G], case[CASE_NU]
     if law == CARTER:
         force, slip = carter(vx, creepage_of_full_slip(limit, math.pi * a * b, G, nu))
         return limit * force, 0.0, 0.0, slip
@@ -58,7 +61,7 @@ def of_ellipse(law, vx, vy, phi, a, b, limit, G, nu, table, creep):
     if law == TABLE:
         return lookup(vx, vy, phi, G, c, log_aspect, c11, c22, c23, c33, limit, creep)
     if law == POLACH:
-        return polach(vx, vy, phi, G, a, b, c11, c22, c23, limit, 1.0, 1.0)
+        return polach(vx, vy, phi, G, a, b, c11, c22, c23, limit, case[CASE_K_A], case[CASE_K_S])
     Fx, Fy, Mz, slip = linear(vx, vy, phi, G, c, c11, c22, c23, c33)
     if law == LINEAR:
         return Fx, Fy, Mz, slip
@@ -90,9 +93,7 @@ def creep_force(strips, n, case, tables, fields, result):
         limit = case[CASE_MU] * bound
         if limit <= NO_FRICTION * case[CASE_G] * a * b:
             limit = 0.0
-        Fx, Fy, Mz, slip = of_ellipse(
-            case[CASE_TANGENTIAL], vx, vy, phi, a, b, limit, case[CASE_G], case[CASE_NU], tables.kalker, tables.creep
-        )
+        Fx, Fy, Mz, slip = of_ellipse(case, vx, vy, phi, a, b, limit, tables.kalker, tables.creep)
         result[RES_FX] += Fx
         result[RES_FY] += Fy
         result[RES_MZ] += Mz + x * Fy - y * Fx

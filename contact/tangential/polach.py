@@ -12,7 +12,7 @@ Polach's program and the linear limit. Two things are ours: the resultant is cut
 exceed it), and the share of slip, (k_A eps)²/(1 + (k_A eps)²), follows from his traction: it never reaches 1.
 
 The reduction factors k_S <= k_A <= 1 describe a real surface: dry .4, 1; wet .1, .3 (Polach 2005, Table 2, with friction that
-falls as the sliding velocity grows). `contact.solve` takes 1, 1, the clean surface of the theory.
+falls as the sliding velocity grows); `contact.friction.Friction` has them, 1, 1 the clean surface of the theory.
 """
 
 import math

@@ -12,6 +12,8 @@ from contact._layout import (
     CASE_BORDER_WIDTH,
     CASE_GAUGE_FACTOR,
     CASE_HALF_SPEED,
+    CASE_K_A,
+    CASE_K_S,
     CASE_KINETIC,
     CASE_LAW,
     CASE_MU,
@@ -93,6 +95,7 @@ def fill_friction(v, coefficient, law, speed, case):
     case[CASE_SLOPE], case[CASE_SLOPE_FAR], case[CASE_SLOPE_RATE] = v[law + 3], v[law + 4], v[law + 5]
     case[CASE_VELOCITY] = v[law + 6] - 1.0
     case[CASE_GAUGE_FACTOR], case[CASE_BORDER], case[CASE_BORDER_WIDTH] = v[law + 7], v[law + 8], v[law + 9]
+    case[CASE_K_A], case[CASE_K_S] = v[law + 10], v[law + 11]
     case[CASE_SPEED] = speed
 
 

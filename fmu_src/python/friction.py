@@ -13,5 +13,5 @@ def friction(values: Values) -> Friction:
         LAWS[int(values["friction.law"]) - 1],
         *(values[f"friction.{name}"] for name in ("slope", "slope_far", "slope_rate")),
         VELOCITIES[int(values["friction.velocity"]) - 1],
-        *(values[f"friction.{name}"] for name in ("gauge_factor", "border", "border_width")),
+        *(values[f"friction.{name}"] for name in ("gauge_factor", "border", "border_width", "k_A", "k_S")),
     )

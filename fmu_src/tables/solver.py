@@ -151,6 +151,15 @@ def parameters() -> Iterable[Variable]:
         start=5e-3,
         nominal=1e-3,
     )
+    for name, where in (("k_A", "adhesion"), ("k_S", "slip")):
+        yield parameter(
+            f"friction.{name}",
+            f"Polach's reduction factor in the area of {where}, for method.tangential = polach alone",
+            start=1.0,
+            minimum=0.0,
+            maximum=1.0,
+            open_minimum=True,
+        )
 
 
 def damage() -> Iterable[Variable]:

@@ -99,6 +99,7 @@ def random_case(seed: int) -> Case:
     sides = (rng.uniform(0.1, 2.0), rng.uniform(-5e-3, 5e-3), rng.uniform(-5e-3, 5e-3))
     sides = sides if rng.random() < 0.5 else (1.0, 0.0, 5e-3)
     limit = rng.uniform(3e8, 2e9) if rng.random() < 0.3 else 0.0
+    polach = (rng.uniform(0.1, 1.0), rng.uniform(0.1, 1.0))
     values = {
         "geometry.kind": 2 if curvatures else 1,
         "geometry.y0": y0,
@@ -123,6 +124,7 @@ def random_case(seed: int) -> Case:
         **dict(zip(("friction.slope", "friction.slope_far", "friction.slope_rate"), slopes, strict=True)),
         "friction.velocity": velocity + 1,
         **dict(zip(("friction.gauge_factor", "friction.border", "friction.border_width"), sides, strict=True)),
+        **dict(zip(("friction.k_A", "friction.k_S"), polach, strict=True)),
         "speed": speed,
         "wheel.radius": radius,
         "method.normal": normal + 1,
@@ -135,7 +137,7 @@ def random_case(seed: int) -> Case:
         contact.Creepage(*creepages),
         load=load if by_load else None,
         approach=None if by_load else approach,
-        friction=Friction(mu, kinetic, half_speed, LAWS[law], *slopes, VELOCITIES[velocity], *sides),
+        friction=Friction(mu, kinetic, half_speed, LAWS[law], *slopes, VELOCITIES[velocity], *sides, *polach),
         material=contact.Material(G, nu, hardness=H, shear_yield=k, pressure_limit=limit or math.inf),
         speed=speed,
         normal=list(METHODS.normal)[normal],

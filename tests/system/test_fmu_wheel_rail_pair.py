@@ -9,11 +9,11 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
-from differences import derivative, quotient
+from differences import Tally, derivative, parts, quotient
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 from fmu_instance import Instance
-from pair_case import MOTION, NAME, compare, expected, mirrored, solved
+from pair_case import MOTION, NAME, compare, expected, mirrored, random_case, solved
 
 import contact
 from contact.geometry import profile
@@ -269,6 +269,31 @@ def test_directional_derivatives_are_those_of_the_outputs(native_pair, known, h)
     wanted = quotient(fmu, WRENCH, {known: 1.0}, h)
     np.testing.assert_allclose(derivative(fmu, WRENCH, {known: 1.0}), wanted, rtol=1e-4)
     assert wanted.all()
+
+
+def test_derivatives_of_random_motions(native_pair):
+    """To 1e-4 of the slope of force and moment, wherever these are smooth, with every continuous method."""
+    fmu, tally = native_pair("ModelExchange"), Tally()
+    continuous = [method.continuous for method in contact.methods().batched.normal.values()]
+    for seed in range(40):
+        values, _ = random_case(seed)
+        fmu.fmu.reset()
+        fmu.update(values)
+        load, mu = abs(fmu.initialize()["force.z"]), values["friction.coefficient"]
+        if load == 0.0 or not continuous[values["method.normal"] - 1]:
+            continue
+        saturates = values["velocity.x"] * mu * load / (values["material.shear_modulus"] * fmu["patches.area"])
+        great = dict.fromkeys(("pose.y", "pose.roll", "pose.yaw", "irregularity.y", "irregularity.roll"), 1e-2)
+        great |= dict.fromkeys(("velocity.y", "velocity.roll", "velocity.yaw"), saturates)
+        great |= {"velocity.spin": saturates / values["wheel.radius"], "friction.coefficient": mu}
+        great |= {"load.normal_force": load} if values["load.kind"] == 1 else {"pose.z": 1e-4}
+        for known, change in great.items():
+            quotients = [quotient(fmu, WRENCH, {known: 1.0}, share * change) for share in (3e-6, 0.7e-6)]
+            scale = np.maximum(parts([(0, 1, 2), (3, 4, 5)], quotients[0]), 1e-3 * mu * load / change)
+            tally.add((seed, known), derivative(fmu, WRENCH, {known: 1.0}), quotients, scale)
+    print(f"{tally.smooth} smooth, {len(tally.rough)} not")
+    assert not tally.wrong
+    assert len(tally.rough) < 0.08 * tally.smooth
 
 
 def test_extreme_inputs_give_finite_outputs_or_none(native_pair):

@@ -8,6 +8,7 @@ from scipy import integrate
 
 import contact
 from contact import kalker
+from contact.friction import Friction
 from contact.tangential.carter import carter, creepage_of_full_slip
 from contact.tangential.linear import cubic
 from contact.tangential.polach import polach
@@ -200,6 +201,25 @@ def test_polach_is_his_formula(reduced):
         np.testing.assert_allclose((Fx, Fy), np.array(wanted) / max(1.0, share), rtol=1e-9, atol=1e-6)
         assert Mz == 0.0
     assert inside > 150
+
+
+def test_polachs_factors_come_with_the_friction(hertzian):
+    """Typical of dry and of wet rails: (k_A + k_S)/2 of the stiffness at vanishing creepage, mu N in the end."""
+    for k_A, k_S in ((1.0, 0.4), (0.3, 0.1)):
+        surface = Friction(MU, k_A=k_A, k_S=k_S)
+        solve_on = [
+            [
+                contact.solve(
+                    hertzian, contact.Creepage(xi, 0, 0), load=N, friction=f, normal="hertz", tangential="polach"
+                )
+                for f in (MU, surface)
+            ]
+            for xi in (1e-8, 1e3)
+        ]
+        (clean, real), (full, slipping) = ([s.Fx for s in pair] for pair in solve_on)
+        assert real == pytest.approx(0.5 * (k_A + k_S) * clean, rel=1e-6)
+        assert slipping == pytest.approx(full, rel=1e-3)
+        assert full == pytest.approx(-MU * N, rel=1e-3)
 
 
 def test_polach_has_a_lateral_force_from_spin_alone(ellipse):
