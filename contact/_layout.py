@@ -10,8 +10,12 @@
     STRIP_ASPECT,
     STRIP_PATCH,
     STRIP_BOUND,  # peak over the patch's coefficient of friction of the semi-ellipse that bounds the traction
-) = range(8)
-N_STRIP_ROWS = 8
+    STRIP_VX,  # creepages: rigid slip VX - PHI·y, VY + PHI·x
+    STRIP_VY,
+    STRIP_PHI,
+    STRIP_TILT,  # slope of the surface against the plane, where it is no plane
+) = range(12)
+N_STRIP_ROWS = 12
 
 # fields[ROW, strip, element]: element 0 is at the leading edge (x = x_c + a)
 FIELD_X, FIELD_DX, FIELD_P, FIELD_QX, FIELD_QY, FIELD_SX, FIELD_SY, FIELD_STICK = range(8)
@@ -40,11 +44,12 @@ N_FIELD_ROWS = 8
     CASE_GAUGE_FACTOR,  # on the coefficient of friction on one side of the border
     CASE_BORDER,  # [m]
     CASE_BORDER_WIDTH,  # [m]; its sign says on which side
+    CASE_CONFORMAL,  # 1 where the surface of contact is not taken as a plane (`contact.pair`)
     CASE_SPEED,  # [m/s]
     CASE_K_A,  # Polach's reduction factors, of adhesion and of slip
     CASE_K_S,
-) = range(24)
-N_CASE = 24
+) = range(25)
+N_CASE = 25
 LOAD, APPROACH = 0.0, 1.0
 
 # result[...]: what a solver says besides fields

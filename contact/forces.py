@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from contact import workspace
 from contact._layout import (
     APPROACH,
+    CASE_CONFORMAL,
     CASE_G,
     CASE_LOAD,
     CASE_LOAD_KIND,
@@ -149,6 +150,7 @@ def forces(
         cases[:, row] = values.ravel()
     cases[:, CASE_G], cases[:, CASE_NU] = material.shear_modulus, material.poisson_ratio
     cases[:, CASE_PRESSURE_LIMIT] = material.pressure_limit
+    cases[:, CASE_CONFORMAL] = 0.0
     cases[:, CASE_NORMAL], cases[:, CASE_TANGENTIAL] = method.id, rolling.id
 
     bounds = np.cumsum([0, *(s.y.size for s in separations)])

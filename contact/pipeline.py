@@ -15,6 +15,8 @@ from contact._layout import (
     CASE_SLOPE,
     CASE_SLOPE_FAR,
     CASE_TANGENTIAL,
+    CASE_VX,
+    CASE_VY,
     FIELD_DX,
     FIELD_P,
     FIELD_QX,
@@ -34,10 +36,14 @@ from contact._layout import (
     STRIP_DY,
     STRIP_P0,
     STRIP_PATCH,
+    STRIP_PHI,
+    STRIP_VX,
+    STRIP_VY,
     STRIP_XC,
     STRIP_Y,
 )
 from contact._layout import RES_EDGES as EDGES
+from contact.conformal import bend, project
 from contact.friction import of_case, over_profile, slope_of_case
 from contact.normal.lay import interval_minimum
 from contact.normal.press import fill_cut, press, share_of
@@ -117,10 +123,11 @@ def _bear(strips, n, elements, fields):
 
 
 @kernel
-def _bound(strips, n, case):
-    """What friction acts on: the pressure, times the factor of the side of the profile on which a strip lies."""
+def _set_rolling(strips, n, case):
+    """What friction acts on, the pressure times the factor of a strip's side of the profile, and the creepages of the plane."""
     factor = case[CASE_GAUGE_FACTOR]
     for i in range(n):
+        strips[STRIP_VX, i], strips[STRIP_VY, i], strips[STRIP_PHI, i] = case[CASE_VX], case[CASE_VY], case[CASE_PHI]
         strips[STRIP_BOUND, i] = strips[STRIP_P0, i]
         if factor != 1.0:
             strips[STRIP_BOUND, i] *= over_profile(
@@ -150,12 +157,8 @@ def _roll(strips, n, case, tables, elements, space, fields, result):
 
 
 @kernel
-def solve_case(y, g, A, xc, case, rule, tables, space, strips, fields, result):
-    """Solve one case; fill strips, fields and result (see `_layout`). Return the strip count.
-
-    All arrays are the caller's: `workspace.allocate` makes a fitting set. With a single row of fields only strips and result
-    are meant to be read.
-    """
+def press_case(y, g, A, xc, case, rule, tables, space, strips, fields, result):
+    """The first half of `solve_case`: the normal problem, and the creepages and the bound with which each strip rolls."""
     n = press(y, g, A, xc, case, rule, tables, space, strips, result)
     if n == 0:
         return 0
@@ -173,23 +176,53 @@ def solve_case(y, g, A, xc, case, rule, tables, space, strips, fields, result):
     count = int(strips[STRIP_PATCH, n - 1]) + 1
     result[RES_AREA], result[RES_PMAX], result[RES_PATCHES] = area, peak_pressure(strips, n), count
     limit = case[CASE_PRESSURE_LIMIT]
-    yields = 0.0 < limit < result[RES_PMAX]
-    if yields:
+    if 0.0 < limit < result[RES_PMAX]:
         result[RES_PMAX] = limit
         _cut(strips, n, limit, elements, fields, result[RES_N])
-    _bound(strips, n, case)
+    _set_rolling(strips, n, case)
     y_low, y_high = math.inf, -math.inf
     for k in range(count):
         y_low, y_high = min(y_low, result[EDGES + 2 * k]), max(y_high, result[EDGES + 2 * k + 1])
     result[RES_LENGTH], result[RES_WIDTH] = x_high - x_low, y_high - y_low
 
+    return n
+
+
+@kernel
+def roll_case(n, case, rule, tables, space, strips, fields, result):
+    """The second half of `solve_case`: the tangential problem of `n` > 0 strips."""
+    elements = rule.elements
     _roll(strips, n, case, tables, elements, space, fields, result)
-    if yields:
+    if result[RES_PMAX] == case[CASE_PRESSURE_LIMIT]:
         _bear(strips, n, elements, fields)
-    if result[RES_STATUS] == 1.0 and case[CASE_MU] > 0.0 and result[RES_SLIP_AREA] >= area * (1.0 - 1e-12):
+    full = result[RES_AREA] * (1.0 - 1e-12)
+    if result[RES_STATUS] == 1.0 and case[CASE_MU] > 0.0 and result[RES_SLIP_AREA] >= full:
         result[RES_STATUS] = 3.0
     for i in range(n):
         strips[STRIP_ASPECT, i] = math.exp(strips[STRIP_ASPECT, i])
+
+
+@kernel
+def solve_case(y, g, A, xc, case, rule, tables, space, strips, fields, result):
+    """Solve one case; fill strips, fields and result (see `_layout`). Return the strip count.
+
+    All arrays are the caller's: `workspace.allocate` makes a fitting set. With a single row of fields only strips and result
+    are meant to be read.
+    """
+    n = press_case(y, g, A, xc, case, rule, tables, space, strips, fields, result)
+    if n > 0:
+        roll_case(n, case, rule, tables, space, strips, fields, result)
+    return n
+
+
+@kernel
+def solve_conformal(y, g, A, xc, tilt, rolling, case, rule, tables, space, strips, fields, result):
+    """As `solve_case` with fields, on the surface of slope `tilt` (`conformal`)."""
+    n = press_case(y, g, A, xc, case, rule, tables, space, strips, fields, result)
+    if n > 0:
+        bend(y, tilt, rolling, case, strips, n)
+        roll_case(n, case, rule, tables, space, strips, fields, result)
+        project(strips, n, fields, result)
     return n
 
 

@@ -36,6 +36,11 @@ class Separation:
         Half curvature along the rolling direction [1/m], positive; cos(contact angle)/(2·rolling radius).
     x_c : array_like, shape (n,) or float
         Longitudinal position of the contact locus [m]; differs from 0 under yaw.
+    tilt : array_like, shape (n,) or float
+        Slope dz/dy against the contact plane [-] of the surface in which the bodies touch, z from wheel into rail; for
+        `contact.solve(conformal=True)` alone.
+    rolling : float
+        Turn of the wheel about the y axis of the plane per metre rolled [1/m], cos(contact angle)/rolling radius; likewise.
 
     Raises
     ------
@@ -43,14 +48,24 @@ class Separation:
         Wrong shapes, not finite, y not increasing, A not positive.
     """
 
-    __slots__ = ("A", "g", "x_c", "y")
+    __slots__ = ("A", "g", "rolling", "tilt", "x_c", "y")
 
     y: NDArray[np.float64]
     g: NDArray[np.float64]
     A: NDArray[np.float64]
     x_c: NDArray[np.float64]
+    tilt: NDArray[np.float64]
+    rolling: float
 
-    def __init__(self, y: ArrayLike, g: ArrayLike, A: ArrayLike, x_c: ArrayLike = 0.0) -> None:
+    def __init__(
+        self,
+        y: ArrayLike,
+        g: ArrayLike,
+        A: ArrayLike,
+        x_c: ArrayLike = 0.0,
+        tilt: ArrayLike = 0.0,
+        rolling: float = 0.0,
+    ) -> None:
         self.y = _column("y", y, None)
         n = self.y.size
         if n < 3:
@@ -65,7 +80,9 @@ class Separation:
             i = int(np.argmin(self.A))
             raise ContactError(f"A[{i}] = {self.A[i]:g} is outside the allowed range ]0, inf[")
         self.x_c = _column("x_c", x_c, n)
-        for array in (self.y, self.g, self.A, self.x_c):
+        self.tilt = _column("tilt", tilt, n)
+        self.rolling = require_number("rolling", rolling)
+        for array in (self.y, self.g, self.A, self.x_c, self.tilt):
             array.setflags(write=False)
 
     @classmethod

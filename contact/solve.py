@@ -60,7 +60,7 @@ from contact.friction import Friction, as_friction, fill, of_case
 from contact.halfspace.gap import Division, Gap
 from contact.halfspace.solve import solve_gap, solve_pressure
 from contact.material import STEEL, Material
-from contact.pipeline import solve_case
+from contact.pipeline import solve_case, solve_conformal
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.separation import Separation
 from contact.solution import Solution, Status, Strips
@@ -91,6 +91,7 @@ def solve(
     n_strips: int = N_STRIPS,
     n_elements: int = N_ELEMENTS,
     spacing: float | tuple[float, float] | None = None,
+    conformal: bool = False,
     start: Solution | None = None,
     progress: Callable[[int, float], None] | None = None,
     throw: bool = True,
@@ -117,6 +118,10 @@ def solve(
         over the undeformed overlap, of which contact takes about 0.7 each way.
     spacing : float or (float, float)
         Size (dx, dy) of the elements of the half space [m], instead of their number.
+    conformal : bool
+        Let the contact angle vary over the patch by the separation's `tilt` and `rolling` (`contact.conformal`): slip and the
+        directions of pressure and traction follow the surface. Fx, Fy, Mz are then resultants in the frame of the plane, the
+        lateral part of the pressure included; fields count along the surface.
     start : Solution
         Solution of a neighbouring problem at the same resolution, from which an iterative normal method may start. It changes
         the time that is taken, and the result within the method's tolerance.
@@ -155,6 +160,8 @@ def solve(
         raise ContactError(
             f"friction.slope = {surface.slope:g}: tangential = {tangential!r} knows the half space alone, slope 1"
         )
+    if conformal and not (method.batched and rolling.batched and rolling.fields):
+        raise ContactError(f"conformal: normal = {normal!r}, tangential = {tangential!r} knows the contact plane alone")
     if not method.batched and material.pressure_limit < math.inf:
         raise ContactError(
             f"material.pressure_limit = {material.pressure_limit:g}: normal = {normal!r} is elastic; allowed: inf"
@@ -177,7 +184,18 @@ def solve(
         raise ContactError(f"normal = {normal!r} needs a contact.Separation; separation = {separation!r} is on a grid")
     else:
         solution = _on_strips(
-            separation, creepage, (kind, amount), surface, material, speed, method, rolling, n_strips, n_elements, start
+            separation,
+            creepage,
+            (kind, amount),
+            surface,
+            material,
+            speed,
+            method,
+            rolling,
+            n_strips,
+            n_elements,
+            start,
+            conformal,
         )
         if not rolling.batched:
             solution = solve_pressure(solution, surface, division, progress)
@@ -213,6 +231,7 @@ def _on_strips(
     n_strips: int,
     n_elements: int,
     start: Solution | None,
+    conformal: bool,
 ) -> Solution:
     """Call the kernel; of a tangential method without kernel the default one stands in."""
     stands_in = rolling if rolling.batched else lookup("tangential", DEFAULT_TANGENTIAL)
@@ -228,7 +247,11 @@ def _on_strips(
     )
     if start is not None and start.memory.size == own.space.memory.size:
         own.space.memory[:] = start.memory
-    n = solve_case(separation.y, separation.g, separation.A, separation.x_c, case, *own)
+    s = separation
+    if conformal:
+        n = solve_conformal(s.y, s.g, s.A, s.x_c, s.tilt, s.rolling, case, *own)
+    else:
+        n = solve_case(s.y, s.g, s.A, s.x_c, case, *own)
     result = own.result
     status = Status(int(result[RES_STATUS]))
     strips, fields = own.strips[:, :n], own.fields[:, :n]

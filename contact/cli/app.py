@@ -68,6 +68,7 @@ def solve(
     curvatures: opt.Curvatures = None,
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangential = DEFAULT_TANGENTIAL,
+    conformal: opt.Conformal = False,
     as_json: opt.Json = False,
     plot: opt.Plot = None,
 ) -> None:
@@ -87,7 +88,7 @@ def solve(
         case = _position(
             wheel, rail, opt.reading(inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed
         )
-        touches = problem.solve_position(case, load, penetration, given, options)
+        touches = problem.solve_position(case, load, penetration, given, options | {"conformal": conformal})
         title = _title(case)
     if as_json:
         patches = [report.data(touch, radius) for touch in touches]
@@ -123,6 +124,7 @@ def patch(
     creepage: opt.Creep = None,
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangential = DEFAULT_TANGENTIAL,
+    conformal: opt.Conformal = False,
     out: opt.Out = Path("patch.png"),
 ) -> None:
     """Draw the contact patches of a wheelset position: profiles, pressure, stick and slip, tractions, energy index.
@@ -140,6 +142,7 @@ def patch(
         "tangential": tangential,
         **PICTURE_RESOLUTION,
     }
+    options |= {"conformal": conformal}
     touches = problem.solve_position(
         case, load, penetration, None if creepage is None else Creepage(*creepage), options
     )

@@ -93,6 +93,10 @@ PressureLimit = Annotated[
     float,
     typer.Option(help="pressure in Pa that is not exceeded, elastic-perfectly plastic", rich_help_panel=LOADING),
 ]
+Conformal = Annotated[
+    bool,
+    typer.Option("--conformal", help="let the contact angle vary over the patch", rich_help_panel=METHOD),
+]
 Creep = Annotated[
     tuple[float, float, float] | None,
     typer.Option(

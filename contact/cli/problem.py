@@ -18,7 +18,7 @@ from contact.solve import solve
 STANDARD_LOAD = 80e3  # [N] when neither load nor penetration is given
 #: Options that a problem of two curvatures has no use for; speed and radius scale its damage.
 OF_A_POSITION = frozenset(
-    {"wheel", "rail", "inclination", "unit", "drawn_side", "smoothing", "side", "y", "roll", "yaw"}
+    {"wheel", "rail", "inclination", "unit", "drawn_side", "smoothing", "side", "y", "roll", "yaw", "conformal"}
 )
 
 

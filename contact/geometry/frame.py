@@ -49,6 +49,7 @@ from contact.geometry.layout import (
     RAIL_Z,
     SEP_A,
     SEP_G,
+    SEP_TILT,
     SEP_XC,
     SEP_Y,
     TAPE,
@@ -138,11 +139,13 @@ def sample(
         py = y0 + v * c - height * s - motion[POSE_Y]
         pz = z0 + v * s + height * c - motion[POSE_Z] + motion[RADIUS]
         x, _, r = on_wheel(tilt, py, pz, lx, ly, lz)
-        gap = at(rail, i, v)[0] - height + patch[PATCH_APPROACH]
+        rail_height, rail_slope = at(rail, i, v)
+        gap = rail_height - height + patch[PATCH_APPROACH]
         out[SEP_G, k] = max(gap, 0.0) + _OPENING * abs(u - v)
         # curvature cos/(2 r) of the ring along its own normal, seen along the plane's: cos(angle)/(2 r cos(angle - plane))
         out[SEP_A, k] = 0.5 / r * math.sqrt((1.0 + slope * slope) / (1.0 + tilt * tilt))
         out[SEP_XC, k] = x - patch[PATCH_X]
+        out[SEP_TILT, k] = 0.5 * (slope + rail_slope)
 
 
 @kernel

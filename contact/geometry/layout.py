@@ -65,5 +65,5 @@ ODD = (POSE_Y, POSE_ROLL, POSE_YAW, VEL_Y, VEL_ROLL, VEL_YAW, RAIL_Y, RAIL_ROLL,
 N_PATCH = 18
 
 # separations[k, ROW, sample]
-SEP_Y, SEP_G, SEP_A, SEP_XC = range(4)
-N_SEP_ROWS = 4
+SEP_Y, SEP_G, SEP_A, SEP_XC, SEP_TILT = range(5)  # the last: slope of the mean of both surfaces against the plane
+N_SEP_ROWS = 5

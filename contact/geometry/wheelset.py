@@ -218,10 +218,11 @@ class Pair:
 
     def _patch(self, k: int, loaded: bool) -> Patch:
         m, p = self._mirror, self.patches[k].tolist()
-        y, g, A, x_c = self.separations[k] if m > 0.0 else self.separations[k][:, ::-1]
+        y, g, A, x_c, tilt = self.separations[k] if m > 0.0 else self.separations[k][:, ::-1]
+        rolling = math.cos(p[layout.PATCH_ANGLE]) / p[layout.PATCH_RADIUS]
         edges = (p[layout.PATCH_FROM], p[layout.PATCH_TO])
         return Patch(
-            separation=Separation(m * y, g, A, x_c),
+            separation=Separation(m * y, g, A, x_c, m * tilt, rolling),
             creepage=Creepage(p[layout.PATCH_VX], m * p[layout.PATCH_VY], m * p[layout.PATCH_PHI]),
             angle=m * p[layout.PATCH_ANGLE],
             position=(p[layout.PATCH_X], m * p[layout.PATCH_Y], p[layout.PATCH_Z]),

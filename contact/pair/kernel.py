@@ -11,9 +11,11 @@ from contact._layout import (
     APPROACH,
     CASE_BORDER,
     CASE_BORDER_WIDTH,
+    CASE_CONFORMAL,
     CASE_LOAD,
     CASE_LOAD_KIND,
     CASE_PHI,
+    CASE_TANGENTIAL,
     CASE_VX,
     CASE_VY,
     LOAD,
@@ -84,7 +86,8 @@ from contact.pair.layout import (
     TOTAL_STATUS,
     TOTAL_Z,
 )
-from contact.pipeline import solve_case
+from contact.pipeline import solve_case, solve_conformal
+from contact.registry import CARTER
 from contact.workspace import Space, Workspace
 
 Array = NDArray[np.float64]
@@ -230,10 +233,17 @@ def solve_pair(mode, amount, given, bench):
             space.grid, space.vectors, space.logs, space.matrix, space.lu, memory[1 + k * piece : 1 + (k + 1) * piece],
             space.lanes, space.trace,
         )  # fmt: skip
-        n_strips = solve_case(
-            sep[layout.SEP_Y], sep[layout.SEP_G], sep[layout.SEP_A], sep[layout.SEP_XC], case, own.rule, own.tables,
-            of_patch, strips, fields, result,
-        )  # fmt: skip
+        if case[CASE_CONFORMAL] > 0.5 and case[CASE_TANGENTIAL] < CARTER:
+            rolling = math.cos(patch[layout.PATCH_ANGLE]) / patch[layout.PATCH_RADIUS]
+            n_strips = solve_conformal(
+                sep[layout.SEP_Y], sep[layout.SEP_G], sep[layout.SEP_A], sep[layout.SEP_XC], sep[layout.SEP_TILT],
+                rolling, case, own.rule, own.tables, of_patch, strips, fields, result,
+            )  # fmt: skip
+        else:
+            n_strips = solve_case(
+                sep[layout.SEP_Y], sep[layout.SEP_G], sep[layout.SEP_A], sep[layout.SEP_XC], case, own.rule, own.tables,
+                of_patch, strips, fields, result,
+            )  # fmt: skip
         parameters[PAR_SPEED], parameters[PAR_WHEEL_RADIUS] = motion[layout.VEL_X], patch[layout.PATCH_RADIUS]
         damage_kernel(strips, n_strips, fields, case, result, parameters, bench.damage_fields, damage)
         by_y, by_x = _pressure_centre(strips, n_strips)

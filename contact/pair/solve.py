@@ -8,7 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact import workspace
-from contact._layout import CASE_G, CASE_NORMAL, CASE_NU, CASE_PRESSURE_LIMIT, CASE_TANGENTIAL, MAX_PATCHES, N_CASE
+from contact._layout import (
+    CASE_CONFORMAL,
+    CASE_G,
+    CASE_NORMAL,
+    CASE_NU,
+    CASE_PRESSURE_LIMIT,
+    CASE_TANGENTIAL,
+    MAX_PATCHES,
+    N_CASE,
+)
 from contact.creepage import Creepage
 from contact.damage import DamageParameters
 from contact.damage._kernel import N_DAMAGE, N_DAMAGE_FIELDS
@@ -106,6 +115,9 @@ class WheelRailPair:
         Names from `contact.methods()`.
     n_strips, n_elements : int
         Strips per patch, 4 to 1000, and elements per strip, 4 to 1000.
+    conformal : bool
+        Let the contact angle vary over each patch (`contact.conformal`) instead of taking it as a plane; methods that give
+        forces alone do not.
 
     Attributes
     ----------
@@ -127,6 +139,7 @@ class WheelRailPair:
         tangential: str = DEFAULT_TANGENTIAL,
         n_strips: int = N_STRIPS,
         n_elements: int = N_ELEMENTS,
+        conformal: bool = False,
     ) -> None:
         self.pair = pair
         method, rolling = (lookup(*kind, batched=True) for kind in (("normal", normal), ("tangential", tangential)))
@@ -139,6 +152,7 @@ class WheelRailPair:
         case[CASE_G], case[CASE_NU] = material.shear_modulus, material.poisson_ratio
         case[CASE_PRESSURE_LIMIT] = material.pressure_limit
         case[CASE_NORMAL], case[CASE_TANGENTIAL] = method.id, rolling.id
+        case[CASE_CONFORMAL] = float(conformal)
         self.bench = Bench(
             search=pair.space,
             own=own,

@@ -27,10 +27,7 @@ from contact._layout import (
     CASE_G,
     CASE_MU,
     CASE_NU,
-    CASE_PHI,
     CASE_TANGENTIAL,
-    CASE_VX,
-    CASE_VY,
     FIELD_QX,
     FIELD_QY,
     FIELD_STICK,
@@ -45,6 +42,9 @@ from contact._layout import (
     STRIP_ASPECT,
     STRIP_BOUND,
     STRIP_DY,
+    STRIP_PHI,
+    STRIP_VX,
+    STRIP_VY,
     STRIP_XC,
     STRIP_Y,
 )
@@ -114,13 +114,13 @@ def _set_strip(strips, i, case, table, c_patch, lanes, l):
     root_aspect = math.exp(0.5 * strips[STRIP_ASPECT, i])  # √(a/b) = a/c
     if case[CASE_TANGENTIAL] == STRIP_THEORY:
         c11, c22, c23 = coefficients(root_aspect, nu)
-    phi = case[CASE_PHI]
-    vx, vy = case[CASE_VX] - phi * y, case[CASE_VY] + phi * xc
+    own_vx, own_vy, phi = strips[STRIP_VX, i], strips[STRIP_VY, i], strips[STRIP_PHI, i]
+    vx, vy = own_vx - phi * y, own_vy + phi * xc
 
     # directions from the parabola of peak 4/3 mu p0 (theory.md 4.4)
     unit = 0.75 * G / bound
     L1, L2, L3 = unit * 0.375 * c11, unit * 0.375 * c22, unit * 4.0 / math.pi * c23 / root_aspect
-    X, Y, Z = direction_pass(case[CASE_VX], case[CASE_VY], phi, L1, L2, L3, a, y, xc, c_patch)
+    X, Y, Z = direction_pass(own_vx, own_vy, phi, L1, L2, L3, a, y, xc, c_patch)
     lanes[ROW_X + l], lanes[ROW_Y + l], lanes[ROW_Z + l] = X, Y, Z
 
     amended = -2.0 * (1.0 - nu) / math.pi**2 * G / bound

@@ -19,9 +19,6 @@ from contact._jit import kernel
 from contact._layout import (
     CASE_G,
     CASE_MU,
-    CASE_PHI,
-    CASE_VX,
-    CASE_VY,
     FIELD_QX,
     FIELD_QY,
     FIELD_STICK,
@@ -36,6 +33,9 @@ from contact._layout import (
     STRIP_ASPECT,
     STRIP_BOUND,
     STRIP_DY,
+    STRIP_PHI,
+    STRIP_VX,
+    STRIP_VY,
     STRIP_XC,
     STRIP_Y,
 )
@@ -170,7 +170,7 @@ def elastic_centre(strips, n, table, log_equivalent):
 @kernel
 def _set_strip(strips, i, case, table, y_c, y_spin, rho33, lanes, l):
     """Steps 1 and 2 of mapped_strip.md 3 for strip i, into lane l; return mu p0 and the unit of slip, or zeros."""
-    G, phi = case[CASE_G], case[CASE_PHI]
+    G, vx, vy, phi = case[CASE_G], strips[STRIP_VX, i], strips[STRIP_VY, i], strips[STRIP_PHI, i]
     a, y, xc = strips[STRIP_A, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
     bound = case[CASE_MU] * strips[STRIP_BOUND, i]
     for row in (_TX, _TY, _SUM_X, _SUM_Y, _SUM_M, _POWER, _STICK):
@@ -187,9 +187,9 @@ def _set_strip(strips, i, case, table, y_c, y_spin, rho33, lanes, l):
     rho23 = 0.75 * math.pi * c23 / (c22 * math.exp(0.5 * log_aspect))
     k11 = 4.0 * G / (math.pi**2 * bound) * c11
     k22 = k11 * r
-    translation = k11 * (case[CASE_VX] - phi * y_c)
+    translation = k11 * (vx - phi * y_c)
     rotation = -k11 * phi * (y - y_c)
-    lateral = k22 * (case[CASE_VY] + phi * xc)
+    lateral = k22 * (vy + phi * xc)
     psi = 0.5 * k22 * rho23 * phi * a
 
     # how far from stick (T) and how much spin (psi) set exponent, stiffness, spin and turning rate

@@ -41,6 +41,9 @@ from contact._layout import (
     STRIP_DY,
     STRIP_P0,
     STRIP_PATCH,
+    STRIP_PHI,
+    STRIP_VX,
+    STRIP_VY,
     STRIP_XC,
     STRIP_Y,
 )
@@ -85,13 +88,12 @@ def _peak_per_load(strips, n, elements, mu, N, elliptic):
 def fastsim(strips, n, case, table, elements, lanes, trace, fields, result):
     """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`."""
     method, G = case[CASE_TANGENTIAL], case[CASE_G]
-    vx, vy, phi = case[CASE_VX], case[CASE_VY], case[CASE_PHI]
     Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
     elliptic, local = method == FASTSIM_ELLIPTIC, method in (FASTSIM_LINDER, FASTSIM_STRIPES)
     a0, b0 = equivalent_ellipse(strips, n)
     L1, L2, L3 = flexibilities(G, a0, b0, table)
     if method == FASTSIM_ONE:
-        L1 = L2 = L3 = weighted(vx, vy, phi, math.sqrt(a0 * b0), L1, L2, L3)
+        L1 = L2 = L3 = weighted(case[CASE_VX], case[CASE_VY], case[CASE_PHI], math.sqrt(a0 * b0), L1, L2, L3)
     local_friction = falls_locally(case)
     per_load = _peak_per_load(strips, n, elements, case[CASE_MU], result[RES_N], elliptic)
     for block in range(0, n, LANES):
@@ -103,6 +105,7 @@ def fastsim(strips, n, case, table, elements, lanes, trace, fields, result):
             if local:
                 own_a, own_b = _own_ellipse(strips, i, method, a0, result[RES_EDGES:])
                 L1, L2, L3 = flexibilities(G, own_a, own_b, table)
+            vx, vy, phi = strips[STRIP_VX, i], strips[STRIP_VY, i], strips[STRIP_PHI, i]
             lanes[_PEAK + l], lanes[_L1 + l], lanes[_L2 + l] = peak if scale > 0.0 else 0.0, L1, L2
             lanes[ROW_X + l] = scale * (vx / L1 - phi * strips[STRIP_Y, i] / L3)
             lanes[ROW_Y + l] = scale * (vy / L2 + phi * strips[STRIP_XC, i] / L3)

@@ -15,6 +15,7 @@ from numba import carray
 import contact
 from contact import Status, quadrature
 from contact._layout import (
+    CASE_CONFORMAL,
     CASE_G,
     CASE_NORMAL,
     CASE_NU,
@@ -194,6 +195,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         search.case[CASE_G], search.case[CASE_NU] = case[CASE_G], case[CASE_NU]
         case[CASE_NORMAL] = NORMAL_IDS[int(v[at.method_normal]) - 1]
         case[CASE_TANGENTIAL] = TANGENTIAL_IDS[int(v[at.method_tangential]) - 1]
+        case[CASE_CONFORMAL] = v[at.patches_surface] - 1.0
         for i in range(N_PAR):
             bench.damage_parameters[i] = _DAMAGE_PARAMETERS[i]
         bench.damage_parameters[PAR_HARDNESS] = v[at.material_hardness]

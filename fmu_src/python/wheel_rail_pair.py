@@ -144,6 +144,7 @@ class WheelRailPairSlave(TableSlave):
                 tangential=values.item("method.tangential"),
                 n_strips=values["resolution.n_strips"],
                 n_elements=values["resolution.n_elements"],
+                conformal=values.item("patches.surface") == "Conformal",
             )
             self.built_with = wanted
         return self.pair

@@ -1,0 +1,120 @@
+"""Contact angle that varies over the patch (theory.md 8.6)."""
+
+import math
+
+import numpy as np
+import pytest
+
+import contact
+from contact._layout import (
+    CASE_PHI,
+    CASE_VX,
+    CASE_VY,
+    N_CASE,
+    N_STRIP_ROWS,
+    STRIP_PHI,
+    STRIP_TILT,
+    STRIP_VX,
+    STRIP_VY,
+    STRIP_Y,
+)
+from contact.conformal import bend, surface_at
+from contact.geometry import profile, wheelset
+from contact.geometry.wheelset import Pair, Pose
+from contact.pair import WheelRailPair
+
+Y = np.linspace(-15e-3, 15e-3, 121)
+TANGENTIAL = [name for name, method in contact.methods().batched.tangential.items() if method.fields]
+CREEPAGE = contact.Creepage(2e-3, -1e-3, 0.3)
+
+
+def bent(tilt, rolling=1.0 / 0.46, y=Y):
+    return contact.Separation(y, 2.0 * y**2, 1.1, 0.02 * y, tilt, rolling)
+
+
+def numbers(sol):
+    return sol.Fx, sol.Fy, sol.Mz, sol.power_per_metre, sol.slip_area
+
+
+@pytest.mark.parametrize("tangential", TANGENTIAL)
+def test_without_tilt_it_is_the_plane_bit_for_bit(tangential):
+    one, other = (
+        contact.solve(bent(0.0), CREEPAGE, load=8e4, tangential=tangential, conformal=c) for c in (True, False)
+    )
+    assert numbers(one) == numbers(other)
+    for name in ("qx", "qy", "sx", "sy", "stick"):
+        assert (getattr(one, name) == getattr(other, name)).all()
+
+
+def test_the_height_is_the_integral_of_a_slope_that_is_linear_between_samples():
+    y, tilt = np.array([-2.0, 0.0, 1.0, 4.0]), np.array([1.0, 0.0, 0.5, -1.0])
+    fine = np.linspace(-3.0, 6.0, 90001)
+    slope = np.interp(fine, y, tilt)
+    height = np.concatenate(([0.0], np.cumsum(0.5 * (slope[1:] + slope[:-1]) * np.diff(fine))))
+    height -= np.interp(-2.0, fine, height)
+    for at in (-2.5, -2.0, -0.7, 0.0, 0.3, 1.0, 3.9, 4.0, 5.0):
+        own_slope, own_height = surface_at(y, tilt, at)
+        assert own_slope == pytest.approx(np.interp(at, y, tilt), abs=1e-12)
+        assert own_height == pytest.approx(np.interp(at, fine, height), abs=1e-6)
+
+
+def test_strips_have_the_exact_change_of_radius_and_the_spin_of_their_angle():
+    """A wheel of radius r rolls straight at a contact angle: ξ(y) = -(r(y) - r0)/r0, phi(y) = sin(angle + Δ)/r0."""
+    r0, angle, bow = 0.46, -0.3, 12.0
+    case, strips = np.zeros(N_CASE), np.zeros((N_STRIP_ROWS, 3))
+    case[CASE_PHI], case[CASE_VX], case[CASE_VY] = math.sin(angle) / r0, 0.0, 5e-3
+    strips[STRIP_Y] = y = np.array([-8e-3, 0.0, 6e-3])
+    bend(Y, bow * Y, math.cos(angle) / r0, case, strips, 3)
+    delta, height = np.arctan(bow * y), 0.5 * bow * y**2
+    np.testing.assert_allclose(strips[STRIP_TILT], bow * y, atol=1e-15)
+    np.testing.assert_allclose(strips[STRIP_PHI], np.sin(angle + delta) / r0, rtol=1e-12)
+    np.testing.assert_allclose(strips[STRIP_VY], 5e-3 * np.cos(delta), rtol=1e-12)
+    radius_change = y * math.sin(angle) + height * math.cos(angle)
+    np.testing.assert_allclose(strips[STRIP_VX] - strips[STRIP_PHI] * y, -radius_change / r0, atol=1e-15)
+
+
+def test_without_friction_the_pressure_of_a_tilted_surface_pushes_sideways():
+    sol = contact.solve(bent(0.1), CREEPAGE, load=8e4, friction=0.0, conformal=True)
+    assert sol.N == 8e4
+    assert sol.Fy == pytest.approx(0.1 * 8e4, rel=1e-12)
+    assert sol.Fx == 0.0
+
+
+@pytest.mark.parametrize("tangential", TANGENTIAL)
+def test_full_slip_bears_the_pressure_of_the_longer_surface(tangential):
+    sol = contact.solve(bent(0.2), contact.Creepage(0.3), load=8e4, tangential=tangential, conformal=True)
+    assert sol.Fx == pytest.approx(-0.3 * 8e4 * math.sqrt(1.04), rel=3e-3)
+
+
+@pytest.mark.parametrize("tangential", TANGENTIAL)
+def test_the_mirror_image_has_the_mirrored_forces(tangential):
+    tilt = 0.05 + 20.0 * Y + 900.0 * Y**2
+    one = contact.solve(bent(tilt), CREEPAGE, load=8e4, tangential=tangential, conformal=True)
+    s = contact.Separation(Y, 2.0 * Y**2, 1.1, -0.02 * Y, -tilt[::-1], 1.0 / 0.46)
+    other = contact.solve(s, contact.Creepage(2e-3, 1e-3, -0.3), load=8e4, tangential=tangential, conformal=True)
+    assert (other.Fx, other.Fy) == pytest.approx((one.Fx, -one.Fy), abs=1e-6 * 8e4)
+    assert other.Mz == pytest.approx(-one.Mz, abs=1e-8 * 8e4)
+    assert other.power_per_metre == pytest.approx(one.power_per_metre, rel=1e-6)
+
+
+@pytest.mark.parametrize("y", [0.0, 5.5e-3])
+def test_a_pair_gives_the_forces_of_its_patches_on_either_side(y):
+    wheel, rail = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
+    forces = []
+    for side, mirror in (("right", 1.0), ("left", -1.0)):
+        pose = Pose(y=mirror * y, yaw=mirror * 3e-3)
+        found = WheelRailPair(Pair(wheel, rail, side=side), conformal=True).solve(pose, load=8e4)
+        forces.append((found.force[0], mirror * found.force[1], found.force[2]))
+        patches = wheelset.contacts(wheel, rail, pose, load=8e4, side=side)
+        for contact_, patch in zip(found.contacts, patches, strict=True):
+            alone = contact.solve(patch.separation, patch.creepage, load=patch.load, conformal=True)
+            assert (alone.Fx, alone.Fy, alone.Mz) == pytest.approx((contact_.Fx, contact_.Fy, contact_.Mz), rel=1e-6)
+            plane = contact.solve(patch.separation, patch.creepage, load=patch.load)
+            assert abs(alone.Fy - plane.Fy) > 1.0
+    assert forces[0] == forces[1]
+
+
+@pytest.mark.parametrize("options", [{"tangential": "polach"}, {"normal": "halfspace", "tangential": "halfspace"}])
+def test_methods_of_the_plane_alone_are_refused(options):
+    with pytest.raises(contact.ContactError, match="knows the contact plane alone"):
+        contact.solve(bent(0.1), CREEPAGE, load=8e4, conformal=True, **options)
