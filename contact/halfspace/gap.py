@@ -127,7 +127,7 @@ def overlap(separation: Separation, approach: float) -> tuple[float, float, floa
     """Least box x_low, x_high, y_low, y_high [m] around the points where the gap is less than `approach`; None if none is."""
     m, edges = np.empty(separation.y.size), np.empty(2 * MAX_PATCHES)
     slopes(separation.y, separation.g, separation.y.size, m)
-    count = find_patches(separation.y, separation.g, m, 0, separation.y.size - 1, approach, edges)
+    count = find_patches(separation.y, separation.g, m, separation.y.size, approach, edges)
     if count == 0:
         return None
     low, high = float(edges[0]), float(edges[2 * count - 1])

@@ -49,14 +49,11 @@ CURVATURE_FLOOR = 0.1
 NO_OVERLAP = 1e-14
 
 #: Rows of the work array that the caller provides, each as long as the separation.
-GAP_SLOPE, EFFECTIVE_GAP, EFFECTIVE_SLOPE, STRETCHED_A, ONE_BETA, NR, LOG_ASPECT = range(7)
+GAP_SLOPE, EFFECTIVE_GAP, EFFECTIVE_SLOPE, STRETCHED_A, SHARE, NR, LOG_ASPECT = range(7)
 N_WORK_ROWS = 7
 
-#: Below 1 + beta of every curvature (`local_factors`).
-LEAST_ONE_BETA = 1.1
-
-#: How far beyond the estimated approach the gap is prepared; farther when that is not enough.
-REACH = 1.3
+#: Nodes at which the local factors are computed, in one half base.
+NODES_PER_HALF_BASE = 5
 
 #: Share of the load that may be missing before the last of Newton's steps.
 NEWTON_CLOSE = 1e-6
@@ -101,150 +98,125 @@ def lateral_curvature(y, g, m, n, i, below, above):
 
 
 @kernel
-def _next_node(i, n, stride, direction):
-    """Next of the samples at which B is computed; they lie alike from both ends: mirror images have mirrored factors."""
-    left_end = (n - 1) // 2 // stride * stride
-    right_start = n - 1 - left_end
-    if direction > 0:
-        return right_start if i == left_end and left_end < right_start else min(i + stride, n - 1)
-    return left_end if i == right_start and left_end < right_start else max(i - stride, 0)
+def lattice(span, n):
+    """Step of the nodes at which B is computed, their number to each side of the middle, and nodes per half base.
 
-
-@kernel
-def prepare(y, g, A, n, y_least, g_least, reach, work):
-    """Local Hertz factors and effective gap (1 + beta)(g - min g) around the least point; return first and last sample.
-
-    Outside these samples the effective gap is above `reach`: it is there at their ends, rises as long as the gap does
-    (`_keep_rising`), and is at least LEAST_ONE_BETA (g - min g) where the gap falls again.
-
-    The factors follow B, an average over the base: a fifth of it apart they are as good as linear, in constant B exactly. The
-    samples chosen do not depend on `reach`, or the load would not be a smooth function of the approach.
+    A node more than the samples could hold makes the lattice coarser.
     """
-    lobe = g_least + reach / LEAST_ONE_BETA
-    stride = max(1, int(0.2 * CURVATURE_HALF_BASE * (n - 1) / (y[n - 1] - y[0])))
-    left_end = (n - 1) // 2 // stride * stride
-    right_start = n - 1 - left_end
-    start = locate(y, n, y_least, 0)
-    if start >= right_start:
-        start -= (start - right_start) % stride
-    else:
-        start = min(start // stride * stride, left_end)
-    below, above = 0, 0
-    B, below, above = lateral_curvature(y, g, work[GAP_SLOPE], n, start, below, above)
-    _prepare_sample(A, B, g, g_least, start, work)
-    ends = start, start
-    for direction in (-1, 1):
-        i, end, beyond = start, 0 if direction < 0 else n - 1, 0
-        while i != end and beyond < 2:
-            before, i = i, _next_node(i, n, stride, direction)
-            B, below, above = lateral_curvature(y, g, work[GAP_SLOPE], n, i, below, above)
-            _prepare_sample(A, B, g, g_least, i, work)
-            _between(y, g, A, g_least, min(before, i), max(before, i), work)
-            if beyond == 0 and work[EFFECTIVE_GAP, i] >= reach:
-                j = i
-                while j != end and g[j + direction] >= min(g[j], lobe):
-                    j += direction
-                beyond = 1 if j == end else 0  # and one node more: the slope at the edge of a patch has both neighbours
-            elif beyond == 1:
-                beyond = 2
-        ends = (i, ends[1]) if direction < 0 else (ends[0], i)
-    first, last = ends
-    _keep_rising(g, first, last, work)
-    gap, slope = work[EFFECTIVE_GAP, first : last + 1], work[EFFECTIVE_SLOPE, first : last + 1]
-    slopes(y[first : last + 1], gap, last + 1 - first, slope)
-    # noise or a curvature jump may let the interpolated product dip below zero: a patch would be born with a finite width
-    _, deepest = least_point(y[first : last + 1], gap, slope, last + 1 - first)
-    for i in range(first, last + 1):
-        work[EFFECTIVE_GAP, i] -= deepest
-    for i in range(n):  # strip_halfspace may lay strips beyond
-        if not first <= i <= last:
-            work[LOG_ASPECT, i] = work[LOG_ASPECT, min(max(i, first), last)]
-    return first, last
+    apart = NODES_PER_HALF_BASE
+    step = min(CURVATURE_HALF_BASE, 0.5 * span) / apart
+    half = int(0.5 * span / step * (1.0 + 1e-12))
+    if 2 * half >= n:
+        half = (n - 1) // 2
+        step = 0.5 * span / half
+        apart = min(max(int(CURVATURE_HALF_BASE / step + 0.5), 1), half)
+    return step, half, apart
 
 
 @kernel
-def _keep_rising(g, first, last, work):
-    """Let the deformation beta·g not fall where the gap opens: its effective gap rises at least as the gap itself.
+def prepare(y, g, A, n, g_least, work):
+    """Local Hertz factors and effective gap (1 + beta)(g - min g) at every sample.
+
+    The factors follow B, an average over the base: between nodes a fifth of it apart they are as good as linear, in constant B
+    exactly. The nodes lie symmetrically in the data, whatever the gap, and B is a second difference of the gap there. Closer
+    to an end of the data than the base, B is that of the last node with a whole base.
+    """
+    gaps, curvatures = work[EFFECTIVE_SLOPE], work[SHARE]  # of nodes; both rows are free until the slopes
+    step, half, apart = lattice(y[n - 1] - y[0], n)
+    first = 0.5 * (y[0] + y[n - 1]) - half * step
+    k = 0
+    for j in range(2 * half + 1):
+        at = min(max(first + j * step, y[0]), y[n - 1])
+        k = locate(y, n, at, k)
+        h = y[k + 1] - y[k]
+        t = (at - y[k]) / h
+        gaps[j] = cubic(h, g[k], work[GAP_SLOPE, k], g[k + 1], work[GAP_SLOPE, k + 1], t)
+        curvatures[j] = (1.0 - t) * A[k] + t * A[k + 1]
+    scale, per_step = 0.5 / (apart * step) ** 2, 1.0 / step
+    i = 0
+    alpha, beta, nr, log_aspect = 0.0, 0.0, 0.0, 0.0
+    for j in range(2 * half + 2):
+        alpha_before, beta_before, nr_before, log_before = alpha, beta, nr, log_aspect
+        if j <= 2 * half:
+            c = min(max(j, apart), 2 * half - apart)
+            B = floored((gaps[c - apart] - 2.0 * gaps[c] + gaps[c + apart]) * scale)
+            alpha, beta, nr, log_aspect = local_factors(curvatures[j], B)
+        if j == 0:
+            alpha_before, beta_before, nr_before, log_before = alpha, beta, nr, log_aspect
+        left, end = first + (j - 1) * step, first + j * step if j <= 2 * half else math.inf
+        d_alpha, d_beta = (alpha - alpha_before) * per_step, (beta - beta_before) * per_step
+        d_nr, d_log = (nr - nr_before) * per_step, (log_aspect - log_before) * per_step
+        while i < n and y[i] < end:
+            t = y[i] - left
+            work[STRETCHED_A, i] = A[i] * (alpha_before + t * d_alpha)
+            work[EFFECTIVE_GAP, i] = (beta_before + t * d_beta) * (g[i] - g_least)
+            work[NR, i], work[LOG_ASPECT, i] = nr_before + t * d_nr, log_before + t * d_log
+            i += 1
+    _keep_rising(g, n, work[EFFECTIVE_GAP])
+    gap, slope = work[EFFECTIVE_GAP], work[EFFECTIVE_SLOPE]
+    slopes(y, gap, n, slope)
+    # noise or a curvature jump may let the interpolated product dip below zero: a patch would be born with a finite width
+    _, deepest = least_point(y, gap, slope, n)
+    for i in range(n):
+        gap[i] -= deepest
+
+
+@kernel
+def _keep_rising(g, n, gap):
+    """Let the deformation beta·g not fall where the gap opens: the effective gap rises at least as the gap itself.
 
     A convex flank that turns concave would lose beta faster than the gap opens, which made a satellite patch without load.
     """
-    falls = 0
-    for i in range(first + 1, last + 1):
-        rise, effective_rise = g[i] - g[i - 1], work[EFFECTIVE_GAP, i] - work[EFFECTIVE_GAP, i - 1]
-        falls += 1 if (effective_rise - rise) * rise < 0.0 else 0
-    if falls == 0:
-        return
-    for i in range(first + 1, last + 1):
-        if g[i] > g[i - 1]:
-            work[EFFECTIVE_GAP, i] = max(work[EFFECTIVE_GAP, i], work[EFFECTIVE_GAP, i - 1] + g[i] - g[i - 1])
-    for i in range(last - 1, first - 1, -1):
-        if g[i] > g[i + 1]:
-            work[EFFECTIVE_GAP, i] = max(work[EFFECTIVE_GAP, i], work[EFFECTIVE_GAP, i + 1] + g[i] - g[i + 1])
+    up, down = gap[0] - g[0], gap[n - 1] - g[n - 1]  # the deformation so far on a flank, to the right and to the left
+    for i in range(1, n):
+        j = n - 1 - i
+        here = gap[i] - g[i]
+        up = max(up, here) if g[i] > g[i - 1] else here
+        gap[i] = max(gap[i], g[i] + up)
+        here = gap[j] - g[j]
+        down = max(down, here) if g[j] > g[j + 1] else here
+        gap[j] = max(gap[j], g[j] + down)
 
 
 @kernel
-def _between(y, g, A, g_least, left, right, work):
-    """Interpolate the local factors of the samples between two that are known."""
-    per_length = 1.0 / (y[right] - y[left])
-    beta, nr, log_aspect = work[ONE_BETA, left], work[NR, left], work[LOG_ASPECT, left]
-    alpha = work[STRETCHED_A, left] / A[left]
-    d_alpha = (work[STRETCHED_A, right] / A[right] - alpha) * per_length
-    d_beta = (work[ONE_BETA, right] - beta) * per_length
-    d_nr, d_log_aspect = (work[NR, right] - nr) * per_length, (work[LOG_ASPECT, right] - log_aspect) * per_length
-    for i in range(left + 1, right):
-        t = y[i] - y[left]
-        work[EFFECTIVE_GAP, i] = (beta + t * d_beta) * (g[i] - g_least)
-        work[STRETCHED_A, i] = A[i] * (alpha + t * d_alpha)
-        work[NR, i], work[LOG_ASPECT, i] = nr + t * d_nr, log_aspect + t * d_log_aspect
+def estimated_approach(y, n, load, modulus, work, hertz):
+    """Approach at which the samples carry the load, to about a thousandth.
 
-
-@kernel
-def _prepare_sample(A, B, g, g_least, i, work):
-    one_alpha, one_beta, nr, log_aspect = local_factors(A[i], floored(B))
-    work[ONE_BETA, i] = one_beta
-    work[EFFECTIVE_GAP, i] = one_beta * (g[i] - g_least)
-    work[STRETCHED_A, i] = one_alpha * A[i]
-    work[NR, i] = nr
-    work[LOG_ASPECT, i] = log_aspect
-
-
-@kernel
-def estimated_approach(y, g, n, g_least, load, modulus, one_beta, nr, hertz):
-    """Approach at which a virtual penetration with the factors of the least point carries the load.
-
-    Newton on a convex, piecewise linear function of the samples, started from Hertz's approach at the least point; that is
-    also the answer when the patch is narrower than the samples.
+    Newton on a convex, piecewise linear function, started from Hertz's approach at the least point; that is also the answer
+    when the patch is narrower than the samples.
     """
+    gap, share = work[EFFECTIVE_GAP], work[SHARE]
+    for i in range(1, n - 1):
+        share[i] = 0.5 * (y[i + 1] - y[i - 1]) / work[NR, i]
     delta = hertz
     for _ in range(12):
-        N, width = 0.0, 0.0
+        N, stiffness = 0.0, 0.0
         for i in range(1, n - 1):
-            d = delta - one_beta * (g[i] - g_least)
-            cell = 0.5 * (y[i + 1] - y[i - 1]) if d > 0.0 else 0.0
-            N += d * cell
-            width += cell
-        if width == 0.0:
+            part = share[i] if gap[i] < delta else 0.0
+            N += (delta - gap[i]) * part
+            stiffness += part
+        if stiffness == 0.0:
             return hertz
-        change = (load * nr / modulus - N) / width
+        change = (load / modulus - N) / stiffness
         delta = max(delta + change, 0.3 * delta)
-        if abs(change) < 0.01 * delta:
+        if abs(change) < 0.03 * delta:
             break
     return delta
 
 
 @kernel
-def load_at(y, first, last, delta, modulus, nodes, weights, work, edges):
+def load_at(y, n, delta, modulus, nodes, weights, work, edges):
     """Load and stiffness dN/d(delta) at approach `delta` above first touch."""
     G, m, nr = work[EFFECTIVE_GAP], work[EFFECTIVE_SLOPE], work[NR]
-    count = find_patches(y, G, m, first, last, delta, edges)
+    count = find_patches(y, G, m, n, delta, edges)
     N, stiffness = 0.0, 0.0
-    k = first
+    k = 0
     for patch in range(count):
         centre = 0.5 * (edges[2 * patch] + edges[2 * patch + 1])
         half = 0.5 * (edges[2 * patch + 1] - edges[2 * patch])
         for i in range(nodes.size):
             at = centre + half * nodes[i]
-            k = locate(y, last + 1, at, k)
+            k = locate(y, n, at, k)
             h = y[k + 1] - y[k]
             t = (at - y[k]) / h
             share = half * weights[i] / ((1.0 - t) * nr[k] + t * nr[k + 1])
@@ -254,16 +226,16 @@ def load_at(y, first, last, delta, modulus, nodes, weights, work, edges):
 
 
 @kernel
-def fill_strips(y, xc, first, last, delta, modulus, nodes, weights, work, edges, strips):
+def fill_strips(y, xc, n, delta, modulus, nodes, weights, work, edges, strips):
     """Lay strips at approach `delta`; return load, stiffness and number of strips."""
     G, m = work[EFFECTIVE_GAP], work[EFFECTIVE_SLOPE]
-    count = find_patches(y, G, m, first, last, delta, edges)
+    count = find_patches(y, G, m, n, delta, edges)
     n_strips = lay_strips(edges, count, nodes, weights, strips)
     N, stiffness = 0.0, 0.0
-    k = first
+    k = 0
     for i in range(n_strips):
         at = strips[STRIP_Y, i]
-        k = locate(y, last + 1, at, k)
+        k = locate(y, n, at, k)
         h = y[k + 1] - y[k]
         t = (at - y[k]) / h
         d = max(delta - cubic(h, G[k], m[k], G[k + 1], m[k + 1], t), 0.0)
@@ -282,24 +254,18 @@ def fill_strips(y, xc, first, last, delta, modulus, nodes, weights, work, edges,
 
 @kernel
 def solve_load(y, g, A, n, y_least, g_least, load, modulus, nodes, weights, work, edges, result):
-    """Approach above first touch that carries `load`; first and last prepared sample.
+    """Approach above first touch that carries `load`, with everything prepared.
 
     N ~ delta^(3/2) in Hertz contact: Newton on N^(2/3), bracketed.
     """
+    prepare(y, g, A, n, g_least, work)
     k = locate(y, n, y_least, 0)
-    B, _, _ = lateral_curvature(y, g, work[GAP_SLOPE], n, k, 0, 0)
-    _prepare_sample(A, B, g, g_least, k, work)
     hertz = (0.75 * load / modulus * work[NR, k] * math.sqrt(work[STRETCHED_A, k])) ** (2.0 / 3.0)
-    delta = estimated_approach(y, g, n, g_least, load, modulus, work[ONE_BETA, k], work[NR, k], hertz)
-    reach = REACH * delta
-    first, last = prepare(y, g, A, n, y_least, g_least, reach, work)
+    delta = estimated_approach(y, n, load, modulus, work, hertz)
     low, high = 0.0, math.inf
     for iteration in range(_MAX_ITERATIONS):
         result[RES_ITERATIONS] = iteration + 1.0
-        if delta > reach:
-            reach = REACH * delta
-            first, last = prepare(y, g, A, n, y_least, g_least, reach, work)
-        N, stiffness = load_at(y, first, last, delta, modulus, nodes, weights, work, edges)
+        N, stiffness = load_at(y, n, delta, modulus, nodes, weights, work, edges)
         if load > N:
             low = delta
         else:
@@ -309,14 +275,14 @@ def solve_load(y, g, A, n, y_least, g_least, load, modulus, nodes, weights, work
         else:
             new = 2.0 * delta
         if abs(N - load) <= NEWTON_CLOSE * load:  # the step taken squares what is missing
-            return new, first, last
+            return new
         if not low < new < high or (iteration >= _NEWTON_ITERATIONS and high < math.inf):
             new = 0.5 * (low + high) if high < math.inf else 2.0 * delta
         if new == delta or high - low <= 1e-12 * delta:  # a step: two patches merge within one sample interval
-            return (high if high < math.inf else delta), first, last  # its upper side, whatever the way there
+            return high if high < math.inf else delta  # its upper side, whatever the way there
         delta = new
     result[RES_STATUS] = 5.0
-    return delta, first, last
+    return delta
 
 
 @kernel
@@ -340,12 +306,10 @@ def analyn(y, g, A, xc, case, nodes, weights, work, strips, result):
         result[RES_APPROACH] = case[CASE_LOAD] if by_approach else g_least
         return 0
     if by_approach:
-        first, last = prepare(y, g, A, n, y_least, g_least, delta, work)
+        prepare(y, g, A, n, g_least, work)
     else:
-        delta, first, last = solve_load(
-            y, g, A, n, y_least, g_least, load, modulus, nodes, weights, work, edges, result
-        )
-    N, stiffness, n_strips = fill_strips(y, xc, first, last, delta, modulus, nodes, weights, work, edges, strips)
+        delta = solve_load(y, g, A, n, y_least, g_least, load, modulus, nodes, weights, work, edges, result)
+    N, stiffness, n_strips = fill_strips(y, xc, n, delta, modulus, nodes, weights, work, edges, strips)
     if not by_approach and N > 0.0:
         # what is left of round-off, or of the step at which two patches merge, is taken by the pressure
         for i in range(n_strips):

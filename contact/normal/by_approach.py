@@ -76,7 +76,7 @@ def _prepare(method, y, g, A, n, point, work):
 def _load_at(method, y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges):
     """Fill `strips` at approach delta; return load, number of strips and whether the patch reaches the end of the data."""
     if method in (STRIPES_A, STRIPES_AB):
-        N, _, n_strips = fill_strips(y, xc, 0, n - 1, delta, modulus, nodes, weights, work, edges, strips)
+        N, _, n_strips = fill_strips(y, xc, n, delta, modulus, nodes, weights, work, edges, strips)
         return N, n_strips, at_end(y, n, edges, n_strips // nodes.size)
     if method in (MULTI_HERTZ, PASCAL_SAUVAGE):
         N, n_strips = multi_hertz(y, g, A, xc, n, delta, modulus, point, nodes, weights, work, strips, edges)

@@ -32,7 +32,7 @@ def cut(y, xc, n, level, nodes, weights, work, strips, edges):
     n_strips, touches_end
     """
     G, m, S = work[EFFECTIVE_GAP], work[EFFECTIVE_SLOPE], work[STRETCHED_A]
-    count = find_patches(y, G, m, 0, n - 1, level, edges)
+    count = find_patches(y, G, m, n, level, edges)
     n_strips = lay_strips(edges, count, nodes, weights, strips)
     k = 0
     for i in range(n_strips):

@@ -25,7 +25,7 @@ from contact.normal.lay import find_patches, slopes
 @kernel
 def _zone(y, g, n, delta, point, work, edges):
     """Ends of the zone around the least point where g < delta/2."""
-    count = find_patches(y, g, work[GAP_SLOPE], 0, n - 1, point.g + 0.5 * delta, edges)
+    count = find_patches(y, g, work[GAP_SLOPE], n, point.g + 0.5 * delta, edges)
     for k in range(count):
         if edges[2 * k] <= point.y <= edges[2 * k + 1]:
             return edges[2 * k], edges[2 * k + 1]

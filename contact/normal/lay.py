@@ -94,16 +94,16 @@ def _crossing(h, f0, m0, f1, m1, level, low, high):
 
 
 @kernel
-def find_patches(y, G, m, first, last, delta, edges):
-    """Intervals of y[first:last+1] on which G(y) < delta, into edges[2k], edges[2k+1]; return their number.
+def find_patches(y, G, m, n, delta, edges):
+    """Intervals of the `n` samples y on which G(y) < delta, into edges[2k], edges[2k+1]; return their number.
 
     There are at most MAX_PATCHES; further ones are merged into the last. A patch that reaches the end of the data ends there.
     """
     count = 0
-    inside = G[first] < delta
+    inside = G[0] < delta
     if inside:
-        edges[0] = y[first]
-    for i in range(first, last):
+        edges[0] = y[0]
+    for i in range(n - 1):
         below = G[i + 1] < delta
         if below == inside and (below or not m[i] < 0.0 < m[i + 1]):
             continue
@@ -126,7 +126,7 @@ def find_patches(y, G, m, first, last, delta, edges):
                 edges[2 * min(count, MAX_PATCHES - 1) + 1] = right
                 count += 1
     if inside:
-        edges[2 * min(count, MAX_PATCHES - 1) + 1] = y[last]
+        edges[2 * min(count, MAX_PATCHES - 1) + 1] = y[n - 1]
         count += 1
     return min(count, MAX_PATCHES)
 

@@ -24,7 +24,7 @@ from contact.normal.analyn import (
     EFFECTIVE_GAP,
     EFFECTIVE_SLOPE,
     GAP_SLOPE,
-    ONE_BETA,
+    SHARE,
     STRETCHED_A,
     floored,
     lateral_curvature,
@@ -33,7 +33,7 @@ from contact.normal.deepest import unit_load
 from contact.normal.lay import least_point, locate, slopes
 
 #: Row of `work` that keeps B(y).
-_B = ONE_BETA
+_B = SHARE
 
 
 @kernel
