@@ -105,7 +105,7 @@ def lattice(span, n):
     """
     apart = NODES_PER_HALF_BASE
     step = min(CURVATURE_HALF_BASE, 0.5 * span) / apart
-    half = int(0.5 * span / step * (1.0 + 1e-12))
+    half = int(min(0.5 * span / step * (1.0 + 1e-12), n))  # no overflow, whatever the span
     if 2 * half >= n:
         half = (n - 1) // 2
         step = 0.5 * span / half
