@@ -4,6 +4,8 @@ After M. Sh. Sichani, "On Efficient Modelling of Wheel-Rail Contact in Vehicle D
 forces act on the wheel. Start with `solve`.
 """
 
+from typing import TYPE_CHECKING, Any
+
 from contact.creepage import Creepage
 from contact.errors import ContactError
 from contact.forces import Forces, forces
@@ -13,7 +15,9 @@ from contact.registry import Method, Methods, methods
 from contact.separation import Separation
 from contact.solution import Solution, Status, Strips
 from contact.solve import solve
-from contact.study import Case, Comparison, compare
+
+if TYPE_CHECKING:
+    from contact.study import Case, Comparison, compare
 
 __all__ = [
     "STEEL",
@@ -38,3 +42,12 @@ __all__ = [
 ]
 
 __version__ = "0.1.0"
+
+
+def __getattr__(name: str) -> Any:
+    """Comparisons are imported when they are asked for: a time step does not need them."""
+    if name not in ("Case", "Comparison", "compare"):
+        raise AttributeError(f"module 'contact' has no attribute {name!r}")
+    from contact import study
+
+    return getattr(study, name)

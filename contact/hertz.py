@@ -75,12 +75,14 @@ _U_STEP = 0.1
 
 
 def _build_table() -> np.ndarray:
-    n = round(2 * _U_MAX / _U_STEP) + 1
-    values = np.empty((n + 4, 4))  # two points more at each end for the difference formula
-    for i, u in enumerate(_U_STEP * (np.arange(n + 4) - 2) - _U_MAX):
-        B = math.exp(u)
+    half = round(_U_MAX / _U_STEP) + 2  # two points more at each end for the difference formula
+    values = np.empty((2 * half + 1, 4))
+    for i in range(half + 1):
+        B = math.exp(_U_STEP * i)
         m, k, r = _coefficients(1.0, B)
-        values[i] = r * (1.0 + B) / m**2, r * (1.0 + 1.0 / B) / k**2, k * r, math.log(m / k)
+        alpha, beta = r * (1.0 + B) / m**2, r * (1.0 + 1.0 / B) / k**2
+        values[half + i] = alpha, beta, k * r, math.log(m / k)
+        values[half - i] = beta, alpha, m * r, math.log(k / m)  # the ellipse on its side
     slopes = (8.0 * (values[3:-1] - values[1:-3]) - (values[4:] - values[:-4])) / 12.0  # times the step
     return np.ascontiguousarray(np.hstack([values[2:-2], slopes]))
 
