@@ -55,12 +55,20 @@ from contact.tangential.ellipses import equivalent_ellipse
 from contact.tangential.fastsim import NO_FRICTION
 from contact.tangential.lanes import LANES, N_LANE_ROWS, NOW_SLIDES, NOW_SLIP, NOW_STICK, NOW_X, NOW_Y, keep, recall
 from contact.tangential.march import FREE_BEHIND_MARCH, ROW_X, ROW_Y, ROW_Z, march
-from contact.tangential.strip_theory import coefficients, stick_resultants, stick_zone
+from contact.tangential.strip_theory import coefficients, inner_resultants, outer_resultants, stick_zone
 
 _NOW_SX, _NOW_SY = NOW_SLIP, NOW_SLIDES  # where `_show` leaves the slip velocity
 
 # rows of `lanes` behind those of the march
 (
+    _A,
+    _Y,
+    _XC,
+    _BOUND,  # mu p0
+    _C11,
+    _C22,
+    _C23,
+    _ROOT_ASPECT,  # √(a/b) = a/c
     _E,  # half length of the slip zone over a
     _KAPPA,
     _LAMBDA,
@@ -72,67 +80,76 @@ _NOW_SX, _NOW_SY = NOW_SLIP, NOW_SLIDES  # where `_show` leaves the slip velocit
     _VX,
     _VY,
     _SPIN,  # phi·a
+    _STRAIN,  # slip velocity behind the stick zone over √((1-s)(2e-1-s)), by strip theory (theory.md 4.3)
     _FX,  # sums over the slip zone, over mu p0
     _FY,
     _MZ,
     _POWER,
     _FALL,  # coefficient of friction over the static one
-) = (FREE_BEHIND_MARCH + row * LANES for row in range(16))
+) = (FREE_BEHIND_MARCH + row * LANES for row in range(25))
 
 
 @kernel
-def direction_pass(vx, vy, phi, L1, L2, L3, a, y, xc, c):
-    """X, Y, Z of the FASTSIM pass; its three stiffnesses pass into a single one as the leading edge comes to slip.
-
-    L1, L2, L3 are a/(flexibility·bound), the normalised stiffnesses of the strip. `edge` is the utilisation of the bound at
-    the leading edge, where both vanish; beyond 1 the edge slips and the thesis (4.4) repeats the strip with one flexibility.
-    """
-    x, z = vx * L1 - phi * y * L3, vy * L2 + phi * (xc + a) * L3
-    edge = 0.5 * math.sqrt(x * x + z * z)
-    if edge > 0.5:
-        w = min(2.0 * edge - 1.0, 1.0)
-        spin2 = (phi * c) ** 2
-        single = (vx * vx + vy * vy + spin2) / (vx * vx * L1 + vy * vy * L2 + spin2 * L3)
-        L1 = 1.0 / ((1.0 - w) / L1 + w * single)
-        L2 = 1.0 / ((1.0 - w) / L2 + w * single)
-        L3 = 1.0 / ((1.0 - w) / L3 + w * single)
-    return vx * L1 - phi * y * L3, vy * L2 + phi * xc * L3, phi * a * L3
-
-
-@kernel
-def _set_strip(strips, i, case, table, c_patch, lanes, l):
-    """Amended strip theory of strip i (theory.md 4.1) and the set-up of its march, into lane l; return mu p0, or 0."""
+def _set_block(strips, block, n, case, table, c_patch, lanes):
+    """Amended strip theory (theory.md 4.1) of the strips from `block` on, and the set-up of their march."""
     G, nu = case[CASE_G], case[CASE_NU]
-    a, y, xc = strips[STRIP_A, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
-    bound = case[CASE_MU] * strips[STRIP_BOUND, i]
-    if a <= 0.0 or bound <= NO_FRICTION * G:
-        for row in (ROW_X, ROW_Y, ROW_Z, _KAPPA, _LAMBDA, _LAMBDA1, _FLEXIBILITY_X, _FLEXIBILITY_Y, _VX, _VY, _SPIN):
-            lanes[row + l] = 0.0
-        lanes[_E + l], lanes[_LOAD + l], lanes[_MOMENT + l] = 1.0, 0.0, 0.0
-        return 0.0
-    c11, c22, c23, _ = kalker.coefficients(table, strips[STRIP_ASPECT, i])
-    root_aspect = math.exp(0.5 * strips[STRIP_ASPECT, i])  # √(a/b) = a/c
-    if case[CASE_TANGENTIAL] == STRIP_THEORY:
-        c11, c22, c23 = coefficients(root_aspect, nu)
-    own_vx, own_vy, phi = strips[STRIP_VX, i], strips[STRIP_VY, i], strips[STRIP_PHI, i]
-    vx, vy = own_vx - phi * y, own_vy + phi * xc
-
-    # directions from the parabola of peak 4/3 mu p0 (theory.md 4.4)
-    unit = 0.75 * G / bound
-    L1, L2, L3 = unit * 0.375 * c11, unit * 0.375 * c22, unit * 4.0 / math.pi * c23 / root_aspect
-    X, Y, Z = direction_pass(own_vx, own_vy, phi, L1, L2, L3, a, y, xc, c_patch)
-    lanes[ROW_X + l], lanes[ROW_Y + l], lanes[ROW_Z + l] = X, Y, Z
-
-    amended = -2.0 * (1.0 - nu) / math.pi**2 * G / bound
-    psi = -1.5 * a / root_aspect * c23 / math.pi * G * phi / bound
-    e, kappa, lam, lam1 = stick_zone(amended * c11 * vx, amended * c22 * vy, psi, nu)
-    outer, _, outer_s, _ = stick_resultants(e)
-    lanes[_E + l], lanes[_KAPPA + l], lanes[_LAMBDA + l], lanes[_LAMBDA1 + l] = e, kappa, lam, lam1
-    lanes[_LOAD + l], lanes[_MOMENT + l] = outer, outer_s
-    lanes[_FLEXIBILITY_X + l] = 0.5 * math.pi**2 * bound / (G * c11)
-    lanes[_FLEXIBILITY_Y + l] = 0.5 * math.pi**2 * bound / (G * c22)
-    lanes[_VX + l], lanes[_VY + l], lanes[_SPIN + l] = vx, vy, phi * a
-    return bound
+    least = NO_FRICTION * G
+    for l in range(LANES):
+        i = min(block + l, n - 1)
+        a, bound = strips[STRIP_A, i], case[CASE_MU] * strips[STRIP_BOUND, i]
+        lanes[_A + l], lanes[_Y + l], lanes[_XC + l] = a, strips[STRIP_Y, i], strips[STRIP_XC, i]
+        lanes[_VX + l], lanes[_VY + l], lanes[_SPIN + l] = (
+            strips[STRIP_VX, i],
+            strips[STRIP_VY, i],
+            strips[STRIP_PHI, i],
+        )
+        lanes[_BOUND + l] = bound if a > 0.0 and bound > least else 0.0
+        c11, c22, c23, _ = kalker.coefficients(table, strips[STRIP_ASPECT, i])
+        root_aspect = math.exp(0.5 * strips[STRIP_ASPECT, i])
+        if case[CASE_TANGENTIAL] == STRIP_THEORY:
+            c11, c22, c23 = coefficients(root_aspect, nu)
+        lanes[_C11 + l], lanes[_C22 + l], lanes[_C23 + l], lanes[_ROOT_ASPECT + l] = c11, c22, c23, root_aspect
+    for l in range(LANES):
+        a, y, xc, bound = lanes[_A + l], lanes[_Y + l], lanes[_XC + l], lanes[_BOUND + l]
+        c11, c22, c23, root_aspect = lanes[_C11 + l], lanes[_C22 + l], lanes[_C23 + l], lanes[_ROOT_ASPECT + l]
+        rigid_x, rigid_y, phi = lanes[_VX + l], lanes[_VY + l], lanes[_SPIN + l]
+        spin2 = (phi * c_patch) ** 2
+        live = 1.0 if bound > 0.0 else 0.0
+        unit = live * G / (bound + (1.0 - live))  # no slip at all in a strip that bears nothing
+        across = c23 / root_aspect
+        # directions from the parabola of peak 4/3 mu p0 (theory.md 4.4); its three stiffnesses, a/(flexibility·bound), pass
+        # into a single one as the leading edge comes to slip: `edge` is the utilisation of the bound there, where both
+        # vanish, and beyond 1 the thesis repeats the strip with one flexibility
+        L1, L2, L3 = 0.28125 * unit * c11, 0.28125 * unit * c22, 3.0 / math.pi * unit * across
+        x, z = rigid_x * L1 - phi * y * L3, rigid_y * L2 + phi * (xc + a) * L3
+        w = math.sqrt(x * x + z * z) - 1.0  # 2 edge - 1
+        w = 0.5 * (w + abs(w))
+        w = w if w < 1.0 else 1.0
+        single = (
+            w
+            * (rigid_x * rigid_x + rigid_y * rigid_y + spin2)
+            / (rigid_x * rigid_x * L1 + rigid_y * rigid_y * L2 + spin2 * L3 + 1e-300)
+        )
+        L1, L2, L3 = L1 / (1.0 - w + single * L1), L2 / (1.0 - w + single * L2), L3 / (1.0 - w + single * L3)
+        lanes[ROW_X + l] = rigid_x * L1 - phi * y * L3
+        lanes[ROW_Y + l] = rigid_y * L2 + phi * xc * L3
+        lanes[ROW_Z + l] = phi * a * L3
+        vx, vy = rigid_x - phi * y, rigid_y + phi * xc
+        lanes[_VX + l], lanes[_VY + l], lanes[_SPIN + l] = vx, vy, phi * a
+        lanes[_FLEXIBILITY_X + l] = 0.5 * math.pi**2 * bound / (G * c11)
+        lanes[_FLEXIBILITY_Y + l] = 0.5 * math.pi**2 * bound / (G * c22)
+        amended = -2.0 * (1.0 - nu) / math.pi**2 * unit
+        lanes[_KAPPA + l], lanes[_LAMBDA + l] = amended * c11 * vx, amended * c22 * vy
+        lanes[_LAMBDA1 + l] = -1.5 / math.pi * a * across * phi * unit  # psi
+    for l in range(LANES):
+        e, kappa, lam, lam1 = 1.0, 0.0, 0.0, 0.0
+        if lanes[_BOUND + l] > 0.0:
+            e, kappa, lam, lam1 = stick_zone(lanes[_KAPPA + l], lanes[_LAMBDA + l], lanes[_LAMBDA1 + l], nu)
+        lanes[_E + l], lanes[_KAPPA + l], lanes[_LAMBDA + l], lanes[_LAMBDA1 + l] = e, kappa, lam, lam1
+        lanes[_LOAD + l], lanes[_MOMENT + l] = outer_resultants(e)
+        lanes[_STRAIN + l] = math.sqrt(
+            (lanes[_FLEXIBILITY_X + l] * kappa) ** 2 + (lanes[_FLEXIBILITY_Y + l] * lam1) ** 2
+        )
 
 
 @kernel
@@ -142,7 +159,7 @@ def _keep_direction(lanes, trace):
         x, y = lanes[_KAPPA + l], lanes[_LAMBDA + l]
         if lanes[_E + l] >= 1.0:
             x, y = -lanes[_VX + l], -lanes[_VY + l]
-        lanes[NOW_X + l], lanes[NOW_Y + l] = x, y
+        lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_SLIDES + l] = x, y, 0.0
     for k in range(trace.shape[0]):
         keep(lanes, trace[k])
 
@@ -151,8 +168,9 @@ def _keep_direction(lanes, trace):
 def _slip_zone(elements, lanes, trace, shown, falling):
     """Sum the slip zones of a block: magnitude mu·p, exact over each element, direction of the march.
 
-    With `shown` the fields are left in `trace`. `falling` is the case where friction falls with the local slip, or None: numba
-    compiles each on its own, the second without what belongs to the first.
+    The slip is strip theory's behind a stick zone; in strips that slip as a whole it is rigid and elastic slip against the
+    traction. With `shown` the fields are left in `trace`. `falling` is the case where friction falls with the local slip, or
+    None: numba compiles each on its own, the second without what belongs to the first.
     """
     for l in range(LANES):
         if falling is not None:
@@ -160,52 +178,58 @@ def _slip_zone(elements, lanes, trace, shown, falling):
         lanes[_FX + l], lanes[_FY + l], lanes[_MZ + l], lanes[_POWER + l] = 0.0, 0.0, 0.0, 0.0
     load_before, moment_before = 0.0, 0.0
     for k in range(elements.shape[1]):
-        s, sine, dx = elements[EL_S, k], elements[EL_SINE, k], elements[EL_DX, k]
+        s, weight = elements[EL_S, k], elements[EL_SINE, k] * elements[EL_DX, k]
         load_end, moment_end = elements[EL_LOAD_END, k], elements[EL_MOMENT_END, k]
         recall(lanes, trace[k])
+        sticks = 0
+        for l in range(LANES):
+            sticks += 1 if lanes[NOW_SLIDES + l] < 0.5 and load_end > lanes[_LOAD + l] else 0
+        if sticks > 0:
+            _normalise(lanes)
         for l in range(LANES):
             load_from, ex, ey = lanes[_LOAD + l], lanes[NOW_X + l], lanes[NOW_Y + l]
-            per_size = 1.0 / (math.sqrt(ex * ex + ey * ey) + 1e-300)
-            ex, ey = ex * per_size, ey * per_size
             first = load_before if load_before > load_from else load_from
             last = load_end if load_end > load_from else load_from
             moment_from = lanes[_MOMENT + l]
             moment_start = moment_before if load_before > load_from else moment_from
             share, share_s = last - first, moment_end - moment_start
             share_s = share_s if load_end > load_from else 0.0
-            # behind a stick zone: strip theory; in a strip that slips as a whole: rigid and elastic slip against the traction
-            e, flex_x, flex_y = lanes[_E + l], lanes[_FLEXIBILITY_X + l], lanes[_FLEXIBILITY_Y + l]
-            W2 = (s - e) * (s - e) - (1.0 - e) * (1.0 - e)
-            W2 = W2 if W2 > 0.0 else 0.0
-            px, py = flex_x * lanes[_KAPPA + l], flex_y * lanes[_LAMBDA1 + l]
-            behind = math.sqrt(W2 * (px * px + py * py))
-            sx = lanes[_VX + l] + flex_x * ex * s
-            sy = lanes[_VY + l] + lanes[_SPIN + l] * s + flex_y * ey * s
-            whole = -(sx * ex + sy * ey)
-            whole = whole if whole > 0.0 else 0.0
-            slip = behind if e < 1.0 else whole
-            slip = slip if s <= 2.0 * e - 1.0 else 0.0
-            weight = sine * dx
+            sx = lanes[_VX + l] + lanes[_FLEXIBILITY_X + l] * ex * s
+            sy = lanes[_VY + l] + (lanes[_SPIN + l] + lanes[_FLEXIBILITY_Y + l] * ey) * s
+            slip = -(sx * ex + sy * ey)
+            slip = slip if slip > 0.0 and lanes[_E + l] >= 1.0 else 0.0
+            behind = 2.0 * lanes[_E + l] - 1.0 - s
+            slip += lanes[_STRAIN + l] * math.sqrt((1.0 - s) * 0.5 * (behind + abs(behind)))
+            amount = weight
             if falling is not None:
                 fall = fallen(falling, slip, 0.0, lanes[_FALL + l])
                 lanes[_FALL + l] = fall
-                share, share_s, weight = share * fall, share_s * fall, weight * fall
+                share, share_s, amount = share * fall, share_s * fall, weight * fall
             lanes[_FX + l] += share * ex
             lanes[_FY + l] += share * ey
             lanes[_MZ + l] += share_s * ey
-            lanes[_POWER + l] += weight * slip
-            lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_SLIP + l] = ex, ey, slip
+            lanes[_POWER + l] += amount * slip
+            lanes[NOW_SLIP + l] = slip
         if shown:
-            _show(s, sine, lanes, falling)
+            _show(s, elements[EL_SINE, k], lanes, falling)
             keep(lanes, trace[k])
         load_before, moment_before = load_end, moment_end
+
+
+@kernel
+def _normalise(lanes):
+    """Turn what the march leaves into directions; in its slip they are."""
+    for l in range(lanes.size // N_LANE_ROWS):
+        x, y = lanes[NOW_X + l], lanes[NOW_Y + l]
+        per_size = 1.0 / (math.sqrt(x * x + y * y) + 1e-300)
+        lanes[NOW_X + l], lanes[NOW_Y + l] = x * per_size, y * per_size
 
 
 @kernel
 def _show(s, sine, lanes, falling):
     """Replace what the march leaves by traction over mu p0, slip velocity and 1 in stick, for the fields."""
     per_square, sticks = 1.0 / (sine * sine), 0
-    for l in range(LANES):
+    for l in range(lanes.size // N_LANE_ROWS):
         ex, ey, slip = lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_SLIP + l]
         stick = 1.0 if s > 2.0 * lanes[_E + l] - 1.0 else 0.0
         sticks += 1 if stick > 0.5 else 0
@@ -244,8 +268,7 @@ def fastrip(strips, n, case, table, elements, lanes, trace, fields, result):
     c_patch = math.sqrt(a0 * b0)
     Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
     for block in range(0, n, LANES):
-        for l in range(LANES):
-            _set_strip(strips, min(block + l, n - 1), case, table, c_patch, lanes, l)
+        _set_block(strips, block, n, case, table, c_patch, lanes)
         if case[CASE_TANGENTIAL] == STRIP_THEORY:
             _keep_direction(lanes, trace)
         else:
@@ -257,14 +280,14 @@ def fastrip(strips, n, case, table, elements, lanes, trace, fields, result):
         for l in range(min(LANES, n - block)):
             i = block + l
             a, dy, y, xc = strips[STRIP_A, i], strips[STRIP_DY, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
-            bound = case[CASE_MU] * strips[STRIP_BOUND, i]
-            e = lanes[_E + l]
+            bound, e = lanes[_BOUND + l], lanes[_E + l]
             slip_area += 2.0 * a * e * dy
-            if lanes[_LOAD + l] == 0.0 and bound <= NO_FRICTION * case[CASE_G]:
+            if bound == 0.0:
                 if i < fields.shape[1]:
                     fields[FIELD_QX : FIELD_STICK + 1, i, :] = 0.0
                 continue
-            outer, inner, outer_s, inner_s = stick_resultants(e)
+            outer, outer_s = lanes[_LOAD + l], lanes[_MOMENT + l]
+            inner, inner_s = inner_resultants(e)
             strip = bound * a * dy
             fx = strip * (lanes[_KAPPA + l] * (outer - inner) + lanes[_FX + l])
             fy = strip * (lanes[_LAMBDA + l] * outer - lanes[_LAMBDA1 + l] * inner + lanes[_FY + l])

@@ -18,7 +18,7 @@ N_TRACE = 5
 FREE_ROW = N_TRACE * LANES
 
 #: Rows that the largest user needs.
-N_LANE_ROWS = 40
+N_LANE_ROWS = 44
 
 #: Bound to the normalised distance over which a direction may turn in one step; beyond it nothing is left to turn.
 FAR = 1e3

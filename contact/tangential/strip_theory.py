@@ -47,10 +47,15 @@ def stick_zone(xi, eta, psi, nu):
 
 
 @kernel
-def stick_resultants(e):
-    """∫√(1-s²), ∫√((1-e)²-(s-e)²) over the stick zone, and the same times s, in closed form (theory.md 4.1)."""
+def outer_resultants(e):
+    """∫√(1-s²) over the stick zone, and the same times s, in closed form (theory.md 4.1)."""
     s = -1.0 + 2.0 * e
     h2 = max(1.0 - s * s, 0.0)
-    outer = 0.5 * (0.5 * math.pi - s * math.sqrt(h2) - math.asin(s))
+    return 0.5 * (0.5 * math.pi - s * math.sqrt(h2) - math.asin(s)), h2 * math.sqrt(h2) / 3.0
+
+
+@kernel
+def inner_resultants(e):
+    """∫√((1-e)²-(s-e)²) over the stick zone, and the same times s."""
     inner = 0.5 * math.pi * (1.0 - e) ** 2
-    return outer, inner, h2 * math.sqrt(h2) / 3.0, e * inner
+    return inner, e * inner
