@@ -105,7 +105,8 @@ def lattice(span, n):
     """
     apart = NODES_PER_HALF_BASE
     step = min(CURVATURE_HALF_BASE, 0.5 * span) / apart
-    half = int(min(0.5 * span / step * (1.0 + 1e-12), n))  # no overflow, whatever the span
+    count = 0.5 * span / step * (1.0 + 1e-12)  # compared as a number: any span is allowed, also one that has overflown
+    half = max(int(count), apart) if count < n else n
     if 2 * half >= n:
         half = (n - 1) // 2
         step = 0.5 * span / half
@@ -143,10 +144,10 @@ def prepare(y, g, A, n, g_least, work):
             alpha, beta, nr, log_aspect = local_factors(curvatures[j], B)
         if j == 0:
             alpha_before, beta_before, nr_before, log_before = alpha, beta, nr, log_aspect
-        left, end = first + (j - 1) * step, first + j * step if j <= 2 * half else math.inf
+        left, end, beyond = first + (j - 1) * step, first + j * step, j > 2 * half
         d_alpha, d_beta = (alpha - alpha_before) * per_step, (beta - beta_before) * per_step
         d_nr, d_log = (nr - nr_before) * per_step, (log_aspect - log_before) * per_step
-        while i < n and y[i] < end:
+        while i < n and (beyond or y[i] < end):  # also samples that have overflown: nothing is left unwritten
             t = y[i] - left
             work[STRETCHED_A, i] = A[i] * (alpha_before + t * d_alpha)
             work[EFFECTIVE_GAP, i] = (beta_before + t * d_beta) * (g[i] - g_least)
