@@ -320,7 +320,7 @@ def analyn(y, g, A, xc, case, nodes, weights, work, strips, result):
     else:
         delta = solve_load(y, g, A, n, y_least, g_least, load, modulus, nodes, weights, work, edges, result)
     N, stiffness, n_strips = fill_strips(y, xc, n, delta, modulus, nodes, weights, work, edges, strips)
-    if N <= 0.0:  # a load so small that its patch is narrower than numbers can tell
+    if N <= 0.0 or delta <= NO_OVERLAP * (y[n - 1] - y[0]):  # less load than numbers can tell
         result[RES_STATUS], result[RES_APPROACH] = 2.0, g_least
         return 0
     if not by_approach:
