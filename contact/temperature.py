@@ -1,4 +1,4 @@
-"""Flash temperature: what friction heats a surface up to while it crosses the patch (theory.md 8.2).
+"""Flash temperature: what friction heats a surface up to while it crosses the patch (theory.md 8.5).
 
 Heat flows into a body much slower than the body moves (great Péclet number), so each strip is on its own: half of the heat
 q|s| enters each body, and a particle that entered at x = a has at x been heated by

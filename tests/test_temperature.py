@@ -1,4 +1,4 @@
-"""Flash temperature of the strips (theory.md 8.2)."""
+"""Flash temperature of the strips (theory.md 8.5)."""
 
 import math
 
