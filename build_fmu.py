@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import os
 import time
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 try:
@@ -55,23 +58,26 @@ def main() -> None:
             print(_size(python.build(model, arguments.out)))
         build_system(arguments.out)
     if arguments.packaging != "python":
-        for model in chosen:
-            build_native(model, arguments.out / "native")
+        build_native(chosen, arguments.out / "native")
         build_system(arguments.out / "native")
 
 
-def build_native(model: Model, folder: Path) -> None:
-    """Build an FMU that needs no Python, telling how far it has come."""
+def build_native(chosen: Sequence[Model], folder: Path) -> None:
+    """Build FMUs that need no Python, side by side as far as there are processors, telling how far it has come."""
     from fmu_src.native import packaging as native
 
     begin = time.monotonic()
 
-    def say(what: str) -> None:
-        print(f"  {time.monotonic() - begin:3.0f} s  {what}", flush=True)
+    def build(model: Model) -> None:
+        def say(what: str) -> None:
+            print(f"  {time.monotonic() - begin:3.0f} s  {model.table.name}: {what}", flush=True)
 
-    print(f"{model.table.name}, native:")
-    for path in native.build(model, folder, OBJECTS, say):
-        say(_size(path))
+        for path in native.build(model, folder, OBJECTS, say):
+            say(_size(path))
+
+    print("Native, for hosts without Python:")
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        list(pool.map(build, chosen))
 
 
 def build_system(folder: Path) -> None:

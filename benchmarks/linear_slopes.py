@@ -15,43 +15,24 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from scipy.linalg import lu_factor, lu_solve
 
 import contact
 from benchmarks import accuracy
 from contact import kalker
-from contact.halfspace import influence
+from contact.halfspace import linear
 
 TARGET = Path(__file__).parent.parent / "tests" / "reference" / "linear_slopes.json"
-STATES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 Array = np.ndarray
 
 
-def slopes(solve: Callable[[int], contact.Solution], n: int) -> Array:
-    """Fx, Fy, Mz (columns) per unit creepage (rows) in full adhesion: n strips, each of n elements that end at its edges."""
-    sol = solve(n)
-    unit = (np.arange(n) + 0.5) * 2.0 / n - 1.0
-    x = (sol.strips.x_c[:, None] + sol.strips.a[:, None] * unit).ravel()
-    y, dy, dx = (np.repeat(v, n) for v in (sol.strips.y, sol.strips.dy, 2.0 * sol.strips.a / n))
-    X, Y = x[:, None] - x[None, :], y[:, None] - y[None, :]
-    here = influence.tangential(X, Y, dx, dy, sol.material)
-    ahead = influence.tangential(X + dx[:, None], Y, dx, dy, sol.material)
-    xx, yy, xy = (a - b for a, b in zip(here, ahead, strict=True))
-    system = lu_factor(np.block([[xx, xy], [xy, yy]]))
-    result = []
-    for vx, vy, phi in STATES:
-        # a creep that varies along x is met half-way between the two positions
-        w = np.r_[vx - phi * y, vy + phi * (x + dx / 2)]
-        q = lu_solve(system, -w * np.r_[dx, dx])
-        qx, qy = q[: x.size] * dx * dy, q[x.size :] * dx * dy
-        result.append([qx.sum(), qy.sum(), (x * qy - y * qx).sum()])
-    return np.array(result)
-
-
 def extrapolated(solve: Callable[[int], contact.Solution]) -> Array:
-    """From 16 and 24 strips and elements, linearly in 1/n."""
-    coarse, fine = slopes(solve, 16), slopes(solve, 24)
-    return fine + 2.0 * (fine - coarse)
+    """The slopes, rows creepages and columns forces, from 16 and 24 strips and elements."""
+
+    def at(n: int) -> Array:
+        sol = solve(n)
+        return linear.slopes(sol.strips, sol.material, n)
+
+    return linear.extrapolated(at, 16, 24)
 
 
 def kalker_error(aspect: float) -> dict[str, float]:

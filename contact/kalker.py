@@ -142,6 +142,13 @@ def table(poisson_ratio: float) -> NDArray[np.float64]:
     return result
 
 
+def constant_table(c11: float, c22: float, c23: float) -> NDArray[np.float64]:
+    """A table for `coefficients` that has the same three at every aspect ratio; C33, which no strip method reads, is 0."""
+    result = np.zeros((N_TABLE, 8))
+    result[:, :3] = c11, c22, c23
+    return result
+
+
 @kernel
 def coefficients(table, log_aspect):
     """C11, C22, C23, C33 at ln(a/b) from a `table`; C32 = -C23. The aspect ratio is clamped to [1/50, 50]."""

@@ -32,6 +32,7 @@ class Method:
     interacting : every strip feels the pressure of all others (normal)
     batched : a kernel over strips, which `contact.forces` and the FMUs offer too; else `contact.solve` alone
     continuous : the load is a continuous function of the approach on every patch (normal)
+    calibrated : takes its stiffness from the half space's linear theory on the patch itself (tangential)
     """
 
     name: str
@@ -49,6 +50,12 @@ class Method:
     interacting: bool = False
     batched: bool = True
     continuous: bool = True
+    calibrated: bool = False
+
+    @property
+    def elementwise(self) -> bool:
+        """Whether it is the element-wise half space."""
+        return self.id == HALFSPACE
 
 
 class Methods(NamedTuple):
@@ -180,6 +187,17 @@ _TANGENTIAL = (
         True,
         True,
         admissible=False,
+    ),
+    Method(
+        "fastsim_knothe",
+        FASTSIM,
+        "FASTSIM with the flexibilities of linear theory on the patch itself",
+        "this project, after Knothe and Le The 1984",
+        True,
+        True,
+        admissible=False,
+        batched=False,
+        calibrated=True,
     ),
     Method("strip_theory", STRIP_THEORY, "strip theory", "Haines and Ollerton 1963; Kalker 1967", True, True),
     Method(

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
-from contact import workspace
+from contact import kalker, workspace
 from contact._layout import (
     APPROACH,
     CASE_G,
@@ -57,6 +59,7 @@ from contact._layout import (
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction, fill, of_case
+from contact.halfspace import linear
 from contact.halfspace.gap import Division, Gap
 from contact.halfspace.solve import solve_gap, solve_pressure
 from contact.material import STEEL, Material
@@ -64,6 +67,8 @@ from contact.pipeline import solve_case, solve_conformal
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.separation import Separation
 from contact.solution import Solution, Status, Strips
+
+Array = NDArray[np.float64]
 
 #: Resolution at which forces are within 0.002 mu N of their limit.
 N_STRIPS, N_ELEMENTS = 30, 30
@@ -156,18 +161,18 @@ def solve(
     n_strips, n_elements = require_resolution(n_strips, n_elements)
     method, rolling = lookup("normal", normal), lookup("tangential", tangential)
     division = Division(n_strips, n_elements, _pair(spacing))
-    if not rolling.batched and (surface.slope, surface.slope_far) != (1.0, 1.0):
+    if rolling.elementwise and (surface.slope, surface.slope_far) != (1.0, 1.0):
         raise ContactError(
             f"friction.slope = {surface.slope:g}: tangential = {tangential!r} knows the half space alone, slope 1"
         )
-    if conformal and not (method.batched and rolling.batched and rolling.fields):
+    if conformal and (method.elementwise or rolling.elementwise or not rolling.fields):
         raise ContactError(f"conformal: normal = {normal!r}, tangential = {tangential!r} knows the contact plane alone")
-    if not method.batched and material.pressure_limit < math.inf:
+    if method.elementwise and material.pressure_limit < math.inf:
         raise ContactError(
             f"material.pressure_limit = {material.pressure_limit:g}: normal = {normal!r} is elastic; allowed: inf"
         )
-    if not method.batched:
-        if rolling.batched:
+    if method.elementwise:
+        if not rolling.elementwise:
             raise ContactError(f"tangential = {tangential!r} does not serve normal = {normal!r}; allowed: halfspace")
         solution: Solution = solve_gap(
             separation,
@@ -183,21 +188,12 @@ def solve(
     elif not isinstance(separation, Separation):
         raise ContactError(f"normal = {normal!r} needs a contact.Separation; separation = {separation!r} is on a grid")
     else:
-        solution = _on_strips(
-            separation,
-            creepage,
-            (kind, amount),
-            surface,
-            material,
-            speed,
-            method,
-            rolling,
-            n_strips,
-            n_elements,
-            start,
-            conformal,
-        )
-        if not rolling.batched:
+        on_strips = partial(_on_strips, separation, creepage, (kind, amount), surface, material, speed, method)
+        solution = on_strips(rolling, n_strips, n_elements, start, conformal)
+        if rolling.calibrated and solution.N > 0.0:
+            own = _patch_coefficients(on_strips, solution)
+            solution = on_strips(rolling, n_strips, n_elements, start, conformal, own)
+        if rolling.elementwise:
             solution = solve_pressure(solution, surface, division, progress)
     if throw and solution.status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED):
         what = "load" if load is not None else "approach"
@@ -219,6 +215,16 @@ def _pair(spacing: object) -> tuple[float, float] | None:
     return dx, dy
 
 
+def _patch_coefficients(on_strips: Callable[..., Solution], solution: Solution) -> tuple[float, float, float]:
+    """C11, C22, C23 of linear theory on the patch of a `solution`, solved again by `on_strips` as coarsely as that theory."""
+    anyhow, material = lookup("tangential", DEFAULT_TANGENTIAL), solution.material
+
+    def at(n: int) -> Array:
+        return linear.flexibilities(on_strips(anyhow, n, n).strips, material, n)
+
+    return linear.coefficients(linear.extrapolated(at), solution.strips, material)
+
+
 def _on_strips(
     separation: Separation,
     creepage: Creepage,
@@ -230,11 +236,12 @@ def _on_strips(
     rolling: Method,
     n_strips: int,
     n_elements: int,
-    start: Solution | None,
-    conformal: bool,
+    start: Solution | None = None,
+    conformal: bool = False,
+    coefficients: tuple[float, float, float] | None = None,
 ) -> Solution:
-    """Call the kernel; of a tangential method without kernel the default one stands in."""
-    stands_in = rolling if rolling.batched else lookup("tangential", DEFAULT_TANGENTIAL)
+    """Call the kernel, with the patch's own C11, C22, C23 if given; the default method stands in for the half space."""
+    stands_in = lookup("tangential", DEFAULT_TANGENTIAL) if rolling.elementwise else rolling
     case = np.zeros(N_CASE)
     case[CASE_LOAD_KIND], case[CASE_LOAD] = amount
     case[CASE_VX], case[CASE_VY], case[CASE_PHI] = creepage.longitudinal, creepage.lateral, creepage.spin
@@ -245,6 +252,8 @@ def _on_strips(
     own = workspace.allocate(
         method, material.poisson_ratio, n_strips, n_elements, separation.y.size, tabulated=stands_in.tabulated
     )
+    if coefficients is not None:
+        own = own._replace(tables=own.tables._replace(kalker=kalker.constant_table(*coefficients)))
     if start is not None and start.memory.size == own.space.memory.size:
         own.space.memory[:] = start.memory
     s = separation

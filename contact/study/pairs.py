@@ -33,7 +33,7 @@ SELECTION = (
 
 def serves(pair: Pair) -> bool:
     """Whether `contact.solve` takes the pair: a normal method on a grid leaves no strips to the others."""
-    return lookup("normal", pair.normal).batched or pair == REFERENCE
+    return not lookup("normal", pair.normal).elementwise or pair == REFERENCE
 
 
 def every_pair() -> tuple[Pair, ...]:

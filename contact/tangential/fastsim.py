@@ -6,9 +6,11 @@
     fastsim_linder    three of each strip's own ellipse, as wide as the patch (Linder 1997; `normal.linder`)
     fastsim_stripes   three of each strip's own ellipse, as long as the patch, with a/b of the local curvatures (Ayasse and
                       Chollet 2005, as theory.md 4.4 has it; the published length of this ellipse is not at hand)
+    fastsim_knothe    three with which the slopes of the forces are those of the half space on the patch itself, given as
+                      coefficients (`halfspace.linear`; after Knothe and Le The 1984)
 
-The first three take the equivalent ellipse: the patch's area with the longest strip as semi-axis a. On an ellipse the local
-ones are that ellipse too, and the last two methods are the first. The parabolic bound of a strip has its peak proportional
+All but the local ones take the equivalent ellipse: the patch's area with the longest strip as semi-axis a. On an ellipse
+the local ones are that ellipse too, and they are the first method. The parabolic bound of a strip has its peak proportional
 to its p0·a, scaled so that the bounds carry the normal load: on an ellipse this is Kalker's paraboloid exactly, on any patch
 full slip gives mu N. The weighted flexibility changes with the ratio of the creepages, at any size of them.
 """

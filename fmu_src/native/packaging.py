@@ -83,7 +83,7 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -
     cache : Path
         Folder in which compiled kernels are kept from one build to the next.
     say : callable
-        Told what is being done, as this takes a minute the first time.
+        Told what is being done, as this takes minutes the first time.
     """
     component = model.module("native").component(**model.options)
     table = component.table
@@ -162,7 +162,7 @@ def kernels(model: Model, cache: Path, say: Callable[[str], None]) -> dict[str, 
     folder = cache / fingerprint.hexdigest()[:16]
     paths = {platform: objects(folder, platform) for platform in TRIPLES}
     if not all(path.exists() for parts in paths.values() for path in parts):
-        say("compiling the kernels (half a minute)")
+        say("compiling the kernels (one or two minutes)")
         folder.mkdir(parents=True, exist_ok=True)
         run(sys.executable, "-m", "fmu_src.native.emit", model.name, options, folder)
     return paths

@@ -1,0 +1,83 @@
+"""Linear theory on the patch itself: slopes of the forces at vanishing creepage, where every particle sticks (theory.md 6).
+
+Elements of constant traction end at the edges of their strip. Their displacement difference follows the rigid creep,
+
+    u(x) - u(x + dx) = -w dx,
+
+a dense linear system. Kalker's coefficients are these slopes on an ellipse; on any other patch they take their place.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.halfspace import influence
+from contact.material import Material
+from contact.solution import Strips
+
+Array = NDArray[np.float64]
+
+_STATES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+
+def slopes(strips: Strips, material: Material, n_elements: int) -> Array:
+    """Forces per unit creepage at vanishing creepage.
+
+    Parameters
+    ----------
+    strips : Strips
+        The patch.
+    material : Material
+    n_elements : int
+        Elements along each strip; time grows with the cube of their number.
+
+    Returns
+    -------
+    ndarray, shape (3, 3)
+        Rows: longitudinal, lateral [-] and spin [1/m] creepage; columns: Fx, Fy [N], Mz [N m] on the wheel. Error of first
+        order in the size of strips and elements.
+    """
+    unit = (np.arange(n_elements) + 0.5) * 2.0 / n_elements - 1.0
+    x = (strips.x_c[:, None] + strips.a[:, None] * unit).ravel()
+    y, dy, dx = (np.repeat(v, n_elements) for v in (strips.y, strips.dy, 2.0 * strips.a / n_elements))
+    X, Y = x[:, None] - x[None, :], y[:, None] - y[None, :]
+    here = influence.tangential(X, Y, dx, dy, material)
+    ahead = influence.tangential(X + dx[:, None], Y, dx, dy, material)
+    xx, yy, xy = (a - b for a, b in zip(here, ahead, strict=True))
+    # a creep that varies along x is met half-way between the two positions
+    w = np.array([np.r_[vx - phi * y, vy + phi * (x + dx / 2)] for vx, vy, phi in _STATES])
+    q = np.linalg.solve(np.block([[xx, xy], [xy, yy]]), -(w * np.r_[dx, dx]).T)
+    Qx, Qy = q[: x.size] * (dx * dy)[:, None], q[x.size :] * (dx * dy)[:, None]
+    return np.stack([Qx.sum(axis=0), Qy.sum(axis=0), x @ Qy - y @ Qx], axis=1)
+
+
+def flexibilities(strips: Strips, material: Material, n_elements: int) -> Array:
+    """L1, L2, L3 [m/Pa] with which FASTSIM's forces on this patch have the `slopes` Fx/ξ, Fy/η and Fy/φ.
+
+    Where all sticks, simplified theory gives ∑ 2a² dy/L1, ∑ 2a² dy/L2 and ∑ (2a² (x_c - X) + 2/3 a³) dy/L3, the last for spin
+    about the middle X of the first two.
+    """
+    a, moment = strips.a, 2.0 * strips.a**2 * strips.dy
+    slope = -slopes(strips, material, n_elements)
+    middle = strips.x_c @ moment / moment.sum()
+    of_spin = (strips.x_c - middle) @ moment + 2.0 / 3.0 * (a**3) @ strips.dy
+    stiff = slope[0, 0], slope[1, 1], slope[2, 1] - middle * slope[1, 1]
+    return np.array([moment.sum(), moment.sum(), of_spin]) / stiff
+
+
+def coefficients(flexibility: Array, strips: Strips, material: Material) -> tuple[float, float, float]:
+    """C11, C22, C23 of the equivalent ellipse of `strips` that stand for L1, L2, L3 (`tangential.ellipses`)."""
+    L1, L2, L3 = flexibility
+    a, G = float(strips.a.max()), material.shear_modulus
+    b = 2.0 * float(strips.a @ strips.dy) / (math.pi * a)
+    return 8.0 * a / (3.0 * G * L1), 8.0 * a / (3.0 * G * L2), math.pi * a**2 / (4.0 * G * math.sqrt(a * b) * L3)
+
+
+def extrapolated(at: Callable[[int], Array], coarse: int = 12, fine: int = 18) -> Array:
+    """The limit of at(n) for many strips and elements n, whose error goes with 1/n."""
+    first, second = at(coarse), at(fine)
+    return second + (second - first) * (coarse / (fine - coarse))
