@@ -81,15 +81,16 @@ def peak_pressure(strips, n):
         last = first
         while last + 1 < n and strips[STRIP_PATCH, last + 1] == strips[STRIP_PATCH, first]:
             last += 1
+        here = _square_slope(strips, first, first, last) if last >= first + 2 else 0.0
         for i in range(first, last + 1):
             square = strips[STRIP_P0, i] ** 2
             top = max(top, square)
             if i == last or last < first + 2:
                 continue
-            here, there = _square_slope(strips, i, first, last), _square_slope(strips, i + 1, first, last)
-            if here > 0.0 > there:
+            before, here = here, _square_slope(strips, i + 1, first, last)
+            if before > 0.0 > here:
                 h = strips[STRIP_Y, i + 1] - strips[STRIP_Y, i]
-                _, least = interval_minimum(h, -square, -here, -(strips[STRIP_P0, i + 1] ** 2), -there)
+                _, least = interval_minimum(h, -square, -before, -(strips[STRIP_P0, i + 1] ** 2), -here)
                 top = max(top, -least)
         first = last + 1
     return math.sqrt(top)

@@ -253,12 +253,21 @@ def _show(s, sine, lanes, falling):
 
 
 @kernel
-def _write_fields(bound, l, trace, fields, row):
-    """Traction, slip and stick flag of one strip."""
+def _write_fields(block, n, lanes, trace, fields):
+    """Traction, slip and stick flag of a block's strips, element by element: so `trace` is read as it lies in memory."""
     for k in range(trace.shape[0]):
-        fields[FIELD_QX, row, k], fields[FIELD_QY, row, k] = bound * trace[k, NOW_X + l], bound * trace[k, NOW_Y + l]
-        fields[FIELD_SX, row, k], fields[FIELD_SY, row, k] = trace[k, _NOW_SX + l], trace[k, _NOW_SY + l]
-        fields[FIELD_STICK, row, k] = trace[k, NOW_STICK + l]
+        for l in range(min(LANES, n - block)):
+            row, bound = block + l, lanes[_BOUND + l]
+            live = 1.0 if bound > 0.0 else 0.0
+            fields[FIELD_QX, row, k], fields[FIELD_QY, row, k] = (
+                bound * trace[k, NOW_X + l],
+                bound * trace[k, NOW_Y + l],
+            )
+            fields[FIELD_SX, row, k], fields[FIELD_SY, row, k] = (
+                live * trace[k, _NOW_SX + l],
+                live * trace[k, _NOW_SY + l],
+            )
+            fields[FIELD_STICK, row, k] = live * trace[k, NOW_STICK + l]
 
 
 @kernel
@@ -267,6 +276,7 @@ def fastrip(strips, n, case, table, elements, lanes, trace, fields, result):
     a0, b0 = equivalent_ellipse(strips, n)
     c_patch = math.sqrt(a0 * b0)
     Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
+    shown = fields.shape[1] >= n  # else only forces are asked for
     for block in range(0, n, LANES):
         _set_block(strips, block, n, case, table, c_patch, lanes)
         if case[CASE_TANGENTIAL] == STRIP_THEORY:
@@ -274,17 +284,15 @@ def fastrip(strips, n, case, table, elements, lanes, trace, fields, result):
         else:
             march(False, elements, lanes, trace)
         if falls_locally(case):
-            _slip_zone(elements, lanes, trace, block < fields.shape[1], case)
+            _slip_zone(elements, lanes, trace, shown, case)
         else:
-            _slip_zone(elements, lanes, trace, block < fields.shape[1], None)
+            _slip_zone(elements, lanes, trace, shown, None)
         for l in range(min(LANES, n - block)):
             i = block + l
             a, dy, y, xc = strips[STRIP_A, i], strips[STRIP_DY, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
             bound, e = lanes[_BOUND + l], lanes[_E + l]
             slip_area += 2.0 * a * e * dy
             if bound == 0.0:
-                if i < fields.shape[1]:
-                    fields[FIELD_QX : FIELD_STICK + 1, i, :] = 0.0
                 continue
             outer, outer_s = lanes[_LOAD + l], lanes[_MOMENT + l]
             inner, inner_s = inner_resultants(e)
@@ -296,7 +304,7 @@ def fastrip(strips, n, case, table, elements, lanes, trace, fields, result):
             Fy += fy
             Mz += mz + xc * fy - y * fx
             power += strip * lanes[_POWER + l]
-            if i < fields.shape[1]:
-                _write_fields(bound, l, trace, fields, i)
+        if shown:
+            _write_fields(block, n, lanes, trace, fields)
     result[RES_FX], result[RES_FY], result[RES_MZ] = Fx, Fy, Mz
     result[RES_POWER], result[RES_SLIP_AREA] = power, slip_area

@@ -374,6 +374,19 @@ def _fall(case, elements, unit, lanes, trace, l):
 
 
 @kernel
+def _write_fields(block, n, elements, falling, lanes, trace, fields):
+    """Traction, slip and stick flag of a block's strips, element by element: so `trace` is read as it lies in memory."""
+    for k in range(elements.shape[1]):
+        for l in range(min(LANES, n - block)):
+            i, bound = block + l, lanes[_BOUND + l]
+            qx, qy, slip = trace[k, NOW_X + l], trace[k, NOW_Y + l], trace[k, NOW_SLIP + l] * lanes[_UNIT + l]
+            size = bound * elements[EL_SINE, k] * (trace[k, _NOW_SHARE + l] if falling else 1.0)
+            fields[FIELD_QX, i, k], fields[FIELD_QY, i, k] = size * qx, size * qy
+            fields[FIELD_SX, i, k], fields[FIELD_SY, i, k] = -slip * qx, -slip * qy
+            fields[FIELD_STICK, i, k] = 1.0 - trace[k, NOW_SLIDES + l] if bound > 0.0 else 0.0
+
+
+@kernel
 def fastrip_mapped(strips, n, case, table, elements, lanes, trace, fields, result):
     """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`."""
     Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
@@ -401,13 +414,7 @@ def fastrip_mapped(strips, n, case, table, elements, lanes, trace, fields, resul
             power += load * lanes[_POWER + l] * unit
             stick = lanes[_STICK + l] + behind * (1.0 - lanes[_SLIPS + l]) if bound > 0.0 else 0.0
             slip_area += max(2.0 - stick, 0.0) * a * dy
-            if i >= fields.shape[1]:  # only forces are asked for
-                continue
-            for k in range(elements.shape[1]):
-                qx, qy, slip = trace[k, NOW_X + l], trace[k, NOW_Y + l], trace[k, NOW_SLIP + l] * unit
-                size = bound * elements[EL_SINE, k] * (trace[k, _NOW_SHARE + l] if falling else 1.0)
-                fields[FIELD_QX, i, k], fields[FIELD_QY, i, k] = size * qx, size * qy
-                fields[FIELD_SX, i, k], fields[FIELD_SY, i, k] = -slip * qx, -slip * qy
-                fields[FIELD_STICK, i, k] = 1.0 - trace[k, NOW_SLIDES + l] if bound > 0.0 else 0.0
+        if fields.shape[1] >= n:  # else only forces are asked for
+            _write_fields(block, n, elements, falling, lanes, trace, fields)
     result[RES_FX], result[RES_FY], result[RES_MZ] = Fx, Fy, Mz
     result[RES_POWER], result[RES_SLIP_AREA] = power, slip_area

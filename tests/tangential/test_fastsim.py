@@ -108,7 +108,7 @@ def test_linear_theory_on_an_ellipse_gives_kalkers_flexibilities(separation):
 
 @pytest.mark.parametrize("index", [0, 3, 7])
 def test_slopes_of_linear_theory_on_the_patch_itself(index):
-    """`fastsim_knothe` has the slopes of `benchmarks/linear_slopes.py`, which `fastsim` misses by up to 20 %; reached: 1.7 %."""
+    """`fastsim_knothe` has the slopes of `benchmarks/linear_slopes.py`, which `fastsim` misses by 20 %; reached: 1.7 %."""
     case = accuracy.patches()[index]
     truth = np.array(json.loads((accuracy.REFERENCE / "linear_slopes.json").read_text())["cases"][index]["slopes"])
     tiny = 1e-8
