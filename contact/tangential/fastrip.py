@@ -240,16 +240,27 @@ def _show(s, sine, lanes, falling):
         lanes[_NOW_SX + l], lanes[_NOW_SY + l], lanes[NOW_STICK + l] = -slip * ex, -slip * ey, stick
     if sticks == 0:
         return
+    beyond = 0
     for l in range(lanes.size // N_LANE_ROWS):
         e, stick = lanes[_E + l], lanes[NOW_STICK + l]
         S2 = (1.0 - e) * (1.0 - e) - (s - e) * (s - e)
         S = math.sqrt(0.5 * (S2 + abs(S2)))  # no choice: the compiler would branch around the root
         qx, qy = lanes[_KAPPA + l] * (sine - S), lanes[_LAMBDA + l] * sine - lanes[_LAMBDA1 + l] * S
-        used = (qx * qx + qy * qy) * per_square
-        # the field stays admissible; the closed-form resultants do not need it
+        lanes[NOW_X + l] += stick * (qx - lanes[NOW_X + l])
+        lanes[NOW_Y + l] += stick * (qy - lanes[NOW_Y + l])
+        beyond += 1 if stick * (qx * qx + qy * qy) * per_square > 1.0 else 0
+    if beyond > 0:
+        _cut_to_bound(per_square, lanes)
+
+
+@kernel
+def _cut_to_bound(per_square, lanes):
+    """Keep the field admissible where strip theory's stick zone is not; its closed-form resultants do not need it."""
+    for l in range(lanes.size // N_LANE_ROWS):
+        qx, qy, stick = lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_STICK + l]
+        used = stick * (qx * qx + qy * qy) * per_square
         per_excess = 1.0 / math.sqrt(used if used > 1.0 else 1.0)
-        lanes[NOW_X + l] += stick * (qx * per_excess - lanes[NOW_X + l])
-        lanes[NOW_Y + l] += stick * (qy * per_excess - lanes[NOW_Y + l])
+        lanes[NOW_X + l], lanes[NOW_Y + l] = qx * per_excess, qy * per_excess
 
 
 @kernel
