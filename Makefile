@@ -27,7 +27,7 @@ fmu: $(READY)    ## build the FMUs into dist/
 	$(BIN)/python -m fmu_src.lint dist/*.fmu dist/native/*.fmu dist/native/fmi3/*.fmu
 
 test: $(READY)   ## run the tests
-	$(BIN)/python -m pytest -n 2
+	$(BIN)/python -m pytest -n 2 --dist worksteal
 
 soak: $(READY)   ## 10 000 instances and a million steps of every native FMU: memory stays as it is (some ten minutes)
 	SOAK=1 $(BIN)/python -m pytest tests/system/test_native_host.py -k leave_memory

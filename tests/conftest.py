@@ -16,3 +16,8 @@ if settings.get_current_profile_name() == "default":
 def ellipse() -> contact.Separation:
     """Wheel radius 0.5 m on a rail head of 0.25 m: A = 1 1/m, B = 2 1/m."""
     return contact.Separation.hertzian(1.0, 2.0)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Tests of native FMUs come first: one worker builds these while the other compiles kernels, and none waits at the end."""
+    items.sort(key=lambda item: "native" not in getattr(item, "fixturenames", ()))

@@ -16,6 +16,7 @@ from tests.test_solve import assert_post_conditions
 
 NORMAL, TANGENTIAL = contact.methods().batched
 PAIRS = robustness.method_pairs()
+CALIBRATED = [("analyn", name) for name, method in contact.methods().tangential.items() if method.calibrated]
 CREEPAGES = [(1e-3, 0.0, 0.0), (-5e-4, 2e-3, 0.4), (0.0, 0.0, -0.9), (3e-2, -2e-2, 0.0)]
 
 
@@ -48,7 +49,7 @@ def solve(kind, normal, tangential="fastrip", creepage=(0.0, 0.0, 0.0), **given)
     return contact.solve(separation, contact.Creepage(*creepage), normal=normal, tangential=tangential, **given)
 
 
-@pytest.mark.parametrize(("normal", "tangential"), PAIRS)
+@pytest.mark.parametrize(("normal", "tangential"), [*PAIRS, *CALIBRATED])
 @pytest.mark.parametrize("kind", KINDS)
 def test_post_conditions(kind, normal, tangential):
     load = KINDS[kind][1]
