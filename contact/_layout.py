@@ -48,8 +48,12 @@ N_FIELD_ROWS = 8
     CASE_SPEED,  # [m/s]
     CASE_K_A,  # Polach's reduction factors, of adhesion and of slip
     CASE_K_S,
-) = range(25)
-N_CASE = 25
+    CASE_DROP,  # what heat takes off the coefficient of friction, over that of the cold surface; 0: nothing
+    CASE_WARM,  # rise of temperature above that of the bodies from which on it falls [K]
+    CASE_WARM_RANGE,  # over which it falls [K]
+    CASE_HEATING,  # share of heat over 2 √(π λ ρ c) [m² K/(W √s)]
+) = range(29)
+N_CASE = 29
 LOAD, APPROACH = 0.0, 1.0
 
 # result[...]: what a solver says besides fields

@@ -1,9 +1,9 @@
-"""Friction that falls with the sliding velocity, and surfaces softer at small creepage (theory.md 8.1, 8.2)."""
+"""Friction that falls with sliding velocity and temperature, and surfaces softer at small creepage (theory.md 8.1-8.3, 8.5)."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -13,9 +13,11 @@ from contact._jit import kernel
 from contact._layout import (
     CASE_BORDER,
     CASE_BORDER_WIDTH,
+    CASE_DROP,
     CASE_G,
     CASE_GAUGE_FACTOR,
     CASE_HALF_SPEED,
+    CASE_HEATING,
     CASE_K_A,
     CASE_K_S,
     CASE_KINETIC,
@@ -29,13 +31,20 @@ from contact._layout import (
     CASE_VELOCITY,
     CASE_VX,
     CASE_VY,
+    CASE_WARM,
+    CASE_WARM_RANGE,
 )
 from contact.errors import ContactError, require_number
+from contact.material import Thermal
 from contact.registry import CARTER
 
 COULOMB, LINEAR, RATIONAL, RATIONAL_SQUARE, EXPONENTIAL = range(5)
 #: Greatest coefficient [-]: adhesion beyond any use, and far from where squares overflow.
 LARGEST = 1e6
+#: Highest temperature [K], beyond any melt, and most heat, far from where products overflow.
+HOTTEST, _MOST_HEAT = 1e5, 1e100
+#: [K] of the bodies, unless told otherwise.
+ROOM_TEMPERATURE = 293.15
 #: Names of the laws; the place is the number by which kernels know a law.
 LAWS = ("coulomb", "linear", "rational", "rational_square", "exponential")
 GLOBAL, LOCAL, GREATEST = range(3)
@@ -74,11 +83,45 @@ def fallen(case, slip, stick, before):
     the element, the share `stick` of it keeps 1: so forces are continuous as the place moves from element to element.
     """
     most = before if case[CASE_VELOCITY] == GREATEST else 1.0
-    if slip <= 0.0 or case[CASE_MU] <= 0.0:
+    if slip <= 0.0 or case[CASE_MU] <= 0.0 or not falls_locally(case):
         return most
     kinetic = min(case[CASE_KINETIC] / case[CASE_MU], 1.0)
     own = coefficient(case[CASE_LAW], 1.0, kinetic, case[CASE_HALF_SPEED], case[CASE_SPEED] * slip)
     return min(own + stick * (1.0 - own), most)
+
+
+@kernel
+def falls_hot(case):
+    """Whether the coefficient falls with the temperature; methods that give forces alone know none."""
+    return case[CASE_DROP] > 0.0 and case[CASE_TANGENTIAL] < CARTER
+
+
+@kernel
+def heating(case, a, bound):
+    """Rise of temperature [K] by unit slip over V under the traction `bound` over √(2 Δs) of a strip of half length a (8.5)."""
+    return min(case[CASE_HEATING] * math.sqrt(case[CASE_SPEED] * a) * bound, _MOST_HEAT)
+
+
+@kernel
+def of_bodies(case):
+    """What the temperature of the bodies leaves of the coefficient."""
+    drop = case[CASE_DROP]
+    if drop <= 0.0:
+        return 1.0
+    return min(max(1.0 + drop * (case[CASE_WARM] / case[CASE_WARM_RANGE]), 1.0 - drop), 1.0)
+
+
+@kernel
+def of_heat(case, cold, warm, heat):
+    """Coefficient that falls from `cold`, that at the bodies' temperature, by `warm` + `heat` times itself [K] (theory.md 8.5).
+
+    The greater the coefficient the hotter, the hotter the smaller: there is one, and the law is linear between its ends.
+    """
+    bodies, drop, width = of_bodies(case), case[CASE_DROP], case[CASE_WARM_RANGE]
+    if bodies <= 0.0:
+        return cold
+    within = cold * (width - drop * (warm - case[CASE_WARM])) / (bodies * width + cold * drop * heat)
+    return min(max(within, cold * ((1.0 - drop) / bodies)), cold)
 
 
 @kernel
@@ -131,8 +174,13 @@ class Friction:
     * `greatest`: the greatest local one of a particle since it entered the patch; what has slipped keeps the lower coefficient
       until it leaves (Piotrowski 2010), in stick too.
 
-    A local coefficient never exceeds the static one. Methods that give forces alone take the global velocity; the element-wise
-    half space iterates on the velocity under its own coefficient.
+    Whatever the velocity, the coefficient of an element falls with the temperature, linearly, from its full value at
+    `reference_temperature` to `hot_factor` times it a `temperature_range` further on. The temperature is the background's and
+    the flash temperature by the friction that there is, of this and all elements ahead: a causal equation with one
+    answer (theory.md 8.5). No published constants were found (constants.md 8): the values are the user's.
+
+    A local coefficient never exceeds the static one. Methods that give forces alone take the global velocity and the bodies'
+    temperature; the element-wise half space iterates on the velocity under its own coefficient.
 
     Real surfaces are softer than the half space at small creepage: all creep stiffness is multiplied by
     k = slope (slope_far + (1 - slope_far)/(1 + slope_rate·eps)), eps Polach's creepage over that of saturation
@@ -163,6 +211,13 @@ class Friction:
         above k_A in his theory. 1, 1: the clean surface; typical of dry rails are 1, .4, of wet ones .3, .1 (Polach 2005,
         Table 2; constants.md 6, two sources). At vanishing creepage the force is (k_A + k_S)/2 of Kalker's: not to be
         combined with `slope`, which says the same for every method.
+    hot_factor : float
+        What heat leaves of the coefficient, 0 to 1; 1: friction does not depend on the temperature.
+    reference_temperature, temperature_range, background_temperature : float
+        [K], 0 to 1e5: from which on it falls, over how much (positive), and what the bodies have where they do not touch; of
+        two bodies the mean. Only the difference of the first and the last counts.
+    thermal : Thermal
+        Constants of the bodies; steel.
 
     Raises
     ------
@@ -183,6 +238,11 @@ class Friction:
     border_width: float = 5e-3
     k_A: float = 1.0
     k_S: float = 1.0
+    hot_factor: float = 1.0
+    reference_temperature: float = ROOM_TEMPERATURE
+    temperature_range: float = 400.0
+    background_temperature: float = ROOM_TEMPERATURE
+    thermal: Thermal = field(default_factory=Thermal)
 
     def __post_init__(self) -> None:
         require_number("friction.static", self.static, 0.0, LARGEST)
@@ -196,12 +256,15 @@ class Friction:
         require_number("friction.slope", self.slope, 0.0, 1.0, open_minimum=True)
         require_number("friction.slope_far", self.slope_far, 0.0, 1.0)
         require_number("friction.slope_rate", self.slope_rate, 0.0)
-
         require_number("friction.gauge_factor", self.gauge_factor, 0.0, 100.0)
         require_number("friction.border", self.border)
         require_number("friction.border_width", self.border_width)
         require_number("friction.k_A", self.k_A, 0.0, 1.0, open_minimum=True)
         require_number("friction.k_S", self.k_S, 0.0, 1.0, open_minimum=True)
+        require_number("friction.hot_factor", self.hot_factor, 0.0, 1.0)
+        require_number("friction.reference_temperature", self.reference_temperature, 0.0, HOTTEST)
+        require_number("friction.temperature_range", self.temperature_range, 0.0, HOTTEST, open_minimum=True)
+        require_number("friction.background_temperature", self.background_temperature, 0.0, HOTTEST)
 
     @classmethod
     def polach(cls, static: float = 0.55, A: float = 0.4, B: float = 0.6, **others: Any) -> Friction:
@@ -244,7 +307,9 @@ class Friction:
         law = float(LAWS.index(self.law))
         slopes = self.slope, self.slope_far, self.slope_rate
         velocity, side = float(VELOCITIES.index(self.velocity)), (self.gauge_factor, self.border, self.border_width)
-        return law, self.static, kinetic, self.half_speed, *slopes, velocity, *side, self.k_A, self.k_S
+        warm = self.reference_temperature - self.background_temperature
+        heat = 1.0 - self.hot_factor, warm, self.temperature_range, self.thermal.heating
+        return law, self.static, kinetic, self.half_speed, *slopes, velocity, *side, self.k_A, self.k_S, *heat
 
 
 _ROWS = (
@@ -261,6 +326,10 @@ _ROWS = (
     CASE_BORDER_WIDTH,
     CASE_K_A,
     CASE_K_S,
+    CASE_DROP,
+    CASE_WARM,
+    CASE_WARM_RANGE,
+    CASE_HEATING,
 )
 
 

@@ -1,4 +1,4 @@
-"""Elastic and strength constants of the wheel-rail pair."""
+"""Elastic, strength and thermal constants of the wheel-rail pair."""
 
 from __future__ import annotations
 
@@ -69,3 +69,52 @@ class Material:
 
 #: Wheel steel on rail steel, the constants of the reference computations (G = 82 GPa, nu = 0.28).
 STEEL = Material(shear_modulus=82e9, poisson_ratio=0.28)
+#: Of λ, ρ and c in SI units; wide of any solid, and their product far from overflow.
+THERMAL_RANGE = (1e-6, 1e9)
+
+
+@dataclass(frozen=True, slots=True)
+class Thermal:
+    """Thermal constants of wheel and rail, of one material, each but the share within `THERMAL_RANGE`.
+
+    Parameters
+    ----------
+    conductivity : float
+        λ [W/(m K)]; 50 for steel [2+].
+    density : float
+        ρ [kg/m³]; 7850 [2+].
+    heat_capacity : float
+        c [J/(kg K)]; 450 [2+] (all three: Ertz and Knothe 2002, Wear 253, 498-508; constants.md 8).
+    heat_share : float
+        Share of the frictional energy that becomes heat, 0 to 1.
+
+    Raises
+    ------
+    ContactError
+        For a constant outside its range.
+    """
+
+    conductivity: float = 50.0
+    density: float = 7850.0
+    heat_capacity: float = 450.0
+    heat_share: float = 1.0
+
+    def __post_init__(self) -> None:
+        for name in ("conductivity", "density", "heat_capacity"):
+            require_number(f"thermal.{name}", getattr(self, name), *THERMAL_RANGE)
+        require_number("thermal.heat_share", self.heat_share, 0.0, 1.0)
+
+    @property
+    def penetration(self) -> float:
+        """β = √(λ ρ c) [W √s/(m² K)]."""
+        return math.sqrt(self.conductivity * self.density * self.heat_capacity)
+
+    @property
+    def heating(self) -> float:
+        """Heat share over 2 β √π [m² K/(W √s)], half of the heat in each body (theory.md 8.5)."""
+        return heating(self.conductivity, self.density, self.heat_capacity, self.heat_share)
+
+
+def heating(conductivity: float, density: float, heat_capacity: float, heat_share: float) -> float:
+    """`Thermal.heating` of these constants."""
+    return heat_share / (2.0 * math.sqrt(math.pi * conductivity * density * heat_capacity))

@@ -44,7 +44,7 @@ from contact._layout import (
 )
 from contact._layout import RES_EDGES as EDGES
 from contact.conformal import bend, project
-from contact.friction import of_case, over_profile, slope_of_case
+from contact.friction import of_bodies, of_case, over_profile, slope_of_case
 from contact.normal.lay import interval_minimum
 from contact.normal.press import fill_cut, press, share_of
 from contact.quadrature import EL_DX, EL_S, EL_SINE
@@ -125,11 +125,11 @@ def _bear(strips, n, elements, fields):
 
 @kernel
 def _set_rolling(strips, n, case):
-    """What friction acts on, the pressure times the factor of a strip's side of the profile, and the creepages of the plane."""
-    factor = case[CASE_GAUGE_FACTOR]
+    """What friction acts on, the pressure times factors of temperature and side of the profile, and the plane's creepages."""
+    factor, bodies = case[CASE_GAUGE_FACTOR], of_bodies(case)
     for i in range(n):
         strips[STRIP_VX, i], strips[STRIP_VY, i], strips[STRIP_PHI, i] = case[CASE_VX], case[CASE_VY], case[CASE_PHI]
-        strips[STRIP_BOUND, i] = strips[STRIP_P0, i]
+        strips[STRIP_BOUND, i] = strips[STRIP_P0, i] * bodies
         if factor != 1.0:
             strips[STRIP_BOUND, i] *= over_profile(
                 factor, case[CASE_BORDER], case[CASE_BORDER_WIDTH], strips[STRIP_Y, i]

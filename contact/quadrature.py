@@ -74,8 +74,9 @@ def fejer(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     EL_ANGLE_END,  # angle of the trailing side of the element
     EL_LOAD_END,  # ∫√(1 - s²) ds from the leading edge to the trailing side
     EL_MOMENT_END,  # ∫s√(1 - s²) ds likewise
-) = range(9)
-N_EL = 9
+    EL_END,  # s of the trailing side
+) = range(10)
+N_EL = 10
 
 
 @kernel
@@ -102,7 +103,7 @@ def fill_elements(rows):
         rows[EL_STEP, k], rows[EL_MIDDLE, k] = before - s, 0.5 * (before + s)
         rows[EL_ATANH, k] = math.log(sine / (1.0 + s) / half_angle) if k > 0 else math.inf
         rows[EL_ANGLE_END, k], rows[EL_LOAD_END, k] = end, 0.5 * (end - end_sine * end_s)
-        rows[EL_MOMENT_END, k] = end_sine**3 / 3.0
+        rows[EL_MOMENT_END, k], rows[EL_END, k] = end_sine**3 / 3.0, end_s
         before, half_angle = s, sine / (1.0 + s)
 
 
@@ -118,7 +119,7 @@ def panel(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 @functools.lru_cache(maxsize=64)
 def elements(n: int) -> NDArray[np.float64]:
-    """Rows of constants of n elements along a strip, cosine-spaced; shape (9, n), rows EL_… of this module.
+    """Rows of constants of n elements along a strip, cosine-spaced; shape (10, n), rows EL_… of this module.
 
     The semi-elliptic pressure summed over these elements is exact for n >= 2.
     """

@@ -1,7 +1,7 @@
 """Flash temperature: what friction heats a surface up to while it crosses the patch (theory.md 8.5).
 
 Heat flows into a body much slower than the body moves (great Péclet number), so each strip is on its own: half of the heat
-q|s| enters each body, and a particle that entered at x = a has at x been heated by
+q·s enters each body, and a particle that entered at x = a has at x been heated by
 
     ΔT(x) = 1/(2 β √(πV)) ∫_x^a q|s|/√(ξ - x) dξ,    β = √(λ ρ c),
 
@@ -12,52 +12,15 @@ with the slip velocity |s| in m/s and the rolling speed V. Elliptic heat, mu p0 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.errors import ContactError, require_number
+from contact.errors import ContactError
+from contact.material import Thermal
 from contact.solution import Solution
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True)
-class Thermal:
-    """Thermal constants of wheel and rail, of one material.
-
-    Parameters
-    ----------
-    conductivity : float
-        λ [W/(m K)]; 50 for steel [2+].
-    density : float
-        ρ [kg/m³]; 7850 [2+].
-    heat_capacity : float
-        c [J/(kg K)]; 450 [2+] (all three: Ertz and Knothe 2002, Wear 253, 498-508; constants.md 8).
-    heat_share : float
-        Share of the frictional energy that becomes heat, 0 to 1.
-
-    Raises
-    ------
-    ContactError
-        For a constant outside its range.
-    """
-
-    conductivity: float = 50.0
-    density: float = 7850.0
-    heat_capacity: float = 450.0
-    heat_share: float = 1.0
-
-    def __post_init__(self) -> None:
-        for name in ("conductivity", "density", "heat_capacity"):
-            require_number(f"thermal.{name}", getattr(self, name), 0.0, open_minimum=True)
-        require_number("thermal.heat_share", self.heat_share, 0.0, 1.0)
-
-    @property
-    def penetration(self) -> float:
-        """β = √(λ ρ c) [W √s/(m² K)]."""
-        return math.sqrt(self.conductivity * self.density * self.heat_capacity)
 
 
 def heating(flux: Array, edges: Array, speed: float, thermal: Thermal) -> Array:
@@ -75,7 +38,7 @@ def heating(flux: Array, edges: Array, speed: float, thermal: Thermal) -> Array:
     """
     middle = 0.5 * (edges[:-1] + edges[1:])
     roots = 2.0 * np.sqrt(np.maximum(edges[None, :] - middle[:, None], 0.0))  # ∫dξ/√(ξ - x) from x to each edge
-    scale = thermal.heat_share / (2.0 * thermal.penetration * math.sqrt(math.pi * speed))
+    scale = thermal.heating / math.sqrt(speed)
     return scale * ((roots[:, :-1] - roots[:, 1:]) @ flux)
 
 
@@ -96,7 +59,7 @@ def flash_temperature(solution: Solution, thermal: Thermal | None = None) -> Arr
     """
     if not solution.has_fields:
         raise ContactError(f"solution.tangential = {solution.tangential!r} gives no slip, from which to take the heat")
-    flux = np.hypot(solution.qx, solution.qy) * np.hypot(solution.sx, solution.sy) * solution.speed
+    flux = -(solution.qx * solution.sx + solution.qy * solution.sy) * solution.speed
     n = flux.shape[1]
     grid, strips = np.cos(np.arange(n + 1) * math.pi / max(n, 1)), solution.strips
     equal = getattr(solution, "grid", None) is not None  # elements of one width, also beside the patch

@@ -16,7 +16,7 @@ from contact.normal.strip_halfspace import MEM_LN_A
 from contact.normal.strip_system import N_VECTOR_ROWS
 from contact.registry import Method
 from contact.tangential import table
-from contact.tangential.lanes import LANES, N_LANE_ROWS, N_TRACE
+from contact.tangential.lanes import LANES, N_LANE_ROWS, TRACE_WIDTH
 
 Array = NDArray[np.float64]
 
@@ -121,7 +121,7 @@ def allocate(
             lu=np.empty((size, size)),
             memory=np.zeros(MEM_LN_A + size),
             lanes=np.empty(N_LANE_ROWS * LANES),
-            trace=np.empty((n_elements, N_TRACE * LANES)),
+            trace=np.empty((n_elements, TRACE_WIDTH)),
         ),
         np.empty((N_STRIP_ROWS, capacity)),
         np.empty((N_FIELD_ROWS, capacity if fields else 1, n_elements)),

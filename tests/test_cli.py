@@ -11,6 +11,7 @@ import pytest
 
 import contact
 from contact import damage
+from contact.friction import Friction
 from contact.geometry import conicity, contact_points, profile, wheelset
 
 typer = pytest.importorskip("typer")
@@ -41,6 +42,20 @@ def test_solve_gives_the_numbers_of_the_python_api():
     assert answer[0]["status"] == "OK"
     assert answer[0]["damage"]["T_gamma"] == d.T_gamma
     assert answer[0]["damage"]["archard_volume"] == d.archard.volume
+
+
+def test_the_options_of_friction_are_those_of_the_python_api():
+    words = ("--curvatures", 1.1, 0.8, "--creepage", 0.05, 0.0, 0.1, "--friction", 0.4, "--speed", 30.0)
+    falling = ("--falling", "rational", 0.2, 2.0, "--slip-velocity", "local")
+    hot = ("--hot", 0.5, 320.0, 150.0, "--temperature", 300.0)
+    answer = json.loads(call("solve", *words, *falling, *hot, "--json").stdout)["patches"][0]
+    surface = Friction(
+        0.4, 0.2, 2.0, "rational", velocity="local",
+        hot_factor=0.5, reference_temperature=320.0, temperature_range=150.0, background_temperature=300.0,
+    )  # fmt: skip
+    separation, creepage = contact.Separation.hertzian(1.1, 0.8), contact.Creepage(0.05, 0.0, 0.1)
+    s = contact.solve(separation, creepage, load=80e3, friction=surface, speed=30.0)
+    assert (answer["Fx"], answer["Mz"]) == (s.Fx, s.Mz)
 
 
 def test_a_law_without_fields_shows_what_it_has(tmp_path):

@@ -25,6 +25,7 @@ from contact.cli.problem import Position, Touch
 from contact.cli.statistics import statistics
 from contact.creepage import Creepage
 from contact.errors import require_number
+from contact.friction import ROOM_TEMPERATURE
 from contact.geometry import profile
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, methods
 
@@ -63,6 +64,8 @@ def solve(
     falling: opt.Falling = None,
     slip_velocity: opt.SlipVelocity = "global",
     gauge_friction: opt.GaugeFriction = None,
+    hot: opt.Hot = None,
+    temperature: opt.Background = ROOM_TEMPERATURE,
     pressure_limit: opt.PressureLimit = math.inf,
     creepage: opt.Creep = None,
     curvatures: opt.Curvatures = None,
@@ -76,7 +79,8 @@ def solve(
 
     Examples:  contact solve --y 3e-3 --load 80e3   ·   contact solve --curvatures 1.1 0.8 --creepage 1e-3 0 0.1
     """
-    surface, material = opt.surface(friction, falling, slip_velocity, gauge_friction), opt.steel(pressure_limit)
+    surface = opt.surface(friction, falling, slip_velocity, gauge_friction, hot, temperature)
+    material = opt.steel(pressure_limit)
     options = {"friction": surface, "material": material, "normal": normal, "tangential": tangential}
     options |= PICTURE_RESOLUTION if plot else {}
     given = None if creepage is None else Creepage(*creepage)
@@ -120,6 +124,8 @@ def patch(
     falling: opt.Falling = None,
     slip_velocity: opt.SlipVelocity = "global",
     gauge_friction: opt.GaugeFriction = None,
+    hot: opt.Hot = None,
+    temperature: opt.Background = ROOM_TEMPERATURE,
     pressure_limit: opt.PressureLimit = math.inf,
     creepage: opt.Creep = None,
     normal: opt.Normal = DEFAULT_NORMAL,
@@ -134,7 +140,8 @@ def patch(
     case = _position(
         wheel, rail, opt.reading(inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed
     )
-    surface, material = opt.surface(friction, falling, slip_velocity, gauge_friction), opt.steel(pressure_limit)
+    surface = opt.surface(friction, falling, slip_velocity, gauge_friction, hot, temperature)
+    material = opt.steel(pressure_limit)
     options = {
         "friction": surface,
         "material": material,
@@ -174,6 +181,8 @@ def curve(
     friction: opt.Friction = 0.3,
     falling: opt.Falling = None,
     slip_velocity: opt.SlipVelocity = "global",
+    hot: opt.Hot = None,
+    temperature: opt.Background = ROOM_TEMPERATURE,
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangentials = [DEFAULT_TANGENTIAL],  # noqa: B006 (typer copies it)
     table: opt.Csv = None,
@@ -186,7 +195,8 @@ def curve(
     end = largest if largest is not None else (1.0 if over is opt.Motion.spin else 0.01)
     start = Creepage() if creepage is None else Creepage(*creepage)
     values = np.linspace(0.0, require_number("max", end), points).tolist()
-    options = {"friction": opt.surface(friction, falling, slip_velocity), "normal": normal, "speed": speed}
+    surface = opt.surface(friction, falling, slip_velocity, hot=hot, background=temperature)
+    options = {"friction": surface, "normal": normal, "speed": speed}
     rows = problem.sweep(over.value, values, start, curvatures, load, tangential, options)
     force, unit = ("Fx" if over is opt.Motion.longitudinal else "Fy"), ("1/m" if over is opt.Motion.spin else "-")
     axis, ordinate = f"{over} creepage [{unit}]", f"−{force}/N"

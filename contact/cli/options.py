@@ -12,7 +12,7 @@ import typer
 from contact import friction
 from contact.cli.problem import OF_A_POSITION, STANDARD_LOAD
 from contact.errors import ContactError
-from contact.friction import LAWS, VELOCITIES
+from contact.friction import LAWS, ROOM_TEMPERATURE, VELOCITIES
 from contact.material import STEEL, Material
 
 
@@ -88,6 +88,17 @@ GaugeFriction = Annotated[
         metavar="FACTOR Y WIDTH",
         rich_help_panel=LOADING,
     ),
+]
+Hot = Annotated[
+    tuple[float, float, float] | None,
+    typer.Option(
+        help="what heat leaves of friction, 0 to 1; temperature in K above which friction falls; over how many K",
+        metavar="FACTOR FROM RANGE",
+        rich_help_panel=LOADING,
+    ),
+]
+Background = Annotated[
+    float, typer.Option("--temperature", help="of wheel and rail, in K, for --hot", rich_help_panel=LOADING)
 ]
 PressureLimit = Annotated[
     float,
@@ -180,10 +191,13 @@ def surface(
     falling: tuple[str, float, float] | None,
     velocity: str,
     gauge: tuple[float, float, float] | None = None,
+    hot: tuple[float, float, float] | None = None,
+    background: float = ROOM_TEMPERATURE,
 ) -> friction.Friction:
     """The options of friction as `contact.solve` takes them."""
     law, kinetic, half_speed = falling or ("coulomb", static, 1.0)
     factor, border, width = gauge or (1.0, 0.0, 1.0)
+    hot_factor, reference, over = hot or (1.0, background, 1.0)
     return replace(
         friction.as_friction(static),
         kinetic=kinetic,
@@ -193,6 +207,10 @@ def surface(
         gauge_factor=factor,
         border=border,
         border_width=width,
+        hot_factor=hot_factor,
+        reference_temperature=reference,
+        temperature_range=over,
+        background_temperature=background,
     )
 
 

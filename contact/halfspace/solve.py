@@ -9,10 +9,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from contact._layout import N_CASE
 from contact.creepage import Creepage
 from contact.errors import ContactError
-from contact.friction import Friction
+from contact.friction import Friction, fill, of_bodies
 from contact.halfspace.gap import Division, Gap, lay, least, overlap
+from contact.halfspace.heat import heat_up
 from contact.halfspace.norm import Normal, norm
 from contact.halfspace.solution import GridSolution, assemble
 from contact.halfspace.tang import Tangential, tang
@@ -24,7 +26,7 @@ Array = NDArray[np.float64]
 
 #: Elements on which the approach under a load is estimated, and the cap of that estimate.
 _COARSE, _MAX_STEPS = Division(20, 20), 40
-#: Steps of a friction law that follows the local slip velocity: cap, share of each change taken over, when to stop.
+#: Steps of friction that follows local slip velocity or temperature: cap, share of each change taken over, when to stop.
 _MAX_FALLS, _FALL_SHARE, _FALL_TOLERANCE = 60, 0.5, 1e-3
 #: The grid reaches as far as the overlap at this multiple of the estimated approach.
 _ROOM = 1.02
@@ -116,25 +118,35 @@ def _roll(
 ) -> tuple[Tangential, float]:
     """TANG with a law of friction; the solution and the coefficient that nowhere is exceeded.
 
-    Where the law follows the local slip velocity, each step solves with the coefficients of the slip before, from stick on;
-    of what a law wants only a share is taken over, as several solutions and oscillation between them are possible.
+    Where it follows the local slip velocity or the temperature, each step solves with the coefficients of the slip before,
+    from stick on; of what a law wants only a share is taken over, as several solutions and oscillation between them are
+    possible. The temperature along the rows is that by the friction that it leaves (`heat`), for a given slip.
     """
-    factor = friction.factor(y)[:, None] if friction.gauge_factor != 1.0 else np.ones((1, 1))
-    if friction.velocity == "global" or friction.law == "coulomb":
+    case = np.zeros(N_CASE)
+    fill(case, friction, speed)
+    factor = of_bodies(case) * (friction.factor(y)[:, None] if friction.gauge_factor != 1.0 else np.ones((1, 1)))
+    local, hot = friction.velocity != "global" and friction.law != "coulomb", friction.hot_factor < 1.0
+    mu = friction.static
+    if not local:
         mu = float(friction.coefficient(speed * math.hypot(creepage.longitudinal, creepage.lateral)))
+    if not (local or hot):
         return tang(p, x, y, creepage, mu * factor, material, progress=progress), mu
-    field = np.full(p.shape, friction.static)
+    field = np.full(p.shape, mu)
     rolling = tang(p, x, y, creepage, field * factor, material, progress=progress)
     for _ in range(_MAX_FALLS):
-        wanted = np.minimum(friction.coefficient(speed * np.hypot(rolling.sx, rolling.sy)), friction.static)
+        slip, wanted = np.hypot(rolling.sx, rolling.sy), np.full(p.shape, mu)
+        if local:
+            wanted = np.minimum(friction.coefficient(speed * slip), mu)
         if friction.velocity == "greatest":  # particles come from the leading edge, x = max
             wanted = np.minimum.accumulate(wanted[:, ::-1], axis=1)[:, ::-1]
+        if hot:
+            heat_up(case, factor * p * slip, x[1] - x[0], wanted)
         change = wanted - field
         field = field + _FALL_SHARE * change
         rolling = tang(p, x, y, creepage, field * factor, material, start=(rolling.qx, rolling.qy), progress=progress)
-        if abs(change * (p > 0.0)).max() <= _FALL_TOLERANCE * friction.static:
-            return rolling, friction.static
-    return replace(rolling, converged=False), friction.static
+        if abs(change * (p > 0.0)).max() <= _FALL_TOLERANCE * mu:
+            return rolling, mu
+    return replace(rolling, converged=False), mu
 
 
 def _status(gap: Separation | Gap, p: Array, y: Array, converged: bool) -> Status:

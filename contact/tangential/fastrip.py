@@ -48,14 +48,28 @@ from contact._layout import (
     STRIP_XC,
     STRIP_Y,
 )
-from contact.friction import fallen, falls_locally
 from contact.quadrature import EL_DX, EL_LOAD_END, EL_MOMENT_END, EL_S, EL_SINE
 from contact.registry import STRIP_THEORY
 from contact.tangential.ellipses import equivalent_ellipse
 from contact.tangential.fastsim import NO_FRICTION
-from contact.tangential.lanes import LANES, N_LANE_ROWS, NOW_SLIDES, NOW_SLIP, NOW_STICK, NOW_X, NOW_Y, keep, recall
+from contact.tangential.lanes import (
+    FALL,
+    FLUX,
+    HEATING,
+    LANES,
+    N_LANE_ROWS,
+    NOW_SLIDES,
+    NOW_SLIP,
+    NOW_STICK,
+    NOW_X,
+    NOW_Y,
+    SLIP,
+    keep,
+    recall,
+)
 from contact.tangential.march import FREE_BEHIND_MARCH, ROW_X, ROW_Y, ROW_Z, march
 from contact.tangential.strip_theory import coefficients, inner_resultants, outer_resultants, stick_zone
+from contact.tangential.varying import begin, soften, varies
 
 _NOW_SX, _NOW_SY = NOW_SLIP, NOW_SLIDES  # where `_show` leaves the slip velocity
 
@@ -85,8 +99,7 @@ _NOW_SX, _NOW_SY = NOW_SLIP, NOW_SLIDES  # where `_show` leaves the slip velocit
     _FY,
     _MZ,
     _POWER,
-    _FALL,  # coefficient of friction over the static one
-) = (FREE_BEHIND_MARCH + row * LANES for row in range(25))
+) = (FREE_BEHIND_MARCH + row * LANES for row in range(24))
 
 
 @kernel
@@ -165,16 +178,26 @@ def _keep_direction(lanes, trace):
 
 
 @kernel
+def _slip(lanes, l, s):
+    """Slip at s against the direction of lane l: strip theory's behind a stick zone, else rigid and elastic slip."""
+    ex, ey = lanes[NOW_X + l], lanes[NOW_Y + l]
+    sx = lanes[_VX + l] + lanes[_FLEXIBILITY_X + l] * ex * s
+    sy = lanes[_VY + l] + (lanes[_SPIN + l] + lanes[_FLEXIBILITY_Y + l] * ey) * s
+    slip = -(sx * ex + sy * ey)
+    slip = slip if slip > 0.0 and lanes[_E + l] >= 1.0 else 0.0
+    behind = 2.0 * lanes[_E + l] - 1.0 - s
+    return slip + lanes[_STRAIN + l] * math.sqrt((1.0 - s) * 0.5 * (behind + abs(behind)))
+
+
+@kernel
 def _slip_zone(elements, lanes, trace, shown, falling):
     """Sum the slip zones of a block: magnitude mu·p, exact over each element, direction of the march.
 
     The slip is strip theory's behind a stick zone; in strips that slip as a whole it is rigid and elastic slip against the
-    traction. With `shown` the fields are left in `trace`. `falling` is the case where friction falls with the local slip, or
+    traction. With `shown` the fields are left in `trace`. `falling` is the case where friction varies along the strip, or
     None: numba compiles each on its own, the second without what belongs to the first.
     """
     for l in range(LANES):
-        if falling is not None:
-            lanes[_FALL + l] = 1.0
         lanes[_FX + l], lanes[_FY + l], lanes[_MZ + l], lanes[_POWER + l] = 0.0, 0.0, 0.0, 0.0
     load_before, moment_before = 0.0, 0.0
     for k in range(elements.shape[1]):
@@ -186,6 +209,12 @@ def _slip_zone(elements, lanes, trace, shown, falling):
             sticks += 1 if lanes[NOW_SLIDES + l] < 0.5 and load_end > lanes[_LOAD + l] else 0
         if sticks > 0:
             _normalise(lanes)
+        if falling is not None:
+            for l in range(LANES):
+                slip = _slip(lanes, l, s)
+                lanes[SLIP + l], lanes[FLUX + l] = slip, lanes[HEATING + l] * elements[EL_SINE, k] * slip
+                lanes[NOW_STICK + l] = 0.0  # the sums take the part behind the stick zone alone
+            soften(falling, k, elements, lanes, trace)
         for l in range(LANES):
             load_from, ex, ey = lanes[_LOAD + l], lanes[NOW_X + l], lanes[NOW_Y + l]
             first = load_before if load_before > load_from else load_from
@@ -194,16 +223,9 @@ def _slip_zone(elements, lanes, trace, shown, falling):
             moment_start = moment_before if load_before > load_from else moment_from
             share, share_s = last - first, moment_end - moment_start
             share_s = share_s if load_end > load_from else 0.0
-            sx = lanes[_VX + l] + lanes[_FLEXIBILITY_X + l] * ex * s
-            sy = lanes[_VY + l] + (lanes[_SPIN + l] + lanes[_FLEXIBILITY_Y + l] * ey) * s
-            slip = -(sx * ex + sy * ey)
-            slip = slip if slip > 0.0 and lanes[_E + l] >= 1.0 else 0.0
-            behind = 2.0 * lanes[_E + l] - 1.0 - s
-            slip += lanes[_STRAIN + l] * math.sqrt((1.0 - s) * 0.5 * (behind + abs(behind)))
-            amount = weight
+            slip, amount = _slip(lanes, l, s), weight
             if falling is not None:
-                fall = fallen(falling, slip, 0.0, lanes[_FALL + l])
-                lanes[_FALL + l] = fall
+                fall = lanes[FALL + l]
                 share, share_s, amount = share * fall, share_s * fall, weight * fall
             lanes[_FX + l] += share * ex
             lanes[_FY + l] += share * ey
@@ -235,7 +257,7 @@ def _show(s, sine, lanes, falling):
         sticks += 1 if stick > 0.5 else 0
         size = sine
         if falling is not None:
-            size = sine * lanes[_FALL + l]
+            size = sine * lanes[FALL + l]
         lanes[NOW_X + l], lanes[NOW_Y + l] = size * ex, size * ey
         lanes[_NOW_SX + l], lanes[_NOW_SY + l], lanes[NOW_STICK + l] = -slip * ex, -slip * ey, stick
     if sticks == 0:
@@ -294,7 +316,8 @@ def fastrip(strips, n, case, table, elements, lanes, trace, fields, result):
             _keep_direction(lanes, trace)
         else:
             march(False, elements, lanes, trace)
-        if falls_locally(case):
+        if varies(case):
+            begin(strips, block, n, case, _BOUND, lanes)
             _slip_zone(elements, lanes, trace, shown, case)
         else:
             _slip_zone(elements, lanes, trace, shown, None)

@@ -39,13 +39,15 @@ from contact._layout import (
     STRIP_XC,
     STRIP_Y,
 )
-from contact.friction import fallen, falls_locally
 from contact.quadrature import EL_ATANH, EL_DX, EL_MIDDLE, EL_S, EL_SINE, EL_STEP
 from contact.tangential.ellipses import equivalent_ellipse
 from contact.tangential.fastsim import NO_FRICTION
 from contact.tangential.lanes import (
+    FALL,
     FAR,
+    FLUX,
     FREE_ROW,
+    HEATING,
     LANES,
     N_LANE_ROWS,
     NOW_SLIDES,
@@ -53,10 +55,12 @@ from contact.tangential.lanes import (
     NOW_STICK,
     NOW_X,
     NOW_Y,
+    SLIP,
     decay_and_lag,
     keep,
     turned,
 )
+from contact.tangential.varying import begin, soften, varies
 
 _NOW_SHARE = NOW_STICK  # where `_fall` leaves the share of the traction that friction still bears
 _LOG_ASPECT_FIT = 1.7  # ln(a/b) up to which the constants were fitted; frozen beyond
@@ -352,25 +356,31 @@ def _stop(before, s, step, per_bound, lanes):
 
 
 @kernel
-def _fall(case, elements, unit, lanes, trace, l):
-    """Let friction of lane l fall with the local slip: coefficients over the static one into `trace`, new sums."""
-    fall, sum_x, sum_y, sum_m, power, stick = 1.0, 0.0, 0.0, 0.0, 0.0, 0.0
+def _fall(case, elements, lanes, trace):
+    """Let friction vary along the strips of a block: what it bears of the traction into `trace`, new sums."""
+    for l in range(LANES):
+        lanes[_SUM_X + l], lanes[_SUM_Y + l], lanes[_SUM_M + l] = 0.0, 0.0, 0.0
+        lanes[_POWER + l], lanes[_STICK + l] = 0.0, 0.0
     for k in range(elements.shape[1]):
-        qx, qy, slip = trace[k, NOW_X + l], trace[k, NOW_Y + l], trace[k, NOW_SLIP + l]
-        fall = fallen(case, slip * unit, trace[k, NOW_STICK + l], fall)
-        used, share = math.sqrt(qx * qx + qy * qy), 1.0
-        if fall < 1.0 and used > fall:
-            share = fall / used
-            trace[k, NOW_SLIDES + l], trace[k, NOW_STICK + l] = 1.0, 0.0
-        weight = elements[EL_SINE, k] * elements[EL_DX, k]
-        sum_x += weight * (qx * share)
-        sum_y += weight * (qy * share)
-        sum_m += weight * elements[EL_S, k] * (qy * share)
-        power += weight * slip * share
-        stick += elements[EL_STEP, k] * trace[k, NOW_STICK + l]
-        trace[k, _NOW_SHARE + l] = share
-    lanes[_SUM_X + l], lanes[_SUM_Y + l], lanes[_SUM_M + l] = sum_x, sum_y, sum_m
-    lanes[_POWER + l], lanes[_STICK + l] = power, stick
+        sine = elements[EL_SINE, k]
+        weight = sine * elements[EL_DX, k]
+        for l in range(LANES):
+            slip = trace[k, NOW_SLIP + l] * lanes[_UNIT + l]
+            lanes[SLIP + l], lanes[FLUX + l] = slip, lanes[HEATING + l] * sine * slip
+            lanes[NOW_STICK + l] = trace[k, NOW_STICK + l]
+        soften(case, k, elements, lanes, trace)
+        for l in range(LANES):
+            qx, qy, slip, fall = trace[k, NOW_X + l], trace[k, NOW_Y + l], trace[k, NOW_SLIP + l], lanes[FALL + l]
+            used, share = math.sqrt(qx * qx + qy * qy), 1.0
+            if fall < 1.0 and used > fall:
+                share = fall / used
+                trace[k, NOW_SLIDES + l], trace[k, NOW_STICK + l] = 1.0, 0.0
+            lanes[_SUM_X + l] += weight * (qx * share)
+            lanes[_SUM_Y + l] += weight * (qy * share)
+            lanes[_SUM_M + l] += weight * elements[EL_S, k] * (qy * share)
+            lanes[_POWER + l] += weight * slip * share
+            lanes[_STICK + l] += elements[EL_STEP, k] * trace[k, NOW_STICK + l]
+            trace[k, _NOW_SHARE + l] = share
 
 
 @kernel
@@ -395,18 +405,19 @@ def fastrip_mapped(strips, n, case, table, elements, lanes, trace, fields, resul
     if a_e > 0.0:
         y_c, y_spin, rho33 = elastic_centre(strips, n, table, math.log(a_e / b_e))
     behind = 1.0 + elements[EL_S, -1]  # the middle of the last element
-    falling = falls_locally(case)
+    falling = varies(case)
     for block in range(0, n, LANES):
         for l in range(LANES):
             bound, unit = _set_strip(strips, min(block + l, n - 1), case, table, y_c, y_spin, rho33, lanes, l)
             lanes[_BOUND + l], lanes[_UNIT + l] = bound, unit
         _march(elements, lanes, trace)
+        if falling:
+            begin(strips, block, n, case, _BOUND, lanes)
+            _fall(case, elements, lanes, trace)
         for l in range(min(LANES, n - block)):
             i = block + l
             a, dy, y, xc = strips[STRIP_A, i], strips[STRIP_DY, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
             bound, unit = lanes[_BOUND + l], lanes[_UNIT + l]
-            if falling:
-                _fall(case, elements, unit, lanes, trace, l)
             load = bound * a * dy
             Fx += load * lanes[_SUM_X + l]
             Fy += load * lanes[_SUM_Y + l]

@@ -49,19 +49,31 @@ from contact._layout import (
     STRIP_XC,
     STRIP_Y,
 )
-from contact.friction import fallen, falls_locally
 from contact.normal.linder import local_ellipse
 from contact.quadrature import EL_DX, EL_S, EL_SINE, EL_STEP
 from contact.registry import FASTSIM_ELLIPTIC, FASTSIM_LINDER, FASTSIM_ONE, FASTSIM_STRIPES
 from contact.tangential.ellipses import equivalent_ellipse, flexibilities, weighted
-from contact.tangential.lanes import LANES, NOW_SLIDES, NOW_SLIP, NOW_STICK, NOW_X, NOW_Y
+from contact.tangential.lanes import (
+    FALL,
+    FLUX,
+    HEATING,
+    LANES,
+    NOW_SLIDES,
+    NOW_SLIP,
+    NOW_STICK,
+    NOW_X,
+    NOW_Y,
+    SLIP,
+    TRACE_FALL,
+)
 from contact.tangential.march import FREE_BEHIND_MARCH, ROW_X, ROW_Y, ROW_Z, march
+from contact.tangential.varying import begin, soften, varies
 
 #: A traction bound below this fraction of G is none: creepage over it would overflow.
 NO_FRICTION = 1e-15
 
 # rows of `lanes` behind those of the march
-_PEAK, _L1, _L2 = (FREE_BEHIND_MARCH + row * LANES for row in range(3))
+_PEAK, _L1, _L2, _PER_LENGTH = (FREE_BEHIND_MARCH + row * LANES for row in range(4))
 
 
 @kernel
@@ -87,6 +99,28 @@ def _peak_per_load(strips, n, elements, mu, N, elliptic):
 
 
 @kernel
+def _slip(lanes, trace, k, l):
+    """Slip over V of element k in lane l."""
+    slip = trace[k, NOW_SLIP + l] * lanes[_PER_LENGTH + l]
+    return -lanes[_L1 + l] * slip * trace[k, NOW_X + l], -lanes[_L2 + l] * slip * trace[k, NOW_Y + l]
+
+
+@kernel
+def _fall(case, elliptic, elements, lanes, trace):
+    """Leave the coefficients of friction that varies along the strips of a block, over those at rest, in `trace`."""
+    for k in range(elements.shape[1]):
+        size = elements[EL_SINE, k] if elliptic else elements[EL_SINE, k] ** 2
+        for l in range(LANES):
+            sx, sy = _slip(lanes, trace, k, l)
+            lanes[SLIP + l] = math.sqrt(sx * sx + sy * sy)
+            lanes[FLUX + l] = -lanes[HEATING + l] * size * (sx * trace[k, NOW_X + l] + sy * trace[k, NOW_Y + l])
+            lanes[NOW_STICK + l] = trace[k, NOW_STICK + l] if lanes[_PEAK + l] > 0.0 else 0.0
+        soften(case, k, elements, lanes, trace)
+        for l in range(LANES):
+            trace[k, TRACE_FALL + l] = lanes[FALL + l]
+
+
+@kernel
 def fastsim(strips, n, case, table, elements, lanes, trace, fields, result):
     """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`."""
     method, G = case[CASE_TANGENTIAL], case[CASE_G]
@@ -96,7 +130,7 @@ def fastsim(strips, n, case, table, elements, lanes, trace, fields, result):
     L1, L2, L3 = flexibilities(G, a0, b0, table)
     if method == FASTSIM_ONE:
         L1 = L2 = L3 = weighted(case[CASE_VX], case[CASE_VY], case[CASE_PHI], math.sqrt(a0 * b0), L1, L2, L3)
-    local_friction = falls_locally(case)
+    falling = varies(case)
     per_load = _peak_per_load(strips, n, elements, case[CASE_MU], result[RES_N], elliptic)
     for block in range(0, n, LANES):
         for l in range(LANES):
@@ -109,28 +143,30 @@ def fastsim(strips, n, case, table, elements, lanes, trace, fields, result):
                 L1, L2, L3 = flexibilities(G, own_a, own_b, table)
             vx, vy, phi = strips[STRIP_VX, i], strips[STRIP_VY, i], strips[STRIP_PHI, i]
             lanes[_PEAK + l], lanes[_L1 + l], lanes[_L2 + l] = peak if scale > 0.0 else 0.0, L1, L2
+            lanes[_PER_LENGTH + l] = lanes[_PEAK + l] / a if a > 0.0 else 0.0
             lanes[ROW_X + l] = scale * (vx / L1 - phi * strips[STRIP_Y, i] / L3)
             lanes[ROW_Y + l] = scale * (vy / L2 + phi * strips[STRIP_XC, i] / L3)
             lanes[ROW_Z + l] = scale * a * phi / L3
         march(elliptic, elements, lanes, trace)
+        if falling:
+            begin(strips, block, n, case, _PEAK, lanes)
+            _fall(case, elliptic, elements, lanes, trace)
         for l in range(min(LANES, n - block)):
             i = block + l
             row = min(i, fields.shape[1] - 1)  # one row serves all strips when only forces are asked for
             a, y, dy = strips[STRIP_A, i], strips[STRIP_Y, i], strips[STRIP_DY, i]
-            peak, of_x, of_y = lanes[_PEAK + l], lanes[_L1 + l], lanes[_L2 + l]
+            peak = lanes[_PEAK + l]
             frictionless = peak <= 0.0
-            fall = 1.0
             for k in range(elements.shape[1]):
                 ex, ey = trace[k, NOW_X + l], trace[k, NOW_Y + l]
-                stick, slip = trace[k, NOW_STICK + l], trace[k, NOW_SLIP + l]
+                stick = trace[k, NOW_STICK + l]
                 size = peak * (elements[EL_SINE, k] if elliptic else elements[EL_SINE, k] ** 2)
                 qx, qy = size * ex, size * ey
-                slip *= peak / a if a > 0.0 else 0.0
-                sx, sy = -of_x * slip * ex, -of_y * slip * ey
+                sx, sy = _slip(lanes, trace, k, l)
                 stick = 0.0 if frictionless else stick
                 slides = trace[k, NOW_SLIDES + l]
-                if local_friction:
-                    fall = fallen(case, math.sqrt(sx * sx + sy * sy), stick, fall)
+                if falling:
+                    fall = trace[k, TRACE_FALL + l]
                     used = math.sqrt(ex * ex + ey * ey)
                     if fall < 1.0 and used > fall:
                         qx, qy = qx * (fall / used), qy * (fall / used)

@@ -10,8 +10,10 @@ from contact import kalker, quadrature
 from contact._layout import (
     CASE_BORDER,
     CASE_BORDER_WIDTH,
+    CASE_DROP,
     CASE_GAUGE_FACTOR,
     CASE_HALF_SPEED,
+    CASE_HEATING,
     CASE_K_A,
     CASE_K_S,
     CASE_KINETIC,
@@ -22,17 +24,20 @@ from contact._layout import (
     CASE_SLOPE_RATE,
     CASE_SPEED,
     CASE_VELOCITY,
+    CASE_WARM,
+    CASE_WARM_RANGE,
     MAX_PATCHES,
     N_FIELD_ROWS,
     N_RES,
     N_STRIP_ROWS,
 )
+from contact.material import heating
 from contact.normal import influence
 from contact.normal.analyn import N_WORK_ROWS
 from contact.normal.strip_halfspace import MEM_LN_A
 from contact.normal.strip_system import N_VECTOR_ROWS
 from contact.tangential import table
-from contact.tangential.lanes import LANES, N_LANE_ROWS, N_TRACE
+from contact.tangential.lanes import LANES, N_LANE_ROWS, TRACE_WIDTH
 from contact.workspace import Rule, Space, Tables, Workspace, columns_shape
 from fmu_src.native.memory import compiled, cube, matrix, vector
 
@@ -42,7 +47,7 @@ NORMAL_IDS = np.array([float(method.id) for method in _METHODS.normal.values()])
 TANGENTIAL_IDS = np.array([float(method.id) for method in _METHODS.tangential.values()])
 INTERACTING = np.array([method.interacting for method in _METHODS.normal.values()])
 
-_columns_shape = compiled(columns_shape)
+_columns_shape, _heating = compiled(columns_shape), compiled(heating)
 
 
 def data() -> tuple[np.ndarray, ...]:
@@ -75,7 +80,7 @@ def lay_out(work, end, memory, n_strips, n_elements, samples, centre, plane, cre
     influences, end = matrix(work, end, size, size)
     lu, end = matrix(work, end, size, size)
     lanes, end = vector(work, end, N_LANE_ROWS * LANES)
-    trace, end = matrix(work, end, n_elements, N_TRACE * LANES)
+    trace, end = matrix(work, end, n_elements, TRACE_WIDTH)
     strips, end = matrix(work, end, N_STRIP_ROWS, capacity)
     fields, end = cube(work, end, N_FIELD_ROWS, capacity, n_elements)
     result, end = vector(work, end, N_RES)
@@ -96,6 +101,8 @@ def fill_friction(v, coefficient, law, speed, case):
     case[CASE_VELOCITY] = v[law + 6] - 1.0
     case[CASE_GAUGE_FACTOR], case[CASE_BORDER], case[CASE_BORDER_WIDTH] = v[law + 7], v[law + 8], v[law + 9]
     case[CASE_K_A], case[CASE_K_S] = v[law + 10], v[law + 11]
+    case[CASE_DROP], case[CASE_WARM], case[CASE_WARM_RANGE] = 1.0 - v[law + 12], v[law + 13] - v[law + 15], v[law + 14]
+    case[CASE_HEATING] = _heating(v[law + 16], v[law + 17], v[law + 18], v[law + 19])
     case[CASE_SPEED] = speed
 
 

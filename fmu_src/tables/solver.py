@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 import contact
 from contact import Status, friction, registry
+from contact.material import THERMAL_RANGE, Thermal
 from contact.solve import N_ELEMENTS, N_STRIPS
 from fmu_src.variables import Enumeration, Variable, output, parameter
 
@@ -34,6 +35,7 @@ FRICTION_VELOCITY = Enumeration(
         ),
     ),
 )
+_THERMAL = Thermal()
 _STATUS_NAMES = ("OK", "NoContact", "Saturated", "OutOfRange", "NotConverged")
 STATUS = Enumeration("Status", tuple(zip(_STATUS_NAMES, (status.message for status in Status), strict=True)))
 
@@ -160,6 +162,51 @@ def parameters() -> Iterable[Variable]:
             maximum=1.0,
             open_minimum=True,
         )
+    yield parameter(
+        "friction.hot_factor",
+        "What heat leaves of the coefficient of friction; 1: it does not depend on the temperature",
+        start=1.0,
+        minimum=0.0,
+        maximum=1.0,
+    )
+    room = friction.ROOM_TEMPERATURE
+    for name, start, description in (
+        ("reference_temperature", room, "Temperature above which friction falls linearly"),
+        ("temperature_range", 400.0, "How much above it only friction.hot_factor is left"),
+        ("background_temperature", room, "Temperature of wheel and rail outside the patch, the mean of both"),
+    ):
+        yield parameter(
+            f"friction.{name}",
+            description,
+            unit="K",
+            start=start,
+            minimum=0.0,
+            maximum=friction.HOTTEST,
+            open_minimum=name == "temperature_range",
+            nominal=100.0,
+        )
+    low, high = THERMAL_RANGE
+    for name, unit, description in (
+        ("conductivity", "W/(m.K)", "Thermal conductivity of wheel and rail"),
+        ("density", "kg/m3", "Density of wheel and rail"),
+        ("heat_capacity", "J/(kg.K)", "Specific heat capacity of wheel and rail"),
+    ):
+        yield parameter(
+            f"thermal.{name}",
+            f"{description}, for friction.hot_factor",
+            unit=unit,
+            start=getattr(_THERMAL, name),
+            minimum=low,
+            maximum=high,
+            nominal=100.0,
+        )
+    yield parameter(
+        "thermal.heat_share",
+        "Share of the frictional energy that becomes heat",
+        start=_THERMAL.heat_share,
+        minimum=0.0,
+        maximum=1.0,
+    )
 
 
 def damage() -> Iterable[Variable]:

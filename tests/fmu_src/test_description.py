@@ -57,7 +57,7 @@ def test_every_unit_is_defined_with_the_dimension_that_its_name_says(xml):
     derived = {"N": "kg.m.s-2", "Pa": "kg.m-1.s-2", "J": "kg.m2.s-2", "W": "kg.m2.s-3"}
 
     def dimension(name):
-        exponents = dict.fromkeys(("kg", "m", "s", "rad"), 0)
+        exponents = dict.fromkeys(("kg", "m", "s", "rad", "K"), 0)
         for sign, part in zip((1, -1), name.split("/"), strict=False):
             for symbol, power in re.findall(r"([A-Za-z]+)(-?\d*)", part.strip("()")):
                 inner = re.findall(r"([A-Za-z]+)(-?\d*)", derived.get(symbol, symbol))

@@ -11,6 +11,7 @@ from contact_case import CREEPAGES
 import contact
 from contact.damage import evaluate
 from contact.friction import LAWS, VELOCITIES, Friction
+from contact.material import Thermal
 
 METHODS = contact.methods().batched
 #: Outputs after one step of STEP, without the creep stiffness.
@@ -20,6 +21,12 @@ OUTPUTS = (
     *("damage.index_burstow", "damage.wear_rate_usfd", "damage.archard_depth_max", "damage.archard_volume"),
     *("damage.fatigue_index_surface", "damage.stress_index_max", "damage.energy_index_max", "stiffness.normal"),
     *("total.energy", "total.worn_volume", "patch.count", "status"),
+)
+#: Parameters of friction that depends on the temperature.
+HEAT = (
+    *("friction.hot_factor", "friction.reference_temperature", "friction.temperature_range"),
+    *("friction.background_temperature", "thermal.conductivity", "thermal.density", "thermal.heat_capacity"),
+    "thermal.heat_share",
 )
 STEP = 1e-3
 POINTS = 41
@@ -102,6 +109,9 @@ def random_case(seed: int) -> Case:
     sides = sides if rng.random() < 0.5 else (1.0, 0.0, 5e-3)
     limit = rng.uniform(3e8, 2e9) if rng.random() < 0.3 else 0.0
     polach = (rng.uniform(0.1, 1.0), rng.uniform(0.1, 1.0))
+    hot = (rng.uniform(0.2, 0.9), rng.uniform(250.0, 500.0), 10 ** rng.uniform(1.0, 3.0), rng.uniform(250.0, 400.0))
+    hot = hot if rng.random() < 0.3 else (1.0, 293.15, 400.0, 293.15)
+    thermal = (rng.uniform(20.0, 80.0), rng.uniform(7e3, 8e3), rng.uniform(400.0, 500.0), rng.uniform(0.5, 1.0))
     values = {
         "geometry.kind": 2 if curvatures else 1,
         "geometry.y0": y0,
@@ -127,6 +137,7 @@ def random_case(seed: int) -> Case:
         "friction.velocity": velocity + 1,
         **dict(zip(("friction.gauge_factor", "friction.border", "friction.border_width"), sides, strict=True)),
         **dict(zip(("friction.k_A", "friction.k_S"), polach, strict=True)),
+        **dict(zip(HEAT, (*hot, *thermal), strict=True)),
         "speed": speed,
         "wheel.radius": radius,
         "method.normal": normal + 1,
@@ -139,7 +150,10 @@ def random_case(seed: int) -> Case:
         contact.Creepage(*creepages),
         load=load if by_load else None,
         approach=None if by_load else approach,
-        friction=Friction(mu, kinetic, half_speed, LAWS[law], *slopes, VELOCITIES[velocity], *sides, *polach),
+        friction=Friction(
+            *(mu, kinetic, half_speed, LAWS[law], *slopes, VELOCITIES[velocity], *sides, *polach, *hot),
+            thermal=Thermal(*thermal),
+        ),
         material=contact.Material(G, nu, hardness=H, shear_yield=k, pressure_limit=limit or math.inf),
         speed=speed,
         normal=list(METHODS.normal)[normal],
