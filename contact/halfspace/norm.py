@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact._jit import kernel
 from contact.halfspace.influence import Influence
 from contact.halfspace.krylov import dot, size
 from contact.material import Material
@@ -27,6 +28,11 @@ Array = NDArray[np.float64]
 MAX_ITERATIONS, MAX_STEPS = 300, 30
 #: Coarser grids are used down to this number of elements along either side.
 _LEAST_SIDE = 20
+#: Share of the approach above the least gap up to which the start without a coarser grid takes elements to be in contact: in
+#: Hertz contact at 1/(1 + alpha) along x and 1/(1 + beta) along y, .5 on a circle.
+_LIKELY = 0.7
+#: Last change of the stiffness, over it, elementwise; that of the sum is its square.
+_STIFFNESS_TOLERANCE = 3e-2
 #: Rows and columns that the computation sees beyond the contact of the coarser grid.
 _MARGIN = 2
 
@@ -159,9 +165,9 @@ def _from_coarser(gap: Array, dx: float, dy: float, material: Material, approach
     """Pressure to start from: that of half the resolution."""
     halved = _halved(gap) if min(gap.shape) >= 2 * _LEAST_SIDE else gap
     if halved is gap or approach <= halved.min():
-        return (
-            np.sqrt(np.maximum(approach - gap, 0.0)) * material.contact_modulus
-        )  # any multiple: the shape of Hertz' pressure
+        least = gap.min()
+        level = least + _LIKELY * (approach - least)
+        return np.sqrt(np.maximum(level - gap, 0.0)) * material.contact_modulus  # any multiple of a shape like Hertz'
     start = _from_coarser(halved, 2.0 * dx, 2.0 * dy, material, approach)
     p, _, _ = _in_window(halved - approach, 2.0 * dx, 2.0 * dy, material, start, 1e-2)
     return _doubled(p, gap.shape)
@@ -213,39 +219,75 @@ def _conjugate_gradients(h: Array, influence: Influence, p: Array, tolerance: fl
     touching = p > 0.0 if p.any() else h < 0.0
     e = influence.normal(p)
     work = dot(p, e)
-    if work > 0.0:  # the multiple of the start that has the least energy
-        best = max(-dot(h, p) / work, 0.0)
-        p, e = best * p, best * e
-    e = e + h
-    restart, square, old, direction = True, 1.0, e, e
+    best = max(-dot(h, p) / work, 0.0) if work > 0.0 else 1.0  # the multiple of the start that has the least energy
+    p, e = best * p, best * e + h
+    residual = e * touching
+    direction, old = np.zeros_like(p), np.zeros_like(p)
+    square = 0.0  # makes the first direction that of steepest descent
     for iteration in range(1, MAX_ITERATIONS + 1):
-        residual = e * touching
-        z = influence.normal_inverse(residual) * touching
-        before, square = square, dot(residual, z)
-        if restart or before <= 0.0:
-            direction = z
-        else:
-            beta = max((square - dot(old, z)) / before, 0.0)
-            direction = z + beta * direction * touching
-        old = residual
+        square = _steer(residual, influence.normal_inverse(residual), touching, square, direction, old)
         moved = influence.normal(direction)
-        curvature = dot(direction, moved)
-        step = dot(residual, direction) / curvature if curvature > 0.0 else 0.0
-        p = p - step * direction
-        change = abs(step) * size(direction) / max(size(p), 1e-300)
-        pulled = p < 0.0
-        entering = (e < 0.0) & ~touching
-        restart = bool(entering.any())
-        if restart or pulled.any():
-            p[pulled] = 0.0
-            p[entering] = -e[entering] / influence.own
-            touching = p > 0.0
+        change, pulled, entered = _advance(p, e, residual, direction, moved, touching, influence.own)
+        if pulled or entered:
             e = h + influence.normal(p)
-        else:
-            e = e - step * moved
-        if change <= tolerance and not restart:
+            residual = e * touching
+        if entered:
+            square = 0.0
+        elif change <= tolerance:
             return p, iteration, True
     return p, MAX_ITERATIONS, False
+
+
+@kernel
+def _steer(residual, z, touching, before, direction, old):
+    """Set the next direction from the preconditioned residual `z`; return residual·z on the elements in contact.
+
+    Polak and Ribière's rule, which forgets the old direction where the set in contact has changed; as well with before <= 0.
+    """
+    square, back = 0.0, 0.0
+    for i in range(z.shape[0]):
+        for j in range(z.shape[1]):
+            if touching[i, j]:
+                square += residual[i, j] * z[i, j]
+                back += old[i, j] * z[i, j]
+    beta = max((square - back) / before, 0.0) if before > 0.0 else 0.0
+    for i in range(z.shape[0]):
+        for j in range(z.shape[1]):
+            direction[i, j] = z[i, j] + beta * direction[i, j] if touching[i, j] else 0.0
+            old[i, j] = residual[i, j]
+    return square
+
+
+@kernel
+def _advance(p, e, residual, direction, moved, touching, own):
+    """Step along the direction to the least energy; what is then pulled leaves the contact, what overlaps enters it.
+
+    Return the change of the pressure over the pressure (Euclidean norms) and how many elements have left and entered. If
+    none has, gap and residual follow; else they are to be computed anew.
+    """
+    curvature, along, length, size, pulled, entered = 0.0, 0.0, 0.0, 0.0, 0, 0
+    for i in range(p.shape[0]):
+        for j in range(p.shape[1]):
+            curvature += direction[i, j] * moved[i, j]
+            along += residual[i, j] * direction[i, j]
+            length += direction[i, j] * direction[i, j]
+    step = along / curvature if curvature > 0.0 else 0.0
+    for i in range(p.shape[0]):
+        for j in range(p.shape[1]):
+            p[i, j] -= step * direction[i, j]
+            size += p[i, j] * p[i, j]
+            if p[i, j] < 0.0:
+                p[i, j], touching[i, j] = 0.0, False
+                pulled += 1
+            elif e[i, j] < 0.0 and not touching[i, j]:
+                p[i, j], touching[i, j] = -e[i, j] / own, True
+                entered += 1
+    if pulled + entered == 0:
+        for i in range(p.shape[0]):
+            for j in range(p.shape[1]):
+                e[i, j] -= step * moved[i, j]
+                residual[i, j] = e[i, j] if touching[i, j] else 0.0
+    return abs(step) * math.sqrt(length / size) if size > 0.0 else 0.0, pulled, entered
 
 
 def _stiffness(p: Array, dx: float, dy: float, material: Material) -> Array:
@@ -269,7 +311,7 @@ def _stiffness(p: Array, dx: float, dy: float, material: Material) -> Array:
         step = square / dot(direction, moved)
         r += step * direction
         residual -= step * moved
-        if abs(step) * size(direction) <= 1e-3 * size(r):
+        if abs(step) * size(direction) <= _STIFFNESS_TOLERANCE * size(r):
             break
     rates[window] = r
     return rates
