@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.accumulation.strips import arc_length, edges_on, rates, shares
-from contact.damage import DamageParameters, evaluate
+from contact.damage import DamageParameters, deposit
+from contact.damage.assessment import assess
 from contact.errors import ContactError, require_number
 from contact.geometry.profile import Profile
 from contact.geometry.records import Patch
@@ -19,7 +20,8 @@ from contact.solution import Solution
 Array = NDArray[np.float64]
 Per = Literal["metre", "revolution", "pass"]
 
-#: Name → unit and meaning of what adds up. Volume and T-gamma are those of the bin, the rest are means over its width.
+#: Name → unit and meaning of what adds up, in the order of `contact.damage.deposit`. Volume and T-gamma are those of the
+#: bin, the rest are means over its width.
 SUMS = {
     "contact": ("m", "distance rolled in contact"),
     "wear": ("m", "depth worn off a wheel; of a rail depth times distance [m²]"),
@@ -33,7 +35,7 @@ SUMS = {
 MAXIMA = {"energy_index_max": ("Pa", "greatest energy index")}
 
 _NAMES = (*SUMS, *MAXIMA)
-_OF_THE_BIN = np.array([name in ("volume", "T_gamma") for name in SUMS])
+_OFF = 1e-4  # [m] from the profile at which a contact point cannot be meant to lie on it
 
 
 class Histogram:
@@ -93,9 +95,11 @@ class Histogram:
         self.width = require_number("width", width, 1e-5, 1e-2)
         self.radius = require_number("radius", radius, 0.05, 2.0)
         self.parameters = parameters or DamageParameters()
-        self.arc = arc_length(profile)
-        first, last = np.floor(self.arc[0] / width), np.ceil(self.arc[-1] / width)
-        self.edges = self.width * np.arange(first, last + 1.0)
+        self._rows = np.stack((profile.y, profile.z))
+        self.arc = np.empty(profile.y.size)
+        deposit.arc_length(self._rows, self.arc)
+        self._start, last = np.floor(self.arc[0] / width), np.ceil(self.arc[-1] / width)
+        self.edges = self.width * np.arange(self._start, last + 1.0)
         self.distance = 0.0
         self.methods: set[str] = set()
         self.materials: set[Material] = set()
@@ -144,13 +148,24 @@ class Histogram:
         self.materials |= {solution.material for _, solution in touching}
 
     def _deposit(self, patch: Patch, solution: Solution, distance: float, values: Array) -> None:
-        damage = evaluate(solution, patch.rolling_radius, self.parameters)
-        share = shares(*edges_on(self.profile, self.arc, patch, solution), self.edges)
-        deposited = (distance * solution.strips.dy * rates(self.profile.kind, solution, damage)) @ share
-        values[: len(SUMS)] += np.where(_OF_THE_BIN[:, None], deposited, deposited / self.width)
-        if distance > 0.0:
-            greatest = np.where(share > 0.0, damage.energy_index.field.max(axis=1)[:, None], 0.0).max(axis=0)
-            values[len(SUMS)] = np.maximum(values[len(SUMS)], greatest)
+        if not solution.has_fields:
+            raise ContactError(
+                f"tangential = {solution.tangential!r} gives forces alone; wear and indices need its fields"
+            )
+        done = assess(solution, patch.rolling_radius, self.parameters)
+        n = solution.strips.y.size
+        rates, edges = np.empty((deposit.N_ROWS, n)), np.empty((2, n))
+        y, z = patch.on_wheel if self.profile.kind == "wheel" else patch.on_rail
+        mirror = math.copysign(1.0, patch.position[1])  # the right rail lies at positive y
+        off = deposit.place(self._rows, self.arc, y, z, patch.angle, mirror, done.strips, n, edges)
+        if off > _OFF:
+            raise ContactError(
+                f"patch.on_{self.profile.kind} = ({y:g}, {z:g}) does not lie on {self.profile!r}; "
+                "was it found with another profile?"
+            )
+        deposit.strip_rates(done.strips, n, done.fields, done.constants, done.damage, done.damage_fields, rates)
+        is_wheel = self.profile.kind == "wheel"
+        deposit.deposit(rates, edges, done.strips, n, distance, is_wheel, self._start, self.width, values)
 
     def __add__(self, other: Histogram) -> Histogram:
         if not isinstance(other, Histogram):

@@ -5,7 +5,7 @@ Constants carry the marks of their evidence: [T] thesis, [2+] two sources agree,
 """
 
 from contact.damage.archard import ArchardMap, wear_coefficient
-from contact.damage.assessment import ArchardWear, Damage, DamageParameters, IndexField, evaluate
+from contact.damage.assessment import WEAR_LAWS, ArchardWear, Damage, DamageParameters, IndexField, evaluate
 from contact.damage.burstow import Burstow, burstow
 from contact.damage.energy_index import energy_index
 from contact.damage.fatigue_index import fatigue_index
@@ -15,6 +15,7 @@ from contact.damage.t_gamma import t_gamma
 from contact.damage.usfd import Usfd, usfd
 
 __all__ = [
+    "WEAR_LAWS",
     "ArchardMap",
     "ArchardWear",
     "Burstow",

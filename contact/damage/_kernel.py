@@ -36,11 +36,22 @@ from contact.damage.usfd import usfd_kernel
 from contact.registry import CARTER
 
 # parameters[...]: DamageParameters.array()
-PAR_SPEED, PAR_WHEEL_RADIUS, PAR_HARDNESS, PAR_SHEAR_YIELD, PAR_WITH_SPIN, PAR_PEARCE_SHERRATT = range(6)
+(
+    PAR_SPEED,
+    PAR_WHEEL_RADIUS,
+    PAR_HARDNESS,
+    PAR_SHEAR_YIELD,
+    PAR_WITH_SPIN,
+    PAR_WEAR_LAW,  # which law profiles wear by (`deposit`)
+    PAR_PEARCE_SHERRATT,
+) = range(7)
 PAR_BURSTOW = PAR_PEARCE_SHERRATT + 7
 PAR_USFD = PAR_BURSTOW + 5
 PAR_ARCHARD = PAR_USFD + 7
 N_PAR = PAR_ARCHARD + 7
+
+#: Wear laws, in the order of `contact.damage.WEAR_LAWS`.
+ARCHARD, USFD, USFD_LOCAL, PEARCE_SHERRATT = range(4)
 
 # damage[...]: the numbers of `Damage`, in SI units
 (

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,7 @@ from contact._layout import (
     RES_N,
     RES_PMAX,
     RES_POWER,
+    STRIP_A,
     STRIP_DY,
     STRIP_Y,
 )
@@ -58,7 +59,7 @@ from contact.damage.archard import ArchardMap
 from contact.damage.burstow import Burstow
 from contact.damage.pearce_sherratt import PearceSherratt
 from contact.damage.usfd import Usfd
-from contact.errors import require_number
+from contact.errors import ContactError, require_number
 from contact.material import Material
 from contact.registry import methods
 
@@ -66,6 +67,8 @@ if TYPE_CHECKING:
     from contact.solution import Solution
 
 Array = NDArray[np.float64]
+WearLaw = Literal["archard", "usfd", "usfd_local", "pearce_sherratt"]
+WEAR_LAWS: tuple[str, ...] = get_args(WearLaw)
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +81,10 @@ class DamageParameters:
     with_spin : bool
         Feed the laws that take T-gamma (Pearce-Sherratt, Burstow, USFD) with the variant that contains |Mz phi|.
         Default False, thesis Eq. 6.1.
+    wear_law : {"archard", "usfd", "usfd_local", "pearce_sherratt"}
+        Which law `contact.accumulation` wears profiles by. "usfd" spreads the rate for the whole patch's T-gamma/A evenly over
+        its area, "usfd_local" takes the rate of each element's -q·s, "pearce_sherratt" spreads the area loss over the
+        patch's area.
     """
 
     pearce_sherratt: PearceSherratt = field(default_factory=PearceSherratt)
@@ -85,6 +92,11 @@ class DamageParameters:
     usfd: Usfd = field(default_factory=Usfd)
     archard: ArchardMap = field(default_factory=ArchardMap)
     with_spin: bool = False
+    wear_law: WearLaw = "archard"
+
+    def __post_init__(self) -> None:
+        if self.wear_law not in WEAR_LAWS:
+            raise ContactError(f"wear_law = {self.wear_law!r} is unknown; allowed: {', '.join(WEAR_LAWS)}")
 
     def array(self, material: Material, wheel_radius: float, speed: float) -> Array:
         """Return `parameters` of `damage_kernel`; lengths in m, speed in m/s.
@@ -100,6 +112,7 @@ class DamageParameters:
             material.hardness,
             material.shear_yield,
             float(self.with_spin),
+            float(WEAR_LAWS.index(self.wear_law)),
         ]
         models = (self.pearce_sherratt, self.burstow, self.usfd, self.archard)
         return np.concatenate([head, *(model.constants() for model in models)])
@@ -195,12 +208,8 @@ def evaluate(solution: Solution, wheel_radius: float = 0.46, parameters: DamageP
     ContactError
         If the wheel radius is not positive.
     """
-    strips, fields, case, result = _arrays(solution)
-    shape = solution.p.shape
-    damage, damage_fields = np.zeros(N_DAMAGE), np.zeros((N_DAMAGE_FIELDS, *shape))
-    constants = (parameters or DamageParameters()).array(solution.material, wheel_radius, solution.speed)
-    damage_kernel(strips, shape[0], fields, case, result, constants, damage_fields, damage)
-    number = damage.tolist()
+    assessed = assess(solution, wheel_radius, parameters)
+    number, damage_fields = assessed.damage.tolist(), assessed.damage_fields
     return Damage(
         T_gamma=number[DAMAGE_T_GAMMA],
         T_gamma_spin=number[DAMAGE_T_GAMMA_SPIN],
@@ -222,11 +231,30 @@ def evaluate(solution: Solution, wheel_radius: float = 0.46, parameters: DamageP
     )
 
 
+class Assessed(NamedTuple):
+    """The arrays of `damage_kernel` for one solution, before and after."""
+
+    strips: Array
+    fields: Array
+    constants: Array
+    damage: Array
+    damage_fields: Array
+
+
+def assess(solution: Solution, wheel_radius: float = 0.46, parameters: DamageParameters | None = None) -> Assessed:
+    """As `evaluate`, in the kernels' arrays."""
+    strips, fields, case, result = _arrays(solution)
+    damage, damage_fields = np.zeros(N_DAMAGE), np.zeros((N_DAMAGE_FIELDS, *solution.p.shape))
+    constants = (parameters or DamageParameters()).array(solution.material, wheel_radius, solution.speed)
+    damage_kernel(strips, strips.shape[1], fields, case, result, constants, damage_fields, damage)
+    return Assessed(strips, fields, constants, damage, damage_fields)
+
+
 def _arrays(solution: Solution) -> tuple[Array, Array, Array, Array]:
     """Lay the record out as the kernels' arrays (rows that the damage kernel does not read stay zero)."""
     shape = solution.p.shape
     strips = np.zeros((N_STRIP_ROWS, shape[0]))
-    strips[STRIP_Y], strips[STRIP_DY] = solution.strips.y, solution.strips.dy
+    strips[STRIP_Y], strips[STRIP_DY], strips[STRIP_A] = solution.strips.y, solution.strips.dy, solution.strips.a
     fields = np.zeros((N_FIELD_ROWS, *shape))
     fields[FIELD_X], fields[FIELD_P] = solution.x, solution.p
     fields[FIELD_DX] = solution.dA / strips[STRIP_DY][:, None]

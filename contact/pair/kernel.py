@@ -86,6 +86,7 @@ from contact.pair.layout import (
     TOTAL_STATUS,
     TOTAL_Z,
 )
+from contact.pair.ledger import Ledger, enter
 from contact.pipeline import solve_case, solve_conformal
 from contact.registry import CARTER
 from contact.workspace import Space, Workspace
@@ -104,7 +105,7 @@ class Bench(NamedTuple):
 
     `search`, `own` and `damage_parameters` hold sizes and constants, `case` methods, material and friction; `memory` is what
     the next call may start from: the number of patches, then one piece for each of MAX_PATCHES. `contacts` and `total`
-    are the answer.
+    are the answer; `ledger` adds up.
     """
 
     search: Search
@@ -116,6 +117,7 @@ class Bench(NamedTuple):
     damage: Array
     contacts: Array
     total: Array
+    ledger: Ledger
 
 
 @kernel
@@ -200,8 +202,8 @@ def solve_pair(mode, amount, given, bench):
     `given` are pose, velocity and irregularity in the order of `geometry.layout`; `mode` and `amount` are those of `settle`.
     Under a load every patch is solved for the normal force that the search has found for it, so the vertical parts of the
     normal forces add up to the load for every normal method; else for its approach. Damage is per patch, with its own
-    rolling radius. Fills bench.contacts and bench.total; returns the number of patches or a code of `settle`, in which
-    case there is no answer.
+    rolling radius. Fills bench.contacts and bench.total, and enters what the patches do into bench.ledger; returns the number
+    of patches or a code of `settle`, in which case there is no answer.
     """
     search, own, case, memory, total = bench.search, bench.own, bench.case, bench.memory, bench.total
     motion = search.motion
@@ -251,6 +253,8 @@ def solve_pair(mode, amount, given, bench):
         if n_strips > 0:
             _add_wrench(contact, motion[layout.POSE_Y], motion[layout.POSE_Z] - motion[layout.RADIUS], total)
             _add_results(result, damage, total)
+            if bench.ledger.bins.shape[2] > 0:
+                enter(patch, strips, n_strips, fields, parameters, damage, bench.damage_fields, bench.ledger)
     case[CASE_BORDER], case[CASE_BORDER_WIDTH] = border, border_width
     total[TOTAL_Z], total[TOTAL_COUNT] = motion[layout.POSE_Z], n
     for i in _ODD_TOTAL:

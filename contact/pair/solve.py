@@ -21,12 +21,14 @@ from contact._layout import (
 from contact.creepage import Creepage
 from contact.damage import DamageParameters
 from contact.damage._kernel import N_DAMAGE, N_DAMAGE_FIELDS
+from contact.errors import require_number
 from contact.friction import Friction, as_friction, fill
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.wheelset import Pair
 from contact.material import STEEL, Material
 from contact.pair import layout
 from contact.pair.kernel import N_TOTAL, Bench, solve_pair
+from contact.pair.ledger import DISTANCE, Ledger, closed
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solution import Status
 from contact.solve import N_ELEMENTS, N_STRIPS, require_resolution
@@ -118,6 +120,10 @@ class WheelRailPair:
     conformal : bool
         Let the contact angle vary over each patch (`contact.conformal`) instead of taking it as a plane; methods that give
         forces alone do not.
+    damage : DamageParameters, optional
+        Constants of the damage models.
+    ledger : contact.pair.ledger.Ledger, optional
+        Bins over both profiles that `solve(…, distance=…)` enters what the patches do in.
 
     Attributes
     ----------
@@ -140,6 +146,8 @@ class WheelRailPair:
         n_strips: int = N_STRIPS,
         n_elements: int = N_ELEMENTS,
         conformal: bool = False,
+        damage: DamageParameters | None = None,
+        ledger: Ledger | None = None,
     ) -> None:
         self.pair = pair
         method, rolling = (lookup(*kind, batched=True) for kind in (("normal", normal), ("tangential", tangential)))
@@ -158,11 +166,12 @@ class WheelRailPair:
             own=own,
             case=case,
             memory=np.zeros(1 + MAX_PATCHES * own.space.memory.size),
-            damage_parameters=DamageParameters().array(material, 1.0, 1.0),
+            damage_parameters=(damage or DamageParameters()).array(material, 1.0, 1.0),
             damage_fields=np.empty((N_DAMAGE_FIELDS, *own.fields.shape[1:])),
             damage=np.empty(N_DAMAGE),
             contacts=np.zeros((MAX_PATCHES, layout.N_CONTACT)),
             total=np.zeros(N_TOTAL),
+            ledger=ledger or closed(),
         )
 
     def solve(
@@ -174,6 +183,7 @@ class WheelRailPair:
         penetration: float | None = None,
         irregularity: Irregularity | None = None,
         friction: float | Friction = 0.3,
+        distance: float = 0.0,
     ) -> PairSolution:
         """Solve every patch at one instant.
 
@@ -183,6 +193,8 @@ class WheelRailPair:
             As for `contact.geometry.wheelset.contacts`.
         friction : float or contact.friction.Friction
             Coulomb's coefficient mu ≥ 0 [-], or a surface on which it falls with the sliding velocity of each patch.
+        distance : float
+            That is rolled in this state [m], not negative: what the ledger adds up. Where there is no answer, nothing.
 
         Returns
         -------
@@ -196,6 +208,7 @@ class WheelRailPair:
             For input outside its range, where the profiles do not lie above each other, and for a load that no z carries.
         """
         mode, amount = self.pair.prescribed(load, penetration)
+        self.bench.ledger.settings[DISTANCE] = require_number("distance", distance, 0.0)
         fill(self.bench.case, as_friction(friction), (velocity or Velocity()).forward)
         code = solve_pair(mode, amount, self.pair.given(pose, velocity, irregularity), self.bench)
         self.pair.require_found(code, pose, load)

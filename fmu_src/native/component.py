@@ -62,6 +62,11 @@ class Component:
         Rows that are computed when somebody reads them.
     totals : mapping
         Outputs that the wrapper adds up over time: name → one or two values whose product is the rate.
+    accumulated : tuple of str
+        Rows behind all others that add up, with numbers that are not among the values but end the warm start; what
+        ``model_outputs`` makes of them is kept with h > 0 alone, so in model exchange they stay zero.
+    accumulates : str
+        Enumeration, a parameter, at whose first item there are none of these numbers: the rows are zero.
     warnings, failures : mapping
         Number → text. A failure discards the step.
     """
@@ -72,5 +77,7 @@ class Component:
     resources: tuple[tuple[str, bytes], ...] = ()
     lazy: tuple[str, ...] = ()
     totals: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    accumulated: tuple[str, ...] = ()
+    accumulates: str = ""
     warnings: Mapping[int, str] = field(default_factory=dict)
     failures: Mapping[int, str] = field(default_factory=dict)

@@ -17,12 +17,18 @@ def header(component: Component, guid: str) -> str:
     parameters = sum(s.row.causality is Causality.PARAMETER for s in table.scalars)
     if any(s.row.causality is not Causality.PARAMETER for s in table.scalars[:parameters]):
         raise ValueError(f"{table.name}: the parameters must come first, the wrapper compares them in one piece")
+    accumulated = sum(table.row[name].size for name in component.accumulated)
+    if tuple(row.name for row in table.rows)[len(table.rows) - len(component.accumulated) :] != component.accumulated:
+        raise ValueError(f"{table.name}: what accumulates must come last, it is no part of the values")
+    accumulates = f"((values)[{c_name(component.accumulates)}] > 1.0)" if accumulated else "false"
     references = "\n".join(f"    {c_name(name)} = {reference}," for name, reference in value_references(table).items())
     return f"""/* Made from the variable table of {table.name}. */
 #ifndef MODEL_H
 #define MODEL_H
 #define MODEL_GUID "{guid}"
-#define N_VALUES {len(table.scalars)}
+#define N_VALUES {len(table.scalars) - accumulated}
+#define N_ACCUMULATED {accumulated}
+#define ACCUMULATES(values) {accumulates}
 #define N_PARAMETERS {parameters}
 #define N_STATES {len(table.states)}
 #define N_MESSAGES {max([0, *component.warnings, *component.failures])}
@@ -64,7 +70,7 @@ def body(component: Component) -> str:
 
 #include "instance.h"
 
-const Variable variables[N_VALUES + N_FIELDS + 1] = {{
+const Variable variables[N_VALUES + N_ACCUMULATED + N_FIELDS + 1] = {{
 {listed}
 }};
 const Continuous states[N_STATES] = {{{states}}};
@@ -103,6 +109,8 @@ def _field_size(table: Table) -> str:
 def _role(row: Variable, component: Component) -> str:
     if row in component.table.states:
         return "STATE"
+    if row.name in component.accumulated:
+        return "ACCUMULATED"
     return "TOTAL" if row.name in component.totals else row.causality.name
 
 

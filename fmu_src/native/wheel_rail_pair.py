@@ -40,7 +40,9 @@ from contact.damage._kernel import (
     N_PAR,
     PAR_HARDNESS,
     PAR_SHEAR_YIELD,
+    PAR_WEAR_LAW,
 )
+from contact.damage.deposit import N_ROWS, arc_length
 from contact.geometry import layout as rows
 from contact.geometry.prepare import cut, facing, rail_origin, turn
 from contact.geometry.settle import DEEPEST, GIVEN_Z, NO_OVERLAP, NOT_SETTLED, TOO_DEEP
@@ -60,6 +62,7 @@ from contact.pair.layout import (
     TOTAL_STATUS,
     TOTAL_Z,
 )
+from contact.pair.ledger import DISTANCE, N_SETTINGS, START, WIDTH, Ledger
 from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
 from fmu_src.native.memory import ahead, compiled, cube, matrix, vector
@@ -74,7 +77,7 @@ from fmu_src.native.solver import (
     memory_size,
 )
 from fmu_src.profiles import MAGIC
-from fmu_src.tables.wheel_rail_pair import LOAD_KIND, PATCH, PATCHES, RAIL, SIDE, WHEEL, table
+from fmu_src.tables.wheel_rail_pair import ACCUMULATED, BINS, LOAD_KIND, PATCH, PATCHES, RAIL, SIDE, WHEEL, table
 from fmu_src.variables import Table, identifier
 
 _UNDER_LOAD, _RIGHT = LOAD_KIND.number("NormalForce"), SIDE.number("Right")
@@ -83,13 +86,14 @@ _N_PATCH_ROWS = len(PATCH)
 _steps = compiled(creepage_steps)
 
 #: What discards a step, numbered behind the statuses.
-_NO_OVERLAP, _NOT_SETTLED, _TOO_DEEP, _GAUGE_POINT, _STEEP = range(6, 11)
+_NO_OVERLAP, _NOT_SETTLED, _TOO_DEEP, _GAUGE_POINT, _STEEP, _ENDLESS = range(6, 12)
 _FAILURES = {
     _NO_OVERLAP: "pose.y: the profiles of wheel and rail do not overlap",
     _NOT_SETTLED: "load.normal_force: no height was found at which the wheel carries it on this rail",
     _TOO_DEEP: f"pose.z: the wheel lies more than {DEEPEST:g} m inside its rail",
     _GAUGE_POINT: "track.gauge_point: the rail reaches no deeper on its gauge side",
     _STEEP: "rail.inclination: the rail is steep at its top",
+    _ENDLESS: "what accumulates has no finite value for these inputs",
 }
 
 
@@ -101,16 +105,25 @@ def component(inclination: float) -> Component:
         entries=lambda: _entries(interface),
         data=data,
         resources=((WHEEL, MAGIC["wheel"]), (RAIL, MAGIC["rail"])),
-        totals={"total.energy": ("power.friction",), "total.worn_volume": ("damage.archard_volume", "velocity.x")},
+        totals={
+            "total.energy": ("power.friction",),
+            "total.worn_volume": ("damage.archard_volume", "velocity.x"),
+            "total.distance": ("velocity.x",),
+            "total.T_gamma": ("damage.T_gamma", "velocity.x"),
+        },
+        accumulated=ACCUMULATED,
+        accumulates="accumulation.wear_law",
         warnings={int(s): f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)},
         failures=_FAILURES,
     )
 
 
 class Start(NamedTuple):
-    """What `model_prepare` needs besides the bench: counts of nodes that can touch, the rail turned by its inclination."""
+    """What lies before the bench: bins, counts of nodes that can touch, the whole wheel, the rail turned by its inclination."""
 
+    bins: object
     counts: object
+    wheel: object
     turned: object
 
 
@@ -119,7 +132,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
     at = namedtuple("References", [identifier(name) for name in table.span])(
         *(span.start for span in table.span.values())
     )
-    n_values = len(table.scalars)
+    n_values = table.span[ACCUMULATED[0]].start
 
     @compiled
     def piece_size(v):
@@ -127,20 +140,27 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         return memory_size(int(v[at.method_normal]), int(v[at.resolution_n_strips]))
 
     @compiled
+    def n_bins(v):
+        """Bins over each profile, if anything accumulates."""
+        return BINS if v[at.accumulation_wear_law] > 1.0 else 0
+
+    @compiled
     def start(v, work, resources):
         """Lay out what comes first in `work`; return the memory, the rest, and where that ends."""
         memory, end = vector(work, 0, 1 + MAX_PATCHES * piece_size(v))
+        bins, end = cube(work, end, 2, N_ROWS, n_bins(v))
         counts, end = vector(work, end, 2)
-        n_rail = int(carray(ahead(resources, 1 + 3 * int(carray(resources, (1,))[0])), (1,))[0])
-        turned, end = matrix(work, end, 3, n_rail)
-        return memory, Start(counts, turned), end
+        n_wheel = int(carray(resources, (1,))[0])
+        wheel = carray(ahead(resources, 1), (3, n_wheel))
+        turned, end = matrix(work, end, 3, int(carray(ahead(resources, 1 + 3 * n_wheel), (1,))[0]))
+        return memory, Start(bins, counts, wheel, turned), end
 
     @compiled
     def arrange(v, work, resources, n_wheel, n_rail, centre, plane, creep):
         """Lay all arrays into `work` for curves of so many nodes; return them, and how many numbers they are."""
         n_strips, n_elements = int(v[at.resolution_n_strips]), int(v[at.resolution_n_elements])
         samples, capacity = int(v[at.resolution_n_samples]), MAX_PATCHES * n_strips
-        memory, _, end = start(v, work, resources)
+        memory, begin, end = start(v, work, resources)
         search, end = search_arrays(work, end, n_wheel, n_rail, 0, samples, SEARCH_STRIPS)
         own, end = lay_out(
             work, end, memory[1 : 1 + piece_size(v)], n_strips, n_elements, samples, centre, plane, creep
@@ -151,11 +171,18 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         damage, end = vector(work, end, N_DAMAGE)
         contacts, end = matrix(work, end, MAX_PATCHES, N_CONTACT)
         total, end = vector(work, end, N_TOTAL)
-        bench = Bench(search, own, case, memory, parameters, damage_fields, damage, contacts, total)
+        wheel_arc, end = vector(work, end, begin.wheel.shape[1])
+        rail_arc, end = vector(work, end, begin.turned.shape[1])
+        settings, end = vector(work, end, N_SETTINGS)
+        rates, end = matrix(work, end, N_ROWS, capacity)
+        edges, end = matrix(work, end, 2, capacity)
+        ledger = Ledger(begin.wheel, wheel_arc, begin.turned, rail_arc, settings, rates, edges, begin.bins)
+        bench = Bench(search, own, case, memory, parameters, damage_fields, damage, contacts, total, ledger)
         return bench, end
 
     def model_memory(values, resources, published, centre, plane, creep):
-        return 1 + MAX_PATCHES * piece_size(carray(values, (n_values,)))
+        v = carray(values, (n_values,))
+        return 1 + MAX_PATCHES * piece_size(v) + 2 * N_ROWS * n_bins(v)
 
     def model_size(values, resources, published, centre, plane, creep):
         v = carray(values, (n_values,))
@@ -165,9 +192,8 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
     def model_prepare(values, work, resources, published, centre, plane, creep):
         v = carray(values, (n_values,))
         _, begin, _ = start(v, work, resources)
-        n_wheel = int(carray(resources, (1,))[0])
-        wheel = carray(ahead(resources, 1), (3, n_wheel))
-        rail = carray(ahead(resources, 2 + 3 * n_wheel), (3, begin.turned.shape[1]))
+        wheel = begin.wheel
+        rail = carray(ahead(resources, 2 + 3 * wheel.shape[1]), (3, begin.turned.shape[1]))
         turn(rail, -math.atan(v[at.rail_inclination]), begin.turned)
         wheel_from, wheel_to = facing(wheel, True)
         rail_from, rail_to = facing(begin.turned, False)
@@ -200,6 +226,12 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
             bench.damage_parameters[i] = _DAMAGE_PARAMETERS[i]
         bench.damage_parameters[PAR_HARDNESS] = v[at.material_hardness]
         bench.damage_parameters[PAR_SHEAR_YIELD] = v[at.material_shear_yield]
+        bench.damage_parameters[PAR_WEAR_LAW] = v[at.accumulation_wear_law] - 2.0  # the first item is none
+        ledger = bench.ledger
+        arc_length(ledger.wheel, ledger.wheel_arc)
+        arc_length(ledger.rail, ledger.rail_arc)
+        ledger.settings[WIDTH] = v[at.accumulation_width]
+        ledger.settings[START] = v[at.accumulation_first] / v[at.accumulation_width]
         return 0
 
     def model_start(values, work, resources, published, centre, plane, creep):
@@ -212,6 +244,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         fill_friction(v, at.friction_coefficient, at.friction_law, v[at.velocity_x], bench.case)
         given = carray(ahead(values, at.pose_y), (rows.N_GIVEN,))
         by_load = v[at.load_kind] == _UNDER_LOAD
+        bench.ledger.settings[DISTANCE] = v[at.velocity_x] * h
         code = solve_pair(UNDER_LOAD if by_load else GIVEN_Z, v[at.load_normal_force], given, bench)
         if code == NO_OVERLAP:
             return _NO_OVERLAP
@@ -219,6 +252,8 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
             return _NOT_SETTLED
         if code == TOO_DEEP:
             return _TOO_DEEP
+        if not math.isfinite(bench.ledger.bins.sum()):
+            return _ENDLESS
         total, speed = bench.total, v[at.velocity_x]
         for i in range(6):
             v[at.force_x + i] = total[TOTAL_FX + i]

@@ -12,6 +12,7 @@ import sys
 from collections.abc import Callable
 from enum import StrEnum
 from functools import wraps
+from operator import itemgetter
 from types import MappingProxyType
 from typing import Any
 
@@ -128,6 +129,7 @@ class TableSlave(Fmi2Slave):
         self._settable = {(p, kinds): settable[p] & self._readable[kinds] for p in Phase for kinds in _CALLS}
         self._lazy = frozenset(r for name in self.lazy for r in table.references(name))
         self._checked = [r for r, s in every if s.row.initial == "exact" or r in inputs]
+        self._values_checked = itemgetter(*self._checked)
         scalars = [table.scalars[r] for r in self._checked]
         # Closed ranges of finite numbers: the next number stands for an open minimum, the largest for infinity.
         least = [np.nextafter(s.minimum, np.inf) if s.row.open_minimum else s.minimum for s in scalars]
@@ -216,7 +218,7 @@ class TableSlave(Fmi2Slave):
 
     def _check_ranges(self) -> None:
         """Raise ContactError for the first parameter, input or state that is not finite or outside its range."""
-        numbers = np.array(self.values.numbers, dtype=np.float64)[self._checked]
+        numbers = np.array(self._values_checked(self.values.numbers), dtype=np.float64)
         allowed = (numbers >= self._least) & (numbers <= self._greatest)
         if not allowed.all():
             reference = self._checked[int(np.argmin(allowed))]

@@ -11,6 +11,7 @@ import numpy as np
 from pythonfmu.enums import Fmi2Status
 
 from contact import Material, Status
+from contact.damage import WEAR_LAWS, DamageParameters
 from contact.damage._kernel import (
     DAMAGE_ARCHARD_DEPTH,
     DAMAGE_ARCHARD_VOLUME,
@@ -22,14 +23,16 @@ from contact.damage._kernel import (
     DAMAGE_T_GAMMA,
     DAMAGE_USFD,
 )
+from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.wheelset import Pair
 from contact.pair import Contact, WheelRailPair
+from contact.pair.ledger import allocate
 from fmu_src import profiles
 from fmu_src.python.friction import friction
 from fmu_src.python.slave import TableSlave
 from fmu_src.python.values import Rows, Values
-from fmu_src.tables.wheel_rail_pair import MOTION, PATCH, PATCHES, table
+from fmu_src.tables.wheel_rail_pair import ACCUMULATED, BINS, MOTION, PATCH, PATCHES, table
 from fmu_src.variables import Causality
 
 _DAMAGE = {
@@ -66,6 +69,8 @@ class WheelRailPairSlave(TableSlave):
         before = memory.copy() if step_size > 0.0 else np.zeros_like(memory)
         memory[:] = before
         motion = [values[name] for name in _MOTION]
+        bins = pair.bench.ledger.bins
+        bins[:] = np.reshape([values[name] for name in ACCUMULATED], (2, -1, BINS)) if bins.size else 0.0
         try:
             solution = pair.solve(
                 Pose(*motion[:4]),
@@ -73,6 +78,7 @@ class WheelRailPairSlave(TableSlave):
                 irregularity=Irregularity(*motion[10:]),
                 load=values["load.normal_force"] if values.item("load.kind") == "NormalForce" else None,
                 friction=friction(values),
+                distance=values["velocity.x"] * step_size,
             )
             rows = {name: float(solution.damage[i]) for name, i in _DAMAGE.items()}
             power, worn = (values["velocity.x"] * x for x in (solution.power_per_metre, rows["damage.archard_volume"]))
@@ -89,7 +95,11 @@ class WheelRailPairSlave(TableSlave):
                 "status": int(solution.status),
                 "total.energy": values["total.energy"] + power * step_size,
                 "total.worn_volume": values["total.worn_volume"] + worn * step_size,
+                "total.distance": values["total.distance"] + values["velocity.x"] * step_size,
+                "total.T_gamma": values["total.T_gamma"] + rows["damage.T_gamma"] * values["velocity.x"] * step_size,
             }
+            if bins.size:
+                rows |= zip(ACCUMULATED, bins.reshape(-1, BINS).tolist(), strict=True)
             values.updated(rows)
         except Exception:
             memory[:] = before  # a step that is discarded leaves nothing behind
@@ -115,7 +125,7 @@ class WheelRailPairSlave(TableSlave):
         """The pair with these parameters: a new one when they differ from those of the last."""
         wanted = [values[name] for name in self.parameters]
         if self.pair is None or wanted != self.built_with:
-            wheel, rail = self.profiles
+            wheel, rail = self.profiles[0], self.profiles[1].rotated(-np.arctan(values["rail.inclination"]))
             material = Material(
                 values["material.shear_modulus"],
                 values["material.poisson_ratio"],
@@ -125,7 +135,7 @@ class WheelRailPairSlave(TableSlave):
             )
             geometry = Pair(
                 wheel,
-                rail.rotated(-np.arctan(values["rail.inclination"])),
+                rail,
                 side=values.item("side").lower(),
                 nominal_radius=values["wheel.radius"],
                 gauge=values["track.gauge"],
@@ -145,9 +155,20 @@ class WheelRailPairSlave(TableSlave):
                 n_strips=values["resolution.n_strips"],
                 n_elements=values["resolution.n_elements"],
                 conformal=values.item("patches.surface") == "Conformal",
+                **_accumulation(values, wheel, rail),
             )
             self.built_with = wanted
         return self.pair
+
+
+def _accumulation(values: Values, wheel: Profile, rail: Profile) -> dict[str, Any]:
+    """Options of the pair for what accumulates over both profiles, if anything does."""
+    law = int(values["accumulation.wear_law"])
+    if law == 1:
+        return {}
+    rows = (np.stack((given.y, given.z)) for given in (wheel, rail))
+    sizes = (values["resolution.n_strips"], BINS, values["accumulation.first"], values["accumulation.width"])
+    return {"ledger": allocate(*rows, *sizes), "damage": DamageParameters(wear_law=WEAR_LAWS[law - 2])}
 
 
 def _patches(contacts: tuple[Contact, ...]) -> Rows:

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from functools import cache
 
 from contact import friction
+from contact.accumulation import MAXIMA, SUMS
 from contact.geometry.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL
 from contact.geometry.wheelset import SAMPLES
 from fmu_src.tables import solver
@@ -30,7 +31,27 @@ LOAD_KIND = Enumeration(
         ("Position", "pose.z is given, the normal force follows"),
     ),
 )
+ACCUMULATE = Enumeration(
+    "Accumulate",  # Off, then those of contact.damage.WEAR_LAWS in their order
+    (
+        ("Off", "nothing is added up over the profiles, at no cost"),
+        *zip(
+            ("Archard", "Usfd", "UsfdLocal", "PearceSherratt"),
+            (
+                "depths by Archard's law with the map of KTH",
+                "by Sheffield's rate for each patch, spread evenly over its area",
+                "by Sheffield's rate for each element",
+                "by the area of Pearce and Sherratt, spread evenly over the area of each patch",
+            ),
+            strict=True,
+        ),
+    ),
+)
 PATCHES = 3
+BINS = 100  # over each profile
+BODIES = ("wheel", "rail")
+#: Rows of what accumulates: of the wheel, then of the rail, in the order of `contact.damage.deposit`.
+ACCUMULATED = tuple(f"accumulated.{body}.{name}" for body in BODIES for name in SUMS | MAXIMA)
 #: Profiles are files of these names in resources/ (`fmu_src.profiles`); of the right side, for either side.
 WHEEL, RAIL = "wheel.profile", "rail.profile"
 RESOURCES = (WHEEL, RAIL)
@@ -91,8 +112,9 @@ def table(inclination: float = 1.0 / 40.0) -> Table:
         "WheelRailPair",
         "One wheel of a wheelset on one rail, with the profiles in resources: contact search, every patch, creep forces "
         "and damage: T_gamma, the area of Pearce and Sherratt and the worn volume are sums over the patches, other indices the "
-        "greatest. Forces act on the wheel; track frame x forward, y to the right, z down. As co-simulation has no "
-        "feedthrough, the outputs after a step belong to the inputs before it: one communication step late.",
+        "greatest. What accumulates lies in bins over the arc length of both profiles. Forces act on the wheel; track frame x "
+        "forward, y to the right, z down. As co-simulation has no feedthrough, the outputs after a step belong to the inputs "
+        "before it: one communication step late.",
         [*_parameters(inclination), *_inputs(), *_outputs()],
         step_size=1e-3,
     )
@@ -152,6 +174,23 @@ def _parameters(inclination: float) -> Iterable[Variable]:
     yield parameter(
         "resolution.n_samples", "Samples of each separation", integer=True, start=SAMPLES, minimum=5, maximum=2001
     )
+    yield parameter(
+        "accumulation.wear_law",
+        "What accumulates over both profiles at each doStep, as in contact.accumulation; not in model exchange",
+        enumeration=ACCUMULATE,
+        start="Off",
+    )
+    yield parameter(
+        "accumulation.first",
+        "Arc length at which the first bin begins, along either profile from its point nearest to y = 0 to the field side",
+        unit="m",
+        start=-0.06,
+        minimum=-1.0,
+        maximum=1.0,
+    )
+    yield parameter(
+        "accumulation.width", "Width of a bin", unit="m", start=1e-3, minimum=1e-5, maximum=1e-2, nominal=1e-3
+    )
 
 
 def _inputs() -> Iterable[Variable]:
@@ -190,3 +229,24 @@ def _outputs() -> Iterable[Variable]:
     yield output("power.friction", "Frictional power", unit="W", minimum=0.0, nominal=1e3)
     yield from solver.damage()
     yield from solver.status_and_totals()
+    yield output("total.distance", "Distance rolled since start", unit="m", start=0.0, minimum=0.0, depends=())
+    yield output(
+        "total.T_gamma", "Wear number times distance since start", unit="J", start=0.0, minimum=0.0, depends=()
+    )
+    yield from _accumulated()
+
+
+def _accumulated() -> Iterable[Variable]:
+    """Bins; they come last, where the native packaging keeps them apart."""
+    for name in ACCUMULATED:
+        _, body, quantity = name.split(".")
+        unit, meaning = (SUMS | MAXIMA)[quantity]
+        if (body, quantity) == ("rail", "wear"):
+            unit = "m2"
+        yield output(
+            name,
+            f"Over the {body}'s profile since start: {meaning}",
+            unit=unit.replace(" ", "."),
+            shape=(BINS,),
+            depends=(),
+        )

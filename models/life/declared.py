@@ -6,7 +6,7 @@ import tomllib
 import types
 from dataclasses import MISSING, fields, is_dataclass
 from os import PathLike
-from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from contact.errors import ContactError, suggestion
 
@@ -66,6 +66,7 @@ def build(kind: type[Kind], table: object, where: str) -> Kind:
 
 def _convert(hint: Any, value: object, where: str) -> Any:
     options = get_args(hint) if get_origin(hint) in (Union, types.UnionType) else (hint,)
+    options = tuple(str if get_origin(option) is Literal else option for option in options)  # the dataclass says which
     for option in options:
         if is_dataclass(option) and isinstance(value, dict):
             return build(option, value, where)

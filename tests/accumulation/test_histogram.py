@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import contact
+from contact._layout import N_STRIP_ROWS, STRIP_DY
 from contact.accumulation import MAXIMA, SUMS, Histogram, load, save, worn_profile
-from contact.accumulation.strips import shares
-from contact.damage import ArchardMap, DamageParameters, evaluate
+from contact.damage import WEAR_LAWS, ArchardMap, DamageParameters, deposit, evaluate, usfd
 from contact.errors import ContactError
 from contact.geometry.profile import Profile, cone, named, rail_60e1, rail_arc
 from contact.geometry.wheelset import Pair, Pose, Velocity
@@ -135,10 +135,23 @@ def test_on_a_plane_and_an_arc_the_coordinates_are_exact():
 
 
 def test_a_strip_is_shared_by_overlap_and_what_lies_beyond_stays_in_the_outer_bins():
-    edges = np.array([0.0, 1.0, 2.0, 3.0])
-    low, high = np.array([0.5, 1.2, -2.0, 2.5]), np.array([2.5, 1.4, -1.0, 4.5])
-    expected = [[0.25, 0.5, 0.25], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
-    np.testing.assert_allclose(shares(low, high, edges), expected, rtol=1e-15, atol=1e-15)
+    """Bins 0.7 wide from 2.1 on; strips given in widths from there."""
+    width, start, distance, dy = 0.7, 3.0, 2.0, 0.1
+    edges = width * (start + np.array([[0.5, 1.2, -2.0, 2.5], [2.5, 1.4, -1.0, 4.5]]))
+    expected = np.array([[0.25, 0.5, 0.25], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    strips = np.zeros((N_STRIP_ROWS, 4))
+    strips[STRIP_DY] = dy
+    rates = np.arange(1.0, 4.0 * deposit.N_ROWS + 1.0).reshape(deposit.N_ROWS, 4)
+    for is_wheel in (True, False):
+        bins = np.zeros((deposit.N_ROWS, 3))
+        deposit.deposit(rates, edges, strips, 4, distance, is_wheel, start, width, bins)
+        for row in range(deposit.ENERGY_INDEX_MAX):
+            rate = rates[deposit.VOLUME if row == deposit.WEAR and not is_wheel else row]
+            of_bins = distance * dy * rate @ expected
+            scale = 1.0 if row in (deposit.VOLUME, deposit.T_GAMMA) else width
+            np.testing.assert_allclose(bins[row], of_bins / scale, rtol=1e-14)
+        greatest = np.where(expected > 0.0, rates[deposit.ENERGY_INDEX_MAX][:, None], 0.0).max(axis=0)
+        np.testing.assert_array_equal(bins[deposit.ENERGY_INDEX_MAX], greatest)
 
 
 def test_exceedance_counts_the_distance_with_a_positive_index(contacts):
@@ -304,3 +317,44 @@ def test_scaled_histogram_is_that_of_another_distance(profile, contacts, times):
     np.testing.assert_array_equal(later["energy_index_max"], histogram["energy_index_max"])
     with pytest.raises(ContactError, match="times = -1"):
         histogram.scaled(-1.0)
+
+
+@pytest.mark.parametrize("law", WEAR_LAWS)
+def test_depth_of_every_wear_law_integrates_to_its_volume(profile, contacts, law):
+    histogram, volume = run(profile, contacts, parameters=DamageParameters(wear_law=law)), 0.0
+    for patches, solutions in contacts:
+        for patch, solution in zip(patches, solutions, strict=True):
+            damage, circumference = evaluate(solution, patch.rolling_radius), 2.0 * np.pi * patch.rolling_radius
+            local = usfd(-(solution.qx * solution.sx + solution.qy * solution.sy).clip(max=0.0), 1.0)
+            volume += (
+                10.0
+                * {
+                    "archard": damage.archard.volume,
+                    "usfd": damage.usfd * solution.area,
+                    "usfd_local": (local * solution.dA).sum(),
+                    "pearce_sherratt": damage.pearce_sherratt * circumference,
+                }[law]
+            )
+    assert volume > 0.0
+    assert histogram.volume == pytest.approx(volume, rel=1e-12)
+    if profile.kind == "rail":
+        assert (histogram.depth * histogram.width).sum() == pytest.approx(volume / histogram.distance, rel=1e-12)
+    else:  # rolling radii of the patches differ from the nominal one by less than 30 mm
+        assert (histogram.depth * histogram.width).sum() == pytest.approx(volume / (2.0 * np.pi * 0.46), rel=0.07)
+    np.testing.assert_array_equal(histogram["contact"], run(profile, contacts)["contact"])
+
+
+def test_worn_area_of_pearce_and_sherratt_is_theirs(contacts):
+    """Their law gives the area of the cross-section, whatever the radius."""
+    histogram = run(WHEEL, contacts, parameters=DamageParameters(wear_law="pearce_sherratt"))
+    areas = [
+        evaluate(s, p.rolling_radius).pearce_sherratt
+        for patches, solutions in contacts
+        for p, s in zip(patches, solutions, strict=True)
+    ]
+    assert (histogram.depth * histogram.width).sum() == pytest.approx(10.0 * sum(areas), rel=1e-12)
+
+
+def test_unknown_wear_law_is_refused():
+    with pytest.raises(ContactError, match="wear_law = 'reye' is unknown; allowed: archard, usfd"):
+        DamageParameters(wear_law="reye")

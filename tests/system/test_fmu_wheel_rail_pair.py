@@ -13,12 +13,16 @@ from differences import Tally, derivative, parts, quotient
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 from fmu_instance import Instance
+from fmu_instance_fmi3 import Instance3
 from pair_case import MOTION, NAME, compare, expected, mirrored, random_case, solved
 
 import contact
+from contact.accumulation import MAXIMA, SUMS, Histogram
+from contact.damage import WEAR_LAWS, DamageParameters
 from contact.geometry import profile
-from contact.geometry.wheelset import Pair
+from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair
+from fmu_src.tables.wheel_rail_pair import BINS, BODIES
 
 ROOT = Path(__file__).parents[2]
 DISCARD = 2
@@ -134,7 +138,7 @@ def test_lift_off_is_a_valid_result(fmu):
     fmu.step()
     outputs = fmu.all("output")
     assert outputs["status"] == contact.Status.NO_CONTACT
-    assert not any(value for name, value in outputs.items() if name not in ("status", "wheelset.z"))
+    assert not any(value for name, value in outputs.items() if name not in ("status", "wheelset.z", "total.distance"))
 
 
 def trajectory(fmu, start: int) -> list[dict[str, float]]:
@@ -162,6 +166,105 @@ def test_a_serialised_state_with_its_warm_start_continues_bit_by_bit(open_pair):
     fmu.fmu.freeFMUstate(state)
     other.fmu.setFMUstate(other.fmu.deSerializeFMUstate(content))
     assert trajectory(other, 4) == wanted
+
+
+ON = {"accumulation.wear_law": 2}
+
+
+def bins(fmu, body: str, quantity: str) -> np.ndarray:
+    """What has accumulated."""
+    return np.array(list(fmu.read(f"accumulated.{body}.{quantity}[{k + 1}]" for k in range(BINS)).values()))
+
+
+def everything(fmu) -> np.ndarray:
+    return np.array([bins(fmu, body, quantity) for body in BODIES for quantity in SUMS | MAXIMA])
+
+
+def histograms(parameters: DamageParameters) -> dict[str, Histogram]:
+    """Of `rolled`, by contact.accumulation."""
+    wheel, rail = profile.s1002(), profile.rail_60e1(1 / 40)
+    found = {body: Histogram(p, width=1e-3, parameters=parameters) for body, p in (("wheel", wheel), ("rail", rail))}
+    pair, velocity = Pair(wheel, rail), Velocity(30.0, spin=-30.0 / 0.46 * 1.001)
+    for k in range(4):
+        patches = pair.contacts(Pose(y=2e-3 * k, yaw=4e-3), velocity, load=80e3)
+        solutions = [contact.solve(p.separation, p.creepage, load=p.load, speed=30.0, throw=False) for p in patches]
+        for histogram in found.values():
+            histogram.add(patches, solutions, distance=30.0 * 2e-3)
+    return found
+
+
+def rolled(fmu, start: int = 0, steps: int = 4):
+    for k in range(start, start + steps):
+        fmu.update({"pose.y": 2e-3 * k})
+        fmu.step(2e-3 * k, 2e-3)
+    return fmu
+
+
+ROLLING = {"pose.yaw": 4e-3, "velocity.x": 30.0, "velocity.spin": -30.0 / 0.46 * 1.001}
+
+
+@pytest.mark.parametrize("law", range(len(WEAR_LAWS)))
+def test_accumulates_what_contact_accumulation_does(open_pair, law):
+    fmu = open_pair()
+    fmu.update({**ROLLING, "accumulation.wear_law": law + 2})
+    rolled(fmu.initialize())
+    for body, wanted in histograms(DamageParameters(wear_law=WEAR_LAWS[law])).items():
+        edges = np.arange(-60, 40)
+        at = np.searchsorted(np.round(wanted.edges[:-1] / 1e-3), edges)
+        inside = (edges >= round(wanted.edges[0] / 1e-3)) & (at < wanted.centres.size)
+        for quantity in SUMS | MAXIMA:
+            theirs = np.where(inside, wanted[quantity][np.minimum(at, wanted.centres.size - 1)], 0.0)
+            mine = bins(fmu, body, quantity)
+            assert mine.sum() == pytest.approx(wanted[quantity].sum(), rel=1e-9), "nothing lies beyond the bins"
+            np.testing.assert_allclose(mine, theirs, rtol=1e-9, atol=1e-12 * np.abs(theirs).max(), err_msg=quantity)
+
+
+def test_bins_add_up_to_the_totals_and_grow_linearly(open_pair):
+    fmu = open_pair()
+    fmu.update({**ROLLING, **ON})
+    fmu.initialize().step(0.0, 2e-3)
+    once = everything(fmu)
+    for k in range(1, 5):
+        fmu.step(2e-3 * k, 2e-3)
+    later, maxima = everything(fmu), [i for i in range(16) if i % 8 == 7]
+    np.testing.assert_allclose(np.delete(later, maxima, 0), 5.0 * np.delete(once, maxima, 0), rtol=1e-12)
+    np.testing.assert_array_equal(later[maxima], once[maxima])
+    assert fmu["total.distance"] == pytest.approx(30.0 * 0.01, rel=1e-12)
+    for body in BODIES:
+        assert bins(fmu, body, "volume").sum() == pytest.approx(fmu["total.worn_volume"], rel=1e-12)
+        assert bins(fmu, body, "T_gamma").sum() == pytest.approx(fmu["total.T_gamma"], rel=1e-12)
+    assert fmu["total.T_gamma"] > 0.0
+
+
+def test_bins_are_part_of_the_state_and_a_discarded_step_leaves_them(open_pair):
+    fmu, other = open_pair(), open_pair()
+    fmu.update({**ROLLING, **ON})
+    rolled(fmu.initialize(), steps=2)
+    state, before = fmu.fmu.getFMUstate(), everything(fmu)
+    content = fmu.fmu.serializeFMUstate(state)
+    wanted = everything(rolled(fmu, 2, 2))
+    assert (wanted > before).any()
+    fmu.fmu.setFMUstate(state)
+    np.testing.assert_array_equal(everything(fmu), before)
+    good = fmu["pose.yaw"]
+    fmu.update({"pose.yaw": 1.0})
+    discarded(fmu, 4e-3, 2e-3)
+    np.testing.assert_array_equal(everything(fmu), before)
+    fmu.update({"pose.yaw": good})
+    np.testing.assert_array_equal(everything(rolled(fmu, 2, 2)), wanted)
+    fmu.fmu.freeFMUstate(state)
+    other.fmu.setFMUstate(other.fmu.deSerializeFMUstate(content))
+    np.testing.assert_array_equal(everything(other), before)
+    np.testing.assert_array_equal(everything(rolled(other, 2, 2)), wanted)
+    fmu.fmu.reset()
+    fmu.update({**ROLLING, **ON})
+    assert not everything(fmu.initialize()).any()
+
+
+def test_what_is_off_stays_zero(fmu):
+    fmu.step()
+    assert not everything(fmu).any()
+    assert fmu["total.T_gamma"] > 0.0
 
 
 def exchanged(file: Path, folder: Path) -> tuple[Path, list[profile.Profile]]:
@@ -210,6 +313,21 @@ def test_a_damaged_profile_is_refused_when_instantiated(file, tmp_path, damage):
 
 
 @pytest.fixture
+def open_pair_fmi3(native_fmi3, tmp_path):
+    """Instantiate the native FMU of FMI 3.0."""
+    instances = []
+
+    def open_pair_fmi3(kind: str = "CoSimulation") -> Instance3:
+        folder = fmpy.extract(str(native_fmi3.with_name(f"{NAME}.fmu")), str(tmp_path / f"three{len(instances)}"))
+        instances.append(Instance3(Path(folder), kind=kind))
+        return instances[-1]
+
+    yield open_pair_fmi3
+    for instance in instances:
+        instance.free()
+
+
+@pytest.fixture
 def native_pair(native, tmp_path):
     """Instantiate the native FMU."""
     instances = []
@@ -232,6 +350,18 @@ def test_both_packagings_go_on_alike_from_step_to_step(native_pair, open_fmu):
         fmu.initialize()
     for mine, wanted in zip(trajectory(one, 0), trajectory(other, 0), strict=True):
         assert mine == pytest.approx(wanted, rel=1e-12, abs=1e-12)
+
+
+def test_arrays_of_fmi3_are_the_bins(open_pair_fmi3, native_pair):
+    two, three = native_pair(), open_pair_fmi3()
+    for fmu in (two, three):
+        fmu.update({**ROLLING, **ON})
+        rolled(fmu.initialize())
+    for body in BODIES:
+        for quantity in SUMS | MAXIMA:
+            array = three[f"accumulated.{body}.{quantity}"]
+            assert array.shape == (BINS,)
+            np.testing.assert_array_equal(array, bins(two, body, quantity))
 
 
 def test_a_state_of_other_profiles_is_refused(native, native_pair, tmp_path):

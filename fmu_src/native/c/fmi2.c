@@ -58,7 +58,7 @@ fmi2Status fmi2Reset(fmi2Component c) { return SHARED(reset(c, __func__)); }
         const Instance *instance = c; \
         Status status = before_get(c, __func__, refs, n, kinds, n); \
         if (status > WARNING) return SHARED(status); \
-        for (size_t k = 0; k < n; k++) values[k] = (type)instance->is.values[refs[k]]; \
+        for (size_t k = 0; k < n; k++) values[k] = (type)*numbers(instance, refs[k]); \
         return SHARED(status); \
     }
 GET(fmi2GetReal, fmi2Real, REAL)

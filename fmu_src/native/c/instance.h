@@ -42,9 +42,10 @@ typedef enum {
     STATE = 8, /* continuous state, an output as well */
     TOTAL = 16, /* output that adds up, with a start value */
     FIELD = 32, /* output of FMI 3.0, an array as large as the resolution makes it */
-    TIME = 64   /* in FMI 3.0 a variable as well */
+    TIME = 64,  /* in FMI 3.0 a variable as well */
+    ACCUMULATED = 128 /* output that adds up without being a value: these are the end of the warm start, if it has them */
 } Role;
-#define ANY_OUTPUT (OUTPUT | STATE | TOTAL)
+#define ANY_OUTPUT (OUTPUT | STATE | TOTAL | ACCUMULATED)
 typedef uint32_t Reference;
 
 typedef struct {
@@ -57,8 +58,9 @@ typedef struct {
     double start, minimum, maximum;
 } Variable;
 
-/* First those with a number in `values`: an array has one variable for each in FMI 2.0, one for all in FMI 3.0. */
-extern const Variable variables[N_VALUES + N_FIELDS + 1];
+/* First those with a number in `values`, then those that accumulate: an array has one variable for each in FMI 2.0, one for
+ * all in FMI 3.0. */
+extern const Variable variables[N_VALUES + N_ACCUMULATED + N_FIELDS + 1];
 
 /* Continuous states: value references of one and of its derivative, and its nominal value. */
 typedef struct {

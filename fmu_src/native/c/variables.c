@@ -11,11 +11,21 @@ size_t extent(const Instance *instance, Reference reference)
     return variables[reference].role == FIELD ? FIELD_SIZE(instance->is.values) : variables[reference].size;
 }
 
+/* What has accumulated since the start. */
+static const double *accumulated(const Instance *instance)
+{
+    static const double nothing[N_ACCUMULATED + 1];
+    if (!ACCUMULATES(instance->is.values) || instance->memory_size < N_ACCUMULATED) return nothing;
+    return instance->memory + instance->memory_size - N_ACCUMULATED;
+}
+
 /* The numbers of `values` and working memory that a value reference stands for. */
 static const double *numbers_of(const Instance *instance, double *values, Reference reference)
 {
+    const int64_t field = (int64_t)reference - N_VALUES - N_ACCUMULATED;
+    if (variables[reference].role == ACCUMULATED) return accumulated(instance) + (reference - N_VALUES);
     if (variables[reference].role != FIELD) return values + reference;
-    return instance->work + instance->model->field(values, instance->work, (int64_t)reference - N_VALUES, instance->resources);
+    return instance->work + instance->model->field(values, instance->work, field, instance->resources);
 }
 
 /* The instance's own: in `solved` is what working memory belongs to. */
@@ -28,7 +38,7 @@ const double *numbers(const Instance *instance, Reference reference)
 
 static bool exists(const Instance *instance, Reference reference)
 {
-    if (!instance->arrays) return reference < N_VALUES;
+    if (!instance->arrays) return reference < N_VALUES + N_ACCUMULATED;
     return reference <= V_time && (variables[reference].size > 0 || variables[reference].role == FIELD);
 }
 

@@ -1,0 +1,100 @@
+"""What a pair adds up over both profiles is what `contact.accumulation` makes of the same patches."""
+
+import numpy as np
+import pytest
+
+import contact
+from contact.accumulation import MAXIMA, SUMS, Histogram
+from contact.damage import WEAR_LAWS, DamageParameters, deposit
+from contact.errors import ContactError
+from contact.geometry import profile
+from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.pair import WheelRailPair
+from contact.pair.ledger import RAIL, WHEEL, allocate
+
+BODIES = {"wheel": profile.s1002(), "rail": profile.rail_60e1(1 / 20, breakpoints="UIC 519")}
+VELOCITY = Velocity(forward=30.0)
+#: Tread, tread and flange at once, flange root; metres rolled in each.
+ROLLED = {Pose(y=1e-3, yaw=2e-3): 10.0, Pose(y=6.37e-3): 4.0, Pose(y=5.5e-3, yaw=5e-3): 2.0}
+
+
+def ledger(n_bins=100, first=-0.06, width=1e-3):
+    rows = (np.stack((given.y, given.z)) for given in BODIES.values())
+    return allocate(*rows, 20, n_bins, first, width)
+
+
+def pair(side="right", law="archard", **options):
+    damage, sizes = DamageParameters(wear_law=law), {"n_strips": 20, "n_elements": 20}
+    return WheelRailPair(Pair(*BODIES.values(), side=side), damage=damage, **sizes, **options)
+
+
+def rolled(pair, mirror=1.0):
+    for pose, distance in ROLLED.items():
+        pair.solve(Pose(y=mirror * pose.y, yaw=mirror * pose.yaw), VELOCITY, load=60e3, distance=distance)
+    return pair.bench.ledger.bins
+
+
+@pytest.mark.parametrize("law", WEAR_LAWS)
+def test_bins_are_those_of_the_histograms(law):
+    run = pair(law=law, ledger=ledger())
+    bins = rolled(run)
+    for body, which in (("wheel", WHEEL), ("rail", RAIL)):
+        wanted = Histogram(BODIES[body], width=1e-3, parameters=DamageParameters(wear_law=law))
+        for pose, distance in ROLLED.items():
+            patches = run.pair.contacts(pose, VELOCITY, load=60e3)
+            solutions = [
+                contact.solve(
+                    p.separation, p.creepage, load=p.load, speed=30.0, throw=False, n_strips=20, n_elements=20
+                )
+                for p in patches
+            ]
+            wanted.add(patches, solutions, distance=distance)
+        offset = round(wanted.edges[0] / 1e-3) + 60
+        for name, mine in zip(SUMS | MAXIMA, bins[which], strict=True):
+            theirs = np.zeros(100)
+            inside = np.arange(wanted.centres.size) + offset
+            keep = (inside >= 0) & (inside < 100)
+            theirs[inside[keep]] = wanted[name][keep]
+            assert np.abs(wanted[name][~keep]).max(initial=0.0) == 0.0
+            np.testing.assert_allclose(mine, theirs, rtol=1e-9, atol=1e-12 * np.abs(theirs).max(), err_msg=name)
+            assert name.endswith("exceedance") or theirs.any(), name
+
+
+def test_left_side_is_the_mirror_image():
+    right, left = rolled(pair(ledger=ledger())), rolled(pair("left", ledger=ledger()), mirror=-1.0)
+    np.testing.assert_array_equal(left, right)
+
+
+def test_bins_add_up_to_the_totals_also_where_they_end_before_the_contact():
+    """Four bins about the tread; what lies beyond belongs to the outer ones."""
+    few, many = pair(ledger=ledger(4, -2e-3)), pair(ledger=ledger())
+    T_gamma = volume = 0.0
+    for pose, distance in ROLLED.items():
+        for run in (few, many):
+            damage = run.solve(pose, VELOCITY, load=60e3, distance=distance).damage
+        T_gamma, volume = T_gamma + distance * damage[0], volume + distance * damage[7]
+    for run in (few, many):
+        for body in run.bench.ledger.bins:
+            assert body[deposit.T_GAMMA].sum() == pytest.approx(T_gamma, rel=1e-12)
+            assert body[deposit.VOLUME].sum() == pytest.approx(volume, rel=1e-12)
+
+
+def test_growth_is_linear_and_nothing_grows_where_nothing_rolls_or_touches():
+    run = pair(ledger=ledger())
+    once = rolled(run).copy()
+    for _ in range(4):
+        rolled(run)
+    for pose in ROLLED:
+        run.solve(pose, VELOCITY, load=60e3)
+    run.solve(Pose(), VELOCITY, load=0.0, distance=100.0)
+    bins = run.bench.ledger.bins
+    np.testing.assert_allclose(bins[:, : len(SUMS)], 5.0 * once[:, : len(SUMS)], rtol=1e-13)
+    np.testing.assert_array_equal(bins[:, deposit.ENERGY_INDEX_MAX], once[:, deposit.ENERGY_INDEX_MAX])
+    with pytest.raises(ContactError, match="distance = -1"):
+        run.solve(Pose(), VELOCITY, load=60e3, distance=-1.0)
+
+
+def test_laws_that_give_forces_alone_leave_t_gamma_and_fatigue():
+    bins = rolled(pair(ledger=ledger(), tangential="polach"))
+    assert bins[:, deposit.T_GAMMA].sum() > 0.0
+    assert not bins[:, [deposit.WEAR, deposit.VOLUME, deposit.ENERGY_INDEX, deposit.STRESS_EXCEEDANCE]].any()
