@@ -10,6 +10,7 @@ from contact.damage.burstow import Burstow, burstow
 from contact.damage.energy_index import energy_index
 from contact.damage.fatigue_index import fatigue_index
 from contact.damage.pearce_sherratt import PearceSherratt, pearce_sherratt
+from contact.damage.shakedown import shakedown_limit
 from contact.damage.stress_index import stress_index
 from contact.damage.t_gamma import t_gamma
 from contact.damage.usfd import Usfd, usfd
@@ -29,6 +30,7 @@ __all__ = [
     "evaluate",
     "fatigue_index",
     "pearce_sherratt",
+    "shakedown_limit",
     "stress_index",
     "t_gamma",
     "usfd",

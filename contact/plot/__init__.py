@@ -15,7 +15,7 @@ from contact.plot.patches import patch
 from contact.plot.position import Wheel, position
 from contact.plot.rolling import conicity, contact_points
 from contact.plot.shakedown import shakedown
-from contact.plot.wear import shares, wear, worn_profile
+from contact.plot.wear import fatigue, shares, wear, worn_profile
 
 __all__ = [
     "Wheel",
@@ -23,6 +23,7 @@ __all__ = [
     "conicity",
     "contact_points",
     "curve",
+    "fatigue",
     "patch",
     "position",
     "shakedown",

@@ -7,18 +7,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
+from contact.damage.shakedown import ELLIPSE, LINE, shakedown_limit
 from contact.errors import ContactError
 from contact.plot.style import DPI, FAINT, INK, colours, style
 from contact.solution import Solution
 
-#: Shakedown limit p0/k below the surface over the utilised friction: line contact, max |τxz| with free residual stresses. Own
-#: computation with McEwen's fields [V] (constants.md 5), in agreement with Johnson's 4.00 at no friction.
-SUBSURFACE = np.array(
-    [
-        *((0.0, 4.00), (0.05, 3.77), (0.1, 3.56), (0.15, 3.38), (0.2, 3.20), (0.25, 3.04), (0.3, 2.90), (0.35, 2.77)),
-        (0.367, 2.72),
-    ]
-)
 _WIDEST = 0.6  # utilisation that the map shows at least
 
 
@@ -26,7 +19,8 @@ def shakedown(runs: Mapping[str, Sequence[Solution]], title: str = "") -> Figure
     """Draw the shakedown map: peak pressure over shear yield stress against utilised friction, and solved contacts on it.
 
     Above 1/utilisation the surface flows (surface fatigue index positive, thesis Eq. 6.6); below it, but above the other
-    line, material under the surface of a line contact does.
+    line, material under the surface of a line contact does (`contact.damage.shakedown_limit`). A mark on the left is the
+    limit of a circle without friction.
 
     Parameters
     ----------
@@ -53,10 +47,10 @@ def shakedown(runs: Mapping[str, Sequence[Solution]], title: str = "") -> Figure
     with style():
         figure = Figure(figsize=(5.6, 4.2), dpi=DPI, layout="constrained")
         ax = figure.subplots()
-        meeting = SUBSURFACE[-1, 0]
-        surface, beyond = np.linspace(meeting, right, 200), np.linspace(1.0 / top, meeting, 200)
-        ax.plot(SUBSURFACE[:, 0], SUBSURFACE[:, 1], color=INK, lw=1.4)
-        ax.plot(surface, 1.0 / surface, color=INK, lw=1.4)
+        meeting = LINE[-1, 0]
+        utilised, beyond = np.linspace(0.0, right, 400), np.linspace(1.0 / top, meeting, 200)
+        ax.plot(utilised, shakedown_limit(utilised), color=INK, lw=1.4)
+        ax.plot(0.0, ELLIPSE[1.0], "o", color=INK, mfc="none", ms=5.0, clip_on=False)
         ax.plot(beyond, 1.0 / beyond, color=FAINT, lw=0.9, ls="--")
         for (name, cloud), colour in zip(points.items(), colours(len(points)), strict=True):
             if cloud.size:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError, require_number
 from contact.plot.style import DPI, FAINT, INK, LINES, MM, colours, style
@@ -17,8 +17,15 @@ if TYPE_CHECKING:
     from contact.accumulation import Histogram
     from contact.geometry.profile import Profile
 
+Array = NDArray[np.float64]
+
 _UM = 1e6
 _THOUSAND = 1e3  # metres or axle passes
+_FATIGUE = (
+    ("fatigue_exceedance", 1.0, "FI_surf > 0 [-]"),
+    ("stress_exceedance", 1.0, "SI > 0 [-]"),
+    ("energy_index", 1e-6, "EI [MPa]"),
+)
 
 
 def wear(histograms: Mapping[str, Histogram], title: str = "") -> Figure:
@@ -39,31 +46,48 @@ def wear(histograms: Mapping[str, Histogram], title: str = "") -> Figure:
     ContactError
         No histogram, nothing rolled, or histograms over different profiles.
     """
-    if not histograms:
-        raise ContactError("histograms is empty; at least one is needed")
-    first, *others = histograms.values()
-    total = first
-    for other in others:
-        total = total + other  # which refuses what does not belong together
-    if total.distance <= 0.0:
-        raise ContactError("distance = 0: nothing has rolled yet")
-    profile = total.profile
-    scale = _UM * _THOUSAND / total.distance
-    edges = MM * np.interp(total.edges, total.arc, profile.y)
+    total = _merged(histograms)
+    edges = MM * np.interp(total.edges, total.arc, total.profile.y)
     with style():
         figure = Figure(figsize=(7.4, 4.6), dpi=DPI, layout="constrained")
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[1.6, 1.0])
-        base = np.zeros(total.centres.size)
-        for (name, histogram), colour in zip(histograms.items(), colours(len(histograms)), strict=True):
-            top = base + scale * histogram["wear"]
-            above.stairs(top, edges, baseline=base, fill=True, color=colour, lw=0.0, label=name)
-            base = top
-        above.stairs(base, edges, color=INK, lw=0.8)
-        above.set_ylabel("depth [µm per km]" if profile.kind == "wheel" else "depth [µm per 1000 axle passes]")
-        above.set_ylim(0.0)
+        _stack(above, histograms, "wear", _UM * _THOUSAND / total.distance, edges)
+        above.set_ylabel("depth [µm per km]" if total.profile.kind == "wheel" else "depth [µm per 1000 axle passes]")
         above.legend()
-        above.grid(visible=True)
-        _outline(below, profile, INK, profile.name or profile.kind)
+        _outline(below, total.profile, INK, total.profile.name or total.profile.kind)
+        if title:
+            figure.suptitle(title, x=0.01, ha="left", fontsize=10.0)
+    return figure
+
+
+def fatigue(histograms: Mapping[str, Histogram], title: str = "") -> Figure:
+    """Draw what tells of rolling contact fatigue over one profile, upon each other, and the profile below.
+
+    From above: the part of all the distance that is rolled with a positive surface fatigue index of the patch, that with a
+    positive stress index somewhere along the strip, and the mean energy index.
+
+    Parameters
+    ----------
+    histograms : mapping of str to contact.accumulation.Histogram
+        By name, over one profile.
+    title : str
+        Of the whole.
+
+    Raises
+    ------
+    ContactError
+        No histogram, nothing rolled, or histograms over different profiles.
+    """
+    total = _merged(histograms)
+    edges = MM * np.interp(total.edges, total.arc, total.profile.y)
+    with style():
+        figure = Figure(figsize=(7.4, 6.4), dpi=DPI, layout="constrained")
+        *above, below = figure.subplots(4, 1, sharex=True)
+        for ax, (quantity, scale, label) in zip(above, _FATIGUE, strict=True):
+            _stack(ax, histograms, quantity, scale / total.distance, edges)
+            ax.set_ylabel(label)
+        above[0].legend()
+        _outline(below, total.profile, INK, total.profile.name or total.profile.kind)
         if title:
             figure.suptitle(title, x=0.01, ha="left", fontsize=10.0)
     return figure
@@ -147,6 +171,30 @@ def worn_profile(before: Profile, after: Profile, *, magnified: float = 1.0, tit
         if title:
             figure.suptitle(title, x=0.01, ha="left", fontsize=10.0)
     return figure
+
+
+def _merged(histograms: Mapping[str, Histogram]) -> Histogram:
+    """All of them together, which refuses what does not belong together."""
+    if not histograms:
+        raise ContactError("histograms is empty; at least one is needed")
+    total, *others = histograms.values()
+    for other in others:
+        total = total + other
+    if total.distance <= 0.0:
+        raise ContactError("distance = 0: nothing has rolled yet")
+    return total
+
+
+def _stack(ax: Axes, histograms: Mapping[str, Histogram], quantity: str, scale: float, edges: Array) -> None:
+    """Draw one quantity of the histograms upon each other."""
+    base = np.zeros(edges.size - 1)
+    for (name, histogram), colour in zip(histograms.items(), colours(len(histograms)), strict=True):
+        top = base + scale * histogram[quantity]
+        ax.stairs(top, edges, baseline=base, fill=True, color=colour, lw=0.0, label=name)
+        base = top
+    ax.stairs(base, edges, color=INK, lw=0.8)
+    ax.set_ylim(0.0)
+    ax.grid(visible=True)
 
 
 def _outline(ax: Axes, profile: Profile, colour: str, name: str) -> None:

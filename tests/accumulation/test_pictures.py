@@ -5,6 +5,7 @@ import pytest
 
 import contact
 from contact.accumulation import Histogram, worn_profile
+from contact.damage import shakedown_limit
 from contact.errors import ContactError
 from contact.geometry.profile import rail_60e1, s1002
 from contact.geometry.wheelset import Pair, Pose
@@ -12,7 +13,6 @@ from contact.geometry.wheelset import Pair, Pose
 pytest.importorskip("matplotlib")
 
 from contact import plot
-from contact.plot.shakedown import SUBSURFACE
 
 WHEEL, RAIL = s1002(), rail_60e1()
 
@@ -77,11 +77,24 @@ def test_working_points_lie_where_utilisation_and_pressure_say(runs):
         assert solution.damage.fatigue_index == pytest.approx(x - 1.0 / y, rel=1e-12), "positive above 1/x"
 
 
-def test_both_limits_of_the_map_meet():
-    x, y = SUBSURFACE[-1]
-    assert y == pytest.approx(1.0 / x, rel=2e-3)
-    assert SUBSURFACE[0, 1] == 4.0, "Johnson's limit of the frictionless line contact"
-    assert (np.diff(SUBSURFACE, axis=0) * [1.0, -1.0] > 0.0).all()
+def test_fatigue_is_stacked_over_the_profile(runs):
+    parts = {name: run[1] for name, run in runs.items()}
+    total = parts["middle"] + parts["flange"]
+    above = plot.fatigue(parts, "fatigue").axes[:3]
+    for ax, quantity, scale in zip(
+        above, ("fatigue_exceedance", "stress_exceedance", "energy_index"), (1.0, 1.0, 1e-6), strict=True
+    ):
+        outline = ax.patches[-1].get_data()
+        np.testing.assert_allclose(
+            outline.values, scale * total[quantity] / total.distance, rtol=1e-12, err_msg=quantity
+        )
+    assert above[0].patches[-1].get_data().values.max() > 0.0
+
+
+def test_the_limit_of_the_map_is_drawn(runs):
+    (ax,) = plot.shakedown({"middle": runs["middle"][2]}).axes
+    utilised, limit = ax.lines[0].get_xydata().T
+    np.testing.assert_array_equal(limit, shakedown_limit(utilised))
 
 
 def test_pictures_refuse_what_they_cannot_draw(runs):
@@ -91,6 +104,7 @@ def test_pictures_refuse_what_they_cannot_draw(runs):
         (lambda: plot.wear({}), "histograms is empty"),
         (lambda: plot.wear({"new": Histogram(WHEEL)}), "nothing has rolled"),
         (lambda: plot.wear({"a": wheel, "b": rail}), "different profiles"),
+        (lambda: plot.fatigue({}), "histograms is empty"),
         (lambda: plot.worn_profile(WHEEL, RAIL), "point to point"),
         (lambda: plot.worn_profile(WHEEL, WHEEL, magnified=0.0), "magnified"),
         (lambda: plot.shakedown({"air": [apart]}), "no solution with contact"),

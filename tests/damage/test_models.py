@@ -17,11 +17,13 @@ from contact.damage import (
     energy_index,
     fatigue_index,
     pearce_sherratt,
+    shakedown_limit,
     stress_index,
     t_gamma,
     usfd,
     wear_coefficient,
 )
+from contact.damage.shakedown import ELLIPSE, LINE
 
 REFERENCE = Path(__file__).parents[1] / "reference" / "frictional_energy.csv"
 
@@ -116,6 +118,36 @@ def test_fatigue_index_on_an_ellipse_is_thesis_6_6():
     thesis = 0.25 - 2.0 * math.pi * a * b * k / (3.0 * N)
     assert fatigue_index(0.25, p0, k) == pytest.approx(thesis, rel=1e-12)
     assert fatigue_index(0.4, 750e6, 300e6) == pytest.approx(0.0, abs=1e-15), "zero on the line p0/k = 1/utilisation"
+
+
+def test_shakedown_limits_meet_and_begin_where_johnsons_do():
+    x, y = LINE[-1]
+    assert y == pytest.approx(1.0 / x, rel=2e-3)
+    assert shakedown_limit([0.0, 0.3, 0.5, 1.0]) == pytest.approx([4.0, 2.90, 2.0, 1.0], rel=1e-15)
+    assert (np.diff(shakedown_limit(np.linspace(0.0, 1.0, 1001))) < 0.0).all()
+    assert fatigue_index(0.5, shakedown_limit(0.5) * 300e6) == pytest.approx(0.0, abs=1e-15)
+
+
+@pytest.mark.parametrize("aspect", ELLIPSE)
+def test_limit_of_the_frictionless_ellipse_is_its_greatest_orthogonal_shear(aspect):
+    """k/|τxz|max in the half space under Hertz's pressure, a = aspect and b = 1: Boussinesq's point forces over the ellipse."""
+    # the shear is that of -z ∂(∂φ/∂z)/∂x of the potential φ = ∬ p/(2π r) dA: 3 z² (x - ξ)/(2π r⁵) a point force
+    t, weight = np.polynomial.legendre.leggauss(60)
+    angle = 2.0 * np.pi * np.arange(120) / 120
+    r, c, s = np.sin(0.25 * np.pi * (t + 1.0)), np.cos(angle), np.sin(angle)  # dense towards the edge
+    xi, eta = aspect * r[:, None] * c, r[:, None] * s
+    force = (0.25 * np.pi * weight * np.cos(0.25 * np.pi * (t + 1.0)) * r * np.sqrt(1.0 - r**2))[:, None] * (
+        aspect * 2.0 * np.pi / 120
+    )
+
+    def shear(place):
+        x, z = place
+        distance = np.sqrt((x - xi) ** 2 + eta**2 + z**2)
+        return -float((force * 3.0 * z**2 * (x - xi) / (2.0 * np.pi * distance**5)).sum())
+
+    optimize = pytest.importorskip("scipy.optimize")
+    found = optimize.minimize(shear, (0.85 * aspect, 0.45 * aspect), method="Nelder-Mead", options={"xatol": 1e-5})
+    assert -1.0 / found.fun == pytest.approx(ELLIPSE[aspect], rel=2e-3)
 
 
 def test_stress_index_is_traction_above_yield():

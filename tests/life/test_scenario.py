@@ -5,9 +5,11 @@ from pathlib import Path
 
 import pytest
 
+from contact.damage import DamageParameters, Usfd
 from contact.errors import ContactError
 from contact.friction import Friction
 from models.life import scenario
+from models.life.harvest import Harvest
 from models.life.track import Curve, Track
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "scenarios"
@@ -55,6 +57,12 @@ def written(folder: Path, text: str) -> Path:
             LEAST + "[friction]\nstatic = 0.3\ngauge_factor = 0.5",
             r"friction.gauge_factor = 0.5: a run knows one .*allowed: 1",
         ),
+        (
+            LEAST + "[damage]\nwear_law = 'reye'",
+            r"case.toml.damage: wear_law = 'reye' is unknown; allowed: archard, usfd",
+        ),
+        (LEAST + "[damage]\nwear_law = 3", r"case.toml.damage.wear_law = 3 is not a text"),
+        (LEAST + "[damage.usfd]\nsevere_branch = 'steep'", r"severe_branch = 'steep' is unknown; allowed: continuous"),
         (LEAST + "[damage.archard]\nmild = -1.0", r"case.toml.damage.archard: archard.mild = -1 is outside"),
         (
             LEAST + "[recording]\nstep = 0.1",
@@ -91,6 +99,13 @@ def test_least_scenario_takes_the_defaults_of_the_models(tmp_path):
     assert (found.wheel.name, found.rail.name) == ("S1002", "60E1")
     assert found.parameters.mass == 1813.0
     assert found.line().at(50.0) == (0.0, 0.0, 0.0, 0.0)
+
+
+def test_wear_law_of_a_scenario_is_that_of_its_histograms(tmp_path):
+    text = LEAST + "[damage]\nwear_law = 'usfd'\n[damage.usfd]\nsevere_branch = 'proportional'"
+    found = scenario.read(written(tmp_path, text))
+    parameters = {histogram.parameters for histogram in Harvest(found).histograms.values()}
+    assert parameters == {DamageParameters(usfd=Usfd(severe_branch="proportional"), wear_law="usfd")}
 
 
 def test_fingerprint_follows_input_profiles_and_draw(tmp_path):
