@@ -58,11 +58,11 @@ NODES_PER_HALF_BASE = 5
 #: How many times faster than the gap its deformation may fall (`_keep_rising`).
 STEEPEST = 20.0
 
-#: Share of the load that may be missing before the last of Newton's steps.
-NEWTON_CLOSE = 1e-7
+#: Product of the shares of the load that may be missing at the ends of the last secant.
+SECANT_CLOSE = 1e-8
 
-#: Newton's steps before bisection, which closes in on a step of the load, and the cap.
-_NEWTON_ITERATIONS, _MAX_ITERATIONS = 15, 60
+#: Steps before bisection, which closes in on a step of the load, and the cap.
+_STEPS, _MAX_ITERATIONS = 15, 60
 
 
 @kernel
@@ -266,13 +266,15 @@ def fill_strips(y, xc, n, delta, modulus, nodes, weights, work, edges, strips):
 def solve_load(y, g, A, n, y_least, g_least, load, modulus, nodes, weights, work, edges, result):
     """Approach above first touch that carries `load`, with everything prepared.
 
-    N ~ delta^(3/2) in Hertz contact: Newton on N^(2/3), bracketed.
+    N ~ delta^(3/2) in Hertz contact: bracketed steps on N^(2/3). The first is Newton's; its slope is that of fixed strips, one
+    or two per cent off, so the others are secants.
     """
     prepare(y, g, A, n, g_least, work)
     k = locate(y, n, y_least, 0)
     hertz = (0.75 * load / modulus * work[NR, k] * math.sqrt(work[STRETCHED_A, k])) ** (2.0 / 3.0)
     delta = estimated_approach(y, n, load, modulus, work, hertz)
     low, high = 0.0, math.inf
+    before, left_before, missing_before = 0.0, 0.0, 1.0
     for iteration in range(_MAX_ITERATIONS):
         result[RES_ITERATIONS] = iteration + 1.0
         N, stiffness = load_at(y, n, delta, modulus, nodes, weights, work, edges)
@@ -280,13 +282,18 @@ def solve_load(y, g, A, n, y_least, g_least, load, modulus, nodes, weights, work
             low = delta
         else:
             high = delta
-        if N > 0.0 and stiffness > 0.0:
-            new = delta - 1.5 * N / stiffness * (1.0 - (load / N) ** (2.0 / 3.0))
+        missing = abs(N - load) / load
+        left = (N / load) ** (2.0 / 3.0) - 1.0
+        if iteration > 0 and left != left_before:
+            new = delta - left * (delta - before) / (left - left_before)
+        elif N > 0.0 and stiffness > 0.0:
+            new = delta - 1.5 * N / stiffness * left / (1.0 + left)
         else:
             new = 2.0 * delta
-        if abs(N - load) <= NEWTON_CLOSE * load:  # the step taken squares what is missing
+        if missing * missing_before <= SECANT_CLOSE:  # what a secant leaves goes with both
             return new
-        if not low < new < high or (iteration >= _NEWTON_ITERATIONS and high < math.inf):
+        before, left_before, missing_before = delta, left, missing
+        if not low < new < high or (iteration >= _STEPS and high < math.inf):
             new = 0.5 * (low + high) if high < math.inf else 2.0 * delta
         if new == delta or high - low <= 1e-12 * delta:  # a step: two patches merge within one sample interval
             return high if high < math.inf else delta  # its upper side, whatever the way there

@@ -58,84 +58,14 @@ from contact.tangential.lanes import (
     SLIP,
     decay_and_lag,
     keep,
+    small_exp,
     turned,
 )
+from contact.tangential.mapping import edge_direction, elastic_centre, mapped, slid_at
 from contact.tangential.varying import begin, soften, varies
 
 _NOW_SHARE = NOW_STICK  # where `_fall` leaves the share of the traction that friction still bears
 _LOG_ASPECT_FIT = 1.7  # ln(a/b) up to which the constants were fitted; frozen beyond
-
-
-@kernel
-def edge_direction(r, wx, wy):
-    """Direction of slip at a slipping leading edge, where bound and traction start from zero."""
-    size = math.sqrt(wx * wx + wy * wy)
-    ex, ey = -wx / size, -wy / size
-    for _ in range(3):
-        slip = max(0.0, size - 2.0 * (r * ex * ex + ey * ey))
-        ex, ey = -wx / (slip + 2.0 * r), -wy / (slip + 2.0)
-        length = math.sqrt(ex * ex + ey * ey)
-        ex, ey = ex / length, ey / length
-    return ex, ey
-
-
-@kernel
-def mapped(ux, uy, o, n):
-    """Traction over mu·p from the utilisation u of the parabolic bound in stick; `o` is the y component of the pole.
-
-    The exponent m = 1/2 + n enters as √(1-t)·(1-t)^n, the second factor as its [2/2] Padé approximant, which is free of
-    libm (no change of accuracy on set A: .0077 → .0076).
-    """
-    dx, dy = ux, uy - o
-    square = dx * dx + dy * dy
-    along = o * dy
-    t = square / (math.sqrt(along * along + square * (1.0 - o * o)) - along + 1e-300)
-    t = t if t < 1.0 else 1.0
-    # with √(1-t) = 1 - t/r, r = 1 + √(1-t), and above/below = 1 - n t (1-t/2)/below, f has no difference of like numbers
-    r = 1.0 + math.sqrt(1.0 - t)
-    below = 1.0 - 0.5 * (2.0 - n) * t + (2.0 - n) * (1.0 - n) / 12.0 * t * t
-    f = (below + n * (1.0 - 0.5 * t) * (r - t)) / (r * below)
-    return dx * f, o + dy * f
-
-
-@kernel
-def slid_at(s, ex, ey, r, pole, Xs, Ys, spin, from_edge):
-    """Slip of a particle at s that slides along (ex, ey), over the lateral flexibility; 0 or more.
-
-    Where the strip slips from its edge this is the march's own slip. Behind a stick zone that ends at s_b the march has
-    (1 - s) + (s_b - s), which belongs to the parabola, and strip theory 2√((1 - s)(s_b - s)), both times the traction
-    without its spin part e - o (theory.md 4.3); the two agree, with their slopes, where the strip comes to slip as a whole.
-    """
-    fx, fy = ex, ey - pole
-    stiffness = r * fx * fx + fy * fy + 1e-300
-    reach = -(Xs * fx + Ys * fy) / stiffness  # 1 + s_b
-    march = -(Xs * ex + (Ys + 2.0 * spin * s) * ey) - 2.0 * s * (r * ex * ex + ey * ey)
-    back = reach - 1.0 - s
-    back = back if back > 0.0 else 0.0
-    theory = 2.0 * math.sqrt((1.0 - s) * back) * (r * ex * fx + ey * fy)
-    slip = march if from_edge > 0.5 or reach >= 2.0 else theory
-    return slip if slip > 0.0 else 0.0
-
-
-@kernel
-def elastic_centre(strips, n, table, log_equivalent):
-    """Blend the aspect ratios in place; return the centres of longitudinal stiffness and of spin, and the C33 factor.
-
-    Weights C11·a·dy and C11·a²·dy; on an ellipse both centres are its own (mapped_strip.md 3, step 0).
-    """
-    stiffness, first, stiffness2, first2, spin = 0.0, 0.0, 0.0, 0.0, 0.0
-    for i in range(n):
-        a, y = strips[STRIP_A, i], strips[STRIP_Y, i]
-        log_aspect = 0.5 * (strips[STRIP_ASPECT, i] + log_equivalent)
-        strips[STRIP_ASPECT, i] = log_aspect
-        c11, _, _, c33 = kalker.coefficients(table, log_aspect)
-        weight = c11 * a * strips[STRIP_DY, i]
-        stiffness += weight
-        first += weight * y
-        stiffness2 += weight * a
-        first2 += weight * a * y
-        spin += weight * 4.0 * c33 * math.exp(log_aspect) / c11
-    return first / stiffness, first2 / stiffness2, spin / stiffness
 
 
 # rows of `lanes`: the strip's constants, its state, its sums over mu p0
@@ -169,59 +99,80 @@ def elastic_centre(strips, n, table, log_equivalent):
     _BOUND,  # mu p0
     _UNIT,  # of slip
 ) = (FREE_ROW + row * LANES for row in range(28))
+# what the set-up reads, in rows that the march writes before it reads them
+_HALF, _AT, _XC, _VX, _VY = NOW_X, NOW_Y, NOW_SLIP, NOW_SLIDES, NOW_STICK
+_PHI, _C11, _C22, _C23, _ROOT_ASPECT, _FITTED = _TRIAL_X, _TRIAL_Y, _TRIAL_USED, _SUM_X, _SUM_Y, _SUM_M
 
 
 @kernel
-def _set_strip(strips, i, case, table, y_c, y_spin, rho33, lanes, l):
-    """Steps 1 and 2 of mapped_strip.md 3 for strip i, into lane l; return mu p0 and the unit of slip, or zeros."""
-    G, vx, vy, phi = case[CASE_G], strips[STRIP_VX, i], strips[STRIP_VY, i], strips[STRIP_PHI, i]
-    a, y, xc = strips[STRIP_A, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
-    bound = case[CASE_MU] * strips[STRIP_BOUND, i]
-    for row in (_TX, _TY, _SUM_X, _SUM_Y, _SUM_M, _POWER, _STICK):
-        lanes[row + l] = 0.0
-    lanes[_LEFT + l] = 1.0
-    if a <= 0.0 or bound <= NO_FRICTION * G:
-        for row in (_X, _Y, _P, _XS, _YS, _SPIN, _RATE, _N, _POLE, _FROM_EDGE, _SLIPS, _USED, _EX, _EY):
-            lanes[row + l] = 0.0
-        lanes[_R + l] = 1.0
-        return 0.0, 0.0
-    log_aspect = strips[STRIP_ASPECT, i]
-    c11, c22, c23, _ = kalker.coefficients(table, log_aspect)
-    r = c22 / c11
-    rho23 = 0.75 * math.pi * c23 / (c22 * math.exp(0.5 * log_aspect))
-    k11 = 4.0 * G / (math.pi**2 * bound) * c11
-    k22 = k11 * r
-    translation = k11 * (vx - phi * y_c)
-    rotation = -k11 * phi * (y - y_c)
-    lateral = k22 * (vy + phi * xc)
-    psi = 0.5 * k22 * rho23 * phi * a
+def _set_block(strips, block, n, case, table, y_c, y_spin, rho33, lanes):
+    """Steps 1 and 2 of mapped_strip.md 3 for the strips from `block` on; all zero for a strip that bears nothing."""
+    G = case[CASE_G]
+    least = NO_FRICTION * G
+    for l in range(LANES):
+        i = min(block + l, n - 1)
+        a, bound, log_aspect = strips[STRIP_A, i], case[CASE_MU] * strips[STRIP_BOUND, i], strips[STRIP_ASPECT, i]
+        lanes[_BOUND + l] = bound if a > 0.0 and bound > least else 0.0
+        lanes[_HALF + l], lanes[_AT + l], lanes[_XC + l] = a, strips[STRIP_Y, i], strips[STRIP_XC, i]
+        lanes[_VX + l], lanes[_VY + l], lanes[_PHI + l] = strips[STRIP_VX, i], strips[STRIP_VY, i], strips[STRIP_PHI, i]
+        c11, c22, c23, _ = kalker.coefficients(table, log_aspect)
+        lanes[_C11 + l], lanes[_C22 + l], lanes[_C23 + l] = c11, c22, c23
+        lanes[_ROOT_ASPECT + l] = math.exp(0.5 * log_aspect)
+        lanes[_FITTED + l] = min(max(log_aspect, -_LOG_ASPECT_FIT), _LOG_ASPECT_FIT)
+    edges = 0
+    for l in range(lanes.size // N_LANE_ROWS):
+        bound, a, y, xc = lanes[_BOUND + l], lanes[_HALF + l], lanes[_AT + l], lanes[_XC + l]
+        vx, vy, phi, fitted = lanes[_VX + l], lanes[_VY + l], lanes[_PHI + l], lanes[_FITTED + l]
+        c11, c22, c23 = lanes[_C11 + l], lanes[_C22 + l], lanes[_C23 + l]
+        live = 1.0 if bound > 0.0 else 0.0
+        r = c22 / c11
+        rho23 = 0.75 * math.pi * c23 / (c22 * lanes[_ROOT_ASPECT + l])
+        k11 = live * (4.0 / math.pi**2) * G * c11 / (bound + (1.0 - live))
+        k22 = k11 * r
+        translation = k11 * (vx - phi * y_c)
+        rotation = -k11 * phi * (y - y_c)
+        lateral = k22 * (vy + phi * xc)
+        psi = 0.5 * k22 * rho23 * phi * a
 
-    # how far from stick (T) and how much spin (psi) set exponent, stiffness, spin and turning rate
-    T2 = 0.25 * ((translation + rotation) ** 2 + lateral * lateral)
-    psi2 = psi * psi
-    h, t = psi2 / (1.0 + psi2), T2 / (1.0 + T2)
-    w = 1.0 / (1.0 + 100.0 * (T2 + psi2))  # the linear range, in which C23 and C33 of the moment are made exact
-    clipped = min(max(log_aspect, -_LOG_ASPECT_FIT), _LOG_ASPECT_FIT)
-    m = min(0.95, 0.5 + (0.32 + 0.12 * clipped) * h)
-    stretch = math.exp(0.47 * h) / (2.0 * m)
-    spin = psi * math.exp((0.19 - 0.07 * clipped) * h)
-    shift = (1.0 - rho23) * w
-    X = stretch * (translation + (1.0 + (rho33 - 1.0) * w) * rotation - w * k11 * phi * (y_spin - y_c))
-    Y = stretch * lateral * (1.0 - shift)
-    P = spin + 2.0 * m * stretch * lateral * shift
-    Xs, Ys = stretch * (translation + rotation) * r, stretch * lateral
-    used = 0.25 * X * X + (0.5 * Y + P) ** 2
-    from_edge = 1.0 if used > 1.0 else 0.0
-    ex, ey = 0.0, 0.0
-    if from_edge > 0.5:
-        ex, ey = edge_direction(r, Xs, Ys + 2.0 * spin)
-    lanes[_X + l], lanes[_Y + l], lanes[_P + l] = X, Y, P
-    lanes[_XS + l], lanes[_YS + l], lanes[_SPIN + l] = Xs, Ys, spin
-    lanes[_R + l], lanes[_RATE + l], lanes[_N + l] = r, math.exp(-0.43 + 0.79 * h - 0.54 * t), m - 0.5
-    lanes[_POLE + l] = -min(max(P, -1.0), 1.0)
-    lanes[_FROM_EDGE + l], lanes[_SLIPS + l], lanes[_USED + l] = from_edge, from_edge, min(used, 1.0)
-    lanes[_EX + l], lanes[_EY + l] = ex, ey
-    return bound, 1.0 / (stretch * k22)
+        # how far from stick (T) and how much spin (psi) set exponent, stiffness, spin and turning rate
+        T2 = 0.25 * ((translation + rotation) * (translation + rotation) + lateral * lateral)
+        psi2 = psi * psi
+        h, t = psi2 / (1.0 + psi2), T2 / (1.0 + T2)
+        w = 1.0 / (1.0 + 100.0 * (T2 + psi2))  # the linear range, in which C23 and C33 of the moment are made exact
+        n_map = (0.32 + 0.12 * fitted) * h
+        n_map = n_map if n_map < 0.45 else 0.45
+        stretch = small_exp(0.47 * h) / (1.0 + 2.0 * n_map)
+        spin = psi * small_exp((0.19 - 0.07 * fitted) * h)
+        shift = (1.0 - rho23) * w
+        X = stretch * (translation + (1.0 + (rho33 - 1.0) * w) * rotation - w * k11 * phi * (y_spin - y_c))
+        Y = stretch * lateral * (1.0 - shift)
+        P = spin + (1.0 + 2.0 * n_map) * stretch * lateral * shift
+        used = 0.25 * X * X + (0.5 * Y + P) * (0.5 * Y + P)
+        from_edge = 1.0 if used > 1.0 else 0.0
+        edges += 1 if used > 1.0 else 0
+        pole = P if P < 1.0 else 1.0
+        lanes[_X + l], lanes[_Y + l], lanes[_P + l] = X, Y, P
+        lanes[_XS + l], lanes[_YS + l] = stretch * (translation + rotation) * r, stretch * lateral
+        lanes[_SPIN + l], lanes[_R + l], lanes[_N + l] = spin, r, n_map
+        lanes[_RATE + l] = small_exp(-0.43 + 0.79 * h - 0.54 * t)
+        lanes[_POLE + l] = -(pole if pole > -1.0 else -1.0)
+        lanes[_FROM_EDGE + l], lanes[_SLIPS + l], lanes[_USED + l] = from_edge, from_edge, used if used < 1.0 else 1.0
+        lanes[_EX + l], lanes[_EY + l] = 0.0, 0.0
+        lanes[_UNIT + l] = live / (stretch * k22 + (1.0 - live))
+    if edges > 0:
+        _set_edges(lanes)
+    for l in range(lanes.size // N_LANE_ROWS):
+        lanes[_TX + l], lanes[_TY + l], lanes[_LEFT + l] = 0.0, 0.0, 1.0
+        lanes[_SUM_X + l], lanes[_SUM_Y + l], lanes[_SUM_M + l] = 0.0, 0.0, 0.0
+        lanes[_POWER + l], lanes[_STICK + l] = 0.0, 0.0
+
+
+@kernel
+def _set_edges(lanes):
+    """Directions of the strips that slip from their leading edge."""
+    for l in range(lanes.size // N_LANE_ROWS):
+        ex, ey = edge_direction(lanes[_R + l], lanes[_XS + l], lanes[_YS + l] + 2.0 * lanes[_SPIN + l])
+        lanes[_EX + l], lanes[_EY + l] = lanes[_FROM_EDGE + l] * ex, lanes[_FROM_EDGE + l] * ey
 
 
 @kernel
@@ -407,9 +358,7 @@ def fastrip_mapped(strips, n, case, table, elements, lanes, trace, fields, resul
     behind = 1.0 + elements[EL_S, -1]  # the middle of the last element
     falling = varies(case)
     for block in range(0, n, LANES):
-        for l in range(LANES):
-            bound, unit = _set_strip(strips, min(block + l, n - 1), case, table, y_c, y_spin, rho33, lanes, l)
-            lanes[_BOUND + l], lanes[_UNIT + l] = bound, unit
+        _set_block(strips, block, n, case, table, y_c, y_spin, rho33, lanes)
         _march(elements, lanes, trace)
         if falling:
             begin(strips, block, n, case, _BOUND, lanes)
