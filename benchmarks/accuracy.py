@@ -253,8 +253,9 @@ def report() -> str:
     ):
         e = published_on_patches(name)
         rows.append([title, triple(e["force"]), triple(e["moment"])])
+    calibrated = [name for name, method in contact.methods().tangential.items() if method.calibrated]
     for n in ("analyn", "strip_halfspace"):
-        for t in tangential:
+        for t in [*tangential, *calibrated]:
             e = errors_on_patches(n, t)
             rows.append([f"`{n}` + `{t}`", triple(e["force"]), triple(e["moment"])])
     d_force = table(["method", "force, mean / p95 / max", "moment, mean / p95 / max"], rows)
