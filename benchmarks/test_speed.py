@@ -57,7 +57,17 @@ def kernel_loop(normal: str, tangential: str, n_strips: int, n_elements: int, *,
     case = case_of(method, METHODS.tangential[tangential])
     bounds, which = np.array([0, SEPARATION.y.size]), np.zeros(CASES, dtype=np.int64)
     results = np.empty((CASES, own.result.size))
-    arrays = SEPARATION.y, SEPARATION.g, SEPARATION.A, SEPARATION.x_c, bounds, which, np.tile(case, (CASES, 1))
+    arrays = (
+        SEPARATION.y,
+        SEPARATION.g,
+        SEPARATION.A,
+        SEPARATION.x_c,
+        SEPARATION.tilt,
+        np.zeros(1),
+        bounds,
+        which,
+        np.tile(case, (CASES, 1)),
+    )
     arguments = (0, CASES, *arrays, own.rule, own.tables, own.space, own.strips, own.fields, results)
 
     def call() -> None:

@@ -46,7 +46,7 @@ from contact.material import STEEL, Material
 from contact.pipeline import solve_cases
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.separation import Separation
-from contact.solve import N_ELEMENTS, N_STRIPS, require_resolution
+from contact.solve import N_ELEMENTS, N_STRIPS, require_conformal, require_resolution
 
 Array = NDArray[np.float64]
 _CHUNK = 256
@@ -81,6 +81,7 @@ def forces(
     tangential: str = DEFAULT_TANGENTIAL,
     n_strips: int = N_STRIPS,
     n_elements: int = N_ELEMENTS,
+    conformal: bool = False,
     threads: int | None = None,
 ) -> Forces:
     """Solve arrays of cases without a Python loop; the same kernel as `contact.solve`, fields left out.
@@ -96,7 +97,7 @@ def forces(
     friction : array_like or contact.friction.Friction
     speed : array_like
         Rolling speed [m/s] > 0; forces depend on it only if friction does.
-    material, normal, tangential, n_strips, n_elements :
+    material, normal, tangential, n_strips, n_elements, conformal :
         As in `contact.solve`, common to all cases.
     threads : int
         Number of threads; the kernels release the GIL. Default: all cores the process may use. The answer does not depend
@@ -142,6 +143,8 @@ def forces(
         ) from None
     n_strips, n_elements = require_resolution(n_strips, n_elements)
     method, rolling = (lookup(*kind, batched=True) for kind in (("normal", normal), ("tangential", tangential)))
+    if conformal:
+        require_conformal(rolling)
     shape, count = amount.shape, amount.size
     cases = np.empty((count, N_CASE))
     cases[:, CASE_LOAD_KIND] = LOAD if load is not None else APPROACH
@@ -150,12 +153,13 @@ def forces(
         cases[:, row] = values.ravel()
     cases[:, CASE_G], cases[:, CASE_NU] = material.shear_modulus, material.poisson_ratio
     cases[:, CASE_PRESSURE_LIMIT] = material.pressure_limit
-    cases[:, CASE_CONFORMAL] = 0.0
+    cases[:, CASE_CONFORMAL] = float(conformal)
     cases[:, CASE_NORMAL], cases[:, CASE_TANGENTIAL] = method.id, rolling.id
 
     bounds = np.cumsum([0, *(s.y.size for s in separations)])
-    y, g, A, xc = (np.concatenate([getattr(s, name) for s in separations]) for name in ("y", "g", "A", "x_c"))
-    for array in (y, g, A, xc):
+    columns = [np.concatenate([getattr(s, name) for s in separations]) for name in ("y", "g", "A", "x_c", "tilt")]
+    rolled = np.array([s.rolling for s in separations])
+    for array in columns:
         array.setflags(write=False)  # like a Separation's, so that numba compiles the solver for one signature only
     longest = max(s.y.size for s in separations)
     results = np.empty((count, N_RES))
@@ -163,11 +167,11 @@ def forces(
 
     def work(chunks: range) -> None:
         own = workspace.allocate(
-            method, material.poisson_ratio, n_strips, n_elements, longest, fields=False, tabulated=rolling.tabulated
+            method, material.poisson_ratio, n_strips, n_elements, longest, fields=conformal, tabulated=rolling.tabulated
         )
         for first in chunks:
             last = min(first + _CHUNK, count)
-            solve_cases(first, last, y, g, A, xc, bounds, which, cases, *own[:-1], results)
+            solve_cases(first, last, *columns, rolled, bounds, which, cases, *own[:-1], results)
 
     pieces = min(threads or cores(), -(-count // _CHUNK))
     if pieces <= 1:

@@ -7,6 +7,7 @@ from contact._jit import kernel
 from contact._layout import (
     CASE_BORDER,
     CASE_BORDER_WIDTH,
+    CASE_CONFORMAL,
     CASE_G,
     CASE_GAUGE_FACTOR,
     CASE_MU,
@@ -228,22 +229,25 @@ def solve_conformal(y, g, A, xc, tilt, rolling, case, rule, tables, space, strip
 
 
 @kernel
-def solve_cases(first, last, y, g, A, xc, bounds, which, cases, rule, tables, space, strips, fields, results):
-    """Solve cases[first:last] one after the other; separation k lies at y[bounds[k]:bounds[k+1]], case c uses which[c]."""
+def solve_cases(
+    first, last, y, g, A, xc, tilt, rolling, bounds, which, cases, rule, tables, space, strips, fields, results
+):
+    """Solve cases[first:last] one after the other; separation k lies at y[bounds[k]:bounds[k+1]], case c uses which[c].
+
+    Cases that say so lie on the surface of slope `tilt`, for which `fields` must have a row for each strip.
+    """
     for c in range(first, last):
         low, high = bounds[which[c]], bounds[which[c] + 1]
         if space.memory.size > 1:
             space.memory[0] = 0.0  # no case starts from another one: the order of cases does not matter
-        solve_case(
-            y[low:high],
-            g[low:high],
-            A[low:high],
-            xc[low:high],
-            cases[c],
-            rule,
-            tables,
-            space,
-            strips,
-            fields,
-            results[c],
-        )
+        case, result = cases[c], results[c]
+        if case[CASE_CONFORMAL] > 0.5:
+            solve_conformal(
+                y[low:high], g[low:high], A[low:high], xc[low:high], tilt[low:high], rolling[which[c]],
+                case, rule, tables, space, strips, fields, result,
+            )  # fmt: skip
+        else:
+            solve_case(
+                y[low:high], g[low:high], A[low:high], xc[low:high],
+                case, rule, tables, space, strips, fields, result,
+            )  # fmt: skip

@@ -82,6 +82,12 @@ def require_resolution(n_strips: object, n_elements: object) -> tuple[int, int]:
     return int(n_strips), int(n_elements)  # type: ignore[call-overload]
 
 
+def require_conformal(tangential: Method) -> None:
+    """Raise a ContactError for a tangential method that knows the contact plane alone."""
+    if not tangential.fields:
+        raise ContactError(f"conformal: tangential = {tangential.name!r} knows the contact plane alone")
+
+
 def solve(
     separation: Separation | Gap,
     creepage: Creepage,
@@ -165,8 +171,10 @@ def solve(
         raise ContactError(
             f"friction.slope = {surface.slope:g}: tangential = {tangential!r} knows the half space alone, slope 1"
         )
-    if conformal and (method.elementwise or rolling.elementwise or not rolling.fields):
-        raise ContactError(f"conformal: normal = {normal!r}, tangential = {tangential!r} knows the contact plane alone")
+    if conformal:
+        require_conformal(rolling)
+        if not isinstance(separation, Separation):
+            raise ContactError("conformal: a gap on a grid knows the contact plane alone; allowed: contact.Separation")
     if method.elementwise and material.pressure_limit < math.inf:
         raise ContactError(
             f"material.pressure_limit = {material.pressure_limit:g}: normal = {normal!r} is elastic; allowed: inf"
@@ -183,18 +191,19 @@ def solve(
             friction=surface,
             material=material,
             speed=speed,
+            conformal=conformal,
             progress=progress,
         )
     elif not isinstance(separation, Separation):
         raise ContactError(f"normal = {normal!r} needs a contact.Separation; separation = {separation!r} is on a grid")
     else:
         on_strips = partial(_on_strips, separation, creepage, (kind, amount), surface, material, speed, method)
-        solution = on_strips(rolling, n_strips, n_elements, start, conformal)
+        solution = on_strips(rolling, n_strips, n_elements, start, conformal and not rolling.elementwise)
         if rolling.calibrated and solution.N > 0.0:
             own = _patch_coefficients(on_strips, solution)
             solution = on_strips(rolling, n_strips, n_elements, start, conformal, own)
         if rolling.elementwise:
-            solution = solve_pressure(solution, surface, division, progress)
+            solution = solve_pressure(solution, separation if conformal else None, surface, division, progress)
     if throw and solution.status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED):
         what = "load" if load is not None else "approach"
         raise ContactError(

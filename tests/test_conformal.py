@@ -21,10 +21,15 @@ from contact._layout import (
 from contact.conformal import bend, surface_at
 from contact.geometry import profile, wheelset
 from contact.geometry.wheelset import Pair, Pose
+from contact.halfspace.gap import Gap
 from contact.pair import WheelRailPair
 
 Y = np.linspace(-15e-3, 15e-3, 121)
 TANGENTIAL = [name for name, method in contact.methods().batched.tangential.items() if method.fields]
+HALF_SPACE = (
+    {"normal": "halfspace", "tangential": "halfspace"},
+    {"normal": "strip_halfspace", "tangential": "halfspace"},
+)
 CREEPAGE = contact.Creepage(2e-3, -1e-3, 0.3)
 
 
@@ -114,7 +119,65 @@ def test_a_pair_gives_the_forces_of_its_patches_on_either_side(y):
     assert forces[0] == forces[1]
 
 
-@pytest.mark.parametrize("options", [{"tangential": "polach"}, {"normal": "halfspace", "tangential": "halfspace"}])
-def test_methods_of_the_plane_alone_are_refused(options):
-    with pytest.raises(contact.ContactError, match="knows the contact plane alone"):
-        contact.solve(bent(0.1), CREEPAGE, load=8e4, conformal=True, **options)
+def test_the_forces_of_many_cases_are_those_of_each():
+    """Separations with and without a tilt, in one batch and by `contact.solve`, bit for bit; the plane stays the default."""
+    separations = [bent(0.05 + 20.0 * Y), bent(0.0), bent(-0.1, rolling=0.5)]
+    creepage = ([1e-3, 2e-3, 0.0], -1e-3, 0.3)
+    many = contact.forces(separations, creepage, load=8e4, conformal=True)
+    plane = contact.forces(separations, creepage, load=8e4)
+    for k, separation in enumerate(separations):
+        for found, conformal in ((many, True), (plane, False)):
+            creep = contact.Creepage(creepage[0][k], -1e-3, 0.3)
+            one = contact.solve(separation, creep, load=8e4, conformal=conformal)
+            row = (found.Fx[k], found.Fy[k], found.Mz[k], found.power_per_metre[k])
+            assert row == (one.Fx, one.Fy, one.Mz, one.power_per_metre)
+    assert abs(many.Fy[0] - plane.Fy[0]) > 500.0
+
+
+def test_the_half_space_without_tilt_is_the_plane_bit_for_bit():
+    for options in HALF_SPACE:
+        one, other = (
+            contact.solve(bent(0.0), CREEPAGE, load=8e4, conformal=c, spacing=1e-3, **options) for c in (True, False)
+        )
+        assert numbers(one) == numbers(other)
+        assert (one.qx == other.qx).all()
+
+
+@pytest.mark.parametrize("options", HALF_SPACE)
+def test_the_half_space_pushes_sideways_and_bears_the_longer_surface(options):
+    rough = contact.solve(bent(0.2), contact.Creepage(0.3), load=8e4, conformal=True, spacing=1e-3, **options)
+    smooth = contact.solve(bent(0.1), CREEPAGE, load=8e4, friction=0.0, conformal=True, spacing=1e-3, **options)
+    assert rough.Fx == pytest.approx(-0.3 * 8e4 * math.sqrt(1.04), rel=1e-3)
+    assert smooth.Fy == pytest.approx(0.1 * 8e4, rel=1e-9)
+
+
+def test_strips_follow_the_half_space_in_what_the_bent_surface_changes():
+    """The flange root, Δ over 29°: the change from the plane to the surface, mapped FaStrip and TANG on the same pressure."""
+    wheel, rail = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
+    (patch,) = wheelset.contacts(wheel, rail, Pose(y=6.5e-3, yaw=5e-3), load=8e4)
+    for creepage in (patch.creepage, contact.Creepage(1e-4, 2e-4, 0.0), contact.Creepage(0.0, 0.0, 0.3)):
+        changes = []
+        for tangential in ("fastrip_mapped", "halfspace"):
+            plane, surface = (
+                np.array([s.Fx, s.Fy, 100.0 * s.Mz])
+                for s in (
+                    contact.solve(
+                        patch.separation, creepage, load=patch.load, normal="strip_halfspace", tangential=tangential,
+                        n_strips=40, n_elements=40, conformal=c,
+                    )
+                    for c in (False, True)
+                )
+            )  # fmt: skip
+            changes.append((surface - plane) / (0.3 * patch.load))
+        np.testing.assert_allclose(*changes, atol=0.03)
+        assert abs(changes[0]).max() > 0.05
+
+
+def test_methods_of_the_plane_alone_are_refused():
+    for call in (contact.solve, contact.forces):
+        with pytest.raises(contact.ContactError, match="knows the contact plane alone"):
+            call(bent(0.1), CREEPAGE, load=8e4, conformal=True, tangential="polach")
+    x, y = np.linspace(-9e-3, 9e-3, 30), np.linspace(-9e-3, 9e-3, 30)
+    gap = Gap(x, y, 1.1 * x[None, :] ** 2 + 2.0 * y[:, None] ** 2)
+    with pytest.raises(contact.ContactError, match="a gap on a grid knows the contact plane alone"):
+        contact.solve(gap, CREEPAGE, load=8e4, conformal=True, **HALF_SPACE[0])

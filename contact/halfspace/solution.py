@@ -48,6 +48,7 @@ def assemble(
     y: Array,
     p: Array,
     rolling: Tangential,
+    tilt: Array,
     *,
     approach: float,
     stiffness: float,
@@ -60,7 +61,7 @@ def assemble(
     normal: str,
     tangential: str,
 ) -> GridSolution:
-    """Make the record from fields (ny, nx) over increasing `x`, `y`."""
+    """Make the record from fields (ny, nx) over increasing `x`, `y`; `tilt` is the slope of each row (`contact.conformal`)."""
     touching = p > 0.0
     rows, columns = np.flatnonzero(touching.any(axis=1)), np.flatnonzero(touching.any(axis=0))
     dx, dy = float(x[1] - x[0]), float(y[1] - y[0])
@@ -83,18 +84,21 @@ def assemble(
     )
     slips = inside & ~rolling.stick[box]
     force = dx * dy
+    slope = tilt[rows][:, None]
+    longer = np.sqrt(1.0 + slope * slope)
+    fx, fy = longer * qx, qy + slope * p[box]
     if status is Status.OK and rows.size and friction > 0.0 and slips.sum() == inside.sum():
         status = Status.SATURATED
     return GridSolution(
-        Fx=float(qx.sum()) * force,
-        Fy=float(qy.sum()) * force,
-        Mz=float((grid_x * qy - grid_y * qx).sum()) * force,
+        Fx=float(fx.sum()) * force,
+        Fy=float(fy.sum()) * force,
+        Mz=float((grid_x * fy - grid_y * fx).sum()) * force,
         N=float(p.sum()) * force,
         approach=float(approach),
         max_pressure=float(p.max()),
         area=area,
         slip_area=float(slips.sum()) * force,
-        power_per_metre=abs(float((qx * sx + qy * sy).sum())) * force,
+        power_per_metre=abs(float((longer * (qx * sx + qy * sy)).sum())) * force,
         normal_stiffness=stiffness,
         length=length,
         width=float(edges[-1, 1] - edges[0, 0]) if count else 0.0,

@@ -13,6 +13,7 @@ from contact._layout import N_CASE
 from contact.creepage import Creepage
 from contact.errors import ContactError
 from contact.friction import Friction, fill, of_bodies
+from contact.halfspace.bent import Bent
 from contact.halfspace.gap import Division, Gap, lay, least, overlap
 from contact.halfspace.heat import heat_up
 from contact.halfspace.norm import Normal, norm
@@ -42,6 +43,7 @@ def solve_gap(
     friction: Friction,
     material: Material,
     speed: float,
+    conformal: bool,
     progress: Callable[[int, float], None] | None,
 ) -> GridSolution:
     """NORM and TANG; arguments as in `contact.solve`."""
@@ -52,13 +54,16 @@ def solve_gap(
     else:
         x, y = grid.x, grid.y
         found = norm(grid.h, grid.dx, grid.dy, material, load=load, approach=approach)
-    p = found.p
-    rolling, coefficient = _roll(p, x, y, creepage, friction, material, speed, progress)
+    p, rows = found.p, Bent.plane(creepage, y)
+    if conformal and isinstance(gap, Separation):
+        rows = Bent.of(gap, creepage, y)
+    rolling, coefficient = _roll(p, x, y, creepage, rows, friction, material, speed, progress)
     return assemble(
         x,
         y,
         p,
         rolling,
+        rows.tilt,
         approach=found.approach,
         stiffness=found.stiffness,
         iterations=found.iterations + rolling.iterations,
@@ -73,9 +78,16 @@ def solve_gap(
 
 
 def solve_pressure(
-    first: Solution, friction: Friction, division: Division, progress: Callable[[int, float], None] | None
+    first: Solution,
+    bent: Separation | None,
+    friction: Friction,
+    division: Division,
+    progress: Callable[[int, float], None] | None,
 ) -> Solution:
-    """TANG on the pressure of another solution, whose N, approach and normal stiffness are kept."""
+    """TANG on the pressure of another solution, whose N, approach and normal stiffness are kept.
+
+    `bent` is the separation on whose surface the bodies touch, where that is not its plane.
+    """
     if first.N <= 0.0:
         return replace(first, tangential="halfspace")
     low, high = float(first.patch_edges.min()), float(first.patch_edges.max())
@@ -86,13 +98,15 @@ def solve_pressure(
     if not total > 0.0:
         raise ContactError(f"{division} leaves no element inside the patch")
     p *= first.N / total
-    rolling, coefficient = _roll(p, x, y, first.creepage, friction, first.material, first.speed, progress)
+    rows = Bent.plane(first.creepage, y) if bent is None else Bent.of(bent, first.creepage, y)
+    rolling, coefficient = _roll(p, x, y, first.creepage, rows, friction, first.material, first.speed, progress)
     status = first.status if rolling.converged else Status.NOT_CONVERGED
     return assemble(
         x,
         y,
         p,
         rolling,
+        rows.tilt,
         approach=first.approach,
         stiffness=first.normal_stiffness,
         iterations=first.iterations + rolling.iterations,
@@ -111,6 +125,7 @@ def _roll(
     x: Array,
     y: Array,
     creepage: Creepage,
+    rows: Bent,
     friction: Friction,
     material: Material,
     speed: float,
@@ -130,9 +145,9 @@ def _roll(
     if not local:
         mu = float(friction.coefficient(speed * math.hypot(creepage.longitudinal, creepage.lateral)))
     if not (local or hot):
-        return tang(p, x, y, creepage, mu * factor, material, progress=progress), mu
+        return tang(p, x, y, rows, mu * factor, material, progress=progress), mu
     field = np.full(p.shape, mu)
-    rolling = tang(p, x, y, creepage, field * factor, material, progress=progress)
+    rolling = tang(p, x, y, rows, field * factor, material, progress=progress)
     for _ in range(_MAX_FALLS):
         slip, wanted = np.hypot(rolling.sx, rolling.sy), np.full(p.shape, mu)
         if local:
@@ -143,7 +158,7 @@ def _roll(
             heat_up(case, factor * p * slip, x[1] - x[0], wanted)
         change = wanted - field
         field = field + _FALL_SHARE * change
-        rolling = tang(p, x, y, creepage, field * factor, material, start=(rolling.qx, rolling.qy), progress=progress)
+        rolling = tang(p, x, y, rows, field * factor, material, start=(rolling.qx, rolling.qy), progress=progress)
         if abs(change * (p > 0.0)).max() <= _FALL_TOLERANCE * mu:
             return rolling, mu
     return replace(rolling, converged=False), mu

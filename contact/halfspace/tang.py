@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from contact.creepage import Creepage
 from contact.halfspace import zones
+from contact.halfspace.bent import Bent
 from contact.halfspace.influence import Influence, tangential
 from contact.halfspace.krylov import gmres
 from contact.material import Material
@@ -71,7 +72,7 @@ def tang(
     p: Array,
     x: Array,
     y: Array,
-    creepage: Creepage,
+    creepage: Creepage | Bent,
     friction: float | Array,
     material: Material,
     *,
@@ -88,8 +89,8 @@ def tang(
         Pressure [Pa], 0 outside the contact.
     x, y : ndarray, shape (nx,), (ny,)
         Centres of the elements [m], evenly spaced, increasing.
-    creepage : Creepage
-        Wheel minus rail over V at the origin.
+    creepage : Creepage or Bent
+        Wheel minus rail over V at the origin, or of each row.
     friction : float or ndarray, shape (ny, nx)
         mu [-].
     material : Material
@@ -105,15 +106,16 @@ def tang(
     whole = np.zeros((5, *p.shape))
     touching = p > 0.0
     bound = friction * p
+    rows = creepage if isinstance(creepage, Bent) else Bent.plane(creepage, y)
     if not bound.any():
         rigid = np.zeros((2, *p.shape))
         if touching.any():
-            rigid[:, touching] = _rigid_slip(x, y, creepage, 0.0)[:, touching]
+            rigid[:, touching] = _rigid_slip(x, y, rows, 0.0)[:, touching]
         return Tangential(whole[0], whole[1], rigid[0], rigid[1], np.zeros(p.shape, dtype=bool), 0, 0, 0.0, True)
-    rows, columns = (np.flatnonzero(touching.any(axis=axis)) for axis in (1, 0))
-    window = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+    across, along = (np.flatnonzero(touching.any(axis=axis)) for axis in (1, 0))
+    window = slice(across[0], across[-1] + 1), slice(along[0], along[-1] + 1)
     dx, dy = float(x[1] - x[0]), float(y[1] - y[0])
-    w = _rigid_slip(x[window[1]], y[window[0]], creepage, offset * dx)
+    w = np.ascontiguousarray(_rigid_slip(x, y, rows, offset * dx)[:, *window])
     rolling = _Rolling(np.ascontiguousarray(bound[window]), w, dx, dy, material, tolerance, progress)
     q = np.zeros_like(w) if start is None else np.stack([field[window] for field in start])
     q, residual = rolling.steady(q)
@@ -127,11 +129,11 @@ def tang(
     )
 
 
-def _rigid_slip(x: Array, y: Array, creepage: Creepage, ahead: float) -> Array:
+def _rigid_slip(x: Array, y: Array, rows: Bent, ahead: float) -> Array:
     """Rigid slip over V, shape (2, ny, nx)."""
     w = np.empty((2, y.size, x.size))
-    w[0] = creepage.longitudinal - creepage.spin * y[:, None]
-    w[1] = creepage.lateral + creepage.spin * (x + ahead)
+    w[0] = (rows.vx - rows.phi * y)[:, None]
+    w[1] = rows.vy[:, None] + rows.phi[:, None] * (x + ahead)
     return w
 
 

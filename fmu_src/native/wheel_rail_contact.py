@@ -16,6 +16,7 @@ import contact
 from contact import Status
 from contact._layout import (
     APPROACH,
+    CASE_CONFORMAL,
     CASE_G,
     CASE_LOAD,
     CASE_LOAD_KIND,
@@ -76,7 +77,8 @@ from contact.damage._kernel import (
     PAR_WHEEL_RADIUS,
     damage_kernel,
 )
-from contact.pipeline import solve_case
+from contact.pipeline import solve_case, solve_conformal
+from contact.registry import CARTER
 from contact.separation import HERTZIAN_POINTS, fill_hertzian
 from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
@@ -90,10 +92,12 @@ from fmu_src.native.solver import (
     lay_out,
     memory_size,
 )
+from fmu_src.tables.solver import SURFACE
 from fmu_src.tables.wheel_rail_contact import FLATTEST, GEOMETRY_KIND, LOAD_KIND, table
 from fmu_src.variables import Table, identifier
 
 _CURVATURES, _NORMAL_FORCE = GEOMETRY_KIND.number("Curvatures"), LOAD_KIND.number("NormalForce")
+_CONFORMAL = SURFACE.number("Conformal")
 _DAMAGE_PARAMETERS = DamageParameters().array(contact.STEEL, 1.0, 1.0)
 _steps = compiled(creepage_steps)
 #: Field of the table → row of the solver's fields, or what is made of strips.
@@ -144,6 +148,8 @@ class Problem(NamedTuple):
     g: object
     A: object
     xc: object
+    tilt: object
+    rolling: object  # one number
     case: object
 
 
@@ -181,13 +187,16 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         g, end = vector(work, end, samples)
         A, end = vector(work, end, samples)
         xc, end = vector(work, end, samples)
+        tilt, end = vector(work, end, samples)
+        rolling, end = vector(work, end, 1)
         case, end = vector(work, end, N_CASE)
         parameters, end = vector(work, end, N_PAR)
         damage_fields, end = cube(work, end, N_DAMAGE_FIELDS, capacity, n_elements)
         damage, end = vector(work, end, N_DAMAGE)
         count, end = vector(work, end, 1)
         shown, total = matrix(work, end, capacity, n_elements)
-        return own, Problem(y, g, A, xc, case), After(parameters, damage_fields, damage, count, shown), end, total
+        problem = Problem(y, g, A, xc, tilt, rolling, case)
+        return own, problem, After(parameters, damage_fields, damage, count, shown), end, total
 
     @compiled
     def pose(v, problem):
@@ -197,12 +206,15 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
             n = HERTZIAN_POINTS
             fill_hertzian(v[at.geometry_B0], problem.y[:n], problem.g[:n])
         for i in range(n):
-            problem.xc[i] = 0.0
+            problem.xc[i], problem.tilt[i] = 0.0, 0.0
             if v[at.geometry_kind] == _CURVATURES:
                 problem.A[i] = v[at.geometry_A0]
             else:
                 problem.y[i] = v[at.geometry_y0] + v[at.geometry_dy] * i
                 problem.g[i], problem.A[i] = v[at.geometry_g + i], max(v[at.geometry_A + i], FLATTEST)
+                problem.tilt[i] = v[at.geometry_tilt + i]
+        problem.rolling[0] = v[at.geometry_rolling] if v[at.geometry_kind] != _CURVATURES else 0.0
+        case[CASE_CONFORMAL] = 1.0 if v[at.geometry_surface] == _CONFORMAL else 0.0
         by_load = v[at.load_kind] == _NORMAL_FORCE
         case[CASE_LOAD_KIND] = LOAD if by_load else APPROACH
         case[CASE_LOAD] = v[at.load_normal_force] if by_load else v[at.load_approach]
@@ -219,7 +231,12 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
     def solve(n, own, problem, after):
         """Solve what `pose` has left."""
         y, g, A, xc, case = problem.y[:n], problem.g[:n], problem.A[:n], problem.xc[:n], problem.case
-        count = solve_case(y, g, A, xc, case, own.rule, own.tables, own.space, own.strips, own.fields, own.result)
+        rule, tables, space, strips, fields, result = own
+        if case[CASE_CONFORMAL] > 0.5 and case[CASE_TANGENTIAL] < CARTER:
+            tilt, rolling = problem.tilt[:n], problem.rolling[0]
+            count = solve_conformal(y, g, A, xc, tilt, rolling, case, rule, tables, space, strips, fields, result)
+        else:
+            count = solve_case(y, g, A, xc, case, rule, tables, space, strips, fields, result)
         after.count[0] = count
         return count
 
@@ -314,6 +331,8 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
             for i in range(1, points):
                 least = min(least, v[at.geometry_g + i])
             return 1e-6 * max(penetration, v[reference] - least)
+        if at.geometry_tilt <= reference <= at.geometry_rolling:
+            return 1e-6 * max(abs(v[reference]), 1.0)
         return max(1e-6 * abs(v[reference]), 1e-12)
 
     def model_field(values, work, k, published, centre, plane, creep):

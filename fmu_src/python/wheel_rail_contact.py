@@ -18,6 +18,7 @@ from fmu_src.python.slave import TableSlave
 from fmu_src.python.values import Rows, Values
 from fmu_src.tables.wheel_rail_contact import FLATTEST, table
 
+_METHODS = contact.methods().tangential
 _CREEPAGES = ("creepage.longitudinal", "creepage.lateral", "creepage.spin")
 
 
@@ -108,6 +109,7 @@ def _solve(values: Values, creepage: Creepage) -> Solution:
         tangential=values.item("method.tangential"),
         n_strips=values["resolution.n_strips"],
         n_elements=values["resolution.n_elements"],
+        conformal=values.item("geometry.surface") == "Conformal" and _METHODS[values.item("method.tangential")].fields,
         throw=False,
     )
 
@@ -117,7 +119,8 @@ def _separation(values: Values) -> Separation:
         return Separation.hertzian(values["geometry.A0"], values["geometry.B0"])
     g = values["geometry.g"]
     A = np.maximum(values["geometry.A"], FLATTEST)
-    return Separation(values["geometry.y0"] + values["geometry.dy"] * np.arange(len(g)), g, A)
+    y = values["geometry.y0"] + values["geometry.dy"] * np.arange(len(g))
+    return Separation(y, g, A, tilt=values["geometry.tilt"], rolling=values["geometry.rolling"])
 
 
 def _resultants(solution: Solution) -> np.ndarray:

@@ -35,6 +35,16 @@ FRICTION_VELOCITY = Enumeration(
         ),
     ),
 )
+SURFACE = Enumeration(
+    "Surface",
+    (
+        ("Plane", "the contact plane"),
+        (
+            "Conformal",
+            "the surface between the profiles: the contact angle varies; not with methods that give forces alone",
+        ),
+    ),
+)
 _THERMAL = Thermal()
 _STATUS_NAMES = ("OK", "NoContact", "Saturated", "OutOfRange", "NotConverged")
 STATUS = Enumeration("Status", tuple(zip(_STATUS_NAMES, (status.message for status in Status), strict=True)))

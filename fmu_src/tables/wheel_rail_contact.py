@@ -71,6 +71,12 @@ def _parameters(points: int) -> Iterable[Variable]:
         minimum=0.0,
         open_minimum=True,
     )
+    yield parameter(
+        "geometry.surface",
+        "What the patch lies in; Conformal with geometry.tilt and geometry.rolling, not with geometry.kind = Curvatures",
+        enumeration=solver.SURFACE,
+        start="Plane",
+    )
     yield parameter("load.kind", "How the load is given", enumeration=LOAD_KIND, start="NormalForce")
     yield from solver.parameters()
     yield parameter(
@@ -100,6 +106,19 @@ def _inputs(points: int) -> Iterable[Variable]:
         start=0.5 / 0.46,
         minimum=0.0,
         shape=(points,),
+    )
+    yield signal(
+        "geometry.tilt",
+        "Slope dz/dy against the contact plane of the surface in which the bodies touch, for geometry.surface = Conformal",
+        start=0.0,
+        shape=(points,),
+        nominal=0.1,
+    )
+    yield signal(
+        "geometry.rolling",
+        "Turn of the wheel about the y axis of the plane per metre rolled, cos(contact angle)/rolling radius; likewise",
+        unit="rad/m",
+        start=1.0 / 0.46,
     )
     for letter, axis, start in (("A", "in the rolling direction", 0.5 / 0.46), ("B", "across", 1.0)):
         yield signal(

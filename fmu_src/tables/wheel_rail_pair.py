@@ -13,16 +13,6 @@ from contact.geometry.wheelset import SAMPLES
 from fmu_src.tables import solver
 from fmu_src.variables import Enumeration, Table, Variable, output, parameter, signal
 
-SURFACE = Enumeration(
-    "Surface",
-    (
-        ("Plane", "the contact plane"),
-        (
-            "Conformal",
-            "the surface between the profiles: the contact angle varies; not with methods that give forces alone",
-        ),
-    ),
-)
 SIDE = Enumeration("Side", (("Left", "the left wheel and rail"), ("Right", "the right wheel and rail")))
 LOAD_KIND = Enumeration(
     "LoadKind",
@@ -146,7 +136,7 @@ def _parameters(inclination: float) -> Iterable[Variable]:
         minimum=0.0,
         maximum=0.1,
     )
-    yield parameter("patches.surface", "What each patch lies in", enumeration=SURFACE, start="Plane")
+    yield parameter("patches.surface", "What each patch lies in", enumeration=solver.SURFACE, start="Plane")
     yield parameter(
         "patches.max",
         "Patches with a frame of their own; further ones share the plane of the last",

@@ -72,7 +72,10 @@ class Case:
         for name in scale:
             if name.startswith("damage") and force > 0.0:
                 scale[name] *= limit / force
-        scale |= {"force.x": limit, "force.y": limit, "moment.z": 0.02 * limit, "slip.ratio": 1.0}
+        lateral = (
+            np.hypot(limit, s.N) if abs(s.Fy) > limit else limit
+        )  # the pressure on a tilted surface has a part in it
+        scale |= {"force.x": limit, "force.y": lateral, "moment.z": 0.02 * lateral, "slip.ratio": 1.0}
         scale |= {"damage.stress_index_max": s.material.shear_yield, "damage.fatigue_index_surface": 1.0}
         scale["stiffness.normal"] *= 1e3
         digits = 10.0 if s.normal == "strip_halfspace" and s.material.pressure_limit < math.inf else 1.0
@@ -112,12 +115,16 @@ def random_case(seed: int) -> Case:
     hot = (rng.uniform(0.2, 0.9), rng.uniform(250.0, 500.0), 10 ** rng.uniform(1.0, 3.0), rng.uniform(250.0, 400.0))
     hot = hot if rng.random() < 0.3 else (1.0, 293.15, 400.0, 293.15)
     thermal = (rng.uniform(20.0, 80.0), rng.uniform(7e3, 8e3), rng.uniform(400.0, 500.0), rng.uniform(0.5, 1.0))
+    bent, tilt, rolling = rng.random() < 0.3, rng.uniform(-0.2, 0.2) + rng.uniform(-20, 20) * y, rng.uniform(0.0, 3.0)
     values = {
         "geometry.kind": 2 if curvatures else 1,
         "geometry.y0": y0,
         "geometry.dy": dy,
         **{f"geometry.g[{i}]": v for i, v in enumerate(g, 1)},
         **{f"geometry.A[{i}]": v for i, v in enumerate(A, 1)},
+        "geometry.surface": 2 if bent else 1,
+        **{f"geometry.tilt[{i}]": v for i, v in enumerate(tilt, 1)},
+        "geometry.rolling": rolling,
         "geometry.A0": A[20],
         "geometry.B0": B,
         "load.kind": 1 if by_load else 2,
@@ -146,7 +153,9 @@ def random_case(seed: int) -> Case:
         "resolution.n_elements": n_elements,
     }
     solution = contact.solve(
-        contact.Separation.hertzian(A[20], B) if curvatures else contact.Separation(y, g, A),
+        contact.Separation.hertzian(A[20], B)
+        if curvatures
+        else contact.Separation(y, g, A, tilt=tilt, rolling=rolling),
         contact.Creepage(*creepages),
         load=load if by_load else None,
         approach=None if by_load else approach,
@@ -160,6 +169,7 @@ def random_case(seed: int) -> Case:
         tangential=list(METHODS.tangential)[tangential],
         n_strips=n_strips,
         n_elements=n_elements,
+        conformal=bent and METHODS.tangential[list(METHODS.tangential)[tangential]].fields,
         throw=False,
     )
     return Case(seed, values, solution)
