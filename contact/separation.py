@@ -12,6 +12,8 @@ from contact.errors import ContactError, require_number
 
 #: Samples of a separation with constant curvatures, and the gap that it reaches to [m].
 HERTZIAN_POINTS, _HERTZIAN_GAP = 41, 1e-3
+#: Of a slope of the surface [-] and of its rolling [1/m]: steeper than any surface, a wheel of a millimetre.
+LARGEST_TILT, LARGEST_ROLLING = 1e3, 1e3
 
 
 @kernel
@@ -37,15 +39,16 @@ class Separation:
     x_c : array_like, shape (n,) or float
         Longitudinal position of the contact locus [m]; differs from 0 under yaw.
     tilt : array_like, shape (n,) or float
-        Slope dz/dy against the contact plane [-] of the surface in which the bodies touch, z from wheel into rail; for
-        `contact.solve(conformal=True)` alone.
+        Slope dz/dy against the contact plane [-], within ±1e3, of the surface in which the bodies touch, z from wheel into
+        rail; for `contact.solve(conformal=True)` alone.
     rolling : float
-        Turn of the wheel about the y axis of the plane per metre rolled [1/m], cos(contact angle)/rolling radius; likewise.
+        Turn of the wheel about the y axis of the plane per metre rolled [1/m], within ±1e3, cos(contact angle)/rolling
+        radius; likewise.
 
     Raises
     ------
     ContactError
-        Wrong shapes, not finite, y not increasing, A not positive.
+        Wrong shapes, not finite, y not increasing, A not positive, tilt or rolling outside their range.
     """
 
     __slots__ = ("A", "g", "rolling", "tilt", "x_c", "y")
@@ -81,7 +84,12 @@ class Separation:
             raise ContactError(f"A[{i}] = {self.A[i]:g} is outside the allowed range ]0, inf[")
         self.x_c = _column("x_c", x_c, n)
         self.tilt = _column("tilt", tilt, n)
-        self.rolling = require_number("rolling", rolling)
+        if (abs(self.tilt) > LARGEST_TILT).any():
+            i = int(np.argmax(abs(self.tilt)))
+            raise ContactError(
+                f"tilt[{i}] = {self.tilt[i]:g} is outside the allowed range [{-LARGEST_TILT:g}, {LARGEST_TILT:g}]"
+            )
+        self.rolling = require_number("rolling", rolling, -LARGEST_ROLLING, LARGEST_ROLLING)
         for array in (self.y, self.g, self.A, self.x_c, self.tilt):
             array.setflags(write=False)
 

@@ -173,6 +173,23 @@ def test_strips_follow_the_half_space_in_what_the_bent_surface_changes():
         assert abs(changes[0]).max() > 0.05
 
 
+@pytest.mark.parametrize("tangential", [*TANGENTIAL, "halfspace"])
+def test_extreme_surfaces_leave_no_nan(tangential):
+    for tilt, rolling in ((1e3, 1e3), (-1e3, 1e3), (1e3 * np.sign(Y), -1e3), (1e-300, 1e-300)):
+        for creepage in (CREEPAGE, contact.Creepage(1e6, -1e6, 1e6)):
+            s = contact.solve(
+                bent(tilt, rolling), creepage, load=8e4, tangential=tangential, conformal=True,
+                n_strips=12, n_elements=12, throw=False,
+            )  # fmt: skip
+            assert all(map(math.isfinite, numbers(s)))
+
+
+@pytest.mark.parametrize("options", [{"tilt": 1.1e3}, {"tilt": 0.0, "rolling": -1e4}])
+def test_surfaces_beyond_their_range_are_refused(options):
+    with pytest.raises(contact.ContactError, match=r"is outside the allowed range \[-1000, 1000\]"):
+        bent(**options)
+
+
 def test_methods_of_the_plane_alone_are_refused():
     for call in (contact.solve, contact.forces):
         with pytest.raises(contact.ContactError, match="knows the contact plane alone"):

@@ -8,6 +8,7 @@ from functools import cache
 from contact import friction
 from contact._layout import MAX_PATCHES
 from contact.creepage import LARGEST_CREEPAGE
+from contact.separation import LARGEST_ROLLING, LARGEST_TILT
 from fmu_src.tables import solver
 from fmu_src.variables import Enumeration, Table, Variable, output, parameter, signal
 
@@ -111,6 +112,8 @@ def _inputs(points: int) -> Iterable[Variable]:
         "geometry.tilt",
         "Slope dz/dy against the contact plane of the surface in which the bodies touch, for geometry.surface = Conformal",
         start=0.0,
+        minimum=-LARGEST_TILT,
+        maximum=LARGEST_TILT,
         shape=(points,),
         nominal=0.1,
     )
@@ -119,6 +122,8 @@ def _inputs(points: int) -> Iterable[Variable]:
         "Turn of the wheel about the y axis of the plane per metre rolled, cos(contact angle)/rolling radius; likewise",
         unit="rad/m",
         start=1.0 / 0.46,
+        minimum=-LARGEST_ROLLING,
+        maximum=LARGEST_ROLLING,
     )
     for letter, axis, start in (("A", "in the rolling direction", 0.5 / 0.46), ("B", "across", 1.0)):
         yield signal(

@@ -115,7 +115,10 @@ def random_case(seed: int) -> Case:
     hot = (rng.uniform(0.2, 0.9), rng.uniform(250.0, 500.0), 10 ** rng.uniform(1.0, 3.0), rng.uniform(250.0, 400.0))
     hot = hot if rng.random() < 0.3 else (1.0, 293.15, 400.0, 293.15)
     thermal = (rng.uniform(20.0, 80.0), rng.uniform(7e3, 8e3), rng.uniform(400.0, 500.0), rng.uniform(0.5, 1.0))
-    bent, tilt, rolling = rng.random() < 0.3, rng.uniform(-0.2, 0.2) + rng.uniform(-20, 20) * y, rng.uniform(0.0, 3.0)
+    bent = (
+        rng.random() < 0.3 and mu > 0.0
+    )  # without friction wear numbers, which are scaled by it, count the pressure alone
+    tilt, rolling = rng.uniform(-0.2, 0.2) + rng.uniform(-20, 20) * y, rng.uniform(0.0, 3.0)
     values = {
         "geometry.kind": 2 if curvatures else 1,
         "geometry.y0": y0,

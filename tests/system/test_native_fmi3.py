@@ -48,7 +48,7 @@ def fmu(open_native_fmi3):
 def arrays(values: dict) -> dict:
     """Values of `random_case` with geometry.g[1] … as one array."""
     whole = {name: value for name, value in values.items() if not name.endswith("]")}
-    for name in ("geometry.g", "geometry.A"):
+    for name in ("geometry.g", "geometry.A", "geometry.tilt"):
         whole[name] = [value for key, value in values.items() if key.startswith(name + "[")]
     return whole
 
