@@ -73,8 +73,9 @@ LOAD, APPROACH = 0.0, 1.0
     RES_PATCHES,
     RES_ITERATIONS,
     RES_STATUS,
+    RES_PRESSURE_Y,  # what of RES_FY is the pressure on a bent surface, no creep force
     RES_TOUCH,  # approach at which the bodies first touch: the least gap [m]
     RES_EDGES,  # first of 2·MAX_PATCHES lateral patch edges
-) = range(17)
+) = range(18)
 MAX_PATCHES = 4
 N_RES = RES_EDGES + 2 * MAX_PATCHES

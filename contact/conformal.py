@@ -30,6 +30,7 @@ from contact._layout import (
     RES_FY,
     RES_MZ,
     RES_POWER,
+    RES_PRESSURE_Y,
     STRIP_DY,
     STRIP_PHI,
     STRIP_TILT,
@@ -79,6 +80,7 @@ def project(strips, n, fields, result):
             fx, fy = more * fields[FIELD_QX, i, k] * dA, tilt * fields[FIELD_P, i, k] * dA
             result[RES_FX] += fx
             result[RES_FY] += fy
+            result[RES_PRESSURE_Y] += fy
             result[RES_MZ] += fields[FIELD_X, i, k] * fy - y * fx
             power = fields[FIELD_QX, i, k] * fields[FIELD_SX, i, k] + fields[FIELD_QY, i, k] * fields[FIELD_SY, i, k]
             result[RES_POWER] -= more * power * dA

@@ -79,6 +79,7 @@ class Solution:
     Attributes
     ----------
     Fx, Fy : tangential force on the wheel [N]
+    pressure_y : what of Fy is pressure, on a bent surface (`contact.conformal`), and no creep force [N]
     Mz : spin moment ∫(x q_y - y q_x) dA about the separation's origin [N m]
     N : normal force [N]
     approach : rigid approach of the bodies measured from g = 0 [m]
@@ -124,6 +125,7 @@ class Solution:
     speed: float
     normal: str
     tangential: str
+    pressure_y: float
     patch_edges: Array = field(repr=False)
     memory: Array = field(repr=False)
 

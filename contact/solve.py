@@ -44,6 +44,7 @@ from contact._layout import (
     RES_PATCHES,
     RES_PMAX,
     RES_POWER,
+    RES_PRESSURE_Y,
     RES_SLIP_AREA,
     RES_STATUS,
     RES_STIFFNESS,
@@ -313,6 +314,7 @@ def _on_strips(
         speed=speed,
         normal=method.name,
         tangential=rolling.name,
+        pressure_y=float(result[RES_PRESSURE_Y]),
         patch_edges=result[RES_EDGES : RES_EDGES + 2 * int(result[RES_PATCHES])].reshape(-1, 2).copy(),
         memory=own.space.memory,
     )

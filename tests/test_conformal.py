@@ -81,8 +81,18 @@ def test_strips_have_the_exact_change_of_radius_and_the_spin_of_their_angle():
 def test_without_friction_the_pressure_of_a_tilted_surface_pushes_sideways():
     sol = contact.solve(bent(0.1), CREEPAGE, load=8e4, friction=0.0, conformal=True)
     assert sol.N == 8e4
-    assert sol.Fy == pytest.approx(0.1 * 8e4, rel=1e-12)
+    assert sol.Fy == sol.pressure_y == pytest.approx(0.1 * 8e4, rel=1e-12)
     assert sol.Fx == 0.0
+    assert sol.damage.T_gamma == 0.0
+
+
+@pytest.mark.parametrize("options", [{}, {"tangential": "halfspace", "spacing": 1e-3}])
+def test_wear_numbers_count_creep_forces_without_the_pressure(options):
+    sol = contact.solve(bent(0.1), CREEPAGE, load=8e4, conformal=True, **options)
+    assert sol.pressure_y == pytest.approx(0.1 * 8e4, rel=1e-9)
+    expected = abs(sol.Fx * CREEPAGE.longitudinal) + abs((sol.Fy - sol.pressure_y) * CREEPAGE.lateral)
+    assert sol.damage.T_gamma == pytest.approx(expected, rel=1e-12)
+    assert contact.solve(bent(0.1), CREEPAGE, load=8e4, **options).pressure_y == 0.0
 
 
 @pytest.mark.parametrize("tangential", TANGENTIAL)

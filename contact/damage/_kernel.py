@@ -22,6 +22,7 @@ from contact._layout import (
     RES_N,
     RES_PMAX,
     RES_POWER,
+    RES_PRESSURE_Y,
     STRIP_DY,
     STRIP_Y,
 )
@@ -86,7 +87,7 @@ def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, da
     if n == 0 or result[RES_N] <= 0.0 or result[RES_AREA] <= 0.0 or result[RES_PMAX] <= 0.0:
         return
     vx, vy, phi = case[CASE_VX], case[CASE_VY], case[CASE_PHI]
-    Fx, Fy, Mz = result[RES_FX], result[RES_FY], result[RES_MZ]
+    Fx, Fy, Mz = result[RES_FX], result[RES_FY] - result[RES_PRESSURE_Y], result[RES_MZ]
     radius, shear_yield = parameters[PAR_WHEEL_RADIUS], parameters[PAR_SHEAR_YIELD]
     circumference = 2.0 * math.pi * radius
     per_circumference = 1.0 / circumference

@@ -31,6 +31,7 @@ from contact._layout import (
     RES_N,
     RES_PMAX,
     RES_POWER,
+    RES_PRESSURE_Y,
     STRIP_A,
     STRIP_DY,
     STRIP_Y,
@@ -267,5 +268,5 @@ def _arrays(solution: Solution) -> tuple[Array, Array, Array, Array]:
     case[CASE_VX], case[CASE_VY], case[CASE_PHI] = creepage.longitudinal, creepage.lateral, creepage.spin
     result[RES_FX], result[RES_FY], result[RES_MZ], result[RES_N] = solution.Fx, solution.Fy, solution.Mz, solution.N
     result[RES_PMAX], result[RES_AREA] = solution.max_pressure, solution.area
-    result[RES_POWER] = solution.power_per_metre
+    result[RES_POWER], result[RES_PRESSURE_Y] = solution.power_per_metre, solution.pressure_y
     return strips, fields, case, result

@@ -86,7 +86,8 @@ def assemble(
     force = dx * dy
     slope = tilt[rows][:, None]
     longer = np.sqrt(1.0 + slope * slope)
-    fx, fy = longer * qx, qy + slope * p[box]
+    sideways = slope * p[box]
+    fx, fy = longer * qx, qy + sideways
     if status is Status.OK and rows.size and friction > 0.0 and slips.sum() == inside.sum():
         status = Status.SATURATED
     return GridSolution(
@@ -129,6 +130,7 @@ def assemble(
         speed=speed,
         normal=normal,
         tangential=tangential,
+        pressure_y=float(sideways.sum()) * force,
         patch_edges=edges.reshape(-1, 2),
         memory=np.zeros(0),
         grid=(x[full[1]], y[full[0]], p[full]),

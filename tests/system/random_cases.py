@@ -67,7 +67,7 @@ class Case:
         Where the pressure of interacting strips is limited, their iteration magnifies the last digit of asin: a digit less.
         """
         wanted, s = self.expected(), self.solution
-        limit, force = s.friction * s.N, np.hypot(s.Fx, s.Fy)
+        limit, force = s.friction * s.N, np.hypot(s.Fx, s.Fy - s.pressure_y)
         scale = dict(zip(OUTPUTS, np.abs(wanted), strict=True))
         for name in scale:
             if name.startswith("damage") and force > 0.0:
@@ -115,9 +115,7 @@ def random_case(seed: int) -> Case:
     hot = (rng.uniform(0.2, 0.9), rng.uniform(250.0, 500.0), 10 ** rng.uniform(1.0, 3.0), rng.uniform(250.0, 400.0))
     hot = hot if rng.random() < 0.3 else (1.0, 293.15, 400.0, 293.15)
     thermal = (rng.uniform(20.0, 80.0), rng.uniform(7e3, 8e3), rng.uniform(400.0, 500.0), rng.uniform(0.5, 1.0))
-    bent = (
-        rng.random() < 0.3 and mu > 0.0
-    )  # without friction wear numbers, which are scaled by it, count the pressure alone
+    bent = rng.random() < 0.3
     tilt, rolling = rng.uniform(-0.2, 0.2) + rng.uniform(-20, 20) * y, rng.uniform(0.0, 3.0)
     values = {
         "geometry.kind": 2 if curvatures else 1,
