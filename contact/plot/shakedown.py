@@ -36,7 +36,11 @@ def shakedown(runs: Mapping[str, Sequence[Solution]], title: str = "") -> Figure
     """
     points = {
         name: np.array(
-            [(np.hypot(s.Fx, s.Fy) / s.N, s.max_pressure / s.material.shear_yield) for s in run if s.N > 0.0]
+            [
+                (np.hypot(s.Fx, s.Fy - s.pressure_y) / s.N, s.max_pressure / s.material.shear_yield)
+                for s in run
+                if s.N > 0.0
+            ]
         )
         for name, run in runs.items()
     }
