@@ -26,7 +26,7 @@ from contact._layout import (
     STRIP_DY,
     STRIP_Y,
 )
-from contact.damage.archard import wear_depth_kernel
+from contact.damage.archard import depth_times_hardness
 from contact.damage.burstow import burstow_kernel
 from contact.damage.energy_index import energy_index_kernel
 from contact.damage.fatigue_index import fatigue_index_kernel
@@ -83,14 +83,15 @@ def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, da
     strips, ∬ k p |s|/H dA. With n = 0 everything is zero, and what needs fields where the law gives forces alone.
     """
     damage[:] = 0.0
-    damage_fields[:, :n] = 0.0
-    if n == 0 or result[RES_N] <= 0.0 or result[RES_AREA] <= 0.0 or result[RES_PMAX] <= 0.0:
+    nothing = n == 0 or result[RES_N] <= 0.0 or result[RES_AREA] <= 0.0 or result[RES_PMAX] <= 0.0
+    if nothing or case[CASE_TANGENTIAL] >= CARTER:
+        damage_fields[:, :n] = 0.0
+    if nothing:
         return
     vx, vy, phi = case[CASE_VX], case[CASE_VY], case[CASE_PHI]
     Fx, Fy, Mz = result[RES_FX], result[RES_FY] - result[RES_PRESSURE_Y], result[RES_MZ]
     radius, shear_yield = parameters[PAR_WHEEL_RADIUS], parameters[PAR_SHEAR_YIELD]
     circumference = 2.0 * math.pi * radius
-    per_circumference = 1.0 / circumference
 
     T_gamma = t_gamma_kernel(Fx, Fy, 0.0, vx, vy, 0.0)
     T_gamma_spin = t_gamma_kernel(Fx, Fy, Mz, vx, vy, phi)
@@ -109,14 +110,14 @@ def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, da
         return
     depth_max, volume, stress_max, energy_max = 0.0, 0.0, -math.inf, -math.inf
     speed, hardness, archard = parameters[PAR_SPEED], parameters[PAR_HARDNESS], parameters[PAR_ARCHARD:N_PAR]
-    columns = fields.shape[2]
+    columns, per_hardness = fields.shape[2], 1.0 / (circumference * hardness)
     for i in range(n):
         y = strips[STRIP_Y, i]
         # one loop an index: with more the compiler gives up vector instructions
         for j in range(columns):
             slip = math.sqrt(fields[FIELD_SX, i, j] ** 2 + fields[FIELD_SY, i, j] ** 2)
-            depth = wear_depth_kernel(slip, fields[FIELD_P, i, j], fields[FIELD_DX, i, j], speed, hardness, archard)
-            damage_fields[DFIELD_DEPTH, i, j] = depth * per_circumference
+            work = depth_times_hardness(slip, fields[FIELD_P, i, j], fields[FIELD_DX, i, j], speed, hardness, archard)
+            damage_fields[DFIELD_DEPTH, i, j] = work * per_hardness
         for j in range(columns):
             stress = stress_index_kernel(fields[FIELD_QX, i, j], fields[FIELD_QY, i, j], shear_yield)
             damage_fields[DFIELD_STRESS_INDEX, i, j] = stress

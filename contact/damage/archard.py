@@ -73,13 +73,13 @@ def wear_coefficient_kernel(velocity, pressure, hardness, constants):
 
 
 @kernel
-def wear_depth_kernel(slip, pressure, dx, speed, hardness, constants):
-    """Depth [m] that a particle loses on its way dx [m] through an element: k p Δs/H, Δs = slip·dx (Eq. 6.4).
+def depth_times_hardness(slip, pressure, dx, speed, hardness, constants):
+    """k p Δs [Pa m], Δs = slip·dx: over the hardness the depth that a particle loses on its way dx [m] (Eq. 6.4).
 
     `slip` is the sliding velocity relative to the rolling speed, so it takes dx/V to pass and slides slip·V·dx/V.
     """
     k = wear_coefficient_kernel(slip * speed, pressure, hardness, constants)
-    return k * pressure * slip * dx / hardness
+    return k * pressure * slip * dx
 
 
 def wear_coefficient(

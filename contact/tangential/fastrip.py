@@ -190,12 +190,12 @@ def _slip(lanes, l, s):
 
 
 @kernel
-def _slip_zone(elements, lanes, trace, shown, falling):
+def _slip_zone(elements, lanes, trace, falling, block, n, fields):
     """Sum the slip zones of a block: magnitude mu·p, exact over each element, direction of the march.
 
     The slip is strip theory's behind a stick zone; in strips that slip as a whole it is rigid and elastic slip against the
-    traction. With `shown` the fields are left in `trace`. `falling` is the case where friction varies along the strip, or
-    None: numba compiles each on its own, the second without what belongs to the first.
+    traction. `fields` of the `n` strips are filled if they have room for them. `falling` is the case where friction varies
+    along the strip, or None: numba compiles each on its own, the second without what belongs to the first.
     """
     for l in range(LANES):
         lanes[_FX + l], lanes[_FY + l], lanes[_MZ + l], lanes[_POWER + l] = 0.0, 0.0, 0.0, 0.0
@@ -205,7 +205,7 @@ def _slip_zone(elements, lanes, trace, shown, falling):
         load_end, moment_end = elements[EL_LOAD_END, k], elements[EL_MOMENT_END, k]
         recall(lanes, trace[k])
         sticks = 0
-        for l in range(LANES):
+        for l in range(lanes.size // N_LANE_ROWS):  # as in `_normalise`: so short a loop would be written out
             sticks += 1 if lanes[NOW_SLIDES + l] < 0.5 and load_end > lanes[_LOAD + l] else 0
         if sticks > 0:
             _normalise(lanes)
@@ -232,9 +232,9 @@ def _slip_zone(elements, lanes, trace, shown, falling):
             lanes[_MZ + l] += share_s * ey
             lanes[_POWER + l] += amount * slip
             lanes[NOW_SLIP + l] = slip
-        if shown:
+        if n <= fields.shape[1]:  # else only forces are asked for
             _show(s, elements[EL_SINE, k], lanes, falling)
-            keep(lanes, trace[k])
+            _write(k, block, n, lanes, fields)
         load_before, moment_before = load_end, moment_end
 
 
@@ -286,21 +286,14 @@ def _cut_to_bound(per_square, lanes):
 
 
 @kernel
-def _write_fields(block, n, lanes, trace, fields):
-    """Traction, slip and stick flag of a block's strips, element by element: so `trace` is read as it lies in memory."""
-    for k in range(trace.shape[0]):
-        for l in range(min(LANES, n - block)):
-            row, bound = block + l, lanes[_BOUND + l]
-            live = 1.0 if bound > 0.0 else 0.0
-            fields[FIELD_QX, row, k], fields[FIELD_QY, row, k] = (
-                bound * trace[k, NOW_X + l],
-                bound * trace[k, NOW_Y + l],
-            )
-            fields[FIELD_SX, row, k], fields[FIELD_SY, row, k] = (
-                live * trace[k, _NOW_SX + l],
-                live * trace[k, _NOW_SY + l],
-            )
-            fields[FIELD_STICK, row, k] = live * trace[k, NOW_STICK + l]
+def _write(k, block, n, lanes, fields):
+    """Traction, slip and stick flag of element k of a block's strips; none of a strip that bears nothing."""
+    for l in range(min(LANES, n - block)):
+        row, bound = block + l, lanes[_BOUND + l]
+        live = 1.0 if bound > 0.0 else 0.0
+        fields[FIELD_QX, row, k], fields[FIELD_QY, row, k] = bound * lanes[NOW_X + l], bound * lanes[NOW_Y + l]
+        fields[FIELD_SX, row, k], fields[FIELD_SY, row, k] = live * lanes[_NOW_SX + l], live * lanes[_NOW_SY + l]
+        fields[FIELD_STICK, row, k] = live * lanes[NOW_STICK + l]
 
 
 @kernel
@@ -309,7 +302,6 @@ def fastrip(strips, n, case, table, elements, lanes, trace, fields, result):
     a0, b0 = equivalent_ellipse(strips, n)
     c_patch = math.sqrt(a0 * b0)
     Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
-    shown = fields.shape[1] >= n  # else only forces are asked for
     for block in range(0, n, LANES):
         _set_block(strips, block, n, case, table, c_patch, lanes)
         if case[CASE_TANGENTIAL] == STRIP_THEORY:
@@ -318,9 +310,9 @@ def fastrip(strips, n, case, table, elements, lanes, trace, fields, result):
             march(False, elements, lanes, trace)
         if varies(case):
             begin(strips, block, n, case, _BOUND, lanes)
-            _slip_zone(elements, lanes, trace, shown, case)
+            _slip_zone(elements, lanes, trace, case, block, n, fields)
         else:
-            _slip_zone(elements, lanes, trace, shown, None)
+            _slip_zone(elements, lanes, trace, None, block, n, fields)
         for l in range(min(LANES, n - block)):
             i = block + l
             a, dy, y, xc = strips[STRIP_A, i], strips[STRIP_DY, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
@@ -338,7 +330,5 @@ def fastrip(strips, n, case, table, elements, lanes, trace, fields, result):
             Fy += fy
             Mz += mz + xc * fy - y * fx
             power += strip * lanes[_POWER + l]
-        if shown:
-            _write_fields(block, n, lanes, trace, fields)
     result[RES_FX], result[RES_FY], result[RES_MZ] = Fx, Fy, Mz
     result[RES_POWER], result[RES_SLIP_AREA] = power, slip_area

@@ -40,3 +40,9 @@ def matrix(memory, at, rows, columns):
 def cube(memory, at, layers, rows, columns):
     """Three-dimensional array likewise."""
     return carray(ahead(memory, at), (layers, rows, columns)), at + layers * rows * columns
+
+
+@compiled
+def next_line(at):
+    """First place from `at` on at which a cache line begins, as the memory itself does."""
+    return (at + 7) // 8 * 8

@@ -39,7 +39,7 @@ from contact.normal.strip_system import N_VECTOR_ROWS
 from contact.tangential import table
 from contact.tangential.lanes import LANES, N_LANE_ROWS, TRACE_WIDTH
 from contact.workspace import Rule, Space, Tables, Workspace, columns_shape
-from fmu_src.native.memory import compiled, cube, matrix, vector
+from fmu_src.native.memory import compiled, cube, matrix, next_line, vector
 
 _METHODS = contact.methods().batched
 #: By the number of an item of the enumerations `method.normal` and `method.tangential`, less 1.
@@ -79,7 +79,7 @@ def lay_out(work, end, memory, n_strips, n_elements, samples, centre, plane, cre
     logs, end = matrix(work, end, size, size + MAX_PATCHES)
     influences, end = matrix(work, end, size, size)
     lu, end = matrix(work, end, size, size)
-    lanes, end = vector(work, end, N_LANE_ROWS * LANES)
+    lanes, end = vector(work, next_line(end), N_LANE_ROWS * LANES)
     trace, end = matrix(work, end, n_elements, TRACE_WIDTH)
     strips, end = matrix(work, end, N_STRIP_ROWS, capacity)
     fields, end = cube(work, end, N_FIELD_ROWS, capacity, n_elements)

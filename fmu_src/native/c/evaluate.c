@@ -31,6 +31,14 @@ static Status say(const Instance *instance, int64_t number)
     return message(number)->text ? report(instance, message(number)->category, "%s", message(number)->text) : OK;
 }
 
+enum { CACHE_LINE = 64 };
+
+void free_work(Instance *instance)
+{
+    free(instance->work_block);
+    instance->work_block = instance->work = NULL;
+}
+
 /* Lay out and fill working memory for the parameters, which are within their ranges. The warm start of other parameters is
  * given up. */
 Status prepare(Instance *instance)
@@ -39,26 +47,26 @@ Status prepare(Instance *instance)
     int64_t number;
     if (instance->work && !memcmp(values, instance->prepared, N_PARAMETERS * sizeof(double))) return OK;
     int64_t memory_size = instance->model->memory(values, instance->resources);
-    double *work = malloc((size_t)instance->model->size(values, instance->resources) * sizeof(double));
+    void *block = malloc((size_t)instance->model->size(values, instance->resources) * sizeof(double) + CACHE_LINE);
     double *memory = memory_size == instance->memory_size ? instance->memory : calloc(2 * (size_t)memory_size, sizeof(double));
-    if (!work || !memory) {
-        free(work);
+    if (!block || !memory) {
+        free(block);
         if (memory != instance->memory) free(memory);
         instance->is.phase = BROKEN;
         return report(instance, LOG_ERROR, "out of memory: this resolution takes %lld bytes",
                       (long long)instance->model->size(values, instance->resources) * (long long)sizeof(double));
     }
-    free(instance->work);
+    free_work(instance);
     if (memory != instance->memory) free(instance->memory);
-    instance->work = work;
+    instance->work_block = block;
+    instance->work = (double *)(((uintptr_t)block + CACHE_LINE - 1) / CACHE_LINE * CACHE_LINE);
     instance->work_is_solved = false;
     instance->memory = memory;
     instance->memory_size = memory_size;
     memcpy(instance->prepared, values, N_PARAMETERS * sizeof(double));
-    number = instance->model->prepare(values, work, instance->resources);
+    number = instance->model->prepare(values, instance->work, instance->resources);
     if (!failed(number)) return OK;
-    free(instance->work);
-    instance->work = NULL;
+    free_work(instance);
     return say(instance, number);
 }
 

@@ -141,7 +141,8 @@ typedef struct {
     int64_t memory_size;
     double *resources;       /* of each its number of points n, then n numbers each of three columns; NULL if there are none */
     uint64_t resources_hash; /* tells instances with other resources apart */
-    double *work;
+    double *work;        /* at the beginning of a cache line: vectors are loaded in one piece */
+    void *work_block;    /* in which it lies */
     bool work_is_solved; /* and not used for anything else since */
     double prepared[N_VALUES]; /* parameters that `work` is laid out and filled for; a negative first one: none */
     const Model *model; /* compiled for this processor; the results are the same */
@@ -221,6 +222,7 @@ Status update(Instance *instance, double h, bool warm);
 void accumulate(Instance *instance);
 Status update_lazy(Instance *instance);
 Status update_work(Instance *instance);
+void free_work(Instance *instance);
 Status refresh(Instance *instance);
 
 #endif

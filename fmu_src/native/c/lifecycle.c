@@ -154,7 +154,7 @@ Instance *instantiate(Type type, bool arrays, const char *name, const char *guid
 void release(Instance *instance)
 {
     if (!instance) return;
-    free(instance->work);
+    free_work(instance);
     free(instance->memory);
     free(instance->resources);
     free(instance->name);

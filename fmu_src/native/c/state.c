@@ -69,8 +69,7 @@ Status set_state(Instance *instance, const char *function, const void *source)
         free(instance->memory);
         instance->memory = memory;
         instance->memory_size = state->memory_size;
-        free(instance->work); /* laid out for another memory */
-        instance->work = NULL;
+        free_work(instance); /* laid out for another memory */
     }
     instance->is = state->is;
     instance->work_is_solved = false;
