@@ -29,7 +29,7 @@ fmu: $(READY)    ## build the FMUs into dist/
 test: $(READY)   ## run the tests
 	$(BIN)/python -m pytest -n 2 --dist worksteal
 
-soak: $(READY)   ## 10 000 instances and a million steps of every native FMU: memory stays as it is (some ten minutes)
+soak: $(READY)   ## 10 000 instances and a million steps of every native FMU: memory stays as it is (some minutes)
 	SOAK=1 $(BIN)/python -m pytest tests/system/test_native_host.py -k leave_memory
 
 lint: $(READY)   ## ruff, mypy, import-linter

@@ -143,7 +143,7 @@ def table(poisson_ratio: float) -> NDArray[np.float64]:
 
 
 def constant_table(c11: float, c22: float, c23: float) -> NDArray[np.float64]:
-    """A table for `coefficients` that has the same three at every aspect ratio; C33, which no strip method reads, is 0."""
+    """A table for `coefficients` that has the same three at every aspect ratio; C33, which FASTSIM does not read, is 0."""
     result = np.zeros((N_TABLE, 8))
     result[:, :3] = c11, c22, c23
     return result

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from enum import IntEnum
 from functools import cached_property
@@ -151,6 +152,11 @@ class Solution:
     def slip_ratio(self) -> float:
         """Slip area over contact area [-]; 0 without contact."""
         return self.slip_area / self.area if self.area > 0.0 else 0.0
+
+    @property
+    def utilisation(self) -> float:
+        """Utilised friction, creep force over normal force [-]; 0 without contact."""
+        return math.hypot(self.Fx, self.Fy - self.pressure_y) / self.N if self.N > 0.0 else 0.0
 
     @cached_property
     def damage(self) -> Damage:

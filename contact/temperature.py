@@ -1,11 +1,11 @@
 """Flash temperature: what friction heats a surface up to while it crosses the patch (theory.md 8.5).
 
 Heat flows into a body much slower than the body moves (great Péclet number), so each strip is on its own: half of the heat
-q·s enters each body, and a particle that entered at x = a has at x been heated by
+-q·s enters each body, and a particle that entered at x = a has at x been heated by
 
-    ΔT(x) = 1/(2 β √(πV)) ∫_x^a q|s|/√(ξ - x) dξ,    β = √(λ ρ c),
+    ΔT(x) = 1/(2 β √(πV)) ∫_x^a -q·s/√(ξ - x) dξ,    β = √(λ ρ c),
 
-with the slip velocity |s| in m/s and the rolling speed V. Elliptic heat, mu p0 √(1 - x²/a²) |s|, has its greatest value,
+with the slip velocity s in m/s and the rolling speed V. Elliptic heat, mu p0 √(1 - x²/a²) |s|, has its greatest value,
 2.188 mu p0 |s| √a/(2 β √(πV)), at x = -.65 a.
 """
 

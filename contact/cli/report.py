@@ -35,7 +35,7 @@ CONTACT: Sequence[tuple[str, str, Callable[[Solution], float]]] = (
     ("Fx on the wheel", "kN", lambda s: 1e-3 * s.Fx),
     ("Fy on the wheel", "kN", lambda s: 1e-3 * s.Fy),
     ("Mz on the wheel", "N m", lambda s: s.Mz),
-    ("utilised friction", "-", lambda s: math.hypot(s.Fx, s.Fy - s.pressure_y) / s.N if s.N > 0.0 else 0.0),
+    ("utilised friction", "-", lambda s: s.utilisation),
     ("slip area", "%", lambda s: 100.0 * s.slip_ratio),
 )
 DAMAGE: Sequence[tuple[str, str, Callable[[Damage], float]]] = (

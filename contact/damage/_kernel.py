@@ -110,14 +110,14 @@ def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, da
         return
     depth_max, volume, stress_max, energy_max = 0.0, 0.0, -math.inf, -math.inf
     speed, hardness, archard = parameters[PAR_SPEED], parameters[PAR_HARDNESS], parameters[PAR_ARCHARD:N_PAR]
-    columns, per_hardness = fields.shape[2], 1.0 / (circumference * hardness)
+    columns, to_depth = fields.shape[2], 1.0 / (circumference * hardness)
     for i in range(n):
         y = strips[STRIP_Y, i]
         # one loop an index: with more the compiler gives up vector instructions
         for j in range(columns):
             slip = math.sqrt(fields[FIELD_SX, i, j] ** 2 + fields[FIELD_SY, i, j] ** 2)
             work = depth_times_hardness(slip, fields[FIELD_P, i, j], fields[FIELD_DX, i, j], speed, hardness, archard)
-            damage_fields[DFIELD_DEPTH, i, j] = work * per_hardness
+            damage_fields[DFIELD_DEPTH, i, j] = work * to_depth
         for j in range(columns):
             stress = stress_index_kernel(fields[FIELD_QX, i, j], fields[FIELD_QY, i, j], shear_yield)
             damage_fields[DFIELD_STRESS_INDEX, i, j] = stress

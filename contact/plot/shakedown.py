@@ -35,13 +35,7 @@ def shakedown(runs: Mapping[str, Sequence[Solution]], title: str = "") -> Figure
         If nothing touches.
     """
     points = {
-        name: np.array(
-            [
-                (np.hypot(s.Fx, s.Fy - s.pressure_y) / s.N, s.max_pressure / s.material.shear_yield)
-                for s in run
-                if s.N > 0.0
-            ]
-        )
+        name: np.array([(s.utilisation, s.max_pressure / s.material.shear_yield) for s in run if s.N > 0.0])
         for name, run in runs.items()
     }
     if not any(cloud.size for cloud in points.values()):

@@ -1,4 +1,4 @@
-"""FASTSIM's march along eight strips in normalised form, shared by the FASTSIM methods and by FaStrip's direction pass.
+"""FASTSIM's march along a block of strips in normalised form, shared by the FASTSIM methods and FaStrip's direction pass.
 
 With x = x_c + a s, traction tau and the bound g, parabolic 1 - s² or elliptic √(1 - s²), both divided by the peak of the
 bound, the rigid slip over flexibility is W = (X, Y + Z s): X = a vx/(L1 g0), Y = a vy/(L2 g0), Z = a² phi/(L3 g0)

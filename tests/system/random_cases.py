@@ -67,7 +67,7 @@ class Case:
         Where the pressure of interacting strips is limited, their iteration magnifies the last digit of asin: a digit less.
         """
         wanted, s = self.expected(), self.solution
-        limit, force = s.friction * s.N, np.hypot(s.Fx, s.Fy - s.pressure_y)
+        limit, force = s.friction * s.N, s.utilisation * s.N
         scale = dict(zip(OUTPUTS, np.abs(wanted), strict=True))
         for name in scale:
             if name.startswith("damage") and force > 0.0:
