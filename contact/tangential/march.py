@@ -29,12 +29,13 @@ from contact.tangential.lanes import (
     turned,
 )
 
-# rows of `lanes` that the caller sets (X, Y, Z) and that the march keeps: traction, 1 in slip, utilisation squared, the trial
-# traction in stick with its utilisation squared, and the share of the step that is left when a strip comes to slide
-ROW_X, ROW_Y, ROW_Z, _TX, _TY, _SLIPS, _USED, _TRIAL_X, _TRIAL_Y, _TRIAL_USED, _LEFT = (
-    FREE_ROW + row * LANES for row in range(11)
+# rows of `lanes` that the caller sets (X, Y, Z), that the march leaves (utilisation of the bound at the leading edge, squared,
+# and s of the element where a particle first slides, -2 for nowhere) and that it keeps: traction, 1 in slip, utilisation
+# squared, the trial traction in stick with its utilisation squared, and the share of the step left when a strip comes to slide
+ROW_X, ROW_Y, ROW_Z, ROW_START, ROW_CAME, _TX, _TY, _SLIPS, _USED, _TRIAL_X, _TRIAL_Y, _TRIAL_USED, _LEFT = (
+    FREE_ROW + row * LANES for row in range(13)
 )
-FREE_BEHIND_MARCH = FREE_ROW + 11 * LANES
+FREE_BEHIND_MARCH = FREE_ROW + 13 * LANES
 
 
 @kernel
@@ -52,7 +53,8 @@ def march(elliptic, elements, lanes, trace):
         lanes[_TX + l], lanes[_TY + l], lanes[_LEFT + l] = 0.0, 0.0, 1.0
         lanes[NOW_X + l], lanes[NOW_Y + l] = -x / size, -y / size
         lanes[_SLIPS + l] = 1.0 if size > steepest else 0.0
-        lanes[_USED + l] = start * size * size
+        lanes[ROW_START + l] = lanes[_USED + l] = start * size * size
+        lanes[ROW_CAME + l] = 1.0 if size > steepest else -2.0
     s, slope = 1.0, 2.0
     for k in range(elements.shape[1]):
         before, s, step, middle = s, elements[EL_S, k], elements[EL_STEP, k], elements[EL_MIDDLE, k]
@@ -74,7 +76,7 @@ def march(elliptic, elements, lanes, trace):
             slide += 1 if lanes[_SLIPS + l] > 0.5 else 0
             come += 1 if used > 1.0 and lanes[_SLIPS + l] < 0.5 else 0
         if come > 0:
-            _come_to_slide(lanes)
+            _come_to_slide(s, lanes)
         if come + slide > 0:
             stop = _slide(s, step, middle, stretch, bound, slope, lanes)
             if stop > 0:
@@ -89,7 +91,7 @@ def march(elliptic, elements, lanes, trace):
 
 
 @kernel
-def _come_to_slide(lanes):
+def _come_to_slide(s, lanes):
     """Where a trial traction passes the bound: its direction there, and the share of the step that is left."""
     for l in range(LANES):
         x, y, used, before = lanes[_TX + l], lanes[_TY + l], lanes[_TRIAL_USED + l], lanes[_USED + l]
@@ -102,6 +104,8 @@ def _come_to_slide(lanes):
         lanes[NOW_X + l] += comes * (x * per_size - lanes[NOW_X + l])
         lanes[NOW_Y + l] += comes * (y * per_size - lanes[NOW_Y + l])
         lanes[_LEFT + l] = 1.0 - comes * share
+        came = lanes[ROW_CAME + l]
+        lanes[ROW_CAME + l] = s if comes > 0.5 and s > came else came
 
 
 @kernel

@@ -100,6 +100,59 @@ def test_force_is_continuous_through_unit_spin_parameter(ellipse):
         assert np.abs(np.diff(values, axis=0)).max() < 5e-3, f"jump near |psi| = 1 at lateral creepage {lateral} vy_c"
 
 
+@pytest.mark.parametrize(("vx", "vy"), [(5e-4, 5e-4), (1e-4, -2e-3)])
+def test_force_is_continuous_where_leading_edges_come_to_slip(vx, vy, ellipse):
+    """Beyond |psi| = 1, lateral creepage against spin: steps of .004 and .027 with full slip of such strips at once."""
+    spin = np.linspace(-2.0, 2.0, 801)
+    found = contact.forces(ellipse, (vx, vy, spin), load=N, friction=MU)
+    largest = {}
+    for name in ("Fx", "Fy"):
+        curve = getattr(found, name) / (MU * N)
+        second = np.abs(np.diff(curve, 2))
+        assert second.max() < 3e-3, f"{name} is broken or has an edge at {spin[second.argmax()]} /m"
+        k = int(np.abs(np.diff(curve)).argmax())
+        fine = contact.forces(ellipse, (vx, vy, np.linspace(spin[k], spin[k + 1], 101)), load=N, friction=MU)
+        largest[name] = np.abs(np.diff(getattr(fine, name) / (MU * N))).max() / np.abs(np.diff(curve)).max()
+    assert max(largest.values()) < 0.03, "a hundredth of the step leaves a hundredth of the largest jump"
+
+
+def test_doubled_strips_and_elements_hardly_change_forces():
+    """Rows of ellipses, a/b 0.2 to 5, in 16 states with up to 2.2 /m of spin: issue "The solver" asks for 0.2 % of mu N."""
+    rng = np.random.default_rng(3)
+    sign = rng.choice([-1.0, 1.0], (3, 16))
+    creepage = tuple(sign * np.array([1e-3, 1e-3, 0.5])[:, None] * 10 ** rng.uniform(-1, 0.7, (3, 16)))
+
+    def change(**doubled):
+        changes = []
+        for u in (-1, -0.5, 0, 0.5, 1):
+            a, b = (
+                contact.forces(contact.Separation.hertzian(1.0, 10.0**u), creepage, load=N, friction=MU, **options)
+                for options in ({}, doubled)
+            )
+            changes.append(np.hypot(a.Fx - b.Fx, a.Fy - b.Fy) / (MU * N))
+        return np.array(changes)
+
+    elements, strips = change(n_elements=60), change(n_strips=60)
+    assert elements.max() < 0.001, "elements"
+    assert strips.mean() < 0.0006, "strips"
+    assert strips[1:].max() < 0.002, "strips"
+    assert strips[0].max() < 0.006, "strips as far apart as they are long"
+
+
+def test_particles_that_stick_again_bear_less_than_the_bound(ellipse):
+    """Spin turns the rigid slip round within a strip; there the march's particles stick, and the bound is not reached."""
+    sol = contact.solve(ellipse, contact.Creepage(0.0, 0.0, 2.0), load=N, friction=MU, n_strips=31)
+    used = np.hypot(sol.qx, sol.qy) / (MU * sol.p)
+    assert sol.slip_ratio == 1.0, "no stick zone at the leading edge"
+    assert 0.0 < sol.stick.mean() < 0.1
+    assert (sol.stick == (used < 1.0 - 1e-9)).all()
+    assert (np.hypot(sol.sx, sol.sy)[sol.stick] == 0.0).all()
+    middle = sol.stick[15]
+    assert middle.any(), "in the middle the pole of the rigid slip lies in the strip"
+    # from the leading edge on it passes through zero, from one side to the other
+    assert np.unique(np.sign(sol.qy[15])).tolist() == [-1.0, 1.0]
+
+
 def test_slip_of_a_partially_slipping_circle(ellipse):
     """Closed form of theory.md 4.3 on the central strip of a circle at Fx_lin = 1.2 mu N."""
     circle = contact.Separation.hertzian(1.0, 1.0)
