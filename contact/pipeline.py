@@ -35,6 +35,7 @@ from contact._layout import (
     STRIP_ASPECT,
     STRIP_BOUND,
     STRIP_DY,
+    STRIP_EXPONENT,
     STRIP_P0,
     STRIP_PATCH,
     STRIP_PHI,
@@ -131,6 +132,7 @@ def _set_rolling(strips, n, case):
     for i in range(n):
         strips[STRIP_VX, i], strips[STRIP_VY, i], strips[STRIP_PHI, i] = case[CASE_VX], case[CASE_VY], case[CASE_PHI]
         strips[STRIP_BOUND, i] = strips[STRIP_P0, i] * bodies
+        strips[STRIP_EXPONENT, i] = 0.0
         if factor != 1.0:
             strips[STRIP_BOUND, i] *= over_profile(
                 factor, case[CASE_BORDER], case[CASE_BORDER_WIDTH], strips[STRIP_Y, i]
@@ -150,7 +152,7 @@ def _roll(strips, n, case, tables, elements, space, fields, result):
     if case[CASE_TANGENTIAL] == FASTSIM or FASTSIM_ONE <= case[CASE_TANGENTIAL] <= FASTSIM_STRIPES:
         fastsim(strips, n, case, table, elements, space.lanes, space.trace, fields, result)
     elif case[CASE_TANGENTIAL] == FASTRIP_MAPPED:
-        fastrip_mapped(strips, n, case, table, elements, space.lanes, space.trace, fields, result)
+        fastrip_mapped(strips, n, case, tables, elements, space.lanes, space.trace, fields, result)
     elif case[CASE_TANGENTIAL] >= CARTER:
         creep_force(strips, n, case, tables, fields, result)
     else:

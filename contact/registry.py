@@ -27,7 +27,7 @@ class Method:
     spin : takes spin into account
     lateral : takes lateral creepage into account (tangential)
     saturates : the force never exceeds friction (tangential)
-    tabulated : reads the table of creep forces (tangential)
+    tabulated : reads the half space's table of creep forces or of effective creepages (tangential)
     admissible : nowhere does the traction exceed friction times pressure (tangential)
     interacting : every strip feels the pressure of all others (normal)
     batched : a kernel over strips, which `contact.forces` and the FMUs offer too; else `contact.solve` alone
@@ -156,7 +156,13 @@ _TANGENTIAL = (
         "fastsim", FASTSIM, "FASTSIM, three flexibilities, parabolic bound", "Kalker 1982", True, True, admissible=False
     ),
     Method(
-        "fastrip_mapped", FASTRIP_MAPPED, "FaStrip in one march, mapped to the pressure", "this project", True, True
+        "fastrip_mapped",
+        FASTRIP_MAPPED,
+        "FaStrip in one march, mapped to the pressure",
+        "this project",
+        True,
+        True,
+        tabulated=True,
     ),
     Method(
         "fastsim_one",

@@ -19,7 +19,7 @@ def assert_held(name, values, reached):
 
 @pytest.mark.parametrize(("method", "force", "moment", "adhesion"), [
     ("fastrip", (0.0136, 0.0422, 0.0973), (0.0080, 0.0252, 0.0551), 0.0221),  # bar .0165 / .058 / .17
-    ("fastrip_mapped", (0.0077, 0.0228, 0.0509), (0.0062, 0.0198, 0.0408), 0.0293),  # bar .009 / .027 / .06; .007 / .022
+    ("fastrip_mapped", (0.0031, 0.0093, 0.0277), (0.0016, 0.0054, 0.0112), 0.0222),  # bar .009 / .027 / .06; .007 / .022
     ("fastsim", (0.0320, 0.0906, 0.1827), (0.0331, 0.0860, 0.1321), 0.0665),
     ("fastsim_one", (0.0567, 0.1795, 0.3010), (0.0559, 0.1383, 0.2580), 0.140),  # CONTACT's own: .0547 / .1774 / .2900
     ("fastsim_elliptic", (0.0372, 0.1002, 0.1910), (0.0167, 0.0513, 0.1542), 0.130),
@@ -58,7 +58,7 @@ def test_creep_force_laws_on_ellipses(law, without, with_spin):
         assert_held(law, errors, (reached,))
 
 
-@pytest.mark.parametrize(("method", "mean"), [("fastrip", 0.0695), ("fastrip_mapped", 0.0792), ("fastsim", 0.235)])
+@pytest.mark.parametrize(("method", "mean"), [("fastrip", 0.0695), ("fastrip_mapped", 0.0640), ("fastsim", 0.235)])
 def test_traction_fields_on_ellipses(method, mean):
     assert_held("traction", list(accuracy.errors_on_fields(method).values()), (mean,))  # bar .081
 

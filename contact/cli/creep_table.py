@@ -10,15 +10,14 @@ import typer
 from contact.cli.output import reported
 from contact.cli.progress import progress_bar
 from contact.study import creep_table
+from contact.study import effective as effective_creepage
+from contact.tangential import table
 
 app = typer.Typer(
-    name="table", help="The table of creep forces that the tangential method `table` reads.", no_args_is_help=True
+    name="table",
+    help="The tables that the tangential methods `table` and `fastrip_mapped` read.",
+    no_args_is_help=True,
 )
-
-
-@app.callback()
-def table() -> None:
-    """Make a command of a single one a group."""
 
 
 @app.command()
@@ -36,4 +35,19 @@ def build(
     """
     with progress_bar() as bar:
         creep_table.build(out, elements, processes=processes, progress=bar)
+    typer.echo(f"wrote {out}", err=True)
+
+
+@app.command()
+@reported
+def effective(
+    out: Annotated[Path, typer.Option(help="CSV file")],
+    forces: Annotated[Path, typer.Option(help="table of creep forces, from `contact table build`")] = table.FILE,
+) -> None:
+    """Fit the effective creepages of `fastrip_mapped` to the table of creep forces: two minutes; needs scipy.
+
+    Example:  contact table effective --out effective_creepage.csv, for contact/tangential/effective_creepage.csv
+    """
+    with progress_bar() as bar:
+        effective_creepage.build(out, forces, progress=bar)
     typer.echo(f"wrote {out}", err=True)

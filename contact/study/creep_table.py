@@ -17,7 +17,8 @@ from contact.solve import solve
 from contact.study.ellipse import ellipse
 from contact.tangential import table
 
-_MATERIAL, _LOAD, _FRICTION, _C = Material(82e9, table.NU), 82e3, 0.3, 6e-3
+#: Of the ellipses; results are over mu N and mu N c.
+MATERIAL, LOAD, FRICTION, C = Material(82e9, table.NU), 82e3, 0.3, 6e-3
 #: r in place of infinity: deep in full slip.
 _FAR = 1e3
 
@@ -79,41 +80,42 @@ def _heading(elements: int) -> str:
 
 def creepage(log_aspect: float, alpha: float, beta: float, rho: float) -> Creepage:
     """Creepages of a node on the ellipse of the calculation."""
+    direction = math.cos(beta) * math.cos(alpha), math.cos(beta) * math.sin(alpha), math.sin(beta)
+    return Creepage(*(size * share for size, share in zip(sizes(log_aspect, rho), direction, strict=True)))
+
+
+def sizes(log_aspect: float, rho: float) -> tuple[float, float, float]:
+    """Longitudinal and lateral creepage and spin that are as large as all creepages of a node together."""
     c11, c22, c23, _ = kalker.coefficients(kalker.table(table.NU), log_aspect)
     r = table.R0 * rho / (1.0 - rho) if rho < 1.0 else _FAR
-    unit = r * _FRICTION * _LOAD / (_MATERIAL.shear_modulus * _C**2)
-    spin = math.sin(beta) / table.spin_weight(log_aspect, c11, c22, c23)
-    return Creepage(
-        unit * math.cos(beta) * math.cos(alpha) / c11,
-        unit * math.cos(beta) * math.sin(alpha) / c22,
-        unit * spin / (c23 * _C),
-    )
+    unit = r * FRICTION * LOAD / (MATERIAL.shear_modulus * C**2)
+    return unit / c11, unit / c22, unit / (table.spin_weight(log_aspect, c11, c22, c23) * c23 * C)
 
 
 def _row(job: tuple[int, int, int, int]) -> str:
     """One line of the file; runs in a process of its own."""
     i, j, k, elements = job
     log_aspect, alpha, beta, rho = table.nodes()
-    separation = ellipse(math.exp(log_aspect[i]), _C, _LOAD, _MATERIAL)
+    separation = ellipse(math.exp(log_aspect[i]), C, LOAD, MATERIAL)
     numbers = []
     for share in rho[1:]:
         s = solve(
             separation,
             creepage(float(log_aspect[i]), float(alpha[j]), float(beta[k]), float(share)),
-            load=_LOAD,
-            friction=_FRICTION,
-            material=_MATERIAL,
+            load=LOAD,
+            friction=FRICTION,
+            material=MATERIAL,
             normal="hertz",
             tangential="halfspace",
             n_strips=elements,
             n_elements=elements,
         )
-        scale = _FRICTION * _LOAD
-        numbers += [s.Fx / scale, s.Fy / scale, s.Mz / (scale * _C), s.slip_ratio]
-    return ",".join(_short(number) for number in numbers)
+        scale = FRICTION * LOAD
+        numbers += [s.Fx / scale, s.Fy / scale, s.Mz / (scale * C), s.slip_ratio]
+    return ",".join(short(number) for number in numbers)
 
 
-def _short(number: float) -> str:
+def short(number: float) -> str:
     """Four decimals, without the zero before the point."""
     text = f"{round(number, 4) + 0.0:.4f}"
     return text.replace("0.", ".", 1) if abs(number) < 0.99995 else text

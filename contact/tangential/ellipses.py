@@ -19,6 +19,17 @@ def equivalent_ellipse(strips, n):
 
 
 @kernel
+def mean_ellipse(strips, first, last):
+    """Semi-axes of the ellipse with the area of the patch and its mean length: ∫a² dy/∫a dy is 8a/(3π) on an ellipse."""
+    area, square = 0.0, 0.0
+    for i in range(first, last):
+        area += strips[STRIP_A, i] * strips[STRIP_DY, i]
+        square += strips[STRIP_A, i] ** 2 * strips[STRIP_DY, i]
+    a = 0.375 * math.pi * square / area
+    return a, 2.0 * area / (math.pi * a)
+
+
+@kernel
 def flexibilities(G, a, b, table):
     """L1, L2, L3 [m/Pa] with which the forces of vanishing creepage are Kalker's (thesis Eqs. 4.28-4.30); 1 for no ellipse."""
     if a <= 0.0 or b <= 0.0:

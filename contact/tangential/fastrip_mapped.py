@@ -8,8 +8,9 @@ strip theory exactly. March and map stay defined for |psi| >= 1, lateral creepag
 pressure along the strip. Eight constants, of one half of the ellipses computed with CONTACT, let m, the spin and the turning
 of the slip direction vary with spin and aspect ratio (mapped_strip.md, which measures every choice).
 
-On a patch that is no ellipse the aspect ratio of a strip is the geometric mean of the local one, from the curvatures, and
-that of the equivalent ellipse.
+On a patch that is no ellipse the logarithm of the aspect ratio of a strip is .6 of the local one, from the curvatures, and
+.4 of that of the equivalent ellipse. Strips roll with effective creepages (`effective`), which give the half space's forces
+on ellipses: on set A the mean error of the force is .0031 of mu N, without them .0077; on real patches .0051 and .0114.
 """
 
 import math
@@ -33,6 +34,8 @@ from contact._layout import (
     STRIP_ASPECT,
     STRIP_BOUND,
     STRIP_DY,
+    STRIP_EXPONENT,
+    STRIP_PATCH,
     STRIP_PHI,
     STRIP_VX,
     STRIP_VY,
@@ -40,6 +43,7 @@ from contact._layout import (
     STRIP_Y,
 )
 from contact.quadrature import EL_ATANH, EL_DX, EL_MIDDLE, EL_S, EL_SINE, EL_STEP
+from contact.tangential.effective import set_effective
 from contact.tangential.ellipses import equivalent_ellipse
 from contact.tangential.fastsim import NO_FRICTION
 from contact.tangential.lanes import (
@@ -105,12 +109,12 @@ _PHI, _C11, _C22, _C23, _ROOT_ASPECT, _FITTED = _TRIAL_X, _TRIAL_Y, _TRIAL_USED,
 
 
 @kernel
-def _set_block(strips, block, n, case, table, y_c, y_spin, rho33, lanes):
+def _set_block(strips, block, last, case, table, y_c, y_spin, rho33, lanes):
     """Steps 1 and 2 of mapped_strip.md 3 for the strips from `block` on; all zero for a strip that bears nothing."""
     G = case[CASE_G]
     least = NO_FRICTION * G
     for l in range(LANES):
-        i = min(block + l, n - 1)
+        i = min(block + l, last - 1)
         a, bound, log_aspect = strips[STRIP_A, i], case[CASE_MU] * strips[STRIP_BOUND, i], strips[STRIP_ASPECT, i]
         lanes[_BOUND + l] = bound if a > 0.0 and bound > least else 0.0
         lanes[_HALF + l], lanes[_AT + l], lanes[_XC + l] = a, strips[STRIP_Y, i], strips[STRIP_XC, i]
@@ -119,6 +123,7 @@ def _set_block(strips, block, n, case, table, y_c, y_spin, rho33, lanes):
         lanes[_C11 + l], lanes[_C22 + l], lanes[_C23 + l] = c11, c22, c23
         lanes[_ROOT_ASPECT + l] = math.exp(0.5 * log_aspect)
         lanes[_FITTED + l] = min(max(log_aspect, -_LOG_ASPECT_FIT), _LOG_ASPECT_FIT)
+        lanes[_N + l] = strips[STRIP_EXPONENT, i]
     edges = 0
     for l in range(lanes.size // N_LANE_ROWS):
         bound, a, y, xc = lanes[_BOUND + l], lanes[_HALF + l], lanes[_AT + l], lanes[_XC + l]
@@ -140,7 +145,9 @@ def _set_block(strips, block, n, case, table, y_c, y_spin, rho33, lanes):
         h, t = psi2 / (1.0 + psi2), T2 / (1.0 + T2)
         w = 1.0 / (1.0 + 100.0 * (T2 + psi2))  # the linear range, in which C23 and C33 of the moment are made exact
         n_map = (0.32 + 0.12 * fitted) * h
+        n_map = (n_map if n_map < 0.45 else 0.45) + lanes[_N + l]
         n_map = n_map if n_map < 0.45 else 0.45
+        n_map = n_map if n_map > -0.3 else -0.3
         stretch = small_exp(0.47 * h) / (1.0 + 2.0 * n_map)
         spin = psi * small_exp((0.19 - 0.07 * fitted) * h)
         shift = (1.0 - rho23) * w
@@ -335,10 +342,10 @@ def _fall(case, elements, lanes, trace):
 
 
 @kernel
-def _write_fields(block, n, elements, falling, lanes, trace, fields):
+def _write_fields(block, last, elements, falling, lanes, trace, fields):
     """Traction, slip and stick flag of a block's strips, element by element: so `trace` is read as it lies in memory."""
     for k in range(elements.shape[1]):
-        for l in range(min(LANES, n - block)):
+        for l in range(min(LANES, last - block)):
             i, bound = block + l, lanes[_BOUND + l]
             qx, qy, slip = trace[k, NOW_X + l], trace[k, NOW_Y + l], trace[k, NOW_SLIP + l] * lanes[_UNIT + l]
             size = bound * elements[EL_SINE, k] * (trace[k, _NOW_SHARE + l] if falling else 1.0)
@@ -348,33 +355,45 @@ def _write_fields(block, n, elements, falling, lanes, trace, fields):
 
 
 @kernel
-def fastrip_mapped(strips, n, case, table, elements, lanes, trace, fields, result):
-    """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`."""
-    Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
-    a_e, b_e = equivalent_ellipse(strips, n)
-    y_c, y_spin, rho33 = 0.0, 0.0, 1.0
-    if a_e > 0.0:
-        y_c, y_spin, rho33 = elastic_centre(strips, n, table, math.log(a_e / b_e))
+def roll_patch(strips, first, last, case, table, centres, elements, lanes, trace, fields, result):
+    """Add what the strips of a patch bear to `result`; fill their fields if there is room. `centres`: `elastic_centre`."""
+    y_c, y_spin, rho33 = centres
     behind = 1.0 + elements[EL_S, -1]  # the middle of the last element
     falling = varies(case)
-    for block in range(0, n, LANES):
-        _set_block(strips, block, n, case, table, y_c, y_spin, rho33, lanes)
+    for block in range(first, last, LANES):
+        _set_block(strips, block, last, case, table, y_c, y_spin, rho33, lanes)
         _march(elements, lanes, trace)
         if falling:
-            begin(strips, block, n, case, _BOUND, lanes)
+            begin(strips, block, last, case, _BOUND, lanes)
             _fall(case, elements, lanes, trace)
-        for l in range(min(LANES, n - block)):
+        for l in range(min(LANES, last - block)):
             i = block + l
             a, dy, y, xc = strips[STRIP_A, i], strips[STRIP_DY, i], strips[STRIP_Y, i], strips[STRIP_XC, i]
             bound, unit = lanes[_BOUND + l], lanes[_UNIT + l]
             load = bound * a * dy
-            Fx += load * lanes[_SUM_X + l]
-            Fy += load * lanes[_SUM_Y + l]
-            Mz += load * (a * lanes[_SUM_M + l] + xc * lanes[_SUM_Y + l] - y * lanes[_SUM_X + l])
-            power += load * lanes[_POWER + l] * unit
+            Fx, Fy = load * lanes[_SUM_X + l], load * lanes[_SUM_Y + l]
+            result[RES_FX] += Fx
+            result[RES_FY] += Fy
+            result[RES_MZ] += load * a * lanes[_SUM_M + l] + xc * Fy - y * Fx
+            result[RES_POWER] += load * lanes[_POWER + l] * unit
             stick = lanes[_STICK + l] + behind * (1.0 - lanes[_SLIPS + l]) if bound > 0.0 else 0.0
-            slip_area += max(2.0 - stick, 0.0) * a * dy
-        if fields.shape[1] >= n:  # else only forces are asked for
-            _write_fields(block, n, elements, falling, lanes, trace, fields)
-    result[RES_FX], result[RES_FY], result[RES_MZ] = Fx, Fy, Mz
-    result[RES_POWER], result[RES_SLIP_AREA] = power, slip_area
+            result[RES_SLIP_AREA] += max(2.0 - stick, 0.0) * a * dy
+        if fields.shape[1] >= last:  # else only forces are asked for
+            _write_fields(block, last, elements, falling, lanes, trace, fields)
+
+
+@kernel
+def fastrip_mapped(strips, n, case, tables, elements, lanes, trace, fields, result):
+    """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`, patch by patch."""
+    first = 0
+    while first < n:
+        last = first + 1
+        while last < n and strips[STRIP_PATCH, last] == strips[STRIP_PATCH, first]:
+            last += 1
+        a, b = equivalent_ellipse(strips[:, first:last], last - first)
+        centres = 0.0, 0.0, 1.0
+        if a > 0.0:
+            centres = elastic_centre(strips, first, last, tables.kalker, math.log(a / b))
+            set_effective(strips, first, last, case, centres[0], tables)
+        roll_patch(strips, first, last, case, tables.kalker, centres, elements, lanes, trace, fields, result)
+        first = last

@@ -6,6 +6,9 @@ from contact import kalker
 from contact._jit import kernel
 from contact._layout import STRIP_A, STRIP_ASPECT, STRIP_DY, STRIP_Y
 
+#: Share of a strip's own ln(a/b), from the curvatures, beside that of the equivalent ellipse (mapped_strip.md has 1/2).
+OWN_ASPECT = 0.6
+
 
 @kernel
 def edge_direction(r, wx, wy):
@@ -60,21 +63,21 @@ def slid_at(s, ex, ey, r, pole, Xs, Ys, spin, from_edge):
 
 
 @kernel
-def elastic_centre(strips, n, table, log_equivalent):
+def elastic_centre(strips, first, last, table, log_equivalent):
     """Blend the aspect ratios in place; return the centres of longitudinal stiffness and of spin, and the C33 factor.
 
     Weights C11·a·dy and C11·a²·dy; on an ellipse both centres are its own (mapped_strip.md 3, step 0).
     """
-    stiffness, first, stiffness2, first2, spin = 0.0, 0.0, 0.0, 0.0, 0.0
-    for i in range(n):
+    stiffness, moment, stiffness2, moment2, spin = 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(first, last):
         a, y = strips[STRIP_A, i], strips[STRIP_Y, i]
-        log_aspect = 0.5 * (strips[STRIP_ASPECT, i] + log_equivalent)
+        log_aspect = OWN_ASPECT * strips[STRIP_ASPECT, i] + (1.0 - OWN_ASPECT) * log_equivalent
         strips[STRIP_ASPECT, i] = log_aspect
         c11, _, _, c33 = kalker.coefficients(table, log_aspect)
         weight = c11 * a * strips[STRIP_DY, i]
         stiffness += weight
-        first += weight * y
+        moment += weight * y
         stiffness2 += weight * a
-        first2 += weight * a * y
+        moment2 += weight * a * y
         spin += weight * 4.0 * c33 * math.exp(log_aspect) / c11
-    return first / stiffness, first2 / stiffness2, spin / stiffness
+    return moment / stiffness, moment2 / stiffness2, spin / stiffness

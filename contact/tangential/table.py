@@ -32,14 +32,17 @@ from contact.errors import ContactError
 
 Array = NDArray[np.float64]
 
-#: The table that comes with the package; `contact table build` makes it.
+#: The tables that come with the package, forces and effective creepages; `contact table build` and `effective` make them.
 FILE = Path(__file__).parent / "creep_table.csv"
+EFFECTIVE_FILE = Path(__file__).parent / "effective_creepage.csv"
 NU = 0.28
 #: Nodes of ln(a/b) from -LOG_ASPECT_MAX on, of alpha from 0 to 90°, of beta from -90° to 90°, of rho from 0 to 1.
 N_ASPECT, N_ALPHA, N_BETA, N_RHO = 9, 5, 13, 9
 LOG_ASPECT_MAX, R0 = math.log(10.0), 1.5
-#: Of the array that `lookup` takes: one node more on every side, and four results.
-SHAPE = (N_ASPECT + 2, N_ALPHA + 2, N_BETA + 2, N_RHO + 2, 4)
+#: Of the array that kernels take: one node more on every side, and twice four numbers.
+SHAPE = (N_ASPECT + 2, N_ALPHA + 2, N_BETA + 2, N_RHO + 2, 8)
+#: First of the four numbers of the forces and of the effective creepages (`contact.tangential.effective`).
+FORCES, EFFECTIVE = 0, 4
 
 
 @kernel
@@ -68,6 +71,31 @@ def _cell(u, nodes):
 
 
 @kernel
+def interpolated(log_aspect, X, Y, spin, first, table):
+    """The four numbers of the table from `first` on at X >= 0, Y >= 0 and the weighted spin, not all zero."""
+    plane = math.sqrt(X * X + Y * Y)
+    r = math.sqrt(plane * plane + spin * spin)
+    share = min(max((log_aspect + LOG_ASPECT_MAX) / (2.0 * LOG_ASPECT_MAX), 0.0), 1.0)
+    i, of_aspect = _cell(share * (N_ASPECT - 1), N_ASPECT)
+    j, of_alpha = _cell(math.atan2(Y, X) / (0.5 * math.pi) * (N_ALPHA - 1), N_ALPHA)
+    k, of_beta = _cell((math.atan2(spin, plane) / math.pi + 0.5) * (N_BETA - 1), N_BETA)
+    l, of_rho = _cell(r / (r + R0) * (N_RHO - 1), N_RHO)
+    v0, v1, v2, v3 = 0.0, 0.0, 0.0, 0.0
+    for di in range(4):
+        for dj in range(4):
+            for dk in range(4):
+                outer = of_aspect[di] * of_alpha[dj] * of_beta[dk]
+                for dl in range(4):
+                    weight = outer * of_rho[dl]
+                    node = table[i + di, j + dj, k + dk, l + dl]
+                    v0 += weight * node[first]
+                    v1 += weight * node[first + 1]
+                    v2 += weight * node[first + 2]
+                    v3 += weight * node[first + 3]
+    return v0, v1, v2, v3
+
+
+@kernel
 def lookup(vx, vy, phi, G, c, log_aspect, c11, c22, c23, c33, limit, table):
     """Fx, Fy, Mz and the share of slip; `limit` is mu N, `table` from `load`."""
     if limit <= 0.0 or (vx == 0.0 and vy == 0.0 and phi == 0.0):
@@ -77,26 +105,8 @@ def lookup(vx, vy, phi, G, c, log_aspect, c11, c22, c23, c33, limit, table):
     sign_x, sign_y = 1.0 if X >= 0.0 else -1.0, 1.0 if Y > 0.0 or (Y == 0.0 and Z >= 0.0) else -1.0
     X, Y, Z = sign_x * X, sign_y * Y, sign_y * Z
     spin = spin_weight(log_aspect, c11, c22, c23) * Z
-    plane = math.sqrt(X * X + Y * Y)
-    r = math.sqrt(plane * plane + spin * spin)
-    rho = r / (r + R0)
-    share = min(max((log_aspect + LOG_ASPECT_MAX) / (2.0 * LOG_ASPECT_MAX), 0.0), 1.0)
-    i, of_aspect = _cell(share * (N_ASPECT - 1), N_ASPECT)
-    j, of_alpha = _cell(math.atan2(Y, X) / (0.5 * math.pi) * (N_ALPHA - 1), N_ALPHA)
-    k, of_beta = _cell((math.atan2(spin, plane) / math.pi + 0.5) * (N_BETA - 1), N_BETA)
-    l, of_rho = _cell(rho * (N_RHO - 1), N_RHO)
-    Fx, Fy, Mz, slip = 0.0, 0.0, 0.0, 0.0
-    for di in range(4):
-        for dj in range(4):
-            for dk in range(4):
-                outer = of_aspect[di] * of_alpha[dj] * of_beta[dk]
-                for dl in range(4):
-                    weight = outer * of_rho[dl]
-                    node = table[i + di, j + dj, k + dk, l + dl]
-                    Fx += weight * node[0]
-                    Fy += weight * node[1]
-                    Mz += weight * node[2]
-                    slip += weight * node[3]
+    Fx, Fy, Mz, slip = interpolated(log_aspect, X, Y, spin, FORCES, table)
+    r = math.sqrt(X * X + Y * Y + spin * spin)
     linear = R0 * R0 / ((r + R0) * (r + R0))  # R0 rho (1 - rho) over r
     Fx, Fy = Fx - linear * X, Fy - linear * (Y + Z)
     Mz += linear * (c23 / c22 * Y - c33 / c23 * Z)
@@ -123,8 +133,23 @@ def rows() -> list[tuple[int, int, int]]:
 
 
 @functools.cache
-def load(path: Path = FILE) -> Array:
-    """Return the array that `lookup` takes, shape SHAPE; read once.
+def load(forces: Path = FILE, effective: Path = EFFECTIVE_FILE) -> Array:
+    """Return the array that kernels take, shape SHAPE; read once.
+
+    Raises
+    ------
+    ContactError
+        A file that is missing or no table of these nodes.
+    """
+    of_forces, changes = numbers(forces), numbers(effective)
+    of_forces[..., :3] -= _linear()
+    result = np.concatenate([with_margins(of_forces), with_margins(changes)], axis=-1)
+    result.setflags(write=False)
+    return result
+
+
+def numbers(path: Path) -> Array:
+    """The four numbers of a file on the nodes; nothing at rho = 0.
 
     Raises
     ------
@@ -142,10 +167,7 @@ def load(path: Path = FILE) -> Array:
     for (i, j, k), row in zip(rows(), content, strict=True):
         own = slice(None) if k in (0, N_BETA - 1) else j
         values[i, own, k, 1:] = row.reshape(-1, 4)
-    values[..., :3] -= _linear()
-    result = _with_margins(values)
-    result.setflags(write=False)
-    return result
+    return values
 
 
 def _linear() -> Array:
@@ -161,8 +183,11 @@ def _linear() -> Array:
     return force[..., None, :] * (R0 * rho * (1.0 - rho))[:, None]
 
 
-def _with_margins(values: Array) -> Array:
-    """One more node on every side: by symmetry in alpha, beta and at rho = 0, by extrapolation elsewhere."""
+def with_margins(values: Array) -> Array:
+    """One more node on every side: by symmetry in alpha, beta and at rho = 0, by extrapolation elsewhere.
+
+    Changes of the creepages have the symmetries of the forces, the exponent that of the slip.
+    """
     mirror, turned = np.array([1.0, -1.0, -1.0, 1.0]), np.array([-1.0, 1.0, 1.0, 1.0])
     # (X, -Y, Z) is the mirror image of (X, Y, -Z); (-X, Y, Z) has the opposite Fx
     v = np.concatenate([values[:, 1:2, ::-1] * mirror, values, values[:, -2:-1] * turned], axis=1)
@@ -170,7 +195,7 @@ def _with_margins(values: Array) -> Array:
     v = np.concatenate([v[:, :, -2:-1] * opposite, v, v[:, :, 1:2] * opposite], axis=2)
     at_zero = np.array([1.0, 1.0, 1.0, -1.0])  # forces leave the linear theory with zero slope, slip grows from zero
     v = np.concatenate([v[:, :, :, 1:2] * at_zero, v, _beyond(v[:, :, :, ::-1], 3)], axis=3)
-    return np.ascontiguousarray(np.concatenate([_beyond(v, 0), v, _beyond(v[::-1], 0)], axis=0))
+    return np.concatenate([_beyond(v, 0), v, _beyond(v[::-1], 0)], axis=0)
 
 
 def _beyond(v: Array, axis: int) -> Array:

@@ -1,0 +1,107 @@
+"""Effective creepages of mapped strip marching: right at their nodes, exact in both limits, each patch's own."""
+
+import math
+
+import numpy as np
+import pytest
+
+import contact
+from benchmarks import creep_table as unseen
+from contact import kalker
+from contact.study import creep_table, effective
+from contact.study.ellipse import ellipse
+from contact.tangential import table
+
+LOAD, MU, C = 82e3, 0.3, 6e-3
+FORCES = table.numbers(table.FILE)
+
+
+def forces(a_over_b, creepage, *, y=0.0, n=40):
+    """Fx, Fy over mu N and Mz over mu N c about the patch, which lies `y` off the origin."""
+    s = ellipse(a_over_b, C, LOAD, creep_table.MATERIAL)
+    moved = contact.Separation(s.y + y, s.g, s.A)
+    vx, vy, phi = creepage
+    found = contact.solve(
+        moved, contact.Creepage(vx + phi * y, vy, phi), load=LOAD, friction=MU, material=creep_table.MATERIAL,
+        normal="hertz", tangential="fastrip_mapped", n_strips=n, n_elements=n,
+    )  # fmt: skip
+    return np.array([found.Fx, found.Fy, (found.Mz + y * found.Fx) / C]) / (MU * LOAD)
+
+
+def node(i, j, k, l):
+    log_aspect, alpha, beta, rho = table.nodes()
+    creepage = creep_table.creepage(log_aspect[i], alpha[j], beta[k], rho[l])
+    return math.exp(log_aspect[i]), (creepage.longitudinal, creepage.lateral, creepage.spin)
+
+
+@pytest.mark.parametrize(("i", "j", "k", "l"), [(2, 1, 8, 3), (4, 2, 3, 5), (5, 4, 2, 4), (7, 0, 9, 6), (4, 0, 12, 3)])
+def test_at_its_nodes_the_march_has_the_half_spaces_force_and_moment(i, j, k, l):
+    np.testing.assert_allclose(forces(*node(i, j, k, l)), FORCES[i, j, k, l, :3], atol=0.004)
+
+
+def test_cases_that_the_table_has_not_seen():
+    """300 random ellipses by our half space; without effective creepages .0085 / .0262 / .0931, moment .0079."""
+    errors = unseen.errors(*unseen.unseen(), "fastrip_mapped")
+    assert errors["force"].mean() < 0.0021
+    assert np.percentile(errors["force"], 95) < 0.0079
+    assert errors["force"].max() < 0.055
+    assert errors["moment"].mean() < 0.0012
+
+
+@pytest.mark.parametrize("creepage", [(1e-3, -4e-4, 0.3), (4e-4, 8e-4, -0.9), (0.0, 1e-3, 0.0)])
+def test_a_patch_rolls_the_same_wherever_the_origin_lies(creepage):
+    """Forces and the moment about the patch, with the creepages at its middle."""
+    here = forces(1.6, creepage)
+    for y in (-5e-3, 1e-3, 20e-3):
+        np.testing.assert_allclose(forces(1.6, creepage, y=y), here, atol=1e-9)
+
+
+@pytest.mark.parametrize("a_over_b", [0.3, 1.0, 4.0])
+def test_slopes_at_zero_and_full_slip_are_the_marchs_own(a_over_b):
+    c11, c22, c23, c33 = kalker.coefficients(kalker.table(table.NU), math.log(a_over_b))
+    unit, tiny = MU * LOAD / (creep_table.MATERIAL.shear_modulus * C * C), 1e-5
+    scales = unit / c11, unit / c22, unit / (c23 * C)
+    wanted = [(-1, 0, 0), (0, -1, c23 / c22), (0, -1, -c33 / c23)]
+    for n in range(3):
+        creepage = [tiny * scales[n] * (m == n) for m in range(3)]
+        np.testing.assert_allclose(forces(a_over_b, creepage, n=100) / tiny, wanted[n], rtol=0.01, atol=0.005)
+    slide = forces(a_over_b, (0.3, 0.4, 0.0))
+    np.testing.assert_allclose(slide[:2], (-0.6, -0.8), atol=2e-3)
+
+
+def test_symmetries_hold_to_round_off():
+    """The two operations of theory.md 2.6."""
+    for X, Y, Z in np.random.default_rng(2).normal(0.0, 1.0, (12, 3)):
+        creepage = np.array([1e-3 * X, 1e-3 * Y, 0.3 * Z])
+        one = forces(1.4, creepage)
+        np.testing.assert_allclose(forces(1.4, -creepage), -one, atol=1e-13)
+        np.testing.assert_allclose(forces(1.4, creepage * (1, -1, -1)), one * (1, -1, -1), atol=1e-13)
+
+
+def test_separate_patches_have_effective_creepages_of_their_own():
+    """Two equal patches far apart, each rolling as if alone."""
+    y = np.linspace(-20e-3, 20e-3, 401)
+    g = 40.0 * np.minimum((y - 10e-3) ** 2, (y + 10e-3) ** 2)
+    vx, vy, phi = 4e-4, -3e-4, 0.2
+    options = {"friction": MU, "approach": 40e-6, "normal": "analyn", "tangential": "fastrip_mapped"}
+    both = contact.solve(contact.Separation(y, g, np.full(y.size, 1.1)), contact.Creepage(vx, vy, phi), **options)
+    assert both.n_patches == 2
+    Fx, Fy, Mz = 0.0, 0.0, 0.0
+    for half in (y <= 0.0, y >= 0.0):
+        one = contact.solve(
+            contact.Separation(y[half], g[half], np.full(half.sum(), 1.1)), contact.Creepage(vx, vy, phi), **options
+        )
+        Fx, Fy, Mz = Fx + one.Fx, Fy + one.Fy, Mz + one.Mz
+    np.testing.assert_allclose([both.Fx, both.Fy], [Fx, Fy], rtol=1e-3)
+    np.testing.assert_allclose(both.Mz, Mz, rtol=1e-3)
+
+
+def test_the_fit_finds_what_the_file_has():
+    changes = table.numbers(table.EFFECTIVE_FILE)
+    expected = effective.neighbours(changes)
+    for at in ((4, 2, 8, 4), (2, 3, 4, 5)):
+        i, *own = at
+        march = effective.OneEllipse(float(table.nodes()[0][i]))
+        fitted = march.fitted(tuple(own), FORCES[at], np.zeros(4), expected[at], effective.STIFF[-1])
+        np.testing.assert_allclose(fitted, changes[at], atol=3e-3)
+        assert np.abs(changes[at]).max() > 0.01
