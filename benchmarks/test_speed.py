@@ -53,7 +53,9 @@ def case_of(normal, tangential):
 def kernel_loop(normal: str, tangential: str, n_strips: int, n_elements: int, *, fields: bool):
     """The kernel's own loop over CASES load-prescribed cases on the patch c40_dy+0: Python hardly counts."""
     method = METHODS.normal[normal]
-    own = workspace.allocate(method, 0.28, n_strips, n_elements, SEPARATION.y.size, fields=fields)
+    own = workspace.allocate(
+        method, METHODS.tangential[tangential], 0.28, n_strips, n_elements, SEPARATION.y.size, fields=fields
+    )
     case = case_of(method, METHODS.tangential[tangential])
     bounds, which = np.array([0, SEPARATION.y.size]), np.zeros(CASES, dtype=np.int64)
     results = np.empty((CASES, own.result.size))
@@ -91,8 +93,9 @@ def test_kernel(benchmark, normal, tangential, n_strips, n_elements, fields):
 def test_strip_halfspace_kernel(benchmark, n_strips, warm):
     """Warm: the separation moves to and fro by 0.02 mm from call to call, as between the time steps of a vehicle model."""
     method = METHODS.normal["strip_halfspace"]
-    own = workspace.allocate(method, 0.28, n_strips, 20, SEPARATION.y.size, fields=False)
-    case = case_of(method, METHODS.tangential["fastrip_mapped"])
+    rolling = METHODS.tangential["fastrip_mapped"]
+    own = workspace.allocate(method, rolling, 0.28, n_strips, 20, SEPARATION.y.size, fields=False)
+    case = case_of(method, rolling)
     y = SEPARATION.y
     shifts = 2e-5 * np.concatenate((np.arange(26), np.arange(24, 0, -1)))
     gap = CubicSpline(y, SEPARATION.g)

@@ -167,7 +167,7 @@ def forces(
 
     def work(chunks: range) -> None:
         own = workspace.allocate(
-            method, material.poisson_ratio, n_strips, n_elements, longest, fields=conformal, tabulated=rolling.tabulated
+            method, rolling, material.poisson_ratio, n_strips, n_elements, longest, fields=conformal
         )
         for first in chunks:
             last = min(first + _CHUNK, count)

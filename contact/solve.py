@@ -259,9 +259,7 @@ def _on_strips(
     case[CASE_PRESSURE_LIMIT] = material.pressure_limit
     case[CASE_NORMAL], case[CASE_TANGENTIAL] = method.id, stands_in.id
     fill(case, surface, speed)
-    own = workspace.allocate(
-        method, material.poisson_ratio, n_strips, n_elements, separation.y.size, tabulated=stands_in.tabulated
-    )
+    own = workspace.allocate(method, stands_in, material.poisson_ratio, n_strips, n_elements, separation.y.size)
     if coefficients is not None:
         own = own._replace(tables=own.tables._replace(kalker=kalker.constant_table(*coefficients)))
     if start is not None and start.memory.size == own.space.memory.size:

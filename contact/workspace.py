@@ -33,7 +33,7 @@ class Rule(NamedTuple):
 
 
 class Tables(NamedTuple):
-    """Interpolated functions: Kalker's coefficients for one Poisson ratio, influence of strips, creep forces. Read-only."""
+    """Interpolated functions, read-only: Kalker's coefficients of one Poisson ratio, influence of strips, half-space forces."""
 
     kalker: Array
     centre: Array
@@ -84,7 +84,7 @@ def rule(n_strips: int, n_elements: int, interacting: bool) -> Rule:
 
 @functools.lru_cache(maxsize=64)
 def tables(poisson_ratio: float, interacting: bool, tabulated: bool) -> Tables:
-    """Return the (cached) tables; influence of strips and creep forces only for methods that need them."""
+    """Return the (cached) tables; influence of strips and the half space's forces only for methods that need them."""
     empty, no_forces = (np.zeros((1, 2)), np.zeros((1, 1))), np.zeros((1, 1, 1, 1, 1))
     no_forces.setflags(write=False)  # as the table is: one signature for numba
     return Tables(
@@ -103,23 +103,20 @@ def _at_line(n: int) -> Array:
 
 def allocate(
     normal: Method,
+    tangential: Method,
     poisson_ratio: float,
     n_strips: int,
     n_elements: int,
     n_samples: int,
     *,
     fields: bool = True,
-    tabulated: bool = False,
 ) -> Workspace:
-    """Allocate a workspace for separations of at most `n_samples` points; without `fields`, for forces alone.
-
-    `tabulated`: for a tangential method that reads the table of creep forces.
-    """
+    """Allocate a workspace for separations of at most `n_samples` points; without `fields`, for forces alone."""
     capacity = MAX_PATCHES * n_strips
     size = capacity if normal.interacting else 1
     return Workspace(
         rule(n_strips, n_elements, normal.interacting),
-        tables(poisson_ratio, normal.interacting, tabulated),
+        tables(poisson_ratio, normal.interacting, tangential.tabulated),
         Space(
             grid=np.empty((N_WORK_ROWS, n_samples)),
             vectors=np.empty((N_VECTOR_ROWS, size)),

@@ -81,8 +81,8 @@ def test_kpec_is_contacts_kpec_patch_by_patch():
 
 
 @pytest.mark.parametrize(("normal", "force", "moment"), [
-    ("analyn", (0.0194, 0.0565, 0.1318), 0.0137),  # bar .025 / .08
-    ("strip_halfspace", (0.0114, 0.0290, 0.0426), 0.0070),  # bar .012 / .03; .008
+    ("analyn", (0.0143, 0.0560, 0.1378), 0.0130),  # bar .025 / .08
+    ("strip_halfspace", (0.0051, 0.0146, 0.0210), 0.0044),  # bar .012 / .03; .008
 ])  # fmt: skip
 def test_creep_forces_on_real_patches(normal, force, moment):
     errors = accuracy.errors_on_patches(normal, "fastrip_mapped")

@@ -153,9 +153,7 @@ class WheelRailPair:
         method, rolling = (lookup(*kind, batched=True) for kind in (("normal", normal), ("tangential", tangential)))
         n_strips, n_elements = require_resolution(n_strips, n_elements)
         n_samples = pair.separations.shape[2]
-        own = workspace.allocate(
-            method, material.poisson_ratio, n_strips, n_elements, n_samples, tabulated=rolling.tabulated
-        )
+        own = workspace.allocate(method, rolling, material.poisson_ratio, n_strips, n_elements, n_samples)
         case = np.zeros(N_CASE)
         case[CASE_G], case[CASE_NU] = material.shear_modulus, material.poisson_ratio
         case[CASE_PRESSURE_LIMIT] = material.pressure_limit

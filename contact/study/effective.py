@@ -102,7 +102,15 @@ class OneEllipse:
         case[CASE_NORMAL], case[CASE_TANGENTIAL] = normal.id, rolling.id
         friction.fill(case, friction.Friction(creep_table.FRICTION), 0.0)
         s = ellipse(math.exp(log_aspect), creep_table.C, load, material)
-        own = workspace.allocate(normal, material.poisson_ratio, _RESOLUTION, _RESOLUTION, s.y.size, fields=False)
+        own = workspace.allocate(
+            normal,
+            lookup("tangential", "fastrip"),
+            material.poisson_ratio,
+            _RESOLUTION,
+            _RESOLUTION,
+            s.y.size,
+            fields=False,
+        )
         self.n = press_case(s.y, s.g, s.A, s.x_c, case, *own)
         a, b = equivalent_ellipse(own.strips, self.n)
         self.centres = elastic_centre(own.strips, 0, self.n, own.tables.kalker, math.log(a / b))

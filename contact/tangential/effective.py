@@ -1,11 +1,11 @@
 """Effective creepages: those at which mapped strip marching gives the half space's forces on the patch's equivalent ellipse.
 
 On an ellipse the march differs from the half space by .011 of mu N in the mean over the nodes of the table of creep forces
-(`contact.tangential.table`), as it knows each strip alone (theory.md 4.4). For every node the table holds the relative change of (X, Y, w Z),
-by r, and a change of the exponent of the map, with which the march has force, moment and share of slip of the half space.
-Strips of a patch get these changes for the patch's equivalent ellipse, load and mean creepages. So pressure, strips and march
-still make what is not elliptic about a patch; tractions are the march's own and never exceed friction. At vanishing creepage
-and in full slip nothing changes.
+(`contact.tangential.table`), as it knows each strip alone (theory.md 4.4). For every node the table holds the relative change
+of (X, Y, w Z), by r, and a change of the exponent of the map, with which the march has force and moment of the half space and
+its share of slip more nearly. Strips of a patch get these changes for the patch's equivalent ellipse, load and mean creepages.
+So pressure, strips and march still make what is not elliptic about a patch; tractions are the march's own and never exceed
+friction. At vanishing creepage and in full slip nothing changes.
 
 `contact table effective` computes the table from that of creep forces (`contact.study.effective`); no case of CONTACT is in it.
 """

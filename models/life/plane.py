@@ -50,12 +50,12 @@ class PlaneContact:
         tangential = lookup("tangential", methods.tangential, batched=True)
         self._own = workspace.allocate(
             normal,
+            tangential,
             material.poisson_ratio,
             methods.strips,
             methods.elements,
             ports.POINTS,
             fields=False,
-            tabulated=tangential.tabulated,
         )
         self._y = p.window_start + p.window_step * np.arange(ports.POINTS)
         self._locus = np.zeros(ports.POINTS)
