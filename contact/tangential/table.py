@@ -66,7 +66,7 @@ def _weights(t):
 @kernel
 def _cell(u, nodes):
     """First node of the four around u in [0, nodes - 1], with their weights."""
-    i = min(int(u), nodes - 2)
+    i = max(min(int(u), nodes - 2), 0)
     return i, _weights(u - i)
 
 
@@ -85,13 +85,17 @@ def interpolated(log_aspect, X, Y, spin, first, table):
         for dj in range(4):
             for dk in range(4):
                 outer = of_aspect[di] * of_alpha[dj] * of_beta[dk]
+                w0, w1, w2, w3 = 0.0, 0.0, 0.0, 0.0  # short sums side by side: one long one waits for every addition
                 for dl in range(4):
-                    weight = outer * of_rho[dl]
-                    node = table[i + di, j + dj, k + dk, l + dl]
-                    v0 += weight * node[first]
-                    v1 += weight * node[first + 1]
-                    v2 += weight * node[first + 2]
-                    v3 += weight * node[first + 3]
+                    node, weight = table[i + di, j + dj, k + dk, l + dl], of_rho[dl]
+                    w0 += weight * node[first]
+                    w1 += weight * node[first + 1]
+                    w2 += weight * node[first + 2]
+                    w3 += weight * node[first + 3]
+                v0 += outer * w0
+                v1 += outer * w1
+                v2 += outer * w2
+                v3 += outer * w3
     return v0, v1, v2, v3
 
 
