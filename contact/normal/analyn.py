@@ -189,6 +189,24 @@ def _keep_rising(g, n, work):
 
 
 @kernel
+def _carried(delta, n, gap, share):
+    """Load over the modulus and its slope at an approach, by the samples; four sums, as one waits for every addition."""
+    N0, N1, N2, N3, k0, k1, k2, k3 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    quads = (n - 2) // 4
+    for q in range(quads):
+        i = 1 + 4 * q
+        d0, d1, d2, d3 = delta - gap[i], delta - gap[i + 1], delta - gap[i + 2], delta - gap[i + 3]
+        s0, s1 = share[i] if d0 > 0.0 else 0.0, share[i + 1] if d1 > 0.0 else 0.0
+        s2, s3 = share[i + 2] if d2 > 0.0 else 0.0, share[i + 3] if d3 > 0.0 else 0.0
+        N0, N1, N2, N3 = N0 + d0 * s0, N1 + d1 * s1, N2 + d2 * s2, N3 + d3 * s3
+        k0, k1, k2, k3 = k0 + s0, k1 + s1, k2 + s2, k3 + s3
+    for i in range(1 + 4 * quads, n - 1):
+        part = share[i] if gap[i] < delta else 0.0
+        N0, k0 = N0 + (delta - gap[i]) * part, k0 + part
+    return N0 + N1 + N2 + N3, k0 + k1 + k2 + k3
+
+
+@kernel
 def estimated_approach(y, n, load, modulus, work, hertz):
     """Approach at which the samples carry the load, to about a thousandth.
 
@@ -200,11 +218,7 @@ def estimated_approach(y, n, load, modulus, work, hertz):
         share[i] = 0.5 * (y[i + 1] - y[i - 1]) / work[NR, i]
     delta = hertz
     for _ in range(12):
-        N, stiffness = 0.0, 0.0
-        for i in range(1, n - 1):
-            part = share[i] if gap[i] < delta else 0.0
-            N += (delta - gap[i]) * part
-            stiffness += part
+        N, stiffness = _carried(delta, n, gap, share)
         if stiffness == 0.0:
             return hertz
         change = (load / modulus - N) / stiffness
