@@ -14,9 +14,12 @@
     STRIP_VY,
     STRIP_PHI,
     STRIP_TILT,  # slope of the surface against the plane, where it is no plane
-    STRIP_EXPONENT,  # what the calibration adds to the exponent of mapped strip marching
-) = range(13)
-N_STRIP_ROWS = 13
+    STRIP_TO_X,  # what effective creepages add to those of the strip, and to the exponent of mapped strip marching
+    STRIP_TO_Y,
+    STRIP_TO_PHI,
+    STRIP_TO_EXPONENT,
+) = range(16)
+N_STRIP_ROWS = 16
 
 # fields[ROW, strip, element]: element 0 is at the leading edge (x = x_c + a)
 FIELD_X, FIELD_DX, FIELD_P, FIELD_QX, FIELD_QY, FIELD_SX, FIELD_SY, FIELD_STICK = range(8)

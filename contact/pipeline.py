@@ -35,10 +35,13 @@ from contact._layout import (
     STRIP_ASPECT,
     STRIP_BOUND,
     STRIP_DY,
-    STRIP_EXPONENT,
     STRIP_P0,
     STRIP_PATCH,
     STRIP_PHI,
+    STRIP_TO_EXPONENT,
+    STRIP_TO_PHI,
+    STRIP_TO_X,
+    STRIP_TO_Y,
     STRIP_VX,
     STRIP_VY,
     STRIP_XC,
@@ -132,7 +135,8 @@ def _set_rolling(strips, n, case):
     for i in range(n):
         strips[STRIP_VX, i], strips[STRIP_VY, i], strips[STRIP_PHI, i] = case[CASE_VX], case[CASE_VY], case[CASE_PHI]
         strips[STRIP_BOUND, i] = strips[STRIP_P0, i] * bodies
-        strips[STRIP_EXPONENT, i] = 0.0
+        strips[STRIP_TO_X, i], strips[STRIP_TO_Y, i], strips[STRIP_TO_PHI, i] = 0.0, 0.0, 0.0
+        strips[STRIP_TO_EXPONENT, i] = 0.0
         if factor != 1.0:
             strips[STRIP_BOUND, i] *= over_profile(
                 factor, case[CASE_BORDER], case[CASE_BORDER_WIDTH], strips[STRIP_Y, i]

@@ -23,8 +23,8 @@ from contact._layout import (
     RES_FX,
     RES_MZ,
     RES_SLIP_AREA,
-    STRIP_EXPONENT,
     STRIP_PHI,
+    STRIP_TO_EXPONENT,
     STRIP_VX,
 )
 from contact.errors import ContactError
@@ -122,7 +122,7 @@ class OneEllipse:
         strips, result, space = self.own.strips, self.own.result, self.own.space
         strips[:] = self.strips
         strips[STRIP_VX : STRIP_PHI + 1, : self.n] = creepage[:, None]
-        strips[STRIP_EXPONENT, : self.n] = exponent
+        strips[STRIP_TO_EXPONENT, : self.n] = exponent
         result[:] = 0.0
         roll_patch(
             strips, 0, self.n, self.case, self.own.tables.kalker, self.centres, self.own.rule.elements, space.lanes,

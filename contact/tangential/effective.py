@@ -5,7 +5,8 @@ On an ellipse the march differs from the half space by .011 of mu N in the mean 
 of (X, Y, w Z), by r, and a change of the exponent of the map, with which the march has force and moment of the half space and
 its share of slip more nearly. Strips of a patch get these changes for the patch's equivalent ellipse, load and mean creepages.
 So pressure, strips and march still make what is not elliptic about a patch; tractions are the march's own and never exceed
-friction. At vanishing creepage and in full slip nothing changes.
+friction. At vanishing creepage and in full slip nothing changes. Slip and power count the creepages as they are given: on 100
+real patches the power is .050 off in the median, with effective creepages it was .105, without any .057.
 
 `contact table effective` computes the table from that of creep forces (`contact.study.effective`); no case of CONTACT is in it.
 """
@@ -20,8 +21,11 @@ from contact._layout import (
     STRIP_A,
     STRIP_BOUND,
     STRIP_DY,
-    STRIP_EXPONENT,
     STRIP_PHI,
+    STRIP_TO_EXPONENT,
+    STRIP_TO_PHI,
+    STRIP_TO_X,
+    STRIP_TO_Y,
     STRIP_VX,
     STRIP_VY,
     STRIP_XC,
@@ -34,7 +38,7 @@ from contact.tangential.table import EFFECTIVE, interpolated, spin_weight
 
 @kernel
 def set_effective(strips, first, last, case, centre, tables):
-    """Change creepages and exponent of the strips of a patch, whose rigid slip is taken about y = `centre`.
+    """Set what changes creepages and exponent of the strips of a patch, whose rigid slip is taken about y = `centre`.
 
     The equivalent ellipse has the patch's area and mean length (of our own patches it serves better than the longest strip:
     .0058 and .0053 of mu N on new profiles). Creepages that differ from strip to strip enter by their means, weights a·dy.
@@ -67,7 +71,5 @@ def set_effective(strips, first, last, case, centre, tables):
     to_spin *= sign_y * r / unit_spin
     to_x, to_y = sign_x * r * to_x / unit_x + to_spin * centre, sign_y * r * to_y / unit_y - to_spin * x
     for i in range(first, last):
-        strips[STRIP_VX, i] += to_x
-        strips[STRIP_VY, i] += to_y
-        strips[STRIP_PHI, i] += to_spin
-        strips[STRIP_EXPONENT, i] = exponent
+        strips[STRIP_TO_X, i], strips[STRIP_TO_Y, i], strips[STRIP_TO_PHI, i] = to_x, to_y, to_spin
+        strips[STRIP_TO_EXPONENT, i] = exponent

@@ -34,9 +34,12 @@ from contact._layout import (
     STRIP_ASPECT,
     STRIP_BOUND,
     STRIP_DY,
-    STRIP_EXPONENT,
     STRIP_PATCH,
     STRIP_PHI,
+    STRIP_TO_EXPONENT,
+    STRIP_TO_PHI,
+    STRIP_TO_X,
+    STRIP_TO_Y,
     STRIP_VX,
     STRIP_VY,
     STRIP_XC,
@@ -102,7 +105,10 @@ _LOG_ASPECT_FIT = 1.7  # ln(a/b) up to which the constants were fitted; frozen b
     _EY,
     _BOUND,  # mu p0
     _UNIT,  # of slip
-) = (FREE_ROW + row * LANES for row in range(28))
+    _TO_X,  # what effective creepages add to the rigid slip, in that unit: (_TO_X, _TO_Y + _TO_SPIN s)
+    _TO_Y,
+    _TO_SPIN,
+) = (FREE_ROW + row * LANES for row in range(31))
 # what the set-up reads, in rows that the march writes before it reads them
 _HALF, _AT, _XC, _VX, _VY = NOW_X, NOW_Y, NOW_SLIP, NOW_SLIDES, NOW_STICK
 _PHI, _C11, _C22, _C23, _ROOT_ASPECT, _FITTED = _TRIAL_X, _TRIAL_Y, _TRIAL_USED, _SUM_X, _SUM_Y, _SUM_M
@@ -118,12 +124,15 @@ def _set_block(strips, block, last, case, table, y_c, y_spin, rho33, lanes):
         a, bound, log_aspect = strips[STRIP_A, i], case[CASE_MU] * strips[STRIP_BOUND, i], strips[STRIP_ASPECT, i]
         lanes[_BOUND + l] = bound if a > 0.0 and bound > least else 0.0
         lanes[_HALF + l], lanes[_AT + l], lanes[_XC + l] = a, strips[STRIP_Y, i], strips[STRIP_XC, i]
-        lanes[_VX + l], lanes[_VY + l], lanes[_PHI + l] = strips[STRIP_VX, i], strips[STRIP_VY, i], strips[STRIP_PHI, i]
+        to_x, to_y, to_phi = strips[STRIP_TO_X, i], strips[STRIP_TO_Y, i], strips[STRIP_TO_PHI, i]
+        lanes[_VX + l], lanes[_VY + l] = strips[STRIP_VX, i] + to_x, strips[STRIP_VY, i] + to_y
+        lanes[_PHI + l] = strips[STRIP_PHI, i] + to_phi
+        lanes[_TO_X + l], lanes[_TO_Y + l], lanes[_TO_SPIN + l] = to_x, to_y, to_phi
         c11, c22, c23, _ = kalker.coefficients(table, log_aspect)
         lanes[_C11 + l], lanes[_C22 + l], lanes[_C23 + l] = c11, c22, c23
         lanes[_ROOT_ASPECT + l] = math.exp(0.5 * log_aspect)
         lanes[_FITTED + l] = min(max(log_aspect, -_LOG_ASPECT_FIT), _LOG_ASPECT_FIT)
-        lanes[_N + l] = strips[STRIP_EXPONENT, i]
+        lanes[_N + l] = strips[STRIP_TO_EXPONENT, i]
     edges = 0
     for l in range(lanes.size // N_LANE_ROWS):
         bound, a, y, xc = lanes[_BOUND + l], lanes[_HALF + l], lanes[_AT + l], lanes[_XC + l]
@@ -165,7 +174,11 @@ def _set_block(strips, block, last, case, table, y_c, y_spin, rho33, lanes):
         lanes[_POLE + l] = -(pole if pole > -1.0 else -1.0)
         lanes[_FROM_EDGE + l], lanes[_SLIPS + l], lanes[_USED + l] = from_edge, from_edge, used if used < 1.0 else 1.0
         lanes[_EX + l], lanes[_EY + l] = 0.0, 0.0
-        lanes[_UNIT + l] = live / (stretch * k22 + (1.0 - live))
+        per_unit, to_phi = stretch * k22, lanes[_TO_SPIN + l]
+        lanes[_UNIT + l] = live / (per_unit + (1.0 - live))
+        lanes[_TO_X + l] = per_unit * (lanes[_TO_X + l] - to_phi * y)
+        lanes[_TO_Y + l] = per_unit * (lanes[_TO_Y + l] + to_phi * xc)
+        lanes[_TO_SPIN + l] = per_unit * to_phi * a
     if edges > 0:
         _set_edges(lanes)
     for l in range(lanes.size // N_LANE_ROWS):
@@ -280,7 +293,8 @@ def _slide(s, step, middle, stretch, bound, lanes):
         lanes[_TX + l] = bound * ex if slides > 0.5 else trial_x
         lanes[_TY + l] = bound * ey if slides > 0.5 else trial_y
         lanes[_SLIPS + l], lanes[_USED + l], lanes[_LEFT + l] = slides, used, 1.0
-        lanes[NOW_SLIP + l], lanes[NOW_SLIDES + l] = shown * slides, slides
+        shown += lanes[_TO_X + l] * ex + (lanes[_TO_Y + l] + lanes[_TO_SPIN + l] * s) * ey
+        lanes[NOW_SLIP + l], lanes[NOW_SLIDES + l] = 0.5 * (shown + abs(shown)) * slides, slides
         lanes[NOW_STICK + l] = (1.0 - slid) * (1.0 - left) if slides > 0.5 else 1.0
         lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_TRIAL_USED + l] = x, y, slid
     return stop

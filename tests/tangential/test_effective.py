@@ -105,3 +105,19 @@ def test_the_fit_finds_what_the_file_has():
         fitted = march.fitted(tuple(own), FORCES[at], np.zeros(4), expected[at], effective.STIFF[-1])
         np.testing.assert_allclose(fitted, changes[at], atol=3e-3)
         assert np.abs(changes[at]).max() > 0.01
+
+
+@pytest.mark.parametrize("at", [(4, 2, 3, 6), (6, 2, 3, 6)])
+def test_slip_counts_the_creepages_as_given(at):
+    """What friction dissipates is the work of the forces on these, though the effective ones differ by a good part of it."""
+    a_over_b, creepage = node(*at)
+    found = contact.solve(
+        ellipse(a_over_b, C, LOAD, creep_table.MATERIAL), contact.Creepage(*creepage), load=LOAD, friction=MU,
+        material=creep_table.MATERIAL, normal="hertz", tangential="fastrip_mapped",
+    )  # fmt: skip
+    forces_and_moment = np.array([found.Fx, found.Fy, found.Mz])
+    changes = table.numbers(table.EFFECTIVE_FILE)[at][:3]
+    sizes = creep_table.sizes(math.log(a_over_b), table.nodes()[3][at[3]])
+    work = -forces_and_moment @ creepage
+    assert abs(forces_and_moment @ (changes * sizes)) > 0.14 * work
+    assert abs(found.power_per_metre - work) < 0.05 * work
