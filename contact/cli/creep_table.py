@@ -26,7 +26,7 @@ def build(
     out: Annotated[Path, typer.Option(help="CSV file; what it holds already is not computed again")],
     elements: Annotated[
         int, typer.Option(min=10, max=400, help="rows and columns of the half space on the ellipse")
-    ] = 40,
+    ] = 60,
     processes: Annotated[int | None, typer.Option(min=1, help="processes", show_default="all cores")] = None,
 ) -> None:
     """Compute the table with the half space: 4104 cases, some minutes. It goes on where it was interrupted.

@@ -25,7 +25,7 @@ _FAR = 1e3
 
 def build(
     path: Path,
-    elements: int = 40,
+    elements: int = 60,
     *,
     processes: int | None = None,
     progress: Callable[[float, str], None] | None = None,

@@ -65,7 +65,9 @@ def build(path: Path, forces: Path = table.FILE, *, progress: Callable[[float, s
             own = slice(None) if k in (0, table.N_BETA - 1) else j
             for l in range(1, table.N_RHO - 1):  # nothing at vanishing creepage and in full slip
                 at = i, j, k, l
-                changes[i, own, k, l] = ellipses[i].fitted((j, k, l), true[at], changes[at], expected[at], stiff)
+                changes[i, own, k, l] = ellipses[i].fitted(
+                    (j, k, l), true[at], changes[at], expected[at], stiff
+                ) * _odd(j, k)
             if progress is not None:
                 progress((sweep + n / len(table.rows())) / len(STIFF), f"sweep {sweep + 1} of {len(STIFF)}")
     lines = [",".join(creep_table.short(v) for v in changes[i, j, k, 1:].ravel()) for i, j, k in table.rows()]
@@ -79,6 +81,13 @@ def build(path: Path, forces: Path = table.FILE, *, progress: Callable[[float, s
         path.write_text(heading + "\n".join(lines) + "\n", encoding="utf-8")
     except OSError as error:
         raise ContactError(f"{path} cannot be written: {error.strerror}") from None
+
+
+def _odd(j: int, k: int) -> tuple[float, float, float, float]:
+    """0 for changes of a creepage that symmetry rules out at a node, else 1."""
+    spin_alone, sideways = k in (0, table.N_BETA - 1), j == table.N_ALPHA - 1
+    straight = j == 0 and 2 * k == table.N_BETA - 1
+    return float(not (spin_alone or sideways)), float(not straight), float(not straight), 1.0
 
 
 def neighbours(changes: Array) -> Array:

@@ -6,7 +6,7 @@ of (X, Y, w Z), by r, and a change of the exponent of the map, with which the ma
 its share of slip more nearly. Strips of a patch get these changes for the patch's equivalent ellipse, load and mean creepages.
 So pressure, strips and march still make what is not elliptic about a patch; tractions are the march's own and never exceed
 friction. At vanishing creepage and in full slip nothing changes. Slip and power count the creepages as they are given: on 100
-real patches the power is .050 off in the median, with effective creepages it was .105, without any .057.
+real patches the power is .05 off in the median, with effective creepages it was .10, without any .06.
 
 `contact table effective` computes the table from that of creep forces (`contact.study.effective`); no case of CONTACT is in it.
 """
@@ -41,7 +41,7 @@ def set_effective(strips, first, last, case, centre, tables):
     """Set what changes creepages and exponent of the strips of a patch, whose rigid slip is taken about y = `centre`.
 
     The equivalent ellipse has the patch's area and mean length (of our own patches it serves better than the longest strip:
-    .0058 and .0053 of mu N on new profiles). Creepages that differ from strip to strip enter by their means, weights a·dy.
+    .0058 and .0054 of mu N on new profiles). Creepages that differ from strip to strip enter by their means, weights a·dy.
     """
     G = case[CASE_G]
     a, b = mean_ellipse(strips, first, last)

@@ -10,7 +10,7 @@ of the slip direction vary with spin and aspect ratio (mapped_strip.md, which me
 
 On a patch that is no ellipse the logarithm of the aspect ratio of a strip is .6 of the local one, from the curvatures, and
 .4 of that of the equivalent ellipse. Strips roll with effective creepages (`effective`), which give the half space's forces
-on ellipses: on set A the mean error of the force is .0031 of mu N, without them .0077; on real patches .0051 and .0114.
+on ellipses: on set A the mean error of the force is .0025 of mu N, without them .0077; on real patches .0062 and .0114.
 """
 
 import math

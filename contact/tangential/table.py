@@ -14,7 +14,7 @@ linear theory's force times R0 rho (1 - rho), with zero slope at rho = 0: the sl
 Beyond a/b of the table's ends the difference is that of the end. The resultant is cut at mu N, as interpolation may exceed it.
 
 On 300 random ellipses and creepages that it has not seen the force differs from the half space by .0023 of mu N in the mean,
-.0088 at the 95th percentile and .026 at most, the moment by .0025 of mu N c (`benchmarks/creep_table.py`).
+.0091 at the 95th percentile and .026 at most, the moment by .0025 of mu N c (`benchmarks/creep_table.py`).
 """
 
 from __future__ import annotations
