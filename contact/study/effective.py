@@ -14,7 +14,6 @@ from contact import friction, workspace
 from contact._layout import (
     CASE_G,
     CASE_LOAD,
-    CASE_MU,
     CASE_NORMAL,
     CASE_NU,
     CASE_TANGENTIAL,
@@ -41,8 +40,8 @@ Array = NDArray[np.float64]
 
 #: What counts beside force over mu N and moment over mu N c: the share of slip and, in each sweep, how far changes are from
 #: what is expected, nothing at first and the mean of the neighbouring nodes then. It keeps small and smooth what the forces
-#: leave open. Chosen on 300 random ellipses (`benchmarks/creep_table.py`) and 400 states of new and
-#: worn profiles by our half space.
+#: leave open. Chosen on 300 random ellipses (`benchmarks/creep_table.py`) and 400 states of new and worn profiles by our half
+#: space.
 SLIP, STIFF = 0.01, (0.01, 0.02, 0.02, 0.02)
 #: Strips and elements: the march's own error is below .001 of mu N.
 _RESOLUTION = 40
@@ -65,9 +64,8 @@ def build(path: Path, forces: Path = table.FILE, *, progress: Callable[[float, s
             own = slice(None) if k in (0, table.N_BETA - 1) else j
             for l in range(1, table.N_RHO - 1):  # nothing at vanishing creepage and in full slip
                 at = i, j, k, l
-                changes[i, own, k, l] = ellipses[i].fitted(
-                    (j, k, l), true[at], changes[at], expected[at], stiff
-                ) * _odd(j, k)
+                change = ellipses[i].fitted((j, k, l), true[at], changes[at], expected[at], stiff)
+                changes[i, own, k, l] = change * _allowed(j, k)
             if progress is not None:
                 progress((sweep + n / len(table.rows())) / len(STIFF), f"sweep {sweep + 1} of {len(STIFF)}")
     lines = [",".join(creep_table.short(v) for v in changes[i, j, k, 1:].ravel()) for i, j, k in table.rows()]
@@ -83,8 +81,8 @@ def build(path: Path, forces: Path = table.FILE, *, progress: Callable[[float, s
         raise ContactError(f"{path} cannot be written: {error.strerror}") from None
 
 
-def _odd(j: int, k: int) -> tuple[float, float, float, float]:
-    """0 for changes of a creepage that symmetry rules out at a node, else 1."""
+def _allowed(j: int, k: int) -> tuple[float, float, float, float]:
+    """1 for each of the four numbers, 0 for changes of a creepage that symmetry rules out at a node."""
     spin_alone, sideways = k in (0, table.N_BETA - 1), j == table.N_ALPHA - 1
     straight = j == 0 and 2 * k == table.N_BETA - 1
     return float(not (spin_alone or sideways)), float(not straight), float(not straight), 1.0
@@ -123,7 +121,6 @@ class OneEllipse:
         self.n = press_case(s.y, s.g, s.A, s.x_c, case, *own)
         a, b = equivalent_ellipse(own.strips, self.n)
         self.centres = elastic_centre(own.strips, 0, self.n, own.tables.kalker, math.log(a / b))
-        case[CASE_MU] = creep_table.FRICTION
         self.case, self.own, self.strips, self.area = case, own, own.strips.copy(), own.result[RES_AREA]
 
     def forces(self, creepage: Array, exponent: float) -> Array:
