@@ -4,7 +4,7 @@
 
 S1002 and 60E1 (1:40) wear each other, step by step, over a fixed mix of lateral positions and yaw angles, by Archard's law with
 the map of KTH, until each has lost `--depth` at its deepest place. Then a sweep over lateral positions, every patch once in its
-plane and once conformal (`contact.conformal`); `--new` sweeps the unworn pair instead.
+plane and once conformal (`contact.kernels.conformal`); `--new` sweeps the unworn pair instead.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ import numpy as np
 
 import contact
 from contact.geometry import profile, wheelset
-from contact.normal import analyn, by_approach, strip_halfspace
+from contact.kernels.normal import analyn, by_approach, strip_halfspace
 
 #: Most iterations that a normal method may take.
 CAPS = dict.fromkeys(contact.methods().batched.normal, by_approach.MAX_ITERATIONS) | {

@@ -12,24 +12,13 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
+from contact.kernels.layout import LoadKind
 import contact
 from benchmarks import accuracy
 from contact import workspace
-from contact._layout import (
-    CASE_G,
-    CASE_LOAD,
-    CASE_LOAD_KIND,
-    CASE_NORMAL,
-    CASE_NU,
-    CASE_PHI,
-    CASE_TANGENTIAL,
-    CASE_VX,
-    CASE_VY,
-    LOAD,
-    N_CASE,
-)
+from contact.kernels.layout import N_CASE
 from contact.friction import Friction, fill
-from contact.pipeline import solve_case, solve_cases
+from contact.kernels.pipeline import solve_case, solve_cases
 
 PATCH = next(case for case in accuracy.patches() if case["name"].startswith("c40_dy+0"))
 SEPARATION = contact.Separation(np.array(PATCH["y"]) * 1e-3, np.array(PATCH["g"]) * 1e-3, np.array(PATCH["A"]) * 1e3)
@@ -43,9 +32,9 @@ CASES = 64
 def case_of(normal, tangential):
     """A load-prescribed case, with constant friction."""
     case = np.zeros(N_CASE)
-    case[CASE_LOAD_KIND], case[CASE_LOAD], case[CASE_G], case[CASE_NU] = LOAD, 8e4, 82e9, 0.28
-    case[CASE_VX], case[CASE_VY], case[CASE_PHI] = CREEP.longitudinal, CREEP.lateral, CREEP.spin
-    case[CASE_NORMAL], case[CASE_TANGENTIAL] = normal.id, tangential.id
+    case.load_kind, case.amount, case.G, case.nu = LoadKind.LOAD, 8e4, 82e9, 0.28
+    case.vx, case.vy, case.phi = CREEP.longitudinal, CREEP.lateral, CREEP.spin
+    case.normal, case.tangential = normal.id, tangential.id
     fill(case, Friction(0.3), 20.0)
     return case
 

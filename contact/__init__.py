@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 from contact.creepage import Creepage
 from contact.errors import ContactError
-from contact.forces import Forces, forces
+from contact.forces import forces
 from contact.hertz import HertzContact, hertz
 from contact.material import STEEL, Material
 from contact.registry import Method, Methods, methods
 from contact.separation import Separation
-from contact.solution import Solution, Status, Strips
+from contact.solution import Forces, Solution, Status, Strips
 from contact.solve import solve
+from contact.solver import Solver
 
 if TYPE_CHECKING:
     from contact.study import Case, Comparison, compare
@@ -32,6 +33,7 @@ __all__ = [
     "Methods",
     "Separation",
     "Solution",
+    "Solver",
     "Status",
     "Strips",
     "compare",

@@ -1,51 +1,119 @@
-"""The one numba policy of the project.
+"""The one numba policy of the project, and the cache of compiled kernels.
 
-* ``cache=True``: a user pays for compilation once a machine, not once a process.
-* The cache is keyed by the sources of this package, without those that hold no kernel, and of the kernel's own: numba alone
-  compares a kernel's own file only, and would go on running yesterday's version of every kernel that it calls from others.
-* ``error_model="numpy"``: no exception branches; a division by zero is prevented by the kernel, not caught.
+* ``error_model="numpy"``: no exception branches. A kernel prevents a division by zero, it does not catch it.
 * ``nogil=True``: a kernel touches no Python object, so threads of a host run in parallel.
-* no ``fastmath``: results must not depend on the instruction set (the native FMU is compared bit for bit).
+* No ``fastmath``: results must not depend on the instruction set. The native FMU is compared bit for bit.
+* Compiled kernels are kept on disk. Their cache is keyed by the content of `contact/kernels`, and for a kernel elsewhere also by
+  the content of its own folder. Times of files do not count: another checkout with the same kernels compiles nothing.
 
-Kernels allocate nothing, raise nothing, take no function argument: one source serves Python, batches and the native FMU.
+Kernels allocate nothing, raise nothing and take no function argument: one source serves Python, batches and the native FMU.
 """
 
+from __future__ import annotations
+
+import contextlib
 import hashlib
+import os
+import shutil
 import sys
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 from numba import config, njit
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, UserProvidedCacheLocator
+from numba.extending import overload
 
-_WITHOUT_KERNELS = (
-    *("accumulation", "cli", "life", "plot", "study", "temperature.py"),
-    *(f"geometry/{name}.py" for name in ("en15302", "files", "outline", "profile", "rigid", "smoothing", "standard")),
-)
+_KERNELS = Path(__file__).parent / "kernels"
+_PREFIX = "wheelrail-contact-"
+#: Caches that nothing has read for this long are removed [s], and all but so many of the latest.
+_STALE, _MOST = 30 * 86400.0, 8
+_OPTIONS = {"error_model": "numpy", "nogil": True}
+
+
+def _base() -> Path:
+    """Return the folder of all caches: numba's own choice of the user, or the system's folder for caches."""
+    if config.CACHE_DIR:
+        return Path(config.CACHE_DIR)
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA", Path.home() / "AppData" / "Local"))
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Caches"
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
 
 
 @cache
-def _cache_directory(package: str) -> str:
-    """Directory of kernels of `package`, compiled from exactly these sources; numba has its own if that is not writable."""
-    own = Path(__file__).parent
-    fingerprint = hashlib.sha256()
-    for root in sorted({own, *map(Path, getattr(sys.modules[package], "__path__", ()))}):
+def _fingerprint(folder: Path) -> str:
+    """Return a hash of the kernels' sources and of those in `folder`."""
+    content = hashlib.sha256(Path(__file__).read_bytes())
+    for root in sorted({_KERNELS, folder}):
         for path in sorted(root.rglob("*.py")):
-            source = path.relative_to(root)
-            if any(source.is_relative_to(part) for part in _WITHOUT_KERNELS):
-                continue
-            stat = path.stat()
-            fingerprint.update(f"{source} {stat.st_mtime_ns} {stat.st_size}\n".encode())
-    base = Path(config.CACHE_DIR) if config.CACHE_DIR else own / "__pycache__"
-    return str(base / f"kernels-{fingerprint.hexdigest()[:16]}")
+            content.update(f"{path.relative_to(root)}\0".encode() + path.read_bytes())
+    return content.hexdigest()[:16]
+
+
+@cache
+def cache_directory(folder: Path) -> Path:
+    """Return the directory of the kernels compiled from exactly these sources; remove stale ones beside it."""
+    inside = _KERNELS if folder.is_relative_to(_KERNELS) else folder
+    path = _base() / (_PREFIX + _fingerprint(inside))
+    with contextlib.suppress(OSError):
+        if path.exists():
+            os.utime(path)
+        else:
+            _remove_stale(path.parent)
+    return path
+
+
+def _remove_stale(base: Path) -> None:
+    """Remove caches of sources that have not been used for long."""
+    caches = sorted(base.glob(_PREFIX + "*"), key=lambda path: path.stat().st_mtime, reverse=True)
+    for i, path in enumerate(caches):
+        if i >= _MOST or path.stat().st_mtime < time.time() - _STALE:
+            shutil.rmtree(path, ignore_errors=True)
+
+
+class _Locator(UserProvidedCacheLocator):
+    """numba's cache, keyed by content."""
+
+    def __init__(self, function: Callable[..., Any], file: str) -> None:
+        self._py_file, self._lineno = file, function.__code__.co_firstlineno
+        self._module = function.__module__
+        self._cache_path = str(cache_directory(Path(file).parent))
+
+    @classmethod
+    def from_function(cls, function: Callable[..., Any], file: str) -> _Locator:
+        return cls(function, file)
+
+    def get_source_stamp(self) -> str:
+        return ""  # the directory's name says it
+
+    def get_disambiguator(self) -> str:
+        return f"{self._module}-{self._lineno}"
+
+
+class _Implementation(CompileResultCacheImpl):
+    _locator_classes = [_Locator]  # noqa: RUF012 - numba's own shape
+
+
+class _ContentCache(FunctionCache):
+    _impl_class = _Implementation
 
 
 def kernel(function: Callable[..., Any]) -> Any:
     """Compile `function` under the policy above."""
-    users_choice = config.CACHE_DIR
-    config.CACHE_DIR = _cache_directory(function.__module__.partition(".")[0])
-    try:
-        return njit(cache=True, error_model="numpy", nogil=True)(function)
-    finally:
-        config.CACHE_DIR = users_choice
+    dispatcher = njit(**_OPTIONS, no_cfunc_wrapper=True)(function)
+    if not config.DISABLE_JIT:
+        dispatcher._cache = _ContentCache(function)
+    return dispatcher
+
+
+def chosen_by(stub: Callable[..., Any], kernels: Mapping[type, Any]) -> None:
+    """Let compiled calls of `stub` run the kernel that belongs to the type of its first argument, a marker of `families`."""
+    functions = {marker: chosen.py_func for marker, chosen in kernels.items()}
+
+    @overload(stub, jit_options=_OPTIONS, strict=False)
+    def _choose(family, *arguments):  # type: ignore[no-untyped-def]
+        return functions[family.instance_class]

@@ -24,6 +24,8 @@ class _OnlyWithFields:
                 f"there is no {self.name}: tangential = {record.tangential!r} gives forces alone; contact.methods() lists "
                 "the methods with fields"
             )
+        if self.name not in record.__dict__:
+            return record.__getattr__(self.name)
         return record.__dict__[self.name]
 
     def __set__(self, record: Any, value: Any) -> None:

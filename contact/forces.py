@@ -5,67 +5,27 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact import workspace
-from contact._layout import (
-    APPROACH,
-    CASE_CONFORMAL,
-    CASE_G,
-    CASE_LOAD,
-    CASE_LOAD_KIND,
-    CASE_MU,
-    CASE_NORMAL,
-    CASE_NU,
-    CASE_PHI,
-    CASE_PRESSURE_LIMIT,
-    CASE_TANGENTIAL,
-    CASE_VX,
-    CASE_VY,
-    LOAD,
-    N_CASE,
-    N_RES,
-    RES_APPROACH,
-    RES_AREA,
-    RES_FX,
-    RES_FY,
-    RES_MZ,
-    RES_N,
-    RES_PMAX,
-    RES_POWER,
-    RES_SLIP_AREA,
-    RES_STATUS,
-)
+from contact.case import cases as prepared_cases
+from contact.case import set_surface
 from contact.creepage import LARGEST_CREEPAGE, Creepage
 from contact.errors import ContactError
-from contact.friction import LARGEST, Friction, fill
+from contact.friction import LARGEST, Friction
+from contact.kernels.layout import RESULT, LoadKind
+from contact.kernels.memory import Samples
+from contact.kernels.pipeline import solve_cases
 from contact.material import STEEL, Material
-from contact.pipeline import solve_cases
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.separation import Separation
-from contact.solve import N_ELEMENTS, N_STRIPS, require_conformal, require_resolution
+from contact.solution import Forces
+from contact.solver import N_ELEMENTS, N_STRIPS, require_conformal, require_resolution
 
 Array = NDArray[np.float64]
 _CHUNK = 256
-
-
-@dataclass(frozen=True, slots=True)
-class Forces:
-    """Results of many cases; every array has the broadcast shape of the input. Units and signs as in `Solution`."""
-
-    Fx: Array
-    Fy: Array
-    Mz: Array
-    N: Array
-    approach: Array
-    max_pressure: Array
-    area: Array
-    slip_ratio: Array
-    power_per_metre: Array
-    status: NDArray[np.int64]
 
 
 def forces(
@@ -146,32 +106,28 @@ def forces(
     if conformal:
         require_conformal(rolling)
     shape, count = amount.shape, amount.size
-    cases = np.empty((count, N_CASE))
-    cases[:, CASE_LOAD_KIND] = LOAD if load is not None else APPROACH
-    fill(cases, surface or Friction(0.0), V.ravel())
-    for row, values in ((CASE_LOAD, amount), (CASE_VX, vx), (CASE_VY, vy), (CASE_PHI, phi), (CASE_MU, mu)):
-        cases[:, row] = values.ravel()
-    cases[:, CASE_G], cases[:, CASE_NU] = material.shear_modulus, material.poisson_ratio
-    cases[:, CASE_PRESSURE_LIMIT] = material.pressure_limit
-    cases[:, CASE_CONFORMAL] = float(conformal)
-    cases[:, CASE_NORMAL], cases[:, CASE_TANGENTIAL] = method.id, rolling.id
-
     bounds = np.cumsum([0, *(s.y.size for s in separations)])
-    columns = [np.concatenate([getattr(s, name) for s in separations]) for name in ("y", "g", "A", "x_c", "tilt")]
-    rolled = np.array([s.rolling for s in separations])
-    for array in columns:
+    samples = Samples(*(np.concatenate(column) for column in zip(*(s.samples for s in separations), strict=True)))
+    for array in samples:
         array.setflags(write=False)  # like a Separation's, so that numba compiles the solver for one signature only
-    longest = max(s.y.size for s in separations)
-    results = np.empty((count, N_RES))
     which = np.array(which).ravel()  # a copy: numba warns of a broadcast one
 
+    cases = prepared_cases(count, method, rolling, material, conformal=conformal)
+    set_surface(cases, surface or Friction(0.0), V.ravel())
+    cases["load_kind"] = LoadKind.LOAD if load is not None else LoadKind.APPROACH
+    cases["rolling"] = np.array([s.rolling for s in separations])[which]
+    for name, values in (("amount", amount), ("vx", vx), ("vy", vy), ("phi", phi), ("mu", mu)):
+        cases[name] = values.ravel()
+    if surface is None:
+        cases["kinetic"] = mu.ravel()
+    longest = max(s.y.size for s in separations)
+    results = np.zeros(count, RESULT)
+
     def work(chunks: range) -> None:
-        own = workspace.allocate(
-            method, rolling, material.poisson_ratio, n_strips, n_elements, longest, fields=conformal
-        )
+        size = n_strips, n_elements, longest
+        own = workspace.allocate(method, rolling, material.poisson_ratio, size, fields=conformal)
         for first in chunks:
-            last = min(first + _CHUNK, count)
-            solve_cases(first, last, *columns, rolled, bounds, which, cases, *own[:-1], results)
+            solve_cases(first, min(first + _CHUNK, count), samples, bounds, which, cases, own, results)
 
     pieces = min(threads or cores(), -(-count // _CHUNK))
     if pieces <= 1:
@@ -180,22 +136,22 @@ def forces(
         with ThreadPoolExecutor(pieces) as pool:
             list(pool.map(work, (range(k * _CHUNK, count, pieces * _CHUNK) for k in range(pieces))))
 
-    def column(row: int) -> Array:
-        return results[:, row].reshape(shape)
+    def column(name: str) -> Array:
+        return np.ascontiguousarray(results[name]).reshape(shape)
 
-    area = column(RES_AREA)
-    slip_ratio = np.divide(column(RES_SLIP_AREA), area, out=np.zeros(shape), where=area > 0.0)
+    area = column("area")
+    slip_ratio = np.divide(column("slip_area"), area, out=np.zeros(shape), where=area > 0.0)
     return Forces(
-        Fx=column(RES_FX),
-        Fy=column(RES_FY),
-        Mz=column(RES_MZ),
-        N=column(RES_N),
-        approach=column(RES_APPROACH),
-        max_pressure=column(RES_PMAX),
+        Fx=column("Fx"),
+        Fy=column("Fy"),
+        Mz=column("Mz"),
+        N=column("N"),
+        approach=column("approach"),
+        max_pressure=column("pmax"),
         area=area,
         slip_ratio=slip_ratio,
-        power_per_metre=column(RES_POWER),
-        status=column(RES_STATUS).astype(np.int64),
+        power_per_metre=column("power"),
+        status=column("status"),
     )
 
 

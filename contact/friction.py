@@ -9,155 +9,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact._jit import kernel
-from contact._layout import (
-    CASE_BORDER,
-    CASE_BORDER_WIDTH,
-    CASE_DROP,
-    CASE_G,
-    CASE_GAUGE_FACTOR,
-    CASE_HALF_SPEED,
-    CASE_HEATING,
-    CASE_K_A,
-    CASE_K_S,
-    CASE_KINETIC,
-    CASE_LAW,
-    CASE_MU,
-    CASE_SLOPE,
-    CASE_SLOPE_FAR,
-    CASE_SLOPE_RATE,
-    CASE_SPEED,
-    CASE_TANGENTIAL,
-    CASE_VELOCITY,
-    CASE_VX,
-    CASE_VY,
-    CASE_WARM,
-    CASE_WARM_RANGE,
-)
 from contact.errors import ContactError, require_number
+from contact.kernels.friction import coefficient, over_profile
 from contact.material import Thermal
-from contact.registry import CARTER
 
-COULOMB, LINEAR, RATIONAL, RATIONAL_SQUARE, EXPONENTIAL = range(5)
 #: Greatest coefficient [-]: adhesion beyond any use, and far from where squares overflow.
 LARGEST = 1e6
-#: Highest temperature [K], beyond any melt, and most heat, far from where products overflow.
-HOTTEST, _MOST_HEAT = 1e5, 1e100
+#: Highest temperature [K], beyond any melt.
+HOTTEST = 1e5
 #: [K] of the bodies, unless told otherwise.
 ROOM_TEMPERATURE = 293.15
 #: Names of the laws; the place is the number by which kernels know a law.
 LAWS = ("coulomb", "linear", "rational", "rational_square", "exponential")
-GLOBAL, LOCAL, GREATEST = range(3)
 #: Slip velocities that a law may follow; the place is the number by which kernels know them.
 VELOCITIES = ("global", "local", "greatest")
-
-
-@kernel
-def coefficient(law, static, kinetic, half_speed, velocity):
-    """Coefficient of friction at a sliding velocity [m/s]; halfway from static to kinetic at `half_speed` (theory.md 8.1)."""
-    if law == COULOMB:
-        return static
-    s = velocity / half_speed
-    if law == LINEAR:
-        share = max(0.0, 1.0 - 0.5 * s)
-    elif law == RATIONAL:
-        share = 1.0 / (1.0 + s)
-    elif law == RATIONAL_SQUARE:
-        share = 1.0 / (1.0 + s * s)
-    else:
-        share = math.exp(-math.log(2.0) * s)
-    return kinetic + (static - kinetic) * share
-
-
-@kernel
-def falls_locally(case):
-    """Whether the coefficient differs from element to element; methods that give forces alone have no local slip."""
-    return case[CASE_VELOCITY] != GLOBAL and case[CASE_LAW] != COULOMB and case[CASE_TANGENTIAL] < CARTER
-
-
-@kernel
-def fallen(case, slip, stick, before):
-    """Coefficient over the static one of an element with `slip` over V; `before` is that of the element before it.
-
-    It never rises above 1, nor, after the greatest slip velocity, above that of the element before. Where slip begins within
-    the element, the share `stick` of it keeps 1: so forces are continuous as the place moves from element to element.
-    """
-    most = before if case[CASE_VELOCITY] == GREATEST else 1.0
-    if slip <= 0.0 or case[CASE_MU] <= 0.0 or not falls_locally(case):
-        return most
-    kinetic = min(case[CASE_KINETIC] / case[CASE_MU], 1.0)
-    own = coefficient(case[CASE_LAW], 1.0, kinetic, case[CASE_HALF_SPEED], case[CASE_SPEED] * slip)
-    return min(own + stick * (1.0 - own), most)
-
-
-@kernel
-def falls_hot(case):
-    """Whether the coefficient falls with the temperature; methods that give forces alone know none."""
-    return case[CASE_DROP] > 0.0 and case[CASE_TANGENTIAL] < CARTER
-
-
-@kernel
-def heating(case, a, bound):
-    """Rise of temperature [K] by unit slip over V under the traction `bound` over √(2 Δs) of a strip of half length a (8.5)."""
-    return min(case[CASE_HEATING] * math.sqrt(case[CASE_SPEED] * a) * bound, _MOST_HEAT)
-
-
-@kernel
-def of_bodies(case):
-    """What the temperature of the bodies leaves of the coefficient."""
-    drop = case[CASE_DROP]
-    if drop <= 0.0:
-        return 1.0
-    return min(max(1.0 + drop * (case[CASE_WARM] / case[CASE_WARM_RANGE]), 1.0 - drop), 1.0)
-
-
-@kernel
-def of_heat(case, cold, warm, heat):
-    """Coefficient that falls from `cold`, that at the bodies' temperature, by `warm` + `heat` times itself [K] (theory.md 8.5).
-
-    The greater the coefficient the hotter, the hotter the smaller: there is one, and the law is linear between its ends.
-    """
-    bodies, drop, width = of_bodies(case), case[CASE_DROP], case[CASE_WARM_RANGE]
-    if bodies <= 0.0:
-        return cold
-    within = cold * (width - drop * (warm - case[CASE_WARM])) / (bodies * width + cold * drop * heat)
-    return min(max(within, cold * ((1.0 - drop) / bodies)), cold)
-
-
-@kernel
-def of_case(case):
-    """Coefficient of friction at the global slip velocity V√(ξ² + η²) of a case; that at rest, where the local one counts."""
-    if falls_locally(case):
-        return case[CASE_MU]
-    velocity = case[CASE_SPEED] * math.sqrt(case[CASE_VX] ** 2 + case[CASE_VY] ** 2)
-    return coefficient(case[CASE_LAW], case[CASE_MU], case[CASE_KINETIC], case[CASE_HALF_SPEED], velocity)
-
-
-@kernel
-def over_profile(factor, border, width, y):
-    """Factor on the coefficient of friction at y: `factor` where (border - y)/width > 1/2, 1 below -1/2, smooth between."""
-    if width == 0.0:
-        share = 1.0 if y < border else 0.0
-    else:
-        t = min(max(0.5 + (border - y) / width, 0.0), 1.0)
-        share = t * t * (3.0 - 2.0 * t)
-    return 1.0 + (factor - 1.0) * share
-
-
-@kernel
-def slope_of_case(case, a, b, c11, limit, phi_arm):
-    """Factor on the flexibility's inverse, k = k0 (far + (1 - far)/(1 + rate·eps)) (Spiryagin et al. 2013; theory.md 8.2).
-
-    eps = G π a b k0 C11 v/(4 mu N), v² = ξ² + η_φ², η_φ = η + phi·a if that is larger; `limit` is mu N, `phi_arm` phi·a.
-    """
-    k0, far = case[CASE_SLOPE], case[CASE_SLOPE_FAR]
-    if far == 1.0 or limit <= 0.0:
-        return k0
-    with_spin = case[CASE_VY] + phi_arm
-    lateral = with_spin if abs(with_spin) > abs(case[CASE_VY]) else case[CASE_VY]
-    v = math.sqrt(case[CASE_VX] ** 2 + lateral * lateral)
-    eps = 0.25 * math.pi * case[CASE_G] * a * b * k0 * c11 * v / limit
-    return k0 * (far + (1.0 - far) / (1.0 + case[CASE_SLOPE_RATE] * eps))
 
 
 @dataclass(frozen=True, slots=True)
@@ -283,8 +148,11 @@ class Friction:
             raise ContactError(
                 f"velocity = {velocities.min():g} … {velocities.max():g} is outside the allowed range [0, inf["
             )
-        law, static, kinetic, half_speed = self.rows()[:4]
-        values = np.array([coefficient(law, static, kinetic, half_speed, float(v)) for v in velocities.ravel()])
+        kinetic = self.static if self.kinetic is None else self.kinetic
+        law = LAWS.index(self.law)
+        values = np.array(
+            [coefficient(law, self.static, kinetic, self.half_speed, float(v)) for v in velocities.ravel()]
+        )
         return values.reshape(velocities.shape) if velocities.ndim else float(values[0])
 
     def factor(self, y: ArrayLike) -> NDArray[np.float64]:
@@ -301,45 +169,29 @@ class Friction:
         scale = mirror / math.cos(angle)
         return replace(self, border=scale * (self.border - y), border_width=scale * self.border_width)
 
-    def rows(self) -> tuple[float, ...]:
-        """The case's numbers in the order of `_ROWS`, as kernels take them."""
-        kinetic = self.static if self.kinetic is None else self.kinetic
-        law = float(LAWS.index(self.law))
-        slopes = self.slope, self.slope_far, self.slope_rate
-        velocity, side = float(VELOCITIES.index(self.velocity)), (self.gauge_factor, self.border, self.border_width)
-        warm = self.reference_temperature - self.background_temperature
-        heat = 1.0 - self.hot_factor, warm, self.temperature_range, self.thermal.heating
-        return law, self.static, kinetic, self.half_speed, *slopes, velocity, *side, self.k_A, self.k_S, *heat
-
-
-_ROWS = (
-    CASE_LAW,
-    CASE_MU,
-    CASE_KINETIC,
-    CASE_HALF_SPEED,
-    CASE_SLOPE,
-    CASE_SLOPE_FAR,
-    CASE_SLOPE_RATE,
-    CASE_VELOCITY,
-    CASE_GAUGE_FACTOR,
-    CASE_BORDER,
-    CASE_BORDER_WIDTH,
-    CASE_K_A,
-    CASE_K_S,
-    CASE_DROP,
-    CASE_WARM,
-    CASE_WARM_RANGE,
-    CASE_HEATING,
-)
+    def members(self) -> dict[str, float | int]:
+        """Return the members of a case (`contact.kernels.layout.CASE`) that say what the surface is."""
+        return {
+            "law": LAWS.index(self.law),
+            "mu": self.static,
+            "kinetic": self.static if self.kinetic is None else self.kinetic,
+            "half_speed": self.half_speed,
+            "velocity": VELOCITIES.index(self.velocity),
+            "slope": self.slope,
+            "slope_far": self.slope_far,
+            "slope_rate": self.slope_rate,
+            "gauge_factor": self.gauge_factor,
+            "border": self.border,
+            "border_width": self.border_width,
+            "k_A": self.k_A,
+            "k_S": self.k_S,
+            "drop": 1.0 - self.hot_factor,
+            "warm": self.reference_temperature - self.background_temperature,
+            "warm_range": self.temperature_range,
+            "heating": self.thermal.heating,
+        }
 
 
 def as_friction(friction: object) -> Friction:
     """A coefficient, or a `Friction` itself."""
     return friction if isinstance(friction, Friction) else Friction(require_number("friction", friction, 0.0, LARGEST))
-
-
-def fill(case: NDArray[np.float64], friction: Friction, speed: ArrayLike) -> None:
-    """Write friction and speed [m/s] into one case or, along the first axis, many."""
-    for row, value in zip(_ROWS, friction.rows(), strict=True):
-        case[..., row] = value
-    case[..., CASE_SPEED] = speed

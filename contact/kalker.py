@@ -8,8 +8,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from contact._jit import kernel
 from contact.errors import require_number
+from contact.kernels.kalker import LOG_ASPECT_MAX, N_TABLE, coefficients, fill_table
+
+__all__ = ["coefficients", "constant_table", "published", "table"]
 
 # Rows a/b = 0.1 … 1, then b/a = 0.9 … 0.1; columns C11, C22, C23, C33, each at nu = 0, 1/4, 1/2. The published numbers
 # were checked against a full-adhesion boundary-element solution to 1.5 % (theory.md 1.2).
@@ -38,11 +40,6 @@ _NU = (0.0, 0.25, 0.5)
 _BEYOND = (0.02, 0.05)  # axis ratios below the table's 0.1 at which the asymptotes take over
 # C33 at b/a = 0.02, 0.05: boundary-element values; the common asymptote is 13-20 % off there (theory.md 1.2).
 _C33_LONG = {0.02: (0.780, 0.450, 0.104), 0.05: (0.783, 0.482, 0.157)}
-
-#: Range of ln(a/b) covered; the aspect ratio is clamped to [1/50, 50] beyond it.
-LOG_ASPECT_MAX = math.log(50.0)
-N_TABLE = 129
-_STEP = 2.0 * LOG_ASPECT_MAX / (N_TABLE - 1)
 
 
 def _short_asymptote(g: float, nu: float) -> tuple[float, float, float, float]:
@@ -109,23 +106,6 @@ def published() -> NDArray[np.float64]:
     return result
 
 
-@kernel
-def fill_table(published, nu, table):
-    """Fill `table` of `coefficients` for one Poisson ratio: parabola in nu through 1/C for C11, C22, C23, through C for C33."""
-    p, q, r = (4.0 * nu - 1.0) * (2.0 * nu - 1.0), 8.0 * nu * (1.0 - 2.0 * nu), nu * (8.0 * nu - 2.0)
-    for c in range(4):
-        for i in range(N_TABLE):
-            C = published[i, c]
-            if c < 3:
-                table[i, c] = 1.0 / (p / C[0] + q / C[1] + r / C[2])
-            else:
-                table[i, c] = p * C[0] + q * C[1] + r * C[2]
-        for i in range(1, N_TABLE - 1):
-            table[i, 4 + c] = 0.5 * (table[i + 1, c] - table[i - 1, c])
-        table[0, 4 + c] = table[1, c] - table[0, c]
-        table[N_TABLE - 1, 4 + c] = table[N_TABLE - 1, c] - table[N_TABLE - 2, c]
-
-
 @functools.lru_cache(maxsize=64)
 def table(poisson_ratio: float) -> NDArray[np.float64]:
     """Tabulate C11, C22, C23, C33 over ln(a/b) for one Poisson ratio, for `coefficients` (theory.md 1.2).
@@ -146,20 +126,5 @@ def constant_table(c11: float, c22: float, c23: float) -> NDArray[np.float64]:
     """A table for `coefficients` that has the same three at every aspect ratio; C33, which FASTSIM does not read, is 0."""
     result = np.zeros((N_TABLE, 8))
     result[:, :3] = c11, c22, c23
+    result.setflags(write=False)
     return result
-
-
-@kernel
-def coefficients(table, log_aspect):
-    """C11, C22, C23, C33 at ln(a/b) from a `table`; C32 = -C23. The aspect ratio is clamped to [1/50, 50]."""
-    u = (min(max(log_aspect, -LOG_ASPECT_MAX), LOG_ASPECT_MAX) + LOG_ASPECT_MAX) / _STEP
-    i = min(int(u), N_TABLE - 2)
-    t = u - i
-    w = 1.0 - t
-    h00, h10, h01, h11 = (1.0 + 2.0 * t) * w * w, t * w * w, t * t * (3.0 - 2.0 * t), -t * t * w
-    p, q = table[i], table[i + 1]
-    c11 = h00 * p[0] + h10 * p[4] + h01 * q[0] + h11 * q[4]
-    c22 = h00 * p[1] + h10 * p[5] + h01 * q[1] + h11 * q[5]
-    c23 = h00 * p[2] + h10 * p[6] + h01 * q[2] + h11 * q[6]
-    c33 = h00 * p[3] + h10 * p[7] + h01 * q[3] + h11 * q[7]
-    return c11, c22, c23, c33

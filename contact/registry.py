@@ -7,6 +7,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from contact.errors import ContactError, suggestion
+from contact.kernels.layout import Normal, NormalFamily, Tangential, TangentialFamily
 
 #: The methods of the thesis, used when none is named.
 DEFAULT_NORMAL, DEFAULT_TANGENTIAL = "analyn", "fastrip"
@@ -19,7 +20,7 @@ class Method:
     Attributes
     ----------
     name : what `contact.solve(normal=…, tangential=…)` is given
-    id : number by which kernels know it
+    id : member of `Normal` or `Tangential` by which kernels know it
     title, source : for documentation
     non_elliptic : follows a non-elliptic patch or pressure
     several_patches : finds or serves separate patches
@@ -36,7 +37,7 @@ class Method:
     """
 
     name: str
-    id: int
+    id: Normal | Tangential
     title: str
     source: str
     non_elliptic: bool
@@ -55,7 +56,20 @@ class Method:
     @property
     def elementwise(self) -> bool:
         """Whether it is the element-wise half space."""
-        return self.id == HALFSPACE
+        return self.family in (NormalFamily.NONE, TangentialFamily.NONE)
+
+    @property
+    def kernel(self) -> str:
+        """Name of the batched method whose kernel serves it: its own, but for a method with coefficients of the patch."""
+        return "fastsim" if self.calibrated else self.name
+
+    @property
+    def family(self) -> NormalFamily | TangentialFamily:
+        """The kernel that solves it."""
+        by_approach = isinstance(self.id, Normal)
+        return _FAMILIES.get(
+            (type(self.id), self.id), NormalFamily.BY_APPROACH if by_approach else TangentialFamily.CREEP_FORCE
+        )
 
 
 class Methods(NamedTuple):
@@ -70,60 +84,64 @@ class Methods(NamedTuple):
         return Methods(*(MappingProxyType({n: m for n, m in kind.items() if m.batched}) for kind in self))
 
 
-ANALYN, HERTZ, STRIP_HALFSPACE = 0, 1, 2
-# solved by `normal.by_approach`, from the first of them on
-(
-    KIK_PIOTROWSKI,
-    KIK_PIOTROWSKI_2008,
-    LINDER,
-    STRIPES_A,
-    STRIPES_AB,
-    WINKLER,
-    SRST,
-    KPEC,
-    SEMI_WINKLER,
-    MULTI_HERTZ,
-    PASCAL_SAUVAGE,
-) = range(20, 31)
-FASTRIP, FASTSIM, FASTRIP_MAPPED, STRIP_THEORY = 0, 1, 2, 3
-# solved by `tangential.fastsim`, like FASTSIM
-FASTSIM_ONE, FASTSIM_ELLIPTIC, FASTSIM_LINDER, FASTSIM_STRIPES = range(4, 8)
-# solved by `tangential.creep_force`, from the first of them on
-CARTER, JOHNSON, VERMEULEN_JOHNSON, LINEAR, LINEAR_SATURATED, SHEN_HEDRICK_ELKINS, POLACH, TABLE = range(20, 28)
-HALFSPACE = -1  # no kernel of the pipeline
+_FAMILIES: dict[tuple[type, int], NormalFamily | TangentialFamily] = {
+    (Normal, Normal.ANALYN): NormalFamily.ANALYN,
+    (Normal, Normal.HERTZ): NormalFamily.HERTZ,
+    (Normal, Normal.STRIP_HALFSPACE): NormalFamily.STRIP_HALFSPACE,
+    (Normal, Normal.HALFSPACE): NormalFamily.NONE,
+    (Tangential, Tangential.FASTRIP): TangentialFamily.FASTRIP,
+    (Tangential, Tangential.STRIP_THEORY): TangentialFamily.FASTRIP,
+    (Tangential, Tangential.FASTRIP_MAPPED): TangentialFamily.FASTRIP_MAPPED,
+    (Tangential, Tangential.FASTSIM): TangentialFamily.FASTSIM,
+    (Tangential, Tangential.FASTSIM_ONE): TangentialFamily.FASTSIM,
+    (Tangential, Tangential.FASTSIM_ELLIPTIC): TangentialFamily.FASTSIM,
+    (Tangential, Tangential.FASTSIM_LINDER): TangentialFamily.FASTSIM,
+    (Tangential, Tangential.FASTSIM_STRIPES): TangentialFamily.FASTSIM,
+    (Tangential, Tangential.HALFSPACE): TangentialFamily.NONE,
+}
 
 _NORMAL = (
-    Method("analyn", ANALYN, "ANALYN, approximate surface deformation", "Sichani 2016, ch. 9, Paper B", True, True),
-    Method("hertz", HERTZ, "Hertz's ellipse at the least point", "Hertz 1882; Johnson 1985", False, False),
+    Method(
+        "analyn", Normal.ANALYN, "ANALYN, approximate surface deformation", "Sichani 2016, ch. 9, Paper B", True, True
+    ),
+    Method("hertz", Normal.HERTZ, "Hertz's ellipse at the least point", "Hertz 1882; Johnson 1985", False, False),
     Method(
         "strip_halfspace",
-        STRIP_HALFSPACE,
+        Normal.STRIP_HALFSPACE,
         "interacting strips with semi-elliptic pressure on a half space",
         "this project, after Knothe and Le The 1984",
         True,
         True,
         interacting=True,
     ),
-    Method("kik_piotrowski", KIK_PIOTROWSKI, "virtual penetration", "Kik and Piotrowski 1996", True, True),
+    Method("kik_piotrowski", Normal.KIK_PIOTROWSKI, "virtual penetration", "Kik and Piotrowski 1996", True, True),
     Method(
         "kik_piotrowski_2008",
-        KIK_PIOTROWSKI_2008,
+        Normal.KIK_PIOTROWSKI_2008,
         "virtual penetration with shape correction",
         "Piotrowski and Kik 2008",
         True,
         True,
         continuous=False,
     ),
-    Method("linder", LINDER, "virtual penetration with local ellipses", "Linder 1997", True, True),
-    Method("stripes_a", STRIPES_A, "STRIPES with A correction", "Ayasse and Chollet 2005", True, True),
-    Method("stripes_ab", STRIPES_AB, "STRIPES with AB correction", "Ayasse and Chollet 2005", True, True),
-    Method("winkler", WINKLER, "elastic foundation", "Winkler 1867; Johnson 1985, ch. 4.3", True, True),
-    Method("srst", SRST, "square root of half the overlap", "Alonso and Giménez 2005", True, True),
-    Method("kpec", KPEC, "virtual penetration with elliptic correction", "CONTACT 25.1", True, False, continuous=False),
-    Method("semi_winkler", SEMI_WINKLER, "elastic foundation with tied springs", "Telliskivi 2004", True, True),
+    Method("linder", Normal.LINDER, "virtual penetration with local ellipses", "Linder 1997", True, True),
+    Method("stripes_a", Normal.STRIPES_A, "STRIPES with A correction", "Ayasse and Chollet 2005", True, True),
+    Method("stripes_ab", Normal.STRIPES_AB, "STRIPES with AB correction", "Ayasse and Chollet 2005", True, True),
+    Method("winkler", Normal.WINKLER, "elastic foundation", "Winkler 1867; Johnson 1985, ch. 4.3", True, True),
+    Method("srst", Normal.SRST, "square root of half the overlap", "Alonso and Giménez 2005", True, True),
+    Method(
+        "kpec",
+        Normal.KPEC,
+        "virtual penetration with elliptic correction",
+        "CONTACT 25.1",
+        True,
+        False,
+        continuous=False,
+    ),
+    Method("semi_winkler", Normal.SEMI_WINKLER, "elastic foundation with tied springs", "Telliskivi 2004", True, True),
     Method(
         "multi_hertz",
-        MULTI_HERTZ,
+        Normal.MULTI_HERTZ,
         "ellipses at secondary points",
         "Pascal and Sauvage 1993",
         True,
@@ -132,7 +150,7 @@ _NORMAL = (
     ),
     Method(
         "pascal_sauvage",
-        PASCAL_SAUVAGE,
+        Normal.PASCAL_SAUVAGE,
         "equivalent ellipse",
         "Pascal and Sauvage 1993",
         False,
@@ -141,7 +159,7 @@ _NORMAL = (
     ),
     Method(
         "halfspace",
-        HALFSPACE,
+        Normal.HALFSPACE,
         "NORM, element-wise half space: the reference",
         "Kalker 1990; Polonsky and Keer 1999",
         True,
@@ -151,13 +169,26 @@ _NORMAL = (
     ),
 )
 _TANGENTIAL = (
-    Method("fastrip", FASTRIP, "FaStrip on local ellipses", "Sichani 2016, ch. 4 and 9, Papers D and E", True, True),
     Method(
-        "fastsim", FASTSIM, "FASTSIM, three flexibilities, parabolic bound", "Kalker 1982", True, True, admissible=False
+        "fastrip",
+        Tangential.FASTRIP,
+        "FaStrip on local ellipses",
+        "Sichani 2016, ch. 4 and 9, Papers D and E",
+        True,
+        True,
+    ),
+    Method(
+        "fastsim",
+        Tangential.FASTSIM,
+        "FASTSIM, three flexibilities, parabolic bound",
+        "Kalker 1982",
+        True,
+        True,
+        admissible=False,
     ),
     Method(
         "fastrip_mapped",
-        FASTRIP_MAPPED,
+        Tangential.FASTRIP_MAPPED,
         "FaStrip in one march, mapped to the pressure",
         "this project",
         True,
@@ -166,7 +197,7 @@ _TANGENTIAL = (
     ),
     Method(
         "fastsim_one",
-        FASTSIM_ONE,
+        Tangential.FASTSIM_ONE,
         "FASTSIM, one weighted flexibility, parabolic bound",
         "Kalker 1982",
         True,
@@ -174,11 +205,16 @@ _TANGENTIAL = (
         admissible=False,
     ),
     Method(
-        "fastsim_elliptic", FASTSIM_ELLIPTIC, "FASTSIM, three flexibilities, elliptic bound", "Kalker 1982", True, True
+        "fastsim_elliptic",
+        Tangential.FASTSIM_ELLIPTIC,
+        "FASTSIM, three flexibilities, elliptic bound",
+        "Kalker 1982",
+        True,
+        True,
     ),
     Method(
         "fastsim_linder",
-        FASTSIM_LINDER,
+        Tangential.FASTSIM_LINDER,
         "FASTSIM with the flexibilities of Linder's local ellipses",
         "Linder 1997",
         True,
@@ -187,7 +223,7 @@ _TANGENTIAL = (
     ),
     Method(
         "fastsim_stripes",
-        FASTSIM_STRIPES,
+        Tangential.FASTSIM_STRIPES,
         "FASTSIM with the flexibilities of STRIPES' local ellipses",
         "Ayasse and Chollet 2005",
         True,
@@ -196,7 +232,7 @@ _TANGENTIAL = (
     ),
     Method(
         "fastsim_knothe",
-        FASTSIM,
+        Tangential.FASTSIM,
         "FASTSIM with the flexibilities of linear theory on the patch itself",
         "this project, after Knothe and Le The 1984",
         True,
@@ -205,10 +241,12 @@ _TANGENTIAL = (
         batched=False,
         calibrated=True,
     ),
-    Method("strip_theory", STRIP_THEORY, "strip theory", "Haines and Ollerton 1963; Kalker 1967", True, True),
+    Method(
+        "strip_theory", Tangential.STRIP_THEORY, "strip theory", "Haines and Ollerton 1963; Kalker 1967", True, True
+    ),
     Method(
         "carter",
-        CARTER,
+        Tangential.CARTER,
         "two-dimensional rolling contact, on a rectangle",
         "Carter 1926",
         False,
@@ -219,7 +257,7 @@ _TANGENTIAL = (
     ),
     Method(
         "johnson",
-        JOHNSON,
+        Tangential.JOHNSON,
         "creepage without spin on the circle of equal area",
         "Johnson 1958",
         False,
@@ -229,7 +267,7 @@ _TANGENTIAL = (
     ),
     Method(
         "vermeulen_johnson",
-        VERMEULEN_JOHNSON,
+        Tangential.VERMEULEN_JOHNSON,
         "creepage without spin on an ellipse",
         "Vermeulen and Johnson 1964",
         False,
@@ -237,10 +275,12 @@ _TANGENTIAL = (
         fields=False,
         spin=False,
     ),
-    Method("linear", LINEAR, "Kalker's linear theory", "Kalker 1967", False, True, fields=False, saturates=False),
+    Method(
+        "linear", Tangential.LINEAR, "Kalker's linear theory", "Kalker 1967", False, True, fields=False, saturates=False
+    ),
     Method(
         "linear_saturated",
-        LINEAR_SATURATED,
+        Tangential.LINEAR_SATURATED,
         "Kalker's linear theory, cut at friction",
         "thesis, ch. 5",
         False,
@@ -249,17 +289,17 @@ _TANGENTIAL = (
     ),
     Method(
         "shen_hedrick_elkins",
-        SHEN_HEDRICK_ELKINS,
+        Tangential.SHEN_HEDRICK_ELKINS,
         "Kalker's linear theory, saturated by the cubic law",
         "Shen, Hedrick and Elkins 1983",
         False,
         True,
         fields=False,
     ),
-    Method("polach", POLACH, "creep force with spin", "Polach 1999", False, True, fields=False),
+    Method("polach", Tangential.POLACH, "creep force with spin", "Polach 1999", False, True, fields=False),
     Method(
         "table",
-        TABLE,
+        Tangential.TABLE,
         "table of the half space's creep forces on ellipses",
         "this project, after Kalker 1996 (USETAB)",
         False,
@@ -269,7 +309,7 @@ _TANGENTIAL = (
     ),
     Method(
         "halfspace",
-        HALFSPACE,
+        Tangential.HALFSPACE,
         "TANG in steady rolling, element-wise half space: the reference",
         "Kalker 1990",
         True,

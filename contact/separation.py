@@ -2,27 +2,15 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact._jit import kernel
 from contact.errors import ContactError, require_number
+from contact.kernels.memory import Samples
+from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
 
-#: Samples of a separation with constant curvatures, and the gap that it reaches to [m].
-HERTZIAN_POINTS, _HERTZIAN_GAP = 41, 1e-3
 #: Of a slope of the surface [-] and of its rolling [1/m]: steeper than any surface, a wheel of a millimetre.
 LARGEST_TILT, LARGEST_ROLLING = 1e3, 1e3
-
-
-@kernel
-def fill_hertzian(B, y, g):
-    """Fill with samples of g = B·y² out to a gap of 1 mm."""
-    n = y.size
-    for i in range(n):
-        y[i] = math.sqrt(_HERTZIAN_GAP / B) * (2.0 * i / (n - 1) - 1.0)
-        g[i] = B * y[i] * y[i]
 
 
 class Separation:
@@ -51,7 +39,7 @@ class Separation:
         Wrong shapes, not finite, y not increasing, A not positive, tilt or rolling outside their range.
     """
 
-    __slots__ = ("A", "g", "rolling", "tilt", "x_c", "y")
+    __slots__ = ("A", "g", "rolling", "samples", "tilt", "x_c", "y")
 
     y: NDArray[np.float64]
     g: NDArray[np.float64]
@@ -59,6 +47,7 @@ class Separation:
     x_c: NDArray[np.float64]
     tilt: NDArray[np.float64]
     rolling: float
+    samples: Samples  # the arrays as kernels take them
 
     def __init__(
         self,
@@ -92,6 +81,7 @@ class Separation:
         self.rolling = require_number("rolling", rolling, -LARGEST_ROLLING, LARGEST_ROLLING)
         for array in (self.y, self.g, self.A, self.x_c, self.tilt):
             array.setflags(write=False)
+        self.samples = Samples(self.y, self.g, self.A, self.x_c, self.tilt)
 
     @classmethod
     def hertzian(cls, A: float, B: float) -> Separation:

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from enum import IntEnum
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.absence import only_with_fields
 from contact.creepage import Creepage
+from contact.kernels.friction import of_case
+from contact.kernels.layout import Field, Status, Strip
+from contact.kernels.memory import Workspace
 from contact.material import Material
 from contact.registry import methods
 
@@ -20,33 +22,10 @@ if TYPE_CHECKING:
     from contact.damage import Damage
 
 Array = NDArray[np.float64]
+Numbers = float | Array
 
 
-class Status(IntEnum):
-    """How a solution came about; the numbers are those of the FMU's `status`."""
-
-    OK = 1
-    NO_CONTACT = 2
-    SATURATED = 3  # full slip: |F| = mu N up to the effect of spin
-    OUT_OF_RANGE = 4  # the patch reaches the end of the separation: data are missing
-    NOT_CONVERGED = 5
-
-    @property
-    def message(self) -> str:
-        """One sentence for a log."""
-        return _MESSAGES[self]
-
-
-_MESSAGES = {
-    Status.OK: "solved",
-    Status.NO_CONTACT: "the bodies do not touch: all forces are zero",
-    Status.SATURATED: "solved; the whole patch slips",
-    Status.OUT_OF_RANGE: "the contact patch reaches the end of the given separation; extend y",
-    Status.NOT_CONVERGED: "the iteration stopped at its cap; the last iterate is returned",
-}
-
-
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Strips:
     """Longitudinal strips of the patch, each with a semi-elliptic pressure. All arrays have shape (n,).
 
@@ -68,8 +47,17 @@ class Strips:
     patch: NDArray[np.int64]
 
 
+class Prepared(NamedTuple):
+    """What a solver was made for and a solution says of itself."""
+
+    normal: str
+    tangential: str
+    material: Material
+    speed: float
+
+
 @only_with_fields("qx", "qy", "sx", "sy", "stick")
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Solution:
     """Solved contact of one wheel-rail pair in the frame of its separation.
 
@@ -77,10 +65,13 @@ class Solution:
     shape (n_strips, n_elements), element 0 at the leading edge. With no contact they are empty and all numbers zero. Where
     the tangential method gives forces alone, reading traction, slip or stick raises a ContactError (`has_fields`).
 
+    Two solutions are equal if they are the same one. The arrays of a solver's solution are read-only copies.
+    `dataclasses.replace` makes a changed one.
+
     Attributes
     ----------
     Fx, Fy : tangential force on the wheel [N]
-    pressure_y : what of Fy is pressure, on a bent surface (`contact.conformal`), and no creep force [N]
+    pressure_y : what of Fy is pressure, on a bent surface (`contact.kernels.conformal`), and no creep force [N]
     Mz : spin moment ∫(x q_y - y q_x) dA about the separation's origin [N m]
     N : normal force [N]
     approach : rigid approach of the bodies measured from g = 0 [m]
@@ -129,6 +120,23 @@ class Solution:
     pressure_y: float
     patch_edges: Array = field(repr=False)
     memory: Array = field(repr=False)
+
+    @classmethod
+    def of_kernel(
+        cls, n: int, own: Workspace, case: Array, result: Array, creepage: Creepage, prepared: Prepared
+    ) -> Solution:
+        """Copy what a kernel has left in a workspace for `n` strips. The copy is taken apart when it is first read."""
+        solution = cls.__new__(cls)
+        copies = result[0].copy(), own.strips[:, :n].copy(), own.fields[:, :n].copy(), own.space.memory.copy()
+        solution.__dict__["_left"] = (*copies, case[0].copy(), creepage, prepared)
+        return solution
+
+    def __getattr__(self, name: str) -> Any:
+        """Take the kernel's arrays apart when the first attribute is read."""
+        if "_left" not in self.__dict__:
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+        self.__dict__.update(_attributes(*self.__dict__.pop("_left")))
+        return getattr(self, name)
 
     def __repr__(self) -> str:
         return (
@@ -190,6 +198,77 @@ class Solution:
                 0.0,
             )
         return result
+
+
+@dataclass(frozen=True, slots=True)
+class Forces:
+    """Results of one case, as numbers, or of many, as arrays of the broadcast shape of the input. Units and signs as in `Solution`."""
+
+    Fx: Numbers
+    Fy: Numbers
+    Mz: Numbers
+    N: Numbers
+    approach: Numbers
+    max_pressure: Numbers
+    area: Numbers
+    slip_ratio: Numbers
+    power_per_metre: Numbers
+    status: int | NDArray[np.int64]
+
+
+def _attributes(
+    result: Any, strips: Array, fields: Array, memory: Array, case: Any, creepage: Creepage, prepared: Prepared
+) -> dict[str, Any]:
+    """Return the attributes of a `Solution` from copies of a kernel's record and arrays."""
+    y, dA = np.repeat(strips[Strip.Y][:, None], fields.shape[2], axis=1), fields[Field.DX] * strips[Strip.DY][:, None]
+    stick, patch = fields[Field.STICK] > 0.5, strips[Strip.PATCH].astype(np.int64)
+    edges = result.edges[: 2 * result.n_patches].reshape(-1, 2)
+    for array in (strips, fields, memory, y, dA, stick, patch, edges):
+        array.setflags(write=False)
+    return {
+        "Fx": float(result.Fx),
+        "Fy": float(result.Fy),
+        "Mz": float(result.Mz),
+        "N": float(result.N),
+        "approach": float(result.approach),
+        "max_pressure": float(result.pmax),
+        "area": float(result.area),
+        "slip_area": float(result.slip_area),
+        "power_per_metre": float(result.power),
+        "normal_stiffness": float(result.stiffness),
+        "length": float(result.length),
+        "width": float(result.width),
+        "n_patches": int(result.n_patches),
+        "iterations": int(result.iterations),
+        "status": Status(result.status),
+        "strips": Strips(
+            y=strips[Strip.Y],
+            dy=strips[Strip.DY],
+            x_c=strips[Strip.XC],
+            a=strips[Strip.A],
+            p0=strips[Strip.P0],
+            aspect=strips[Strip.ASPECT],
+            patch=patch,
+        ),
+        "x": fields[Field.X],
+        "y": y,
+        "p": fields[Field.P],
+        "qx": fields[Field.QX],
+        "qy": fields[Field.QY],
+        "sx": fields[Field.SX],
+        "sy": fields[Field.SY],
+        "stick": stick,
+        "dA": dA,
+        "creepage": creepage,
+        "friction": float(of_case(case)),
+        "material": prepared.material,
+        "speed": prepared.speed,
+        "normal": prepared.normal,
+        "tangential": prepared.tangential,
+        "pressure_y": float(result.pressure_y),
+        "patch_edges": edges,
+        "memory": memory,
+    }
 
 
 def _uncut(load: Array, a2: Array, limit: float) -> Array | float:

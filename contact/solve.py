@@ -4,89 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import partial
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact import kalker, workspace
-from contact._layout import (
-    APPROACH,
-    CASE_G,
-    CASE_LOAD,
-    CASE_LOAD_KIND,
-    CASE_NORMAL,
-    CASE_NU,
-    CASE_PHI,
-    CASE_PRESSURE_LIMIT,
-    CASE_TANGENTIAL,
-    CASE_VX,
-    CASE_VY,
-    FIELD_DX,
-    FIELD_P,
-    FIELD_QX,
-    FIELD_QY,
-    FIELD_STICK,
-    FIELD_SX,
-    FIELD_SY,
-    FIELD_X,
-    LOAD,
-    N_CASE,
-    RES_APPROACH,
-    RES_AREA,
-    RES_EDGES,
-    RES_FX,
-    RES_FY,
-    RES_ITERATIONS,
-    RES_LENGTH,
-    RES_MZ,
-    RES_N,
-    RES_PATCHES,
-    RES_PMAX,
-    RES_POWER,
-    RES_PRESSURE_Y,
-    RES_SLIP_AREA,
-    RES_STATUS,
-    RES_STIFFNESS,
-    RES_WIDTH,
-    STRIP_A,
-    STRIP_ASPECT,
-    STRIP_DY,
-    STRIP_P0,
-    STRIP_PATCH,
-    STRIP_XC,
-    STRIP_Y,
-)
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
-from contact.friction import Friction, as_friction, fill, of_case
+from contact.friction import Friction, as_friction
 from contact.halfspace import linear
 from contact.halfspace.gap import Division, Gap
 from contact.halfspace.solve import solve_gap, solve_pressure
+from contact.kalker import constant_table
 from contact.material import STEEL, Material
-from contact.pipeline import solve_case, solve_conformal
-from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.separation import Separation
-from contact.solution import Solution, Status, Strips
+from contact.solution import Solution
+from contact.solver import N_ELEMENTS, N_STRIPS, Solver, require_conformal, require_resolution, require_trustworthy
 
 Array = NDArray[np.float64]
-
-#: Resolution at which forces are within 0.002 mu N of their limit.
-N_STRIPS, N_ELEMENTS = 30, 30
-
-
-def require_resolution(n_strips: object, n_elements: object) -> tuple[int, int]:
-    """Return both as integers in [4, 1000], or raise a ContactError."""
-    for name, number in (("n_strips", n_strips), ("n_elements", n_elements)):
-        if not isinstance(number, int | np.integer) or not 4 <= number <= 1000:
-            raise ContactError(f"{name} = {number!r} is not an integer in the allowed range [4, 1000]")
-    return int(n_strips), int(n_elements)  # type: ignore[call-overload]
-
-
-def require_conformal(tangential: Method) -> None:
-    """Raise a ContactError for a tangential method that knows the contact plane alone."""
-    if not tangential.fields:
-        raise ContactError(f"conformal: tangential = {tangential.name!r} knows the contact plane alone")
 
 
 def solve(
@@ -131,7 +68,7 @@ def solve(
     spacing : float or (float, float)
         Size (dx, dy) of the elements of the half space [m], instead of their number.
     conformal : bool
-        Let the contact angle vary over the patch by the separation's `tilt` and `rolling` (`contact.conformal`): slip and the
+        Let the contact angle vary over the patch by the separation's `tilt` and `rolling` (`contact.kernels.conformal`): slip and the
         directions of pressure and traction follow the surface. Fx, Fy, Mz are then resultants in the frame of the plane, the
         lateral part of the pressure included; fields count along the surface.
     start : Solution
@@ -160,9 +97,9 @@ def solve(
     if (load is None) == (approach is None):
         raise ContactError(f"exactly one of load and approach is needed; load = {load}, approach = {approach}")
     if load is not None:
-        kind, amount = LOAD, require_number("load", load, 0.0)
+        require_number("load", load, 0.0)
     else:
-        kind, amount = APPROACH, require_number("approach", approach)
+        require_number("approach", approach)
     surface = as_friction(friction)
     speed = require_number("speed", speed, 0.0, open_minimum=True)
     n_strips, n_elements = require_resolution(n_strips, n_elements)
@@ -198,19 +135,18 @@ def solve(
     elif not isinstance(separation, Separation):
         raise ContactError(f"normal = {normal!r} needs a contact.Separation; separation = {separation!r} is on a grid")
     else:
-        on_strips = partial(_on_strips, separation, creepage, (kind, amount), surface, material, speed, method)
-        solution = on_strips(rolling, n_strips, n_elements, start, conformal and not rolling.elementwise)
+        strips = _Strips(separation, creepage, load, approach, surface, material, speed, method.name)
+        stands_in = DEFAULT_TANGENTIAL if rolling.elementwise else rolling.kernel
+        solution = strips.solve(stands_in, n_strips, n_elements, start, conformal and not rolling.elementwise)
         if rolling.calibrated and solution.N > 0.0:
-            own = _patch_coefficients(on_strips, solution)
-            solution = on_strips(rolling, n_strips, n_elements, start, conformal, own)
+            own = _patch_coefficients(strips, solution)
+            solution = strips.solve(stands_in, n_strips, n_elements, start, conformal, own)
+        if rolling.name != stands_in and not rolling.elementwise:
+            solution = replace(solution, tangential=rolling.name)
         if rolling.elementwise:
             solution = solve_pressure(solution, separation if conformal else None, surface, division, progress)
-    if throw and solution.status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED):
-        what = "load" if load is not None else "approach"
-        raise ContactError(
-            f"{what} = {amount:g}: {solution.status.message}; y = [{separation.y[0]:g}, {separation.y[-1]:g}] m "
-            f"(throw=False returns the solution with this status)"
-        )
+    if throw:
+        require_trustworthy(solution, separation, load, approach)
     return solution
 
 
@@ -225,94 +161,57 @@ def _pair(spacing: object) -> tuple[float, float] | None:
     return dx, dy
 
 
-def _patch_coefficients(on_strips: Callable[..., Solution], solution: Solution) -> tuple[float, float, float]:
-    """C11, C22, C23 of linear theory on the patch of a `solution`, solved again by `on_strips` as coarsely as that theory."""
-    anyhow, material = lookup("tangential", DEFAULT_TANGENTIAL), solution.material
+class _Strips(NamedTuple):
+    """One problem, to be solved on strips by different methods and resolutions."""
+
+    separation: Separation
+    creepage: Creepage
+    load: float | None
+    approach: float | None
+    friction: Friction
+    material: Material
+    speed: float
+    normal: str
+
+    def solve(
+        self,
+        tangential: str,
+        n_strips: int,
+        n_elements: int,
+        start: Solution | None = None,
+        conformal: bool = False,
+        coefficients: tuple[float, float, float] | None = None,
+    ) -> Solution:
+        """Solve it, with the patch's own C11, C22, C23 if given."""
+        solver = Solver(
+            normal=self.normal,
+            tangential=tangential,
+            n_strips=n_strips,
+            n_elements=n_elements,
+            friction=self.friction,
+            material=self.material,
+            speed=self.speed,
+            conformal=conformal,
+            n_samples=self.separation.y.size,
+        )
+        if coefficients is not None:
+            solver.calibrate(constant_table(*coefficients))
+        if start is not None:
+            solver.start_from(start)
+        return solver.solve(
+            self.separation,
+            self.creepage,
+            load=self.load,
+            approach=self.approach,
+            warm=start is not None,
+            throw=False,
+        )
+
+
+def _patch_coefficients(strips: _Strips, solution: Solution) -> tuple[float, float, float]:
+    """C11, C22, C23 of linear theory on the patch of a `solution`, solved again as coarsely as that theory."""
 
     def at(n: int) -> Array:
-        return linear.flexibilities(on_strips(anyhow, n, n).strips, material, n)
+        return linear.flexibilities(strips.solve(DEFAULT_TANGENTIAL, n, n).strips, solution.material, n)
 
-    return linear.coefficients(linear.extrapolated(at), solution.strips, material)
-
-
-def _on_strips(
-    separation: Separation,
-    creepage: Creepage,
-    amount: tuple[float, float],
-    surface: Friction,
-    material: Material,
-    speed: float,
-    method: Method,
-    rolling: Method,
-    n_strips: int,
-    n_elements: int,
-    start: Solution | None = None,
-    conformal: bool = False,
-    coefficients: tuple[float, float, float] | None = None,
-) -> Solution:
-    """Call the kernel, with the patch's own C11, C22, C23 if given; the default method stands in for the half space."""
-    stands_in = lookup("tangential", DEFAULT_TANGENTIAL) if rolling.elementwise else rolling
-    case = np.zeros(N_CASE)
-    case[CASE_LOAD_KIND], case[CASE_LOAD] = amount
-    case[CASE_VX], case[CASE_VY], case[CASE_PHI] = creepage.longitudinal, creepage.lateral, creepage.spin
-    case[CASE_G], case[CASE_NU] = material.shear_modulus, material.poisson_ratio
-    case[CASE_PRESSURE_LIMIT] = material.pressure_limit
-    case[CASE_NORMAL], case[CASE_TANGENTIAL] = method.id, stands_in.id
-    fill(case, surface, speed)
-    own = workspace.allocate(method, stands_in, material.poisson_ratio, n_strips, n_elements, separation.y.size)
-    if coefficients is not None:
-        own = own._replace(tables=own.tables._replace(kalker=kalker.constant_table(*coefficients)))
-    if start is not None and start.memory.size == own.space.memory.size:
-        own.space.memory[:] = start.memory
-    s = separation
-    if conformal:
-        n = solve_conformal(s.y, s.g, s.A, s.x_c, s.tilt, s.rolling, case, *own)
-    else:
-        n = solve_case(s.y, s.g, s.A, s.x_c, case, *own)
-    result = own.result
-    status = Status(int(result[RES_STATUS]))
-    strips, fields = own.strips[:, :n], own.fields[:, :n]
-    return Solution(
-        Fx=float(result[RES_FX]),
-        Fy=float(result[RES_FY]),
-        Mz=float(result[RES_MZ]),
-        N=float(result[RES_N]),
-        approach=float(result[RES_APPROACH]),
-        max_pressure=float(result[RES_PMAX]),
-        area=float(result[RES_AREA]),
-        slip_area=float(result[RES_SLIP_AREA]),
-        power_per_metre=float(result[RES_POWER]),
-        normal_stiffness=float(result[RES_STIFFNESS]),
-        length=float(result[RES_LENGTH]),
-        width=float(result[RES_WIDTH]),
-        n_patches=int(result[RES_PATCHES]),
-        iterations=int(result[RES_ITERATIONS]),
-        status=status,
-        strips=Strips(
-            y=strips[STRIP_Y],
-            dy=strips[STRIP_DY],
-            x_c=strips[STRIP_XC],
-            a=strips[STRIP_A],
-            p0=strips[STRIP_P0],
-            aspect=strips[STRIP_ASPECT],
-            patch=strips[STRIP_PATCH].astype(np.int64),
-        ),
-        x=fields[FIELD_X],
-        y=np.repeat(strips[STRIP_Y][:, None], fields.shape[2], axis=1),
-        p=fields[FIELD_P],
-        qx=fields[FIELD_QX],
-        qy=fields[FIELD_QY],
-        sx=fields[FIELD_SX],
-        sy=fields[FIELD_SY],
-        stick=fields[FIELD_STICK] > 0.5,
-        dA=fields[FIELD_DX] * strips[STRIP_DY][:, None],
-        creepage=creepage,
-        friction=float(of_case(case)),
-        material=material,
-        speed=speed,
-        normal=method.name,
-        tangential=rolling.name,
-        pressure_y=float(result[RES_PRESSURE_Y]),
-        patch_edges=result[RES_EDGES : RES_EDGES + 2 * int(result[RES_PATCHES])].reshape(-1, 2).copy(),
-        memory=own.space.memory,
-    )
+    return linear.coefficients(linear.extrapolated(at), solution.strips, solution.material)

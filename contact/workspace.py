@@ -1,133 +1,158 @@
-"""The arrays that kernels read and write, allocated once by their owner: a call, a batch thread or an FMU instance."""
+"""Allocation of the arrays that kernels read and write: one block of memory for each owner (`contact.kernels.memory`)."""
 
 from __future__ import annotations
 
 import functools
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact import kalker, quadrature
-from contact._layout import MAX_PATCHES, N_FIELD_ROWS, N_RES, N_STRIP_ROWS
-from contact.normal import influence
-from contact.normal.analyn import N_WORK_ROWS
-from contact.normal.strip_halfspace import MEM_LN_A
-from contact.normal.strip_system import N_VECTOR_ROWS
+from contact import force_table, kalker
+from contact.kernels import families, memory, quadrature
+from contact.kernels.damage.deposit import arc_length
+from contact.kernels.layout import N_BIN_ROWS
+from contact.kernels.memory import Bench, Ledger, Rule, Search, Size, Tables, Workspace
+from contact.kernels.normal import influence
 from contact.registry import Method
-from contact.tangential import table
-from contact.tangential.lanes import LANES, N_LANE_ROWS, TRACE_WIDTH
 
 Array = NDArray[np.float64]
 
 
-class Rule(NamedTuple):
-    """Where strips and elements lie in a patch (`quadrature`): constant for a resolution, read-only."""
-
-    nodes: Array
-    weights: Array
-    elements: Array
-    cosines: Array
-    cosine_logs: Array
-    columns: Array
+def _zeros(n: int) -> Array:
+    """Return n zeros that begin at a cache line."""
+    numbers = np.zeros(n + 7)
+    first = -(numbers.ctypes.data // 8) % 8
+    return numbers[first : first + n]
 
 
-class Tables(NamedTuple):
-    """Interpolated functions, read-only: Kalker's coefficients of one Poisson ratio, influence of strips, half-space forces."""
+class _Everywhere:
+    """A block that is as large as whoever lays arrays into it likes; only the end that comes out of it has a meaning."""
 
-    kalker: Array
-    centre: Array
-    plane: Array
-    creep: Array
+    shape = (0, 0, 0)
+    size = 0
 
+    def __getitem__(self, where: object) -> _Everywhere:
+        return self
 
-class Space(NamedTuple):
-    """Scratch arrays: of the normal methods, `memory`, from which the next call may start, and of the tangential ones."""
+    def reshape(self, *shape: int) -> _Everywhere:
+        return self
 
-    grid: Array
-    vectors: Array
-    logs: Array
-    matrix: Array
-    lu: Array
-    memory: Array
-    lanes: Array
-    trace: Array
+    def view(self, dtype: np.dtype) -> _Everywhere:
+        return self
 
 
-class Workspace(NamedTuple):
-    """Everything that `pipeline.solve_case` needs besides the problem."""
-
-    rule: Rule
-    tables: Tables
-    space: Space
-    strips: Array
-    fields: Array
-    result: Array
+def _laid(lay: Callable[..., tuple[Any, ...]], *arguments: Any) -> Any:
+    """Call a function of `contact.kernels.memory` with a block of the size that it needs; return what it lays."""
+    size = lay(_Everywhere(), 0, *arguments)[-1]
+    *arrays, _ = lay(_zeros(size), 0, *arguments)
+    return arrays[0] if len(arrays) == 1 else tuple(arrays)
 
 
-def columns_shape(n_strips: int, interacting: bool) -> tuple[int, int, int]:
-    """Shape of `Rule.columns`; (1, 1, 1) where it is not used."""
-    if interacting and n_strips <= influence.MOST_TABULATED:
-        return influence.N_COLUMNS, n_strips, n_strips
-    return 1, 1, 1
+def _read_only(*arrays: Array) -> None:
+    for array in arrays:
+        array.setflags(write=False)
 
 
 @functools.lru_cache(maxsize=64)
 def rule(n_strips: int, n_elements: int, interacting: bool) -> Rule:
-    """Return the (cached) rule of one resolution; `columns` only for methods with `interacting` strips."""
-    cosines, logs = quadrature.panel(n_strips)
-    columns = np.empty(columns_shape(n_strips, interacting))
-    if columns.size > 1:
-        influence.fill_columns(logs, influence.tables()[0], columns)
-    return Rule(*quadrature.fejer(n_strips), quadrature.elements(n_elements), cosines, logs, columns)
+    """Return the (cached) rule of one resolution; its table of columns only for methods with `interacting` strips."""
+    made = _laid(memory.lay_rule, Size(n_strips, n_elements, 0, int(interacting), 0))
+    quadrature.fill_fejer(*made.across)
+    quadrature.fill_elements(made.elements)
+    quadrature.fill_panel(made.cosines, made.cosine_logs)
+    if made.columns.size > 1:
+        influence.fill_columns(made.cosine_logs, strip_tables()[0], made.columns)
+    _read_only(*made.across, *made[1:])
+    return made
+
+
+@functools.cache
+def strip_tables() -> tuple[Array, Array]:
+    """Return U on the centre line, shape (401, 2), and over (X, ln t), shape (203, 534); made once a process (0.2 s)."""
+    centre, plane = np.empty(influence.CENTRE), np.empty(influence.PLANE)
+    influence.fill(centre, plane)
+    _read_only(centre, plane)
+    return centre, plane
 
 
 @functools.lru_cache(maxsize=64)
 def tables(poisson_ratio: float, interacting: bool, tabulated: bool) -> Tables:
     """Return the (cached) tables; influence of strips and the half space's forces only for methods that need them."""
-    empty, no_forces = (np.zeros((1, 2)), np.zeros((1, 1))), np.zeros((1, 1, 1, 1, 1))
-    no_forces.setflags(write=False)  # as the table is: one signature for numba
+    no_influence, no_forces = (np.zeros((1, 2)), np.zeros((1, 1))), np.zeros((1, 1, 1, 1, 1))
+    _read_only(*no_influence, no_forces)  # as the tables are: one signature for numba
     return Tables(
         kalker.table(poisson_ratio),
-        *(influence.tables() if interacting else empty),
-        table.load() if tabulated else no_forces,
+        *(strip_tables() if interacting else no_influence),
+        force_table.load() if tabulated else no_forces,
     )
 
 
-def _at_line(n: int) -> Array:
-    """`n` numbers from the beginning of a cache line on; vectors that lie across two cost a sixth of the march's time."""
-    memory = np.empty(n + 7)
-    first = -(memory.ctypes.data // 8) % 8
-    return memory[first : first + n]
+def markers(normal: Method, tangential: Method) -> families.Families:
+    """Return the markers by which kernels for these methods are chosen."""
+    return families.Families(families.NORMAL[normal.family], families.TANGENTIAL[tangential.family])  # type: ignore[index]
 
 
 def allocate(
-    normal: Method,
-    tangential: Method,
-    poisson_ratio: float,
-    n_strips: int,
-    n_elements: int,
-    n_samples: int,
-    *,
-    fields: bool = True,
+    normal: Method, tangential: Method, poisson_ratio: float, size: tuple[int, int, int], *, fields: bool = True
 ) -> Workspace:
-    """Allocate a workspace for separations of at most `n_samples` points; without `fields`, for forces alone."""
-    capacity = MAX_PATCHES * n_strips
-    size = capacity if normal.interacting else 1
+    """Allocate a workspace.
+
+    Parameters
+    ----------
+    size : (n_strips, n_elements, n_samples)
+        Resolution, and the most samples of a separation.
+    fields : bool
+        Whether fields are wanted; else forces only.
+    """
+    full = Size(*size, int(normal.interacting), int(fields))
+    strips, field_array = _laid(memory.lay_strips_and_fields, full)
+    space = _laid(memory.lay_space, full, np.zeros(memory.memory_size(full)))
     return Workspace(
-        rule(n_strips, n_elements, normal.interacting),
+        markers(normal, tangential),
+        rule(full.n_strips, full.n_elements, normal.interacting),
         tables(poisson_ratio, normal.interacting, tangential.tabulated),
-        Space(
-            grid=np.empty((N_WORK_ROWS, n_samples)),
-            vectors=np.empty((N_VECTOR_ROWS, size)),
-            logs=np.empty((size, size + MAX_PATCHES)),
-            matrix=np.empty((size, size)),
-            lu=np.empty((size, size)),
-            memory=np.zeros(MEM_LN_A + size),
-            lanes=_at_line(N_LANE_ROWS * LANES),
-            trace=_at_line(n_elements * TRACE_WIDTH).reshape(n_elements, TRACE_WIDTH),
-        ),
-        np.empty((N_STRIP_ROWS, capacity)),
-        np.empty((N_FIELD_ROWS, capacity if fields else 1, n_elements)),
-        np.empty(N_RES),
+        space,
+        strips,
+        field_array,
     )
+
+
+def search(wheel: Array, rail: Array, grid: Array, n_samples: int) -> Search:
+    """Allocate what a search needs with these curves, for separations at the positions `grid` or, if empty, anywhere."""
+    made: Search = _laid(memory.lay_search, wheel.shape[1], rail.shape[1], grid.size, n_samples)
+    made.wheel[:], made.rail[:], made.grid[:] = wheel, rail, grid
+    quadrature.fill_fejer(*made.across)
+    return made
+
+
+def ledger(wheel: Array, rail: Array, n_strips: int, n_bins: int, first: float, width: float) -> Ledger:
+    """Allocate a ledger with nothing in it, for patches of at most `n_strips` strips a part.
+
+    Parameters
+    ----------
+    wheel, rail : ndarray
+        Rows y, z [m] of the profiles with which the pair was made.
+    n_bins : int
+    first, width : float
+        Arc length at which the first bin begins, and width of a bin [m].
+    """
+    made: Ledger = _laid(memory.lay_ledger, wheel, rail, np.zeros((2, N_BIN_ROWS, n_bins)), n_strips)
+    arc_length(made.wheel, made.wheel_arc)
+    arc_length(made.rail, made.rail_arc)
+    made.settings["start"], made.settings["width"] = first / width, width
+    return made
+
+
+def closed_ledger() -> Ledger:
+    """Allocate a ledger without bins, in which nothing is entered."""
+    nothing = np.zeros((2, 0))
+    return _laid(memory.lay_ledger, nothing, nothing, np.zeros((2, N_BIN_ROWS, 0)), 0)
+
+
+def bench(size: tuple[int, int, int], of_search: Search, own: Workspace, of_ledger: Ledger) -> Bench:
+    """Allocate the arrays of a pair around its search, its workspace and its ledger."""
+    full = Size(*size, 0, 1)
+    kept = np.zeros(1 + memory.MAX_PATCHES * own.space.memory.size)
+    return _laid(memory.lay_bench, full, kept, of_search, own, of_ledger)

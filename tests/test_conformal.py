@@ -5,20 +5,10 @@ import math
 import numpy as np
 import pytest
 
+from contact.kernels.layout import Strip
 import contact
-from contact._layout import (
-    CASE_PHI,
-    CASE_VX,
-    CASE_VY,
-    N_CASE,
-    N_STRIP_ROWS,
-    STRIP_PHI,
-    STRIP_TILT,
-    STRIP_VX,
-    STRIP_VY,
-    STRIP_Y,
-)
-from contact.conformal import bend, surface_at
+from contact.kernels.layout import N_CASE, N_STRIP_ROWS
+from contact.kernels.conformal import bend, surface_at
 from contact.geometry import profile, wheelset
 from contact.geometry.wheelset import Pair, Pose
 from contact.halfspace.gap import Gap
@@ -67,15 +57,15 @@ def test_strips_have_the_exact_change_of_radius_and_the_spin_of_their_angle():
     """A wheel of radius r rolls straight at a contact angle: ξ(y) = -(r(y) - r0)/r0, phi(y) = sin(angle + Δ)/r0."""
     r0, angle, bow = 0.46, -0.3, 12.0
     case, strips = np.zeros(N_CASE), np.zeros((N_STRIP_ROWS, 3))
-    case[CASE_PHI], case[CASE_VX], case[CASE_VY] = math.sin(angle) / r0, 0.0, 5e-3
-    strips[STRIP_Y] = y = np.array([-8e-3, 0.0, 6e-3])
+    case.phi, case.vx, case.vy = math.sin(angle) / r0, 0.0, 5e-3
+    strips[Strip.Y] = y = np.array([-8e-3, 0.0, 6e-3])
     bend(Y, bow * Y, math.cos(angle) / r0, case, strips, 3)
     delta, height = np.arctan(bow * y), 0.5 * bow * y**2
-    np.testing.assert_allclose(strips[STRIP_TILT], bow * y, atol=1e-15)
-    np.testing.assert_allclose(strips[STRIP_PHI], np.sin(angle + delta) / r0, rtol=1e-12)
-    np.testing.assert_allclose(strips[STRIP_VY], 5e-3 * np.cos(delta), rtol=1e-12)
+    np.testing.assert_allclose(strips[Strip.TILT], bow * y, atol=1e-15)
+    np.testing.assert_allclose(strips[Strip.PHI], np.sin(angle + delta) / r0, rtol=1e-12)
+    np.testing.assert_allclose(strips[Strip.VY], 5e-3 * np.cos(delta), rtol=1e-12)
     radius_change = y * math.sin(angle) + height * math.cos(angle)
-    np.testing.assert_allclose(strips[STRIP_VX] - strips[STRIP_PHI] * y, -radius_change / r0, atol=1e-15)
+    np.testing.assert_allclose(strips[Strip.VX] - strips[Strip.PHI] * y, -radius_change / r0, atol=1e-15)
 
 
 def test_without_friction_the_pressure_of_a_tilted_surface_pushes_sideways():

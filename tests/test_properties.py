@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import contact
 from benchmarks import robustness
-from contact.normal import strip_halfspace
+from contact.kernels.normal import strip_halfspace
 from tests.test_solve import assert_post_conditions
 
 NORMAL, METHODS = list(contact.methods().batched.normal), contact.methods().batched.tangential

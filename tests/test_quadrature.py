@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from contact.kernels.layout import Element
 from contact import quadrature
 
 
@@ -28,9 +29,9 @@ def test_fejer_integrates_polynomials_and_elements_the_semi_ellipse(n):
     for power in range(0, min(n, 9), 2):
         assert weights @ nodes**power == pytest.approx(2.0 / (power + 1), rel=1e-14)
     elements = quadrature.elements(n)
-    s = elements[quadrature.EL_S]
-    assert elements[quadrature.EL_SINE] @ elements[quadrature.EL_DX] == pytest.approx(0.5 * math.pi, rel=1e-14)
-    assert elements[quadrature.EL_LOAD_END, -1] == pytest.approx(0.5 * math.pi, rel=1e-14)
+    s = elements[Element.S]
+    assert elements[Element.SINE] @ elements[Element.DX] == pytest.approx(0.5 * math.pi, rel=1e-14)
+    assert elements[Element.LOAD_END, -1] == pytest.approx(0.5 * math.pi, rel=1e-14)
     np.testing.assert_allclose(
-        elements[quadrature.EL_ATANH, 1:], np.arctanh(s[:-1]) - np.arctanh(s[1:]), rtol=1e-11, atol=1e-13
+        elements[Element.ATANH, 1:], np.arctanh(s[:-1]) - np.arctanh(s[1:]), rtol=1e-11, atol=1e-13
     )

@@ -9,18 +9,20 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.damage import DamageParameters, deposit
+from contact.damage import DamageParameters
 from contact.damage.assessment import assess
 from contact.errors import ContactError, require_number
 from contact.geometry.profile import Profile
 from contact.geometry.records import Patch
+from contact.kernels.damage import deposit
+from contact.kernels.layout import LEDGER, N_BIN_ROWS
 from contact.material import Material
 from contact.solution import Solution
 
 Array = NDArray[np.float64]
 Per = Literal["metre", "revolution", "pass"]
 
-#: Name → unit and meaning of what adds up, in the order of `contact.damage.deposit`. Volume and T-gamma are those of the
+#: Name → unit and meaning of what adds up, in the order of `contact.kernels.damage.deposit`. Volume and T-gamma are those of the
 #: bin, the rest are means over its width.
 SUMS = {
     "contact": ("m", "distance rolled in contact"),
@@ -154,10 +156,10 @@ class Histogram:
             )
         done = assess(solution, patch.rolling_radius, self.parameters)
         n = solution.strips.y.size
-        rates, edges = np.empty((deposit.N_ROWS, n)), np.empty((2, n))
+        rates, edges = np.empty((N_BIN_ROWS, n)), np.empty((2, n))
         y, z = patch.on_wheel if self.profile.kind == "wheel" else patch.on_rail
         mirror = math.copysign(1.0, patch.position[1])  # the right rail lies at positive y
-        off = deposit.place(self._rows, self.arc, y, z, patch.angle, mirror, done.strips, n, edges)
+        off = deposit.place(self._rows, self.arc, (y, z), patch.angle, mirror, done.strips, n, edges)
         if off > _OFF:
             raise ContactError(
                 f"patch.on_{self.profile.kind} = ({y:g}, {z:g}) does not lie on {self.profile!r}; "
@@ -165,7 +167,8 @@ class Histogram:
             )
         deposit.strip_rates(done.strips, n, done.fields, done.constants, done.damage, done.damage_fields, rates)
         is_wheel = self.profile.kind == "wheel"
-        deposit.deposit(rates, edges, done.strips, n, distance, is_wheel, self._start, self.width, values)
+        settings = np.array([(self._start, self.width, distance)], LEDGER)[0]
+        deposit.deposit(rates, edges, done.strips, n, settings, is_wheel, values)
 
     def __add__(self, other: Histogram) -> Histogram:
         if not isinstance(other, Histogram):

@@ -7,11 +7,11 @@ from typing import Annotated
 
 import typer
 
+from contact import force_table as table
 from contact.cli.output import reported
 from contact.cli.progress import progress_bar
 from contact.study import creep_table
 from contact.study import effective as effective_creepage
-from contact.tangential import table
 
 app = typer.Typer(
     name="table",
@@ -31,7 +31,7 @@ def build(
 ) -> None:
     """Compute the table with the half space: 4104 cases, some minutes. It goes on where it was interrupted.
 
-    Example:  contact table build --out creep_table.csv, to take the place of the package's contact/tangential/creep_table.csv
+    Example:  contact table build --out creep_table.csv, to take the place of the package's contact/data/creep_table.csv
     """
     with progress_bar() as bar:
         creep_table.build(out, elements, processes=processes, progress=bar)

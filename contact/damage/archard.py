@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact._jit import kernel
 from contact.damage._check import Array, elementwise, numbers
 from contact.errors import require_number
+from contact.kernels.damage.archard import wear_coefficient_kernel
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,25 +61,6 @@ class ArchardMap:
                 self.seizure_ratio,
             ]
         )
-
-
-@kernel
-def wear_coefficient_kernel(velocity, pressure, hardness, constants):
-    """Archard's k [-] for sliding velocity [m/s], pressure and hardness [Pa]."""
-    mild, severe, mild_fast, seizure = constants[0], constants[1], constants[2], constants[3]
-    k = severe if velocity <= constants[5] else mild_fast  # choices, not branches: for vector instructions
-    k = mild if velocity < constants[4] else k
-    return seizure if pressure > constants[6] * hardness else k
-
-
-@kernel
-def depth_times_hardness(slip, pressure, dx, speed, hardness, constants):
-    """k p Δs [Pa m], Δs = slip·dx: over the hardness the depth that a particle loses on its way dx [m] (Eq. 6.4).
-
-    `slip` is the sliding velocity relative to the rolling speed, so it takes dx/V to pass and slides slip·V·dx/V.
-    """
-    k = wear_coefficient_kernel(slip * speed, pressure, hardness, constants)
-    return k * pressure * slip * dx
 
 
 def wear_coefficient(

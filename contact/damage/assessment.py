@@ -8,59 +8,25 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from contact._layout import (
-    CASE_PHI,
-    CASE_TANGENTIAL,
-    CASE_VX,
-    CASE_VY,
-    FIELD_DX,
-    FIELD_P,
-    FIELD_QX,
-    FIELD_QY,
-    FIELD_SX,
-    FIELD_SY,
-    FIELD_X,
-    N_CASE,
-    N_FIELD_ROWS,
-    N_RES,
-    N_STRIP_ROWS,
-    RES_AREA,
-    RES_FX,
-    RES_FY,
-    RES_MZ,
-    RES_N,
-    RES_PMAX,
-    RES_POWER,
-    RES_PRESSURE_Y,
-    STRIP_A,
-    STRIP_DY,
-    STRIP_Y,
-)
 from contact.absence import only_with_fields
-from contact.damage._kernel import (
-    DAMAGE_ARCHARD_DEPTH,
-    DAMAGE_ARCHARD_VOLUME,
-    DAMAGE_BURSTOW,
-    DAMAGE_DISSIPATION,
-    DAMAGE_ENERGY_INDEX,
-    DAMAGE_FATIGUE_INDEX,
-    DAMAGE_PEARCE_SHERRATT,
-    DAMAGE_STRESS_INDEX,
-    DAMAGE_T_GAMMA,
-    DAMAGE_T_GAMMA_SPIN,
-    DAMAGE_USFD,
-    DFIELD_DEPTH,
-    DFIELD_ENERGY_INDEX,
-    DFIELD_STRESS_INDEX,
-    N_DAMAGE,
-    N_DAMAGE_FIELDS,
-    damage_kernel,
-)
 from contact.damage.archard import ArchardMap
 from contact.damage.burstow import Burstow
 from contact.damage.pearce_sherratt import PearceSherratt
 from contact.damage.usfd import Usfd
 from contact.errors import ContactError, require_number
+from contact.kernels.damage.assess import damage_kernel
+from contact.kernels.layout import (
+    CASE,
+    DAMAGE,
+    DAMAGE_PARAMETERS,
+    N_DAMAGE_FIELDS,
+    N_FIELD_ROWS,
+    N_STRIP_ROWS,
+    RESULT,
+    DamageField,
+    Field,
+    Strip,
+)
 from contact.material import Material
 from contact.registry import methods
 
@@ -99,24 +65,22 @@ class DamageParameters:
         if self.wear_law not in WEAR_LAWS:
             raise ContactError(f"wear_law = {self.wear_law!r} is unknown; allowed: {', '.join(WEAR_LAWS)}")
 
-    def array(self, material: Material, wheel_radius: float, speed: float) -> Array:
-        """Return `parameters` of `damage_kernel`; lengths in m, speed in m/s.
+    def record(self, material: Material, wheel_radius: float, speed: float) -> np.record:
+        """Return the record DAMAGE_PARAMETERS of `contact.kernels.layout`; lengths in m, speed in m/s.
 
         Raises
         ------
         ContactError
             If wheel radius or speed is not positive.
         """
-        head = [
-            require_number("speed", speed, 0.0, open_minimum=True),
-            require_number("wheel_radius", wheel_radius, 0.0, open_minimum=True),
-            material.hardness,
-            material.shear_yield,
-            float(self.with_spin),
-            float(WEAR_LAWS.index(self.wear_law)),
-        ]
-        models = (self.pearce_sherratt, self.burstow, self.usfd, self.archard)
-        return np.concatenate([head, *(model.constants() for model in models)])
+        made = np.zeros(1, DAMAGE_PARAMETERS)[0]
+        made.speed = require_number("speed", speed, 0.0, open_minimum=True)
+        made.wheel_radius = require_number("wheel_radius", wheel_radius, 0.0, open_minimum=True)
+        made.hardness, made.shear_yield = material.hardness, material.shear_yield
+        made.with_spin, made.wear_law = self.with_spin, WEAR_LAWS.index(self.wear_law)
+        for name in ("pearce_sherratt", "burstow", "usfd", "archard"):
+            made[name] = getattr(self, name).constants()
+        return made
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,24 +174,24 @@ def evaluate(solution: Solution, wheel_radius: float = 0.46, parameters: DamageP
         If the wheel radius is not positive.
     """
     assessed = assess(solution, wheel_radius, parameters)
-    number, damage_fields = assessed.damage.tolist(), assessed.damage_fields
+    number, damage_fields = assessed.damage, assessed.damage_fields
     return Damage(
-        T_gamma=number[DAMAGE_T_GAMMA],
-        T_gamma_spin=number[DAMAGE_T_GAMMA_SPIN],
-        dissipation=number[DAMAGE_DISSIPATION],
-        pearce_sherratt=number[DAMAGE_PEARCE_SHERRATT],
-        burstow=number[DAMAGE_BURSTOW],
-        usfd=number[DAMAGE_USFD],
+        T_gamma=float(number.T_gamma),
+        T_gamma_spin=float(number.T_gamma_spin),
+        dissipation=float(number.dissipation),
+        pearce_sherratt=float(number.pearce_sherratt),
+        burstow=float(number.burstow),
+        usfd=float(number.usfd),
         archard=ArchardWear(
-            depth=damage_fields[DFIELD_DEPTH],
-            depth_per_strip=damage_fields[DFIELD_DEPTH].sum(axis=1),
-            depth_max=number[DAMAGE_ARCHARD_DEPTH],
-            volume=number[DAMAGE_ARCHARD_VOLUME],
+            depth=damage_fields[DamageField.DEPTH],
+            depth_per_strip=damage_fields[DamageField.DEPTH].sum(axis=1),
+            depth_max=float(number.archard_depth),
+            volume=float(number.archard_volume),
             wheel_radius=wheel_radius,
         ),
-        fatigue_index=number[DAMAGE_FATIGUE_INDEX],
-        stress_index=IndexField(damage_fields[DFIELD_STRESS_INDEX], number[DAMAGE_STRESS_INDEX]),
-        energy_index=IndexField(damage_fields[DFIELD_ENERGY_INDEX], number[DAMAGE_ENERGY_INDEX]),
+        fatigue_index=float(number.fatigue_index),
+        stress_index=IndexField(damage_fields[DamageField.STRESS_INDEX], float(number.stress_index)),
+        energy_index=IndexField(damage_fields[DamageField.ENERGY_INDEX], float(number.energy_index)),
         tangential=solution.tangential,
     )
 
@@ -237,36 +201,37 @@ class Assessed(NamedTuple):
 
     strips: Array
     fields: Array
-    constants: Array
-    damage: Array
+    constants: np.record
+    damage: np.record
     damage_fields: Array
 
 
 def assess(solution: Solution, wheel_radius: float = 0.46, parameters: DamageParameters | None = None) -> Assessed:
     """As `evaluate`, in the kernels' arrays."""
     strips, fields, case, result = _arrays(solution)
-    damage, damage_fields = np.zeros(N_DAMAGE), np.zeros((N_DAMAGE_FIELDS, *solution.p.shape))
-    constants = (parameters or DamageParameters()).array(solution.material, wheel_radius, solution.speed)
+    damage, damage_fields = np.zeros(1, DAMAGE)[0], np.zeros((N_DAMAGE_FIELDS, *solution.p.shape))
+    constants = (parameters or DamageParameters()).record(solution.material, wheel_radius, solution.speed)
     damage_kernel(strips, strips.shape[1], fields, case, result, constants, damage_fields, damage)
     return Assessed(strips, fields, constants, damage, damage_fields)
 
 
-def _arrays(solution: Solution) -> tuple[Array, Array, Array, Array]:
+def _arrays(solution: Solution) -> tuple[Array, Array, np.record, np.record]:
     """Lay the record out as the kernels' arrays (rows that the damage kernel does not read stay zero)."""
     shape = solution.p.shape
     strips = np.zeros((N_STRIP_ROWS, shape[0]))
-    strips[STRIP_Y], strips[STRIP_DY], strips[STRIP_A] = solution.strips.y, solution.strips.dy, solution.strips.a
+    strips[Strip.Y], strips[Strip.DY], strips[Strip.A] = solution.strips.y, solution.strips.dy, solution.strips.a
     fields = np.zeros((N_FIELD_ROWS, *shape))
-    fields[FIELD_X], fields[FIELD_P] = solution.x, solution.p
-    fields[FIELD_DX] = solution.dA / strips[STRIP_DY][:, None]
+    fields[Field.X], fields[Field.P] = solution.x, solution.p
+    fields[Field.DX] = solution.dA / strips[Strip.DY][:, None]
     if solution.has_fields:
-        fields[FIELD_QX], fields[FIELD_QY] = solution.qx, solution.qy
-        fields[FIELD_SX], fields[FIELD_SY] = solution.sx, solution.sy
-    case, result = np.zeros(N_CASE), np.zeros(N_RES)
+        fields[Field.QX], fields[Field.QY] = solution.qx, solution.qy
+        fields[Field.SX], fields[Field.SY] = solution.sx, solution.sy
+    case, result = np.zeros(1, CASE)[0], np.zeros(1, RESULT)[0]
     creepage = solution.creepage
-    case[CASE_TANGENTIAL] = methods().tangential[solution.tangential].id
-    case[CASE_VX], case[CASE_VY], case[CASE_PHI] = creepage.longitudinal, creepage.lateral, creepage.spin
-    result[RES_FX], result[RES_FY], result[RES_MZ], result[RES_N] = solution.Fx, solution.Fy, solution.Mz, solution.N
-    result[RES_PMAX], result[RES_AREA] = solution.max_pressure, solution.area
-    result[RES_POWER], result[RES_PRESSURE_Y] = solution.power_per_metre, solution.pressure_y
+    method = methods().tangential[solution.tangential]
+    case.tangential, case.tangential_family = method.id, method.family
+    case.vx, case.vy, case.phi = creepage.longitudinal, creepage.lateral, creepage.spin
+    result.Fx, result.Fy, result.Mz, result.N = solution.Fx, solution.Fy, solution.Mz, solution.N
+    result.pmax, result.area = solution.max_pressure, solution.area
+    result.power, result.pressure_y = solution.power_per_metre, solution.pressure_y
     return strips, fields, case, result

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact._jit import kernel
 from contact.damage._check import Array, elementwise, numbers
 from contact.errors import require_number
+from contact.kernels.damage.burstow import burstow_kernel
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,17 +47,6 @@ class Burstow:
         """Return what `burstow_kernel` is given."""
         floor = 0.0 if self.clip_negative else -np.inf
         return np.array([self.threshold, self.peak_at, self.zero_at, self.peak, floor])
-
-
-@kernel
-def burstow_kernel(T_gamma, constants):
-    """Damage per axle pass [-] for T-gamma [N]."""
-    threshold, peak_at, zero_at, peak, floor = constants[0], constants[1], constants[2], constants[3], constants[4]
-    if T_gamma <= threshold:
-        return 0.0
-    if T_gamma <= peak_at:
-        return peak * (T_gamma - threshold) / (peak_at - threshold)
-    return max(floor, peak * (zero_at - T_gamma) / (zero_at - peak_at))
 
 
 def burstow(T_gamma: ArrayLike, parameters: Burstow | None = None) -> float | Array:

@@ -4,14 +4,8 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from contact._jit import kernel
 from contact.damage._check import Array, elementwise, numbers
-
-
-@kernel
-def energy_index_kernel(qx: float, qy: float, x: float, y: float, vx: float, vy: float, phi: float) -> float:
-    """EI = -(qx (vx - phi y) + qy (vy + phi x)) [Pa]."""
-    return -(qx * (vx - phi * y) + qy * (vy + phi * x))
+from contact.kernels.damage.energy_index import energy_index_kernel
 
 
 def energy_index(

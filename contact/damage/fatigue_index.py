@@ -4,14 +4,8 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from contact._jit import kernel
 from contact.damage._check import Array, elementwise, numbers
-
-
-@kernel
-def fatigue_index_kernel(utilisation: float, max_pressure: float, shear_yield: float) -> float:
-    """FI_surf = utilisation - k/p0 [-]."""
-    return utilisation - shear_yield / max_pressure
+from contact.kernels.damage.fatigue_index import fatigue_index_kernel
 
 
 def fatigue_index(utilisation: ArrayLike, max_pressure: ArrayLike, shear_yield: ArrayLike = 300e6) -> float | Array:

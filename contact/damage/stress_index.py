@@ -2,18 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
 from numpy.typing import ArrayLike
 
-from contact._jit import kernel
 from contact.damage._check import Array, elementwise, numbers
-
-
-@kernel
-def stress_index_kernel(qx: float, qy: float, shear_yield: float) -> float:
-    """SI = √(qx² + qy²) - k [Pa]."""
-    return math.sqrt(qx * qx + qy * qy) - shear_yield
+from contact.kernels.damage.stress_index import stress_index_kernel
 
 
 def stress_index(qx: ArrayLike, qy: ArrayLike, shear_yield: ArrayLike = 300e6) -> float | Array:

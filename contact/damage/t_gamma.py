@@ -4,14 +4,8 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from contact._jit import kernel
 from contact.damage._check import Array, elementwise, numbers
-
-
-@kernel
-def t_gamma_kernel(Fx: float, Fy: float, Mz: float, vx: float, vy: float, phi: float) -> float:
-    """|Fx vx| + |Fy vy| + |Mz phi| [N]; Mz = 0 gives thesis Eq. 6.1."""
-    return abs(Fx * vx) + abs(Fy * vy) + abs(Mz * phi)
+from contact.kernels.damage.t_gamma import t_gamma_kernel
 
 
 def t_gamma(

@@ -8,9 +8,9 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact._jit import kernel
 from contact.damage._check import Array, elementwise, numbers
 from contact.errors import ContactError, require_number
+from contact.kernels.damage.usfd import usfd_kernel
 
 SevereBranch = Literal["continuous", "proportional", "from_zero"]
 
@@ -71,28 +71,6 @@ class Usfd:
                 self.density,
             ]
         )
-
-
-@kernel
-def usfd_kernel(T_gamma, area, constants):
-    """Volume lost per contact area and metre rolled [m] for T-gamma [N] and contact area [m²]."""
-    mild_slope, mild_limit, plateau, severe_limit, severe_slope, intercept, density = (
-        constants[0],
-        constants[1],
-        constants[2],
-        constants[3],
-        constants[4],
-        constants[5],
-        constants[6],
-    )
-    intensity = 1e-6 * T_gamma / area  # N/mm²
-    if intensity < mild_limit:
-        rate = mild_slope * intensity
-    elif intensity <= severe_limit:
-        rate = plateau
-    else:
-        rate = severe_slope * intensity + intercept
-    return 1e-3 * rate / density  # 1 µg/mm² = 1e-3 kg/m²
 
 
 def usfd(T_gamma: ArrayLike, area: ArrayLike, parameters: Usfd | None = None) -> float | Array:

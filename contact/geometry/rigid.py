@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError, require_number
-from contact.geometry.layout import PATCH_ANGLE, PATCH_APPROACH, PATCH_RADIUS, PATCH_RAIL_Y, PATCH_WHEEL_Y
 from contact.geometry.profile import Profile
 from contact.geometry.wheelset import Pair, Pose
 
@@ -125,9 +124,9 @@ def _touches(pair: Pair, poses: list[Pose]) -> Touches:
     rows = []
     for pose in poses:
         patches = pair.patches[: pair.locate(pose, penetration=_DEPTH)]
-        rows.append(patches[np.argmax(patches[:, PATCH_APPROACH])].copy())
+        rows.append(patches[np.argmax(patches["approach"])].copy())
     table = np.array(rows)
-    return Touches(table[:, PATCH_WHEEL_Y], table[:, PATCH_RAIL_Y], table[:, PATCH_RADIUS], -table[:, PATCH_ANGLE])
+    return Touches(table["wheel_y"], table["rail_y"], table["radius"], -table["angle"])
 
 
 def _level(right: Pair, left: Pair, y: float) -> float:

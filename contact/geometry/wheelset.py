@@ -19,25 +19,14 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact._layout import CASE_G, CASE_NU, MAX_PATCHES
+from contact import workspace
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
-from contact.geometry import layout, workspace
-from contact.geometry.curve import Y
-from contact.geometry.prepare import cut, facing, move, rail_origin
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Patch, Pose, Velocity
-from contact.geometry.settle import (
-    DEEPEST,
-    GIVEN_Z,
-    LOAD,
-    NO_OVERLAP,
-    NOT_SETTLED,
-    PENETRATION,
-    TOO_DEEP,
-    first_touch,
-    settle,
-)
+from contact.kernels.geometry.prepare import cut, facing, move, rail_origin
+from contact.kernels.geometry.settle import DEEPEST, first_touch, settle
+from contact.kernels.layout import GIVEN, MAX_PATCHES, Curve, Height, NoAnswer
 from contact.material import STEEL, Material
 from contact.separation import Separation
 
@@ -82,8 +71,8 @@ class Pair:
     Attributes
     ----------
     patches, separations : ndarray
-        What the last search found, in the rows of `contact.geometry.layout` (right side). Only one thread may search.
-    space : contact.geometry.workspace.Search
+        What the last search found, in the rows of `contact.kernels.layout` (right side). Only one thread may search.
+    space : contact.kernels.memory.Search
         All arrays of the search, as kernels take them.
 
     Raises
@@ -117,17 +106,17 @@ class Pair:
         self._mirror = 1.0 if side == "right" else -1.0
         self.nominal_radius = require_number("nominal_radius", nominal_radius, 0.05, 2.0)
         grid, n = _grid(samples)
-        self.space = workspace.allocate(_facing(wheel), _facing(rail), grid, n)
-        self.space.motion[layout.RADIUS :] = (
-            self.nominal_radius,
-            0.5 * require_number("flange_back", flange_back, 0.1, 3.0) + TAPE_FROM_FLANGE_BACK,
-            require_number("combine_distance", combine_distance, 0.0),
-            require_number("combine_angle", combine_angle, 0.0),
-            int(require_number("most_patches", most_patches, 1, MAX_PATCHES)),
-            self._mirror,
-            *_rail_origin(rail, require_number("gauge", gauge, 0.1, 3.0), gauge_point),
-        )
-        self.space.case[CASE_G], self.space.case[CASE_NU] = material.shear_modulus, material.poisson_ratio
+        self.space = workspace.search(_facing(wheel), _facing(rail), grid, n)
+        origin = _rail_origin(rail, require_number("gauge", gauge, 0.1, 3.0), gauge_point)
+        motion = self.space.motion[0]
+        motion.radius = self.nominal_radius
+        motion.tape = 0.5 * require_number("flange_back", flange_back, 0.1, 3.0) + TAPE_FROM_FLANGE_BACK
+        motion.combine_distance = require_number("combine_distance", combine_distance, 0.0)
+        motion.combine_angle = require_number("combine_angle", combine_angle, 0.0)
+        motion.most_patches = int(require_number("most_patches", most_patches, 1, MAX_PATCHES))
+        motion.mirror = self._mirror
+        motion.origin_y, motion.origin_z = origin
+        self.space.case["G"], self.space.case["nu"] = material.shear_modulus, material.poisson_ratio
         self.patches, self.separations = self.space.patches, self.space.separations
 
     def locate(
@@ -141,7 +130,7 @@ class Pair:
     ) -> int:
         """Fill `patches` and `separations` without making objects; returns the number of patches. Else like `contacts`."""
         mode, amount = self.prescribed(load, penetration)
-        move(self.given(pose, velocity, irregularity), self.space.motion)
+        move(self.given(pose, velocity, irregularity), self.space.motion[0])
         n = settle(mode, amount, self.space)
         self.require_found(n, pose, load)
         return int(n)
@@ -162,8 +151,8 @@ class Pair:
     def touch(self, pose: Pose, irregularity: Irregularity | None = None) -> float:
         """z [m] at which the rigid wheel just touches the rail, the other coordinates as in `pose`."""
         s = self.space
-        move(self.given(pose, None, irregularity), s.motion)
-        overlap, z = first_touch(s.wheel, s.rail, s.motion, s.line, s.placed)
+        move(self.given(pose, None, irregularity), s.motion[0])
+        overlap, z = first_touch(s.wheel, s.rail, s.motion[0], s.line, s.placed)
         if not overlap:
             raise self._apart(pose)
         return float(z)
@@ -171,10 +160,12 @@ class Pair:
     @property
     def z(self) -> float:
         """pose.z of the last search [m]: as given, or as found for a load or a penetration."""
-        return float(self.space.motion[layout.POSE_Z])
+        return float(self.space.motion[0].z)
 
-    def given(self, pose: Pose, velocity: Velocity | None = None, irregularity: Irregularity | None = None) -> Array:
-        """The motion as kernels take it, in the order of `contact.geometry.layout`; by default steady rolling."""
+    def given(
+        self, pose: Pose, velocity: Velocity | None = None, irregularity: Irregularity | None = None
+    ) -> np.record:
+        """Return the motion as kernels take it, in the order of `contact.kernels.layout`; by default steady rolling."""
         velocity, rail = velocity or _ROLLING, irregularity or _IDEAL
         for name, argument, kind in (
             ("pose", pose, Pose),
@@ -184,13 +175,13 @@ class Pair:
             if not isinstance(argument, kind):
                 raise ContactError(f"{name} = {argument!r} is not a contact.geometry.wheelset.{kind.__name__}")
         spin = -velocity.forward / self.nominal_radius if velocity.spin is None else velocity.spin
-        return np.array(
-            [
-                *(pose.y, pose.z, pose.roll, pose.yaw),
-                *(velocity.forward, velocity.y, velocity.z, velocity.roll, velocity.yaw, spin),
-                *(rail.y, rail.z, rail.roll, rail.y_rate, rail.z_rate, rail.roll_rate),
-            ]
-        )
+        given = np.zeros(1, GIVEN)[0]
+        given.y, given.z, given.roll, given.yaw = pose.y, pose.z, pose.roll, pose.yaw
+        given.vx, given.vy, given.vz = velocity.forward, velocity.y, velocity.z
+        given.roll_rate, given.yaw_rate, given.spin = velocity.roll, velocity.yaw, spin
+        given.rail_y, given.rail_z, given.rail_roll = rail.y, rail.z, rail.roll
+        given.rail_vy, given.rail_vz, given.rail_roll_rate = rail.y_rate, rail.z_rate, rail.roll_rate
+        return given
 
     @staticmethod
     def prescribed(load: float | None, penetration: float | None) -> tuple[int, float]:
@@ -198,46 +189,46 @@ class Pair:
         if load is not None and penetration is not None:
             raise ContactError(f"load = {load} and penetration = {penetration} exclude each other")
         if load is not None:
-            return LOAD, require_number("load", load, 0.0)
+            return Height.LOAD, require_number("load", load, 0.0)
         if penetration is not None:
-            return PENETRATION, require_number("penetration", penetration, 0.0, MAX_PENETRATION)
-        return GIVEN_Z, 0.0
+            return Height.PENETRATION, require_number("penetration", penetration, 0.0, MAX_PENETRATION)
+        return Height.GIVEN, 0.0
 
     def require_found(self, code: int, pose: Pose, load: float | None) -> None:
         """Raise a ContactError if `code`, an answer of `settle`, is none."""
-        if code == NO_OVERLAP:
+        if code == NoAnswer.NO_OVERLAP:
             raise self._apart(pose)
-        if code == NOT_SETTLED:
+        if code == NoAnswer.NOT_SETTLED:
             raise ContactError(
                 f"load = {load:g}: no z was found at which the {self.side} wheel carries it on this rail"
             )
-        if code == TOO_DEEP:
+        if code == NoAnswer.TOO_DEEP:
             raise ContactError(
                 f"pose.z = {pose.z:g}: the {self.side} wheel lies more than {DEEPEST:g} m inside its rail"
             )
 
     def _patch(self, k: int, loaded: bool) -> Patch:
-        m, p = self._mirror, self.patches[k].tolist()
+        m, p = self._mirror, self.patches[k]
         y, g, A, x_c, tilt = self.separations[k] if m > 0.0 else self.separations[k][:, ::-1]
-        rolling = math.cos(p[layout.PATCH_ANGLE]) / p[layout.PATCH_RADIUS]
-        edges = (p[layout.PATCH_FROM], p[layout.PATCH_TO])
+        rolling = math.cos(float(p.angle)) / float(p.radius)
+        edges = (float(p.low), float(p.high))
         return Patch(
             separation=Separation(m * y, g, A, x_c, m * tilt, rolling),
-            creepage=Creepage(p[layout.PATCH_VX], m * p[layout.PATCH_VY], m * p[layout.PATCH_PHI]),
-            angle=m * p[layout.PATCH_ANGLE],
-            position=(p[layout.PATCH_X], m * p[layout.PATCH_Y], p[layout.PATCH_Z]),
-            wheel_position=(p[layout.PATCH_X], m * p[layout.PATCH_POINT_Y], p[layout.PATCH_POINT_Z]),
-            on_rail=(p[layout.PATCH_RAIL_Y], p[layout.PATCH_RAIL_Z]),
-            on_wheel=(p[layout.PATCH_WHEEL_Y], p[layout.PATCH_WHEEL_Z]),
-            rolling_radius=p[layout.PATCH_RADIUS],
-            approach=p[layout.PATCH_APPROACH],
+            creepage=Creepage(float(p.vx), m * float(p.vy), m * float(p.phi)),
+            angle=m * float(p.angle),
+            position=(float(p.x), m * float(p.y), float(p.z)),
+            wheel_position=(float(p.x), m * float(p.point_y), float(p.point_z)),
+            on_rail=(float(p.rail_y), float(p.rail_z)),
+            on_wheel=(float(p.wheel_y), float(p.wheel_z)),
+            rolling_radius=float(p.radius),
+            approach=float(p.approach),
             edges=edges if m > 0.0 else (-edges[1], -edges[0]),
-            load=p[layout.PATCH_LOAD] if loaded else None,
+            load=float(p.load) if loaded else None,
         )
 
     def _apart(self, pose: Pose) -> ContactError:
-        motion = self.space.motion
-        wheel, rail = self.space.wheel[Y] + motion[layout.TAPE], self.space.rail[Y] + motion[layout.ORIGIN_Y]
+        motion = self.space.motion[0]
+        wheel, rail = self.space.wheel[Curve.Y] + motion.tape, self.space.rail[Curve.Y] + motion.origin_y
         low, high = sorted((self._mirror * (rail[0] - wheel[-1]), self._mirror * (rail[-1] - wheel[0])))
         return ContactError(
             f"pose.y = {pose.y:g}: the {self.side} wheel and rail profiles do not overlap; "

@@ -7,20 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from contact._layout import (
-    CASE_PHI,
-    CASE_VX,
-    CASE_VY,
-    N_CASE,
-    N_STRIP_ROWS,
-    STRIP_PHI,
-    STRIP_TILT,
-    STRIP_VX,
-    STRIP_VY,
-    STRIP_Y,
-)
-from contact.conformal import bend
 from contact.creepage import Creepage
+from contact.kernels.conformal import bend
+from contact.kernels.layout import CASE, N_STRIP_ROWS, Strip
 from contact.separation import Separation
 
 Array = NDArray[np.float64]
@@ -42,9 +31,10 @@ class Bent(NamedTuple):
 
     @classmethod
     def of(cls, separation: Separation, creepage: Creepage, y: Array) -> Bent:
-        """Rows at `y` [m] on the surface of a separation (`contact.conformal`)."""
-        case, strips = np.zeros(N_CASE), np.zeros((N_STRIP_ROWS, y.size))
-        case[CASE_VX], case[CASE_VY], case[CASE_PHI] = creepage.longitudinal, creepage.lateral, creepage.spin
-        strips[STRIP_Y] = y
-        bend(separation.y, separation.tilt, separation.rolling, case, strips, y.size)
-        return cls(strips[STRIP_VX], strips[STRIP_VY], strips[STRIP_PHI], strips[STRIP_TILT])
+        """Rows at `y` [m] on the surface of a separation (`contact.kernels.conformal`)."""
+        case, strips = np.zeros(1, CASE)[0], np.zeros((N_STRIP_ROWS, y.size))
+        case.vx, case.vy, case.phi = creepage.longitudinal, creepage.lateral, creepage.spin
+        strips[Strip.Y] = y
+        case.rolling = separation.rolling
+        bend(separation.samples, case, strips, y.size)
+        return cls(strips[Strip.VX], strips[Strip.VY], strips[Strip.PHI], strips[Strip.TILT])

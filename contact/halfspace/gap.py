@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact._jit import kernel
-from contact._layout import MAX_PATCHES
 from contact.errors import ContactError
-from contact.normal.lay import cubic, find_patches, least_point, locate, slopes
+from contact.kernels.layout import MAX_PATCHES
+from contact.kernels.normal.lay import cubic, find_patches, least_point, locate, slopes
 from contact.separation import Separation
 
 Array = NDArray[np.float64]

@@ -3,7 +3,7 @@
 import math
 
 from contact._jit import kernel
-from contact.friction import heating, of_heat
+from contact.kernels.friction import heating, of_heat
 
 
 @kernel

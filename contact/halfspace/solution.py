@@ -15,7 +15,7 @@ from contact.solution import Solution, Status, Strips
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, eq=False)
 class GridSolution(Solution):
     """`Solution` of the element-wise half space.
 
@@ -61,7 +61,7 @@ def assemble(
     normal: str,
     tangential: str,
 ) -> GridSolution:
-    """Make the record from fields (ny, nx) over increasing `x`, `y`; `tilt` is the slope of each row (`contact.conformal`)."""
+    """Make the record from fields (ny, nx) over increasing `x`, `y`; `tilt` is the slope of each row (`contact.kernels.conformal`)."""
     touching = p > 0.0
     rows, columns = np.flatnonzero(touching.any(axis=1)), np.flatnonzero(touching.any(axis=0))
     dx, dy = float(x[1] - x[0]), float(y[1] - y[0])

@@ -9,16 +9,18 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from contact._layout import N_CASE
+from contact.case import set_surface
 from contact.creepage import Creepage
 from contact.errors import ContactError
-from contact.friction import Friction, fill, of_bodies
+from contact.friction import Friction
 from contact.halfspace.bent import Bent
 from contact.halfspace.gap import Division, Gap, lay, least, overlap
 from contact.halfspace.heat import heat_up
 from contact.halfspace.norm import Normal, norm
 from contact.halfspace.solution import GridSolution, assemble
 from contact.halfspace.tang import Tangential, tang
+from contact.kernels.friction import of_bodies
+from contact.kernels.layout import CASE
 from contact.material import Material
 from contact.separation import Separation
 from contact.solution import Solution, Status
@@ -137,8 +139,9 @@ def _roll(
     from stick on; of what a law wants only a share is taken over, as several solutions and oscillation between them are
     possible. The temperature along the rows is that by the friction that it leaves (`heat`), for a given slip.
     """
-    case = np.zeros(N_CASE)
-    fill(case, friction, speed)
+    surface = np.zeros(1, CASE)
+    set_surface(surface, friction, speed)
+    case = surface[0]
     factor = of_bodies(case) * (friction.factor(y)[:, None] if friction.gauge_factor != 1.0 else np.ones((1, 1)))
     local, hot = friction.velocity != "global" and friction.law != "coulomb", friction.hot_factor < 1.0
     mu = friction.static

@@ -1,4 +1,4 @@
-"""Build the table of `contact.tangential.table` with the half space, on all cores; an interrupted run goes on."""
+"""Build the table of `contact.kernels.tangential.table` with the half space, on all cores; an interrupted run goes on."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
+from contact import force_table as table
 from contact import kalker
 from contact.creepage import Creepage
 from contact.errors import ContactError
@@ -15,7 +16,6 @@ from contact.forces import cores
 from contact.material import Material
 from contact.solve import solve
 from contact.study.ellipse import ellipse
-from contact.tangential import table
 
 #: Of the ellipses; results are over mu N and mu N c.
 MATERIAL, LOAD, FRICTION, C = Material(82e9, table.NU), 82e3, 0.3, 6e-3

@@ -1,4 +1,4 @@
-"""Compute the table of effective creepages from that of creep forces (`contact.tangential.effective`)."""
+"""Compute the table of effective creepages from that of creep forces (`contact.kernels.tangential.effective`)."""
 
 from __future__ import annotations
 
@@ -10,31 +10,18 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from contact import force_table as table
 from contact import friction, workspace
-from contact._layout import (
-    CASE_G,
-    CASE_LOAD,
-    CASE_NORMAL,
-    CASE_NU,
-    CASE_TANGENTIAL,
-    N_CASE,
-    RES_AREA,
-    RES_FX,
-    RES_MZ,
-    RES_SLIP_AREA,
-    STRIP_PHI,
-    STRIP_TO_EXPONENT,
-    STRIP_VX,
-)
+from contact.case import cases, set_surface
 from contact.errors import ContactError
-from contact.pipeline import press_case
+from contact.kernels.layout import RESULT, Strip
+from contact.kernels.pipeline import press_case
+from contact.kernels.tangential.ellipses import equivalent_ellipse
+from contact.kernels.tangential.fastrip_mapped import roll_patch
+from contact.kernels.tangential.mapping import elastic_centre
 from contact.registry import lookup
 from contact.study import creep_table
 from contact.study.ellipse import ellipse
-from contact.tangential import table
-from contact.tangential.ellipses import equivalent_ellipse
-from contact.tangential.fastrip_mapped import roll_patch
-from contact.tangential.mapping import elastic_centre
 
 Array = NDArray[np.float64]
 
@@ -103,38 +90,28 @@ class OneEllipse:
     def __init__(self, log_aspect: float) -> None:
         load, material = creep_table.LOAD, creep_table.MATERIAL
         self.log_aspect, self.limit = log_aspect, creep_table.FRICTION * load
-        case = np.zeros(N_CASE)
-        case[CASE_LOAD], case[CASE_G], case[CASE_NU] = load, material.shear_modulus, material.poisson_ratio
         normal, rolling = lookup("normal", "hertz"), lookup("tangential", "fastrip_mapped")
-        case[CASE_NORMAL], case[CASE_TANGENTIAL] = normal.id, rolling.id
-        friction.fill(case, friction.Friction(creep_table.FRICTION), 0.0)
+        case = cases(1, normal, rolling, material)
+        set_surface(case, friction.Friction(creep_table.FRICTION), 0.0)
+        case["amount"] = load
         s = ellipse(math.exp(log_aspect), creep_table.C, load, material)
-        own = workspace.allocate(
-            normal,
-            lookup("tangential", "fastrip"),
-            material.poisson_ratio,
-            _RESOLUTION,
-            _RESOLUTION,
-            s.y.size,
-            fields=False,
-        )
-        self.n = press_case(s.y, s.g, s.A, s.x_c, case, *own)
+        size = _RESOLUTION, _RESOLUTION, s.y.size
+        own = workspace.allocate(normal, lookup("tangential", "fastrip"), material.poisson_ratio, size, fields=False)
+        self.result = np.zeros(1, RESULT)[0]
+        self.n = press_case(s.samples, case[0], own, self.result)
         a, b = equivalent_ellipse(own.strips, self.n)
         self.centres = elastic_centre(own.strips, 0, self.n, own.tables.kalker, math.log(a / b))
-        self.case, self.own, self.strips, self.area = case, own, own.strips.copy(), own.result[RES_AREA]
+        self.case, self.own, self.strips, self.area = case[0], own, own.strips.copy(), float(self.result.area)
 
     def forces(self, creepage: Array, exponent: float) -> Array:
         """Fx, Fy over mu N, Mz over mu N c and the share of slip of the march, without what the table says."""
-        strips, result, space = self.own.strips, self.own.result, self.own.space
+        strips, result = self.own.strips, self.result
         strips[:] = self.strips
-        strips[STRIP_VX : STRIP_PHI + 1, : self.n] = creepage[:, None]
-        strips[STRIP_TO_EXPONENT, : self.n] = exponent
-        result[:] = 0.0
-        roll_patch(
-            strips, 0, self.n, self.case, self.own.tables.kalker, self.centres, self.own.rule.elements, space.lanes,
-            space.trace, self.own.fields, result,
-        )  # fmt: skip
-        return np.array([*result[RES_FX : RES_MZ + 1], result[RES_SLIP_AREA]]) / (
+        strips[Strip.VX : Strip.PHI + 1, : self.n] = creepage[:, None]
+        strips[Strip.TO_EXPONENT, : self.n] = exponent
+        result.Fx = result.Fy = result.Mz = result.power = result.slip_area = 0.0
+        roll_patch(0, self.n, self.case, self.centres, self.own, result)
+        return np.array([result.Fx, result.Fy, result.Mz, result.slip_area]) / (
             self.limit,
             self.limit,
             self.limit * creep_table.C,

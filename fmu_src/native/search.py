@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from contact._layout import MAX_PATCHES, N_CASE, N_RES, N_STRIP_ROWS
-from contact.geometry.layout import MAX_LOBES, N_LINE_ROWS, N_LOBE, N_MOTION, N_PATCH, N_SEP_ROWS
+from contact.kernels.layout import MAX_PATCHES, N_CASE, N_RES, N_STRIP_ROWS
+from contact.kernels.layout import MAX_LOBES, N_LINE_ROWS, N_LOBE, N_MOTION, N_PATCH, N_SEP_ROWS
 from contact.geometry.workspace import Search
-from contact.normal.analyn import N_WORK_ROWS
+from contact.kernels.normal.analyn import N_WORK_ROWS
 from fmu_src.native.memory import compiled, cube, matrix, vector
 
 

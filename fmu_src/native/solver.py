@@ -7,37 +7,14 @@ from numba import carray
 
 import contact
 from contact import kalker, quadrature
-from contact._layout import (
-    CASE_BORDER,
-    CASE_BORDER_WIDTH,
-    CASE_DROP,
-    CASE_GAUGE_FACTOR,
-    CASE_HALF_SPEED,
-    CASE_HEATING,
-    CASE_K_A,
-    CASE_K_S,
-    CASE_KINETIC,
-    CASE_LAW,
-    CASE_MU,
-    CASE_SLOPE,
-    CASE_SLOPE_FAR,
-    CASE_SLOPE_RATE,
-    CASE_SPEED,
-    CASE_VELOCITY,
-    CASE_WARM,
-    CASE_WARM_RANGE,
-    MAX_PATCHES,
-    N_FIELD_ROWS,
-    N_RES,
-    N_STRIP_ROWS,
-)
+from contact.kernels.layout import MAX_PATCHES, N_FIELD_ROWS, N_RES, N_STRIP_ROWS
 from contact.material import heating
-from contact.normal import influence
-from contact.normal.analyn import N_WORK_ROWS
-from contact.normal.strip_halfspace import MEM_LN_A
-from contact.normal.strip_system import N_VECTOR_ROWS
-from contact.tangential import table
-from contact.tangential.lanes import LANES, N_LANE_ROWS, TRACE_WIDTH
+from contact.kernels.normal import influence
+from contact.kernels.normal.analyn import N_WORK_ROWS
+from contact.kernels.normal.strip_halfspace import MEM_LN_A
+from contact.kernels.normal.strip_system import N_VECTOR_ROWS
+from contact.kernels.tangential import table
+from contact.kernels.tangential.lanes import LANES, N_LANE_ROWS, TRACE_WIDTH
 from contact.workspace import Rule, Space, Tables, Workspace, columns_shape
 from fmu_src.native.memory import compiled, cube, matrix, next_line, vector
 
@@ -95,15 +72,15 @@ def lay_out(work, end, memory, n_strips, n_elements, samples, centre, plane, cre
 @compiled
 def fill_friction(v, coefficient, law, speed, case):
     """Friction and speed of a case; `law` is the place of friction.law, behind which the table has the law's parameters."""
-    case[CASE_MU], case[CASE_LAW] = v[coefficient], v[law] - 1.0
-    case[CASE_KINETIC], case[CASE_HALF_SPEED] = v[law + 1], v[law + 2]
-    case[CASE_SLOPE], case[CASE_SLOPE_FAR], case[CASE_SLOPE_RATE] = v[law + 3], v[law + 4], v[law + 5]
-    case[CASE_VELOCITY] = v[law + 6] - 1.0
-    case[CASE_GAUGE_FACTOR], case[CASE_BORDER], case[CASE_BORDER_WIDTH] = v[law + 7], v[law + 8], v[law + 9]
-    case[CASE_K_A], case[CASE_K_S] = v[law + 10], v[law + 11]
-    case[CASE_DROP], case[CASE_WARM], case[CASE_WARM_RANGE] = 1.0 - v[law + 12], v[law + 13] - v[law + 15], v[law + 14]
-    case[CASE_HEATING] = _heating(v[law + 16], v[law + 17], v[law + 18], v[law + 19])
-    case[CASE_SPEED] = speed
+    case.mu, case.law = v[coefficient], v[law] - 1.0
+    case.kinetic, case.half_speed = v[law + 1], v[law + 2]
+    case.slope, case.slope_far, case.slope_rate = v[law + 3], v[law + 4], v[law + 5]
+    case.velocity = v[law + 6] - 1.0
+    case.gauge_factor, case.border, case.border_width = v[law + 7], v[law + 8], v[law + 9]
+    case.k_A, case.k_S = v[law + 10], v[law + 11]
+    case.drop, case.warm, case.warm_range = 1.0 - v[law + 12], v[law + 13] - v[law + 15], v[law + 14]
+    case.heating = _heating(v[law + 16], v[law + 17], v[law + 18], v[law + 19])
+    case.speed = speed
 
 
 @compiled

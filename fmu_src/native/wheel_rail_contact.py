@@ -12,73 +12,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numba import carray
 
+from contact.kernels.layout import Field, LoadKind, Strip
 import contact
 from contact import Status
-from contact._layout import (
-    APPROACH,
-    CASE_CONFORMAL,
-    CASE_G,
-    CASE_LOAD,
-    CASE_LOAD_KIND,
-    CASE_NORMAL,
-    CASE_NU,
-    CASE_PHI,
-    CASE_PRESSURE_LIMIT,
-    CASE_TANGENTIAL,
-    CASE_VX,
-    CASE_VY,
-    FIELD_DX,
-    FIELD_P,
-    FIELD_QX,
-    FIELD_QY,
-    FIELD_STICK,
-    FIELD_SX,
-    FIELD_SY,
-    FIELD_X,
-    LOAD,
-    MAX_PATCHES,
-    N_CASE,
-    N_FIELD_ROWS,
-    RES_APPROACH,
-    RES_AREA,
-    RES_FX,
-    RES_FY,
-    RES_LENGTH,
-    RES_MZ,
-    RES_N,
-    RES_PATCHES,
-    RES_PMAX,
-    RES_POWER,
-    RES_SLIP_AREA,
-    RES_STATUS,
-    RES_STIFFNESS,
-    RES_WIDTH,
-    STRIP_DY,
-    STRIP_PATCH,
-    STRIP_Y,
-)
+from contact.kernels.layout import MAX_PATCHES, N_CASE, N_FIELD_ROWS
 from contact.damage import DamageParameters
-from contact.damage._kernel import (
-    DAMAGE_ARCHARD_DEPTH,
-    DAMAGE_ARCHARD_VOLUME,
-    DAMAGE_BURSTOW,
-    DAMAGE_ENERGY_INDEX,
-    DAMAGE_FATIGUE_INDEX,
-    DAMAGE_PEARCE_SHERRATT,
-    DAMAGE_STRESS_INDEX,
-    DAMAGE_T_GAMMA,
-    DAMAGE_USFD,
-    N_DAMAGE,
-    N_DAMAGE_FIELDS,
-    N_PAR,
-    PAR_HARDNESS,
-    PAR_SHEAR_YIELD,
-    PAR_SPEED,
-    PAR_WHEEL_RADIUS,
-    damage_kernel,
-)
-from contact.pipeline import solve_case, solve_conformal
-from contact.registry import CARTER
+from contact.kernels.damage.assess import N_DAMAGE, N_DAMAGE_FIELDS, N_PAR, damage_kernel
+from contact.kernels.pipeline import solve_case, solve_conformal
 from contact.separation import HERTZIAN_POINTS, fill_hertzian
 from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
@@ -104,15 +44,15 @@ _steps = compiled(creepage_steps)
 _PATCH, _Y, _AREA = range(N_FIELD_ROWS, N_FIELD_ROWS + 3)
 _FIELDS = {
     "field.patch": _PATCH,
-    "field.x": FIELD_X,
+    "field.x": Field.X,
     "field.y": _Y,
     "field.area": _AREA,
-    "field.pressure": FIELD_P,
-    "field.traction_x": FIELD_QX,
-    "field.traction_y": FIELD_QY,
-    "field.slip_x": FIELD_SX,
-    "field.slip_y": FIELD_SY,
-    "field.stick": FIELD_STICK,
+    "field.pressure": Field.P,
+    "field.traction_x": Field.QX,
+    "field.traction_y": Field.QY,
+    "field.slip_x": Field.SX,
+    "field.slip_y": Field.SY,
+    "field.stick": Field.STICK,
 }
 
 
@@ -120,11 +60,11 @@ _FIELDS = {
 def _element(strips, fields, row, i, j):
     """Number of an element in the row of `_FIELDS`."""
     if row == _PATCH:
-        return strips[STRIP_PATCH, i] + 1.0
+        return strips[Strip.PATCH, i] + 1.0
     if row == _Y:
-        return strips[STRIP_Y, i]
+        return strips[Strip.Y, i]
     if row == _AREA:
-        return strips[STRIP_DY, i] * fields[FIELD_DX, i, j]
+        return strips[Strip.DY, i] * fields[Field.DX, i, j]
     return fields[row, i, j]
 
 
@@ -214,17 +154,17 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
                 problem.g[i], problem.A[i] = v[at.geometry_g + i], max(v[at.geometry_A + i], FLATTEST)
                 problem.tilt[i] = v[at.geometry_tilt + i]
         problem.rolling[0] = v[at.geometry_rolling] if v[at.geometry_kind] != _CURVATURES else 0.0
-        case[CASE_CONFORMAL] = 1.0 if v[at.geometry_surface] == _CONFORMAL else 0.0
+        case.conformal = 1.0 if v[at.geometry_surface] == _CONFORMAL else 0.0
         by_load = v[at.load_kind] == _NORMAL_FORCE
-        case[CASE_LOAD_KIND] = LOAD if by_load else APPROACH
-        case[CASE_LOAD] = v[at.load_normal_force] if by_load else v[at.load_approach]
-        case[CASE_VX], case[CASE_VY] = v[at.creepage_longitudinal], v[at.creepage_lateral]
-        case[CASE_PHI] = v[at.creepage_spin]
+        case.load_kind = LoadKind.LOAD if by_load else LoadKind.APPROACH
+        case.amount = v[at.load_normal_force] if by_load else v[at.load_approach]
+        case.vx, case.vy = v[at.creepage_longitudinal], v[at.creepage_lateral]
+        case.phi = v[at.creepage_spin]
         fill_friction(v, at.friction_coefficient, at.friction_law, v[at.speed], case)
-        case[CASE_G], case[CASE_NU] = v[at.material_shear_modulus], v[at.material_poisson_ratio]
-        case[CASE_PRESSURE_LIMIT] = v[at.material_pressure_limit]
-        case[CASE_NORMAL] = NORMAL_IDS[int(v[at.method_normal]) - 1]
-        case[CASE_TANGENTIAL] = TANGENTIAL_IDS[int(v[at.method_tangential]) - 1]
+        case.G, case.nu = v[at.material_shear_modulus], v[at.material_poisson_ratio]
+        case.pressure_limit = v[at.material_pressure_limit]
+        case.normal = NORMAL_IDS[int(v[at.method_normal]) - 1]
+        case.tangential = TANGENTIAL_IDS[int(v[at.method_tangential]) - 1]
         return n
 
     @compiled
@@ -232,7 +172,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         """Solve what `pose` has left."""
         y, g, A, xc, case = problem.y[:n], problem.g[:n], problem.A[:n], problem.xc[:n], problem.case
         rule, tables, space, strips, fields, result = own
-        if case[CASE_CONFORMAL] > 0.5 and case[CASE_TANGENTIAL] < CARTER:
+        if case.conformal > 0.5 and case.tangential < CARTER:
             tilt, rolling = problem.tilt[:n], problem.rolling[0]
             count = solve_conformal(y, g, A, xc, tilt, rolling, case, rule, tables, space, strips, fields, result)
         else:
@@ -263,29 +203,29 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         n = solve(pose(v, problem), own, problem, after)
         parameters, result, damage = after.damage_parameters, own.result, after.damage
         speed = v[at.speed]
-        parameters[PAR_SPEED], parameters[PAR_WHEEL_RADIUS] = speed, v[at.wheel_radius]
-        parameters[PAR_HARDNESS], parameters[PAR_SHEAR_YIELD] = v[at.material_hardness], v[at.material_shear_yield]
+        parameters.speed, parameters.wheel_radius = speed, v[at.wheel_radius]
+        parameters.hardness, parameters.shear_yield = v[at.material_hardness], v[at.material_shear_yield]
         damage_kernel(own.strips, n, own.fields, problem.case, result, parameters, after.damage_fields, damage)
-        power = speed * result[RES_POWER]
-        v[at.force_x], v[at.force_y], v[at.force_n] = result[RES_FX], result[RES_FY], result[RES_N]
-        v[at.moment_z], v[at.approach], v[at.pressure_max] = result[RES_MZ], result[RES_APPROACH], result[RES_PMAX]
+        power = speed * result.power
+        v[at.force_x], v[at.force_y], v[at.force_n] = result.Fx, result.Fy, result.N
+        v[at.moment_z], v[at.approach], v[at.pressure_max] = result.Mz, result.approach, result.pmax
         v[at.patch_area], v[at.patch_length], v[at.patch_width] = (
-            result[RES_AREA],
-            result[RES_LENGTH],
-            result[RES_WIDTH],
+            result.area,
+            result.length,
+            result.width,
         )
-        v[at.patch_count], v[at.power_friction] = result[RES_PATCHES], power
-        v[at.slip_ratio] = result[RES_SLIP_AREA] / result[RES_AREA] if result[RES_AREA] > 0.0 else 0.0
-        v[at.damage_T_gamma], v[at.damage_index_burstow] = damage[DAMAGE_T_GAMMA], damage[DAMAGE_BURSTOW]
-        v[at.damage_wear_rate_pearce_sherratt] = damage[DAMAGE_PEARCE_SHERRATT]
-        v[at.damage_wear_rate_usfd] = damage[DAMAGE_USFD]
-        v[at.damage_archard_depth_max] = damage[DAMAGE_ARCHARD_DEPTH]
-        v[at.damage_archard_volume] = damage[DAMAGE_ARCHARD_VOLUME]
-        v[at.damage_fatigue_index_surface] = damage[DAMAGE_FATIGUE_INDEX]
-        v[at.damage_stress_index_max] = damage[DAMAGE_STRESS_INDEX]
-        v[at.damage_energy_index_max] = damage[DAMAGE_ENERGY_INDEX]
-        v[at.stiffness_normal], v[at.status] = result[RES_STIFFNESS], result[RES_STATUS]
-        return int(result[RES_STATUS])
+        v[at.patch_count], v[at.power_friction] = result.n_patches, power
+        v[at.slip_ratio] = result.slip_area / result.area if result.area > 0.0 else 0.0
+        v[at.damage_T_gamma], v[at.damage_index_burstow] = damage.T_gamma, damage.burstow
+        v[at.damage_wear_rate_pearce_sherratt] = damage.pearce_sherratt
+        v[at.damage_wear_rate_usfd] = damage.usfd
+        v[at.damage_archard_depth_max] = damage.archard_depth
+        v[at.damage_archard_volume] = damage.archard_volume
+        v[at.damage_fatigue_index_surface] = damage.fatigue_index
+        v[at.damage_stress_index_max] = damage.stress_index
+        v[at.damage_energy_index_max] = damage.energy_index
+        v[at.stiffness_normal], v[at.status] = result.stiffness, result.status
+        return int(result.status)
 
     @compiled
     def steps(v):

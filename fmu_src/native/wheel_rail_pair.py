@@ -1,6 +1,6 @@
 """The pair behind the native FMU's table: what C calls, over one array of all values and one of working memory.
 
-`contact.pair.kernel.solve_pair` does the work, as in Python; here profiles, values and memory become its arguments.
+`contact.kernels.pair.solve_pair` does the work, as in Python; here profiles, values and memory become its arguments.
 """
 
 from __future__ import annotations
@@ -14,55 +14,19 @@ from numba import carray
 
 import contact
 from contact import Status, quadrature
-from contact._layout import (
-    CASE_CONFORMAL,
-    CASE_G,
-    CASE_NORMAL,
-    CASE_NU,
-    CASE_PRESSURE_LIMIT,
-    CASE_TANGENTIAL,
-    MAX_PATCHES,
-    N_CASE,
-)
+from contact.kernels.layout import MAX_PATCHES, N_CASE
 from contact.damage import DamageParameters
-from contact.damage._kernel import (
-    DAMAGE_ARCHARD_DEPTH,
-    DAMAGE_ARCHARD_VOLUME,
-    DAMAGE_BURSTOW,
-    DAMAGE_ENERGY_INDEX,
-    DAMAGE_FATIGUE_INDEX,
-    DAMAGE_PEARCE_SHERRATT,
-    DAMAGE_STRESS_INDEX,
-    DAMAGE_T_GAMMA,
-    DAMAGE_USFD,
-    N_DAMAGE,
-    N_DAMAGE_FIELDS,
-    N_PAR,
-    PAR_HARDNESS,
-    PAR_SHEAR_YIELD,
-    PAR_WEAR_LAW,
-)
-from contact.damage.deposit import N_ROWS, arc_length
+from contact.kernels.damage.assess import N_DAMAGE, N_DAMAGE_FIELDS, N_PAR
+from contact.kernels.damage.deposit import N_ROWS, arc_length
 from contact.geometry import layout as rows
-from contact.geometry.prepare import cut, facing, rail_origin, turn
-from contact.geometry.settle import DEEPEST, GIVEN_Z, NO_OVERLAP, NOT_SETTLED, TOO_DEEP
-from contact.geometry.settle import LOAD as UNDER_LOAD
+from contact.kernels.geometry.prepare import cut, facing, rail_origin, turn
+from contact.kernels.geometry.settle import DEEPEST, GIVEN_Z, NO_OVERLAP, NOT_SETTLED, TOO_DEEP
+from contact.kernels.geometry.settle import LOAD as UNDER_LOAD
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.geometry.workspace import N_STRIPS as SEARCH_STRIPS
-from contact.pair.kernel import N_TOTAL, Bench, solve_pair
-from contact.pair.layout import (
-    N_CONTACT,
-    TOTAL_AREA,
-    TOTAL_COUNT,
-    TOTAL_DAMAGE,
-    TOTAL_FX,
-    TOTAL_PMAX,
-    TOTAL_POWER,
-    TOTAL_SLIP_AREA,
-    TOTAL_STATUS,
-    TOTAL_Z,
-)
-from contact.pair.ledger import DISTANCE, N_SETTINGS, START, WIDTH, Ledger
+from contact.kernels.pair import N_TOTAL, Bench, solve_pair
+from contact.kernels.layout import N_CONTACT
+from contact.kernels.ledger import DISTANCE, N_SETTINGS, START, WIDTH, Ledger
 from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
 from fmu_src.native.memory import ahead, compiled, cube, matrix, vector
@@ -207,26 +171,26 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         search, motion, case = bench.search, bench.search.motion, bench.case
         cut(wheel, wheel_from, wheel_to, search.wheel)
         cut(begin.turned, rail_from, rail_to, search.rail)
-        motion[rows.RADIUS] = v[at.wheel_radius]
-        motion[rows.TAPE] = 0.5 * v[at.wheel_flange_back] + TAPE_FROM_FLANGE_BACK
-        motion[rows.COMBINE_DISTANCE] = v[at.patches_combine_distance]
-        motion[rows.COMBINE_ANGLE] = v[at.patches_combine_angle]
-        motion[rows.MOST_PATCHES] = v[at.patches_max]
-        motion[rows.MIRROR] = 1.0 if v[at.side] == _RIGHT else -1.0
-        motion[rows.ORIGIN_Y], motion[rows.ORIGIN_Z] = origin_y, origin_z
+        motion.radius = v[at.wheel_radius]
+        motion.tape = 0.5 * v[at.wheel_flange_back] + TAPE_FROM_FLANGE_BACK
+        motion.combine_distance = v[at.patches_combine_distance]
+        motion.combine_angle = v[at.patches_combine_angle]
+        motion.most_patches = v[at.patches_max]
+        motion.mirror = 1.0 if v[at.side] == _RIGHT else -1.0
+        motion.origin_y, motion.origin_z = origin_y, origin_z
         quadrature.fill_fejer(search.nodes, search.weights)
         fill(bench.own, v[at.material_poisson_ratio], published)
-        case[CASE_G], case[CASE_NU] = v[at.material_shear_modulus], v[at.material_poisson_ratio]
-        case[CASE_PRESSURE_LIMIT] = v[at.material_pressure_limit]
-        search.case[CASE_G], search.case[CASE_NU] = case[CASE_G], case[CASE_NU]
-        case[CASE_NORMAL] = NORMAL_IDS[int(v[at.method_normal]) - 1]
-        case[CASE_TANGENTIAL] = TANGENTIAL_IDS[int(v[at.method_tangential]) - 1]
-        case[CASE_CONFORMAL] = v[at.patches_surface] - 1.0
+        case.G, case.nu = v[at.material_shear_modulus], v[at.material_poisson_ratio]
+        case.pressure_limit = v[at.material_pressure_limit]
+        search.case.G, search.case.nu = case.G, case.nu
+        case.normal = NORMAL_IDS[int(v[at.method_normal]) - 1]
+        case.tangential = TANGENTIAL_IDS[int(v[at.method_tangential]) - 1]
+        case.conformal = v[at.patches_surface] - 1.0
         for i in range(N_PAR):
             bench.damage_parameters[i] = _DAMAGE_PARAMETERS[i]
-        bench.damage_parameters[PAR_HARDNESS] = v[at.material_hardness]
-        bench.damage_parameters[PAR_SHEAR_YIELD] = v[at.material_shear_yield]
-        bench.damage_parameters[PAR_WEAR_LAW] = v[at.accumulation_wear_law] - 2.0  # the first item is none
+        bench.damage_parameters.hardness = v[at.material_hardness]
+        bench.damage_parameters.shear_yield = v[at.material_shear_yield]
+        bench.damage_parameters.wear_law = v[at.accumulation_wear_law] - 2.0  # the first item is none
         ledger = bench.ledger
         arc_length(ledger.wheel, ledger.wheel_arc)
         arc_length(ledger.rail, ledger.rail_arc)
@@ -260,10 +224,10 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         for row in range(_N_PATCH_ROWS):
             for k in range(PATCHES):
                 v[at.patch_n + PATCHES * row + k] = bench.contacts[k, row]
-        v[at.wheelset_z], v[at.pressure_max] = total[TOTAL_Z], total[TOTAL_PMAX]
-        v[at.patches_count], v[at.patches_area] = total[TOTAL_COUNT], total[TOTAL_AREA]
-        v[at.slip_ratio] = total[TOTAL_SLIP_AREA] / total[TOTAL_AREA] if total[TOTAL_AREA] > 0.0 else 0.0
-        v[at.power_friction], v[at.status] = speed * total[TOTAL_POWER], total[TOTAL_STATUS]
+        v[at.wheelset_z], v[at.pressure_max] = total.z, total.pmax
+        v[at.patches_count], v[at.patches_area] = total.n_patches, total.area
+        v[at.slip_ratio] = total.slip_area / total.area if total.area > 0.0 else 0.0
+        v[at.power_friction], v[at.status] = speed * total.power, total.status
         v[at.damage_T_gamma] = total[TOTAL_DAMAGE + DAMAGE_T_GAMMA]
         v[at.damage_wear_rate_pearce_sherratt] = total[TOTAL_DAMAGE + DAMAGE_PEARCE_SHERRATT]
         v[at.damage_index_burstow] = total[TOTAL_DAMAGE + DAMAGE_BURSTOW]
@@ -273,7 +237,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         v[at.damage_fatigue_index_surface] = total[TOTAL_DAMAGE + DAMAGE_FATIGUE_INDEX]
         v[at.damage_stress_index_max] = total[TOTAL_DAMAGE + DAMAGE_STRESS_INDEX]
         v[at.damage_energy_index_max] = total[TOTAL_DAMAGE + DAMAGE_ENERGY_INDEX]
-        return int(total[TOTAL_STATUS])
+        return int(total.status)
 
     def model_lazy(values, work, resources, published, centre, plane, creep):
         return 0

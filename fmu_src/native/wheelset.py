@@ -13,19 +13,10 @@ from typing import Any
 import numpy as np
 from numba import carray
 
-from contact._layout import MAX_PATCHES
+from contact.kernels.layout import MAX_PATCHES
 from contact.geometry import profile
-from contact.geometry.layout import (
-    COMBINE_ANGLE,
-    COMBINE_DISTANCE,
-    MIRROR,
-    MOST_PATCHES,
-    N_GIVEN,
-    ORIGIN_Y,
-    RADIUS,
-    TAPE,
-)
-from contact.geometry.prepare import N_PROFILE_ROWS, cut, facing, rail_origin, turn
+from contact.kernels.layout import N_GIVEN
+from contact.kernels.geometry.prepare import N_PROFILE_ROWS, cut, facing, rail_origin, turn
 from contact.geometry.profile import Profile
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from fmu_src.native.component import Component
@@ -165,11 +156,11 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
     @compiled
     def prepare_search(v, found, mirror, origin_y, origin_z):
         pose = found.motion
-        pose[RADIUS] = v[at.wheel_radius]
-        pose[TAPE] = 0.5 * v[at.wheel_flange_back] + TAPE_FROM_FLANGE_BACK
-        pose[COMBINE_DISTANCE], pose[COMBINE_ANGLE] = 1.0, math.radians(20.0)  # all lobes of a wheel share one plane
-        pose[MOST_PATCHES], pose[MIRROR] = MAX_PATCHES, mirror
-        pose[ORIGIN_Y], pose[ORIGIN_Y + 1] = origin_y, origin_z
+        pose.radius = v[at.wheel_radius]
+        pose.tape = 0.5 * v[at.wheel_flange_back] + TAPE_FROM_FLANGE_BACK
+        pose.combine_distance, pose.combine_angle = 1.0, math.radians(20.0)  # all lobes of a wheel share one plane
+        pose.most_patches, pose.mirror = MAX_PATCHES, mirror
+        pose.origin_y, pose[ORIGIN_Y + 1] = origin_y, origin_z
         for i in range(POINTS):
             k = i if mirror > 0.0 else POINTS - 1 - i
             found.grid[i] = mirror * (v[at.geometry_y0] + v[at.geometry_dy] * k)

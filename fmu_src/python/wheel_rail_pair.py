@@ -12,22 +12,11 @@ from pythonfmu.enums import Fmi2Status
 
 from contact import Material, Status
 from contact.damage import WEAR_LAWS, DamageParameters
-from contact.damage._kernel import (
-    DAMAGE_ARCHARD_DEPTH,
-    DAMAGE_ARCHARD_VOLUME,
-    DAMAGE_BURSTOW,
-    DAMAGE_ENERGY_INDEX,
-    DAMAGE_FATIGUE_INDEX,
-    DAMAGE_PEARCE_SHERRATT,
-    DAMAGE_STRESS_INDEX,
-    DAMAGE_T_GAMMA,
-    DAMAGE_USFD,
-)
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.wheelset import Pair
 from contact.pair import Contact, WheelRailPair
-from contact.pair.ledger import allocate
+from contact.kernels.ledger import allocate
 from fmu_src import profiles
 from fmu_src.python.friction import friction
 from fmu_src.python.slave import TableSlave

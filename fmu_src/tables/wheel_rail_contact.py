@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from functools import cache
 
 from contact import friction
-from contact._layout import MAX_PATCHES
+from contact.kernels.layout import MAX_PATCHES
 from contact.creepage import LARGEST_CREEPAGE
 from contact.separation import LARGEST_ROLLING, LARGEST_TILT
 from fmu_src.tables import solver

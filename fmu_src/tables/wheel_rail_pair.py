@@ -40,13 +40,13 @@ ACCUMULATE = Enumeration(
 PATCHES = 3
 BINS = 100  # over each profile
 BODIES = ("wheel", "rail")
-#: Rows of what accumulates: of the wheel, then of the rail, in the order of `contact.damage.deposit`.
+#: Rows of what accumulates: of the wheel, then of the rail, in the order of `contact.kernels.damage.deposit`.
 ACCUMULATED = tuple(f"accumulated.{body}.{name}" for body in BODIES for name in SUMS | MAXIMA)
 #: Profiles are files of these names in resources/ (`fmu_src.profiles`); of the right side, for either side.
 WHEEL, RAIL = "wheel.profile", "rail.profile"
 RESOURCES = (WHEEL, RAIL)
 
-#: Inputs in the order in which the kernels are given them (`contact.geometry.layout`): name, unit, what it is.
+#: Inputs in the order in which the kernels are given them (`contact.kernels.layout`): name, unit, what it is.
 MOTION = (
     ("pose.y", "m", "Lateral position of the wheelset's centre, positive to the right"),
     ("pose.z", "m", "Height of the centre, positive down, 0 with both tape circles on the plane of the rails' tops"),
@@ -74,7 +74,7 @@ _LIMITS: dict[str, dict[str, object]] = {
 _RADIUS, _SPEED = 0.46, 20.0
 _STARTS = {"velocity.x": _SPEED, "velocity.spin": -_SPEED / _RADIUS}
 
-#: Outputs of a patch in the order of `contact.pair.layout`: name behind `patch[k].`, unit, nominal, what it is.
+#: Outputs of a patch in the order of `contact.kernels.layout`: name behind `patch[k].`, unit, nominal, what it is.
 PATCH = (
     ("n", "N", 1e5, "Normal force"),
     ("fx", "N", 1e4, "Longitudinal creep force on the wheel"),

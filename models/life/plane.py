@@ -5,30 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.kernels.layout import LoadKind
 from contact import workspace
-from contact._layout import (
-    CASE_G,
-    CASE_LOAD,
-    CASE_LOAD_KIND,
-    CASE_NORMAL,
-    CASE_NU,
-    CASE_PHI,
-    CASE_PRESSURE_LIMIT,
-    CASE_SPEED,
-    CASE_TANGENTIAL,
-    CASE_VX,
-    LOAD,
-    N_CASE,
-    RES_APPROACH,
-    RES_FX,
-    RES_FY,
-    RES_MZ,
-    RES_PMAX,
-    RES_POWER,
-    RES_STATUS,
-)
+from contact.kernels.layout import N_CASE
 from contact.friction import Friction, fill
-from contact.pipeline import solve_case
+from contact.kernels.pipeline import solve_case
 from contact.registry import lookup
 from models.life.scenario import Methods
 from models.wheelset import ports
@@ -60,17 +41,17 @@ class PlaneContact:
         self._y = p.window_start + p.window_step * np.arange(ports.POINTS)
         self._locus = np.zeros(ports.POINTS)
         self._case = np.zeros(N_CASE)
-        self._case[CASE_LOAD_KIND] = LOAD
-        self._case[CASE_G], self._case[CASE_NU] = material.shear_modulus, material.poisson_ratio
-        self._case[CASE_PRESSURE_LIMIT] = material.pressure_limit
-        self._case[CASE_NORMAL], self._case[CASE_TANGENTIAL] = normal.id, tangential.id
+        self._case.load_kind = LoadKind.LOAD
+        self._case.G, self._case.nu = material.shear_modulus, material.poisson_ratio
+        self._case.pressure_limit = material.pressure_limit
+        self._case.normal, self._case.tangential = normal.id, tangential.id
         fill(self._case, friction, p.speed)
 
     def solve(self, problem: Array, speed: float) -> Array:
         """Forces and what else `FX` … `STATUS` name."""
         own, case = self._own, self._case
         own.space.memory[:] = 0.0
-        case[CASE_LOAD], case[CASE_SPEED] = problem[ports.LOAD], speed
+        case.amount, case.speed = problem[ports.LOAD], speed
         case[CASE_VX : CASE_PHI + 1] = problem[ports.CREEPAGE]
         solve_case(self._y, problem[ports.GAP], problem[ports.CURVATURE], self._locus, case, *own)
         return own.result[_ANSWER]

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError, require_number
-from contact.geometry.layout import N_GIVEN
+from contact.kernels.layout import N_GIVEN
 from contact.geometry.wheelset import Pair
 from models.wheelset import dynamics, motion
 from models.wheelset.parameters import WheelsetParameters

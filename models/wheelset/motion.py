@@ -10,24 +10,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.kernels.layout import Sep
 from contact._jit import kernel
-from contact.geometry.layout import (
-    PATCH_ANGLE,
-    PATCH_POINT_Y,
-    PATCH_POINT_Z,
-    POSE_ROLL,
-    POSE_Y,
-    POSE_YAW,
-    POSE_Z,
-    SEP_A,
-    SEP_G,
-    VEL_SPIN,
-    VEL_X,
-)
-from contact.geometry.prepare import move
+from contact.kernels.geometry.prepare import move
 from contact.geometry.records import LARGEST_ANGLE
-from contact.geometry.search import axle
-from contact.geometry.settle import first_touch, locate
+from contact.kernels.geometry.search import axle
+from contact.kernels.geometry.settle import first_touch, locate
 from contact.geometry.workspace import Search
 from models.wheelset import dynamics
 from models.wheelset.dynamics import (
@@ -214,21 +202,21 @@ def _lay_frame(w: Wheelset, search: Search, side: int, y: float, z: float, roll:
         return False
     m = 1.0 if side == RIGHT else -1.0  # the left side is the mirror image of the right
     patch, separation, frame, problem = search.patches[0], search.separations[0], w.frames[side], w.problems[side]
-    frame[Y] = m * patch[PATCH_POINT_Y] - y
-    frame[Z] = patch[PATCH_POINT_Z] - (z - w.constants[RADIUS])
-    frame[ANGLE] = m * patch[PATCH_ANGLE]
+    frame[Y] = m * patch.point_y - y
+    frame[Z] = patch.point_z - (z - w.constants[RADIUS])
+    frame[ANGLE] = m * patch.angle
     frame[X] = dynamics.locus(frame, w.axle)
     for i in range(POINTS):
         k = i if side == RIGHT else POINTS - 1 - i
-        problem[i], problem[POINTS + i] = separation[SEP_G, k], separation[SEP_A, k]
+        problem[i], problem[POINTS + i] = separation[Sep.G, k], separation[Sep.A, k]
     return True
 
 
 @kernel
 def _pose(w: Wheelset, search: Search, y: float, z: float, roll: float, yaw: float) -> None:
     given = w.given
-    given[POSE_Y], given[POSE_Z], given[POSE_ROLL], given[POSE_YAW] = y, z, roll, yaw
-    given[VEL_X], given[VEL_SPIN] = 1.0, -1.0 / w.constants[RADIUS]  # only creepages need it, which are computed here
+    given.y, given.z, given.roll, given.yaw = y, z, roll, yaw
+    given.vx, given.spin = 1.0, -1.0 / w.constants[RADIUS]  # only creepages need it, which are computed here
     move(given, search.motion)
 
 

@@ -6,8 +6,9 @@ from itertools import permutations
 import numpy as np
 import pytest
 
+from contact.kernels.layout import Bin, Strip
 import contact
-from contact._layout import N_STRIP_ROWS, STRIP_DY
+from contact.kernels.layout import N_STRIP_ROWS
 from contact.accumulation import MAXIMA, SUMS, Histogram, load, save, worn_profile
 from contact.damage import WEAR_LAWS, ArchardMap, DamageParameters, deposit, evaluate, usfd
 from contact.errors import ContactError
@@ -140,18 +141,18 @@ def test_a_strip_is_shared_by_overlap_and_what_lies_beyond_stays_in_the_outer_bi
     edges = width * (start + np.array([[0.5, 1.2, -2.0, 2.5], [2.5, 1.4, -1.0, 4.5]]))
     expected = np.array([[0.25, 0.5, 0.25], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
     strips = np.zeros((N_STRIP_ROWS, 4))
-    strips[STRIP_DY] = dy
+    strips[Strip.DY] = dy
     rates = np.arange(1.0, 4.0 * deposit.N_ROWS + 1.0).reshape(deposit.N_ROWS, 4)
     for is_wheel in (True, False):
         bins = np.zeros((deposit.N_ROWS, 3))
         deposit.deposit(rates, edges, strips, 4, distance, is_wheel, start, width, bins)
-        for row in range(deposit.ENERGY_INDEX_MAX):
-            rate = rates[deposit.VOLUME if row == deposit.WEAR and not is_wheel else row]
+        for row in range(Bin.ENERGY_INDEX_MAX):
+            rate = rates[Bin.VOLUME if row == Bin.WEAR and not is_wheel else row]
             of_bins = distance * dy * rate @ expected
-            scale = 1.0 if row in (deposit.VOLUME, deposit.T_GAMMA) else width
+            scale = 1.0 if row in (Bin.VOLUME, Bin.T_GAMMA) else width
             np.testing.assert_allclose(bins[row], of_bins / scale, rtol=1e-14)
-        greatest = np.where(expected > 0.0, rates[deposit.ENERGY_INDEX_MAX][:, None], 0.0).max(axis=0)
-        np.testing.assert_array_equal(bins[deposit.ENERGY_INDEX_MAX], greatest)
+        greatest = np.where(expected > 0.0, rates[Bin.ENERGY_INDEX_MAX][:, None], 0.0).max(axis=0)
+        np.testing.assert_array_equal(bins[Bin.ENERGY_INDEX_MAX], greatest)
 
 
 def test_exceedance_counts_the_distance_with_a_positive_index(contacts):

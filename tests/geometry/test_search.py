@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicHermiteSpline
 
+from contact.kernels.layout import Curve
 from contact.geometry import layout, profile, search, wheelset
 
 RADIUS, TAPE = 0.460, 0.750
@@ -64,7 +65,7 @@ def test_wangs_formula_for_the_advance_of_the_contact_point():
 
 def lobes_of(y, gap, opening, z):
     line = np.zeros((layout.N_LINE_ROWS, y.size))
-    line[0], line[layout.GAP], line[layout.OPENING] = y, gap, opening
+    line[0], line[Curve.GAP], line[Curve.OPENING] = y, gap, opening
     lobe = np.zeros((layout.MAX_LOBES, layout.N_LOBE))
     n = search.lobes(line, 0, y.size, z, lobe)
     return lobe[:n]
@@ -75,17 +76,17 @@ def test_moments_of_a_parabolic_lobe():
     y = np.linspace(-0.01, 0.02, 121)
     d, w, centre = 1e-4, 4e-3, 3.3e-3
     (lobe,) = lobes_of(y, d * ((y - centre) / w) ** 2, 2 * d * (y - centre) / w**2, d)
-    assert lobe[layout.LOBE_Y0] == pytest.approx(centre - w, abs=1e-12)
-    assert lobe[layout.LOBE_Y1] == pytest.approx(centre + w, abs=1e-12)
-    assert lobe[layout.LOBE_WEIGHT] == pytest.approx(5 * math.pi / 16 * d**2.5 * w, rel=1e-4)
-    assert lobe[layout.LOBE_MOMENT] / lobe[layout.LOBE_WEIGHT] == pytest.approx(centre, abs=1e-8)
+    assert lobe.low == pytest.approx(centre - w, abs=1e-12)
+    assert lobe.high == pytest.approx(centre + w, abs=1e-12)
+    assert lobe.weight == pytest.approx(5 * math.pi / 16 * d**2.5 * w, rel=1e-4)
+    assert lobe.moment / lobe.weight == pytest.approx(centre, abs=1e-8)
 
 
 def test_a_lobe_narrower_than_the_nodes_is_found():
     y = np.linspace(-0.01, 0.01, 41)
     centre = 0.23e-3
     (lobe,) = lobes_of(y, (y - centre) ** 2, 2 * (y - centre), 1e-10)
-    assert lobe[layout.LOBE_Y1] - lobe[layout.LOBE_Y0] == pytest.approx(2e-5, rel=1e-9)
+    assert lobe.high - lobe.low == pytest.approx(2e-5, rel=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -98,5 +99,5 @@ def test_lobes_become_patches_when_apart_in_place_and_in_angle(distance, angle, 
     lobe[1] = [-0.016, -0.010, 3.0, -0.039, 3 * math.cos(0.05), 3 * math.sin(-0.05)]
     assert search.combine(lobe, 2, distance, angle, most) == patches
     if patches == 1:
-        assert lobe[0, layout.LOBE_WEIGHT] == 4.0
-        assert lobe[0, layout.LOBE_Y1] == -0.010
+        assert lobe[0].weight == 4.0
+        assert lobe[0].high == -0.010

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import contact
-from contact.normal.press import kept
+from contact.kernels.normal.press import kept
 
 SEPARATION = contact.Separation.hertzian(1.0, 2.0)
 CREEPAGE = contact.Creepage(2e-3, 1e-3, 0.3)

@@ -9,7 +9,7 @@ from scipy.integrate import quad
 import contact
 from contact import quadrature, workspace
 from contact.geometry import profile, wheelset
-from contact.normal import influence
+from contact.kernels.normal import influence
 from tests.normal.test_analyn import two_lobes
 
 NO_CREEP = contact.Creepage()

@@ -7,9 +7,9 @@ import pytest
 from scipy.special import ellipk
 
 import contact
-from contact.normal.kik_piotrowski import PENETRATION
-from contact.normal.multi_hertz import _outside
-from contact.normal.semi_winkler import _share, _strip
+from contact.kernels.normal.kik_piotrowski import PENETRATION
+from contact.kernels.normal.multi_hertz import _outside
+from contact.kernels.normal.semi_winkler import _share, _strip
 from tests.normal.test_analyn import two_lobes
 
 NO_CREEP = contact.Creepage()

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from contact.kernels.layout import Bin, Body
 import contact
 from contact.accumulation import MAXIMA, SUMS, Histogram
 from contact.damage import WEAR_LAWS, DamageParameters, deposit
@@ -10,7 +11,7 @@ from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair
-from contact.pair.ledger import RAIL, WHEEL, allocate
+from contact.kernels.ledger import allocate
 
 BODIES = {"wheel": profile.s1002(), "rail": profile.rail_60e1(1 / 20, breakpoints="UIC 519")}
 VELOCITY = Velocity(forward=30.0)
@@ -38,7 +39,7 @@ def rolled(pair, mirror=1.0):
 def test_bins_are_those_of_the_histograms(law):
     run = pair(law=law, ledger=ledger())
     bins = rolled(run)
-    for body, which in (("wheel", WHEEL), ("rail", RAIL)):
+    for body, which in (("wheel", Body.WHEEL), ("rail", Body.RAIL)):
         wanted = Histogram(BODIES[body], width=1e-3, parameters=DamageParameters(wear_law=law))
         for pose, distance in ROLLED.items():
             patches = run.pair.contacts(pose, VELOCITY, load=60e3)
@@ -75,8 +76,8 @@ def test_bins_add_up_to_the_totals_also_where_they_end_before_the_contact():
         T_gamma, volume = T_gamma + distance * damage[0], volume + distance * damage[7]
     for run in (few, many):
         for body in run.bench.ledger.bins:
-            assert body[deposit.T_GAMMA].sum() == pytest.approx(T_gamma, rel=1e-12)
-            assert body[deposit.VOLUME].sum() == pytest.approx(volume, rel=1e-12)
+            assert body[Bin.T_GAMMA].sum() == pytest.approx(T_gamma, rel=1e-12)
+            assert body[Bin.VOLUME].sum() == pytest.approx(volume, rel=1e-12)
 
 
 def test_growth_is_linear_and_nothing_grows_where_nothing_rolls_or_touches():
@@ -89,12 +90,12 @@ def test_growth_is_linear_and_nothing_grows_where_nothing_rolls_or_touches():
     run.solve(Pose(), VELOCITY, load=0.0, distance=100.0)
     bins = run.bench.ledger.bins
     np.testing.assert_allclose(bins[:, : len(SUMS)], 5.0 * once[:, : len(SUMS)], rtol=1e-13)
-    np.testing.assert_array_equal(bins[:, deposit.ENERGY_INDEX_MAX], once[:, deposit.ENERGY_INDEX_MAX])
+    np.testing.assert_array_equal(bins[:, Bin.ENERGY_INDEX_MAX], once[:, Bin.ENERGY_INDEX_MAX])
     with pytest.raises(ContactError, match="distance = -1"):
         run.solve(Pose(), VELOCITY, load=60e3, distance=-1.0)
 
 
 def test_laws_that_give_forces_alone_leave_t_gamma_and_fatigue():
     bins = rolled(pair(ledger=ledger(), tangential="polach"))
-    assert bins[:, deposit.T_GAMMA].sum() > 0.0
-    assert not bins[:, [deposit.WEAR, deposit.VOLUME, deposit.ENERGY_INDEX, deposit.STRESS_EXCEEDANCE]].any()
+    assert bins[:, Bin.T_GAMMA].sum() > 0.0
+    assert not bins[:, [Bin.WEAR, Bin.VOLUME, Bin.ENERGY_INDEX, Bin.STRESS_EXCEEDANCE]].any()

@@ -10,7 +10,7 @@ import numpy as np
 from contact_case import NAME
 from random_cases import OUTPUTS, POINTS, Case
 
-from contact._layout import MAX_PATCHES
+from contact.kernels.layout import MAX_PATCHES
 from contact.solve import N_ELEMENTS, N_STRIPS
 from fmu_src.catalogue import models
 from fmu_src.native import source

@@ -14,7 +14,7 @@ from fmu_instance import DISCARD, ERROR, refused
 from random_cases import random_case
 
 import contact
-from contact._layout import MAX_PATCHES
+from contact.kernels.layout import MAX_PATCHES
 from contact.solve import N_ELEMENTS, N_STRIPS
 
 SHAPE = (MAX_PATCHES, N_STRIPS, N_ELEMENTS)

@@ -9,7 +9,7 @@ import contact
 from benchmarks import creep_table as unseen
 from contact import kalker
 from contact.study import creep_table
-from contact.tangential import table
+from contact import force_table as table
 
 G, C, LIMIT, NU = 82e9, 6e-3, 24600.0, table.NU
 

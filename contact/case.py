@@ -1,0 +1,31 @@
+"""The one place that writes what does not change from case to case: methods, material, surface."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from contact.friction import Friction
+from contact.kernels.layout import CASE
+from contact.material import Material
+from contact.registry import Method
+
+Cases = NDArray[np.void]
+
+
+def cases(n: int, normal: Method, tangential: Method, material: Material, *, conformal: bool = False) -> Cases:
+    """Return `n` records CASE for these methods and this material, everything else zero."""
+    made = np.zeros(n, CASE)
+    made["normal"], made["normal_family"] = normal.id, normal.family
+    made["tangential"], made["tangential_family"] = tangential.id, tangential.family
+    made["G"], made["nu"] = material.shear_modulus, material.poisson_ratio
+    made["pressure_limit"] = material.pressure_limit
+    made["conformal"] = conformal
+    return made
+
+
+def set_surface(made: Cases, friction: Friction, speed: ArrayLike) -> None:
+    """Write friction and rolling speed [m/s] into cases."""
+    for name, value in friction.members().items():
+        made[name] = value
+    made["speed"] = speed

@@ -1,0 +1,1 @@
+"""Damage models, one a file, and what they do to a profile."""

@@ -1,0 +1,82 @@
+"""All damage models over the arrays of one solved case: one source for `evaluate`, batches and the native FMU."""
+
+import math
+
+from contact._jit import kernel
+from contact.kernels.damage.archard import depth_times_hardness
+from contact.kernels.damage.burstow import burstow_kernel
+from contact.kernels.damage.energy_index import energy_index_kernel
+from contact.kernels.damage.fatigue_index import fatigue_index_kernel
+from contact.kernels.damage.pearce_sherratt import pearce_sherratt_kernel
+from contact.kernels.damage.stress_index import stress_index_kernel
+from contact.kernels.damage.t_gamma import t_gamma_kernel
+from contact.kernels.damage.usfd import usfd_kernel
+from contact.kernels.layout import DamageField, Field, Strip, TangentialFamily
+
+
+@kernel
+def clear_damage(damage):
+    """Set every damage number of a record to zero."""
+    damage.T_gamma, damage.T_gamma_spin, damage.dissipation, damage.pearce_sherratt = 0.0, 0.0, 0.0, 0.0
+    damage.burstow, damage.usfd, damage.archard_depth, damage.archard_volume = 0.0, 0.0, 0.0, 0.0
+    damage.fatigue_index, damage.stress_index, damage.energy_index = 0.0, 0.0, 0.0
+
+
+@kernel
+def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, damage):
+    """Fill `damage` and the first `n` strips of `damage_fields` from a solved case (see `contact.kernels.layout`).
+
+    The depth of an element is spread over the circumference, so it is metre per metre rolled; the volume is that of all
+    strips, ∬ k p |s|/H dA. With n = 0 everything is zero, and what needs fields where the law gives forces alone.
+    """
+    clear_damage(damage)
+    without_fields = case.tangential_family == TangentialFamily.CREEP_FORCE
+    nothing = n == 0 or result.N <= 0.0 or result.area <= 0.0 or result.pmax <= 0.0
+    if nothing or without_fields:
+        damage_fields[:, :n] = 0.0
+    if nothing:
+        return
+    vx, vy, phi = case.vx, case.vy, case.phi
+    Fx, Fy, Mz = result.Fx, result.Fy - result.pressure_y, result.Mz
+    radius, shear_yield = parameters.wheel_radius, parameters.shear_yield
+    circumference = 2.0 * math.pi * radius
+
+    T_gamma = t_gamma_kernel(Fx, Fy, 0.0, vx, vy, 0.0)
+    T_gamma_spin = t_gamma_kernel(Fx, Fy, Mz, vx, vy, phi)
+    load = T_gamma_spin if parameters.with_spin != 0 else T_gamma
+    damage.T_gamma, damage.T_gamma_spin = T_gamma, T_gamma_spin
+    damage.dissipation = result.power
+    damage.pearce_sherratt = pearce_sherratt_kernel(load, 2.0 * radius, parameters.pearce_sherratt)
+    damage.burstow = burstow_kernel(load, parameters.burstow)
+    damage.usfd = usfd_kernel(load, result.area, parameters.usfd)
+    utilisation = math.sqrt(Fx * Fx + Fy * Fy) / result.N
+    damage.fatigue_index = fatigue_index_kernel(utilisation, result.pmax, shear_yield)
+
+    if without_fields:
+        return
+    depth_max, volume, stress_max, energy_max = 0.0, 0.0, -math.inf, -math.inf
+    speed, hardness, archard = parameters.speed, parameters.hardness, parameters.archard
+    columns, to_depth = fields.shape[2], 1.0 / (circumference * hardness)
+    for i in range(n):
+        y = strips[Strip.Y, i]
+        # one loop an index: with more the compiler gives up vector instructions
+        for j in range(columns):
+            slip = math.sqrt(fields[Field.SX, i, j] ** 2 + fields[Field.SY, i, j] ** 2)
+            work = depth_times_hardness(slip, fields[Field.P, i, j], fields[Field.DX, i, j], speed, hardness, archard)
+            damage_fields[DamageField.DEPTH, i, j] = work * to_depth
+        for j in range(columns):
+            stress = stress_index_kernel(fields[Field.QX, i, j], fields[Field.QY, i, j], shear_yield)
+            damage_fields[DamageField.STRESS_INDEX, i, j] = stress
+        for j in range(columns):
+            damage_fields[DamageField.ENERGY_INDEX, i, j] = energy_index_kernel(
+                fields[Field.QX, i, j], fields[Field.QY, i, j], fields[Field.X, i, j], y, vx, vy, phi
+            )
+        lost = 0.0  # by a particle that crosses the patch along this strip, over the circumference
+        for j in range(columns):
+            lost += damage_fields[DamageField.DEPTH, i, j]
+            stress_max = max(stress_max, damage_fields[DamageField.STRESS_INDEX, i, j])
+            energy_max = max(energy_max, damage_fields[DamageField.ENERGY_INDEX, i, j])
+        depth_max = max(depth_max, lost)
+        volume += lost * circumference * strips[Strip.DY, i]
+    damage.archard_depth, damage.archard_volume = depth_max, volume
+    damage.stress_index, damage.energy_index = stress_max, energy_max

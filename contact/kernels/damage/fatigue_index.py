@@ -1,0 +1,9 @@
+"""Surface fatigue index of the shakedown map (thesis Eq. 6.6; Ekberg, Kabo & Andersson 2002)."""
+
+from contact._jit import kernel
+
+
+@kernel
+def fatigue_index_kernel(utilisation: float, max_pressure: float, shear_yield: float) -> float:
+    """FI_surf = utilisation - k/p0 [-]."""
+    return utilisation - shear_yield / max_pressure

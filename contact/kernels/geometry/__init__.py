@@ -1,0 +1,1 @@
+"""Contact search: profiles and a pose in, patches and their separations out."""

@@ -1,0 +1,109 @@
+"""Kernels that make a search's curves of two profiles: the parts that can touch, and the place of the rail in its gauge.
+
+A profile is an array with the rows y, z [m] and the angle of the tangent [rad], in the convention of `profile`.
+"""
+
+import math
+
+from contact._jit import kernel
+from contact.kernels.geometry.curve import Array, hermite, least
+from contact.kernels.layout import Curve
+
+#: Steeper parts of the profiles take no part in the search, whatever roll is allowed on top [rad].
+STEEPEST_WHEEL, STEEPEST_RAIL = math.radians(80.0), math.radians(86.0)
+
+
+@kernel
+def turn(profile: Array, roll: float, out: Array) -> None:
+    """The profile turned about its origin by `roll`, positive from y towards z."""
+    c, s = math.cos(roll), math.sin(roll)
+    for i in range(profile.shape[1]):
+        y, z = profile[Curve.Y, i], profile[Curve.Z, i]
+        out[Curve.Y, i], out[Curve.Z, i] = c * y - s * z, s * y + c * z
+        out[Curve.ANGLE, i] = profile[Curve.ANGLE, i] + roll
+
+
+@kernel
+def _fair(profile: Array, i: int, steepest: float) -> bool:
+    """Whether node i is less steep than that and the next one, if any, lies further out."""
+    rising = i == profile.shape[1] - 1 or profile[Curve.Y, i + 1] > profile[Curve.Y, i]
+    return rising and math.cos(profile[Curve.ANGLE, i]) > math.cos(steepest)
+
+
+@kernel
+def facing(profile: Array, is_wheel: bool) -> tuple[int, int]:
+    """First node, and the one after the last, around the wheel's tape circle or the rail's crown that can touch.
+
+    They are less steep than `STEEPEST_…` and have rising y; none where even the middle is steep.
+    """
+    n = profile.shape[1]
+    steepest = STEEPEST_WHEEL if is_wheel else STEEPEST_RAIL
+    centre = 0
+    for i in range(1, n):
+        nearer = (
+            abs(profile[Curve.Y, i]) < abs(profile[Curve.Y, centre])
+            if is_wheel
+            else profile[Curve.Z, i] < profile[Curve.Z, centre]
+        )
+        centre = i if nearer else centre
+    low, high = centre, centre
+    if not _fair(profile, centre, steepest):
+        return centre, centre
+    while low > 0 and _fair(profile, low - 1, steepest):
+        low -= 1
+    while high < n and _fair(profile, high, steepest):
+        high += 1
+    return low, high
+
+
+@kernel
+def cut(profile: Array, low: int, high: int, curve: Array) -> None:
+    """Nodes low … high - 1 as a curve: rows y, z, dz/dy."""
+    for i in range(low, high):
+        curve[Curve.Y, i - low], curve[Curve.Z, i - low] = profile[Curve.Y, i], profile[Curve.Z, i]
+        curve[Curve.SLOPE, i - low] = math.tan(profile[Curve.ANGLE, i])
+
+
+@kernel
+def rail_origin(rail: Array, gauge: float, gauge_point: float) -> tuple[float, float, float]:
+    """(y, z) of the origin of the right rail's profile: its top at z = 0, its gauge face at half the gauge.
+
+    The third number is the depth below the top that its gauge side reaches: `gauge_point` must lie less deep.
+    """
+    highest = 0
+    for i in range(1, rail.shape[1]):
+        highest = i if rail[Curve.Z, i] < rail[Curve.Z, highest] else highest
+    top = rail[Curve.Z, highest]
+    for i in range(max(highest - 1, 0), min(highest + 1, rail.shape[1] - 1)):  # the crest lies between two points
+        h, m0, m1 = (
+            rail[Curve.Y, i + 1] - rail[Curve.Y, i],
+            math.tan(rail[Curve.ANGLE, i]),
+            math.tan(rail[Curve.ANGLE, i + 1]),
+        )
+        t, z = least(rail[Curve.Z, i], rail[Curve.Z, i + 1], m0, m1, h)
+        top = min(top, z) if t > 0.0 else top
+    deepest, i = -math.inf, highest
+    for j in range(highest, -1, -1):
+        deepest = max(deepest, rail[Curve.Z, j] - top)
+        if deepest >= gauge_point:
+            i = j
+            break
+    if deepest < gauge_point or i == rail.shape[1] - 1:
+        return 0.0, 0.0, deepest
+    h = rail[Curve.Z, i + 1] - rail[Curve.Z, i]  # the gauge face is steep: y is interpolated over z there
+    cot0, cot1 = 1.0 / math.tan(rail[Curve.ANGLE, i]), 1.0 / math.tan(rail[Curve.ANGLE, i + 1])
+    y = hermite(rail[Curve.Y, i], rail[Curve.Y, i + 1], cot0, cot1, h, (top + gauge_point - rail[Curve.Z, i]) / h)[0]
+    return 0.5 * gauge - y, -top, deepest
+
+
+@kernel
+def move(given: Array, motion: Array) -> None:
+    """Take over pose, velocity and the rail's irregularity from a record GIVEN of `layout`, mirrored to the right side."""
+    mirror = motion.mirror
+    motion.y, motion.z, motion.roll, motion.yaw = mirror * given.y, given.z, mirror * given.roll, mirror * given.yaw
+    motion.vx, motion.vy, motion.vz = given.vx, mirror * given.vy, given.vz
+    motion.roll_rate, motion.yaw_rate, motion.spin = mirror * given.roll_rate, mirror * given.yaw_rate, given.spin
+    motion.rail_y = mirror * given.rail_y + motion.origin_y
+    motion.rail_z = given.rail_z + motion.origin_z
+    motion.rail_roll, motion.rail_roll_rate = mirror * given.rail_roll, mirror * given.rail_roll_rate
+    motion.rail_vy, motion.rail_vz = mirror * given.rail_vy, given.rail_vz

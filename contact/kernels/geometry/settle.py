@@ -1,0 +1,115 @@
+"""How deep the wheel sits on the rail: at a given z, at a given penetration, or under a given vertical load.
+
+These are the entry kernels of the geometry. They return the number of patches or, below zero, a value of `NoAnswer`.
+"""
+
+import math
+
+from contact._jit import kernel
+from contact.kernels.geometry.curve import Array
+from contact.kernels.geometry.frame import describe_all
+from contact.kernels.geometry.search import place, touch, trace, vertical_gap
+from contact.kernels.layout import Height, LoadKind, NoAnswer, Sep
+from contact.kernels.memory import Samples, Search
+from contact.kernels.normal.analyn import analyn
+from contact.kernels.result import clear
+
+_MAX_ITERATIONS = 60
+_TOLERANCE = 1e-11  # of the load; it is noise of the height, and difference quotients of FMUs see that
+DEEPEST = 5e-3  # [m] below first touch: far beyond any load that steel carries
+
+
+@kernel
+def oppose(wheel: Array, rail: Array, motion: Array, line: Array, placed: Array) -> tuple[int, int, int]:
+    """Trace line, placed rail and the gap between; returns the first trace node and the range of those above the rail."""
+    n = wheel.shape[1]
+    first = trace(wheel, n, motion.radius, motion.tape, motion.y, motion.roll, motion.yaw, line)
+    place(rail, rail.shape[1], motion.rail_y, motion.rail_z, motion.rail_roll, placed)
+    start, end = vertical_gap(line, first, n, placed, rail.shape[1])
+    return first, start, end
+
+
+@kernel
+def first_touch(wheel: Array, rail: Array, motion: Array, line: Array, placed: Array) -> tuple[bool, float]:
+    """Do the profiles lie above each other, and the z at which the rigid wheel just touches."""
+    _, start, end = oppose(wheel, rail, motion, line, placed)
+    if end - start < 3:
+        return False, 0.0
+    return True, touch(line, start, end)
+
+
+@kernel
+def carried(n: int, space: Search) -> float:
+    """Vertical force of the pressures of n patches by ANALYN at their approaches, sum of N cos(angle); fills `load` of each patch."""
+    total = 0.0
+    case, result, patches = space.case[0], space.result[0], space.patches
+    case.load_kind = LoadKind.APPROACH
+    for k in range(n):
+        case.amount = patches[k].approach
+        sep = space.separations[k]
+        samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
+        clear(result)
+        analyn(samples, case, space.across, space.work, space.strips, result)
+        patches[k].load = result.N
+        total += result.N * math.cos(patches[k].angle)
+    return total
+
+
+@kernel
+def _describe_at(z: float, first: int, start: int, end: int, space: Search) -> int:
+    """All patches with the wheelset at z, which is left in motion.z."""
+    space.motion[0].z = z
+    return describe_all(first, start, end, space)
+
+
+@kernel
+def locate(space: Search) -> int:
+    """Describe the patches at motion.z; needs none of the arrays of the normal problem."""
+    motion = space.motion[0]
+    first, start, end = oppose(space.wheel, space.rail, motion, space.line, space.placed)
+    if end - start < 3:
+        return NoAnswer.NO_OVERLAP.value
+    if motion.z > touch(space.line, start, end) + DEEPEST:
+        return NoAnswer.TOO_DEEP.value
+    return _describe_at(motion.z, first, start, end, space)
+
+
+@kernel
+def settle(mode: int, amount: float, space: Search) -> int:
+    """Find z as `mode` says, leave it in motion.z and describe the patches there.
+
+    Under a load, F^(2/3) is nearly linear in the penetration (Hertz); its root is bracketed and found by the Illinois
+    variant of regula falsi, usually at the fifth force, by bisection when that is slow.
+    """
+    if mode == Height.GIVEN:
+        return locate(space)
+    motion = space.motion[0]
+    first, start, end = oppose(space.wheel, space.rail, motion, space.line, space.placed)
+    if end - start < 3:
+        return NoAnswer.NO_OVERLAP.value
+    z0 = touch(space.line, start, end)
+    if mode == Height.PENETRATION or amount <= 0.0:
+        return _describe_at(z0 + amount, first, start, end, space)
+    target = amount ** (2.0 / 3.0)
+    low, high, f_low, f_high = 0.0, math.inf, -target, 0.0
+    p = 1e-4 * (amount / 1e5) ** (2.0 / 3.0)
+    side = 0
+    for iteration in range(_MAX_ITERATIONS):
+        n = _describe_at(z0 + p, first, start, end, space)
+        force = carried(n, space)
+        if abs(force - amount) <= _TOLERANCE * amount or high - low <= 1e-15:
+            return n
+        f = max(force, 0.0) ** (2.0 / 3.0) - target
+        if f > 0.0:
+            f_low = 0.5 * f_low if side > 0 else f_low
+            high, f_high, side = p, f, 1
+        else:
+            f_high = 0.5 * f_high if side < 0 else f_high
+            low, f_low, side = p, f, -1
+        if high < math.inf:
+            p = low - f_low * (high - low) / (f_high - f_low) if iteration < 15 else 0.5 * (low + high)
+        else:  # extrapolate the line, a little beyond
+            p = min(1.05 * p * target / (f + target), 3.0 * p) if f > -target else 3.0 * p
+            if p > DEEPEST:
+                return NoAnswer.NOT_SETTLED.value
+    return NoAnswer.NOT_SETTLED.value

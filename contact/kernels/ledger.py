@@ -1,0 +1,18 @@
+"""What one pair does to both of its profiles, added up over the distance."""
+
+from contact._jit import kernel
+from contact.kernels.damage.deposit import deposit, place, strip_rates
+from contact.kernels.layout import Body
+
+
+@kernel
+def enter(patch, n, damage, bench):
+    """Let the `n` strips of one patch, on the right side, act on both profiles of the ledger of a `memory.Bench`."""
+    ledger, strips, fields = bench.ledger, bench.own.strips, bench.own.fields
+    settings, rates, edges = ledger.settings[0], ledger.rates, ledger.edges
+    strip_rates(strips, n, fields, bench.damage_parameters[0], damage, bench.damage_fields, rates)
+    on_wheel, on_rail = (patch.wheel_y, patch.wheel_z), (patch.rail_y, patch.rail_z)
+    place(ledger.wheel, ledger.wheel_arc, on_wheel, patch.angle, 1.0, strips, n, edges)
+    deposit(rates, edges, strips, n, settings, True, ledger.bins[Body.WHEEL])
+    place(ledger.rail, ledger.rail_arc, on_rail, patch.angle, 1.0, strips, n, edges)
+    deposit(rates, edges, strips, n, settings, False, ledger.bins[Body.RAIL])

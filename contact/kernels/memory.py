@@ -1,0 +1,383 @@
+"""The arrays that kernels work on, with their shapes: one list for Python and for an FMU's block of memory.
+
+Every function here lays its arrays into `block` from the float64 at `end` on and returns them with the new end. In Python a
+block is a numpy array; in compiled code it is a pointer, and nothing is read or written. So the same list allocates a
+Python workspace and places the arrays in the memory of an FMU instance.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from llvmlite import ir
+from numba import carray, types
+from numba.core.errors import TypingError
+from numba.extending import intrinsic, overload, register_jitable
+
+from contact.kernels.families import Families
+from contact.kernels.kalker import N_TABLE
+from contact.kernels.layout import (
+    CASE,
+    CONTACT,
+    DAMAGE,
+    DAMAGE_PARAMETERS,
+    LEDGER,
+    LOBE,
+    MAX_LOBES,
+    MAX_PATCHES,
+    MOTION,
+    N_BIN_ROWS,
+    N_DAMAGE_FIELDS,
+    N_ELEMENT_ROWS,
+    N_FIELD_ROWS,
+    N_LINE_ROWS,
+    N_PROFILE_ROWS,
+    N_SAMPLE_ROWS,
+    N_SEP_ROWS,
+    N_STRIP_ROWS,
+    N_VECTOR_ROWS,
+    PATCH,
+    RESULT,
+    TOTAL,
+)
+from contact.kernels.normal.influence import MOST_TABULATED, N_COLUMNS
+from contact.kernels.normal.strip_halfspace import MEM_LN_A
+from contact.kernels.tangential.lanes import LANES, N_LANE_ROWS, TRACE_WIDTH
+
+#: Strips of the normal solution by which a wheel under a load finds its height.
+SEARCH_STRIPS = 30
+#: float64 in a cache line. Vectors that lie across two lines cost a sixth of the march's time.
+_LINE = 8
+
+Array = Any  # an ndarray in Python; numba infers the rest
+
+
+class Samples(NamedTuple):
+    """A separation as kernels take it: rows of `contact.Separation`, all of the same length."""
+
+    y: Array
+    g: Array
+    A: Array
+    x_c: Array
+    tilt: Array
+
+
+class Across(NamedTuple):
+    """Where strips lie across a patch, on [-1, 1], and their weights: Fejér's first rule."""
+
+    nodes: Array
+    weights: Array
+
+
+class Rule(NamedTuple):
+    """Where strips and elements lie in a patch: constant for a resolution, read-only."""
+
+    across: Across
+    elements: Array
+    cosines: Array
+    cosine_logs: Array
+    columns: Array
+
+
+class Tables(NamedTuple):
+    """Interpolated functions, read-only: Kalker's coefficients of one Poisson ratio, influence of strips, half-space forces."""
+
+    kalker: Array
+    centre: Array
+    plane: Array
+    creep: Array
+
+
+class Space(NamedTuple):
+    """Scratch arrays of the normal methods, `memory` from which the next call may start, and those of the tangential ones.
+
+    `case` is a copy that a kernel may change.
+    """
+
+    grid: Array
+    vectors: Array
+    logs: Array
+    matrix: Array
+    lu: Array
+    memory: Array
+    lanes: Array
+    trace: Array
+    case: Array
+
+
+class Workspace(NamedTuple):
+    """Everything that `pipeline.solve_case` needs besides the problem. `families` chooses the kernels, by its type."""
+
+    families: Families
+    rule: Rule
+    tables: Tables
+    space: Space
+    strips: Array
+    fields: Array
+
+
+class Search(NamedTuple):
+    """Curves of wheel and rail, `motion` and sample positions to be set; patches and separations to be read; scratch.
+
+    `case`, `across` … `result` are those of the normal problem under a load.
+    """
+
+    wheel: Array
+    rail: Array
+    motion: Array
+    grid: Array
+    patches: Array
+    separations: Array
+    line: Array
+    placed: Array
+    lobes: Array
+    wheel_plane: Array
+    rail_plane: Array
+    case: Array
+    across: Across
+    work: Array
+    strips: Array
+    result: Array
+
+
+class Ledger(NamedTuple):
+    """Bins over both profiles; without a bin nothing is entered.
+
+    `wheel` and `rail` are rows y, z of the whole profiles, with the arc length of each point; `rates` and `edges` are scratch.
+    """
+
+    wheel: Array
+    wheel_arc: Array
+    rail: Array
+    rail_arc: Array
+    settings: Array
+    rates: Array
+    edges: Array
+    bins: Array
+
+
+class Bench(NamedTuple):
+    """All arrays of one pair.
+
+    `search`, `own` and `damage_parameters` hold sizes and constants, `case` methods, material and friction, `patch_case` the same
+    for the patch at hand; `memory` is what
+    the next call may start from: the number of patches, then one piece for each of MAX_PATCHES. `contacts` and `total`
+    are the answer; `ledger` adds up.
+    """
+
+    search: Search
+    own: Workspace
+    case: Array
+    patch_case: Array
+    result: Array
+    memory: Array
+    damage_parameters: Array
+    damage_fields: Array
+    damage: Array
+    contacts: Array
+    total: Array
+    ledger: Ledger
+
+
+class Size(NamedTuple):
+    """Sizes of a workspace: strips per patch, elements per strip, samples of a separation at most.
+
+    `interacting` and `with_fields` are 1 for methods whose strips feel each other and where fields are wanted.
+    """
+
+    n_strips: int
+    n_elements: int
+    n_samples: int
+    interacting: int
+    with_fields: int
+
+
+@intrinsic
+def ahead(typing_context, pointer, count):  # type: ignore[no-untyped-def]
+    """Return the pointer advanced by `count` float64 values."""
+    if pointer != types.CPointer(types.float64):
+        raise TypingError("a block in compiled code is a pointer to float64")
+
+    def generate(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
+        base, offset = arguments
+        return builder.gep(base, [offset], source_etype=ir.DoubleType())
+
+    return pointer(pointer, types.int64), generate
+
+
+@intrinsic
+def _untyped(typing_context, pointer):  # type: ignore[no-untyped-def]
+    """Return the pointer without its type, which `carray` wants for records."""
+
+    def generate(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
+        return builder.bitcast(arguments[0], context.get_value_type(types.voidptr))
+
+    return types.voidptr(pointer), generate
+
+
+def vector(block: Array, end: int, n: int) -> tuple[Array, int]:
+    """Lay n float64."""
+    return block[end : end + n], end + n
+
+
+def matrix(block: Array, end: int, rows: int, columns: int) -> tuple[Array, int]:
+    """Lay a matrix of float64."""
+    return block[end : end + rows * columns].reshape(rows, columns), end + rows * columns
+
+
+def cube(block: Array, end: int, layers: int, rows: int, columns: int) -> tuple[Array, int]:
+    """Lay a three-dimensional array of float64."""
+    size = layers * rows * columns
+    return block[end : end + size].reshape(layers, rows, columns), end + size
+
+
+def records(block: Array, end: int, n: int, dtype: Any) -> tuple[Array, int]:
+    """Lay n records."""
+    size = n * (dtype.itemsize // 8)
+    return block[end : end + size].view(dtype), end + size
+
+
+@overload(vector)
+def _vector(block, end, n):  # type: ignore[no-untyped-def]
+    return lambda block, end, n: (carray(ahead(block, end), (n,)), end + n)
+
+
+@overload(matrix)
+def _matrix(block, end, rows, columns):  # type: ignore[no-untyped-def]
+    return lambda block, end, rows, columns: (carray(ahead(block, end), (rows, columns)), end + rows * columns)
+
+
+@overload(cube)
+def _cube(block, end, layers, rows, columns):  # type: ignore[no-untyped-def]
+    def lay(block, end, layers, rows, columns):  # type: ignore[no-untyped-def]
+        return carray(ahead(block, end), (layers, rows, columns)), end + layers * rows * columns
+
+    return lay
+
+
+@overload(records)
+def _records(block, end, n, dtype):  # type: ignore[no-untyped-def]
+    words = dtype.dtype.size // 8
+    return lambda block, end, n, dtype: (carray(_untyped(ahead(block, end)), (n,), dtype), end + n * words)
+
+
+@register_jitable
+def next_line(end: int) -> int:
+    """Return the first place from `end` on at which a cache line begins; the block itself begins at one."""
+    return (end + _LINE - 1) // _LINE * _LINE
+
+
+@register_jitable
+def memory_size(size: Size) -> int:
+    """Return how many float64 a normal method keeps from one call to the next."""
+    return MEM_LN_A + (MAX_PATCHES * size.n_strips if size.interacting else 1)
+
+
+@register_jitable
+def lay_across(block: Array, end: int, n_strips: int) -> tuple[Across, int]:
+    """Lay the positions and weights of strips across a patch."""
+    nodes, end = vector(block, end, n_strips)
+    weights, end = vector(block, end, n_strips)
+    return Across(nodes, weights), end
+
+
+@register_jitable
+def lay_rule(block: Array, end: int, size: Size) -> tuple[Rule, int]:
+    """Lay the rule of a resolution."""
+    n = size.n_strips
+    across, end = lay_across(block, end, n)
+    elements, end = matrix(block, end, N_ELEMENT_ROWS, size.n_elements)
+    cosines, end = vector(block, end, n + 1)
+    cosine_logs, end = matrix(block, end, n, n + 1)
+    tabulated = size.interacting != 0 and n <= MOST_TABULATED  # else the table of columns is not used
+    columns, end = cube(block, end, N_COLUMNS if tabulated else 1, n if tabulated else 1, n if tabulated else 1)
+    return Rule(across, elements, cosines, cosine_logs, columns), end
+
+
+@register_jitable
+def lay_kalker(block: Array, end: int) -> tuple[Array, int]:
+    """Lay the table of Kalker's coefficients for one Poisson ratio."""
+    return matrix(block, end, N_TABLE, 8)
+
+
+@register_jitable
+def lay_space(block: Array, end: int, size: Size, memory: Array) -> tuple[Space, int]:
+    """Lay the scratch arrays of a workspace around `memory`, which has the size `memory_size`."""
+    capacity = MAX_PATCHES * size.n_strips if size.interacting else 1
+    grid, end = matrix(block, end, N_SAMPLE_ROWS, size.n_samples)
+    vectors, end = matrix(block, end, N_VECTOR_ROWS, capacity)
+    logs, end = matrix(block, end, capacity, capacity + MAX_PATCHES)
+    influence, end = matrix(block, end, capacity, capacity)
+    lu, end = matrix(block, end, capacity, capacity)
+    lanes, end = vector(block, next_line(end), N_LANE_ROWS * LANES)
+    trace, end = matrix(block, end, size.n_elements, TRACE_WIDTH)
+    case, end = records(block, end, 1, CASE)
+    return Space(grid, vectors, logs, influence, lu, memory, lanes, trace, case), end
+
+
+@register_jitable
+def lay_strips_and_fields(block: Array, end: int, size: Size) -> tuple[Array, Array, int]:
+    """Lay what a solution consists of. Without fields one row of them serves all strips."""
+    capacity = MAX_PATCHES * size.n_strips
+    strips, end = matrix(block, end, N_STRIP_ROWS, capacity)
+    fields, end = cube(block, end, N_FIELD_ROWS, capacity if size.with_fields else 1, size.n_elements)
+    return strips, fields, end
+
+
+@register_jitable
+def lay_search(
+    block: Array, end: int, n_wheel: int, n_rail: int, prescribed: int, n_samples: int
+) -> tuple[Search, int]:
+    """Lay a contact search for curves of so many nodes; `prescribed` of the samples lie at given positions, all or none."""
+    wheel, end = matrix(block, end, N_PROFILE_ROWS, n_wheel)
+    rail, end = matrix(block, end, N_PROFILE_ROWS, n_rail)
+    motion, end = records(block, end, 1, MOTION)
+    grid, end = vector(block, end, prescribed)
+    patches, end = records(block, end, MAX_PATCHES, PATCH)
+    separations, end = cube(block, end, MAX_PATCHES, N_SEP_ROWS, n_samples)
+    line, end = matrix(block, end, N_LINE_ROWS, n_wheel)
+    placed, end = matrix(block, end, N_PROFILE_ROWS, n_rail)
+    lobes, end = records(block, end, MAX_LOBES, LOBE)
+    wheel_plane, end = matrix(block, end, N_LINE_ROWS, n_wheel)
+    rail_plane, end = matrix(block, end, N_PROFILE_ROWS, n_rail)
+    case, end = records(block, end, 1, CASE)
+    across, end = lay_across(block, end, SEARCH_STRIPS)
+    work, end = matrix(block, end, N_SAMPLE_ROWS, n_samples)
+    strips, end = matrix(block, end, N_STRIP_ROWS, MAX_PATCHES * SEARCH_STRIPS)
+    result, end = records(block, end, 1, RESULT)
+    search = Search(
+        wheel, rail, motion, grid, patches, separations, line, placed, lobes, wheel_plane, rail_plane,
+        case, across, work, strips, result,
+    )  # fmt: skip
+    return search, end
+
+
+@register_jitable
+def lay_ledger(block: Array, end: int, wheel: Array, rail: Array, bins: Array, n_strips: int) -> tuple[Ledger, int]:
+    """Lay a ledger around the profiles' rows and the bins."""
+    capacity = MAX_PATCHES * n_strips
+    wheel_arc, end = vector(block, end, wheel.shape[1])
+    rail_arc, end = vector(block, end, rail.shape[1])
+    settings, end = records(block, end, 1, LEDGER)
+    rates, end = matrix(block, end, N_BIN_ROWS, capacity)
+    edges, end = matrix(block, end, 2, capacity)
+    return Ledger(wheel, wheel_arc, rail, rail_arc, settings, rates, edges, bins), end
+
+
+@register_jitable
+def lay_bench(
+    block: Array, end: int, size: Size, memory: Array, search: Search, own: Workspace, ledger: Ledger
+) -> tuple[Bench, int]:
+    """Lay what a pair needs besides its search, its workspace and its ledger."""
+    case, end = records(block, end, 1, CASE)
+    patch_case, end = records(block, end, 1, CASE)
+    result, end = records(block, end, 1, RESULT)
+    parameters, end = records(block, end, 1, DAMAGE_PARAMETERS)
+    damage_fields, end = cube(block, end, N_DAMAGE_FIELDS, MAX_PATCHES * size.n_strips, size.n_elements)
+    damage, end = records(block, end, 1, DAMAGE)
+    contacts, end = records(block, end, MAX_PATCHES, CONTACT)
+    total, end = records(block, end, 1, TOTAL)
+    bench = Bench(
+        search, own, case, patch_case, result, memory, parameters, damage_fields, damage, contacts, total, ledger
+    )
+    return bench, end

@@ -1,0 +1,45 @@
+"""The least point of a separation with the constants of Hertz's contact there."""
+
+import math
+from typing import NamedTuple
+
+from contact._jit import kernel
+from contact.kernels.hertz import local_factors
+from contact.kernels.layout import Sample
+from contact.kernels.normal.analyn import floored, lateral_curvature
+from contact.kernels.normal.lay import least_point, locate, slopes
+
+
+class Deepest(NamedTuple):
+    """Position and gap of the least point, its half curvatures and Hertz's factors (`hertz.local_factors`) of them."""
+
+    y: float
+    g: float
+    A: float
+    B: float
+    one_alpha: float
+    one_beta: float
+    nr: float
+    log_aspect: float
+
+
+@kernel
+def deepest(y, g, A, n, work):
+    """Find it; the slopes of the gap are left in `work`."""
+    m = work[Sample.GAP_SLOPE]
+    slopes(y, g, n, m)
+    y_least, g_least = least_point(y, g, m, n)
+    k = locate(y, n, y_least, 0)
+    t = (y_least - y[k]) / (y[k + 1] - y[k])
+    A0 = (1.0 - t) * A[k] + t * A[k + 1]
+    B_left, below, above = lateral_curvature(y, g, m, n, k, 0, 0)
+    B_right, _, _ = lateral_curvature(y, g, m, n, k + 1, below, above)
+    B0 = floored((1.0 - t) * B_left + t * B_right)
+    one_alpha, one_beta, nr, log_aspect = local_factors(A0, B0)
+    return Deepest(y_least, g_least, A0, B0, one_alpha, one_beta, nr, log_aspect)
+
+
+@kernel
+def unit_load(point, modulus):
+    """Hertz's load at unit approach; N = unit·delta^(3/2): from a² = delta/((1+alpha)A), p0 = 2 E* delta/(pi n r a)."""
+    return 4.0 / 3.0 * modulus / (point.nr * math.sqrt(point.one_beta * point.B))

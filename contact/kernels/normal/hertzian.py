@@ -1,0 +1,49 @@
+"""Hertz's ellipse from the curvatures at the least point of the separation (theory.md 1.1)."""
+
+import math
+
+from contact._jit import kernel
+from contact.kernels.layout import LoadKind, Status, Strip
+from contact.kernels.normal.analyn import NO_OVERLAP
+from contact.kernels.normal.deepest import deepest, unit_load
+from contact.kernels.normal.lay import lay_strips, locate
+
+
+@kernel
+def hertzian(sep, case, across, work, strips, result):
+    """Solve as if A and B were constant; same arguments and answers as `analyn`."""
+    y, xc, n = sep.y, sep.x_c, sep.y.size
+    modulus = case.G / (1.0 - case.nu)
+    edges = result.edges
+    point = deepest(y, sep.g, sep.A, n, work)
+    # at approach delta: a² = delta/((1+alpha)A), b² = delta/((1+beta)B), p0 = 2 E* delta/(pi n r a), N = 2/3 pi a b p0
+    unit = unit_load(point, modulus)
+    result.status = Status.OK
+    result.iterations = 0
+    result.touch = point.g
+    if case.load_kind == LoadKind.APPROACH:
+        delta = case.amount - point.g
+        result.approach = case.amount
+    else:
+        delta = (max(case.amount, 0.0) / unit) ** (2.0 / 3.0)
+        result.approach = point.g + delta
+    if delta <= NO_OVERLAP * (y[n - 1] - y[0]):
+        result.status = Status.NO_CONTACT
+        return 0
+    b2 = delta / (point.one_beta * point.B)
+    edges[0], edges[1] = point.y - math.sqrt(b2), point.y + math.sqrt(b2)
+    if edges[0] < y[0] or edges[1] > y[n - 1]:
+        result.status = Status.OUT_OF_RANGE
+    n_strips = lay_strips(edges, 1, across, strips)
+    k = locate(y, n, point.y, 0)
+    t = (point.y - y[k]) / (y[k + 1] - y[k])
+    centre = (1.0 - t) * xc[k] + t * xc[k + 1]
+    for i in range(n_strips):
+        d = delta * max(1.0 - (strips[Strip.Y, i] - point.y) ** 2 / b2, 0.0)
+        strips[Strip.A, i] = math.sqrt(d / (point.one_alpha * point.A))
+        strips[Strip.P0, i] = 2.0 * modulus / math.pi * math.sqrt(d * point.one_alpha * point.A) / point.nr
+        strips[Strip.XC, i] = centre
+        strips[Strip.ASPECT, i] = point.log_aspect
+    result.N = unit * delta**1.5
+    result.stiffness = 1.5 * unit * math.sqrt(delta)
+    return n_strips

@@ -1,0 +1,173 @@
+"""Normal displacement by a strip with semi-elliptic pressure: tables and their lookup (strip_halfspace.md 1).
+
+A strip |x| <= a with p = p0·√(1 - (x/a)²) between lateral distances t1·a and t2·a displaces the surface at x = X·a by
+    u = p0 a/(pi E*)·[U(X, t2) - U(X, t1)],   U(X, t) = ∫√(1-s²) asinh(t/|X-s|) ds over [-1, 1],
+odd in t, even in X, finite everywhere: the strip itself needs no special case. On the centre line dU/dt has the closed form
+2√(1+t²)(K(m) - E(m)), m = 1/(1+t²).
+"""
+
+import math
+
+import numpy as np
+
+from contact._jit import kernel
+from contact.kernels.hertz import elliptic_integrals
+
+_LN_T_MIN, _LN_T_MAX = math.log(1e-5), math.log(1e5)
+_N_CENTRE = 401
+_CENTRE_STEP = (_LN_T_MAX - _LN_T_MIN) / (_N_CENTRE - 1)
+
+_X_MAX, _N_X = 4.0, 201
+_X_STEP = _X_MAX / (_N_X - 1)
+_PER_X_STEP = 1.0 / _X_STEP
+#: Below the 150th value of ln t, t = 1.1e-3, U is as good as proportional to t.
+_LN_T_HIGH, _T_STEP = math.log(1e2), 0.03
+_N_PROPORTIONAL, _N_T = 150, 534
+_LN_T_LOW, _PER_T_STEP = _LN_T_HIGH - (_N_T - 1) * _T_STEP, 1.0 / _T_STEP
+
+#: Shapes of the two tables. Two rows more in the second: U beyond X = 4 is linear in 1/X² at fixed t/X, so they hold its
+#: values at 1/X² = 0 and 1 over ln(t/X).
+CENTRE, PLANE = (_N_CENTRE, 2), (_N_X + 2, _N_T)
+
+#: Strips of one panel sit at fixed cosines: what one does to another depends on ln(a/half width of the panel) alone. Range and
+#: step of that table, which has a row more at either end.
+_LN_A_LOW, _LN_A_HIGH, _LN_A_STEP = -7.0, 4.0, 0.125
+N_COLUMNS = round((_LN_A_HIGH - _LN_A_LOW) / _LN_A_STEP) + 3
+#: Panels of more strips do without the table: it grows with their square (7 MB at 100).
+MOST_TABULATED = 100
+
+_GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(6)
+
+
+@kernel
+def centre_slope(t):
+    """DU/dt on the centre line, X = 0 (closed form)."""
+    root = math.sqrt(1.0 + t * t)
+    K, E, _, _ = elliptic_integrals(t / root)  # complementary modulus; K - E = k² D
+    return 2.0 * root * (K - E)
+
+
+@kernel
+def _panel(X, t, low, high):
+    """∫sin² asinh(t/|X - cos|) over a range of the angle, six Gauss points."""
+    total = 0.0
+    for i in range(6):
+        angle = 0.5 * (low + high + (high - low) * _GAUSS_X[i])
+        sine = math.sin(angle)
+        distance = abs(X - math.cos(angle))
+        total += _GAUSS_W[i] * sine * sine * math.asinh(t / max(distance, 1e-300))
+    return 0.5 * (high - low) * total
+
+
+@kernel
+def quadrature(X, t):
+    """U(X, t) by Gauss panels graded geometrically towards the singular angle; relative error 1e-5 or less."""
+    singular = math.acos(min(X, 1.0))
+    total = 0.0
+    for side in range(2):
+        length = singular if side == 0 else math.pi - singular
+        sign = -1.0 if side == 0 else 1.0
+        outer = 1.0
+        for _ in range(18):
+            inner = 0.5 * outer
+            total += _panel(X, t, singular + sign * outer * length, singular + sign * inner * length) * -sign
+            outer = inner
+        total += _panel(X, t, singular + sign * outer * length, singular) * -sign
+    return total
+
+
+@kernel
+def fill(centre, plane):
+    """Fill the tables of U on the centre line and over (X, ln t), of the shapes CENTRE and PLANE."""
+    value = math.exp(_LN_T_MIN) * 2.0 * (math.log(4.0) - _LN_T_MIN)  # U ~ 2t ln(4/t)
+    for i in range(_N_CENTRE):
+        t = math.exp(_LN_T_MIN + i * _CENTRE_STEP)
+        if i > 0:  # three-point Gauss of dU/d(ln t) = t U' over the last interval
+            before = _LN_T_MIN + (i - 1) * _CENTRE_STEP
+            for k in range(6):
+                at = math.exp(before + 0.5 * _CENTRE_STEP * (1.0 + _GAUSS_X[k]))
+                value += 0.5 * _CENTRE_STEP * _GAUSS_W[k] * at * centre_slope(at)
+        centre[i, 0], centre[i, 1] = value, t * centre_slope(t) * _CENTRE_STEP
+    for i in range(_N_X):
+        for k in range(_N_PROPORTIONAL, _N_T):
+            plane[i, k] = quadrature(i * _X_STEP, math.exp(_LN_T_LOW + k * _T_STEP))
+        for k in range(_N_PROPORTIONAL):
+            plane[i, k] = plane[i, _N_PROPORTIONAL] * math.exp((k - _N_PROPORTIONAL) * _T_STEP)
+    for k in range(_N_T):
+        t = math.exp(_LN_T_LOW + k * _T_STEP)
+        plane[_N_X, k] = 0.5 * math.pi * math.asinh(t)
+        plane[_N_X + 1, k] = plane[_N_X, k] + math.pi / 16.0 * t * (2.0 + t * t) / (1.0 + t * t) ** 1.5
+
+
+@kernel
+def at_centre(centre, log_t):
+    """U(0, t) for t > 0 given by its logarithm; error below 1e-7."""
+    u = (log_t - _LN_T_MIN) / _CENTRE_STEP
+    if not u > 0.0:  # so written, no NaN becomes an index, here and below
+        t = math.exp(log_t)
+        return 2.0 * t * (math.log(4.0) - log_t)
+    if u >= _N_CENTRE - 1:
+        return centre[_N_CENTRE - 1, 0] + 0.5 * math.pi * (log_t - _LN_T_MAX)
+    i = int(u)
+    v = u - i
+    w = 1.0 - v
+    p, q = centre[i], centre[i + 1]
+    return w * w * ((1.0 + 2.0 * v) * p[0] + v * p[1]) + v * v * ((1.0 + 2.0 * w) * q[0] - w * q[1])
+
+
+@kernel
+def fill_columns(cosine_logs, centre, columns):
+    """U(0, t2) - U(0, t1) of strip j at the middle of strip i of one panel, into columns[ln(a_j/half width), j, i]."""
+    n = cosine_logs.shape[0]
+    for m in range(columns.shape[0]):
+        ln_a = _LN_A_LOW + (m - 1) * _LN_A_STEP
+        for j in range(n):
+            for i in range(n):
+                near, far = at_centre(centre, cosine_logs[i, j] - ln_a), at_centre(centre, cosine_logs[i, j + 1] - ln_a)
+                columns[m, j, i] = near + far if i == j else abs(far - near)
+
+
+@kernel
+def column(columns, j, ln_a, scale, out):
+    """U(0, t2) - U(0, t1) of strip j at all strips of its panel, times `scale`: cubic in ln(a_j/half width), error 3e-6."""
+    u = (ln_a - _LN_A_LOW) * (1.0 / _LN_A_STEP)
+    u = u if u > 0.0 else 0.0
+    u = min(u, N_COLUMNS - 3.000001)
+    m = int(u)
+    t = u - m
+    f0, f1 = -t * (t - 1.0) * (t - 2.0) / 6.0 * scale, (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0 * scale
+    f2, f3 = -(t + 1.0) * t * (t - 2.0) / 2.0 * scale, (t + 1.0) * t * (t - 1.0) / 6.0 * scale
+    c0, c1, c2, c3 = columns[m, j], columns[m + 1, j], columns[m + 2, j], columns[m + 3, j]
+    for i in range(out.size):
+        out[i] = f0 * c0[i] + f1 * c1[i] + f2 * c2[i] + f3 * c3[i]
+
+
+@kernel
+def row_at(X, ln_X):
+    """Row of the plane's table for X >= 0, the share of the next row, and what its ln t counts from (for `in_row`)."""
+    if not X < _X_MAX:
+        return _N_X, 1.0 / (X * X), ln_X
+    u = X * _PER_X_STEP
+    i = min(int(u), _N_X - 2)
+    return i, u - i, 0.0
+
+
+@kernel
+def in_row(plane, i, u, log_t):
+    """U(X, t) for t > 0, bilinear in the table at the row and share given by `row_at`; logarithmic beyond its range of t."""
+    v = (log_t - _LN_T_LOW) * _PER_T_STEP
+    v = v if v > 0.0 else 0.0  # so written, no NaN becomes an index
+    extra = 0.5 * math.pi * _T_STEP * max(v - (_N_T - 1.0), 0.0)
+    v = min(v, _N_T - 1.000001)
+    k = int(v)
+    v -= k
+    low = plane[i, k] + v * (plane[i, k + 1] - plane[i, k])
+    high = plane[i + 1, k] + v * (plane[i + 1, k + 1] - plane[i + 1, k])
+    return low + u * (high - low) + extra
+
+
+@kernel
+def anywhere(plane, X, log_t):
+    """U(X, t) for X >= 0, t > 0; error below 1e-3."""
+    i, u, ln_X = row_at(X, math.log(max(X, 1e-300)))
+    return in_row(plane, i, u, log_t - ln_X)

@@ -1,0 +1,49 @@
+"""Kik and Piotrowski's virtual penetration with shape correction (2008).
+
+The patch of 1996 is stretched along x and shrunk along y, its area kept, until an ellipse has Hertz's axes (theory.md 0.6, 5):
+
+    a_c/a = b/b_c = √((m0/n0)/√(B0/A0)),   so that a_c/b_c = m0/n0 where a/b = √(B0/A0)
+
+with the curvatures A0, B0 of the least point. The pressure follows as in 1996. [R]: recalled from Piotrowski and Kik, Vehicle
+System Dynamics 46 (2008) 27, by way of the thesis, Eqs. 7.5-7.6, whose ratio is printed upside down. Ours: the factor comes
+from the curvatures, not from length and width of the patch, which would make a large step where patches merge; every patch
+is stretched about the centroid of its own area, which leaves a small one (0.8 % of the load for two alike).
+"""
+
+import math
+
+from contact._jit import kernel
+from contact.kernels.layout import Strip
+
+
+@kernel
+def _stretch(strips, first, last, factor, edges, at):
+    """Stretch the strips of one patch; return where the point `at` goes if it lies in the patch, else `at`."""
+    area, moment = 0.0, 0.0
+    for i in range(first, last):
+        weight = strips[Strip.A, i] * strips[Strip.DY, i]
+        area += weight
+        moment += weight * strips[Strip.Y, i]
+    if area <= 0.0:
+        return at
+    k = int(strips[Strip.PATCH, first])
+    centre = moment / area
+    for i in range(first, last):
+        strips[Strip.A, i] *= factor
+        strips[Strip.DY, i] /= factor
+        strips[Strip.Y, i] = centre + (strips[Strip.Y, i] - centre) / factor
+    if edges[2 * k] < at < edges[2 * k + 1]:
+        at = centre + (at - centre) / factor
+    for side in range(2 * k, 2 * k + 2):
+        edges[side] = centre + (edges[side] - centre) / factor
+    return at
+
+
+@kernel
+def stretch(strips, n, panel, edges, point):
+    """Stretch `n` strips, `panel` in a patch; return the factor along x and where the least point goes."""
+    factor = math.exp(0.5 * (point.log_aspect - 0.5 * math.log(point.B / point.A)))
+    at = point.y
+    for k in range(n // panel):
+        at = _stretch(strips, k * panel, (k + 1) * panel, factor, edges, at)
+    return factor, at

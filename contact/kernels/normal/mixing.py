@@ -1,0 +1,73 @@
+"""Steps of the strip half space: residuals of half lengths and panel ends mixed over the last iterations (Anderson 1965)."""
+
+from contact._jit import kernel
+from contact.kernels.layout import DEPTH, Vector
+
+#: Weight of an end in the mixing beside the loads of all strips.
+_END_WEIGHT = 1.0
+
+
+@kernel
+def advance(n, n_panels, panels, vectors, load, known, gram):
+    """Next half lengths and ends by Anderson's mixing over the last `DEPTH` of the `known` steps, weighted with strip loads.
+
+    The end strips' entries of the residual Vector.R and of the steps stand for the ends of their panel. Steps and changes of the
+    residual are kept in rings of rows.
+    """
+    total = n * n_panels
+    if known > 0:
+        row = (known - 1) % DEPTH
+        for i in range(total):
+            vectors[Vector.STEPS + row, i] = vectors[Vector.STEP, i]
+            vectors[Vector.CHANGES + row, i] = vectors[Vector.R, i] - vectors[Vector.R_OLD, i]
+    depth = min(known, DEPTH)
+    for i in range(total):
+        weight = vectors[Vector.P, i] * vectors[Vector.A, i] * vectors[Vector.HALF, i] / load
+        place = i % n
+        if place == 0 or place == n - 1:
+            width = panels[2 * (i // n) + 1] - panels[2 * (i // n)]
+            weight = _END_WEIGHT / (width * width)
+        vectors[Vector.Q1, i] = weight
+        vectors[Vector.STEP, i] = vectors[Vector.R, i]
+        vectors[Vector.R_OLD, i] = vectors[Vector.R, i]
+    for k in range(depth):
+        for m in range(depth):
+            product = 0.0
+            for i in range(total):
+                product += vectors[Vector.Q1, i] * vectors[Vector.CHANGES + k, i] * vectors[Vector.CHANGES + m, i]
+            gram[k, m] = product
+        product = 0.0
+        for i in range(total):
+            product += vectors[Vector.Q1, i] * vectors[Vector.CHANGES + k, i] * vectors[Vector.R, i]
+        gram[k, depth] = product
+        gram[k, k] *= 1.0 + 1e-8
+        gram[k, k] += 1e-30
+    for k in range(depth):
+        for m in range(k + 1, depth):
+            factor = gram[m, k] / gram[k, k]
+            for c in range(k, depth + 1):
+                gram[m, c] -= factor * gram[k, c]
+    for k in range(depth - 1, -1, -1):
+        for m in range(k + 1, depth):
+            gram[k, depth] -= gram[k, m] * gram[m, depth]
+        gram[k, depth] /= gram[k, k]
+    for k in range(depth):
+        for i in range(total):
+            vectors[Vector.STEP, i] -= gram[k, depth] * (vectors[Vector.STEPS + k, i] + vectors[Vector.CHANGES + k, i])
+    for p in range(n_panels):
+        first, last = p * n, p * n + n - 1
+        for i in range(first + 1, last):
+            vectors[Vector.STEP, i] = min(max(vectors[Vector.STEP, i], -0.8), 0.8)
+            vectors[Vector.LN_A, i] += vectors[Vector.STEP, i]
+        bound = 0.25 * (panels[2 * p + 1] - panels[2 * p])
+        for end in (first, last):
+            # beyond its range the end rule says no more than a direction, which mixing must not reverse
+            if vectors[Vector.STEP, end] * vectors[Vector.R, end] <= 0.0 and abs(vectors[Vector.R, end]) > 1e-2 * bound:
+                vectors[Vector.STEP, end] = vectors[Vector.R, end]
+            vectors[Vector.STEP, end] = min(max(vectors[Vector.STEP, end], -bound), bound)
+        panels[2 * p] += vectors[Vector.STEP, first]
+        panels[2 * p + 1] += vectors[Vector.STEP, last]
+        vectors[Vector.LN_A, first], vectors[Vector.LN_A, last] = (
+            vectors[Vector.LN_A, first + 1],
+            vectors[Vector.LN_A, last - 1],
+        )

@@ -1,0 +1,312 @@
+"""Panels of cosine-spaced strips that cover the patches of the strip half space: laid, moved, opened, joined and dropped."""
+
+import math
+
+from contact._jit import kernel
+from contact.kernels.layout import MAX_PATCHES, Sample, Strip, Vector
+from contact.kernels.normal.lay import locate
+from contact.kernels.normal.strip_system import displacement_outside
+
+#: Share of an end's move that its rule asks for.
+_END_STEP = 0.6
+_END_VALUE, _END_SLOPE = 0.365, 0.108  # (p1/p2)² at the exact half width and its slope (strip_halfspace.md 2, step 4)
+_END_RANGE = (-3.0, 20.0)  # of one move outwards before damping, in widths of the end strip
+#: A frozen end still moves outwards from here on: the pressure rises towards the corner of a punch.
+_PUNCH = 1.0
+#: A panel narrower than this, over the widest, is none.
+NO_PANEL = 1e-5
+#: Overlap outside the panels, over the approach, that counts as missed contact, early and in the end.
+EARLY_GHOST, GHOST = 2e-2, 1e-3
+
+
+@kernel
+def _hermite_integral(h, f0, m0, f1, m1, t):
+    """Integral of the cubic over its interval from 0 to t."""
+    t2 = t * t
+    t3, t4 = t2 * t, t2 * t2
+    return h * (
+        f0 * (t - t3 + 0.5 * t4)
+        + h * m0 * (0.5 * t2 - 2.0 / 3.0 * t3 + 0.25 * t4)
+        + f1 * (t3 - 0.5 * t4)
+        + h * m1 * (0.25 * t4 - t3 / 3.0)
+    )
+
+
+@kernel
+def lay_panels(y, g, A, xc, g_least, work, panels, n_panels, cosines, vectors):
+    """Strip positions, mean gaps, curvatures and loci for the present ends of the panels."""
+    n = cosines.size - 1
+    size = y.size
+    m = work[Sample.GAP_SLOPE]
+    k = 0
+    for p in range(n_panels):
+        centre = 0.5 * (panels[2 * p] + panels[2 * p + 1])
+        half = 0.5 * (panels[2 * p + 1] - panels[2 * p])
+        low = centre + half * cosines[0]
+        k = locate(y, size, low, k)
+        middle = k
+        h = y[k + 1] - y[k]
+        before = _hermite_integral(h, g[k], m[k], g[k + 1], m[k + 1], (low - y[k]) / h)
+        for i in range(n):
+            row = p * n + i
+            high = centre + half * cosines[i + 1]
+            at = 0.5 * (low + high)
+            vectors[Vector.Y, row], vectors[Vector.HALF, row] = at, 0.5 * (high - low)
+            integral = -before  # from the start of the interval in which the strip begins
+            while k < size - 2 and y[k + 1] < high:
+                integral += h * (0.5 * (g[k] + g[k + 1]) + h / 12.0 * (m[k] - m[k + 1]))
+                k += 1
+                h = y[k + 1] - y[k]
+            before = _hermite_integral(h, g[k], m[k], g[k + 1], m[k + 1], (high - y[k]) / h)
+            vectors[Vector.GAP, row] = (integral + before) / (high - low) - g_least
+            middle = locate(y, size, at, middle)
+            t = (at - y[middle]) / (y[middle + 1] - y[middle])
+            vectors[Vector.CURVATURE, row] = (1.0 - t) * A[middle] + t * A[middle + 1]
+            vectors[Vector.XC, row] = (1.0 - t) * xc[middle] + t * xc[middle + 1]
+            low = high
+
+
+@kernel
+def half_lengths(vectors, n, n_panels):
+    """a from ln a; strips at the ends follow the square root of the edge, none collapses beside its neighbours."""
+    for p in range(n_panels):
+        first = p * n
+        for i in range(first + 1, first + n - 1):
+            vectors[Vector.A, i] = math.exp(vectors[Vector.LN_A, i])
+            vectors[Vector.FLOORED, i] = 0.0
+        vectors[Vector.A, first] = 0.447 * vectors[Vector.A, first + 1]
+        vectors[Vector.A, first + n - 1] = 0.447 * vectors[Vector.A, first + n - 2]
+        for i in range(first + 1, first + n - 1):
+            if vectors[Vector.ACTIVE, i] != 0.0:
+                floor = 0.3 * max(vectors[Vector.A, i - 1], vectors[Vector.A, i + 1])
+                if vectors[Vector.A, i] <= floor:
+                    vectors[Vector.A, i], vectors[Vector.LN_A, i] = floor, math.log(floor)
+                    vectors[Vector.FLOORED, i] = 1.0
+
+
+@kernel
+def _resample(old_low, old_high, low, high, cosines, vectors, first):
+    """Carry a²(y) of one panel over to new ends, linear in y and constant beyond."""
+    n = cosines.size - 1
+    scale = 0.5 * (old_high - old_low)
+    for i in range(n):
+        vectors[Vector.R_OLD, first + i] = vectors[Vector.LN_A, first + i]
+    for i in range(n):
+        at = 0.5 * (low + high) + 0.25 * (high - low) * (cosines[i] + cosines[i + 1])
+        unit = (at - 0.5 * (old_low + old_high)) / scale
+        k = 1
+        while k < n - 2 and 0.5 * (cosines[k + 1] + cosines[k + 2]) < unit:
+            k += 1
+        left, right = 0.5 * (cosines[k] + cosines[k + 1]), 0.5 * (cosines[k + 1] + cosines[k + 2])
+        t = min(max((unit - left) / (right - left), 0.0), 1.0)
+        square = (1.0 - t) * math.exp(2.0 * vectors[Vector.R_OLD, first + k]) + t * math.exp(
+            2.0 * vectors[Vector.R_OLD, first + k + 1]
+        )
+        vectors[Vector.LN_A, first + i] = 0.5 * math.log(square)
+
+
+@kernel
+def start_panels(n_strips, panel_strips, strips, result, panels, cosines, vectors):
+    """One panel for each patch of the ANALYN solution, its half lengths carried over; return the number of panels."""
+    n = cosines.size - 1
+    count = int(strips[Strip.PATCH, n_strips - 1]) + 1
+    for p in range(count):
+        low, high = result.edges[2 * p], result.edges[2 * p + 1]
+        margin = 0.01 * (high - low)
+        panels[2 * p], panels[2 * p + 1] = low - margin, high + margin
+        if p > 0 and panels[2 * p] < panels[2 * p - 1]:
+            panels[2 * p] = panels[2 * p - 1] = 0.5 * (low + result.edges[2 * p - 1])
+        largest = 0.0
+        for i in range(panel_strips):
+            largest = max(largest, strips[Strip.A, p * panel_strips + i])
+        for i in range(n):
+            a = max(strips[Strip.A, p * panel_strips + i], 1e-3 * largest)
+            if 0 < i < n - 1:
+                a = max(
+                    a, 0.4 * max(strips[Strip.A, p * panel_strips + i - 1], strips[Strip.A, p * panel_strips + i + 1])
+                )
+            vectors[Vector.LN_A, p * n + i] = math.log(a)
+            vectors[Vector.ACTIVE, p * n + i] = 1.0
+    return count
+
+
+@kernel
+def _end_move(vectors, n, first, step, cosines, frozen):
+    """How far one end of a panel should move outwards over its half width, and the number of idle strips there.
+
+    `first` is the strip at this end, `step` the way to its neighbour. On the exact half width the squared ratio q of the
+    second and third pressures has a known value; a high second strip means that the panel is too narrow. A `frozen` end
+    stays where it is, and idle strips with it, unless the pressure rises towards it.
+    """
+    idle = 0
+    while idle < n - 1 and vectors[Vector.P, first + idle * step] <= 0.0:
+        idle += 1
+    if idle >= 2:
+        return 0.0 if frozen else -0.9 * (1.0 + cosines[idle]), idle
+    if vectors[Vector.P, first + 2 * step] <= 0.0:
+        return 0.0, idle
+    q = (vectors[Vector.P, first + step] / vectors[Vector.P, first + 2 * step]) ** 2
+    if frozen and q < _PUNCH:
+        return 0.0, idle
+    wanted = min(max((q - _END_VALUE) / _END_SLOPE, _END_RANGE[0]), _END_RANGE[1])
+    return _END_STEP * wanted * (1.0 + cosines[1]), idle
+
+
+@kernel
+def end_moves(y, n, n_panels, panels, cosines, vectors, frozen):
+    """Moves of all panels' ends into Vector.R of their end strips.
+
+    Returns the largest over the width, and whether a quarter of a panel is idle, so that it must be cut off.
+    """
+    largest, cut = 0.0, False
+    for p in range(n_panels):
+        first, last = p * n, p * n + n - 1
+        low, high = panels[2 * p], panels[2 * p + 1]
+        half = 0.5 * (high - low)
+        move, idle = _end_move(vectors, n, first, 1, cosines, frozen)
+        vectors[Vector.R, first] = max(low - half * move, y[0]) - low
+        cut = cut or (4 * idle > n and not frozen)
+        move, idle = _end_move(vectors, n, last, -1, cosines, frozen)
+        vectors[Vector.R, last] = min(high + half * move, y[y.size - 1]) - high
+        cut = cut or (4 * idle > n and not frozen)
+        largest = max(largest, max(abs(vectors[Vector.R, first]), abs(vectors[Vector.R, last])) / (high - low))
+    return largest, cut
+
+
+@kernel
+def cut_idle(n, n_panels, panels, cosines, vectors):
+    """Move the ends by Vector.R at once and carry the half lengths over."""
+    for p in range(n_panels):
+        first, last = p * n, p * n + n - 1
+        low, high = panels[2 * p], panels[2 * p + 1]
+        panels[2 * p], panels[2 * p + 1] = low + vectors[Vector.R, first], high + vectors[Vector.R, last]
+        _resample(low, high, panels[2 * p], panels[2 * p + 1], cosines, vectors, first)
+        vectors[Vector.ACTIVE, first : first + n] = 1.0
+
+
+@kernel
+def extend_to_ghosts(y, g, g_least, delta, least, modulus, n, n_panels, panels, cosines, vectors, centre):
+    """Where the gap outside all panels would be overlapped, widen the nearest panel or open a new one.
+
+    Without this a second patch that the start solution missed stays unseen (strip_halfspace.md 2, step 5). Returns the
+    number of panels and whether anything changed.
+    """
+    size = y.size
+    changed = False
+    width = 0.0
+    for p in range(n_panels):
+        width = max(width, panels[2 * p + 1] - panels[2 * p])
+    checked = -math.inf  # a fiftieth of the patch apart is near enough: a ghost is an overlap of the undeformed bodies
+    i = 0
+    while i < size:
+        inside = g[i] - g_least >= delta * (1.0 - 1e-3)
+        for p in range(n_panels):
+            inside = inside or panels[2 * p] <= y[i] <= panels[2 * p + 1]
+        if inside or (y[i] - checked < 0.02 * width and y[i] > y[0]):
+            i += 1
+            continue
+        checked = y[i]
+        u = displacement_outside(y[i], n, n_panels, panels, cosines, vectors, centre, modulus)
+        if delta - (g[i] - g_least) - u <= least * delta:
+            i += 1
+            continue
+        # overlap at y[i]: how far does it go
+        k = i
+        while k + 1 < size and g[k + 1] - g_least < delta:
+            u = displacement_outside(y[k + 1], n, n_panels, panels, cosines, vectors, centre, modulus)
+            if delta - (g[k + 1] - g_least) - u <= least * delta:
+                break
+            k += 1
+        margin = 1 if least <= GHOST else 0  # while the ends still move, no further than necessary
+        low, high = y[max(i - margin, 0)], y[min(k + margin, size - 1)]
+        nearest, distance = 0, math.inf
+        for p in range(n_panels):
+            d = max(panels[2 * p] - high, low - panels[2 * p + 1])
+            if d < distance:
+                nearest, distance = p, d
+        width = panels[2 * nearest + 1] - panels[2 * nearest]
+        if distance > 0.05 * width and n_panels < MAX_PATCHES:
+            p = n_panels
+            n_panels += 1
+            low, high = y[max(i - 1, 0)], y[min(k + 1, size - 1)]
+            panels[2 * p], panels[2 * p + 1] = low, high
+            reference = 0.0
+            for j in range(n):
+                reference = max(reference, vectors[Vector.A, nearest * n + j])
+            for j in range(n):
+                unit = 0.5 * (cosines[j] + cosines[j + 1])
+                a = max(
+                    0.5 * reference * math.sqrt((high - low) / width) * math.sqrt(1.0 - unit * unit), 1e-3 * reference
+                )
+                vectors[Vector.LN_A, p * n + j] = math.log(a)
+                vectors[Vector.ACTIVE, p * n + j] = 1.0
+                vectors[Vector.P, p * n + j] = (
+                    0.0  # not known yet: it displaces nothing while further ghosts are looked for
+                )
+        else:
+            p = nearest
+            old_low, old_high = panels[2 * p], panels[2 * p + 1]
+            panels[2 * p], panels[2 * p + 1] = min(low, old_low), max(high, old_high)
+            _resample(old_low, old_high, panels[2 * p], panels[2 * p + 1], cosines, vectors, p * n)
+            vectors[Vector.ACTIVE, p * n : p * n + n] = 1.0
+        changed = True
+        i = k + 2
+    return n_panels, changed
+
+
+@kernel
+def _remove_panel(p, n, n_panels, panels, vectors):
+    """Close the gap that panel p leaves in the lists."""
+    for q in range(p, n_panels - 1):
+        panels[2 * q], panels[2 * q + 1] = panels[2 * q + 2], panels[2 * q + 3]
+        for i in range(n):
+            for row in (Vector.LN_A, Vector.ACTIVE, Vector.P, Vector.A, Vector.HALF, Vector.R):
+                vectors[row, q * n + i] = vectors[row, (q + 1) * n + i]
+
+
+@kernel
+def remove_unloaded(n, n_panels, panels, vectors):
+    """Drop the panels that carry nothing, or have shrunk to nothing; return the number of those left."""
+    widest = 0.0
+    for p in range(n_panels):
+        widest = max(widest, panels[2 * p + 1] - panels[2 * p])
+    p = 0
+    while p < n_panels:
+        loaded = False
+        if panels[2 * p + 1] - panels[2 * p] < NO_PANEL * widest:
+            _remove_panel(p, n, n_panels, panels, vectors)
+            n_panels -= 1
+            continue
+        for i in range(n):
+            loaded = loaded or vectors[Vector.P, p * n + i] > 0.0
+        if loaded:
+            p += 1
+        else:
+            _remove_panel(p, n, n_panels, panels, vectors)
+            n_panels -= 1
+    return n_panels
+
+
+@kernel
+def join_panels(n, n_panels, panels, cosines, vectors):
+    """Join panels that overlap into one; returns the count and whether any were joined."""
+    joined = False
+    p = 0
+    while p < n_panels:
+        q = p + 1
+        while q < n_panels:
+            if panels[2 * q] < panels[2 * p + 1] and panels[2 * p] < panels[2 * q + 1]:
+                wider = p if panels[2 * p + 1] - panels[2 * p] >= panels[2 * q + 1] - panels[2 * q] else q
+                low, high = min(panels[2 * p], panels[2 * q]), max(panels[2 * p + 1], panels[2 * q + 1])
+                _resample(panels[2 * wider], panels[2 * wider + 1], low, high, cosines, vectors, wider * n)
+                for i in range(n):
+                    vectors[Vector.LN_A, p * n + i] = vectors[Vector.LN_A, wider * n + i]
+                vectors[Vector.ACTIVE, p * n : p * n + n] = 1.0
+                panels[2 * p], panels[2 * p + 1] = low, high
+                _remove_panel(q, n, n_panels, panels, vectors)
+                n_panels -= 1
+                joined = True
+            else:
+                q += 1
+        p += 1
+    return n_panels, joined

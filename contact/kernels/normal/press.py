@@ -1,0 +1,176 @@
+"""The normal problem by any method, and its elastic-perfectly plastic limit (theory.md 8.4).
+
+No element bears more than the limit p_c: the pressure of the elastic solution is cut there, and the bodies approach until what
+is left carries the load (after Sebès et al. 2014). A strip of peak p0 and half length a keeps
+
+    N' = π/2 p0 a · kept(p_c/p0),   kept(c) = 2/π (c √(1 - c²) + asin c).
+
+The cut load rises with the elastic one, so the problem has one solution. For what works on semi-ellipses - load and moments of
+a strip, the tangential problem - the strip gets the peak p0·kept of the semi-ellipse with its load and length.
+"""
+
+import math
+
+from contact._jit import chosen_by, kernel
+from contact.kernels import families
+from contact.kernels.layout import Element, LoadKind, NormalFamily, Status, Strip
+from contact.kernels.normal.analyn import analyn
+from contact.kernels.normal.by_approach import by_approach
+from contact.kernels.normal.hertzian import hertzian
+from contact.kernels.normal.strip_halfspace import strip_halfspace
+from contact.kernels.result import clear
+
+#: Of the load on which the iteration stops; what is left is taken by the pressure. Cap, and steps of the stiffness: interacting
+#: strips are solved to 1e-4 only.
+_TOLERANCE, _MAX_ITERATIONS, _DIFFERENCE, _COARSE_DIFFERENCE = 1e-10, 60, 1e-3, 3e-2
+
+
+@kernel
+def kept(c):
+    """Share of its load that a semi-elliptic pressure keeps when it is cut at `c` < 1 of its peak."""
+    return 2.0 / math.pi * (c * math.sqrt(1.0 - c * c) + math.asin(c))
+
+
+@kernel
+def share_of(p0, limit):
+    """Share of its load that a strip of peak p0 keeps; a limit of 0 stands for none."""
+    return kept(limit / p0) if 0.0 < limit < p0 else 1.0
+
+
+@kernel
+def fill_cut(elements, p0, limit, row):
+    """Mean pressure over each element of a strip whose peak p0 > limit is cut: the strip's load to round-off."""
+    c = limit / p0
+    t = math.sqrt(1.0 - c * c)
+    outer = 0.5 * (math.asin(c) - t * c)  # ∫√(1-s²) from t to 1
+    before = 0.0
+    for k in range(elements.shape[1]):
+        s, load = math.cos(elements[Element.ANGLE_END, k]), elements[Element.LOAD_END, k]
+        if s < -t:
+            load += 2.0 * (outer + c * t) - 0.5 * math.pi
+        elif s < t:
+            load = outer + c * (t - s)
+        row[k] = p0 * (load - before) / elements[Element.DX, k]
+        before = load
+
+
+def _elastic(family, sep, case, own, result):
+    """Solve the elastic normal problem by the kernel of the marker `family`; return the strip count."""
+    raise NotImplementedError("only compiled kernels call this")
+
+
+@kernel
+def _analyn(family, sep, case, own, result):
+    return analyn(sep, case, own.rule.across, own.space.grid, own.strips, result)
+
+
+@kernel
+def _hertzian(family, sep, case, own, result):
+    return hertzian(sep, case, own.rule.across, own.space.grid, own.strips, result)
+
+
+@kernel
+def _strip_halfspace(family, sep, case, own, result):
+    return strip_halfspace(sep, case, own, result)
+
+
+@kernel
+def _by_approach(family, sep, case, own, result):
+    return by_approach(sep, case, own.rule.across, own.space.grid, own.strips, result)
+
+
+@kernel
+def _any(family, sep, case, own, result):
+    if case.normal_family == NormalFamily.HERTZ:
+        return _hertzian(family, sep, case, own, result)
+    if case.normal_family == NormalFamily.STRIP_HALFSPACE:
+        return strip_halfspace(sep, case, own, result)
+    if case.normal_family == NormalFamily.BY_APPROACH:
+        return _by_approach(family, sep, case, own, result)
+    return _analyn(family, sep, case, own, result)
+
+
+chosen_by(
+    _elastic,
+    {
+        families.Analyn: _analyn,
+        families.Hertzian: _hertzian,
+        families.StripHalfspace: _strip_halfspace,
+        families.ByApproach: _by_approach,
+        families.AnyNormal: _any,
+    },
+)
+
+
+@kernel
+def _cut_load(strips, n, limit):
+    """Load of `n` elastic strips after the cut."""
+    N = 0.0
+    for i in range(n):
+        p0 = strips[Strip.P0, i]
+        N += 0.5 * math.pi * p0 * share_of(p0, limit) * strips[Strip.A, i] * strips[Strip.DY, i]
+    return N
+
+
+@kernel
+def _solve_elastic(sep, case, own, result):
+    """As `_elastic`, from a cleared result."""
+    clear(result)
+    return _elastic(own.families.normal, sep, case, own, result)
+
+
+@kernel
+def _find_elastic_load(load, n, sep, case, own, result):
+    """Raise the elastic load of `case` until its cut pressure carries `load`, by a bracketed secant; return the strip count."""
+    limit = case.pressure_limit
+    before, cut_before, low, high = 0.0, 0.0, 0.0, math.inf
+    now, cut = load, _cut_load(own.strips, n, limit)
+    for _ in range(_MAX_ITERATIONS):
+        if abs(cut - load) <= _TOLERANCE * load or (high < math.inf and high - low <= 1e-14 * high):
+            return n
+        if cut < load:
+            low = now
+        else:
+            high = now
+        new = now + (load - cut) * (now - before) / (cut - cut_before) if cut != cut_before else -1.0
+        if not low < new < high:
+            new = 0.5 * (low + high) if high < math.inf else 2.0 * now
+        before, cut_before, now = now, cut, min(new, 4.0 * now)
+        case.amount = now
+        n = _solve_elastic(sep, case, own, result)
+        cut = _cut_load(own.strips, n, limit)
+    if result.status == Status.OK:
+        result.status = Status.NOT_CONVERGED
+    return n
+
+
+@kernel
+def press(sep, case, own, result):
+    """Solve the normal problem; return the strip count. The strips hold the elastic pressure, uncut, `result` what is left.
+
+    Where it is cut the load that was asked for, or at an approach what the cut leaves, is in `result.N`.
+    """
+    n = _solve_elastic(sep, case, own, result)
+    strips, limit, top = own.strips, case.pressure_limit, 0.0
+    for i in range(n):
+        top = max(top, strips[Strip.P0, i])
+    if not 0.0 < limit < top:
+        return n
+    own.space.case[0] = case
+    trial = own.space.case[0]  # the elastic problem whose cut pressure answers
+    by_load = case.load_kind == LoadKind.LOAD
+    if by_load:
+        n = _find_elastic_load(case.amount, n, sep, trial, own, result)
+    elastic_N, approach, status = trial.amount, result.approach, result.status
+    cut = _cut_load(strips, n, limit)
+    # the slope of the cut load, from a step in the approach; then back
+    coarse = case.normal_family == NormalFamily.STRIP_HALFSPACE
+    step = (_COARSE_DIFFERENCE if coarse else _DIFFERENCE) * (approach - result.touch)
+    trial.load_kind, trial.amount = LoadKind.APPROACH, approach + step
+    further = _cut_load(strips, _solve_elastic(sep, trial, own, result), limit)
+    trial.load_kind, trial.amount = case.load_kind, elastic_N
+    n = _solve_elastic(sep, trial, own, result)
+    result.status = max(status, result.status)
+    result.stiffness = max(further - cut, 0.0) / step
+    result.N = case.amount if by_load else cut
+    return n

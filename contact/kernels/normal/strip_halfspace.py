@@ -1,0 +1,227 @@
+"""Strip half space: longitudinal strips with semi-elliptic pressure and exact half-space influence between them.
+
+Unknown are the peak pressure and the half length of every strip and, for a prescribed load, the approach. Two conditions a
+strip: the gap closes on the centre line and at the strip's ends (strip_halfspace.md 2, "C1"; after Knothe and Le The 1984).
+Hertz's ellipse satisfies both exactly for every aspect ratio. Strips are cosine-spaced between moving ends, one panel of
+strips for every patch of the start solution; all panels interact. No second derivative of the profile enters.
+
+Beyond strip_halfspace.md: half lengths and ends are mixed together; ends follow their rule for a dozen iterations and then
+stand still, and the active set ends the patch inside them (nearly flat and rough gaps: 12 → 1.2 % not converged).
+"""
+
+import math
+
+from contact._jit import kernel
+from contact.kernels.layout import MAX_PATCHES, LoadKind, Sample, Status, Strip, Vector
+from contact.kernels.normal.analyn import analyn
+from contact.kernels.normal.lay import locate
+from contact.kernels.normal.mixing import advance
+from contact.kernels.normal.panels import (
+    EARLY_GHOST,
+    GHOST,
+    cut_idle,
+    end_moves,
+    extend_to_ghosts,
+    half_lengths,
+    join_panels,
+    lay_panels,
+    remove_unloaded,
+    start_panels,
+)
+from contact.kernels.normal.strip_system import (
+    assemble,
+    distances,
+    edge_displacements,
+    skewed_edge_displacements,
+    solve_active,
+)
+
+MAX_ITERATIONS = 40
+#: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops.
+TOLERANCE = 1e-4
+#: What counts as converged at the cap.
+ACCEPTABLE = 1e-3
+#: From here on the ends stand still: at the corner of a punch and on rough gaps their rule has no steady answer.
+FREEZE = 12
+#: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's answer is.
+USABLE = 0.02
+
+# memory[...]: what a later call may start from: number of panels, their ends, the outer ends of ANALYN's patches, then ln a
+MEM_PANELS, MEM_ENDS, MEM_START, MEM_LN_A = 0, 1, 1 + 2 * MAX_PATCHES, 3 + 2 * MAX_PATCHES
+
+
+@kernel
+def _write(n, n_panels, panels, cosines, vectors, y, work, strips, result):
+    """Loaded strips in ascending order of y into `strips`; runs of neighbours are the patches. Returns their number."""
+    size = y.size
+    count, patch = 0, -1
+    done = -math.inf
+    k = 0
+    for _ in range(n_panels):  # panels in ascending order
+        p = -1
+        for q in range(n_panels):
+            if panels[2 * q] > done and (p < 0 or panels[2 * q] < panels[2 * p]):
+                p = q
+        if p < 0:
+            break
+        done = panels[2 * p]
+        centre, half = 0.5 * (panels[2 * p] + panels[2 * p + 1]), 0.5 * (panels[2 * p + 1] - panels[2 * p])
+        contiguous = False
+        for i in range(n):
+            row = p * n + i
+            if vectors[Vector.P, row] <= 0.0:
+                contiguous = False
+                continue
+            if not contiguous and patch < MAX_PATCHES - 1:
+                patch += 1
+                result.edges[2 * patch] = centre + half * cosines[i]
+            contiguous = True
+            result.edges[2 * patch + 1] = centre + half * cosines[i + 1]
+            at = vectors[Vector.Y, row]
+            k = locate(y, size, at, k)
+            t = (at - y[k]) / (y[k + 1] - y[k])
+            strips[Strip.Y, count] = at
+            strips[Strip.DY, count] = 2.0 * vectors[Vector.HALF, row]
+            strips[Strip.XC, count] = vectors[Vector.XC, row]
+            strips[Strip.A, count] = vectors[Vector.A, row]
+            strips[Strip.P0, count] = vectors[Vector.P, row]
+            strips[Strip.ASPECT, count] = (1.0 - t) * work[Sample.LOG_ASPECT, k] + t * work[Sample.LOG_ASPECT, k + 1]
+            strips[Strip.PATCH, count] = patch
+            count += 1
+    return count
+
+
+@kernel
+def strip_halfspace(sep, case, own, result):
+    """Solve the normal problem; same answers as `analyn`, which gives the start and the local aspect ratios.
+
+    A filled `space.memory` is the start instead of ANALYN's patch; it is left filled for the next call. With the status
+    NOT_CONVERGED the answer is the last iterate if that was nearly at rest, and ANALYN's otherwise.
+    """
+    y, g, A, xc = sep.y, sep.g, sep.A, sep.x_c
+    rule, tables, space, strips = own.rule, own.tables, own.space, own.strips
+    memory, vectors = space.memory, space.vectors
+    n_strips = analyn(sep, case, rule.across, space.grid, strips, result)
+    if n_strips == 0:
+        memory[MEM_PANELS] = 0.0
+        return 0
+    n = rule.across.nodes.size
+    size = y.size
+    modulus = case.G / (1.0 - case.nu)
+    by_load = case.load_kind != LoadKind.APPROACH
+    g_least = result.touch
+    amount = case.amount if by_load else case.amount - g_least
+    panels = memory[MEM_ENDS : MEM_ENDS + 2 * MAX_PATCHES]
+    start_low, start_high = result.edges[0], result.edges[2 * int(strips[Strip.PATCH, n_strips - 1]) + 1]
+    skewed = False
+    for i in range(1, size):
+        skewed = skewed or abs(xc[i] - xc[0]) > 1e-9 * (y[size - 1] - y[0])
+    n_panels = int(memory[MEM_PANELS])
+    if n_panels > 0:
+        vectors[Vector.ACTIVE, : n_panels * n] = 1.0
+        for i in range(n_panels * n):
+            vectors[Vector.LN_A, i] = memory[MEM_LN_A + i]
+        # the panels move as ANALYN's patch has moved: a mean shift, small against the patch or not to be believed
+        shift = 0.5 * (start_low + start_high - memory[MEM_START] - memory[MEM_START + 1])
+        shift = shift if abs(shift) < 0.02 * (start_high - start_low) else 0.0
+        for p in range(n_panels):
+            panels[2 * p] += shift
+            panels[2 * p + 1] += shift
+            panels[2 * p], panels[2 * p + 1] = max(panels[2 * p], y[0]), min(panels[2 * p + 1], y[size - 1])
+            if not panels[2 * p] < panels[2 * p + 1]:
+                n_panels = 0  # the memory is of another place
+    if n_panels == 0:
+        n_panels = start_panels(n_strips, n, strips, result, panels, rule.cosines, vectors)
+
+    converged = False
+    delta, iteration, known, error, load, last_error = 0.0, 0, 0, math.inf, 0.0, math.inf
+    for iteration in range(MAX_ITERATIONS):
+        total = n * n_panels
+        lay_panels(y, g, A, xc, g_least, space.grid, panels, n_panels, rule.cosines, vectors)
+        distances(panels, n_panels, rule.cosines, rule.cosine_logs, vectors, space.logs)
+        half_lengths(vectors, n, n_panels)
+        assemble(
+            n, n_panels, panels, vectors, space.logs, tables.centre, rule.columns, tables.plane, skewed, modulus,
+            space.matrix,
+        )  # fmt: skip
+        delta = solve_active(n, n_panels, vectors, space.matrix, space.lu, by_load, amount)
+        error, load = math.inf, 0.0
+        if not abs(delta) < math.inf:
+            break
+        # the strip ends: stretch each strip by the ratio of the overlap at its ends to the one that a parabola leaves
+        if skewed:
+            skewed_edge_displacements(n, n_panels, vectors, space.logs, tables.plane, modulus)
+        else:
+            edge_displacements(n, n_panels, vectors, space.logs, tables.plane, modulus)
+        error, load = 0.0, 0.0
+        for i in range(total):
+            vectors[Vector.R, i] = 0.0
+            if vectors[Vector.P, i] > 0.0:
+                overlap = delta - vectors[Vector.GAP, i] - vectors[Vector.U, i]
+                ratio = overlap / (vectors[Vector.CURVATURE, i] * vectors[Vector.A, i] ** 2)
+                r = 0.5 * math.log(min(max(ratio, 0.2), 5.0))
+                if vectors[Vector.FLOORED, i] != 0.0:
+                    r = max(r, 0.0)
+                vectors[Vector.R, i] = r
+                weight = vectors[Vector.P, i] * vectors[Vector.A, i] * vectors[Vector.HALF, i]
+                load += weight
+                error += 0.0 if i % n in (0, n - 1) else weight * abs(r)
+        before = n_panels
+        n_panels = remove_unloaded(n, n_panels, panels, vectors)
+        if n_panels == 0:
+            break
+        moved, cut = end_moves(y, n, n_panels, panels, rule.cosines, vectors, iteration >= FREEZE)
+        if n_panels < before or error > 2.0 * last_error * load or iteration == FREEZE:
+            known = 0
+        last_error = error / load
+        settled = not cut and error < TOLERANCE * load and moved < 2.0 * TOLERANCE
+        ghosts = False
+        if settled or iteration == 1:
+            least = GHOST if settled else EARLY_GHOST
+            n_panels, ghosts = extend_to_ghosts(
+                y, g, g_least, delta, least, modulus, n, n_panels, panels, rule.cosines, vectors, tables.centre
+            )
+            if settled and not ghosts:
+                converged = True
+                break
+        if ghosts:
+            known = 0
+        elif cut:
+            cut_idle(n, n_panels, panels, rule.cosines, vectors)
+            known = 0
+        else:
+            advance(n, n_panels, panels, vectors, load, known, space.lu)
+            known += 1
+        n_panels, joined = join_panels(n, n_panels, panels, rule.cosines, vectors)
+        if joined:
+            known = 0
+
+    result.iterations = iteration + 1
+    peak = 0.0
+    for i in range(n_panels * n):
+        peak = max(peak, vectors[Vector.P, i])
+    usable = converged or (n_panels > 0 and error < USABLE * load)
+    if not (usable and peak < modulus):  # ANALYN's answer is still in place
+        result.status = Status.NOT_CONVERGED
+        memory[MEM_PANELS] = 0.0
+        return n_strips
+    memory[MEM_PANELS], memory[MEM_START], memory[MEM_START + 1] = n_panels, start_low, start_high
+    for i in range(n_panels * n):
+        memory[MEM_LN_A + i] = vectors[Vector.LN_A, i]
+    count = _write(n, n_panels, panels, rule.cosines, vectors, y, space.grid, strips, result)
+    N = 0.0
+    for i in range(count):
+        N += 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
+    if by_load and N > 0.0:  # end strips that would pull carry nothing: 1e-5 of the load goes to the others
+        for i in range(count):
+            strips[Strip.P0, i] *= amount / N
+    if not converged and error > ACCEPTABLE * load:
+        result.status = Status.NOT_CONVERGED
+    elif result.status == Status.OUT_OF_RANGE and not (panels[0] <= y[0] or panels[2 * n_panels - 1] >= y[size - 1]):
+        result.status = Status.OK
+    N = amount if by_load else N
+    # d(ln N)/d(ln delta) of ANALYN, exact in Hertz contact: the strips' semi-ellipses cannot show a punch's edge pressure
+    result.stiffness *= (result.approach - g_least) / result.N * N / delta if delta > 0.0 else 0.0
+    result.N = N
+    result.approach = delta + g_least
+    return count

@@ -1,0 +1,200 @@
+"""The whole way from the motion of a wheelset to the forces of one wheel on one rail: the kernel behind API and FMUs."""
+
+import math
+
+from contact._jit import kernel
+from contact.kernels.damage.assess import clear_damage, damage_kernel
+from contact.kernels.geometry.prepare import move
+from contact.kernels.geometry.settle import settle
+from contact.kernels.layout import LARGEST_CREEPAGE, MAX_PATCHES, Height, LoadKind, Sep, Status, Strip
+from contact.kernels.ledger import enter
+from contact.kernels.memory import Samples, Space, Workspace
+from contact.kernels.pipeline import solve_case
+
+
+@kernel
+def _bounded(creepage):
+    """Creepage within its range; a wheelset almost at rest leaves it, deep in full slip."""
+    return min(max(creepage, -LARGEST_CREEPAGE), LARGEST_CREEPAGE)
+
+
+@kernel
+def _pressure_centre(strips, n):
+    """Moments of the pressure, ∬ y p dA and ∬ x p dA; a strip carries π/2 p0 a a unit of width."""
+    by_y, by_x = 0.0, 0.0
+    for i in range(n):
+        load = 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
+        by_y += load * strips[Strip.Y, i]
+        by_x += load * strips[Strip.XC, i]
+    return by_y, by_x
+
+
+@kernel
+def _report(patch, case, result, by_y, by_x, contact):
+    """Fill the contact of one patch, on the right side."""
+    contact.N, contact.Fx, contact.Fy = result.N, result.Fx, result.Fy
+    contact.Mx, contact.My, contact.Mz = -by_y, by_x, result.Mz
+    contact.x, contact.y = patch.x, patch.point_y
+    contact.z, contact.angle = patch.point_z, patch.angle
+    contact.area, contact.pmax = result.area, result.pmax
+    contact.longitudinal, contact.lateral = case.vx, case.vy
+    contact.spin, contact.approach = case.phi, result.approach
+    contact.status = result.status
+
+
+@kernel
+def _add_wrench(contact, y_centre, z_centre, total):
+    """Add force and moment of a contact about the wheelset's centre (0, y, z), in track coordinates.
+
+    The frame's axes are x, (0, c, s) and (0, -s, c); the pressure acts along -z of the frame.
+    """
+    c, s = math.cos(contact.angle), math.sin(contact.angle)
+    fx, fy, n = contact.Fx, contact.Fy, contact.N
+    y_force, z_force = fy * c + n * s, fy * s - n * c
+    x, y, z = contact.x, contact.y - y_centre, contact.z - z_centre
+    my, mz = contact.My, contact.Mz
+    total.Fx += fx
+    total.Fy += y_force
+    total.Fz += z_force
+    total.Mx += y * z_force - z * y_force + contact.Mx
+    total.My += z * fx - x * z_force + my * c - mz * s
+    total.Mz += x * y_force - y * fx + my * s + mz * c
+
+
+@kernel
+def _worse(status, other):
+    """Status with another patch that carries: full slip when both slip, not trustworthy when one is not."""
+    if status == Status.NO_CONTACT:  # so far
+        return other
+    untrusted = status == Status.OUT_OF_RANGE or status == Status.NOT_CONVERGED
+    if untrusted or other == Status.OUT_OF_RANGE or other == Status.NOT_CONVERGED:
+        return max(status, other)
+    return status if status == other else Status.OK.value
+
+
+@kernel
+def _add_results(result, damage, total):
+    """Add what belongs to a patch that carries, besides its wrench: rates add up, of indices the greatest counts."""
+    first = total.area == 0.0
+    total.status = _worse(total.status, result.status)
+    total.pmax = max(total.pmax, result.pmax)
+    total.area += result.area
+    total.slip_area += result.slip_area
+    total.power += result.power
+    total.T_gamma += damage.T_gamma
+    total.T_gamma_spin += damage.T_gamma_spin
+    total.dissipation += damage.dissipation
+    total.pearce_sherratt += damage.pearce_sherratt
+    total.archard_volume += damage.archard_volume
+    total.burstow = damage.burstow if first else max(total.burstow, damage.burstow)
+    total.usfd = damage.usfd if first else max(total.usfd, damage.usfd)
+    total.archard_depth = damage.archard_depth if first else max(total.archard_depth, damage.archard_depth)
+    total.fatigue_index = damage.fatigue_index if first else max(total.fatigue_index, damage.fatigue_index)
+    total.stress_index = damage.stress_index if first else max(total.stress_index, damage.stress_index)
+    total.energy_index = damage.energy_index if first else max(total.energy_index, damage.energy_index)
+
+
+@kernel
+def _clear_contact(contact):
+    """Set every member of a contact to zero."""
+    contact.N, contact.Fx, contact.Fy, contact.Mx, contact.My, contact.Mz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    contact.x, contact.y, contact.z, contact.angle = 0.0, 0.0, 0.0, 0.0
+    contact.area, contact.pmax = 0.0, 0.0
+    contact.longitudinal, contact.lateral, contact.spin, contact.approach = 0.0, 0.0, 0.0, 0.0
+    contact.status = 0
+
+
+@kernel
+def _clear_total(total):
+    """Set every member of a total to zero, the status to no contact."""
+    total.Fx, total.Fy, total.Fz, total.Mx, total.My, total.Mz, total.z = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    total.n_patches, total.status = 0, Status.NO_CONTACT
+    total.pmax, total.area, total.slip_area, total.power = 0.0, 0.0, 0.0, 0.0
+    clear_damage(total)
+
+
+@kernel
+def _mirror(mirror, n, contacts, total):
+    """Give `n` contacts and the total the signs of the actual side."""
+    total.Fy, total.Mx, total.Mz = mirror * total.Fy, mirror * total.Mx, mirror * total.Mz
+    for k in range(n):
+        contact = contacts[k]
+        contact.Fy, contact.Mx, contact.Mz = mirror * contact.Fy, mirror * contact.Mx, mirror * contact.Mz
+        contact.y, contact.angle = mirror * contact.y, mirror * contact.angle
+        contact.lateral, contact.spin = mirror * contact.lateral, mirror * contact.spin
+
+
+@kernel
+def _roll_patch(patch, under_load, motion, template, case):
+    """Fill the case of one patch from the `template` of the pair."""
+    case.load_kind = LoadKind.LOAD if under_load else LoadKind.APPROACH
+    case.amount = patch.load if under_load else patch.approach
+    case.vx, case.vy, case.phi = _bounded(patch.vx), _bounded(patch.vy), _bounded(patch.phi)
+    case.rolling = math.cos(patch.angle) / patch.radius
+    # from the rail's profile into the plane of the patch
+    per_cosine = 1.0 / math.cos(patch.angle - motion.rail_roll)
+    case.border = (template.border - patch.rail_y) * per_cosine
+    case.border_width = template.border_width * per_cosine
+
+
+@kernel
+def _space_of_patch(space, memory):
+    """The scratch arrays, with the memory of one patch."""
+    return Space(
+        space.grid,
+        space.vectors,
+        space.logs,
+        space.matrix,
+        space.lu,
+        memory,
+        space.lanes,
+        space.trace,
+        space.case,
+    )
+
+
+@kernel
+def solve_pair(mode, amount, given, bench):
+    """Find the patches, solve each of them, add up.
+
+    `given` is a record GIVEN of `layout`, `mode` and `amount` are those of `settle`. Under a load every patch is solved for
+    the normal force that the search has found for it, so the vertical parts of the normal forces add up to the load for
+    every normal method; else for its approach. Damage is per patch, with its own rolling radius. Fills bench.contacts and
+    bench.total, and enters what the patches do into bench.ledger. Returns the number of patches, or a code of `settle` where
+    there is no answer.
+    """
+    search, own, memory = bench.search, bench.own, bench.memory
+    total, result, damage, parameters = bench.total[0], bench.result[0], bench.damage[0], bench.damage_parameters[0]
+    motion = search.motion[0]
+    for k in range(MAX_PATCHES):
+        _clear_contact(bench.contacts[k])
+    _clear_total(total)
+    move(given, motion)
+    n = settle(mode, amount, search)
+    if n < 0:
+        return n
+    piece = (memory.size - 1) // MAX_PATCHES
+    if memory[0] != n:  # a patch came or went: none starts from another one
+        memory[:] = 0.0
+        memory[0] = n
+    bench.patch_case[0] = bench.case[0]
+    case = bench.patch_case[0]
+    for k in range(n):
+        patch, sep, contact = search.patches[k], search.separations[k], bench.contacts[k]
+        _roll_patch(patch, mode == Height.LOAD, motion, bench.case[0], case)
+        samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
+        space = _space_of_patch(own.space, memory[1 + k * piece : 1 + (k + 1) * piece])
+        of_patch = Workspace(own.families, own.rule, own.tables, space, own.strips, own.fields)
+        n_strips = solve_case(samples, case, of_patch, result)
+        parameters.speed, parameters.wheel_radius = motion.vx, patch.radius
+        damage_kernel(own.strips, n_strips, own.fields, case, result, parameters, bench.damage_fields, damage)
+        by_y, by_x = _pressure_centre(own.strips, n_strips)
+        _report(patch, case, result, by_y, by_x, contact)
+        if n_strips > 0:
+            _add_wrench(contact, motion.y, motion.z - motion.radius, total)
+            _add_results(result, damage, total)
+            if bench.ledger.bins.shape[2] > 0:
+                enter(patch, n_strips, damage, bench)
+    total.z, total.n_patches = motion.z, n
+    _mirror(motion.mirror, n, bench.contacts, total)
+    return n

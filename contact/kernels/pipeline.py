@@ -1,0 +1,242 @@
+"""One contact problem from separation to forces: the kernel behind `contact.solve`, batches and FMUs."""
+
+import math
+
+from contact._jit import chosen_by, kernel
+from contact.kernels import families, kalker
+from contact.kernels.conformal import bend, project
+from contact.kernels.friction import of_bodies, of_case, over_profile, slope_of_case
+from contact.kernels.layout import Element, Field, Status, Strip, TangentialFamily
+from contact.kernels.memory import Samples
+from contact.kernels.normal.lay import interval_minimum
+from contact.kernels.normal.press import fill_cut, press, share_of
+from contact.kernels.tangential.creep_force import creep_force
+from contact.kernels.tangential.ellipses import equivalent_ellipse
+from contact.kernels.tangential.fastrip import fastrip
+from contact.kernels.tangential.fastrip_mapped import fastrip_mapped
+from contact.kernels.tangential.fastsim import fastsim
+
+
+@kernel
+def _square_slope(strips, i, first, last):
+    """Slope of p0² at strip i from the parabola through it and its neighbours in the patch of strips first … last."""
+    k = min(max(i, first + 1), last - 1)
+    y, left, right = strips[Strip.Y, k], strips[Strip.Y, k - 1], strips[Strip.Y, k + 1]
+    top = strips[Strip.P0, k] ** 2
+    d0 = (top - strips[Strip.P0, k - 1] ** 2) / (y - left)
+    d1 = (strips[Strip.P0, k + 1] ** 2 - top) / (right - y)
+    return d0 + (d1 - d0) / (right - left) * (2.0 * strips[Strip.Y, i] - left - y)
+
+
+@kernel
+def peak_pressure(strips, n):
+    """Largest pressure: top of the cubics through p0² of the strips with three-point slopes (exact for an ellipse)."""
+    top, first = 0.0, 0
+    while first < n:
+        last = first
+        while last + 1 < n and strips[Strip.PATCH, last + 1] == strips[Strip.PATCH, first]:
+            last += 1
+        here = _square_slope(strips, first, first, last) if last >= first + 2 else 0.0
+        for i in range(first, last + 1):
+            square = strips[Strip.P0, i] ** 2
+            top = max(top, square)
+            if i == last or last < first + 2:
+                continue
+            before, here = here, _square_slope(strips, i + 1, first, last)
+            if before > 0.0 > here:
+                h = strips[Strip.Y, i + 1] - strips[Strip.Y, i]
+                _, least = interval_minimum(h, -square, -before, -(strips[Strip.P0, i + 1] ** 2), -here)
+                top = max(top, -least)
+        first = last + 1
+    return math.sqrt(top)
+
+
+@kernel
+def _limit_pressure(strips, n, limit, elements, fields, N):
+    """Cut the pressure at the limit: in the fields, and in the strips by semi-ellipses of the same load; together N."""
+    total = 0.0
+    for i in range(n):
+        p0 = strips[Strip.P0, i]
+        if p0 > limit and i < fields.shape[1]:
+            fill_cut(elements, p0, limit, fields[Field.P, i])
+        strips[Strip.P0, i] = p0 * share_of(p0, limit)
+        total += 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
+    for i in range(n):  # what the iteration has left over
+        strips[Strip.P0, i] *= N / total
+        for k in range(elements.shape[1] if i < fields.shape[1] else 0):
+            fields[Field.P, i, k] *= N / total
+
+
+@kernel
+def _rescale_tractions(strips, n, elements, fields):
+    """Rescale the tractions so that |q|/(mu p) is unchanged after the pressure was limited."""
+    for i in range(min(n, fields.shape[1])):
+        for k in range(elements.shape[1]):
+            under = strips[Strip.P0, i] * elements[Element.SINE, k]
+            share = fields[Field.P, i, k] / under if under > 0.0 else 0.0
+            fields[Field.QX, i, k] *= share
+            fields[Field.QY, i, k] *= share
+
+
+@kernel
+def _set_rolling(strips, n, case):
+    """What friction acts on, the pressure times factors of temperature and side of the profile, and the plane's creepages."""
+    factor, bodies = case.gauge_factor, of_bodies(case)
+    for i in range(n):
+        strips[Strip.VX, i], strips[Strip.VY, i], strips[Strip.PHI, i] = case.vx, case.vy, case.phi
+        strips[Strip.BOUND, i] = strips[Strip.P0, i] * bodies
+        strips[Strip.TO_X, i], strips[Strip.TO_Y, i], strips[Strip.TO_PHI, i] = 0.0, 0.0, 0.0
+        strips[Strip.TO_EXPONENT, i] = 0.0
+        if factor != 1.0:
+            strips[Strip.BOUND, i] *= over_profile(factor, case.border, case.border_width, strips[Strip.Y, i])
+
+
+def _roll_by(family, n, case, own, result):
+    """Solve the tangential problem of `n` strips by the kernel of the marker `family`."""
+    raise NotImplementedError("only compiled kernels call this")
+
+
+@kernel
+def _fastrip(family, n, case, own, result):
+    fastrip(n, case, own, result)
+
+
+@kernel
+def _fastrip_mapped(family, n, case, own, result):
+    fastrip_mapped(n, case, own, result)
+
+
+@kernel
+def _fastsim(family, n, case, own, result):
+    fastsim(n, case, own, result)
+
+
+@kernel
+def _creep_force(family, n, case, own, result):
+    creep_force(n, case, own, result)
+
+
+@kernel
+def _any(family, n, case, own, result):
+    if case.tangential_family == TangentialFamily.FASTSIM:
+        fastsim(n, case, own, result)
+    elif case.tangential_family == TangentialFamily.FASTRIP_MAPPED:
+        fastrip_mapped(n, case, own, result)
+    elif case.tangential_family == TangentialFamily.CREEP_FORCE:
+        creep_force(n, case, own, result)
+    else:
+        fastrip(n, case, own, result)
+
+
+chosen_by(
+    _roll_by,
+    {
+        families.FaStrip: _fastrip,
+        families.FaStripMapped: _fastrip_mapped,
+        families.Fastsim: _fastsim,
+        families.CreepForce: _creep_force,
+        families.AnyTangential: _any,
+    },
+)
+
+
+@kernel
+def _roll(n, case, own, result):
+    """Solve the tangential problem with the friction and the creep stiffness of the surface."""
+    own.space.case[0] = case
+    surface = own.space.case[0]
+    surface.mu = of_case(case)
+    if case.slope != 1.0 or case.slope_far != 1.0:
+        a, b = equivalent_ellipse(own.strips, n)
+        c11 = kalker.coefficients(own.tables.kalker, math.log(a / b))[0] if b > 0.0 else 0.0
+        surface.G = case.G * slope_of_case(case, a, b, c11, surface.mu * result.N, case.phi * a)
+    _roll_by(own.families.tangential, n, surface, own, result)
+
+
+@kernel
+def press_case(sep, case, own, result):
+    """The first half of `solve_case`: the normal problem, and the creepages and the bound with which each strip rolls."""
+    n = press(sep, case, own, result)
+    if n == 0:
+        return 0
+
+    elements, strips, fields = own.rule.elements, own.strips, own.fields
+    area, x_low, x_high = 0.0, math.inf, -math.inf
+    for i in range(n):
+        a, xc_i, p0 = strips[Strip.A, i], strips[Strip.XC, i], strips[Strip.P0, i]
+        area += 2.0 * a * strips[Strip.DY, i]
+        x_low, x_high = min(x_low, xc_i - a), max(x_high, xc_i + a)
+        for k in range(elements.shape[1] if i < fields.shape[1] else 0):
+            fields[Field.X, i, k] = xc_i + a * elements[Element.S, k]
+            fields[Field.DX, i, k] = a * elements[Element.DX, k]
+            fields[Field.P, i, k] = p0 * elements[Element.SINE, k]
+    count = int(strips[Strip.PATCH, n - 1]) + 1
+    result.area, result.pmax, result.n_patches = area, peak_pressure(strips, n), count
+    if 0.0 < case.pressure_limit < result.pmax:
+        result.pmax, result.limited = case.pressure_limit, 1
+        _limit_pressure(strips, n, case.pressure_limit, elements, fields, result.N)
+    _set_rolling(strips, n, case)
+    y_low, y_high = math.inf, -math.inf
+    for k in range(count):
+        y_low, y_high = min(y_low, result.edges[2 * k]), max(y_high, result.edges[2 * k + 1])
+    result.length, result.width = x_high - x_low, y_high - y_low
+    return n
+
+
+@kernel
+def roll_case(n, case, own, result):
+    """The second half of `solve_case`: the tangential problem of `n` > 0 strips."""
+    strips = own.strips
+    _roll(n, case, own, result)
+    if result.limited != 0:
+        _rescale_tractions(strips, n, own.rule.elements, own.fields)
+    full = result.area * (1.0 - 1e-12)
+    if result.status == Status.OK and case.mu > 0.0 and result.slip_area >= full:
+        result.status = Status.SATURATED
+    for i in range(n):
+        strips[Strip.ASPECT, i] = math.exp(strips[Strip.ASPECT, i])
+
+
+@kernel
+def solve_case(sep, case, own, result):
+    """Solve one case; fill the strips and fields of `own`, and `result`. Return the strip count.
+
+    Parameters
+    ----------
+    sep : Samples
+    case, result : records CASE and RESULT of `layout`
+        The case is only read.
+    own : Workspace
+        `contact.workspace.allocate` makes a fitting one. Where fields have a single row only strips and result have a meaning. A
+        case on a bent surface (`case.conformal`) needs all rows.
+    """
+    n = press_case(sep, case, own, result)
+    if n == 0:
+        return 0
+    bent = case.conformal != 0 and case.tangential_family != TangentialFamily.CREEP_FORCE
+    if bent:
+        bend(sep, case, own.strips, n)
+    roll_case(n, case, own, result)
+    if bent:
+        project(own.strips, n, own.fields, result)
+    return n
+
+
+@kernel
+def solve_one(sep, case, own, result):
+    """As `solve_case`, with case and result in arrays of one record: passing an array from Python costs a fifth."""
+    return solve_case(sep, case[0], own, result[0])
+
+
+@kernel
+def solve_cases(first, last, samples, bounds, which, cases, own, results):
+    """Solve cases[first:last] one after the other. Separation k is samples[bounds[k]:bounds[k+1]], case c uses which[c].
+
+    No case starts from another one, so their order does not matter.
+    """
+    y, g, A, x_c, tilt = samples
+    for c in range(first, last):
+        low, high = bounds[which[c]], bounds[which[c] + 1]
+        own.space.memory[0] = 0.0
+        sep = Samples(y[low:high], g[low:high], A[low:high], x_c[low:high], tilt[low:high])
+        solve_case(sep, cases[c], own, results[c])

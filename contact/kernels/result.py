@@ -1,0 +1,14 @@
+"""What every solver does with a result."""
+
+from contact._jit import kernel
+
+
+@kernel
+def clear(result):
+    """Set every member of a result to zero."""
+    result.Fx, result.Fy, result.Mz, result.N = 0.0, 0.0, 0.0, 0.0
+    result.approach, result.pmax, result.area, result.slip_area, result.power = 0.0, 0.0, 0.0, 0.0, 0.0
+    result.stiffness, result.length, result.width = 0.0, 0.0, 0.0
+    result.n_patches, result.iterations, result.status, result.limited = 0, 0, 0, 0
+    result.pressure_y, result.touch = 0.0, 0.0
+    result.edges[:] = 0.0

@@ -1,0 +1,60 @@
+"""Effective creepages: those at which mapped strip marching gives the half space's forces on the patch's equivalent ellipse.
+
+On an ellipse the march differs from the half space by .011 of mu N in the mean over the nodes of the table of creep forces
+(`contact.kernels.tangential.table`), as it knows each strip alone (theory.md 4.4). For every node the table holds the relative change
+of (X, Y, w Z), by r, and a change of the exponent of the map, with which the march has force and moment of the half space and
+its share of slip more nearly. Strips of a patch get these changes for the patch's equivalent ellipse, load and mean creepages.
+So pressure, strips and march still make what is not elliptic about a patch; tractions are the march's own and never exceed
+friction. At vanishing creepage and in full slip nothing changes. Slip and power count the creepages as they are given: on 100
+real patches the power is .05 off in the median, with effective creepages it was .10, without any .06.
+
+`contact table effective` computes the table from that of creep forces (`contact.study.effective`); no case of CONTACT is in it.
+"""
+
+import math
+
+from contact._jit import kernel
+from contact.kernels import kalker
+from contact.kernels.layout import Strip
+from contact.kernels.tangential.ellipses import mean_ellipse
+from contact.kernels.tangential.fastsim import NO_FRICTION
+from contact.kernels.tangential.table import EFFECTIVE, interpolated, spin_weight
+
+
+@kernel
+def set_effective(strips, first, last, case, centre, tables):
+    """Set what changes creepages and exponent of the strips of a patch, whose rigid slip is taken about y = `centre`.
+
+    The equivalent ellipse has the patch's area and mean length (of our own patches it serves better than the longest strip:
+    .0058 and .0054 of mu N on new profiles). Creepages that differ from strip to strip enter by their means, weights a·dy.
+    """
+    G = case.G
+    a, b = mean_ellipse(strips, first, last)
+    weights, x, vx, vy, phi, limit = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(first, last):
+        weight = strips[Strip.A, i] * strips[Strip.DY, i]
+        weights += weight
+        limit += weight * strips[Strip.BOUND, i]
+        x += weight * strips[Strip.XC, i]
+        vx += weight * (strips[Strip.VX, i] - strips[Strip.PHI, i] * strips[Strip.Y, i])
+        vy += weight * (strips[Strip.VY, i] + strips[Strip.PHI, i] * strips[Strip.XC, i])
+        phi += weight * strips[Strip.PHI, i]
+    x, vx, vy, phi = x / weights, vx / weights, vy / weights, phi / weights
+    limit *= 0.5 * math.pi * case.mu
+    if limit <= NO_FRICTION * G * a * b or (vx == 0.0 and vy == 0.0 and phi == 0.0):
+        return
+    log_aspect, c = math.log(a / b), math.sqrt(a * b)
+    c11, c22, c23, _ = kalker.coefficients(tables.kalker, log_aspect)
+    unit = G * c * c / limit
+    unit_x, unit_y, unit_spin = c11 * unit, c22 * unit, spin_weight(log_aspect, c11, c22, c23) * c23 * unit * c
+    X, Y, spin = unit_x * vx, unit_y * vy, unit_spin * phi
+    sign_x, sign_y = 1.0 if X >= 0.0 else -1.0, 1.0 if Y > 0.0 or (Y == 0.0 and spin >= 0.0) else -1.0
+    to_x, to_y, to_spin, exponent = interpolated(
+        log_aspect, sign_x * X, sign_y * Y, sign_y * spin, EFFECTIVE, tables.creep
+    )
+    r = math.sqrt(X * X + Y * Y + spin * spin)
+    to_spin *= sign_y * r / unit_spin
+    to_x, to_y = sign_x * r * to_x / unit_x + to_spin * centre, sign_y * r * to_y / unit_y - to_spin * x
+    for i in range(first, last):
+        strips[Strip.TO_X, i], strips[Strip.TO_Y, i], strips[Strip.TO_PHI, i] = to_x, to_y, to_spin
+        strips[Strip.TO_EXPONENT, i] = exponent

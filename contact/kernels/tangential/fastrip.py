@@ -1,0 +1,332 @@
+"""FaStrip: strip theory amended by Kalker's coefficients, with FASTSIM's directions in the slip zone (theory.md 4).
+
+`strip_theory` (Haines and Ollerton 1963; Kalker 1967; thesis Eqs. 4.14-4.26) is the same without either: its own coefficients,
+and in slip one direction for each strip, that of the traction where stick ends (4.23) or, where the whole strip slips, of the
+rigid slip at its middle (4.25). So its force jumps where a strip comes to slip under combined creepage, as published.
+
+Every strip is the central strip of a local ellipse with its own half length a(y), peak pressure p0(y) and aspect ratio, so
+the method needs no elliptic patch; on an ellipse it is the published method. Stick-zone forces are integrated in closed
+form; in the slip zone the magnitude mu·p is integrated exactly over each element and only the direction is the element's.
+
+Departures from the thesis, each measured on elliptic cases against CONTACT (mean force error over mu N; docs/accuracy.md; the
+published method has .0164):
+* the longitudinal term of a strip is its C11-scaled local creepage vx - phi·y (moment error .0138 → .0122);
+* the stick zone is continued through |psi| = 1 where lateral creepage opposes spin (`strip_theory.stick_zone`; .0175 → .0148),
+  and left by and by where its leading edge comes to slip (.0138 → .0137; forces jumped there, by up to .046 as spin rises);
+* the single flexibility of a slipping leading edge is Vollebregt's weighted mean, L = (vx² + vy² + c²phi²)/(vx²/L1 + …)
+  (theory.md 2.5, "crss"), blended in instead of switched, which removes a jump from strip to strip (.0148 → .0121);
+* the direction pass is of second order (`march`): .0136, and the result no longer depends on the number of elements, where
+  the first-order pass had gained the difference by its error;
+* a particle that sticks again in the march, as the rigid slip turns round within the strip, bears less than mu·p, by what it
+  bears there (.0137 → .0136). Raised to the bound, its traction turned round at once as it passed through zero; doubling the
+  strips changed forces by .050 % of mu N instead of .021 % in the mean, the elements by .032 % instead of .013 %;
+* the factor 1 + (1 - a/b)⁴ on N in the direction pass is left out (no measurable benefit, theory.md 4.2).
+"""
+
+import math
+
+from contact._jit import kernel
+from contact.kernels import kalker
+from contact.kernels.layout import Element, Field, Strip, Tangential
+from contact.kernels.tangential.ellipses import equivalent_ellipse
+from contact.kernels.tangential.fastsim import NO_FRICTION
+from contact.kernels.tangential.lanes import (
+    FALL,
+    FLUX,
+    HEATING,
+    LANES,
+    N_LANE_ROWS,
+    NOW_SLIDES,
+    NOW_SLIP,
+    NOW_STICK,
+    NOW_X,
+    NOW_Y,
+    SLIP,
+    keep,
+    recall,
+)
+from contact.kernels.tangential.march import FREE_BEHIND_MARCH, ROW_CAME, ROW_START, ROW_X, ROW_Y, ROW_Z, march
+from contact.kernels.tangential.strip_theory import coefficients, inner_resultants, outer_resultants, stick_zone
+from contact.kernels.tangential.varying import begin, soften, varies
+
+_NOW_SX, _NOW_SY = NOW_SLIP, NOW_SLIDES  # where `_show` leaves the slip velocity
+
+# rows of `lanes` behind those of the march
+(
+    _A,
+    _Y,
+    _XC,
+    _BOUND,  # mu p0
+    _C11,
+    _C22,
+    _C23,
+    _ROOT_ASPECT,  # √(a/b) = a/c
+    _E,  # half length of the slip zone over a
+    _KAPPA,
+    _LAMBDA,
+    _LAMBDA1,
+    _LOAD,  # ∫√(1-s²) over the stick zone, and ∫s√(1-s²)
+    _MOMENT,
+    _FLEXIBILITY_X,  # strain over s of a traction mu·p (theory.md 4.3)
+    _FLEXIBILITY_Y,
+    _VX,
+    _VY,
+    _SPIN,  # phi·a
+    _STRAIN,  # slip velocity behind the stick zone over √((1-s)(2e-1-s)), by strip theory (theory.md 4.3)
+    _FX,  # sums over the slip zone, over mu p0
+    _FY,
+    _MZ,
+    _POWER,
+) = (FREE_BEHIND_MARCH + row * LANES for row in range(24))
+
+#: Share of the bound, squared, up to which a particle of the slip zone sticks again.
+_AT_BOUND = 1.0 - 1e-9
+
+
+@kernel
+def _set_block(strips, block, n, case, table, c_patch, lanes):
+    """Amended strip theory (theory.md 4.1) of the strips from `block` on, and the set-up of their march."""
+    G, nu = case.G, case.nu
+    least = NO_FRICTION * G
+    for l in range(LANES):
+        i = min(block + l, n - 1)
+        a, bound = strips[Strip.A, i], case.mu * strips[Strip.BOUND, i]
+        lanes[_A + l], lanes[_Y + l], lanes[_XC + l] = a, strips[Strip.Y, i], strips[Strip.XC, i]
+        lanes[_VX + l], lanes[_VY + l], lanes[_SPIN + l] = (
+            strips[Strip.VX, i],
+            strips[Strip.VY, i],
+            strips[Strip.PHI, i],
+        )
+        lanes[_BOUND + l] = bound if a > 0.0 and bound > least else 0.0
+        c11, c22, c23, _ = kalker.coefficients(table, strips[Strip.ASPECT, i])
+        root_aspect = math.exp(0.5 * strips[Strip.ASPECT, i])
+        if case.tangential == Tangential.STRIP_THEORY:
+            c11, c22, c23 = coefficients(root_aspect, nu)
+        lanes[_C11 + l], lanes[_C22 + l], lanes[_C23 + l], lanes[_ROOT_ASPECT + l] = c11, c22, c23, root_aspect
+    for l in range(LANES):
+        a, y, xc, bound = lanes[_A + l], lanes[_Y + l], lanes[_XC + l], lanes[_BOUND + l]
+        c11, c22, c23, root_aspect = lanes[_C11 + l], lanes[_C22 + l], lanes[_C23 + l], lanes[_ROOT_ASPECT + l]
+        rigid_x, rigid_y, phi = lanes[_VX + l], lanes[_VY + l], lanes[_SPIN + l]
+        spin2 = (phi * c_patch) ** 2
+        live = 1.0 if bound > 0.0 else 0.0
+        unit = live * G / (bound + (1.0 - live))  # no slip at all in a strip that bears nothing
+        across = c23 / root_aspect
+        # directions from the parabola of peak 4/3 mu p0 (theory.md 4.4); its three stiffnesses, a/(flexibility·bound), pass
+        # into a single one as the leading edge comes to slip: `edge` is the utilisation of the bound there, where both
+        # vanish, and beyond 1 the thesis repeats the strip with one flexibility
+        L1, L2, L3 = 0.28125 * unit * c11, 0.28125 * unit * c22, 3.0 / math.pi * unit * across
+        x, z = rigid_x * L1 - phi * y * L3, rigid_y * L2 + phi * (xc + a) * L3
+        w = math.sqrt(x * x + z * z) - 1.0  # 2 edge - 1
+        w = 0.5 * (w + abs(w))
+        w = w if w < 1.0 else 1.0
+        single = (
+            w
+            * (rigid_x * rigid_x + rigid_y * rigid_y + spin2)
+            / (rigid_x * rigid_x * L1 + rigid_y * rigid_y * L2 + spin2 * L3 + 1e-300)
+        )
+        L1, L2, L3 = L1 / (1.0 - w + single * L1), L2 / (1.0 - w + single * L2), L3 / (1.0 - w + single * L3)
+        lanes[ROW_X + l] = rigid_x * L1 - phi * y * L3
+        lanes[ROW_Y + l] = rigid_y * L2 + phi * xc * L3
+        lanes[ROW_Z + l] = phi * a * L3
+        vx, vy = rigid_x - phi * y, rigid_y + phi * xc
+        lanes[_VX + l], lanes[_VY + l], lanes[_SPIN + l] = vx, vy, phi * a
+        lanes[_FLEXIBILITY_X + l] = 0.5 * math.pi**2 * bound / (G * c11)
+        lanes[_FLEXIBILITY_Y + l] = 0.5 * math.pi**2 * bound / (G * c22)
+        amended = -2.0 * (1.0 - nu) / math.pi**2 * unit
+        lanes[_KAPPA + l], lanes[_LAMBDA + l] = amended * c11 * vx, amended * c22 * vy
+        lanes[_LAMBDA1 + l] = -1.5 / math.pi * a * across * phi * unit  # psi
+    for l in range(LANES):
+        e, kappa, lam, lam1 = 1.0, 0.0, 0.0, 0.0
+        if lanes[_BOUND + l] > 0.0:
+            e, kappa, lam, lam1 = stick_zone(lanes[_KAPPA + l], lanes[_LAMBDA + l], lanes[_LAMBDA1 + l], nu)
+        lanes[_E + l], lanes[_KAPPA + l], lanes[_LAMBDA + l], lanes[_LAMBDA1 + l] = e, kappa, lam, lam1
+        lanes[_LOAD + l], lanes[_MOMENT + l] = outer_resultants(e)
+        lanes[_STRAIN + l] = math.sqrt(
+            (lanes[_FLEXIBILITY_X + l] * kappa) ** 2 + (lanes[_FLEXIBILITY_Y + l] * lam1) ** 2
+        )
+
+
+@kernel
+def _keep_direction(lanes, trace):
+    """Strip theory in place of the march: one direction of slip for each strip (thesis 4.23-4.26)."""
+    for l in range(LANES):
+        lanes[ROW_START + l], lanes[ROW_CAME + l] = 0.0, -2.0
+        x, y = lanes[_KAPPA + l], lanes[_LAMBDA + l]
+        if lanes[_E + l] >= 1.0:
+            x, y = -lanes[_VX + l], -lanes[_VY + l]
+        lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_SLIDES + l] = x, y, 0.0
+    for k in range(trace.shape[0]):
+        keep(lanes, trace[k])
+
+
+@kernel
+def _slip(lanes, l, s):
+    """Slip at s against the direction of lane l: strip theory's behind a stick zone, else rigid and elastic slip.
+
+    None where the particle sticks again.
+    """
+    ex, ey = lanes[NOW_X + l], lanes[NOW_Y + l]
+    slides = 1.0 if ex * ex + ey * ey > _AT_BOUND else 0.0
+    sx = lanes[_VX + l] + lanes[_FLEXIBILITY_X + l] * ex * s
+    sy = lanes[_VY + l] + (lanes[_SPIN + l] + lanes[_FLEXIBILITY_Y + l] * ey) * s
+    slip = -(sx * ex + sy * ey)
+    slip = slip if slip > 0.0 and lanes[_E + l] >= 1.0 else 0.0
+    behind = 2.0 * lanes[_E + l] - 1.0 - s
+    return slides * (slip + lanes[_STRAIN + l] * math.sqrt((1.0 - s) * 0.5 * (behind + abs(behind))))
+
+
+@kernel
+def _slip_zone(elements, lanes, trace, falling, block, n, fields):
+    """Sum the slip zones of a block: magnitude mu·p, exact over each element, direction of the march.
+
+    A particle that sticks again in the march, as the rigid slip turns round, bears as much less as it does there. The slip is
+    strip theory's behind a stick zone; in strips that slip as a whole it is rigid and elastic slip against the traction.
+    `fields` of the `n` strips are filled if they have room for them. `falling` is the case where friction varies along the
+    strip, or None: numba compiles each on its own, the second without what belongs to the first.
+    """
+    for l in range(LANES):
+        lanes[_FX + l], lanes[_FY + l], lanes[_MZ + l], lanes[_POWER + l] = 0.0, 0.0, 0.0, 0.0
+    load_before, moment_before = 0.0, 0.0
+    for k in range(elements.shape[1]):
+        s, weight = elements[Element.S, k], elements[Element.SINE, k] * elements[Element.DX, k]
+        load_end, moment_end = elements[Element.LOAD_END, k], elements[Element.MOMENT_END, k]
+        recall(lanes, trace[k])
+        sticks = 0
+        for l in range(lanes.size // N_LANE_ROWS):  # as in `_normalise`: so short a loop would be written out
+            sticks += 1 if lanes[NOW_SLIDES + l] < 0.5 and load_end > lanes[_LOAD + l] else 0
+        if sticks > 0:
+            _normalise(s, lanes)
+        if falling is not None:
+            for l in range(LANES):
+                slip = _slip(lanes, l, s)
+                lanes[SLIP + l], lanes[FLUX + l] = slip, lanes[HEATING + l] * elements[Element.SINE, k] * slip
+                lanes[NOW_STICK + l] = 0.0  # the sums take the part behind the stick zone alone
+            soften(falling, k, elements, lanes, trace)
+        for l in range(LANES):
+            load_from, ex, ey = lanes[_LOAD + l], lanes[NOW_X + l], lanes[NOW_Y + l]
+            first = load_before if load_before > load_from else load_from
+            last = load_end if load_end > load_from else load_from
+            moment_from = lanes[_MOMENT + l]
+            moment_start = moment_before if load_before > load_from else moment_from
+            share, share_s = last - first, moment_end - moment_start
+            share_s = share_s if load_end > load_from else 0.0
+            slip, amount = _slip(lanes, l, s), weight
+            if falling is not None:
+                fall = lanes[FALL + l]
+                share, share_s, amount = share * fall, share_s * fall, weight * fall
+            lanes[_FX + l] += share * ex
+            lanes[_FY + l] += share * ey
+            lanes[_MZ + l] += share_s * ey
+            lanes[_POWER + l] += amount * slip
+            lanes[NOW_SLIP + l] = slip
+        if n <= fields.shape[1]:  # else only forces are asked for
+            _show(s, elements[Element.SINE, k], lanes, falling)
+            _write(k, block, n, lanes, fields)
+        load_before, moment_before = load_end, moment_end
+
+
+@kernel
+def _normalise(s, lanes):
+    """Raise what the march leaves where it sticks to the bound, by what raises its largest utilisation so far to the bound.
+
+    Up to slip that is the present one or, as the utilisation is convex in 1/(1 + s), that of the leading edge.
+    """
+    for l in range(lanes.size // N_LANE_ROWS):
+        x, y, start = lanes[NOW_X + l], lanes[NOW_Y + l], lanes[ROW_START + l]
+        used = x * x + y * y
+        most = used if used > start else start
+        most = 1.0 if s < lanes[ROW_CAME + l] else most
+        per_most = 1.0 / (math.sqrt(most) + 1e-300)
+        lanes[NOW_X + l], lanes[NOW_Y + l] = x * per_most, y * per_most
+
+
+@kernel
+def _show(s, sine, lanes, falling):
+    """Replace what the march leaves by traction over mu p0, slip velocity and 1 in stick, for the fields."""
+    per_square, sticks = 1.0 / (sine * sine), 0
+    for l in range(lanes.size // N_LANE_ROWS):
+        ex, ey, slip = lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_SLIP + l]
+        stick = 1.0 if s > 2.0 * lanes[_E + l] - 1.0 else 0.0
+        sticks += 1 if stick > 0.5 else 0
+        again = 1.0 if ex * ex + ey * ey <= _AT_BOUND else 0.0
+        size = sine
+        if falling is not None:
+            size = sine * lanes[FALL + l]
+        lanes[NOW_X + l], lanes[NOW_Y + l] = size * ex, size * ey
+        lanes[_NOW_SX + l], lanes[_NOW_SY + l] = -slip * ex, -slip * ey
+        lanes[NOW_STICK + l] = again if again > stick else stick
+    if sticks == 0:
+        return
+    beyond = 0
+    for l in range(lanes.size // N_LANE_ROWS):
+        e = lanes[_E + l]
+        stick = 1.0 if s > 2.0 * e - 1.0 else 0.0
+        S2 = (1.0 - e) * (1.0 - e) - (s - e) * (s - e)
+        S = math.sqrt(0.5 * (S2 + abs(S2)))  # no choice: the compiler would branch around the root
+        qx, qy = lanes[_KAPPA + l] * (sine - S), lanes[_LAMBDA + l] * sine - lanes[_LAMBDA1 + l] * S
+        lanes[NOW_X + l] += stick * (qx - lanes[NOW_X + l])
+        lanes[NOW_Y + l] += stick * (qy - lanes[NOW_Y + l])
+        beyond += 1 if stick * (qx * qx + qy * qy) * per_square > 1.0 else 0
+    if beyond > 0:
+        _cut_to_bound(per_square, lanes)
+
+
+@kernel
+def _cut_to_bound(per_square, lanes):
+    """Keep the field admissible where strip theory's stick zone is not; its closed-form resultants do not need it."""
+    for l in range(lanes.size // N_LANE_ROWS):
+        qx, qy, stick = lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_STICK + l]
+        used = stick * (qx * qx + qy * qy) * per_square
+        per_excess = 1.0 / math.sqrt(used if used > 1.0 else 1.0)
+        lanes[NOW_X + l], lanes[NOW_Y + l] = qx * per_excess, qy * per_excess
+
+
+@kernel
+def _write(k, block, n, lanes, fields):
+    """Traction, slip and stick flag of element k of a block's strips; none of a strip that bears nothing."""
+    for l in range(min(LANES, n - block)):
+        row, bound = block + l, lanes[_BOUND + l]
+        live = 1.0 if bound > 0.0 else 0.0
+        fields[Field.QX, row, k], fields[Field.QY, row, k] = bound * lanes[NOW_X + l], bound * lanes[NOW_Y + l]
+        fields[Field.SX, row, k], fields[Field.SY, row, k] = live * lanes[_NOW_SX + l], live * lanes[_NOW_SY + l]
+        fields[Field.STICK, row, k] = live * lanes[NOW_STICK + l]
+
+
+@kernel
+def fastrip(n, case, own, result):
+    """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`."""
+    strips, fields, elements, table = own.strips, own.fields, own.rule.elements, own.tables.kalker
+    lanes, trace = own.space.lanes, own.space.trace
+    a0, b0 = equivalent_ellipse(strips, n)
+    c_patch = math.sqrt(a0 * b0)
+    Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
+    for block in range(0, n, LANES):
+        _set_block(strips, block, n, case, table, c_patch, lanes)
+        if case.tangential == Tangential.STRIP_THEORY:
+            _keep_direction(lanes, trace)
+        else:
+            march(False, elements, lanes, trace)
+        if varies(case):
+            begin(strips, block, n, case, _BOUND, lanes)
+            _slip_zone(elements, lanes, trace, case, block, n, fields)
+        else:
+            _slip_zone(elements, lanes, trace, None, block, n, fields)
+        for l in range(min(LANES, n - block)):
+            i = block + l
+            a, dy, y, xc = strips[Strip.A, i], strips[Strip.DY, i], strips[Strip.Y, i], strips[Strip.XC, i]
+            bound, e = lanes[_BOUND + l], lanes[_E + l]
+            slip_area += 2.0 * a * e * dy
+            if bound == 0.0:
+                continue
+            outer, outer_s = lanes[_LOAD + l], lanes[_MOMENT + l]
+            inner, inner_s = inner_resultants(e)
+            strip = bound * a * dy
+            fx = strip * (lanes[_KAPPA + l] * (outer - inner) + lanes[_FX + l])
+            fy = strip * (lanes[_LAMBDA + l] * outer - lanes[_LAMBDA1 + l] * inner + lanes[_FY + l])
+            mz = strip * a * (lanes[_LAMBDA + l] * outer_s - lanes[_LAMBDA1 + l] * inner_s + lanes[_MZ + l])
+            Fx += fx
+            Fy += fy
+            Mz += mz + xc * fy - y * fx
+            power += strip * lanes[_POWER + l]
+    result.Fx, result.Fy, result.Mz = Fx, Fy, Mz
+    result.power, result.slip_area = power, slip_area

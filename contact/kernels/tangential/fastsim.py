@@ -1,0 +1,157 @@
+"""FASTSIM (Kalker 1982) on any patch: simplified theory, with a choice of flexibilities and bound (theory.md 2.5).
+
+    fastsim           three flexibilities, parabolic bound
+    fastsim_one       one flexibility, weighted by the creepages, parabolic bound
+    fastsim_elliptic  three flexibilities, elliptic bound mu p
+    fastsim_linder    three of each strip's own ellipse, as wide as the patch (Linder 1997; `normal.linder`)
+    fastsim_stripes   three of each strip's own ellipse, as long as the patch, with a/b of the local curvatures (Ayasse and
+                      Chollet 2005, as theory.md 4.4 has it; the published length of this ellipse is not at hand)
+    fastsim_knothe    three with which the slopes of the forces are those of the half space on the patch itself, given as
+                      coefficients (`halfspace.linear`; after Knothe and Le The 1984)
+
+All but the local ones take the equivalent ellipse: the patch's area with the longest strip as semi-axis a. On an ellipse
+the local ones are that ellipse too, and they are the first method. The parabolic bound of a strip has its peak proportional
+to its p0·a, scaled so that the bounds carry the normal load: on an ellipse this is Kalker's paraboloid exactly, on any patch
+full slip gives mu N. The weighted flexibility changes with the ratio of the creepages, at any size of them.
+"""
+
+import math
+
+from contact._jit import kernel
+from contact.kernels.layout import Element, Field, Strip, Tangential
+from contact.kernels.normal.linder import local_ellipse
+from contact.kernels.tangential.ellipses import equivalent_ellipse, flexibilities, weighted
+from contact.kernels.tangential.lanes import (
+    FALL,
+    FLUX,
+    HEATING,
+    LANES,
+    NOW_SLIDES,
+    NOW_SLIP,
+    NOW_STICK,
+    NOW_X,
+    NOW_Y,
+    SLIP,
+    TRACE_FALL,
+)
+from contact.kernels.tangential.march import FREE_BEHIND_MARCH, ROW_X, ROW_Y, ROW_Z, march
+from contact.kernels.tangential.varying import begin, soften, varies
+
+#: A traction bound below this fraction of G is none: creepage over it would overflow.
+NO_FRICTION = 1e-15
+
+# rows of `lanes` behind those of the march
+_PEAK, _L1, _L2, _PER_LENGTH = (FREE_BEHIND_MARCH + row * LANES for row in range(4))
+
+
+@kernel
+def _own_ellipse(strips, i, method, a0, edges):
+    """Semi-axes of the ellipse to which strip i belongs by Linder or STRIPES."""
+    if method == Tangential.FASTSIM_STRIPES:
+        return a0, a0 * math.exp(-strips[Strip.ASPECT, i])
+    k = int(strips[Strip.PATCH, i])
+    return local_ellipse(strips[Strip.A, i], strips[Strip.Y, i], edges[2 * k], edges[2 * k + 1])
+
+
+@kernel
+def _peak_per_load(strips, n, elements, mu, N, elliptic):
+    """Peak of a strip's bound over p0 (elliptic) or p0·a: parabolas that carry the load, by the fields' quadrature."""
+    if elliptic:
+        return mu
+    cubes, spread = 0.0, 0.0
+    for k in range(elements.shape[1]):
+        cubes += elements[Element.SINE, k] ** 2 * elements[Element.DX, k]
+    for i in range(n):
+        spread += cubes * strips[Strip.P0, i] * strips[Strip.A, i] ** 2 * strips[Strip.DY, i]
+    return mu * N / spread if spread > 0.0 else 0.0
+
+
+@kernel
+def _slip(lanes, trace, k, l):
+    """Slip over V of element k in lane l."""
+    slip = trace[k, NOW_SLIP + l] * lanes[_PER_LENGTH + l]
+    return -lanes[_L1 + l] * slip * trace[k, NOW_X + l], -lanes[_L2 + l] * slip * trace[k, NOW_Y + l]
+
+
+@kernel
+def _fall(case, elliptic, elements, lanes, trace):
+    """Leave the coefficients of friction that varies along the strips of a block, over those at rest, in `trace`."""
+    for k in range(elements.shape[1]):
+        size = elements[Element.SINE, k] if elliptic else elements[Element.SINE, k] ** 2
+        for l in range(LANES):
+            sx, sy = _slip(lanes, trace, k, l)
+            lanes[SLIP + l] = math.sqrt(sx * sx + sy * sy)
+            lanes[FLUX + l] = -lanes[HEATING + l] * size * (sx * trace[k, NOW_X + l] + sy * trace[k, NOW_Y + l])
+            lanes[NOW_STICK + l] = trace[k, NOW_STICK + l] if lanes[_PEAK + l] > 0.0 else 0.0
+        soften(case, k, elements, lanes, trace)
+        for l in range(LANES):
+            trace[k, TRACE_FALL + l] = lanes[FALL + l]
+
+
+@kernel
+def fastsim(n, case, own, result):
+    """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`."""
+    strips, fields, elements, table = own.strips, own.fields, own.rule.elements, own.tables.kalker
+    lanes, trace = own.space.lanes, own.space.trace
+    method, G = case.tangential, case.G
+    Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
+    elliptic = method == Tangential.FASTSIM_ELLIPTIC
+    local = method == Tangential.FASTSIM_LINDER or method == Tangential.FASTSIM_STRIPES
+    a0, b0 = equivalent_ellipse(strips, n)
+    L1, L2, L3 = flexibilities(G, a0, b0, table)
+    if method == Tangential.FASTSIM_ONE:
+        L1 = L2 = L3 = weighted(case.vx, case.vy, case.phi, math.sqrt(a0 * b0), L1, L2, L3)
+    falling = varies(case)
+    per_load = _peak_per_load(strips, n, elements, case.mu, result.N, elliptic)
+    for block in range(0, n, LANES):
+        for l in range(LANES):
+            i = min(block + l, n - 1)
+            a = strips[Strip.A, i]
+            peak = per_load * strips[Strip.BOUND, i] * (1.0 if elliptic else a)
+            scale = a / peak if peak > NO_FRICTION * G else 0.0
+            if local:
+                own_a, own_b = _own_ellipse(strips, i, method, a0, result.edges)
+                L1, L2, L3 = flexibilities(G, own_a, own_b, table)
+            vx, vy, phi = strips[Strip.VX, i], strips[Strip.VY, i], strips[Strip.PHI, i]
+            lanes[_PEAK + l], lanes[_L1 + l], lanes[_L2 + l] = peak if scale > 0.0 else 0.0, L1, L2
+            lanes[_PER_LENGTH + l] = lanes[_PEAK + l] / a if a > 0.0 else 0.0
+            lanes[ROW_X + l] = scale * (vx / L1 - phi * strips[Strip.Y, i] / L3)
+            lanes[ROW_Y + l] = scale * (vy / L2 + phi * strips[Strip.XC, i] / L3)
+            lanes[ROW_Z + l] = scale * a * phi / L3
+        march(elliptic, elements, lanes, trace)
+        if falling:
+            begin(strips, block, n, case, _PEAK, lanes)
+            _fall(case, elliptic, elements, lanes, trace)
+        for l in range(min(LANES, n - block)):
+            i = block + l
+            row = min(i, fields.shape[1] - 1)  # one row serves all strips when only forces are asked for
+            a, y, dy = strips[Strip.A, i], strips[Strip.Y, i], strips[Strip.DY, i]
+            peak = lanes[_PEAK + l]
+            frictionless = peak <= 0.0
+            for k in range(elements.shape[1]):
+                ex, ey = trace[k, NOW_X + l], trace[k, NOW_Y + l]
+                stick = trace[k, NOW_STICK + l]
+                size = peak * (elements[Element.SINE, k] if elliptic else elements[Element.SINE, k] ** 2)
+                qx, qy = size * ex, size * ey
+                sx, sy = _slip(lanes, trace, k, l)
+                stick = 0.0 if frictionless else stick
+                slides = trace[k, NOW_SLIDES + l]
+                if falling:
+                    fall = trace[k, TRACE_FALL + l]
+                    used = math.sqrt(ex * ex + ey * ey)
+                    if fall < 1.0 and used > fall:
+                        qx, qy = qx * (fall / used), qy * (fall / used)
+                        stick, slides = 0.0, 1.0
+                fields[Field.QX, row, k], fields[Field.QY, row, k] = qx, qy
+                fields[Field.SX, row, k], fields[Field.SY, row, k] = sx, sy
+                fields[Field.STICK, row, k] = 0.0 if frictionless else 1.0 - slides
+                dA = a * elements[Element.DX, k] * dy
+                Fx += qx * dA
+                Fy += qy * dA
+                Mz += ((strips[Strip.XC, i] + a * elements[Element.S, k]) * qy - y * qx) * dA
+                power -= (qx * sx + qy * sy) * dA
+                slip_area += (1.0 - stick) * elements[Element.STEP, k] * a * dy
+            slides = 1.0 if frictionless else trace[elements.shape[1] - 1, NOW_SLIDES + l]
+            slip_area += slides * (1.0 + elements[Element.S, -1]) * a * dy  # behind the last element's middle
+    result.Fx, result.Fy, result.Mz = Fx, Fy, Mz
+    result.power, result.slip_area = power, slip_area

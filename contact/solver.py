@@ -1,0 +1,247 @@
+"""`contact.Solver`: methods, resolution and memory prepared once, for a model that asks at every time step."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact import workspace
+from contact.case import cases, set_surface
+from contact.creepage import Creepage
+from contact.errors import ContactError, require_number
+from contact.friction import Friction, as_friction
+from contact.kernels.layout import RESULT, LoadKind
+from contact.kernels.memory import Workspace
+from contact.kernels.pipeline import solve_one
+from contact.material import STEEL, Material
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
+from contact.separation import Separation
+from contact.solution import Forces, Prepared, Solution, Status
+
+#: Resolution at which forces are within 0.002 mu N of their limit.
+N_STRIPS, N_ELEMENTS = 30, 30
+#: Samples of a separation that a solver has room for, unless told otherwise.
+N_SAMPLES = 101
+
+
+def require_resolution(n_strips: object, n_elements: object) -> tuple[int, int]:
+    """Return both as integers in [4, 1000], or raise a ContactError."""
+    for name, number in (("n_strips", n_strips), ("n_elements", n_elements)):
+        if not isinstance(number, int | np.integer) or not 4 <= number <= 1000:
+            raise ContactError(f"{name} = {number!r} is not an integer in the allowed range [4, 1000]")
+    return int(n_strips), int(n_elements)  # type: ignore[call-overload]
+
+
+def require_conformal(tangential: Method) -> None:
+    """Raise a ContactError for a tangential method that knows the contact plane alone."""
+    if not tangential.fields:
+        raise ContactError(f"conformal: tangential = {tangential.name!r} knows the contact plane alone")
+
+
+class Solver:
+    """A prepared solver: it owns its memory and can be asked many times.
+
+    One call costs the compiled kernel and a few microseconds. A solver is not to be shared between threads: each thread makes
+    its own. The answers are those of `contact.solve`.
+
+    Parameters
+    ----------
+    normal, tangential : str
+        Names from ``contact.methods().batched``; the element-wise half space is for `contact.solve`.
+    n_strips, n_elements : int
+        Strips per patch and elements per strip, each 4 to 1000.
+    friction : float or contact.friction.Friction
+        Coulomb's coefficient mu ≥ 0 [-], or a surface on which it falls. A call may give another one.
+    material : Material
+    speed : float
+        Rolling speed [m/s] > 0. A call may give another one.
+    conformal : bool
+        Let the contact angle vary over the patch, as in `contact.solve`.
+    n_samples : int
+        Most samples of a separation. A larger separation makes room for itself, once.
+
+    Raises
+    ------
+    ContactError
+        For unknown methods and values outside their range.
+
+    Examples
+    --------
+    >>> import contact
+    >>> solver = contact.Solver(tangential="fastrip_mapped", friction=0.35)
+    >>> separation = contact.Separation.hertzian(1.1, 0.8)
+    >>> solver.solve(separation, contact.Creepage(1e-3), load=80e3).status
+    <Status.OK: 1>
+    """
+
+    def __init__(
+        self,
+        *,
+        normal: str = DEFAULT_NORMAL,
+        tangential: str = DEFAULT_TANGENTIAL,
+        n_strips: int = N_STRIPS,
+        n_elements: int = N_ELEMENTS,
+        friction: float | Friction = 0.3,
+        material: Material = STEEL,
+        speed: float = 20.0,
+        conformal: bool = False,
+        n_samples: int = N_SAMPLES,
+    ) -> None:
+        self.normal = lookup("normal", normal, batched=True)
+        self.tangential = lookup("tangential", tangential, batched=True)
+        self.n_strips, self.n_elements = require_resolution(n_strips, n_elements)
+        if conformal:
+            require_conformal(self.tangential)
+        self.material, self.conformal = material, bool(conformal)
+        self._case = cases(1, self.normal, self.tangential, material, conformal=conformal)
+        self._member = {name: self._case[name] for name in self._case.dtype.names or ()}
+        self._result = np.zeros(1, RESULT)
+        self.set_surface(friction, speed)
+        self._make_room(int(require_number("n_samples", n_samples, 3)))
+
+    def __repr__(self) -> str:
+        return (
+            f"Solver({self.normal.name} + {self.tangential.name}, {self.n_strips} strips x {self.n_elements} elements, "
+            f"friction {self._friction.static:g})"
+        )
+
+    def set_surface(self, friction: float | Friction, speed: float) -> None:
+        """Set the friction [-] and the rolling speed [m/s] of the following calls that name no other."""
+        self._friction = as_friction(friction)
+        self._speed = require_number("speed", speed, 0.0, open_minimum=True)
+        set_surface(self._case, self._friction, self._speed)
+
+    def forget(self) -> None:
+        """Let the next call start from nothing, whatever it is asked."""
+        self._own.space.memory[:] = 0.0
+
+    def start_from(self, solution: Solution) -> None:
+        """Let the next warm call start from a solution of this resolution; one of another is not used."""
+        memory = self._own.space.memory
+        if solution.memory.size == memory.size:
+            memory[:] = solution.memory
+
+    def calibrate(self, table: NDArray[np.float64]) -> None:
+        """Use another table of creepage coefficients (`contact.kalker.constant_table`) than that of linear theory."""
+        self._own = self._own._replace(tables=self._own.tables._replace(kalker=table))
+        self._lean = self._lean._replace(tables=self._own.tables)
+
+    def _make_room(self, n_samples: int) -> None:
+        """Allocate a workspace for separations of so many samples."""
+        size = self.n_strips, self.n_elements, n_samples
+        nu = self.material.poisson_ratio
+        self._own: Workspace = workspace.allocate(self.normal, self.tangential, nu, size)
+        self._n_samples = n_samples
+        # forces only: one row of fields serves all strips, unless the surface of contact is bent
+        one_row = self._own.fields if self.conformal else self._own.fields[:, :1].copy()
+        self._lean = self._own._replace(fields=one_row)
+
+    def solve(
+        self,
+        separation: Separation,
+        creepage: Creepage,
+        *,
+        load: float | None = None,
+        approach: float | None = None,
+        friction: float | Friction | None = None,
+        speed: float | None = None,
+        warm: bool = False,
+        throw: bool = True,
+    ) -> Solution:
+        """Solve one contact.
+
+        Parameters
+        ----------
+        separation : Separation
+        creepage : Creepage
+        load, approach : float
+            Exactly one of them: normal force [N] ≥ 0, or rigid approach [m].
+        friction, speed : optional
+            For this and the following calls; by default as before.
+        warm : bool
+            Start from the last solution. It changes the time that interacting strips take, and their answer within the
+            method's tolerance.
+        throw : bool
+            As in `contact.solve`.
+
+        Returns
+        -------
+        Solution
+            A copy: later calls do not change it.
+
+        Raises
+        ------
+        ContactError
+            As `contact.solve`.
+        """
+        n = self._run(self._own, separation, creepage, load, approach, (friction, speed), warm)
+        own, prepared = self._own, Prepared(self.normal.name, self.tangential.name, self.material, self._speed)
+        solution = Solution.of_kernel(n, own, self._case, self._result, creepage, prepared)
+        if throw:
+            require_trustworthy(solution, separation, load, approach)
+        return solution
+
+    def forces(
+        self,
+        separation: Separation,
+        creepage: Creepage,
+        *,
+        load: float | None = None,
+        approach: float | None = None,
+        friction: float | Friction | None = None,
+        speed: float | None = None,
+        warm: bool = False,
+    ) -> Forces:
+        """Solve one contact for its forces only; parameters as in `solve`. Its `status` says whether it can be trusted."""
+        self._run(self._lean, separation, creepage, load, approach, (friction, speed), warm)
+        found = self._result[0]
+        area = float(found.area)
+        return Forces(
+            float(found.Fx), float(found.Fy), float(found.Mz), float(found.N), float(found.approach), float(found.pmax),
+            area, float(found.slip_area) / area if area > 0.0 else 0.0, float(found.power), Status(found.status),
+        )  # fmt: skip
+
+    def _run(
+        self,
+        own: Workspace,
+        separation: Separation,
+        creepage: Creepage,
+        load: float | None,
+        approach: float | None,
+        surface: tuple[float | Friction | None, float | None],
+        warm: bool,
+    ) -> int:
+        """Check the arguments, fill the case and call the kernel; return the number of strips."""
+        if not isinstance(separation, Separation):
+            raise ContactError(f"separation = {separation!r} is not a contact.Separation")
+        if not isinstance(creepage, Creepage):
+            raise ContactError(f"creepage = {creepage!r} is not a contact.Creepage")
+        if (load is None) == (approach is None):
+            raise ContactError(f"exactly one of load and approach is needed; load = {load}, approach = {approach}")
+        friction, speed = surface
+        if friction is not None or speed is not None:
+            self.set_surface(self._friction if friction is None else friction, self._speed if speed is None else speed)
+        member = self._member
+        if load is not None:
+            member["load_kind"][0], member["amount"][0] = LoadKind.LOAD, require_number("load", load, 0.0)
+        else:
+            member["load_kind"][0], member["amount"][0] = LoadKind.APPROACH, require_number("approach", approach)
+        member["vx"][0], member["vy"][0], member["phi"][0] = creepage.longitudinal, creepage.lateral, creepage.spin
+        member["rolling"][0] = separation.rolling
+        if separation.y.size > self._n_samples:
+            lean = own is self._lean
+            self._make_room(separation.y.size)
+            own = self._lean if lean else self._own
+        if not warm:
+            own.space.memory[0] = 0.0
+        return int(solve_one(separation.samples, self._case, own, self._result))
+
+
+def require_trustworthy(solution: Solution, separation: Separation, load: float | None, approach: float | None) -> None:
+    """Raise a ContactError for a solution that is not to be trusted."""
+    if solution.status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED):
+        what, amount = ("load", load) if load is not None else ("approach", approach)
+        raise ContactError(
+            f"{what} = {amount:g}: {solution.status.message}; y = [{separation.y[0]:g}, {separation.y[-1]:g}] m "
+            f"(throw=False returns the solution with this status)"
+        )
