@@ -16,9 +16,9 @@ from pathlib import Path
 import numpy as np
 
 import contact
+from contact import force_table as table
 from contact import kalker
 from contact.study.ellipse import ellipse
-from contact import force_table as table
 
 MATERIAL, LOAD, MU, C = contact.Material(82e9, table.NU), 82e3, 0.3, 6e-3
 #: Of the half space.

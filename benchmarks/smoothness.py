@@ -20,7 +20,7 @@ import contact
 from benchmarks.robustness import table
 from contact import kalker
 from contact.geometry import profile, wheelset
-from contact.solve import N_ELEMENTS, N_STRIPS
+from contact.solver import N_ELEMENTS, N_STRIPS
 
 MU, LOAD = 0.3, 80e3
 PAIRS = (("analyn", "fastrip"), ("analyn", "fastrip_mapped"), ("strip_halfspace", "fastrip_mapped"))

@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from contact.kernels.layout import LoadKind
 import contact
 from benchmarks import accuracy
 from contact import workspace
-from contact.kernels.layout import N_CASE
-from contact.friction import Friction, fill
-from contact.kernels.pipeline import solve_case, solve_cases
+from contact.case import cases, set_surface
+from contact.friction import Friction
+from contact.kernels.layout import RESULT, LoadKind
+from contact.kernels.pipeline import solve_cases
 
 PATCH = next(case for case in accuracy.patches() if case["name"].startswith("c40_dy+0"))
 SEPARATION = contact.Separation(np.array(PATCH["y"]) * 1e-3, np.array(PATCH["g"]) * 1e-3, np.array(PATCH["A"]) * 1e3)
@@ -29,40 +29,24 @@ CREEP = contact.Creepage(1e-3, 5e-4, 0.1)
 CASES = 64
 
 
-def case_of(normal, tangential):
-    """A load-prescribed case, with constant friction."""
-    case = np.zeros(N_CASE)
-    case.load_kind, case.amount, case.G, case.nu = LoadKind.LOAD, 8e4, 82e9, 0.28
-    case.vx, case.vy, case.phi = CREEP.longitudinal, CREEP.lateral, CREEP.spin
-    case.normal, case.tangential = normal.id, tangential.id
-    fill(case, Friction(0.3), 20.0)
-    return case
+def cases_of(n, normal, tangential):
+    """`n` load-prescribed cases with constant friction, and a place for each result."""
+    made = cases(n, normal, tangential, contact.STEEL)
+    set_surface(made, Friction(0.3), 20.0)
+    made["load_kind"], made["amount"] = LoadKind.LOAD, 8e4
+    made["vx"], made["vy"], made["phi"] = CREEP.longitudinal, CREEP.lateral, CREEP.spin
+    return made, np.zeros(n, RESULT)
 
 
 def kernel_loop(normal: str, tangential: str, n_strips: int, n_elements: int, *, fields: bool):
     """The kernel's own loop over CASES load-prescribed cases on the patch c40_dy+0: Python hardly counts."""
-    method = METHODS.normal[normal]
-    own = workspace.allocate(
-        method, METHODS.tangential[tangential], 0.28, n_strips, n_elements, SEPARATION.y.size, fields=fields
-    )
-    case = case_of(method, METHODS.tangential[tangential])
+    methods = METHODS.normal[normal], METHODS.tangential[tangential]
+    own = workspace.allocate(*methods, 0.28, (n_strips, n_elements, SEPARATION.y.size), fields=fields)
     bounds, which = np.array([0, SEPARATION.y.size]), np.zeros(CASES, dtype=np.int64)
-    results = np.empty((CASES, own.result.size))
-    arrays = (
-        SEPARATION.y,
-        SEPARATION.g,
-        SEPARATION.A,
-        SEPARATION.x_c,
-        SEPARATION.tilt,
-        np.zeros(1),
-        bounds,
-        which,
-        np.tile(case, (CASES, 1)),
-    )
-    arguments = (0, CASES, *arrays, own.rule, own.tables, own.space, own.strips, own.fields, results)
+    problems, results = cases_of(CASES, *methods)
 
     def call() -> None:
-        solve_cases(*arguments)
+        solve_cases(0, CASES, SEPARATION.samples, bounds, which, problems, own, results)
 
     call()
     return call
@@ -81,22 +65,28 @@ def test_kernel(benchmark, normal, tangential, n_strips, n_elements, fields):
 @pytest.mark.parametrize("n_strips", [20, 30, 40])
 def test_strip_halfspace_kernel(benchmark, n_strips, warm):
     """Warm: the separation moves to and fro by 0.02 mm from call to call, as between the time steps of a vehicle model."""
-    method = METHODS.normal["strip_halfspace"]
-    rolling = METHODS.tangential["fastrip_mapped"]
-    own = workspace.allocate(method, rolling, 0.28, n_strips, 20, SEPARATION.y.size, fields=False)
-    case = case_of(method, rolling)
     y = SEPARATION.y
     shifts = 2e-5 * np.concatenate((np.arange(26), np.arange(24, 0, -1)))
     gap = CubicSpline(y, SEPARATION.g)
-    moving = itertools.cycle([gap(np.clip(y - shift, y[0], y[-1])) for shift in shifts])
+    moving = itertools.cycle([SEPARATION.with_gap(gap(np.clip(y - s, y[0], y[-1])), SEPARATION.A) for s in shifts])
+    options = {"normal": "strip_halfspace", "tangential": "fastrip_mapped"}
+    solver = contact.Solver(**options, n_strips=n_strips, n_elements=20, n_samples=y.size)
 
     def call() -> None:
-        if not warm:
-            own.space.memory[0] = 0.0
-        solve_case(y, next(moving), SEPARATION.A, SEPARATION.x_c, case, *own)
+        solver.forces(next(moving), CREEP, load=8e4, warm=warm)
 
     call()
     benchmark(call)
+
+
+def test_solver(benchmark):
+    solver = contact.Solver(n_samples=SEPARATION.y.size)
+    benchmark(solver.solve, SEPARATION, CREEP, load=8e4)
+
+
+def test_solver_forces_only(benchmark):
+    solver = contact.Solver(n_samples=SEPARATION.y.size)
+    benchmark(solver.forces, SEPARATION, CREEP, load=8e4)
 
 
 def test_solve(benchmark):

@@ -68,9 +68,7 @@ class Separation:
             raise ContactError(f"y must increase strictly; y[{i}] = {self.y[i]:g}, y[{i + 1}] = {self.y[i + 1]:g}")
         self.g = _column("g", g, n)
         self.A = _column("A", A, n)
-        if not (self.A > 0.0).all():
-            i = int(np.argmin(self.A))
-            raise ContactError(f"A[{i}] = {self.A[i]:g} is outside the allowed range ]0, inf[")
+        _require_positive("A", self.A)
         self.x_c = _column("x_c", x_c, n)
         self.tilt = _column("tilt", tilt, n)
         if (abs(self.tilt) > LARGEST_TILT).any():
@@ -95,8 +93,26 @@ class Separation:
         fill_hertzian(B, y, g)
         return cls(y, g, A)
 
+    def with_gap(self, g: ArrayLike, A: ArrayLike) -> Separation:
+        """Return a separation with another gap [m] and half curvature [1/m] at the same `y`; the rest stays."""
+        other = object.__new__(type(self))
+        other.y, other.x_c, other.tilt, other.rolling = self.y, self.x_c, self.tilt, self.rolling
+        other.g, other.A = _column("g", g, self.y.size), _column("A", A, self.y.size)
+        _require_positive("A", other.A)
+        for array in (other.g, other.A):
+            array.setflags(write=False)
+        other.samples = Samples(other.y, other.g, other.A, other.x_c, other.tilt)
+        return other
+
     def __repr__(self) -> str:
         return f"Separation({self.y.size} points, y = {self.y[0]:g} … {self.y[-1]:g} m, least gap {self.g.min():g} m)"
+
+
+def _require_positive(name: str, array: NDArray[np.float64]) -> None:
+    """Raise a ContactError that names the least value if it is not positive."""
+    if not (array > 0.0).all():
+        i = int(np.argmin(array))
+        raise ContactError(f"{name}[{i}] = {array[i]:g} is outside the allowed range ]0, inf[")
 
 
 def _column(name: str, values: ArrayLike, n: int | None) -> NDArray[np.float64]:

@@ -1,32 +1,70 @@
-"""Sources that hold no kernel do not count for the cache of compiled kernels; then no kernel may come from them."""
+"""The cache of compiled kernels is keyed by their content."""
 
-import re
+import json
+import os
+import shutil
+import subprocess
+import sys
 from pathlib import Path
 
+import pytest
+
 import contact
-import models
 from contact import _jit
 
-ROOTS = [Path(package.__path__[0]) for package in (contact, models)]
-WITHOUT = [(root, root / part) for part in _jit._WITHOUT_KERNELS for root in ROOTS if (root / part).exists()]
+PACKAGE = Path(contact.__file__).parent
+CHILD = """
+import contact, json, sys
+from contact import _jit
+from contact.kernels.hertz import local_factors
+local_factors(1.0, 2.0)
+stats = local_factors.stats
+print(json.dumps([str(_jit.cache_directory(_jit._KERNELS)), sum(stats.cache_misses.values())]))
+"""
 
 
-def sources(path):
-    return sorted(path.rglob("*.py")) if path.is_dir() else [path]
+@pytest.fixture
+def checkout(tmp_path):
+    """A copy of the package, which may be changed, and its own cache."""
+    shutil.copytree(PACKAGE, tmp_path / "one" / "contact", ignore=shutil.ignore_patterns("__pycache__"))
+    return tmp_path / "one"
 
 
-def test_excluded_sources_exist_and_hold_no_kernel():
-    assert len(WITHOUT) == len(_jit._WITHOUT_KERNELS)
-    for _, part in WITHOUT:
-        for path in sources(part):
-            assert not re.search(r"^\s*@kernel|import.*\bkernel\b", path.read_text(encoding="utf-8"), re.M), path
-
-
-def test_no_source_with_kernels_imports_an_excluded_one():
-    names = "|".join(
-        re.escape(".".join((root.name, *p.relative_to(root).with_suffix("").parts))) for root, p in WITHOUT
+def run(checkout, cache):
+    """Use one kernel in a new process; return its cache directory and how many kernels were compiled for it."""
+    environment = {**os.environ, "PYTHONPATH": str(checkout), "NUMBA_CACHE_DIR": str(cache)}
+    done = subprocess.run(
+        [sys.executable, "-c", CHILD], capture_output=True, text=True, env=environment, cwd=checkout, check=True
     )
-    for path in [path for root in ROOTS for path in sources(root)]:
-        text = path.read_text(encoding="utf-8")
-        if re.search(r"^@kernel", text, re.M):
-            assert not re.search(rf"^\s*(from|import) ({names})\b", text, re.M), path
+    return tuple(json.loads(done.stdout))
+
+
+def test_only_a_changed_kernel_compiles_anew(checkout, tmp_path):
+    cache = tmp_path / "cache"
+    first, misses = run(checkout, cache)
+    assert misses > 0
+    outside = checkout / "contact" / "errors.py"
+    outside.write_text(outside.read_text() + "\n# another comment\n")
+    for path in checkout.rglob("*.py"):  # as a switch of branches does
+        os.utime(path)
+    assert run(checkout, cache) == (first, 0)
+    other = tmp_path / "two"
+    shutil.copytree(checkout, other)
+    assert run(other, cache) == (first, 0)
+    kernel = checkout / "contact" / "kernels" / "hertz.py"
+    kernel.write_text(kernel.read_text() + "\n# another comment\n")
+    changed, misses = run(checkout, cache)
+    assert changed != first
+    assert misses > 0
+
+
+def test_stale_caches_are_removed(tmp_path):
+    names = [f"{_jit._PREFIX}{i:02d}" for i in range(_jit._MOST + 2)]
+    for i, name in enumerate(names):
+        (tmp_path / name).mkdir()
+        os.utime(tmp_path / name, (2e9 + i, 2e9 + i))
+    os.utime(tmp_path / names[-1], (0.0, 0.0))  # the latest name, not used for decades
+    (tmp_path / "of another program").mkdir()
+    _jit._remove_stale(tmp_path)
+    left = {path.name for path in tmp_path.iterdir()}
+    assert left == {*names[1:-1], "of another program"}

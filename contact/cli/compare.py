@@ -13,7 +13,7 @@ from contact.cli import options as opt
 from contact.cli.output import reported, require_endings
 from contact.cli.progress import progress_bar
 from contact.cli.tables import show_study
-from contact.solve import N_ELEMENTS
+from contact.solver import N_ELEMENTS
 from contact.study import SELECTION
 from contact.study import compare as compare_methods
 from contact.study.compare import REFERENCE_ELEMENTS

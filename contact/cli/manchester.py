@@ -11,7 +11,7 @@ from contact.cli.compare import COMPARED, All, Elements, Resolution
 from contact.cli.output import reported, require_endings
 from contact.cli.progress import progress_bar
 from contact.cli.tables import show_study
-from contact.solve import N_ELEMENTS
+from contact.solver import N_ELEMENTS
 from contact.study.compare import REFERENCE_ELEMENTS
 from contact.study.manchester import METHODS, NOTES
 from contact.study.manchester import manchester as compute

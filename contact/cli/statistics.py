@@ -11,7 +11,7 @@ from contact.cli import options as opt
 from contact.cli.output import reported, require_endings
 from contact.cli.progress import progress_bar
 from contact.cli.tables import show_study
-from contact.solve import N_ELEMENTS
+from contact.solver import N_ELEMENTS
 from contact.study.statistics import ELEMENTS
 from contact.study.statistics import statistics as compute
 

@@ -13,7 +13,8 @@ from contact.errors import ContactError
 from contact.halfspace.gap import least
 from contact.separation import Separation
 from contact.solution import Solution
-from contact.solve import N_ELEMENTS, N_STRIPS, solve
+from contact.solve import solve
+from contact.solver import N_ELEMENTS, N_STRIPS
 from contact.study.case import Case
 from contact.study.comparison import Comparison
 from contact.study.errors import errors_against

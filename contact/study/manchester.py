@@ -20,7 +20,8 @@ from contact.geometry import profile
 from contact.geometry.records import Patch, Pose, Velocity
 from contact.geometry.wheelset import Pair as WheelOnRail
 from contact.solution import Solution
-from contact.solve import N_ELEMENTS, N_STRIPS, solve
+from contact.solve import solve
+from contact.solver import N_ELEMENTS, N_STRIPS
 from contact.study.case import Case
 from contact.study.compare import REFERENCE_ELEMENTS, Progress, compare
 from contact.study.comparison import Comparison

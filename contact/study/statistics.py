@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from contact.errors import ContactError
 from contact.forces import forces
 from contact.registry import lookup, methods
-from contact.solve import N_ELEMENTS, N_STRIPS
+from contact.solver import N_ELEMENTS, N_STRIPS
 from contact.study.design import FRICTION, LOAD, MATERIAL, Design, design
 from contact.study.errors import mean_p95_max
 from contact.study.files import csv_of

@@ -1,7 +1,8 @@
-"""Arrays over raw memory, for entries that C calls; numba compiles it, nothing here runs as Python."""
+"""What entries that C calls are compiled with: arrays over raw memory come from `contact.kernels.memory`."""
 
-from llvmlite import ir
-from numba import carray, njit, types
+from __future__ import annotations
+
+from numba import njit, types
 from numba.core.errors import TypingError
 from numba.extending import intrinsic
 
@@ -11,38 +12,23 @@ Doubles = types.CPointer(types.float64)
 compiled = njit(error_model="numpy")
 
 
-@intrinsic
-def ahead(typing_context, pointer, count):
-    """Pointer to the number that lies `count` numbers behind that of `pointer`."""
-    if pointer != Doubles:
-        raise TypingError("ahead() takes a pointer to float64")
+def _start_of(dtype):
+    """Return an intrinsic: the pointer to the first record of an array, as one to numbers of `dtype`."""
+    pointer = types.CPointer(dtype)
 
-    def generate(context, builder, signature, arguments):
-        base, offset = arguments
-        return builder.gep(base, [offset], source_etype=ir.DoubleType())
+    @intrinsic
+    def start(typing_context, records):
+        if not (isinstance(records, types.Array) and isinstance(records.dtype, types.Record)):
+            raise TypingError("an array of records is needed")
 
-    return Doubles(Doubles, types.int64), generate
+        def generate(context, builder, signature, arguments):
+            array = context.make_array(signature.args[0])(context, builder, arguments[0])
+            return builder.bitcast(array.data, context.get_value_type(pointer))
 
+        return pointer(records), generate
 
-@compiled
-def vector(memory, at, n):
-    """Vector of n numbers from `at` on, and where the next one starts."""
-    return carray(ahead(memory, at), (n,)), at + n
-
-
-@compiled
-def matrix(memory, at, rows, columns):
-    """Matrix likewise."""
-    return carray(ahead(memory, at), (rows, columns)), at + rows * columns
+    return start
 
 
-@compiled
-def cube(memory, at, layers, rows, columns):
-    """Three-dimensional array likewise."""
-    return carray(ahead(memory, at), (layers, rows, columns)), at + layers * rows * columns
-
-
-@compiled
-def next_line(at):
-    """First place from `at` on at which a cache line begins, as the memory itself does."""
-    return (at + 7) // 8 * 8
+#: The first record of an array as float64 or int64 values, one a member.
+numbers_of, integers_of = _start_of(types.float64), _start_of(types.int64)

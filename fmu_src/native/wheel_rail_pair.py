@@ -10,43 +10,52 @@ from collections import namedtuple
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+import numpy as np
 from numba import carray
 
 import contact
-from contact import Status, quadrature
-from contact.kernels.layout import MAX_PATCHES, N_CASE
+from contact import Status
 from contact.damage import DamageParameters
-from contact.kernels.damage.assess import N_DAMAGE, N_DAMAGE_FIELDS, N_PAR
-from contact.kernels.damage.deposit import N_ROWS, arc_length
-from contact.geometry import layout as rows
-from contact.kernels.geometry.prepare import cut, facing, rail_origin, turn
-from contact.kernels.geometry.settle import DEEPEST, GIVEN_Z, NO_OVERLAP, NOT_SETTLED, TOO_DEEP
-from contact.kernels.geometry.settle import LOAD as UNDER_LOAD
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
-from contact.geometry.workspace import N_STRIPS as SEARCH_STRIPS
-from contact.kernels.pair import N_TOTAL, Bench, solve_pair
-from contact.kernels.layout import N_CONTACT
-from contact.kernels.ledger import DISTANCE, N_SETTINGS, START, WIDTH, Ledger
+from contact.kernels import memory, quadrature
+from contact.kernels.damage.deposit import arc_length
+from contact.kernels.geometry.prepare import cut, facing, rail_origin, turn
+from contact.kernels.geometry.settle import DEEPEST
+from contact.kernels.layout import (
+    CASE,
+    DAMAGE_PARAMETERS,
+    GIVEN,
+    MAX_PATCHES,
+    N_BIN_ROWS,
+    N_PROFILE_ROWS,
+    TOTAL,
+    Height,
+    NoAnswer,
+)
+from contact.kernels.memory import ahead
+from contact.kernels.pair import solve_pair
 from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
-from fmu_src.native.memory import ahead, compiled, cube, matrix, vector
-from fmu_src.native.search import lay_out as search_arrays
-from fmu_src.native.solver import (
-    NORMAL_IDS,
-    TANGENTIAL_IDS,
-    data,
-    fill,
-    fill_friction,
-    lay_out,
-    memory_size,
-)
+from fmu_src.native.memory import compiled, numbers_of
+from fmu_src.native.solver import choose, data, fill, lay_out, size_of
+from fmu_src.native.wires import MATERIAL, case_reader, reader, writer
 from fmu_src.profiles import MAGIC
+from fmu_src.tables.solver import DAMAGE_OUTPUTS
 from fmu_src.tables.wheel_rail_pair import ACCUMULATED, BINS, LOAD_KIND, PATCH, PATCHES, RAIL, SIDE, WHEEL, table
 from fmu_src.variables import Table, identifier
 
 _UNDER_LOAD, _RIGHT = LOAD_KIND.number("NormalForce"), SIDE.number("Right")
-_DAMAGE_PARAMETERS = DamageParameters().array(contact.STEEL, 1.0, 1.0)
-_N_PATCH_ROWS = len(PATCH)
+_DAMAGE_PARAMETERS = np.array([DamageParameters().record(contact.STEEL, 1.0, 1.0)], DAMAGE_PARAMETERS)
+_N_PATCH_ROWS = len(PATCH)  # the first members of CONTACT, in this order
+#: Outputs ← members of TOTAL.
+_OUTPUTS = {
+    "wheelset.z": "z",
+    "pressure.max": "pmax",
+    "patches.count": "n_patches",
+    "patches.area": "area",
+    "status": "status",
+    **DAMAGE_OUTPUTS,
+}
 _steps = compiled(creepage_steps)
 
 #: What discards a step, numbered behind the statuses.
@@ -83,166 +92,123 @@ def component(inclination: float) -> Component:
 
 
 class Start(NamedTuple):
-    """What lies before the bench: bins, counts of nodes that can touch, the whole wheel, the rail turned by its inclination."""
+    """What lies before the bench: memory and bins, counts of nodes that can touch, the whole wheel, the rail as it lies."""
 
-    bins: object
-    counts: object
-    wheel: object
-    turned: object
+    kept: Any
+    bins: Any
+    counts: Any
+    wheel: Any
+    turned: Any
 
 
-def _entries(table: Table) -> dict[str, Callable[..., Any]]:
-    """`Component.entries`; data are Kalker's coefficients and the influence of strips on the centre line and off it."""
-    at = namedtuple("References", [identifier(name) for name in table.span])(
+def _references(table: Table) -> Any:
+    """Value references of the table's rows, by name."""
+    return namedtuple("References", [identifier(name) for name in table.span])(
         *(span.start for span in table.span.values())
     )
-    n_values = table.span[ACCUMULATED[0]].start
+
+
+@compiled
+def _lay_start(work, piece, n_bins, resources):
+    """Lay what comes first in `work`; return it, and where it ends."""
+    kept, end = memory.vector(work, 0, 1 + MAX_PATCHES * piece)
+    bins, end = memory.cube(work, end, 2, N_BIN_ROWS, n_bins)
+    counts, end = memory.vector(work, end, 2)
+    n_wheel = int(carray(resources, (1,))[0])
+    wheel = carray(ahead(resources, 1), (N_PROFILE_ROWS, n_wheel))
+    n_rail = int(carray(ahead(resources, 1 + N_PROFILE_ROWS * n_wheel), (1,))[0])
+    turned, end = memory.matrix(work, end, N_PROFILE_ROWS, n_rail)
+    return Start(kept, bins, counts, wheel, turned), end
+
+
+@compiled
+def _lay(work, end, start, counts, size, constants):
+    """Lay the bench for curves of so many nodes, from `end` on; return it and how many numbers there are."""
+    centre, plane, creep = constants
+    search, end = memory.lay_search(work, end, counts[0], counts[1], 0, size.n_samples)
+    piece = memory.memory_size(size)
+    own, end = lay_out(work, end, start.kept[1 : 1 + piece], size, centre, plane, creep)
+    ledger, end = memory.lay_ledger(work, end, start.wheel, start.turned, start.bins, size.n_strips)
+    return memory.lay_bench(work, end, size, start.kept, search, own, ledger)
+
+
+@compiled
+def _place(wheel, turned, counts, search):
+    """Cut the parts of the profiles that can touch out of them, and fill the rule of the search."""
+    wheel_from, wheel_to = facing(wheel, True)
+    rail_from, rail_to = facing(turned, False)
+    counts[0], counts[1] = wheel_to - wheel_from, rail_to - rail_from
+    cut(wheel, wheel_from, wheel_to, search.wheel)
+    cut(turned, rail_from, rail_to, search.rail)
+    quadrature.fill_fejer(search.across.nodes, search.across.weights)
+
+
+def _sizer(table: Table) -> Callable[..., Any]:
+    """Return a compiled function: the sizes of the workspace that the parameters ask for."""
+    at = _references(table)
 
     @compiled
-    def piece_size(v):
-        """Size of the memory of one patch."""
-        return memory_size(int(v[at.method_normal]), int(v[at.resolution_n_strips]))
-
-    @compiled
-    def n_bins(v):
-        """Bins over each profile, if anything accumulates."""
-        return BINS if v[at.accumulation_wear_law] > 1.0 else 0
-
-    @compiled
-    def start(v, work, resources):
-        """Lay out what comes first in `work`; return the memory, the rest, and where that ends."""
-        memory, end = vector(work, 0, 1 + MAX_PATCHES * piece_size(v))
-        bins, end = cube(work, end, 2, N_ROWS, n_bins(v))
-        counts, end = vector(work, end, 2)
-        n_wheel = int(carray(resources, (1,))[0])
-        wheel = carray(ahead(resources, 1), (3, n_wheel))
-        turned, end = matrix(work, end, 3, int(carray(ahead(resources, 1 + 3 * n_wheel), (1,))[0]))
-        return memory, Start(bins, counts, wheel, turned), end
-
-    @compiled
-    def arrange(v, work, resources, n_wheel, n_rail, centre, plane, creep):
-        """Lay all arrays into `work` for curves of so many nodes; return them, and how many numbers they are."""
+    def size(v):
         n_strips, n_elements = int(v[at.resolution_n_strips]), int(v[at.resolution_n_elements])
-        samples, capacity = int(v[at.resolution_n_samples]), MAX_PATCHES * n_strips
-        memory, begin, end = start(v, work, resources)
-        search, end = search_arrays(work, end, n_wheel, n_rail, 0, samples, SEARCH_STRIPS)
-        own, end = lay_out(
-            work, end, memory[1 : 1 + piece_size(v)], n_strips, n_elements, samples, centre, plane, creep
-        )  # fmt: skip
-        case, end = vector(work, end, N_CASE)
-        parameters, end = vector(work, end, N_PAR)
-        damage_fields, end = cube(work, end, N_DAMAGE_FIELDS, capacity, n_elements)
-        damage, end = vector(work, end, N_DAMAGE)
-        contacts, end = matrix(work, end, MAX_PATCHES, N_CONTACT)
-        total, end = vector(work, end, N_TOTAL)
-        wheel_arc, end = vector(work, end, begin.wheel.shape[1])
-        rail_arc, end = vector(work, end, begin.turned.shape[1])
-        settings, end = vector(work, end, N_SETTINGS)
-        rates, end = matrix(work, end, N_ROWS, capacity)
-        edges, end = matrix(work, end, 2, capacity)
-        ledger = Ledger(begin.wheel, wheel_arc, begin.turned, rail_arc, settings, rates, edges, begin.bins)
-        bench = Bench(search, own, case, memory, parameters, damage_fields, damage, contacts, total, ledger)
-        return bench, end
+        return size_of(int(v[at.method_normal]), n_strips, n_elements, int(v[at.resolution_n_samples]))
 
-    def model_memory(values, resources, published, centre, plane, creep):
-        v = carray(values, (n_values,))
-        return 1 + MAX_PATCHES * piece_size(v) + 2 * N_ROWS * n_bins(v)
+    return size
 
-    def model_size(values, resources, published, centre, plane, creep):
-        v = carray(values, (n_values,))
-        n_wheel, n_rail = int(carray(resources, (1,))[0]), start(v, values, resources)[1].turned.shape[1]
-        return arrange(v, values, resources, n_wheel, n_rail, centre, plane, creep)[1]
 
-    def model_prepare(values, work, resources, published, centre, plane, creep):
-        v = carray(values, (n_values,))
-        _, begin, _ = start(v, work, resources)
-        wheel = begin.wheel
-        rail = carray(ahead(resources, 2 + 3 * wheel.shape[1]), (3, begin.turned.shape[1]))
-        turn(rail, -math.atan(v[at.rail_inclination]), begin.turned)
-        wheel_from, wheel_to = facing(wheel, True)
-        rail_from, rail_to = facing(begin.turned, False)
-        if wheel_to - wheel_from < 3 or rail_to - rail_from < 3:
-            return _STEEP
-        origin_y, origin_z, deepest = rail_origin(begin.turned, v[at.track_gauge], v[at.track_gauge_point])
-        if deepest < v[at.track_gauge_point]:
-            return _GAUGE_POINT
-        begin.counts[0], begin.counts[1] = wheel_to - wheel_from, rail_to - rail_from
-        bench, _ = arrange(v, work, resources, wheel_to - wheel_from, rail_to - rail_from, centre, plane, creep)
-        search, motion, case = bench.search, bench.search.motion, bench.case
-        cut(wheel, wheel_from, wheel_to, search.wheel)
-        cut(begin.turned, rail_from, rail_to, search.rail)
+def _parameter_setter(table: Table) -> Callable[..., Any]:
+    """Return a compiled function that fills, from the parameters, what the bench is prepared with."""
+    at = _references(table)
+    read_material = reader(table, CASE, {**MATERIAL, "patches.surface": "conformal"})
+
+    @compiled
+    def set_parameters(v, origin_y, origin_z, bench):
+        motion = bench.search.motion[0]
         motion.radius = v[at.wheel_radius]
         motion.tape = 0.5 * v[at.wheel_flange_back] + TAPE_FROM_FLANGE_BACK
-        motion.combine_distance = v[at.patches_combine_distance]
-        motion.combine_angle = v[at.patches_combine_angle]
-        motion.most_patches = v[at.patches_max]
+        motion.combine_distance, motion.combine_angle = v[at.patches_combine_distance], v[at.patches_combine_angle]
+        motion.most_patches = int(v[at.patches_max])
         motion.mirror = 1.0 if v[at.side] == _RIGHT else -1.0
         motion.origin_y, motion.origin_z = origin_y, origin_z
-        quadrature.fill_fejer(search.nodes, search.weights)
-        fill(bench.own, v[at.material_poisson_ratio], published)
-        case.G, case.nu = v[at.material_shear_modulus], v[at.material_poisson_ratio]
-        case.pressure_limit = v[at.material_pressure_limit]
-        search.case.G, search.case.nu = case.G, case.nu
-        case.normal = NORMAL_IDS[int(v[at.method_normal]) - 1]
-        case.tangential = TANGENTIAL_IDS[int(v[at.method_tangential]) - 1]
-        case.conformal = v[at.patches_surface] - 1.0
-        for i in range(N_PAR):
-            bench.damage_parameters[i] = _DAMAGE_PARAMETERS[i]
-        bench.damage_parameters.hardness = v[at.material_hardness]
-        bench.damage_parameters.shear_yield = v[at.material_shear_yield]
-        bench.damage_parameters.wear_law = v[at.accumulation_wear_law] - 2.0  # the first item is none
-        ledger = bench.ledger
-        arc_length(ledger.wheel, ledger.wheel_arc)
-        arc_length(ledger.rail, ledger.rail_arc)
-        ledger.settings[WIDTH] = v[at.accumulation_width]
-        ledger.settings[START] = v[at.accumulation_first] / v[at.accumulation_width]
-        return 0
+        read_material(v, bench.case)
+        choose(int(v[at.method_normal]), int(v[at.method_tangential]), bench.case[0])
+        bench.search.case[0].G, bench.search.case[0].nu = bench.case[0].G, bench.case[0].nu
+        bench.damage_parameters[0] = _DAMAGE_PARAMETERS[0]
+        parameters, settings = bench.damage_parameters[0], bench.ledger.settings[0]
+        parameters.hardness, parameters.shear_yield = v[at.material_hardness], v[at.material_shear_yield]
+        parameters.wear_law = int(v[at.accumulation_wear_law]) - 2  # the first item is none
+        settings.width = v[at.accumulation_width]
+        settings.start = v[at.accumulation_first] / v[at.accumulation_width]
 
-    def model_start(values, work, resources, published, centre, plane, creep):
-        return 0
+    return set_parameters
 
-    def model_outputs(values, work, h, resources, published, centre, plane, creep):
-        v = carray(values, (n_values,))
-        counts = start(v, work, resources)[1].counts
-        bench, _ = arrange(v, work, resources, int(counts[0]), int(counts[1]), centre, plane, creep)
-        fill_friction(v, at.friction_coefficient, at.friction_law, v[at.velocity_x], bench.case)
-        given = carray(ahead(values, at.pose_y), (rows.N_GIVEN,))
-        by_load = v[at.load_kind] == _UNDER_LOAD
-        bench.ledger.settings[DISTANCE] = v[at.velocity_x] * h
-        code = solve_pair(UNDER_LOAD if by_load else GIVEN_Z, v[at.load_normal_force], given, bench)
-        if code == NO_OVERLAP:
-            return _NO_OVERLAP
-        if code == NOT_SETTLED:
-            return _NOT_SETTLED
-        if code == TOO_DEEP:
-            return _TOO_DEEP
-        if not math.isfinite(bench.ledger.bins.sum()):
-            return _ENDLESS
-        total, speed = bench.total, v[at.velocity_x]
-        for i in range(6):
-            v[at.force_x + i] = total[TOTAL_FX + i]
-        for row in range(_N_PATCH_ROWS):
-            for k in range(PATCHES):
-                v[at.patch_n + PATCHES * row + k] = bench.contacts[k, row]
-        v[at.wheelset_z], v[at.pressure_max] = total.z, total.pmax
-        v[at.patches_count], v[at.patches_area] = total.n_patches, total.area
+
+def _reporter(table: Table) -> Callable[..., Any]:
+    """Return a compiled function that writes the outputs."""
+    at = _references(table)
+    write = writer(table, TOTAL, _OUTPUTS)
+
+    @compiled
+    def report(v, bench):
+        total = bench.total[0]
+        write(v, bench.total)
+        for i, component in enumerate((total.Fx, total.Fy, total.Fz, total.Mx, total.My, total.Mz)):
+            v[at.force_x + i] = component
+        for k in range(PATCHES):
+            numbers = carray(numbers_of(bench.contacts[k : k + 1]), (_N_PATCH_ROWS,))
+            for row in range(_N_PATCH_ROWS):
+                v[at.patch_n + PATCHES * row + k] = numbers[row]
         v[at.slip_ratio] = total.slip_area / total.area if total.area > 0.0 else 0.0
-        v[at.power_friction], v[at.status] = speed * total.power, total.status
-        v[at.damage_T_gamma] = total[TOTAL_DAMAGE + DAMAGE_T_GAMMA]
-        v[at.damage_wear_rate_pearce_sherratt] = total[TOTAL_DAMAGE + DAMAGE_PEARCE_SHERRATT]
-        v[at.damage_index_burstow] = total[TOTAL_DAMAGE + DAMAGE_BURSTOW]
-        v[at.damage_wear_rate_usfd] = total[TOTAL_DAMAGE + DAMAGE_USFD]
-        v[at.damage_archard_depth_max] = total[TOTAL_DAMAGE + DAMAGE_ARCHARD_DEPTH]
-        v[at.damage_archard_volume] = total[TOTAL_DAMAGE + DAMAGE_ARCHARD_VOLUME]
-        v[at.damage_fatigue_index_surface] = total[TOTAL_DAMAGE + DAMAGE_FATIGUE_INDEX]
-        v[at.damage_stress_index_max] = total[TOTAL_DAMAGE + DAMAGE_STRESS_INDEX]
-        v[at.damage_energy_index_max] = total[TOTAL_DAMAGE + DAMAGE_ENERGY_INDEX]
-        return int(total.status)
+        v[at.power_friction] = v[at.velocity_x] * total.power
 
-    def model_lazy(values, work, resources, published, centre, plane, creep):
-        return 0
+    return report
 
-    def model_difference(values, reference, resources, published, centre, plane, creep):
+
+def _differ(table: Table) -> Callable[..., Any]:
+    """Return a compiled function: the step of a variable for difference quotients."""
+    at = _references(table)
+
+    @compiled
+    def difference(v, reference):
         """A step in which hardly an element passes from stick to slip: a millionth of the creepage that saturates.
 
         Positions and angles are moved by a tenth of a micrometre or what turns by that much a metre away; a height that is
@@ -250,7 +216,6 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         difference begins anew, from nothing, so that the error which interacting strips are solved to, 1e-4, is the same
         on both sides.
         """
-        v = carray(values, (n_values,))
         speed = v[at.velocity_x]
         creepage = 1e-3 * _steps(
             v[at.friction_coefficient], abs(v[at.force_z]), v[at.material_shear_modulus], v[at.patches_area]
@@ -264,6 +229,97 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
             return creepage * speed / lever
         share = 1e-4 if reference == at.load_normal_force else 1e-6
         return max(share * abs(v[reference]), 1e-12)
+
+    return difference
+
+
+@compiled
+def _failure(code):
+    """Number of a failure for a value of `NoAnswer`; 0 for none."""
+    if code == NoAnswer.NO_OVERLAP:
+        return _NO_OVERLAP
+    if code == NoAnswer.NOT_SETTLED:
+        return _NOT_SETTLED
+    if code == NoAnswer.TOO_DEEP:
+        return _TOO_DEEP
+    return 0
+
+
+def _entries(table: Table) -> dict[str, Callable[..., Any]]:
+    """`Component.entries`; data are Kalker's coefficients and the influence of strips on the centre line and off it."""
+    at, n_values = _references(table), table.span[ACCUMULATED[0]].start
+    size, set_parameters, report, difference = _sizer(table), _parameter_setter(table), _reporter(table), _differ(table)
+    read_surface = case_reader(table, {"velocity.x": "speed"})
+
+    @compiled
+    def n_bins(v):
+        """Bins over each profile, if anything accumulates."""
+        return BINS if v[at.accumulation_wear_law] > 1.0 else 0
+
+    @compiled
+    def begin(v, work, resources):
+        return _lay_start(work, memory.memory_size(size(v)), n_bins(v), resources)
+
+    @compiled
+    def arrange(v, work, resources, constants):
+        start, end = begin(v, work, resources)
+        return _lay(work, end, start, (int(start.counts[0]), int(start.counts[1])), size(v), constants)[0]
+
+    def model_memory(values, resources, published, centre, plane, creep):
+        v = carray(values, (n_values,))
+        return 1 + MAX_PATCHES * memory.memory_size(size(v)) + 2 * N_BIN_ROWS * n_bins(v)
+
+    def model_size(values, resources, published, centre, plane, creep):
+        v = carray(values, (n_values,))
+        start, end = begin(v, values, resources)
+        counts = start.wheel.shape[1], start.turned.shape[1]
+        return _lay(values, end, start, counts, size(v), (centre, plane, creep))[1]
+
+    def model_prepare(values, work, resources, published, centre, plane, creep):
+        v = carray(values, (n_values,))
+        start, end = begin(v, work, resources)
+        wheel, turned = start.wheel, start.turned
+        rail = carray(ahead(resources, 2 + N_PROFILE_ROWS * wheel.shape[1]), (N_PROFILE_ROWS, turned.shape[1]))
+        turn(rail, -math.atan(v[at.rail_inclination]), turned)
+        (wheel_from, wheel_to), (rail_from, rail_to) = facing(wheel, True), facing(turned, False)
+        if wheel_to - wheel_from < 3 or rail_to - rail_from < 3:
+            return _STEEP
+        origin_y, origin_z, deepest = rail_origin(turned, v[at.track_gauge], v[at.track_gauge_point])
+        if deepest < v[at.track_gauge_point]:
+            return _GAUGE_POINT
+        counts = wheel_to - wheel_from, rail_to - rail_from
+        bench, _ = _lay(work, end, start, counts, size(v), (centre, plane, creep))
+        _place(wheel, turned, start.counts, bench.search)
+        fill(bench.own, v[at.material_poisson_ratio], published)
+        set_parameters(v, origin_y, origin_z, bench)
+        arc_length(bench.ledger.wheel, bench.ledger.wheel_arc)
+        arc_length(bench.ledger.rail, bench.ledger.rail_arc)
+        return 0
+
+    def model_start(values, work, resources, published, centre, plane, creep):
+        return 0
+
+    def model_outputs(values, work, h, resources, published, centre, plane, creep):
+        v = carray(values, (n_values,))
+        bench = arrange(v, work, resources, (centre, plane, creep))
+        read_surface(v, bench.case)
+        given, _ = memory.records(values, at.pose_y, 1, GIVEN)
+        by_load = v[at.load_kind] == _UNDER_LOAD
+        bench.ledger.settings[0].distance = v[at.velocity_x] * h
+        mode = Height.LOAD.value if by_load else Height.GIVEN.value
+        failure = _failure(solve_pair(mode, v[at.load_normal_force], given[0], bench))
+        if failure > 0:
+            return failure
+        if not math.isfinite(bench.ledger.bins.sum()):
+            return _ENDLESS
+        report(v, bench)
+        return bench.total[0].status
+
+    def model_lazy(values, work, resources, published, centre, plane, creep):
+        return 0
+
+    def model_difference(values, reference, resources, published, centre, plane, creep):
+        return difference(carray(values, (n_values,)), reference)
 
     def model_field(values, work, k, resources, published, centre, plane, creep):
         return 0

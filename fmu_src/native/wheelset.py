@@ -13,15 +13,14 @@ from typing import Any
 import numpy as np
 from numba import carray
 
-from contact.kernels.layout import MAX_PATCHES
 from contact.geometry import profile
-from contact.kernels.layout import N_GIVEN
-from contact.kernels.geometry.prepare import N_PROFILE_ROWS, cut, facing, rail_origin, turn
 from contact.geometry.profile import Profile
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
+from contact.kernels.geometry.prepare import cut, facing, rail_origin, turn
+from contact.kernels.layout import GIVEN, MAX_PATCHES, N_PROFILE_ROWS
+from contact.kernels.memory import lay_search, matrix, records, vector
 from fmu_src.native.component import Component
-from fmu_src.native.memory import compiled, matrix, vector
-from fmu_src.native.search import lay_out
+from fmu_src.native.memory import compiled
 from fmu_src.tables.wheelset import table
 from fmu_src.variables import Table
 from models.wheelset import dynamics, motion
@@ -35,6 +34,7 @@ _REMEMBERED = 1 + sum(math.prod(shape) for shape in motion.REMEMBERED.values())
 #: Unit → change of a variable for difference quotients: small against 0.1 mm, in which a flange root changes the geometry,
 #: large against round-off; forces enter linearly. Other units are those of parameters.
 _DIFFERENCES = {"m": 1e-7, "rad": 1e-6, "1": 1e-6, "m/s": 1e-5, "rad/s": 1e-4, "N": 1.0, "N.m": 1.0, "J": 1.0}
+_STANDSTILL = np.zeros(1, GIVEN)
 _OUT_OF_GAUGE = max(motion.MESSAGES) + 1
 
 
@@ -86,10 +86,10 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         powers, end = vector(work, end, dynamics.N_ENERGY)
         sizes, end = vector(work, end, 2)
         constants, end = vector(work, end, dynamics.N_CONSTANTS)
-        given, end = vector(work, end, N_GIVEN)
+        given, end = records(work, end, 1, GIVEN)
         turned, end = matrix(work, end, N_PROFILE_ROWS, _N_RAIL)
-        right, end = lay_out(work, end, n_wheel, n_rail, POINTS, POINTS, 0)
-        left, end = lay_out(work, end, n_wheel, n_rail, POINTS, POINTS, 0)
+        right, end = lay_search(work, end, n_wheel, n_rail, POINTS, POINTS)
+        left, end = lay_search(work, end, n_wheel, n_rail, POINTS, POINTS)
         wheelset = motion.Wheelset(
             constants, state, energy, height, irregularity, forces, approach, frames, axle, loads, resultants, problems,
             rates, powers, given, right, left,
@@ -137,13 +137,13 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
             v[at.energy_interface + i], v[at.power_interface + i] = w.energy[i], w.powers[i]
         v[at.energy_mechanical] = motion.mechanical_energy(w)
         for i in range(3):
-            v[at.lateral_acceleration + i] = w.rates[dynamics.LATERAL_VELOCITY + i]
+            v[at.lateral_acceleration + i] = w.rates[dynamics.State.LATERAL_VELOCITY + i]
         report_side(
-            v, w, dynamics.RIGHT, at.right_geometry_g, at.right_geometry_A, at.right_creepage_longitudinal,
+            v, w, dynamics.Side.RIGHT, at.right_geometry_g, at.right_geometry_A, at.right_creepage_longitudinal,
             at.right_load_normal_force, at.right_contact_x,
         )  # fmt: skip
         report_side(
-            v, w, dynamics.LEFT, at.left_geometry_g, at.left_geometry_A, at.left_creepage_longitudinal,
+            v, w, dynamics.Side.LEFT, at.left_geometry_g, at.left_geometry_A, at.left_creepage_longitudinal,
             at.left_load_normal_force, at.left_contact_x,
         )  # fmt: skip
 
@@ -155,12 +155,12 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
 
     @compiled
     def prepare_search(v, found, mirror, origin_y, origin_z):
-        pose = found.motion
+        pose = found.motion[0]
         pose.radius = v[at.wheel_radius]
         pose.tape = 0.5 * v[at.wheel_flange_back] + TAPE_FROM_FLANGE_BACK
         pose.combine_distance, pose.combine_angle = 1.0, math.radians(20.0)  # all lobes of a wheel share one plane
         pose.most_patches, pose.mirror = MAX_PATCHES, mirror
-        pose.origin_y, pose[ORIGIN_Y + 1] = origin_y, origin_z
+        pose.origin_y, pose.origin_z = origin_y, origin_z
         for i in range(POINTS):
             k = i if mirror > 0.0 else POINTS - 1 - i
             found.grid[i] = mirror * (v[at.geometry_y0] + v[at.geometry_dy] * k)
@@ -177,23 +177,27 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         rail_from, rail_to = facing(turned, False)
         sizes[0], sizes[1] = wheel_to - wheel_from, rail_to - rail_from
         w, _ = prepared(work)
-        w.given[:] = 0.0
+        w.given[0] = _STANDSTILL[0]
         w.constants[:] = 0.0
         for found, mirror in ((w.right, 1.0), (w.left, -1.0)):
             cut(wheel_rows, wheel_from, wheel_to, found.wheel)
             cut(turned, rail_from, rail_to, found.rail)
             prepare_search(v, found, mirror, origin_y, origin_z)
         c = w.constants
-        c[dynamics.MASS], c[dynamics.YAW_INERTIA], c[dynamics.SPIN_INERTIA] = (
+        c[dynamics.Constant.MASS], c[dynamics.Constant.YAW_INERTIA], c[dynamics.Constant.SPIN_INERTIA] = (
             v[at.mass],
             v[at.yaw_inertia],
             v[at.spin_inertia],
         )
-        c[dynamics.LATERAL_STIFFNESS] = v[at.suspension_lateral_stiffness]
-        c[dynamics.YAW_STIFFNESS] = v[at.suspension_yaw_stiffness]
-        c[dynamics.LATERAL_DAMPING] = v[at.suspension_lateral_damping]
-        c[dynamics.YAW_DAMPING] = v[at.suspension_yaw_damping]
-        c[dynamics.AXLE_LOAD], c[dynamics.SPEED], c[dynamics.RADIUS] = v[at.axle_load], v[at.speed], v[at.wheel_radius]
+        c[dynamics.Constant.LATERAL_STIFFNESS] = v[at.suspension_lateral_stiffness]
+        c[dynamics.Constant.YAW_STIFFNESS] = v[at.suspension_yaw_stiffness]
+        c[dynamics.Constant.LATERAL_DAMPING] = v[at.suspension_lateral_damping]
+        c[dynamics.Constant.YAW_DAMPING] = v[at.suspension_yaw_damping]
+        c[dynamics.Constant.AXLE_LOAD], c[dynamics.Constant.SPEED], c[dynamics.Constant.RADIUS] = (
+            v[at.axle_load],
+            v[at.speed],
+            v[at.wheel_radius],
+        )
         return 0
 
     def model_start(values, work, wheel, rail):

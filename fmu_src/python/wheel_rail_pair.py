@@ -10,31 +10,20 @@ from typing import Any
 import numpy as np
 from pythonfmu.enums import Fmi2Status
 
-from contact import Material, Status
+from contact import Material, Status, workspace
 from contact.damage import WEAR_LAWS, DamageParameters
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.wheelset import Pair
 from contact.pair import Contact, WheelRailPair
-from contact.kernels.ledger import allocate
 from fmu_src import profiles
 from fmu_src.python.friction import friction
 from fmu_src.python.slave import TableSlave
 from fmu_src.python.values import Rows, Values
+from fmu_src.tables.solver import DAMAGE_OUTPUTS
 from fmu_src.tables.wheel_rail_pair import ACCUMULATED, BINS, MOTION, PATCH, PATCHES, table
 from fmu_src.variables import Causality
 
-_DAMAGE = {
-    "damage.T_gamma": DAMAGE_T_GAMMA,
-    "damage.wear_rate_pearce_sherratt": DAMAGE_PEARCE_SHERRATT,
-    "damage.index_burstow": DAMAGE_BURSTOW,
-    "damage.wear_rate_usfd": DAMAGE_USFD,
-    "damage.archard_depth_max": DAMAGE_ARCHARD_DEPTH,
-    "damage.archard_volume": DAMAGE_ARCHARD_VOLUME,
-    "damage.fatigue_index_surface": DAMAGE_FATIGUE_INDEX,
-    "damage.stress_index_max": DAMAGE_STRESS_INDEX,
-    "damage.energy_index_max": DAMAGE_ENERGY_INDEX,
-}
 _MOTION = [name for name, *_ in MOTION]
 _NO_CONTACT = [0.0] * len(PATCH)
 
@@ -69,7 +58,7 @@ class WheelRailPairSlave(TableSlave):
                 friction=friction(values),
                 distance=values["velocity.x"] * step_size,
             )
-            rows = {name: float(solution.damage[i]) for name, i in _DAMAGE.items()}
+            rows = {name: getattr(solution.damage, member) for name, member in DAMAGE_OUTPUTS.items()}
             power, worn = (values["velocity.x"] * x for x in (solution.power_per_metre, rows["damage.archard_volume"]))
             rows |= {
                 **{f"force.{axis}": float(x) for axis, x in zip("xyz", solution.force, strict=True)},
@@ -157,7 +146,7 @@ def _accumulation(values: Values, wheel: Profile, rail: Profile) -> dict[str, An
         return {}
     rows = (np.stack((given.y, given.z)) for given in (wheel, rail))
     sizes = (values["resolution.n_strips"], BINS, values["accumulation.first"], values["accumulation.width"])
-    return {"ledger": allocate(*rows, *sizes), "damage": DamageParameters(wear_law=WEAR_LAWS[law - 2])}
+    return {"ledger": workspace.ledger(*rows, *sizes), "damage": DamageParameters(wear_law=WEAR_LAWS[law - 2])}
 
 
 def _patches(contacts: tuple[Contact, ...]) -> Rows:

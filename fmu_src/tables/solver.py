@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import contact
 from contact import Status, friction, registry
 from contact.material import THERMAL_RANGE, Thermal
-from contact.solve import N_ELEMENTS, N_STRIPS
+from contact.solver import N_ELEMENTS, N_STRIPS
 from fmu_src.variables import Enumeration, Variable, output, parameter
 
 NORMAL_METHOD = Enumeration("NormalMethod", tuple((m.name, m.title) for m in contact.methods().batched.normal.values()))
@@ -217,6 +217,20 @@ def parameters() -> Iterable[Variable]:
         minimum=0.0,
         maximum=1.0,
     )
+
+
+#: Outputs of `damage` ← members of `contact.kernels.layout.DAMAGE` and TOTAL.
+DAMAGE_OUTPUTS = {
+    "damage.T_gamma": "T_gamma",
+    "damage.wear_rate_pearce_sherratt": "pearce_sherratt",
+    "damage.index_burstow": "burstow",
+    "damage.wear_rate_usfd": "usfd",
+    "damage.archard_depth_max": "archard_depth",
+    "damage.archard_volume": "archard_volume",
+    "damage.fatigue_index_surface": "fatigue_index",
+    "damage.stress_index_max": "stress_index",
+    "damage.energy_index_max": "energy_index",
+}
 
 
 def damage() -> Iterable[Variable]:

@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from functools import cache
 
 from contact import friction
-from contact.kernels.layout import MAX_PATCHES
 from contact.creepage import LARGEST_CREEPAGE
+from contact.kernels.layout import MAX_PATCHES
 from contact.separation import LARGEST_ROLLING, LARGEST_TILT
 from fmu_src.tables import solver
 from fmu_src.variables import Enumeration, Table, Variable, output, parameter, signal

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from enum import IntEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contact import Forces, Status
 from contact.errors import ContactError
 from contact.geometry.wheelset import Pose, Velocity
 from models.life.harvest import Harvest
-from models.life.plane import APPROACH, FX, FY, MZ, POWER, STATUS, PlaneContact
+from models.life.plane import PlaneContact
 from models.life.scenario import Scenario
 from models.life.track import Place
 from models.wheelset import dynamics
@@ -59,8 +61,18 @@ BALANCE = {
     "harvested": "the same, of the patches that the damage is from",
     "untrusted": "contacts of the coupled run without a trustworthy solution",
 }
-DISSIPATED, ALIGNMENT, ELASTIC, COUNTED, UNTRUSTED, INTERFACE_FIRST, ELASTIC_FIRST = range(7)
-_UNTRUSTED_FROM = 4.0  # the statuses OUT_OF_RANGE and NOT_CONVERGED
+
+
+class Book(IntEnum):
+    """Entries of the books of a run; the last two are those of the second step."""
+
+    DISSIPATED = 0
+    ALIGNMENT = 1
+    ELASTIC = 2
+    COUNTED = 3
+    UNTRUSTED = 4
+    INTERFACE_FIRST = 5
+    ELASTIC_FIRST = 6
 
 
 class Run:
@@ -122,30 +134,30 @@ class Run:
             if s - self._sampled >= self.scenario.declared.recording.spacing:
                 self._sample(place, problems, answers, speed)
             for side, a in zip(SIDES, answers, strict=True):
-                model.set_forces(side, a[FX], a[FY], a[MZ], a[APPROACH])
+                model.set_forces(side, a.Fx, a.Fy, a.Mz, a.approach)
             model.step(self._h)
         except ContactError as error:
             raise ContactError(f"{self.scenario.name} at {s:.2f} m, {speed:g} m/s: {error}") from None
         self.steps += 1
         self.distance += speed * self._h
 
-    def _book(self, problems: list[Array], answers: list[Array], speed: float, slope: float) -> None:
+    def _book(self, problems: list[Array], answers: list[Forces], speed: float, slope: float) -> None:
         """Energies by the trapezoidal rule; they count from the second step, before it the approach is an assumed one."""
         books, power, elastic, lateral = self._books, 0.0, 0.0, 0.0
         for side, problem, a in zip(SIDES, problems, answers, strict=True):
-            angle = self._model.frame(side)[dynamics.ANGLE]
-            power -= speed * float(problem[CREEPAGE] @ a[FX : MZ + 1])
-            elastic += 0.4 * float(problem[LOAD] * a[APPROACH])
-            lateral += float(a[FY] * np.cos(angle) + problem[LOAD] * np.sin(angle))
-            books[UNTRUSTED] += a[STATUS] >= _UNTRUSTED_FROM
+            angle = self._model.frame(side)[dynamics.Frame.ANGLE]
+            power -= speed * float(problem[CREEPAGE] @ np.array([a.Fx, a.Fy, a.Mz]))
+            elastic += 0.4 * float(problem[LOAD] * a.approach)
+            lateral += float(a.Fy * np.cos(angle) + problem[LOAD] * np.sin(angle))
+            books[Book.UNTRUSTED] += a.status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)
         if self.steps > 1:
-            books[DISSIPATED] += 0.5 * (power + self._power) * self._h
-            books[ALIGNMENT] -= lateral * speed * slope * self._h
+            books[Book.DISSIPATED] += 0.5 * (power + self._power) * self._h
+            books[Book.ALIGNMENT] -= lateral * speed * slope * self._h
         else:
-            books[INTERFACE_FIRST], books[ELASTIC_FIRST] = self._model.energy()[0], elastic
-        self._power, books[ELASTIC] = power, elastic
+            books[Book.INTERFACE_FIRST], books[Book.ELASTIC_FIRST] = self._model.energy()[0], elastic
+        self._power, books[Book.ELASTIC] = power, elastic
 
-    def _sample(self, place: Place, problems: list[Array], answers: list[Array], speed: float) -> None:
+    def _sample(self, place: Place, problems: list[Array], answers: list[Forces], speed: float) -> None:
         """Damage of the way since the last sample, and a row of the time series."""
         s, model = self.distance, self._model
         distance, self._sampled = s - self._sampled, s
@@ -154,25 +166,25 @@ class Run:
         relative = np.array([y, yaw, y_rate - speed * place.slope, yaw_rate, spin])
         z_rate, roll_rate = dynamics.follow(frames, relative)
         normal = np.array([problem[LOAD] for problem in problems])
-        lateral, vertical = _track_forces(frames, np.array(answers), normal)
+        lateral, vertical = _track_forces(frames, np.array([a.Fy for a in answers]), normal)
         found = self.harvest.add(
             Pose(y - place.lateral, 0.0, roll, yaw - place.slope),
             Velocity(
                 speed * (1.0 - place.curvature * y),
-                relative[dynamics.LATERAL_VELOCITY],
+                relative[dynamics.State.LATERAL_VELOCITY],
                 z_rate,
                 roll_rate,
                 yaw_rate + speed * place.curvature,
                 -spin,
             ),
             speed,
-            normal * np.cos(frames[:, dynamics.ANGLE]),
+            normal * np.cos(frames[:, dynamics.Frame.ANGLE]),
             distance,
         )
-        self._books[COUNTED] += distance * float(sum(a[POWER] for a in answers))
+        self._books[Book.COUNTED] += distance * float(sum(a.power_per_metre for a in answers))
         row = [s, self.steps * self._h, speed, place.curvature, place.cant, place.lateral, y, yaw, roll, spin]
         for i, problem in enumerate(problems):
-            row += [normal[i], frames[i, dynamics.ANGLE], lateral[i], vertical[i], *problem[CREEPAGE], *found[i]]
+            row += [normal[i], frames[i, dynamics.Frame.ANGLE], lateral[i], vertical[i], *problem[CREEPAGE], *found[i]]
         self._rows.append(np.array(row))
 
     @property
@@ -210,7 +222,7 @@ class Run:
         self.harvest.restore(saved)
 
 
-def _track_forces(frames: Array, answers: Array, normal: Array) -> tuple[Array, Array]:
+def _track_forces(frames: Array, Fy: Array, normal: Array) -> tuple[Array, Array]:
     """Lateral force of the rails on the wheels and vertical force of the wheels on the rails, both wheels [N]."""
-    sine, cosine = np.sin(frames[:, dynamics.ANGLE]), np.cos(frames[:, dynamics.ANGLE])
-    return answers[:, FY] * cosine + normal * sine, normal * cosine - answers[:, FY] * sine
+    sine, cosine = np.sin(frames[:, dynamics.Frame.ANGLE]), np.cos(frames[:, dynamics.Frame.ANGLE])
+    return Fy * cosine + normal * sine, normal * cosine - Fy * sine

@@ -16,7 +16,7 @@ from contact.geometry import profile
 from contact.geometry.profile import Profile
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
-from contact.solve import N_ELEMENTS, N_STRIPS, require_resolution
+from contact.solver import N_ELEMENTS, N_STRIPS, require_resolution
 from models.life.declared import build, read_table
 from models.life.track import Line, Speed, Track
 from models.life.vehicle import Vehicle

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError, require_number
-from contact.kernels.layout import N_GIVEN
 from contact.geometry.wheelset import Pair
+from contact.kernels.layout import GIVEN
 from models.wheelset import dynamics, motion
 from models.wheelset.parameters import WheelsetParameters
 from models.wheelset.ports import POINTS, SIDES
@@ -57,7 +57,7 @@ class WheelsetModel:
         self._wheelset = motion.Wheelset(
             _constants(p),
             *remembered,
-            given=np.zeros(N_GIVEN),
+            given=np.zeros(1, GIVEN),
             right=right.space,
             left=left.space,
         )
@@ -96,11 +96,11 @@ class WheelsetModel:
         All are held until they are set again; `save` leaves them out.
         """
         c = self._wheelset.constants
-        c[dynamics.SPEED] = require_number("speed", speed, 0.0, open_minimum=True)
-        c[dynamics.CURVATURE] = require_number("curvature", curvature, -0.02, 0.02)
-        c[dynamics.LATERAL_LOAD] = require_number("lateral_load", lateral_load)
-        c[dynamics.ROLL_LOAD] = require_number("roll_load", roll_load)
-        c[dynamics.YAW_LOAD] = require_number("yaw_load", yaw_load)
+        c[dynamics.Constant.SPEED] = require_number("speed", speed, 0.0, open_minimum=True)
+        c[dynamics.Constant.CURVATURE] = require_number("curvature", curvature, -0.02, 0.02)
+        c[dynamics.Constant.LATERAL_LOAD] = require_number("lateral_load", lateral_load)
+        c[dynamics.Constant.ROLL_LOAD] = require_number("roll_load", roll_load)
+        c[dynamics.Constant.YAW_LOAD] = require_number("yaw_load", yaw_load)
 
     # motion
 
@@ -149,7 +149,7 @@ class WheelsetModel:
 
     def change(self) -> Array:
         """In the order of `ports.CHANGE`, as it was reported last."""
-        return np.concatenate((self._wheelset.rates[dynamics.LATERAL_VELOCITY :], self._wheelset.powers))
+        return np.concatenate((self._wheelset.rates[dynamics.State.LATERAL_VELOCITY :], self._wheelset.powers))
 
     @property
     def mechanical_energy(self) -> float:
@@ -172,16 +172,16 @@ def _constants(p: WheelsetParameters) -> Array:
     """As the kernels of `dynamics` want them."""
     constants = np.zeros(dynamics.N_CONSTANTS)
     for index, value in (
-        (dynamics.MASS, p.mass),
-        (dynamics.YAW_INERTIA, p.yaw_inertia),
-        (dynamics.SPIN_INERTIA, p.spin_inertia),
-        (dynamics.LATERAL_STIFFNESS, p.lateral_stiffness),
-        (dynamics.YAW_STIFFNESS, p.yaw_stiffness),
-        (dynamics.LATERAL_DAMPING, p.lateral_damping),
-        (dynamics.YAW_DAMPING, p.yaw_damping),
-        (dynamics.AXLE_LOAD, p.axle_load),
-        (dynamics.SPEED, p.speed),
-        (dynamics.RADIUS, p.radius),
+        (dynamics.Constant.MASS, p.mass),
+        (dynamics.Constant.YAW_INERTIA, p.yaw_inertia),
+        (dynamics.Constant.SPIN_INERTIA, p.spin_inertia),
+        (dynamics.Constant.LATERAL_STIFFNESS, p.lateral_stiffness),
+        (dynamics.Constant.YAW_STIFFNESS, p.yaw_stiffness),
+        (dynamics.Constant.LATERAL_DAMPING, p.lateral_damping),
+        (dynamics.Constant.YAW_DAMPING, p.yaw_damping),
+        (dynamics.Constant.AXLE_LOAD, p.axle_load),
+        (dynamics.Constant.SPEED, p.speed),
+        (dynamics.Constant.RADIUS, p.radius),
     ):
         constants[index] = value
     return constants

@@ -10,45 +10,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.kernels.layout import Sep
 from contact._jit import kernel
-from contact.kernels.geometry.prepare import move
 from contact.geometry.records import LARGEST_ANGLE
+from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.search import axle
 from contact.kernels.geometry.settle import first_touch, locate
-from contact.geometry.workspace import Search
+from contact.kernels.layout import Sep
+from contact.kernels.memory import Search
 from models.wheelset import dynamics
-from models.wheelset.dynamics import (
-    ANGLE,
-    AXLE_LOAD,
-    CURVATURE,
-    DAMPER,
-    DRIVE,
-    INTERFACE,
-    LATERAL,
-    LATERAL_DAMPING,
-    LATERAL_LOAD,
-    LATERAL_STIFFNESS,
-    LATERAL_VELOCITY,
-    LEFT,
-    MASS,
-    N_STATE,
-    RADIUS,
-    RIGHT,
-    ROLL_LOAD,
-    SPEED,
-    SPIN,
-    SPIN_INERTIA,
-    YAW,
-    YAW_DAMPING,
-    YAW_INERTIA,
-    YAW_LOAD,
-    YAW_RATE,
-    YAW_STIFFNESS,
-    X,
-    Y,
-    Z,
-)
+from models.wheelset.dynamics import N_STATE, Constant, Energy, Frame, Side, State
 from models.wheelset.ports import LOAD, POINTS
 
 Array = NDArray[np.float64]
@@ -120,15 +90,15 @@ def begin(w: Wheelset, lateral: float, yaw: float, lateral_velocity: float, yaw_
     w.forces[:] = 0.0
     w.approach[:] = approach
     w.frames[:] = 0.0
-    w.state[LATERAL], w.state[YAW] = lateral, yaw
-    w.state[LATERAL_VELOCITY], w.state[YAW_RATE] = lateral_velocity, yaw_rate
+    w.state[State.LATERAL], w.state[State.YAW] = lateral, yaw
+    w.state[State.LATERAL_VELOCITY], w.state[State.YAW_RATE] = lateral_velocity, yaw_rate
     failure = meet_rails(w)
     if failure:
         return failure
     radius = 0.0
     for side in range(2):
-        radius += 0.5 * (w.axle[1] * w.frames[side, Z] - w.axle[2] * w.frames[side, Y])
-    w.state[SPIN] = w.constants[SPEED] / radius
+        radius += 0.5 * (w.axle[1] * w.frames[side, Frame.Z] - w.axle[2] * w.frames[side, Frame.Y])
+    w.state[State.SPIN] = w.constants[Constant.SPEED] / radius
     balance(w)
     report(w)
     return MET
@@ -162,7 +132,7 @@ def observe(w: Wheelset) -> int:
 @kernel
 def _advance(w: Wheelset, dt: float) -> int:
     """One step of the Strang splitting: kick, drift, kick (8)."""
-    energy, Q, speed = w.energy, w.resultants, w.constants[SPEED]
+    energy, Q, speed = w.energy, w.resultants, w.constants[Constant.SPEED]
     dynamics.kick(w.state, w.constants, Q, 0.5 * dt, energy)
     dynamics.drift(w.state, dt)
     w.irregularity[0] += w.irregularity[1] * speed * dt
@@ -172,8 +142,8 @@ def _advance(w: Wheelset, dt: float) -> int:
         return failure
     balance(w)
     roll_work = 0.5 * (moment + Q[4]) * (w.height[1] - roll)
-    energy[INTERFACE] += w.constants[AXLE_LOAD] * (w.height[0] - z) - roll_work
-    energy[DRIVE] -= roll_work
+    energy[Energy.INTERFACE] += w.constants[Constant.AXLE_LOAD] * (w.height[0] - z) - roll_work
+    energy[Energy.DRIVE] -= roll_work
     dynamics.kick(w.state, w.constants, Q, 0.5 * dt, energy)
     return MET
 
@@ -181,15 +151,15 @@ def _advance(w: Wheelset, dt: float) -> int:
 @kernel
 def meet_rails(w: Wheelset) -> int:
     """Roll, height and contact frames at the present position."""
-    y, yaw = w.state[LATERAL] - w.irregularity[0], w.state[YAW] - w.irregularity[1]
+    y, yaw = w.state[State.LATERAL] - w.irregularity[0], w.state[State.YAW] - w.irregularity[1]
     failure = _settle(w, y, yaw)
     if failure:
         return failure
     z, roll = w.height[0], w.height[1]
     w.axle[0], w.axle[1], w.axle[2] = axle(roll, yaw)
-    if not _lay_frame(w, w.right, RIGHT, y, z, roll, yaw):
+    if not _lay_frame(w, w.right, Side.RIGHT, y, z, roll, yaw):
         return RIGHT_APART
-    if not _lay_frame(w, w.left, LEFT, y, z, roll, yaw):
+    if not _lay_frame(w, w.left, Side.LEFT, y, z, roll, yaw):
         return LEFT_APART
     return MET
 
@@ -200,30 +170,30 @@ def _lay_frame(w: Wheelset, search: Search, side: int, y: float, z: float, roll:
     _pose(w, search, y, z, roll, yaw)
     if locate(search) <= 0:
         return False
-    m = 1.0 if side == RIGHT else -1.0  # the left side is the mirror image of the right
+    m = 1.0 if side == Side.RIGHT else -1.0  # the left side is the mirror image of the right
     patch, separation, frame, problem = search.patches[0], search.separations[0], w.frames[side], w.problems[side]
-    frame[Y] = m * patch.point_y - y
-    frame[Z] = patch.point_z - (z - w.constants[RADIUS])
-    frame[ANGLE] = m * patch.angle
-    frame[X] = dynamics.locus(frame, w.axle)
+    frame[Frame.Y] = m * patch.point_y - y
+    frame[Frame.Z] = patch.point_z - (z - w.constants[Constant.RADIUS])
+    frame[Frame.ANGLE] = m * patch.angle
+    frame[Frame.X] = dynamics.locus(frame, w.axle)
     for i in range(POINTS):
-        k = i if side == RIGHT else POINTS - 1 - i
+        k = i if side == Side.RIGHT else POINTS - 1 - i
         problem[i], problem[POINTS + i] = separation[Sep.G, k], separation[Sep.A, k]
     return True
 
 
 @kernel
 def _pose(w: Wheelset, search: Search, y: float, z: float, roll: float, yaw: float) -> None:
-    given = w.given
+    given = w.given[0]
     given.y, given.z, given.roll, given.yaw = y, z, roll, yaw
-    given.vx, given.spin = 1.0, -1.0 / w.constants[RADIUS]  # only creepages need it, which are computed here
-    move(given, search.motion)
+    given.vx, given.spin = 1.0, -1.0 / w.constants[Constant.RADIUS]  # only creepages need it, which are computed here
+    move(given, search.motion[0])
 
 
 @kernel
 def _touch(w: Wheelset, search: Search, y: float, roll: float, yaw: float) -> tuple[bool, float]:
     _pose(w, search, y, 0.0, roll, yaw)
-    return first_touch(search.wheel, search.rail, search.motion, search.line, search.placed)
+    return first_touch(search.wheel, search.rail, search.motion[0], search.line, search.placed)
 
 
 @kernel
@@ -233,7 +203,7 @@ def _settle(w: Wheelset, y: float, yaw: float) -> int:
     The difference of heights falls with roll while tan δ < 2 b0/r0 (73°), so a secant is kept in a bracket. It starts
     from the last roll and half base.
     """
-    roll, half_base = w.height[1], abs(w.frames[RIGHT, Y])
+    roll, half_base = w.height[1], abs(w.frames[Side.RIGHT, Frame.Y])
     low, high = roll - _ROLL_RANGE, roll + _ROLL_RANGE
     slope = -2.0 * half_base if half_base > 0.0 else -1.5
     f_before, roll_before = 0.0, 0.0
@@ -246,8 +216,8 @@ def _settle(w: Wheelset, y: float, yaw: float) -> int:
             return RIGHT_APART
         if not over_left:
             return LEFT_APART
-        z_right += max(w.approach[RIGHT], LEAST_APPROACH)
-        z_left += max(w.approach[LEFT], LEAST_APPROACH)
+        z_right += max(w.approach[Side.RIGHT], LEAST_APPROACH)
+        z_left += max(w.approach[Side.LEFT], LEAST_APPROACH)
         f = z_right - z_left
         if abs(f) <= _ROLL_TOLERANCE or high - low <= _ROLL_TOLERANCE:
             w.height[0], w.height[1] = 0.5 * (z_right + z_left), roll
@@ -268,51 +238,64 @@ def _settle(w: Wheelset, y: float, yaw: float) -> int:
 @kernel
 def balance(w: Wheelset) -> None:
     """Normal loads and generalised forces of the present frames and held creep forces, and what follows from them."""
-    dynamics.normal_loads(w.frames, w.forces, w.constants[AXLE_LOAD], w.constants[ROLL_LOAD], w.loads)
+    dynamics.normal_loads(w.frames, w.forces, w.constants[Constant.AXLE_LOAD], w.constants[Constant.ROLL_LOAD], w.loads)
     dynamics.resultants(w.frames, w.forces, w.loads, w.axle, w.resultants)
 
 
 @kernel
 def report(w: Wheelset) -> None:
     """Creepages and loads of the present motion; rates and powers."""
-    speed, state, relative = w.constants[SPEED], w.state, w.rates[:N_STATE]
+    speed, state, relative = w.constants[Constant.SPEED], w.state, w.rates[:N_STATE]
     for i in range(N_STATE):
         relative[i] = state[i]
-    relative[LATERAL_VELOCITY] -= speed * w.irregularity[1]
+    relative[State.LATERAL_VELOCITY] -= speed * w.irregularity[1]
     z_rate, roll_rate = dynamics.follow(w.frames, relative)
-    relative[YAW_RATE] += speed * w.constants[CURVATURE]
-    forward = speed * (1.0 - w.constants[CURVATURE] * state[LATERAL])
+    relative[State.YAW_RATE] += speed * w.constants[Constant.CURVATURE]
+    forward = speed * (1.0 - w.constants[Constant.CURVATURE] * state[State.LATERAL])
     for side in range(2):
         creepage = w.problems[side, _CREEPAGE:LOAD]
         dynamics.creepages(w.frames[side], relative, w.axle, z_rate, roll_rate, forward, creepage)
         w.problems[side, LOAD] = w.loads[side]
     change(w)
     Q, powers, constants = w.resultants, w.powers, w.constants
-    carried = dynamics.along_track(Q, constants, state[LATERAL]) * speed
-    powers[INTERFACE] = constants[AXLE_LOAD] * z_rate - carried - Q[4] * roll_rate
-    powers[INTERFACE] -= Q[0] * state[LATERAL_VELOCITY] + Q[1] * state[YAW_RATE] + Q[2] * state[SPIN]
-    powers[DRIVE] = -carried - Q[4] * roll_rate
-    powers[DRIVE] += constants[LATERAL_LOAD] * state[LATERAL_VELOCITY] + constants[YAW_LOAD] * state[YAW_RATE]
-    powers[DAMPER] = constants[LATERAL_DAMPING] * state[LATERAL_VELOCITY] ** 2
-    powers[DAMPER] += constants[YAW_DAMPING] * state[YAW_RATE] ** 2
+    carried = dynamics.along_track(Q, constants, state[State.LATERAL]) * speed
+    powers[Energy.INTERFACE] = constants[Constant.AXLE_LOAD] * z_rate - carried - Q[4] * roll_rate
+    powers[Energy.INTERFACE] -= (
+        Q[0] * state[State.LATERAL_VELOCITY] + Q[1] * state[State.YAW_RATE] + Q[2] * state[State.SPIN]
+    )
+    powers[Energy.DRIVE] = -carried - Q[4] * roll_rate
+    powers[Energy.DRIVE] += (
+        constants[Constant.LATERAL_LOAD] * state[State.LATERAL_VELOCITY]
+        + constants[Constant.YAW_LOAD] * state[State.YAW_RATE]
+    )
+    powers[Energy.DAMPER] = constants[Constant.LATERAL_DAMPING] * state[State.LATERAL_VELOCITY] ** 2
+    powers[Energy.DAMPER] += constants[Constant.YAW_DAMPING] * state[State.YAW_RATE] ** 2
 
 
 @kernel
 def change(w: Wheelset) -> None:
     """Time derivatives of the state under the present generalised forces (2, 3)."""
     c, Q, state, rates = w.constants, w.resultants, w.state, w.rates
-    y, yaw, v, yaw_rate = state[LATERAL], state[YAW], state[LATERAL_VELOCITY], state[YAW_RATE]
-    rates[LATERAL], rates[YAW] = v, yaw_rate
-    force, moment = Q[0] + c[LATERAL_LOAD], Q[1] + c[YAW_LOAD]
-    rates[LATERAL_VELOCITY] = (force - c[LATERAL_STIFFNESS] * y - c[LATERAL_DAMPING] * v) / c[MASS]
-    rates[YAW_RATE] = (moment - c[YAW_STIFFNESS] * yaw - c[YAW_DAMPING] * yaw_rate) / c[YAW_INERTIA]
-    rates[SPIN] = Q[2] / c[SPIN_INERTIA]
+    y, yaw, v, yaw_rate = state[State.LATERAL], state[State.YAW], state[State.LATERAL_VELOCITY], state[State.YAW_RATE]
+    rates[State.LATERAL], rates[State.YAW] = v, yaw_rate
+    force, moment = Q[0] + c[Constant.LATERAL_LOAD], Q[1] + c[Constant.YAW_LOAD]
+    rates[State.LATERAL_VELOCITY] = (force - c[Constant.LATERAL_STIFFNESS] * y - c[Constant.LATERAL_DAMPING] * v) / c[
+        Constant.MASS
+    ]
+    rates[State.YAW_RATE] = (moment - c[Constant.YAW_STIFFNESS] * yaw - c[Constant.YAW_DAMPING] * yaw_rate) / c[
+        Constant.YAW_INERTIA
+    ]
+    rates[State.SPIN] = Q[2] / c[Constant.SPIN_INERTIA]
 
 
 @kernel
 def mechanical_energy(w: Wheelset) -> float:
     """Kinetic energy (without that of V), of the springs, and of the weight [J] (10)."""
     c, s = w.constants, w.state
-    kinetic = c[MASS] * s[LATERAL_VELOCITY] ** 2 + c[YAW_INERTIA] * s[YAW_RATE] ** 2 + c[SPIN_INERTIA] * s[SPIN] ** 2
-    springs = c[LATERAL_STIFFNESS] * s[LATERAL] ** 2 + c[YAW_STIFFNESS] * s[YAW] ** 2
-    return 0.5 * (kinetic + springs) - c[AXLE_LOAD] * w.height[0]
+    kinetic = (
+        c[Constant.MASS] * s[State.LATERAL_VELOCITY] ** 2
+        + c[Constant.YAW_INERTIA] * s[State.YAW_RATE] ** 2
+        + c[Constant.SPIN_INERTIA] * s[State.SPIN] ** 2
+    )
+    springs = c[Constant.LATERAL_STIFFNESS] * s[State.LATERAL] ** 2 + c[Constant.YAW_STIFFNESS] * s[State.YAW] ** 2
+    return 0.5 * (kinetic + springs) - c[Constant.AXLE_LOAD] * w.height[0]

@@ -6,14 +6,14 @@ from itertools import permutations
 import numpy as np
 import pytest
 
-from contact.kernels.layout import Bin, Strip
 import contact
-from contact.kernels.layout import N_STRIP_ROWS
 from contact.accumulation import MAXIMA, SUMS, Histogram, load, save, worn_profile
-from contact.damage import WEAR_LAWS, ArchardMap, DamageParameters, deposit, evaluate, usfd
+from contact.damage import WEAR_LAWS, ArchardMap, DamageParameters, evaluate, usfd
 from contact.errors import ContactError
 from contact.geometry.profile import Profile, cone, named, rail_60e1, rail_arc
 from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.kernels.damage import deposit
+from contact.kernels.layout import LEDGER, N_BIN_ROWS, N_STRIP_ROWS, Bin, Strip
 
 WHEEL, RAIL = named("1/40"), rail_60e1()
 POSES = (Pose(y=1e-3, yaw=2e-3), Pose(y=5e-3, yaw=5e-3), Pose(y=7e-3, yaw=5e-3))  # tread, tread and flange root, flange
@@ -142,10 +142,11 @@ def test_a_strip_is_shared_by_overlap_and_what_lies_beyond_stays_in_the_outer_bi
     expected = np.array([[0.25, 0.5, 0.25], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
     strips = np.zeros((N_STRIP_ROWS, 4))
     strips[Strip.DY] = dy
-    rates = np.arange(1.0, 4.0 * deposit.N_ROWS + 1.0).reshape(deposit.N_ROWS, 4)
+    rates = np.arange(1.0, 4.0 * N_BIN_ROWS + 1.0).reshape(N_BIN_ROWS, 4)
     for is_wheel in (True, False):
-        bins = np.zeros((deposit.N_ROWS, 3))
-        deposit.deposit(rates, edges, strips, 4, distance, is_wheel, start, width, bins)
+        bins = np.zeros((N_BIN_ROWS, 3))
+        settings = np.array([(start, width, distance)], LEDGER)[0]
+        deposit.deposit(rates, edges, strips, 4, settings, is_wheel, bins)
         for row in range(Bin.ENERGY_INDEX_MAX):
             rate = rates[Bin.VOLUME if row == Bin.WEAR and not is_wheel else row]
             of_bins = distance * dy * rate @ expected

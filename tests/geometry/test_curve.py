@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numba import njit
 
-from contact.geometry import curve
+from contact.kernels.geometry import curve
 
 
 def cubic(t):

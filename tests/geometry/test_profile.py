@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from contact import ContactError
-from contact.geometry import curve, profile
+from contact.geometry import profile
+from contact.kernels.geometry import curve
 
 # y, z [mm] copied from MBench_S1002_v3.prw (y turned to the field side) and MBench_UIC60_v3.prr, the profile files of the
 # Manchester contact benchmark in the examples of CONTACT 25.1 (Apache-2.0).

@@ -6,15 +6,16 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicHermiteSpline
 
-from contact.kernels.layout import Curve
-from contact.geometry import layout, profile, search, wheelset
+from contact.geometry import profile, wheelset
+from contact.kernels.geometry import search
+from contact.kernels.layout import LOBE, MAX_LOBES, N_LINE_ROWS, Curve
 
 RADIUS, TAPE = 0.460, 0.750
 WHEEL = wheelset._facing(profile.s1002())
 
 
 def trace_line(y, roll, yaw):
-    line = np.zeros((layout.N_LINE_ROWS, WHEEL.shape[1]))
+    line = np.zeros((N_LINE_ROWS, WHEEL.shape[1]))
     first = search.trace(WHEEL, WHEEL.shape[1], RADIUS, TAPE, y, roll, yaw, line)
     return line[:, first:]
 
@@ -64,9 +65,9 @@ def test_wangs_formula_for_the_advance_of_the_contact_point():
 
 
 def lobes_of(y, gap, opening, z):
-    line = np.zeros((layout.N_LINE_ROWS, y.size))
+    line = np.zeros((N_LINE_ROWS, y.size))
     line[0], line[Curve.GAP], line[Curve.OPENING] = y, gap, opening
-    lobe = np.zeros((layout.MAX_LOBES, layout.N_LOBE))
+    lobe = np.zeros(MAX_LOBES, LOBE)
     n = search.lobes(line, 0, y.size, z, lobe)
     return lobe[:n]
 
@@ -94,9 +95,9 @@ def test_a_lobe_narrower_than_the_nodes_is_found():
     [(8e-3, 0.3, 4, 2), (20e-3, 0.3, 4, 1), (8e-3, 1.0, 4, 1), (0.0, 0.0, 4, 2), (0.0, 0.0, 1, 1)],
 )
 def test_lobes_become_patches_when_apart_in_place_and_in_angle(distance, angle, most, patches):
-    lobe = np.zeros((layout.MAX_LOBES, layout.N_LOBE))
-    lobe[0] = [-0.030, -0.028, 1.0, -0.029, math.cos(0.5), math.sin(-0.5)]
-    lobe[1] = [-0.016, -0.010, 3.0, -0.039, 3 * math.cos(0.05), 3 * math.sin(-0.05)]
+    lobe = np.zeros(MAX_LOBES, LOBE)
+    lobe[0] = (-0.030, -0.028, 1.0, -0.029, math.cos(0.5), math.sin(-0.5))
+    lobe[1] = (-0.016, -0.010, 3.0, -0.039, 3 * math.cos(0.05), 3 * math.sin(-0.05))
     assert search.combine(lobe, 2, distance, angle, most) == patches
     if patches == 1:
         assert lobe[0].weight == 4.0

@@ -17,20 +17,20 @@ def pose():
     axle = np.array([-0.006, 0.99998, 0.003])
     axle /= np.linalg.norm(axle)
     for frame in frames:
-        frame[d.X] = d.locus(frame, axle)
+        frame[d.Frame.X] = d.locus(frame, axle)
     forces = np.array([[-4e3, 9e3, 25.0], [5e3, -3e3, -12.0]])
     return frames, state, axle, forces
 
 
 def axes(frame):
     """Unit vectors of a contact frame in track axes: lateral and normal (from wheel into rail)."""
-    c, s = np.cos(frame[d.ANGLE]), np.sin(frame[d.ANGLE])
+    c, s = np.cos(frame[d.Frame.ANGLE]), np.sin(frame[d.Frame.ANGLE])
     return np.array([0.0, c, s]), np.array([0.0, -s, c])
 
 
 def force(frame, row, load):
     ey, ez = axes(frame)
-    return np.array([row[d.FX], 0.0, 0.0]) + row[d.FY] * ey - load * ez
+    return np.array([row[d.Force.FX], 0.0, 0.0]) + row[d.Force.FY] * ey - load * ez
 
 
 def solved(frames, forces, roll_load=0.0):
@@ -59,8 +59,8 @@ def test_a_lifted_wheel_carries_nothing_and_the_other_everything(pose):
 
 
 def rigid_velocity(frame, state, axle, z_rate, roll_rate):
-    turning = np.array([roll_rate, 0.0, state[d.YAW_RATE]]) - state[d.SPIN] * axle
-    return np.array([V, state[d.LATERAL_VELOCITY], z_rate]) + np.cross(turning, frame[:3]), turning
+    turning = np.array([roll_rate, 0.0, state[d.State.YAW_RATE]]) - state[d.State.SPIN] * axle
+    return np.array([V, state[d.State.LATERAL_VELOCITY], z_rate]) + np.cross(turning, frame[:3]), turning
 
 
 def test_both_contact_points_stay_on_the_rails(pose):
@@ -79,10 +79,12 @@ def test_power_of_the_generalised_forces_is_the_power_at_the_contacts(pose):
     at_contacts = 0.0
     for frame, row, load in zip(frames, forces, loads, strict=True):
         velocity, turning = rigid_velocity(frame, state, axle, z_rate, roll_rate)
-        at_contacts += force(frame, row, load) @ velocity + row[d.MZ] * (turning @ axes(frame)[1])
+        at_contacts += force(frame, row, load) @ velocity + row[d.Force.MZ] * (turning @ axes(frame)[1])
     Q = np.empty(4)
     d.resultants(frames, forces, loads, axle, Q)
-    generalised = Q[0] * state[d.LATERAL_VELOCITY] + Q[1] * state[d.YAW_RATE] + Q[2] * state[d.SPIN] + Q[3] * V
+    generalised = (
+        Q[0] * state[d.State.LATERAL_VELOCITY] + Q[1] * state[d.State.YAW_RATE] + Q[2] * state[d.State.SPIN] + Q[3] * V
+    )
     assert generalised - W * z_rate == pytest.approx(at_contacts, rel=1e-11)
 
 
@@ -97,7 +99,7 @@ def constants(**changes):
     values |= {"YAW_DAMPING": 1e4, "AXLE_LOAD": W, "SPEED": V} | changes
     out = np.zeros(d.N_CONSTANTS)
     for name, value in values.items():
-        out[getattr(d, name)] = value
+        out[d.Constant[name]] = value
     return out
 
 
@@ -115,14 +117,18 @@ def test_integrator_converges_with_second_order_to_the_exact_motion():
     start = np.array([0.005, -0.004, 0.0, 0.1, V / R0])
 
     def rhs(_, s):
-        ddy = (Q[0] - c[d.LATERAL_STIFFNESS] * s[0] - c[d.LATERAL_DAMPING] * s[2]) / c[d.MASS]
-        ddpsi = (Q[1] - c[d.YAW_STIFFNESS] * s[1] - c[d.YAW_DAMPING] * s[3]) / c[d.YAW_INERTIA]
-        return [s[2], s[3], ddy, ddpsi, Q[2] / c[d.SPIN_INERTIA]]
+        ddy = (Q[0] - c[d.Constant.LATERAL_STIFFNESS] * s[0] - c[d.Constant.LATERAL_DAMPING] * s[2]) / c[
+            d.Constant.MASS
+        ]
+        ddpsi = (Q[1] - c[d.Constant.YAW_STIFFNESS] * s[1] - c[d.Constant.YAW_DAMPING] * s[3]) / c[
+            d.Constant.YAW_INERTIA
+        ]
+        return [s[2], s[3], ddy, ddpsi, Q[2] / c[d.Constant.SPIN_INERTIA]]
 
     exact = solve_ivp(rhs, (0.0, T), start, rtol=1e-11, atol=1e-14).y[:, -1]
     errors = [abs(advance(start.copy(), c, Q, T / n, n)[0] - exact)[:4].max() for n in (50, 100, 200)]
     assert np.log2(errors[:-1] / np.array(errors[1:])) == pytest.approx(2.0, abs=0.05)
-    assert advance(start.copy(), c, Q, T / 50, 50)[0][d.SPIN] == pytest.approx(exact[d.SPIN], rel=1e-12)
+    assert advance(start.copy(), c, Q, T / 50, 50)[0][d.State.SPIN] == pytest.approx(exact[d.State.SPIN], rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -134,17 +140,21 @@ def test_energy_is_booked_completely(loads):
     start = np.array([0.005, -0.004, 0.0, 0.1, V / R0])
 
     def held(s):
-        kinetic = c[d.MASS] * s[2] ** 2 + c[d.YAW_INERTIA] * s[3] ** 2 + c[d.SPIN_INERTIA] * s[4] ** 2
-        return 0.5 * (kinetic + c[d.LATERAL_STIFFNESS] * s[0] ** 2 + c[d.YAW_STIFFNESS] * s[1] ** 2)
+        kinetic = (
+            c[d.Constant.MASS] * s[2] ** 2
+            + c[d.Constant.YAW_INERTIA] * s[3] ** 2
+            + c[d.Constant.SPIN_INERTIA] * s[4] ** 2
+        )
+        return 0.5 * (kinetic + c[d.Constant.LATERAL_STIFFNESS] * s[0] ** 2 + c[d.Constant.YAW_STIFFNESS] * s[1] ** 2)
 
     defects = []
     for n in (200, 400):
         end, energy = advance(start.copy(), c, Q, 0.4 / n, n)
         change = held(end) - held(start)
-        defects.append(abs(change + energy[d.INTERFACE] - energy[d.DRIVE] + energy[d.DAMPER]))
+        defects.append(abs(change + energy[d.Energy.INTERFACE] - energy[d.Energy.DRIVE] + energy[d.Energy.DAMPER]))
     assert defects[0] < 1e-2
     assert defects[1] == pytest.approx(defects[0] / 4.0, rel=0.1)
-    assert energy[d.DAMPER] > 1.0
+    assert energy[d.Energy.DAMPER] > 1.0
 
 
 @pytest.mark.parametrize("damping", [0.0, 1e-3, 1.25e3, 2e7])
@@ -155,4 +165,4 @@ def test_kick_is_exact_for_any_damping(damping):
     exact = solve_ivp(
         lambda _, v: (900.0 - damping * v) / 1250.0, (0.0, h), [0.2], rtol=1e-12, atol=1e-15, method="LSODA"
     )
-    assert state[d.LATERAL_VELOCITY] == pytest.approx(exact.y[0, -1], rel=1e-9)
+    assert state[d.State.LATERAL_VELOCITY] == pytest.approx(exact.y[0, -1], rel=1e-9)

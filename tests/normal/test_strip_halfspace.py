@@ -7,13 +7,13 @@ import pytest
 from scipy.integrate import quad
 
 import contact
-from contact import quadrature, workspace
+from contact import workspace
 from contact.geometry import profile, wheelset
 from contact.kernels.normal import influence
 from tests.normal.test_analyn import two_lobes
 
 NO_CREEP = contact.Creepage()
-CENTRE, PLANE = influence.tables()
+CENTRE, PLANE = workspace.strip_tables()
 
 
 def exact_U(X, t):
@@ -44,7 +44,8 @@ def test_plane_table_equals_quadrature(X, t):
 def test_table_of_a_panel_equals_the_closed_form(ln_a):
     """Displacement by strips of one panel, interpolated over ln(a/half width), against the table on the centre line."""
     n = 12
-    columns, (_, logs) = workspace.rule(n, 10, True).columns, quadrature.panel(n)
+    rule = workspace.rule(n, 10, True)
+    columns, logs = rule.columns, rule.cosine_logs
     out = np.empty(n)
     for j in range(n):
         influence.column(columns, j, ln_a, 2.0, out)

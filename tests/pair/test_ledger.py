@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from contact.kernels.layout import Bin, Body
 import contact
+from contact import workspace
 from contact.accumulation import MAXIMA, SUMS, Histogram
-from contact.damage import WEAR_LAWS, DamageParameters, deposit
+from contact.damage import WEAR_LAWS, DamageParameters
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.kernels.layout import Bin, Body
 from contact.pair import WheelRailPair
-from contact.kernels.ledger import allocate
 
 BODIES = {"wheel": profile.s1002(), "rail": profile.rail_60e1(1 / 20, breakpoints="UIC 519")}
 VELOCITY = Velocity(forward=30.0)
@@ -21,7 +21,7 @@ ROLLED = {Pose(y=1e-3, yaw=2e-3): 10.0, Pose(y=6.37e-3): 4.0, Pose(y=5.5e-3, yaw
 
 def ledger(n_bins=100, first=-0.06, width=1e-3):
     rows = (np.stack((given.y, given.z)) for given in BODIES.values())
-    return allocate(*rows, 20, n_bins, first, width)
+    return workspace.ledger(*rows, 20, n_bins, first, width)
 
 
 def pair(side="right", law="archard", **options):
@@ -73,7 +73,7 @@ def test_bins_add_up_to_the_totals_also_where_they_end_before_the_contact():
     for pose, distance in ROLLED.items():
         for run in (few, many):
             damage = run.solve(pose, VELOCITY, load=60e3, distance=distance).damage
-        T_gamma, volume = T_gamma + distance * damage[0], volume + distance * damage[7]
+        T_gamma, volume = T_gamma + distance * damage.T_gamma, volume + distance * damage.archard_volume
     for run in (few, many):
         for body in run.bench.ledger.bins:
             assert body[Bin.T_GAMMA].sum() == pytest.approx(T_gamma, rel=1e-12)

@@ -76,9 +76,10 @@ def test_is_search_and_solution_of_every_patch_put_together(right, worn, seed, l
         damage.append((d.T_gamma, d.archard.volume, d.archard.depth_max, d.burstow))
     np.testing.assert_allclose(actual.force, force, rtol=1e-12, atol=1e-9)
     T_gamma, volume, depth, burstow = zip(*damage, strict=True)
-    index = [0, 7, 6, 4]
+    total = actual.damage
+    found = total.T_gamma, total.archard_volume, total.archard_depth, total.burstow
     wanted = (sum(T_gamma), sum(volume), max(depth), max(burstow))
-    np.testing.assert_allclose(actual.damage[index], wanted, rtol=1e-12, atol=1e-30)
+    np.testing.assert_allclose(found, wanted, rtol=1e-12, atol=1e-30)
 
 
 @pytest.mark.parametrize("normal", METHODS.normal)
@@ -179,7 +180,7 @@ def test_lift_off_is_an_answer(right):
         assert s.status is Status.NO_CONTACT
         assert not s.force.any()
         assert not s.moment.any()
-        assert not s.damage.any()
+        assert not any(s.damage)
         assert s.slip_ratio == s.power_per_metre == s.area == 0.0
 
 
@@ -202,7 +203,12 @@ def test_interacting_strips_go_on_from_the_last_call_unless_a_patch_came_or_went
 def test_what_was_left_in_the_scratch_arrays_does_not_matter(normal):
     """`memory` is all that goes from one call to the next: an FMU state is no more than that."""
     pair = make(normal=normal)
-    scratch = (*pair.bench.own.space[:5], *pair.bench.own.space[6:], *pair.bench.own[3:], *pair.bench.search[4:11])
+    own, search = pair.bench.own, pair.bench.search
+    scratch = [
+        a
+        for a in (*own.space, own.strips, own.fields, *search[4:11])
+        if a is not own.space.memory and a.dtype.names is None
+    ]
     for k in range(20):
         before = pair.bench.memory.copy()
         answers = []

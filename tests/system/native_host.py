@@ -11,7 +11,7 @@ from contact_case import NAME
 from random_cases import OUTPUTS, POINTS, Case
 
 from contact.kernels.layout import MAX_PATCHES
-from contact.solve import N_ELEMENTS, N_STRIPS
+from contact.solver import N_ELEMENTS, N_STRIPS
 from fmu_src.catalogue import models
 from fmu_src.native import source
 from fmu_src.native.packaging import HEADERS, compiler, kernels, run

@@ -15,7 +15,7 @@ from random_cases import random_case
 
 import contact
 from contact.kernels.layout import MAX_PATCHES
-from contact.solve import N_ELEMENTS, N_STRIPS
+from contact.solver import N_ELEMENTS, N_STRIPS
 
 SHAPE = (MAX_PATCHES, N_STRIPS, N_ELEMENTS)
 

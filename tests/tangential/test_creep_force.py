@@ -195,7 +195,7 @@ def test_polach_is_his_formula(reduced):
     C, inside = kalker.coefficients(kalker.table(NU), math.log(1.5)), 0
     for creepage in rng.normal(0.0, (1e-3, 1e-3, 0.3), (200, 3)):
         wanted = polach_by_the_book(*creepage, 6e-3, 4e-3, C, MU * N, *reduced)
-        Fx, Fy, Mz, _ = polach(*creepage, G, 6e-3, 4e-3, *C[:3], MU * N, *reduced)
+        Fx, Fy, Mz, _ = polach(tuple(creepage), G, 6e-3, 4e-3, C, MU * N, *reduced)
         share = math.hypot(*wanted) / (MU * N)
         inside += share < 1.0
         np.testing.assert_allclose((Fx, Fy), np.array(wanted) / max(1.0, share), rtol=1e-9, atol=1e-6)

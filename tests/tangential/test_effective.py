@@ -7,10 +7,10 @@ import pytest
 
 import contact
 from benchmarks import creep_table as unseen
+from contact import force_table as table
 from contact import kalker
 from contact.study import creep_table, effective
 from contact.study.ellipse import ellipse
-from contact import force_table as table
 
 LOAD, MU, C = 82e3, 0.3, 6e-3
 FORCES = table.numbers(table.FILE)

@@ -7,9 +7,10 @@ import pytest
 
 import contact
 from benchmarks import creep_table as unseen
-from contact import kalker
-from contact.study import creep_table
 from contact import force_table as table
+from contact import kalker
+from contact.kernels.tangential import table as kernel
+from contact.study import creep_table
 
 G, C, LIMIT, NU = 82e9, 6e-3, 24600.0, table.NU
 
@@ -19,9 +20,8 @@ def lookup(log_aspect, X, Y, Z):
     coefficients = kalker.coefficients(kalker.table(NU), log_aspect)
     c11, c22, c23, _ = coefficients
     unit = LIMIT / (G * C * C)
-    found = table.lookup(
-        X * unit / c11, Y * unit / c22, Z * unit / (c23 * C), G, C, log_aspect, *coefficients, LIMIT, table.load()
-    )
+    creepage = X * unit / c11, Y * unit / c22, Z * unit / (c23 * C)
+    found = kernel.lookup(creepage, G, C, log_aspect, coefficients, LIMIT, table.load())
     return np.array(found) / (LIMIT, LIMIT, LIMIT * C, 1.0)
 
 
@@ -34,14 +34,12 @@ def test_the_nodes_are_the_rows_of_the_file():
             creepage = creep_table.creepage(log_aspect[i], alpha[j], beta[k], share)
             coefficients = kalker.coefficients(kalker.table(NU), log_aspect[i])
             scale = 0.3 * 82e3
-            Fx, Fy, Mz, slip = table.lookup(
-                creepage.longitudinal,
-                creepage.lateral,
-                creepage.spin,
+            Fx, Fy, Mz, slip = kernel.lookup(
+                (creepage.longitudinal, creepage.lateral, creepage.spin),
                 G,
                 C,
                 log_aspect[i],
-                *coefficients,
+                coefficients,
                 scale,
                 table.load(),
             )
@@ -103,7 +101,7 @@ def test_cases_that_the_table_has_not_seen():
 
 def test_the_file_is_read_when_it_is_asked_for():
     assert contact.workspace.tables(0.28, False, False).creep.size == 1
-    assert contact.workspace.tables(0.28, False, True).creep.shape == table.SHAPE
+    assert contact.workspace.tables(0.28, False, True).creep.shape == kernel.SHAPE
 
 
 def test_a_wrong_file_is_refused(tmp_path):
