@@ -60,7 +60,7 @@ def solved(values: dict[str, float], pair: WheelRailPair) -> PairSolution:
 
 def expected(s: PairSolution, speed: float) -> dict[str, float]:
     """Outputs by the solver, besides the totals."""
-    T_gamma, _, _, area, burstow, usfd, depth, volume, fatigue, stress, energy = s.damage.tolist()
+    damage = s.damage
     outputs = {
         **dict(zip(("force.x", "force.y", "force.z"), s.force.tolist(), strict=True)),
         **dict(zip(("moment.x", "moment.y", "moment.z"), s.moment.tolist(), strict=True)),
@@ -70,15 +70,15 @@ def expected(s: PairSolution, speed: float) -> dict[str, float]:
         "patches.area": s.area,
         "slip.ratio": s.slip_ratio,
         "power.friction": speed * s.power_per_metre,
-        "damage.T_gamma": T_gamma,
-        "damage.wear_rate_pearce_sherratt": area,
-        "damage.index_burstow": burstow,
-        "damage.wear_rate_usfd": usfd,
-        "damage.archard_depth_max": depth,
-        "damage.archard_volume": volume,
-        "damage.fatigue_index_surface": fatigue,
-        "damage.stress_index_max": stress,
-        "damage.energy_index_max": energy,
+        "damage.T_gamma": damage.T_gamma,
+        "damage.wear_rate_pearce_sherratt": damage.pearce_sherratt,
+        "damage.index_burstow": damage.burstow,
+        "damage.wear_rate_usfd": damage.usfd,
+        "damage.archard_depth_max": damage.archard_depth,
+        "damage.archard_volume": damage.archard_volume,
+        "damage.fatigue_index_surface": damage.fatigue_index,
+        "damage.stress_index_max": damage.stress_index,
+        "damage.energy_index_max": damage.energy_index,
         "status": s.status,
     }
     for k in range(3):
