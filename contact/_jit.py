@@ -115,5 +115,5 @@ def chosen_by(stub: Callable[..., Any], kernels: Mapping[type, Any]) -> None:
     functions = {marker: chosen.py_func for marker, chosen in kernels.items()}
 
     @overload(stub, jit_options=_OPTIONS, strict=False)
-    def _choose(family, *arguments):  # type: ignore[no-untyped-def]
+    def _choose(family, *arguments):
         return functions[family.instance_class]
