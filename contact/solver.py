@@ -12,7 +12,7 @@ from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.kernels.layout import RESULT, LoadKind
 from contact.kernels.memory import Workspace
-from contact.kernels.pipeline import solve_one
+from contact.kernels.pipeline import solve_case
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.separation import Separation
@@ -236,7 +236,7 @@ class Solver:
             own = self._lean if lean else self._own
         if not warm:
             own.space.memory[0] = 0.0
-        return int(solve_one(separation.samples, self._case, own, self._result))
+        return int(solve_case(separation.samples, self._case, own, self._result))
 
 
 def require_trustworthy(solution: Solution, y: NDArray[np.float64], load: float | None, approach: float | None) -> None:
