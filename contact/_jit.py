@@ -22,7 +22,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from numba import config, njit
+from numba import config, njit, typeof
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, UserProvidedCacheLocator
 from numba.extending import overload
 
@@ -113,6 +113,15 @@ def kernel(function: Callable[..., Any]) -> Any:
 def inlined(function: Callable[..., Any]) -> Any:
     """Compile `function` as part of each kernel that calls it: for thin layers, which cost seconds as kernels of their own."""
     return njit(**_OPTIONS, inline="always")(function)
+
+
+def compiled_for(dispatcher: Any, *arguments: Any) -> Callable[..., Any]:
+    """Return the machine code of a kernel for arguments of these types, compiled if need be.
+
+    It saves numba's look-up of the types at each call, which costs 10 µs for a workspace. Arguments of other types must not be
+    given to it: they are not checked.
+    """
+    return dispatcher.compile(tuple(typeof(argument) for argument in arguments))
 
 
 def chosen_by(stub: Callable[..., Any], kernels: Mapping[type, Any]) -> None:

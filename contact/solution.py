@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from contact.absence import only_with_fields
 from contact.creepage import Creepage
 from contact.kernels.friction import of_case
-from contact.kernels.layout import Field, Status, Strip
+from contact.kernels.layout import CASE, RESULT, Field, Status, Strip
 from contact.kernels.memory import Workspace
 from contact.material import Material
 from contact.registry import methods
@@ -124,12 +124,15 @@ class Solution:
 
     @classmethod
     def of_kernel(
-        cls, n: int, own: Workspace, case: Records, result: Records, creepage: Creepage, prepared: Prepared
+        cls, n: int, own: Workspace, numbers: tuple[Array, Array], creepage: Creepage, prepared: Prepared
     ) -> Solution:
-        """Copy what a kernel has left in a workspace for `n` strips. The copy is taken apart when it is first read."""
+        """Copy what a kernel has left in a workspace for `n` strips; `numbers` are case and result as float64.
+
+        The copy is taken apart when it is first read."""
         solution = cls.__new__(cls)
-        copies = result[0].copy(), own.strips[:, :n].copy(), own.fields[:, :n].copy(), own.space.memory.copy()
-        solution.__dict__["_left"] = (*copies, case[0].copy(), creepage, prepared)
+        case, result = numbers
+        arrays = own.strips[:, :n].copy(), own.fields[:, :n].copy(), own.space.memory.copy()
+        solution.__dict__["_left"] = (case.copy(), result.copy(), *arrays, creepage, prepared)
         return solution
 
     def __getattr__(self, name: str) -> Any:
@@ -218,13 +221,14 @@ class Forces:
 
 
 def _attributes(
-    result: Any, strips: Array, fields: Array, memory: Array, case: Any, creepage: Creepage, prepared: Prepared
+    case: Array, numbers: Array, strips: Array, fields: Array, memory: Array, creepage: Creepage, prepared: Prepared
 ) -> dict[str, Any]:
     """Return the attributes of a `Solution` from copies of a kernel's record and arrays."""
+    result = numbers.view(RESULT)[0]
     y, dA = np.repeat(strips[Strip.Y][:, None], fields.shape[2], axis=1), fields[Field.DX] * strips[Strip.DY][:, None]
     stick, patch = fields[Field.STICK] > 0.5, strips[Strip.PATCH].astype(np.int64)
     edges = result.edges[: 2 * result.n_patches].reshape(-1, 2)
-    for array in (strips, fields, memory, y, dA, stick, patch, edges):
+    for array in (numbers, strips, fields, memory, y, dA, stick, patch, edges):
         array.setflags(write=False)
     return {
         "Fx": float(result.Fx),
@@ -261,7 +265,7 @@ def _attributes(
         "stick": stick,
         "dA": dA,
         "creepage": creepage,
-        "friction": float(of_case(case)),
+        "friction": float(of_case(case.view(CASE)[0])),
         "material": prepared.material,
         "speed": prepared.speed,
         "normal": prepared.normal,

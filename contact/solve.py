@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import threading
 from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
@@ -146,7 +147,7 @@ def solve(
         if rolling.elementwise:
             solution = solve_pressure(solution, separation if conformal else None, surface, division, progress)
     if throw:
-        require_trustworthy(solution, separation.y, load, approach)
+        require_trustworthy(solution.status, separation.y, load, approach)
     return solution
 
 
@@ -159,6 +160,35 @@ def _pair(spacing: object) -> tuple[float, float] | None:
         raise ContactError(f"spacing = {spacing!r} is not a number or a pair of numbers")
     dx, dy = (require_number("spacing", value, 0.0, open_minimum=True) for value in both)
     return dx, dy
+
+
+_Key = tuple[str, str, int, int, Material, bool, tuple[float, float, float] | None]
+#: The latest solvers of a thread, and how many there are.
+_LATEST, _MOST = threading.local(), 4
+
+
+def _prepared(key: _Key, friction: Friction, speed: float) -> Solver:
+    """Return this thread's solver for methods, resolution, material, surface and, if given, the patch's own C11, C22, C23."""
+    solvers: dict[_Key, Solver] = _LATEST.__dict__.setdefault("solvers", {})
+    solver = solvers.pop(key, None)
+    if solver is None:
+        normal, tangential, n_strips, n_elements, material, conformal, coefficients = key
+        solver = Solver(
+            normal=normal,
+            tangential=tangential,
+            n_strips=n_strips,
+            n_elements=n_elements,
+            friction=friction,
+            material=material,
+            speed=speed,
+            conformal=conformal,
+        )
+        if coefficients is not None:
+            solver.calibrate(constant_table(*coefficients))
+    solvers[key] = solver
+    while len(solvers) > _MOST:
+        del solvers[next(iter(solvers))]
+    return solver
 
 
 class _Strips(NamedTuple):
@@ -183,19 +213,8 @@ class _Strips(NamedTuple):
         coefficients: tuple[float, float, float] | None = None,
     ) -> Solution:
         """Solve it, with the patch's own C11, C22, C23 if given."""
-        solver = Solver(
-            normal=self.normal,
-            tangential=tangential,
-            n_strips=n_strips,
-            n_elements=n_elements,
-            friction=self.friction,
-            material=self.material,
-            speed=self.speed,
-            conformal=conformal,
-            n_samples=self.separation.y.size,
-        )
-        if coefficients is not None:
-            solver.calibrate(constant_table(*coefficients))
+        key = self.normal, tangential, n_strips, n_elements, self.material, conformal, coefficients
+        solver = _prepared(key, self.friction, self.speed)
         if start is not None:
             solver.start_from(start)
         return solver.solve(
@@ -203,6 +222,8 @@ class _Strips(NamedTuple):
             self.creepage,
             load=self.load,
             approach=self.approach,
+            friction=self.friction,
+            speed=self.speed,
             warm=start is not None,
             throw=False,
         )

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
 from contact import workspace
+from contact._jit import compiled_for
 from contact.case import cases, set_surface
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
@@ -20,6 +23,8 @@ from contact.solution import Forces, Prepared, Solution, Status
 
 #: Resolution at which forces are within 0.002 mu N of their limit.
 N_STRIPS, N_ELEMENTS = 30, 30
+#: Any separation: all of them have the same types.
+_FLAT = Separation([0.0, 1.0, 2.0], [0.0, 0.0, 0.0], 1.0)
 #: Samples of a separation that a solver has room for, unless told otherwise.
 N_SAMPLES = 101
 
@@ -36,6 +41,17 @@ def require_conformal(tangential: Method) -> None:
     """Raise a ContactError for a tangential method that knows the contact plane alone."""
     if not tangential.fields:
         raise ContactError(f"conformal: tangential = {tangential.name!r} knows the contact plane alone")
+
+
+_COMPILED: dict[tuple[type, type], Callable[..., int]] = {}
+
+
+def _kernel(own: Workspace, case: NDArray[np.void], result: NDArray[np.void]) -> Callable[..., int]:
+    """Return the machine code for the families of a workspace."""
+    families = type(own.families.normal), type(own.families.tangential)
+    if families not in _COMPILED:
+        _COMPILED[families] = compiled_for(solve_case, _FLAT.samples, case, own, result)
+    return _COMPILED[families]
 
 
 class Solver:
@@ -96,6 +112,8 @@ class Solver:
         self._case = cases(1, self.normal, self.tangential, material, conformal=conformal)
         self._member = {name: self._case[name] for name in self._case.dtype.names or ()}
         self._result = np.zeros(1, RESULT)
+        self._status = self._result["status"]
+        self._numbers = self._case.view(np.float64), self._result.view(np.float64)  # quicker to copy than records
         self.set_surface(friction, speed)
         self._own: Workspace
         self._lean: Workspace
@@ -134,6 +152,7 @@ class Solver:
         nu = self.material.poisson_ratio
         self._own = workspace.allocate(self.normal, self.tangential, nu, size)
         self._n_samples = n_samples
+        self._kernel = _kernel(self._own, self._case, self._result)
         # forces only: one row of fields serves all strips, unless the surface of contact is bent
         one_row = self._own.fields if self.conformal else self._own.fields[:, :1].copy()
         self._lean = self._own._replace(fields=one_row)
@@ -177,11 +196,10 @@ class Solver:
             As `contact.solve`.
         """
         n = self._run(self._own, separation, creepage, load, approach, (friction, speed), warm)
-        own, prepared = self._own, Prepared(self.normal.name, self.tangential.name, self.material, self._speed)
-        solution = Solution.of_kernel(n, own, self._case, self._result, creepage, prepared)
+        prepared = Prepared(self.normal.name, self.tangential.name, self.material, self._speed)
         if throw:
-            require_trustworthy(solution, separation.y, load, approach)
-        return solution
+            require_trustworthy(Status(self._status[0]), separation.y, load, approach)
+        return Solution.of_kernel(n, self._own, self._numbers, creepage, prepared)
 
     def forces(
         self,
@@ -196,12 +214,9 @@ class Solver:
     ) -> Forces:
         """Solve one contact for its forces only; parameters as in `solve`. Its `status` says whether it can be trusted."""
         self._run(self._lean, separation, creepage, load, approach, (friction, speed), warm)
-        found = self._result[0]
-        area = float(found.area)
-        return Forces(
-            float(found.Fx), float(found.Fy), float(found.Mz), float(found.N), float(found.approach), float(found.pmax),
-            area, float(found.slip_area) / area if area > 0.0 else 0.0, float(found.power), Status(found.status),
-        )  # fmt: skip
+        Fx, Fy, Mz, N, approach, pmax, area, slip_area, power, *_ = self._result.item()
+        slip_ratio = slip_area / area if area > 0.0 else 0.0
+        return Forces(Fx, Fy, Mz, N, approach, pmax, area, slip_ratio, power, Status(self._status[0]))
 
     def _run(
         self,
@@ -221,7 +236,7 @@ class Solver:
         if (load is None) == (approach is None):
             raise ContactError(f"exactly one of load and approach is needed; load = {load}, approach = {approach}")
         friction, speed = surface
-        if friction is not None or speed is not None:
+        if (friction is not None and friction is not self._friction) or (speed is not None and speed != self._speed):
             self.set_surface(self._friction if friction is None else friction, self._speed if speed is None else speed)
         member = self._member
         if load is not None:
@@ -236,14 +251,14 @@ class Solver:
             own = self._lean if lean else self._own
         if not warm:
             own.space.memory[0] = 0.0
-        return int(solve_case(separation.samples, self._case, own, self._result))
+        return int(self._kernel(separation.samples, self._case, own, self._result))
 
 
-def require_trustworthy(solution: Solution, y: NDArray[np.float64], load: float | None, approach: float | None) -> None:
+def require_trustworthy(status: Status, y: NDArray[np.float64], load: float | None, approach: float | None) -> None:
     """Raise a ContactError for a solution that is not to be trusted."""
-    if solution.status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED):
+    if status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED):
         what, amount = ("load", load) if load is not None else ("approach", approach)
         raise ContactError(
-            f"{what} = {amount:g}: {solution.status.message}; y = [{y[0]:g}, {y[-1]:g}] m "
+            f"{what} = {amount:g}: {status.message}; y = [{y[0]:g}, {y[-1]:g}] m "
             f"(throw=False returns the solution with this status)"
         )
