@@ -217,6 +217,22 @@ class Forces:
     status: int | NDArray[np.int64]
 
 
+@dataclass(frozen=True, slots=True)
+class CaseForces(Forces):
+    """Results of one case: `Forces` whose members are numbers."""
+
+    Fx: float
+    Fy: float
+    Mz: float
+    N: float
+    approach: float
+    max_pressure: float
+    area: float
+    slip_ratio: float
+    power_per_metre: float
+    status: Status
+
+
 def _attributes(
     result: Any, strips: Array, fields: Array, memory: Array, case: Any, creepage: Creepage, prepared: Prepared
 ) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from contact.kernels.pipeline import solve_one
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.separation import Separation
-from contact.solution import Forces, Prepared, Solution, Status
+from contact.solution import CaseForces, Prepared, Solution, Status
 
 #: Resolution at which forces are within 0.002 mu N of their limit.
 N_STRIPS, N_ELEMENTS = 30, 30
@@ -193,12 +193,12 @@ class Solver:
         friction: float | Friction | None = None,
         speed: float | None = None,
         warm: bool = False,
-    ) -> Forces:
+    ) -> CaseForces:
         """Solve one contact for its forces only; parameters as in `solve`. Its `status` says whether it can be trusted."""
         self._run(self._lean, separation, creepage, load, approach, (friction, speed), warm)
         found = self._result[0]
         area = float(found.area)
-        return Forces(
+        return CaseForces(
             float(found.Fx), float(found.Fy), float(found.Mz), float(found.N), float(found.approach), float(found.pmax),
             area, float(found.slip_area) / area if area > 0.0 else 0.0, float(found.power), Status(found.status),
         )  # fmt: skip

@@ -157,7 +157,7 @@ def kernels(model: Model, cache: Path, say: Callable[[str], None]) -> dict[str, 
     options = json.dumps(dict(model.options))
     fingerprint = hashlib.sha256(f"{model.name} {options} {version('numba')} {version('llvmlite')}".encode())
     for package in (contact, fmu_src, models):
-        for path in sorted(Path(package.__file__).parent.rglob("*.py")):
+        for path in sorted(Path(package.__path__[0]).rglob("*.py")):
             fingerprint.update(path.read_bytes())
     folder = cache / fingerprint.hexdigest()[:16]
     paths = {platform: objects(folder, platform) for platform in TRIPLES}
