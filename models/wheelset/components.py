@@ -58,7 +58,7 @@ class DirectContact:
     friction : float
         Coefficient of friction [-].
     **options
-        Further keywords of `contact.solve`.
+        Those of `SolveOptions`.
     """
 
     def __init__(self, parameters: WheelsetParameters, friction: float = 0.3, **options: Unpack[SolveOptions]) -> None:

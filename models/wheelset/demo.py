@@ -61,7 +61,8 @@ def demo(
         parameters = WheelsetParameters(speed=speed, lateral=lateral)
         with ExitStack() as stack:
             wheelset, contacts = direct(parameters, friction) if python else _fmus(stack, fmus, parameters, friction)
-            history, durations = _run(console, wheelset, contacts, parameters, step, seconds, cast(Scheme, scheme))
+            chosen = cast(Scheme, scheme)  # `master.run` refuses any other word
+            history, durations = _run(console, wheelset, contacts, parameters, step, seconds, chosen)
         out.mkdir(parents=True, exist_ok=True)
         history.write_csv(out / "wheelset.csv")
         _histories(plot, history).savefig(out / "time_histories.png")
