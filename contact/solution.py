@@ -203,7 +203,7 @@ class Solution:
 
 @dataclass(frozen=True, slots=True)
 class Forces:
-    """Results of one case, as numbers, or of many, as arrays of the broadcast shape of the input. Units and signs as in `Solution`."""
+    """Results of one case, as numbers, or of many, as arrays of the input's broadcast shape. Units, signs as in `Solution`."""
 
     Fx: Numbers
     Fy: Numbers
