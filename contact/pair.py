@@ -60,7 +60,7 @@ class Contact:
 
 
 class PairDamage(NamedTuple):
-    """Damage of all patches of a pair together, each with its own rolling radius; names and units as in `contact.damage.Damage`.
+    """Damage of all patches of a pair together, each with its own rolling radius; names, units as in `contact.damage.Damage`.
 
     T-gamma, dissipation, Pearce-Sherratt and Archard's volume are sums; the rest are the greatest of the patches.
     `archard_depth` [m per m rolled] and `archard_volume` [m³ per m rolled] are those of `ArchardWear`; `stress_index` and
@@ -127,8 +127,8 @@ class WheelRailPair:
     n_strips, n_elements : int
         Strips per patch, 4 to 1000, and elements per strip, 4 to 1000.
     conformal : bool
-        Let the contact angle vary over each patch (`contact.kernels.conformal`) instead of taking it as a plane; methods that give
-        forces alone do not.
+        Let the contact angle vary over each patch (`contact.kernels.conformal`) instead of taking it as a plane; methods that
+        give forces alone do not.
     damage : DamageParameters, optional
         Constants of the damage models.
     ledger : contact.kernels.ledger.Ledger, optional

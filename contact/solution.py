@@ -206,7 +206,7 @@ class Solution:
 
 @dataclass(frozen=True, slots=True)
 class Forces:
-    """Results of one case, as numbers, or of many, as arrays of the broadcast shape of the input. Units and signs as in `Solution`."""
+    """Results of one case, as numbers, or of many, as arrays of the input's broadcast shape. Units, signs as in `Solution`."""
 
     Fx: Numbers
     Fy: Numbers
@@ -218,6 +218,22 @@ class Forces:
     slip_ratio: Numbers
     power_per_metre: Numbers
     status: int | NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class CaseForces(Forces):
+    """Results of one case: `Forces` whose members are numbers."""
+
+    Fx: float
+    Fy: float
+    Mz: float
+    N: float
+    approach: float
+    max_pressure: float
+    area: float
+    slip_ratio: float
+    power_per_metre: float
+    status: Status
 
 
 def _attributes(

@@ -69,9 +69,9 @@ def solve(
     spacing : float or (float, float)
         Size (dx, dy) of the elements of the half space [m], instead of their number.
     conformal : bool
-        Let the contact angle vary over the patch by the separation's `tilt` and `rolling` (`contact.kernels.conformal`): slip and the
-        directions of pressure and traction follow the surface. Fx, Fy, Mz are then resultants in the frame of the plane, the
-        lateral part of the pressure included; fields count along the surface.
+        Let the contact angle vary over the patch by the separation's `tilt` and `rolling` (`contact.kernels.conformal`): slip
+        and the directions of pressure and traction follow the surface. Fx, Fy, Mz are then resultants in the plane's frame,
+        the lateral part of the pressure included; fields count along the surface.
     start : Solution
         Solution of a neighbouring problem at the same resolution, from which an iterative normal method may start. It changes
         the time that is taken, and the result within the method's tolerance.

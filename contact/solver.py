@@ -19,7 +19,7 @@ from contact.kernels.pipeline import solve_case
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.separation import Separation
-from contact.solution import Forces, Prepared, Solution, Status
+from contact.solution import CaseForces, Prepared, Solution, Status
 
 #: Resolution at which forces are within 0.002 mu N of their limit.
 N_STRIPS, N_ELEMENTS = 30, 30
@@ -211,12 +211,12 @@ class Solver:
         friction: float | Friction | None = None,
         speed: float | None = None,
         warm: bool = False,
-    ) -> Forces:
+    ) -> CaseForces:
         """Solve one contact for its forces only; parameters as in `solve`. Its `status` says whether it can be trusted."""
         self._run(self._lean, separation, creepage, load, approach, (friction, speed), warm)
         Fx, Fy, Mz, N, approach, pmax, area, slip_area, power, *_ = self._result.item()
         slip_ratio = slip_area / area if area > 0.0 else 0.0
-        return Forces(Fx, Fy, Mz, N, approach, pmax, area, slip_ratio, power, Status(self._status[0]))
+        return CaseForces(Fx, Fy, Mz, N, approach, pmax, area, slip_ratio, power, Status(self._status[0]))
 
     def _run(
         self,

@@ -52,12 +52,14 @@ def number(value: float) -> str:
 def _root(table: Table, interfaces: Interfaces) -> Element:
     root = Element(
         "fmiModelDescription",
-        fmiVersion="2.0",
-        modelName=table.name,
-        guid="",
-        description=table.description,
-        **ORIGIN,
-        variableNamingConvention="structured",
+        {
+            "fmiVersion": "2.0",
+            "modelName": table.name,
+            "guid": "",
+            "description": table.description,
+            **ORIGIN,
+            "variableNamingConvention": "structured",
+        },
     )
     for interface, attributes in interfaces.items():
         SubElement(root, interface, {"modelIdentifier": table.name, **attributes})

@@ -16,12 +16,14 @@ def model_description(table: Table, interfaces: Interfaces, token: str) -> str:
     """Return the XML of the FMU with this table that offers these interfaces; `token` is what its binary expects."""
     root = Element(
         "fmiModelDescription",
-        fmiVersion="3.0",
-        modelName=table.name,
-        instantiationToken=token,
-        description=table.description,
-        **ORIGIN,
-        variableNamingConvention="structured",
+        {
+            "fmiVersion": "3.0",
+            "modelName": table.name,
+            "instantiationToken": token,
+            "description": table.description,
+            **ORIGIN,
+            "variableNamingConvention": "structured",
+        },
     )
     for interface, attributes in interfaces.items():
         SubElement(root, interface, {"modelIdentifier": table.name, **attributes})

@@ -378,7 +378,7 @@ def libraries_are_named(root: Element, files: dict[str, bytes]) -> Iterator[str]
 
 def guid_is_the_same(root: Element, files: dict[str, bytes]) -> Iterator[str]:
     """The guid is also in every library, or in the script if there is one:"""
-    guid = (root.get("guid") or root.get("instantiationToken", "")).encode()
+    guid = (root.get("guid", "") or root.get("instantiationToken", "")).encode()
     scripts = {name for name in files if re.fullmatch(r"resources/[^/]+\.py", name)}
     for name in scripts or {name for name in files if name.startswith("binaries/")}:
         if not guid or guid not in files[name]:

@@ -53,7 +53,8 @@ def unpack(resource: bytes, name: str) -> Profile:
     content = resource[16:]
     if not kinds or len(content) < 8 or struct.unpack("<Q", resource[8:16]) != (_checksum(content),):
         raise ContactError(f"resource {name} holds no profile: it is damaged, or not made by fmu_src.profiles")
-    return Profile(kinds[0], *np.frombuffer(content[8:], "<f8").reshape(3, -1), name=name)
+    y, z, angle = np.frombuffer(content[8:], "<f8").reshape(3, -1)
+    return Profile(kinds[0], y, z, angle, name)
 
 
 def read(folder: Path, kind: Kind) -> Profile:

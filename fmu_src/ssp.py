@@ -59,7 +59,7 @@ def wheelset_on_rails(parameters: WheelsetParameters) -> tuple[list[Component], 
         ),
         *(Component(side, wheel_rail_contact.table(POINTS), contact) for side in SIDES),
     ]
-    connections = []
+    connections: list[Connection] = []
     for side in SIDES:
         connections += [("wheelset", f"{side}.{name}", side, name) for name in PROBLEM]
         connections += [(side, name, "wheelset", f"{side}.{name}") for name in REACTION]
@@ -126,7 +126,12 @@ def _parameters(system: Element, components: Iterable[Component]) -> None:
     for component in components:
         for name, value in component.parameters.items():
             parameter = SubElement(parameters, "ssv:Parameter", name=f"{component.name}.{name}")
-            SubElement(parameter, "ssv:Real", value=number(value), unit=component.table.row[name].unit)
+            SubElement(parameter, "ssv:Real", value=number(value), unit=_unit(component, name))
+
+
+def _unit(component: Component, name: str) -> str:
+    """Unit of a scalar row."""
+    return component.table.scalars[component.table.span[name].start].unit
 
 
 def _component(elements: Element, component: Component, connections: Iterable[Connection]) -> set[str]:
@@ -144,7 +149,7 @@ def _component(elements: Element, component: Component, connections: Iterable[Co
             connector = SubElement(connectors, "ssd:Connector", name=scalar.name, kind=kind)
             SubElement(connector, "ssc:Real", unit=scalar.unit)
             units.add(scalar.unit)
-    return units | {component.table.row[name].unit for name in component.parameters}
+    return units | {_unit(component, name) for name in component.parameters}
 
 
 def _units(root: Element, used: set[str]) -> None:

@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from itertools import product
+from typing import TypedDict, Unpack
 
 from contact.errors import require_number
 
@@ -48,6 +49,28 @@ class Enumeration:
     def item(self, number: int) -> str:
         """Name of the item with value `number`."""
         return self.items[number - 1][0]
+
+
+class Limits(TypedDict, total=False):
+    """What rows of a kind have in common; the meaning of each is at `Variable`."""
+
+    minimum: float
+    maximum: float
+    open_minimum: bool
+    nominal: float | None
+
+
+class Attributes(Limits, total=False):
+    """What a row may say besides its name, description and causality."""
+
+    unit: str | tuple[str, ...]
+    start: float | str | tuple[float, ...] | None
+    enumeration: Enumeration | None
+    integer: bool
+    boolean: bool
+    shape: tuple[int | str, ...]
+    depends: tuple[str, ...] | None
+    derivative_of: str | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,7 +144,12 @@ class Variable:
     @property
     def size(self) -> int:
         """Number of scalars; a field has no fixed one."""
-        return math.prod(self.shape)  # type: ignore[arg-type]
+        return math.prod(self._counts)
+
+    @property
+    def _counts(self) -> tuple[int, ...]:
+        """The shape of what has a fixed one."""
+        return tuple(int(n) for n in self.shape)
 
     def element(self, index: str) -> str:
         """Name with an index in brackets, or with none."""
@@ -129,7 +157,7 @@ class Variable:
 
     def scalars(self) -> Iterator[Scalar]:
         """The scalars of the row, first index slowest."""
-        for i, index in enumerate(product(*(range(1, n + 1) for n in self.shape))):
+        for i, index in enumerate(product(*(range(1, n + 1) for n in self._counts))):
             suffix = f"[{','.join(map(str, index))}]" if index else ""
             start = self.start[i] if isinstance(self.start, tuple) else self.start
             if isinstance(start, str):
@@ -231,16 +259,16 @@ def identifier(name: str) -> str:
     return name.replace("[]", "").replace(".", "_")
 
 
-def parameter(name: str, description: str, **attributes: object) -> Variable:
+def parameter(name: str, description: str, **attributes: Unpack[Attributes]) -> Variable:
     """A fixed parameter."""
-    return Variable(name=name, description=description, causality=Causality.PARAMETER, **attributes)  # type: ignore[arg-type]
+    return Variable(name=name, description=description, causality=Causality.PARAMETER, **attributes)
 
 
-def signal(name: str, description: str, **attributes: object) -> Variable:
+def signal(name: str, description: str, **attributes: Unpack[Attributes]) -> Variable:
     """An input."""
-    return Variable(name=name, description=description, causality=Causality.INPUT, **attributes)  # type: ignore[arg-type]
+    return Variable(name=name, description=description, causality=Causality.INPUT, **attributes)
 
 
-def output(name: str, description: str, **attributes: object) -> Variable:
+def output(name: str, description: str, **attributes: Unpack[Attributes]) -> Variable:
     """An output."""
-    return Variable(name=name, description=description, causality=Causality.OUTPUT, **attributes)  # type: ignore[arg-type]
+    return Variable(name=name, description=description, causality=Causality.OUTPUT, **attributes)

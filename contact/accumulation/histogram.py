@@ -22,8 +22,8 @@ from contact.solution import Solution
 Array = NDArray[np.float64]
 Per = Literal["metre", "revolution", "pass"]
 
-#: Name → unit and meaning of what adds up, in the order of `contact.kernels.damage.deposit`. Volume and T-gamma are those of the
-#: bin, the rest are means over its width.
+#: Name → unit and meaning of what adds up, in the order of `contact.kernels.damage.deposit`. Volume and T-gamma are those of
+#: the bin, the rest are means over its width.
 SUMS = {
     "contact": ("m", "distance rolled in contact"),
     "wear": ("m", "depth worn off a wheel; of a rail depth times distance [m²]"),

@@ -46,6 +46,7 @@ app = typer.Typer(
 @reported
 def solve(
     context: typer.Context,
+    *,
     wheel: opt.WheelName = "s1002",
     rail: opt.RailName = "60e1",
     inclination: opt.Inclination = None,
@@ -106,6 +107,7 @@ def solve(
 @app.command()
 @reported
 def patch(
+    *,
     wheel: opt.WheelName = "s1002",
     rail: opt.RailName = "60e1",
     inclination: opt.Inclination = None,
@@ -171,6 +173,7 @@ def patch(
 @app.command()
 @reported
 def curve(
+    *,
     over: opt.Over = opt.Motion.longitudinal,
     largest: opt.Largest = None,
     points: opt.Points = 21,

@@ -47,6 +47,7 @@ Elements = Annotated[
 def compare(
     context: typer.Context,
     file: File = None,
+    *,
     wheel: opt.WheelName = "s1002",
     rail: opt.RailName = "60e1",
     inclination: opt.Inclination = None,

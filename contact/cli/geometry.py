@@ -39,6 +39,7 @@ _POINTS: Sequence[tuple[str, str, float]] = (
 
 @reported
 def geometry(
+    *,
     wheel: opt.WheelName = "s1002",
     rail: opt.RailName = "60e1",
     left_wheel: opt.LeftWheel = None,
@@ -79,6 +80,7 @@ def geometry(
 
 @reported
 def conicity(
+    *,
     wheel: opt.WheelName = "s1002",
     rail: opt.RailName = "60e1",
     left_wheel: opt.LeftWheel = None,

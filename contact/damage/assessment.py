@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 WearLaw = Literal["archard", "usfd", "usfd_local", "pearce_sherratt"]
-WEAR_LAWS: tuple[str, ...] = get_args(WearLaw)
+WEAR_LAWS: tuple[WearLaw, ...] = get_args(WearLaw)
 
 
 @dataclass(frozen=True, slots=True)

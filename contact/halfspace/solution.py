@@ -61,7 +61,7 @@ def assemble(
     normal: str,
     tangential: str,
 ) -> GridSolution:
-    """Make the record from fields (ny, nx) over increasing `x`, `y`; `tilt` is the slope of each row (`contact.kernels.conformal`)."""
+    """Make the record of fields (ny, nx) over rising `x`, `y`; `tilt` is each row's slope (`contact.kernels.conformal`)."""
     touching = p > 0.0
     rows, columns = np.flatnonzero(touching.any(axis=1)), np.flatnonzero(touching.any(axis=0))
     dx, dy = float(x[1] - x[0]), float(y[1] - y[0])

@@ -68,7 +68,7 @@ class Component:
     accumulates : str
         Enumeration, a parameter, at whose first item there are none of these numbers: the rows are zero.
     warnings, failures : mapping
-        Number → text. A failure discards the step.
+        Number → text; a number may be a member of an enumeration of `contact.kernels.layout`. A failure discards the step.
     """
 
     table: Table

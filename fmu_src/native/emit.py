@@ -126,18 +126,17 @@ def _linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any], with
     from fmu_src.native.component import SIGNATURES
     from fmu_src.native.memory import Doubles
 
-    module, glue = None, _Glue(data, with_resources)
+    parts, glue = [], _Glue(data, with_resources)
     for name, (result, arguments) in SIGNATURES.items():
         pointers = len(data) + with_resources
         signature = result(*arguments, *(Doubles for _ in range(pointers)))
         compiled = cfunc(signature, error_model="numpy")(entries[name])
         text = re.sub(r"^target .*$", "", compiled.inspect_llvm(), flags=re.MULTILINE)
         glue.add(name, result, arguments, compiled.native_name.removeprefix("cfunc."))
-        part = llvm.parse_assembly(text)
-        if module is None:
-            module = part
-        else:
-            module.link_in(part)
+        parts.append(llvm.parse_assembly(text))
+    module, *others = parts
+    for part in others:
+        module.link_in(part)
     for function in module.functions:  # numba's runtime: see `_Glue.text`
         if function.name in ("NRT_incref", "NRT_decref") and not function.is_declaration:
             function.linkage = "weak_any"

@@ -93,8 +93,7 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -
     guid, xml = model_description(table, INTERFACES, code + description_fmi3(table, INTERFACES_3, "").encode())
     with TemporaryDirectory() as directory:
         generated = Path(directory)
-        (generated / "model.h").write_text(source.header(component, guid))
-        (generated / "model.c").write_text(source.body(component))
+        source.write(component, guid, generated)
         documents = [
             (f"documentation/{table.name}.md", (markdown(table) + _TRIED).encode()),
             *((f"resources/{resource}", content) for resource, content in model.resources.items()),
@@ -121,7 +120,7 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -
 
 
 def link(platform: str, name: str, kernels: list[Path], generated: Path) -> Path:
-    """Compile the wrapper with the model.h and model.c in `generated`, link it with the kernels; return the library."""
+    """Compile the wrapper with the code in `generated`, link it with the kernels; return the library."""
     library = generated / platform / (name + _LINKED_AS[platform])
     library.parent.mkdir(exist_ok=True)
     sources = [*sorted(WRAPPER.glob("*.c")), generated / "model.c"]
@@ -157,7 +156,7 @@ def kernels(model: Model, cache: Path, say: Callable[[str], None]) -> dict[str, 
     options = json.dumps(dict(model.options))
     fingerprint = hashlib.sha256(f"{model.name} {options} {version('numba')} {version('llvmlite')}".encode())
     for package in (contact, fmu_src, models):
-        for path in sorted(Path(package.__file__).parent.rglob("*.py")):
+        for path in sorted(Path(package.__path__[0]).rglob("*.py")):
             fingerprint.update(path.read_bytes())
     folder = cache / fingerprint.hexdigest()[:16]
     paths = {platform: objects(folder, platform) for platform in TRIPLES}

@@ -1,14 +1,26 @@
-"""C that a variable table becomes: model.h and model.c, which the wrapper in `c/` is compiled with."""
+"""C that a variable table becomes: model.h, model.c and records.h, which the wrapper in `c/` is compiled with."""
 
 from __future__ import annotations
 
 import json
 import math
 from collections.abc import Iterable, Iterator
+from pathlib import Path
 
 from fmu_src.description_fmi3 import value_references
+from fmu_src.native import records
 from fmu_src.native.component import Component
 from fmu_src.variables import Causality, Scalar, Table, Variable, identifier
+
+
+def write(component: Component, guid: str, folder: Path) -> None:
+    """Write all of it into a folder."""
+    for name, text in (
+        ("records.h", records.header()),
+        ("model.h", header(component, guid)),
+        ("model.c", body(component)),
+    ):
+        (folder / name).write_text(text, encoding="utf-8")
 
 
 def header(component: Component, guid: str) -> str:
@@ -31,7 +43,7 @@ def header(component: Component, guid: str) -> str:
 #define ACCUMULATES(values) {accumulates}
 #define N_PARAMETERS {parameters}
 #define N_STATES {len(table.states)}
-#define N_MESSAGES {max([0, *component.warnings, *component.failures])}
+#define N_MESSAGES {int(max([0, *component.warnings, *component.failures]))}
 #define N_TOTALS {len(component.totals)}
 #define N_FIELDS {len(table.fields)}
 #define N_RESOURCES {len(component.resources)}
@@ -56,7 +68,7 @@ def body(component: Component) -> str:
     )
     texts = {i: f"{{LOG_WARNING, {_string(text)}}}" for i, text in component.warnings.items()}
     texts |= {i: f"{{LOG_DISCARD, {_string(text)}}}" for i, text in component.failures.items()}
-    messages = ", ".join(texts.get(i, "{0}") for i in range(max([0, *texts]) + 1))
+    messages = ", ".join(f"[{records.enumerator(i)}] = {text}" for i, text in texts.items())
     sums = ", ".join(
         f"{{{c_name(total)}, {c_name(rates[0])}, {c_name(rates[1]) if len(rates) > 1 else 'ALONE'}}}"
         for total, rates in component.totals.items()
@@ -69,6 +81,7 @@ def body(component: Component) -> str:
 #include <stddef.h>
 
 #include "instance.h"
+#include "records.h"
 
 const Variable variables[N_VALUES + N_ACCUMULATED + N_FIELDS + 1] = {{
 {listed}

@@ -106,7 +106,7 @@ def component(points: int) -> Component:
         data=data,
         lazy=("creep_stiffness",),
         totals={"total.energy": ("power.friction",), "total.worn_volume": ("damage.archard_volume", "speed")},
-        warnings={int(s): f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)},
+        warnings={s: f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)},
     )
 
 

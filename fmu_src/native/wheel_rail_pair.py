@@ -59,7 +59,7 @@ _OUTPUTS = {
 _steps = compiled(creepage_steps)
 
 #: What discards a step, numbered behind the statuses.
-_NO_OVERLAP, _NOT_SETTLED, _TOO_DEEP, _GAUGE_POINT, _STEEP, _ENDLESS = range(6, 12)
+_NO_OVERLAP, _NOT_SETTLED, _TOO_DEEP, _GAUGE_POINT, _STEEP, _ENDLESS = range(max(Status) + 1, max(Status) + 7)
 _FAILURES = {
     _NO_OVERLAP: "pose.y: the profiles of wheel and rail do not overlap",
     _NOT_SETTLED: "load.normal_force: no height was found at which the wheel carries it on this rail",
@@ -86,7 +86,7 @@ def component(inclination: float) -> Component:
         },
         accumulated=ACCUMULATED,
         accumulates="accumulation.wear_law",
-        warnings={int(s): f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)},
+        warnings={s: f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)},
         failures=_FAILURES,
     )
 

@@ -4,7 +4,9 @@ from contact.friction import LAWS, VELOCITIES, Friction
 from contact.material import Thermal
 from fmu_src.python.values import Values
 
-_BEHIND_VELOCITY = (
+#: Rows `friction.…` and members of `Friction` that have the same name.
+_NUMBERS = (
+    *("kinetic", "half_speed", "slope", "slope_far", "slope_rate"),
     *("gauge_factor", "border", "border_width", "k_A", "k_S", "hot_factor", "reference_temperature"),
     *("temperature_range", "background_temperature"),
 )
@@ -14,12 +16,9 @@ _THERMAL = ("conductivity", "density", "heat_capacity", "heat_share")
 def friction(values: Values) -> Friction:
     """Friction of both contact FMUs."""
     return Friction(
-        values["friction.coefficient"],
-        values["friction.kinetic"],
-        values["friction.half_speed"],
-        LAWS[int(values["friction.law"]) - 1],
-        *(values[f"friction.{name}"] for name in ("slope", "slope_far", "slope_rate")),
-        VELOCITIES[int(values["friction.velocity"]) - 1],
-        *(values[f"friction.{name}"] for name in _BEHIND_VELOCITY),
+        static=values["friction.coefficient"],
+        law=LAWS[int(values["friction.law"]) - 1],
+        velocity=VELOCITIES[int(values["friction.velocity"]) - 1],
         thermal=Thermal(*(values[f"thermal.{name}"] for name in _THERMAL)),
+        **{name: values[f"friction.{name}"] for name in _NUMBERS},
     )

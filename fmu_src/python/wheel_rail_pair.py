@@ -114,7 +114,7 @@ class WheelRailPairSlave(TableSlave):
             geometry = Pair(
                 wheel,
                 rail,
-                side=values.item("side").lower(),
+                side="right" if values.item("side") == "Right" else "left",
                 nominal_radius=values["wheel.radius"],
                 gauge=values["track.gauge"],
                 flange_back=values["wheel.flange_back"],
@@ -144,9 +144,15 @@ def _accumulation(values: Values, wheel: Profile, rail: Profile) -> dict[str, An
     law = int(values["accumulation.wear_law"])
     if law == 1:
         return {}
-    rows = (np.stack((given.y, given.z)) for given in (wheel, rail))
-    sizes = (values["resolution.n_strips"], BINS, values["accumulation.first"], values["accumulation.width"])
-    return {"ledger": workspace.ledger(*rows, *sizes), "damage": DamageParameters(wear_law=WEAR_LAWS[law - 2])}
+    ledger = workspace.ledger(
+        np.stack((wheel.y, wheel.z)),
+        np.stack((rail.y, rail.z)),
+        values["resolution.n_strips"],
+        BINS,
+        values["accumulation.first"],
+        values["accumulation.width"],
+    )
+    return {"ledger": ledger, "damage": DamageParameters(wear_law=WEAR_LAWS[law - 2])}
 
 
 def _patches(contacts: tuple[Contact, ...]) -> Rows:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import cache
+from typing import Unpack
 
 from contact import friction
 from contact.creepage import LARGEST_CREEPAGE
 from contact.kernels.layout import MAX_PATCHES
 from contact.separation import LARGEST_ROLLING, LARGEST_TILT
 from fmu_src.tables import solver
-from fmu_src.variables import Enumeration, Table, Variable, output, parameter, signal
+from fmu_src.variables import Attributes, Enumeration, Table, Variable, output, parameter, signal
 
 GEOMETRY_KIND = Enumeration(
     "GeometryKind",
@@ -206,18 +207,20 @@ def _outputs() -> Iterable[Variable]:
 def _fields() -> Iterable[Variable]:
     """What belongs to every element of every strip: strips of all patches one after the other, with zeros behind the last."""
 
-    def field(name: str, description: str, **attributes: object) -> Variable:
-        shape = (MAX_PATCHES, "resolution.n_strips", "resolution.n_elements")
-        return output(name, description, shape=shape, **attributes)
+    def field(name: str, description: str, **attributes: Unpack[Attributes]) -> Variable:
+        attributes["shape"] = (MAX_PATCHES, "resolution.n_strips", "resolution.n_elements")
+        return output(name, description, **attributes)
 
-    normal = {"depends": (*_NORMAL_PROBLEM, "resolution.n_elements")}
-    yield field("field.patch", "Number of the patch; 0: this strip is not used", integer=True, minimum=0, **normal)
+    normal = (*_NORMAL_PROBLEM, "resolution.n_elements")
     yield field(
-        "field.x", "Position in the rolling direction, from the leading edge on", unit="m", nominal=1e-3, **normal
+        "field.patch", "Number of the patch; 0: this strip is not used", integer=True, minimum=0, depends=normal
     )
-    yield field("field.y", "Lateral position", unit="m", nominal=1e-3, **normal)
-    yield field("field.area", "Area of the element", unit="m2", minimum=0.0, nominal=1e-7, **normal)
-    yield field("field.pressure", "Contact pressure", unit="Pa", minimum=0.0, nominal=1e9, **normal)
+    yield field(
+        "field.x", "Position in the rolling direction, from the leading edge on", unit="m", nominal=1e-3, depends=normal
+    )
+    yield field("field.y", "Lateral position", unit="m", nominal=1e-3, depends=normal)
+    yield field("field.area", "Area of the element", unit="m2", minimum=0.0, nominal=1e-7, depends=normal)
+    yield field("field.pressure", "Contact pressure", unit="Pa", minimum=0.0, nominal=1e9, depends=normal)
     for axis, where in (("x", "in the rolling direction"), ("y", "lateral")):
         yield field(f"field.traction_{axis}", f"Traction on the wheel, {where}", unit="Pa", nominal=1e8)
     for axis, where in (("x", "in the rolling direction"), ("y", "lateral")):

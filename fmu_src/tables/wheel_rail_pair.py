@@ -11,7 +11,7 @@ from contact.accumulation import MAXIMA, SUMS
 from contact.geometry.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL
 from contact.geometry.wheelset import SAMPLES
 from fmu_src.tables import solver
-from fmu_src.variables import Enumeration, Table, Variable, output, parameter, signal
+from fmu_src.variables import Enumeration, Limits, Table, Variable, output, parameter, signal
 
 SIDE = Enumeration("Side", (("Left", "the left wheel and rail"), ("Right", "the right wheel and rail")))
 LOAD_KIND = Enumeration(
@@ -65,7 +65,7 @@ MOTION = (
     ("irregularity.z_rate", "m/s", "Rate of irregularity.z"),
     ("irregularity.roll_rate", "rad/s", "Rate of irregularity.roll"),
 )
-_LIMITS: dict[str, dict[str, object]] = {
+_LIMITS: dict[str, Limits] = {
     "pose.roll": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE},
     "pose.yaw": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE},
     "irregularity.roll": {"minimum": -LARGEST_RAIL_ROLL, "maximum": LARGEST_RAIL_ROLL},

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import cache
+from typing import Unpack
 
-from fmu_src.variables import Table, Variable, output, parameter, signal
+from fmu_src.variables import Attributes, Limits, Table, Variable, output, parameter, signal
 from models.wheelset.parameters import WheelsetParameters
 from models.wheelset.ports import POINTS, REACTION, SIDES
 
@@ -41,7 +42,7 @@ _PARAMETERS = (
     ),
     ("geometry.dy", "window_step", "m", "Distance of samples; the same as geometry.dy of the contacts", "positive"),
 )
-_RANGE = {
+_RANGE: dict[str, Limits] = {
     "any": {},
     "not negative": {"minimum": 0.0},
     "positive": {"minimum": 0.0, "open_minimum": True},
@@ -106,16 +107,18 @@ _FORCES = tuple(f"{side}.{name}" for side in SIDES for name in REACTION)
 def _outputs() -> Iterable[Variable]:
     parameters = tuple(row.name for row in _parameters())
 
-    def result(name: str, description: str, unit: str, follows: tuple[str, ...], **attributes: object) -> Variable:
-        return output(name, description, unit=unit, depends=tuple(dict.fromkeys((*parameters, *follows))), **attributes)
+    def result(
+        name: str, description: str, unit: str, follows: tuple[str, ...], /, **attributes: Unpack[Attributes]
+    ) -> Variable:
+        attributes["unit"], attributes["depends"] = unit, tuple(dict.fromkeys((*parameters, *follows)))
+        return output(name, description, **attributes)
 
-    def state(name: str, description: str, unit: str, **attributes: object) -> Variable:
+    def state(name: str, description: str, unit: str, /, **attributes: Unpack[Attributes]) -> Variable:
         return result(name, description, unit, (name,), **attributes)
 
     yield state("lateral", "Lateral position of the centre, positive to the right", "m", nominal=1e-3)
     yield state("yaw", "Yaw angle, clockwise seen from above", "rad", nominal=1e-3)
-    velocity = {"derivative_of": "lateral", "nominal": 0.1}
-    yield state("lateral_velocity", "Lateral velocity of the centre", "m/s", **velocity)
+    yield state("lateral_velocity", "Lateral velocity of the centre", "m/s", derivative_of="lateral", nominal=0.1)
     yield state("yaw_rate", "Yaw rate", "rad/s", derivative_of="yaw", nominal=0.1)
     yield state("spin", "Angular velocity about the axle, positive when rolling forward", "rad/s", nominal=100.0)
     yield result("vertical", "Height of the centre, positive down", "m", _GEOMETRY, nominal=1e-3)
@@ -134,9 +137,8 @@ def _outputs() -> Iterable[Variable]:
     ):
         yield result(name, description, unit, (*_FORCES, *_KINEMATICS), derivative_of=of)
     for side in SIDES:
-        geometry = {"shape": (POINTS,), "follows": _GEOMETRY}
-        yield result(f"{side}.geometry.g", f"Undeformed gap, {side}", "m", nominal=1e-4, **geometry)
-        yield result(f"{side}.geometry.A", f"Half curvature along the rail, {side}", "1/m", **geometry)
+        yield result(f"{side}.geometry.g", f"Undeformed gap, {side}", "m", _GEOMETRY, shape=(POINTS,), nominal=1e-4)
+        yield result(f"{side}.geometry.A", f"Half curvature along the rail, {side}", "1/m", _GEOMETRY, shape=(POINTS,))
         yield result(f"{side}.creepage.longitudinal", f"Longitudinal creepage, {side}", "1", _KINEMATICS, nominal=1e-3)
         yield result(f"{side}.creepage.lateral", f"Lateral creepage, {side}", "1", _KINEMATICS, nominal=1e-3)
         yield result(f"{side}.creepage.spin", f"Spin creepage, {side}", "rad/m", _KINEMATICS, nominal=0.1)

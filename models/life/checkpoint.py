@@ -6,6 +6,7 @@ import os
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,8 +20,9 @@ def write(path: Path, fingerprint: str, arrays: Mapping[str, NDArray]) -> None:
     """Put `arrays` in the place of what is in `path`, all of them or none."""
     path.parent.mkdir(parents=True, exist_ok=True)
     beside = path.with_name(f"{path.name}.{os.getpid()}.part")
+    stored: dict[str, Any] = {_FINGERPRINT: np.array(fingerprint), **arrays}  # savez has a keyword that is no array
     with open(beside, "wb") as file:
-        np.savez(file, **{_FINGERPRINT: np.array(fingerprint)}, **arrays)
+        np.savez(file, **stored)
         file.flush()
         os.fsync(file.fileno())
     os.replace(beside, path)

@@ -68,7 +68,7 @@ def _convert(hint: Any, value: object, where: str) -> Any:
     options = get_args(hint) if get_origin(hint) in (Union, types.UnionType) else (hint,)
     options = tuple(str if get_origin(option) is Literal else option for option in options)  # the dataclass says which
     for option in options:
-        if is_dataclass(option) and isinstance(value, dict):
+        if isinstance(option, type) and is_dataclass(option) and isinstance(value, dict):
             return build(option, value, where)
         if get_origin(option) is tuple and isinstance(value, list):
             item = get_args(option)[0]

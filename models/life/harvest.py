@@ -12,6 +12,7 @@ import contact
 from contact.accumulation import MAXIMA, SUMS, Histogram
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from models.life.scenario import Scenario
+from models.wheelset.components import SolveOptions
 from models.wheelset.ports import SIDES
 
 Array = NDArray[np.float64]
@@ -38,8 +39,8 @@ class Harvest:
 
     def __init__(self, scenario: Scenario) -> None:
         p, d = scenario.parameters, scenario.declared
-        self._options = {
-            "friction": scenario.friction,
+        self._friction = scenario.friction
+        self._options: SolveOptions = {
             "normal": d.methods.normal,
             "tangential": d.methods.tangential,
             "n_strips": d.methods.strips,
@@ -79,7 +80,14 @@ class Harvest:
         for i, side in enumerate(SIDES):
             patches = self._pairs[side].contacts(pose, velocity, load=float(loads[i])) if loads[i] > 0.0 else ()
             solutions = [
-                contact.solve(patch.separation, patch.creepage, load=patch.load, speed=speed, **self._options)
+                contact.solve(
+                    patch.separation,
+                    patch.creepage,
+                    load=patch.load,
+                    friction=self._friction,
+                    speed=speed,
+                    **self._options,
+                )
                 for patch in patches
             ]
             for body in BODIES:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from contact import Creepage, Forces, Separation, Solver
+from contact import Creepage, Separation, Solver
 from contact.friction import Friction
+from contact.solution import CaseForces
 from models.life.scenario import Methods
 from models.wheelset import ports
 from models.wheelset.parameters import WheelsetParameters
@@ -31,7 +32,7 @@ class PlaneContact:
         y = p.window_start + p.window_step * np.arange(ports.POINTS)
         self._flat = Separation(y, np.zeros(ports.POINTS), 1.0)
 
-    def solve(self, problem: Array, speed: float) -> Forces:
+    def solve(self, problem: Array, speed: float) -> CaseForces:
         """Return the forces on the wheel and what else `contact.Forces` names."""
         separation = self._flat.with_gap(problem[ports.GAP], problem[ports.CURVATURE])
         creepage = Creepage(*problem[ports.CREEPAGE].tolist())

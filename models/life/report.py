@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import MISSING, Field, fields, is_dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -51,17 +52,15 @@ def _parts(run: Run) -> Iterator[str]:
     yield html_of(_summary(run))
     for heading, panels in _panels(run.series).items():
         yield f"<h2>{heading}</h2>"
-        yield illustrated(
-            lambda panels=panels: plot.time_histories(run.series["distance"], panels, xlabel="distance [m]"), heading
-        )
+        yield illustrated(partial(plot.time_histories, run.series["distance"], panels, xlabel="distance [m]"), heading)
     for body in BODIES:
-        own = {side: run.harvest.histograms[side, body] for side in SIDES}
+        own: dict[str, Histogram] = {side: run.harvest.histograms[side, body] for side in SIDES}
         if not all(h.distance > 0.0 for h in own.values()):
             continue
         yield f"<h2>Damage of the {body}s</h2>"
         yield html_of(_damage(own))
         yield illustrated(
-            lambda own=own, body=body: plot.wear(own, f"wear of both {body}s: the share of each in their mean"),
+            partial(plot.wear, own, f"wear of both {body}s: the share of each in their mean"),
             f"Wear over the profile of the {body}s",
         )
     yield "<h2>Energy</h2>"

@@ -8,9 +8,10 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from contact import Forces, Status
+from contact import Status
 from contact.errors import ContactError
 from contact.geometry.wheelset import Pose, Velocity
+from contact.solution import CaseForces
 from models.life.harvest import Harvest
 from models.life.plane import PlaneContact
 from models.life.scenario import Scenario
@@ -141,7 +142,7 @@ class Run:
         self.steps += 1
         self.distance += speed * self._h
 
-    def _book(self, problems: list[Array], answers: list[Forces], speed: float, slope: float) -> None:
+    def _book(self, problems: list[Array], answers: list[CaseForces], speed: float, slope: float) -> None:
         """Energies by the trapezoidal rule; they count from the second step, before it the approach is an assumed one."""
         books, power, elastic, lateral = self._books, 0.0, 0.0, 0.0
         for side, problem, a in zip(SIDES, problems, answers, strict=True):
@@ -157,7 +158,7 @@ class Run:
             books[Book.INTERFACE_FIRST], books[Book.ELASTIC_FIRST] = self._model.energy()[0], elastic
         self._power, books[Book.ELASTIC] = power, elastic
 
-    def _sample(self, place: Place, problems: list[Array], answers: list[Forces], speed: float) -> None:
+    def _sample(self, place: Place, problems: list[Array], answers: list[CaseForces], speed: float) -> None:
         """Damage of the way since the last sample, and a row of the time series."""
         s, model = self.distance, self._model
         distance, self._sampled = s - self._sampled, s

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from typing import Any
 
 from contact.errors import ContactError, require_number, suggestion
 from contact.geometry.profile import Profile
@@ -93,7 +94,8 @@ class Vehicle:
             "yaw_load": -p.yaw_stiffness * self.value("semi_wheelbase") * curvature,
         }
 
-    def _given(self) -> dict[str, float]:
+    def _given(self) -> dict[str, Any]:
+        """Members of `WheelsetParameters`, by name."""
         own = ("set", "semi_wheelbase", "centre_of_gravity")
         given = {entry.name: getattr(self, entry.name) for entry in fields(self) if entry.name not in own}
         of_the_set = {name: value for name, value in SETS[self.set].items() if name not in own}

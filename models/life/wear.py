@@ -176,7 +176,7 @@ class Life:
         """Go on from a `save` of the same set."""
         name = self.plan.wheel.name
         self.rows, self.conicities = list(saved["rows"]), list(saved["conicities"])
-        self.wheels = [self.plan.wheel, *(Profile("wheel", *rows, name) for rows in saved["wheels"][1:])]
+        self.wheels = [self.plan.wheel, *(Profile("wheel", y, z, angle, name) for y, z, angle in saved["wheels"][1:])]
         self.shares[:] = saved["shares"]
 
 

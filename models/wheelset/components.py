@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Any, Protocol, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import contact
+from contact.errors import ContactError
+from contact.material import Material
 from models.wheelset.model import WheelsetModel
 from models.wheelset.parameters import WheelsetParameters
 from models.wheelset.ports import CREEPAGE, CURVATURE, GAP, LOAD, POINTS, REPORT, SIDES
@@ -27,11 +29,23 @@ class Component(Protocol):
     def step(self, time: float, h: float) -> None:
         """Advance from `time` to `time + h` [s]."""
 
-    def save(self) -> object:
-        """All of the state, for `restore`."""
+    def save(self) -> Any:
+        """All of the state, for `restore` of the same component."""
 
-    def restore(self, state: object) -> None:
+    def restore(self, state: Any) -> None:
         """Return to a saved state; what follows is repeated bit by bit."""
+
+
+class SolveOptions(TypedDict, total=False):
+    """Keywords of `contact.solve` that stay the same through a run."""
+
+    material: Material
+    normal: str
+    tangential: str
+    n_strips: int
+    n_elements: int
+    conformal: bool
+    throw: bool
 
 
 class DirectContact:
@@ -44,26 +58,37 @@ class DirectContact:
     friction : float
         Coefficient of friction [-].
     **options
-        Further keywords of `contact.solve`.
+        Those of `SolveOptions`.
     """
 
-    def __init__(self, parameters: WheelsetParameters, friction: float = 0.3, **options: object) -> None:
+    def __init__(self, parameters: WheelsetParameters, friction: float = 0.3, **options: Unpack[SolveOptions]) -> None:
         self._y = parameters.window_start + parameters.window_step * np.arange(POINTS)
-        self._options = {"friction": friction, "speed": parameters.speed, "throw": False, **options}
+        self._friction, self._speed = friction, parameters.speed
+        self._options: SolveOptions = {"throw": False}
+        self._options.update(options)
         self._problem = np.zeros(LOAD + 1)
-        self.solution: contact.Solution | None = None
+        self._solution: contact.Solution | None = None
 
     def write(self, port: str, values: ArrayLike) -> None:
         self._problem = np.array(values, dtype=np.float64)
 
     def step(self, time: float, h: float) -> None:
         problem = self._problem
-        self.solution = contact.solve(
+        self._solution = contact.solve(
             contact.Separation(self._y, problem[GAP], problem[CURVATURE]),
             contact.Creepage(*problem[CREEPAGE].tolist()),
             load=problem[LOAD],
+            friction=self._friction,
+            speed=self._speed,
             **self._options,
         )
+
+    @property
+    def solution(self) -> contact.Solution:
+        """That of the last step, or a ContactError before the first one."""
+        if self._solution is None:
+            raise ContactError("the contact has not been solved yet")
+        return self._solution
 
     def read(self, port: str) -> Array:
         s = self.solution
@@ -73,11 +98,11 @@ class DirectContact:
         T_gamma = abs(s.Fx * s.creepage.longitudinal) + abs(s.Fy * s.creepage.lateral)
         return np.array([power, s.max_pressure, s.slip_ratio, float(s.status), T_gamma])
 
-    def save(self) -> object:
-        return self._problem, self.solution
+    def save(self) -> tuple[Array, contact.Solution | None]:
+        return self._problem, self._solution
 
-    def restore(self, state: object) -> None:
-        self._problem, self.solution = state
+    def restore(self, state: tuple[Array, contact.Solution | None]) -> None:
+        self._problem, self._solution = state
 
 
 class LinearContact:
@@ -106,10 +131,10 @@ class LinearContact:
             return np.array([*(-self._coefficient * self._creepage[:2]), 0.0, self._approach])
         return np.zeros(len(REPORT))
 
-    def save(self) -> object:
+    def save(self) -> Array:
         return self._creepage
 
-    def restore(self, state: object) -> None:
+    def restore(self, state: Array) -> None:
         self._creepage = state
 
 
@@ -120,10 +145,11 @@ class DirectWheelset:
         self.model = model
 
     def write(self, port: str, values: ArrayLike) -> None:
+        given = np.asarray(values, dtype=np.float64).tolist()
         if port == "irregularity":
-            self.model.set_irregularity(*values)
+            self.model.set_irregularity(*given)
         else:
-            self.model.set_forces(port.removesuffix(".reaction"), *values)
+            self.model.set_forces(port.removesuffix(".reaction"), *given)
 
     def step(self, time: float, h: float) -> None:
         self.model.step(h)
@@ -132,15 +158,15 @@ class DirectWheelset:
         side, _, what = port.rpartition(".")
         return getattr(self.model, what)(side) if side else getattr(self.model, what)()
 
-    def save(self) -> object:
+    def save(self) -> bytes:
         return self.model.save()
 
-    def restore(self, state: object) -> None:
+    def restore(self, state: bytes) -> None:
         self.model.restore(state)
 
 
 def direct(
-    parameters: WheelsetParameters, friction: float = 0.3, **options: object
+    parameters: WheelsetParameters, friction: float = 0.3, **options: Unpack[SolveOptions]
 ) -> tuple[DirectWheelset, list[DirectContact]]:
     """The wheelset and its right and left contact, ready for `master.run`."""
     return DirectWheelset(WheelsetModel(parameters)), [DirectContact(parameters, friction, **options) for _ in SIDES]

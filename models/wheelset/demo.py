@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, cast
 
 import numpy as np
 import typer
@@ -22,7 +22,7 @@ from contact.errors import ContactError
 from contact.geometry.wheelset import Pair, Pose
 from contact.solution import Solution
 from models.wheelset import master
-from models.wheelset.components import Component, DirectContact, direct
+from models.wheelset.components import Component, DirectContact, SolveOptions, direct
 from models.wheelset.master import History, Scheme
 from models.wheelset.parameters import WheelsetParameters
 from models.wheelset.ports import CONTACT_PORTS, SIDES, WHEELSET_PORTS
@@ -31,7 +31,7 @@ from models.wheelset.stability import critical_speed
 Array = NDArray[np.float64]
 
 FMUS = ("Wheelset", "WheelRailContact", "WheelRailContact")
-PICTURE = {"n_strips": 60, "n_elements": 60}  # finer than the run: the pictures show single elements
+PICTURE: SolveOptions = {"n_strips": 60, "n_elements": 60}  # finer than the run: the pictures show single elements
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,8 @@ def demo(
         parameters = WheelsetParameters(speed=speed, lateral=lateral)
         with ExitStack() as stack:
             wheelset, contacts = direct(parameters, friction) if python else _fmus(stack, fmus, parameters, friction)
-            history, durations = _run(console, wheelset, contacts, parameters, step, seconds, scheme)
+            chosen = cast(Scheme, scheme)  # `master.run` refuses any other word
+            history, durations = _run(console, wheelset, contacts, parameters, step, seconds, chosen)
         out.mkdir(parents=True, exist_ok=True)
         history.write_csv(out / "wheelset.csv")
         _histories(plot, history).savefig(out / "time_histories.png")
@@ -79,7 +80,7 @@ def demo(
 
 def _fmus(
     stack: ExitStack, folder: Path, parameters: WheelsetParameters, friction: float
-) -> tuple[Component, list[Component]]:
+) -> tuple[Component, Sequence[Component]]:
     """The three FMUs, initialised; `stack` frees them."""
     try:
         from models.wheelset.fmu import FmuComponent

@@ -79,10 +79,10 @@ class FmuComponent:
     def step(self, time: float, h: float) -> None:
         self._call(self._fmu.doStep, time, h)
 
-    def save(self) -> object:
+    def save(self) -> Any:
         return self._fmu.getFMUState()
 
-    def restore(self, state: object) -> None:
+    def restore(self, state: Any) -> None:
         self._fmu.setFMUState(state)
         self._fmu.freeFMUState(state)
 

@@ -22,7 +22,7 @@ from os import PathLike
 from typing import Literal, get_args
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError, require_number
 from models.wheelset.components import Component
@@ -75,17 +75,17 @@ class History:
     def creep_power(self) -> Array:
         """Power of the creep forces on the creepages, both wheels, positive when dissipated [W]."""
         pairs = zip(PROBLEM[CREEPAGE], REACTION, strict=False)
-        return -self.speed * sum(self[f"{s}.{c}"] * self[f"{s}.{f}"] for c, f in pairs for s in SIDES)
+        return -self.speed * np.sum([self[f"{s}.{c}"] * self[f"{s}.{f}"] for c, f in pairs for s in SIDES], axis=0)
 
     @property
     def friction_power(self) -> Array:
         """Frictional power that the contacts report from their slip fields [W]."""
-        return sum(self[f"{side}.power.friction"] for side in SIDES)
+        return np.sum([self[f"{side}.power.friction"] for side in SIDES], axis=0)
 
     @property
     def elastic_energy(self) -> Array:
         """Energy stored in both contacts [J]: 2/5 of load times approach, exact for Hertz."""
-        return 0.4 * sum(self[f"{side}.load.normal_force"] * self[f"{side}.approach"] for side in SIDES)
+        return 0.4 * np.sum([self[f"{side}.load.normal_force"] * self[f"{side}.approach"] for side in SIDES], axis=0)
 
     @property
     def power_residual(self) -> Array:
@@ -149,7 +149,8 @@ def run(
     n = max(1, round(require_number("duration", duration, 0.0, open_minimum=True) / h))
     pairs = list(zip(SIDES, contacts, strict=True))
     values, given = np.empty((n, len(COLUMNS))), np.empty((n, len(SIDES), len(PROBLEM)))
-    rounds, answers = np.ones(n, dtype=np.int64), []
+    rounds = np.ones(n, dtype=np.int64)
+    answers: list[Array] = []
     for k in range(n):
         time = k * h
         if irregularity is not None:
@@ -188,7 +189,7 @@ def _mean_over_step(
     reactions: Sequence[Array],
     time: float,
     h: float,
-) -> tuple[Array, int]:
+) -> tuple[list[Array], int]:
     """Mean of the reactions now and at the end of the step that runs with it, and the rounds that it took.
 
     Everybody is left as found.
@@ -198,7 +199,7 @@ def _mean_over_step(
     def answer(end: Array) -> Array:
         """Reactions to where the wheelset comes with the mean of those now and an assumed `end`."""
         start = wheelset.save()
-        _advance(wheelset, 0.5 * (now + end.reshape(now.shape)), time, h)
+        _advance(wheelset, list(0.5 * (now + end.reshape(now.shape))), time, h)
         reached = [wheelset.read(f"{side}.problem") for side in SIDES]
         wheelset.restore(start)
         clocks = [contact.save() for _, contact in pairs]
@@ -210,7 +211,7 @@ def _mean_over_step(
     loads = [max(problem[LOAD], _LEAST_LOAD) for problem in problems]
     scale = np.concatenate([(load, load, load * _MOMENT_ARM, _APPROACH_SCALE) for load in loads])
     end, rounds = fixed_point(answer, now.ravel(), scale, TOLERANCE, MOST_ROUNDS)
-    return 0.5 * (now + end.reshape(now.shape)), rounds
+    return list(0.5 * (now + end.reshape(now.shape))), rounds
 
 
 def _row(
@@ -221,7 +222,7 @@ def _row(
     reactions: Sequence[Array],
 ) -> Array:
     """One line of the history."""
-    row = [[time], wheelset.read("motion"), wheelset.read("energy")]
+    row: list[ArrayLike] = [[time], wheelset.read("motion"), wheelset.read("energy")]
     for (side, contact), problem, reaction in zip(pairs, problems, reactions, strict=True):
         row += [problem[CREEPAGE], [problem[LOAD]], reaction, contact.read("report"), wheelset.read(f"{side}.frame")]
     return np.concatenate(row)

@@ -38,7 +38,9 @@ class WheelsetModel:
         sizes = [math.prod(shape) for shape in motion.REMEMBERED.values()]
         self._memory = np.zeros(sum(sizes))
         parts = np.split(self._memory, np.cumsum(sizes)[:-1])
-        remembered = (part.reshape(shape) for part, shape in zip(parts, motion.REMEMBERED.values(), strict=True))
+        remembered = {
+            name: part.reshape(shape) for part, (name, shape) in zip(parts, motion.REMEMBERED.items(), strict=True)
+        }
         samples = p.window_start + p.window_step * np.arange(POINTS)
         right, left = (
             Pair(
@@ -55,8 +57,8 @@ class WheelsetModel:
             for side in SIDES
         )
         self._wheelset = motion.Wheelset(
-            _constants(p),
-            *remembered,
+            constants=_constants(p),
+            **remembered,
             given=np.zeros(1, GIVEN),
             right=right.space,
             left=left.space,

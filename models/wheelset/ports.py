@@ -5,8 +5,10 @@ The wheelset's outputs of one side carry the names of the contact's inputs behin
 
 from __future__ import annotations
 
+from contact.geometry.wheelset import Side
+
 #: Sides in the order of every array.
-SIDES = ("right", "left")
+SIDES: tuple[Side, Side] = ("right", "left")
 #: Samples of the separation, a build option of `WheelRailContact`.
 POINTS = 41
 

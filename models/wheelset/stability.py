@@ -9,6 +9,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,7 +47,7 @@ def state_matrix(parameters: WheelsetParameters, friction: float = 0.3, amplitud
 
 
 def _rates(p: WheelsetParameters, contacts: Sequence[Component], name: str, value: float) -> NDArray[np.float64]:
-    motion = dict.fromkeys(_MOTION, 0.0) | {name: value}
+    motion: dict[str, Any] = dict.fromkeys(_MOTION, 0.0) | {name: value}
     model = WheelsetModel(dataclasses.replace(p, **motion))
     wheelset = DirectWheelset(model)
     for _ in range(_ROUNDS):

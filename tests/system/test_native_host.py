@@ -88,8 +88,7 @@ def test_two_fmus_in_one_process_do_not_meet(hosts, host, tmp_path):
 def test_the_wrapper_does_nothing_undefined(host, tmp_path):
     """Compiled such that what C leaves undefined ends the program."""
     model = component(POINTS)
-    (tmp_path / "model.h").write_text(source.header(model, host.guid))
-    (tmp_path / "model.c").write_text(source.body(model))
+    source.write(model, host.guid, tmp_path)
     checked = copy(host)
     checked.library = tmp_path / "checked.so"
     run(
