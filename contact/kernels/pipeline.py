@@ -3,15 +3,15 @@
 import math
 
 from contact._jit import chosen_by, kernel
-from contact.kernels import families, kalker
+from contact.kernels import families
 from contact.kernels.conformal import bend, project
-from contact.kernels.friction import of_bodies, of_case, over_profile, slope_of_case
+from contact.kernels.friction import of_bodies, of_case, over_profile
 from contact.kernels.layout import Element, Field, Status, Strip, TangentialFamily
 from contact.kernels.memory import Samples
 from contact.kernels.normal.lay import interval_minimum
 from contact.kernels.normal.press import fill_cut, press, share_of
 from contact.kernels.tangential.creep_force import creep_force
-from contact.kernels.tangential.ellipses import equivalent_ellipse
+from contact.kernels.tangential.ellipses import Part, end_of_patch, place_in_load, stiffness_of
 from contact.kernels.tangential.fastrip import fastrip
 from contact.kernels.tangential.fastrip_mapped import fastrip_mapped
 from contact.kernels.tangential.fastsim import fastsim
@@ -91,41 +91,41 @@ def _set_rolling(strips, n, case):
             strips[Strip.BOUND, i] *= over_profile(factor, case.border, case.border_width, strips[Strip.Y, i])
 
 
-def _roll_by(family, n, case, own, result):
-    """Solve the tangential problem of `n` strips by the kernel of the marker `family`."""
+def _roll_by(family, part, case, own, result):
+    """Solve the tangential problem of one patch by the kernel of the marker `family`."""
     raise NotImplementedError("only compiled kernels call this")
 
 
 @kernel
-def _fastrip(family, n, case, own, result):
-    fastrip(n, case, own, result)
+def _fastrip(family, part, case, own, result):
+    fastrip(part, case, own, result)
 
 
 @kernel
-def _fastrip_mapped(family, n, case, own, result):
-    fastrip_mapped(n, case, own, result)
+def _fastrip_mapped(family, part, case, own, result):
+    fastrip_mapped(part, case, own, result)
 
 
 @kernel
-def _fastsim(family, n, case, own, result):
-    fastsim(n, case, own, result)
+def _fastsim(family, part, case, own, result):
+    fastsim(part, case, own, result)
 
 
 @kernel
-def _creep_force(family, n, case, own, result):
-    creep_force(n, case, own, result)
+def _creep_force(family, part, case, own, result):
+    creep_force(part, case, own, result)
 
 
 @kernel
-def _any(family, n, case, own, result):
+def _any(family, part, case, own, result):
     if case.tangential_family == TangentialFamily.FASTSIM:
-        fastsim(n, case, own, result)
+        fastsim(part, case, own, result)
     elif case.tangential_family == TangentialFamily.FASTRIP_MAPPED:
-        fastrip_mapped(n, case, own, result)
+        fastrip_mapped(part, case, own, result)
     elif case.tangential_family == TangentialFamily.CREEP_FORCE:
-        creep_force(n, case, own, result)
+        creep_force(part, case, own, result)
     else:
-        fastrip(n, case, own, result)
+        fastrip(part, case, own, result)
 
 
 chosen_by(
@@ -142,15 +142,18 @@ chosen_by(
 
 @kernel
 def _roll(n, case, own, result):
-    """Solve the tangential problem with the friction and the creep stiffness of the surface."""
+    """Solve the tangential problem patch by patch, with the friction and the creep stiffness of the surface."""
     own.space.case[0] = case
     surface = own.space.case[0]
     surface.mu = of_case(case)
-    if case.slope != 1.0 or case.slope_far != 1.0:
-        a, b = equivalent_ellipse(own.strips, n)
-        c11 = kalker.coefficients(own.tables.kalker, math.log(a / b))[0] if b > 0.0 else 0.0
-        surface.G = case.G * slope_of_case(case, a, b, c11, surface.mu * result.N, case.phi * a)
-    _roll_by(own.families.tangential, n, surface, own, result)
+    first = 0
+    while first < n:
+        last = end_of_patch(own.strips, n, first)
+        share, x, y = place_in_load(own.strips, n, first, last)
+        part = Part(first, last, share * result.N, x, y)
+        surface.G = stiffness_of(part, case, surface.mu * part.N, own)
+        _roll_by(own.families.tangential, part, surface, own, result)
+        first = last
 
 
 @kernel
