@@ -6,7 +6,7 @@ from contact._jit import chosen_by, kernel
 from contact.kernels import families
 from contact.kernels.conformal import bend, project
 from contact.kernels.friction import of_bodies, of_case, over_profile
-from contact.kernels.layout import Element, Field, Status, Strip, TangentialFamily
+from contact.kernels.layout import Element, Field, Status, Strip, Tangential, TangentialFamily
 from contact.kernels.memory import Samples
 from contact.kernels.normal.lay import interval_minimum
 from contact.kernels.normal.press import fill_cut, press, share_of
@@ -68,14 +68,41 @@ def _limit_pressure(strips, n, limit, elements, fields, N):
 
 
 @kernel
-def _rescale_tractions(strips, n, elements, fields):
-    """Rescale the tractions so that |q|/(mu p) is unchanged after the pressure was limited."""
-    for i in range(min(n, fields.shape[1])):
+def _bears_pressure(case):
+    """Whether the traction of a method is bounded by the pressure: not so where forces are all or the bound is a parabola."""
+    family = case.tangential_family
+    return family == TangentialFamily.FASTRIP or family == TangentialFamily.FASTRIP_MAPPED or (
+        case.tangential == Tangential.FASTSIM_ELLIPTIC
+    )
+
+
+@kernel
+def _bear(strips, n, case, elements, fields, result):
+    """Carry the traction under the semi-ellipses over to the cut pressure, and what this changes to the resultants.
+
+    Where an element slips its traction is changed in the ratio of the pressures. Where it sticks the bodies' stiffness makes
+    the traction, whatever the pressure: there the change fades with the square of the utilisation of friction. The ratio is
+    at least π/4 (theory.md 8.4), so that the traction never exceeds friction.
+    """
+    if n > fields.shape[1]:  # no fields to carry over
+        return
+    mu = of_case(case)
+    for i in range(n):
+        y, dy = strips[Strip.Y, i], strips[Strip.DY, i]
         for k in range(elements.shape[1]):
             under = strips[Strip.P0, i] * elements[Element.SINE, k]
-            share = fields[Field.P, i, k] / under if under > 0.0 else 0.0
-            fields[Field.QX, i, k] *= share
-            fields[Field.QY, i, k] *= share
+            bound = mu * strips[Strip.BOUND, i] * elements[Element.SINE, k]
+            qx, qy, x = fields[Field.QX, i, k], fields[Field.QY, i, k], fields[Field.X, i, k]
+            if under <= 0.0 or bound <= 0.0:
+                continue
+            used = min((qx * qx + qy * qy) / (bound * bound), 1.0) if fields[Field.STICK, i, k] > 0.5 else 1.0
+            more = used * (fields[Field.P, i, k] / under - 1.0)
+            fields[Field.QX, i, k], fields[Field.QY, i, k] = qx + more * qx, qy + more * qy
+            load = more * fields[Field.DX, i, k] * dy
+            result.Fx += load * qx
+            result.Fy += load * qy
+            result.Mz += load * (x * qy - y * qx)
+            result.power -= load * (qx * fields[Field.SX, i, k] + qy * fields[Field.SY, i, k])
 
 
 @kernel
@@ -191,8 +218,8 @@ def roll_case(n, case, own, result):
     """The second half of `solve_case`: the tangential problem of `n` > 0 strips."""
     strips = own.strips
     _roll(n, case, own, result)
-    if result.limited != 0:
-        _rescale_tractions(strips, n, own.rule.elements, own.fields)
+    if result.limited != 0 and _bears_pressure(case):
+        _bear(strips, n, case, own.rule.elements, own.fields, result)
     full = result.area * (1.0 - 1e-12)
     if result.status == Status.OK and case.mu > 0.0 and result.slip_area >= full:
         result.status = Status.SATURATED
@@ -211,7 +238,7 @@ def solve_case(sep, case, own, result):
         The case is only read.
     own : Workspace
         `contact.workspace.allocate` makes a fitting one. Where fields have a single row only strips and result have a meaning. A
-        case on a bent surface (`case.conformal`) needs all rows.
+        case on a bent surface (`case.conformal`) or with a limit of the pressure needs all rows.
     """
     n = press_case(sep, case, own, result)
     if n == 0:
