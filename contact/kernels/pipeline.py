@@ -220,6 +220,8 @@ def roll_case(n, case, own, result):
     _roll(n, case, own, result)
     if result.limited != 0 and _bears_pressure(case):
         _bear(strips, n, case, own.rule.elements, own.fields, result)
+    if not abs(result.Fx) + abs(result.Fy) + abs(result.Mz) + result.N < math.inf:
+        result.status = Status.NOT_CONVERGED  # gaps or creepages so large that numbers overflow
     full = result.area * (1.0 - 1e-12)
     if result.status == Status.OK and case.mu > 0.0 and result.slip_area >= full:
         result.status = Status.SATURATED
