@@ -125,7 +125,8 @@ def forces(
 
     def work(chunks: range) -> None:
         size = n_strips, n_elements, longest
-        own = workspace.allocate(method, rolling, material.poisson_ratio, size, fields=conformal)
+        with_fields = conformal or material.pressure_limit < np.inf  # by which forces are changed
+        own = workspace.allocate(method, rolling, material.poisson_ratio, size, fields=with_fields)
         for first in chunks:
             solve_cases(first, min(first + _CHUNK, count), samples, bounds, which, cases, own, results)
 

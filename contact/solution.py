@@ -37,6 +37,8 @@ class Strips:
     p0 : peak pressure [Pa]
     aspect : a/b of the local ellipse [-]
     patch : label of the patch, 0, 1, …
+    longitudinal, lateral, spin, tilt : creepages of each strip [-], [-], [1/m], its rigid slip being (longitudinal - spin·y,
+        lateral + spin·x), and slope of the surface against the plane, where that is bent (`conformal`); None on a plane
     """
 
     y: Array
@@ -46,6 +48,10 @@ class Strips:
     p0: Array
     aspect: Array
     patch: NDArray[np.int64]
+    longitudinal: Array | None = None
+    lateral: Array | None = None
+    spin: Array | None = None
+    tilt: Array | None = None
 
 
 class Prepared(NamedTuple):
@@ -243,7 +249,7 @@ def _attributes(
     result = numbers.view(RESULT)[0]
     y, dA = np.repeat(strips[Strip.Y][:, None], fields.shape[2], axis=1), fields[Field.DX] * strips[Strip.DY][:, None]
     stick, patch = fields[Field.STICK] > 0.5, strips[Strip.PATCH].astype(np.int64)
-    edges = result.edges[: 2 * result.n_patches].reshape(-1, 2)
+    edges, bent = result.edges[: 2 * result.n_patches].reshape(-1, 2), case.view(CASE)[0].conformal != 0
     for array in (numbers, strips, fields, memory, y, dA, stick, patch, edges):
         array.setflags(write=False)
     return {
@@ -270,6 +276,10 @@ def _attributes(
             p0=strips[Strip.P0],
             aspect=strips[Strip.ASPECT],
             patch=patch,
+            longitudinal=strips[Strip.VX] if bent else None,
+            lateral=strips[Strip.VY] if bent else None,
+            spin=strips[Strip.PHI] if bent else None,
+            tilt=strips[Strip.TILT] if bent else None,
         ),
         "x": fields[Field.X],
         "y": y,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -153,9 +154,9 @@ class Solver:
         self._own = workspace.allocate(self.normal, self.tangential, nu, size)
         self._n_samples = n_samples
         self._kernel = _kernel(self._own, self._case, self._result)
-        # forces only: one row of fields serves all strips, unless the surface of contact is bent
-        one_row = self._own.fields if self.conformal else self._own.fields[:, :1].copy()
-        self._lean = self._own._replace(fields=one_row)
+        # forces only: one row of fields serves all strips, unless forces are changed by what their fields change
+        needed = self.conformal or self.material.pressure_limit < math.inf
+        self._lean = self._own._replace(fields=self._own.fields if needed else self._own.fields[:, :1].copy())
 
     def solve(
         self,

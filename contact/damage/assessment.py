@@ -100,7 +100,7 @@ class ArchardWear:
     depth : what each element takes off [m per m rolled], shape (n_strips, n_elements)
     depth_per_strip : its sum along the rolling direction, the wear profile over the strips' y [m per m rolled]
     depth_max : largest depth of a strip [m per m rolled]
-    volume : ∬ k p |s|/H dA = 2πr ∫ depth dy [m³ per m rolled]
+    volume : ∬ k p |s|/H dA = 2πr ∫ depth dy [m³ per m rolled]; on a bent surface dy along it
     wheel_radius : r [m]
     """
 
@@ -220,6 +220,11 @@ def _arrays(solution: Solution) -> tuple[Array, Array, np.record, np.record]:
     shape = solution.p.shape
     strips = np.zeros((N_STRIP_ROWS, shape[0]))
     strips[Strip.Y], strips[Strip.DY], strips[Strip.A] = solution.strips.y, solution.strips.dy, solution.strips.a
+    creepage, own = solution.creepage, solution.strips
+    strips[Strip.VX] = creepage.longitudinal if own.longitudinal is None else own.longitudinal
+    strips[Strip.VY] = creepage.lateral if own.lateral is None else own.lateral
+    strips[Strip.PHI] = creepage.spin if own.spin is None else own.spin
+    strips[Strip.TILT] = 0.0 if own.tilt is None else own.tilt
     fields = np.zeros((N_FIELD_ROWS, *shape))
     fields[Field.X], fields[Field.P] = solution.x, solution.p
     fields[Field.DX] = solution.dA / strips[Strip.DY][:, None]
@@ -227,7 +232,6 @@ def _arrays(solution: Solution) -> tuple[Array, Array, np.record, np.record]:
         fields[Field.QX], fields[Field.QY] = solution.qx, solution.qy
         fields[Field.SX], fields[Field.SY] = solution.sx, solution.sy
     case, result = np.zeros(1, CASE)[0], np.zeros(1, RESULT)[0]
-    creepage = solution.creepage
     method = methods().tangential[solution.tangential]
     case.tangential, case.tangential_family = method.id, method.family
     case.vx, case.vy, case.phi = creepage.longitudinal, creepage.lateral, creepage.spin

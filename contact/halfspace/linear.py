@@ -70,11 +70,27 @@ def flexibilities(strips: Strips, material: Material, n_elements: int) -> Array:
 
 
 def coefficients(flexibility: Array, strips: Strips, material: Material) -> tuple[float, float, float]:
-    """C11, C22, C23 of the equivalent ellipse of `strips` that stand for L1, L2, L3 (`tangential.ellipses`)."""
+    """C11, C22, C23 that stand for L1, L2, L3, with the equivalent ellipse of each separate patch (`tangential.ellipses`).
+
+    One set serves all patches, with which the slopes of the whole forces are those of the `flexibility`.
+    """
     L1, L2, L3 = flexibility
-    a, G = float(strips.a.max()), material.shear_modulus
-    b = 2.0 * float(strips.a @ strips.dy) / (math.pi * a)
-    return 8.0 * a / (3.0 * G * L1), 8.0 * a / (3.0 * G * L2), math.pi * a**2 / (4.0 * G * math.sqrt(a * b) * L3)
+    G = material.shear_modulus
+    moment = 2.0 * strips.a**2 * strips.dy
+    middle = strips.x_c @ moment / moment.sum()
+    of_spin = (strips.x_c - middle) * moment + 2.0 / 3.0 * strips.a**3 * strips.dy
+    patches, length, square_length = np.unique(strips.patch), 0.0, 0.0
+    for own in (strips.patch == k for k in patches):
+        a = float(strips.a[own].max())
+        b = 2.0 * float(strips.a[own] @ strips.dy[own]) / (math.pi * a)
+        if patches.size == 1:
+            length, square_length = a, a**2 / math.sqrt(a * b)
+            break
+        length += moment[own].sum() / moment.sum() / a
+        square_length += of_spin[own].sum() / of_spin.sum() * math.sqrt(a * b) / a**2
+    if patches.size > 1:
+        length, square_length = 1.0 / length, 1.0 / square_length
+    return 8.0 * length / (3.0 * G * L1), 8.0 * length / (3.0 * G * L2), math.pi * square_length / (4.0 * G * L3)
 
 
 def extrapolated(at: Callable[[int], Array], coarse: int = 12, fine: int = 18) -> Array:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.creepage import Creepage
+from contact.halfspace.bent import Bent
 from contact.halfspace.tang import Tangential
 from contact.material import Material
 from contact.solution import Solution, Status, Strips
@@ -48,7 +49,7 @@ def assemble(
     y: Array,
     p: Array,
     rolling: Tangential,
-    tilt: Array,
+    own: Bent,
     *,
     approach: float,
     stiffness: float,
@@ -61,7 +62,7 @@ def assemble(
     normal: str,
     tangential: str,
 ) -> GridSolution:
-    """Make the record of fields (ny, nx) over rising `x`, `y`; `tilt` is each row's slope (`contact.kernels.conformal`)."""
+    """Make the record from fields (ny, nx) over increasing `x`, `y`; `own` are creepages and slope of each row."""
     touching = p > 0.0
     rows, columns = np.flatnonzero(touching.any(axis=1)), np.flatnonzero(touching.any(axis=0))
     dx, dy = float(x[1] - x[0]), float(y[1] - y[0])
@@ -84,7 +85,8 @@ def assemble(
     )
     slips = inside & ~rolling.stick[box]
     force = dx * dy
-    slope = tilt[rows][:, None]
+    slope = own.tilt[rows][:, None]
+    bent = bool(own.tilt.any())
     longer = np.sqrt(1.0 + slope * slope)
     sideways = slope * p[box]
     fx, fy = longer * qx, qy + sideways
@@ -114,6 +116,10 @@ def assemble(
             p0=p[rows].max(axis=1, initial=0.0),
             aspect=length / widths[label] if count else np.zeros(0),
             patch=label.astype(np.int64),
+            longitudinal=own.vx[rows] if bent else None,
+            lateral=own.vy[rows] if bent else None,
+            spin=own.phi[rows] if bent else None,
+            tilt=own.tilt[rows] if bent else None,
         ),
         x=grid_x,
         y=grid_y,

@@ -106,16 +106,19 @@ def over_profile(factor, border, width, y):
 
 
 @kernel
-def slope_of_case(case, a, b, c11, limit, phi_arm):
+def slope_of_case(case, place, a, b, c11, limit):
     """Factor on the flexibility's inverse, k = k0 (far + (1 - far)/(1 + rate·eps)) (Spiryagin et al. 2013; theory.md 8.2).
 
-    eps = G π a b k0 C11 v/(4 mu N), v² = ξ² + η_φ², η_φ = η + phi·a if that is larger; `limit` is mu N, `phi_arm` phi·a.
+    eps = G π a b k0 C11 v/(4 mu N), v² = ξ² + η_φ², η_φ = η + phi·a if that is larger; `limit` is mu N, (ξ, η) the creepage
+    at the `place` (x, y) of the patch.
     """
     k0, far = case.slope, case.slope_far
     if far == 1.0 or limit <= 0.0:
         return k0
-    with_spin = case.vy + phi_arm
-    lateral = with_spin if abs(with_spin) > abs(case.vy) else case.vy
-    v = math.sqrt(case.vx**2 + lateral * lateral)
+    x, y = place
+    vx, vy = case.vx - case.phi * y, case.vy + case.phi * x
+    with_spin = vy + case.phi * a
+    lateral = with_spin if abs(with_spin) > abs(vy) else vy
+    v = math.sqrt(vx**2 + lateral * lateral)
     eps = 0.25 * math.pi * case.G * a * b * k0 * c11 * v / limit
     return k0 * (far + (1.0 - far) / (1.0 + case.slope_rate * eps))

@@ -97,7 +97,7 @@ def local_factors(A: float, B: float) -> tuple[float, float, float, float]:
     1 + alpha = delta/(A a²), 1 + beta = delta/(B b²); B/A is clamped to [1.2e-7, 8.8e6].
     """
     u = (math.log(B / A) + _U_MAX) / _U_STEP
-    u = min(max(u, 0.0), 2.0 * _U_MAX / _U_STEP - 1e-9)
+    u = min(u, 2.0 * _U_MAX / _U_STEP - 1e-9) if u > 0.0 else 0.0  # no number, from gaps that overflow, counts as 0
     i = int(u)
     t = u - i
     w = 1.0 - t

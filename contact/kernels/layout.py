@@ -422,7 +422,7 @@ class Strip(IntEnum):
     VX = 8  # creepages: rigid slip VX - PHI·y, VY + PHI·x
     VY = 9
     PHI = 10
-    TILT = 11  # slope of the surface against the plane
+    TILT = 11  # slope of the surface against the plane; 0 where it is one
     TO_X = 12  # what effective creepages add to those of the strip, and to the exponent of mapped strip marching
     TO_Y = 13
     TO_PHI = 14

@@ -3,15 +3,15 @@
 import math
 
 from contact._jit import chosen_by, inlined, kernel
-from contact.kernels import families, kalker
+from contact.kernels import families
 from contact.kernels.conformal import bend, project
-from contact.kernels.friction import of_bodies, of_case, over_profile, slope_of_case
-from contact.kernels.layout import Element, Field, Status, Strip, TangentialFamily
+from contact.kernels.friction import of_bodies, of_case, over_profile
+from contact.kernels.layout import Element, Field, Status, Strip, Tangential, TangentialFamily
 from contact.kernels.memory import Samples
 from contact.kernels.normal.lay import interval_minimum
 from contact.kernels.normal.press import fill_cut, press, share_of
 from contact.kernels.tangential.creep_force import creep_force
-from contact.kernels.tangential.ellipses import equivalent_ellipse
+from contact.kernels.tangential.ellipses import Part, end_of_patch, place_in_load, stiffness_of
 from contact.kernels.tangential.fastrip import fastrip
 from contact.kernels.tangential.fastrip_mapped import fastrip_mapped
 from contact.kernels.tangential.fastsim import fastsim
@@ -68,14 +68,43 @@ def _limit_pressure(strips, n, limit, elements, fields, N):
 
 
 @kernel
-def _rescale_tractions(strips, n, elements, fields):
-    """Rescale the tractions so that |q|/(mu p) is unchanged after the pressure was limited."""
-    for i in range(min(n, fields.shape[1])):
+def _bears_pressure(case):
+    """Whether the traction of a method is bounded by the pressure: not so where forces are all or the bound is a parabola."""
+    family = case.tangential_family
+    return (
+        family == TangentialFamily.FASTRIP
+        or family == TangentialFamily.FASTRIP_MAPPED
+        or (case.tangential == Tangential.FASTSIM_ELLIPTIC)
+    )
+
+
+@kernel
+def _bear(strips, n, case, elements, fields, result):
+    """Carry the traction under the semi-ellipses over to the cut pressure, and what this changes to the resultants.
+
+    Where an element slips its traction is changed in the ratio of the pressures. Where it sticks the bodies' stiffness makes
+    the traction, whatever the pressure: there the change fades with the square of the utilisation of friction. The ratio is
+    at least π/4 (theory.md 8.4), so that the traction never exceeds friction.
+    """
+    if n > fields.shape[1]:  # no fields to carry over
+        return
+    mu = of_case(case)
+    for i in range(n):
+        y, dy = strips[Strip.Y, i], strips[Strip.DY, i]
         for k in range(elements.shape[1]):
             under = strips[Strip.P0, i] * elements[Element.SINE, k]
-            share = fields[Field.P, i, k] / under if under > 0.0 else 0.0
-            fields[Field.QX, i, k] *= share
-            fields[Field.QY, i, k] *= share
+            bound = mu * strips[Strip.BOUND, i] * elements[Element.SINE, k]
+            qx, qy, x = fields[Field.QX, i, k], fields[Field.QY, i, k], fields[Field.X, i, k]
+            if under <= 0.0 or bound <= 0.0:
+                continue
+            used = min((qx * qx + qy * qy) / (bound * bound), 1.0) if fields[Field.STICK, i, k] > 0.5 else 1.0
+            more = used * (fields[Field.P, i, k] / under - 1.0)
+            fields[Field.QX, i, k], fields[Field.QY, i, k] = qx + more * qx, qy + more * qy
+            load = more * fields[Field.DX, i, k] * dy
+            result.Fx += load * qx
+            result.Fy += load * qy
+            result.Mz += load * (x * qy - y * qx)
+            result.power -= load * (qx * fields[Field.SX, i, k] + qy * fields[Field.SY, i, k])
 
 
 @kernel
@@ -91,41 +120,41 @@ def _set_rolling(strips, n, case):
             strips[Strip.BOUND, i] *= over_profile(factor, case.border, case.border_width, strips[Strip.Y, i])
 
 
-def _roll_by(family, n, case, own, result):
-    """Solve the tangential problem of `n` strips by the kernel of the marker `family`."""
+def _roll_by(family, part, case, own, result):
+    """Solve the tangential problem of one patch by the kernel of the marker `family`."""
     raise NotImplementedError("only compiled kernels call this")
 
 
 @inlined
-def _fastrip(family, n, case, own, result):
-    fastrip(n, case, own, result)
+def _fastrip(family, part, case, own, result):
+    fastrip(part, case, own, result)
 
 
 @inlined
-def _fastrip_mapped(family, n, case, own, result):
-    fastrip_mapped(n, case, own, result)
+def _fastrip_mapped(family, part, case, own, result):
+    fastrip_mapped(part, case, own, result)
 
 
 @inlined
-def _fastsim(family, n, case, own, result):
-    fastsim(n, case, own, result)
+def _fastsim(family, part, case, own, result):
+    fastsim(part, case, own, result)
 
 
 @inlined
-def _creep_force(family, n, case, own, result):
-    creep_force(n, case, own, result)
+def _creep_force(family, part, case, own, result):
+    creep_force(part, case, own, result)
 
 
 @kernel
-def _any(family, n, case, own, result):
+def _any(family, part, case, own, result):
     if case.tangential_family == TangentialFamily.FASTSIM:
-        fastsim(n, case, own, result)
+        fastsim(part, case, own, result)
     elif case.tangential_family == TangentialFamily.FASTRIP_MAPPED:
-        fastrip_mapped(n, case, own, result)
+        fastrip_mapped(part, case, own, result)
     elif case.tangential_family == TangentialFamily.CREEP_FORCE:
-        creep_force(n, case, own, result)
+        creep_force(part, case, own, result)
     else:
-        fastrip(n, case, own, result)
+        fastrip(part, case, own, result)
 
 
 chosen_by(
@@ -142,15 +171,18 @@ chosen_by(
 
 @inlined
 def _roll(n, case, own, result):
-    """Solve the tangential problem with the friction and the creep stiffness of the surface."""
+    """Solve the tangential problem patch by patch, with the friction and the creep stiffness of the surface."""
     own.space.case[0] = case
     surface = own.space.case[0]
     surface.mu = of_case(case)
-    if case.slope != 1.0 or case.slope_far != 1.0:
-        a, b = equivalent_ellipse(own.strips, n)
-        c11 = kalker.coefficients(own.tables.kalker, math.log(a / b))[0] if b > 0.0 else 0.0
-        surface.G = case.G * slope_of_case(case, a, b, c11, surface.mu * result.N, case.phi * a)
-    _roll_by(own.families.tangential, n, surface, own, result)
+    first = 0
+    while first < n:
+        last = end_of_patch(own.strips, n, first)
+        share, x, y = place_in_load(own.strips, n, first, last)
+        part = Part(first, last, share * result.N, x, y)
+        surface.G = stiffness_of(part, case, surface.mu * part.N, own)
+        _roll_by(own.families.tangential, part, surface, own, result)
+        first = last
 
 
 @inlined
@@ -188,8 +220,10 @@ def roll_case(n, case, own, result):
     """The second half of `solve_case`: the tangential problem of `n` > 0 strips."""
     strips = own.strips
     _roll(n, case, own, result)
-    if result.limited != 0:
-        _rescale_tractions(strips, n, own.rule.elements, own.fields)
+    if result.limited != 0 and _bears_pressure(case):
+        _bear(strips, n, case, own.rule.elements, own.fields, result)
+    if not abs(result.Fx) + abs(result.Fy) + abs(result.Mz) + result.N < math.inf:
+        result.status = Status.NOT_CONVERGED  # gaps or creepages so large that numbers overflow
     full = result.area * (1.0 - 1e-12)
     if result.status == Status.OK and case.mu > 0.0 and result.slip_area >= full:
         result.status = Status.SATURATED
@@ -208,7 +242,7 @@ def solve_case(sep, cases, own, results):
         The case is only read. An array is cheaper to pass from Python than a record.
     own : Workspace
         `contact.workspace.allocate` makes a fitting one. Where fields have a single row only strips and result have a meaning. A
-        case on a bent surface (`case.conformal`) needs all rows.
+        case on a bent surface (`case.conformal`) or with a limit of the pressure needs all rows.
     """
     case, result = cases[0], results[0]
     n = press_case(sep, case, own, result)

@@ -23,11 +23,19 @@ def clear_damage(damage):
 
 
 @kernel
+def strip_width(strips, i):
+    """Width of strip i along the surface, dy/cos: more than dy where that is bent (`contact.kernels.conformal`)."""
+    return strips[Strip.DY, i] * math.sqrt(1.0 + strips[Strip.TILT, i] ** 2)
+
+
+@kernel
 def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, damage):
     """Fill `damage` and the first `n` strips of `damage_fields` from a solved case (see `contact.kernels.layout`).
 
     The depth of an element is spread over the circumference, so it is metre per metre rolled; the volume is that of all
-    strips, ∬ k p |s|/H dA. With n = 0 everything is zero, and what needs fields where the law gives forces alone.
+    strips, ∬ k p |s|/H dA over the surface. The energy index takes the rigid slip of each strip at its place on the surface,
+    T-gamma the plane's creepages and the resultants in its frame. With n = 0 everything is zero, and what needs fields where
+    the law gives forces alone.
     """
     clear_damage(damage)
     without_fields = case.tangential_family == TangentialFamily.CREEP_FORCE
@@ -58,7 +66,7 @@ def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, da
     speed, hardness, archard = parameters.speed, parameters.hardness, parameters.archard
     columns, to_depth = fields.shape[2], 1.0 / (circumference * hardness)
     for i in range(n):
-        y = strips[Strip.Y, i]
+        y, own_x, own_y, own_phi = strips[Strip.Y, i], strips[Strip.VX, i], strips[Strip.VY, i], strips[Strip.PHI, i]
         # one loop an index: with more the compiler gives up vector instructions
         for j in range(columns):
             slip = math.sqrt(fields[Field.SX, i, j] ** 2 + fields[Field.SY, i, j] ** 2)
@@ -69,7 +77,7 @@ def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, da
             damage_fields[DamageField.STRESS_INDEX, i, j] = stress
         for j in range(columns):
             damage_fields[DamageField.ENERGY_INDEX, i, j] = energy_index_kernel(
-                fields[Field.QX, i, j], fields[Field.QY, i, j], fields[Field.X, i, j], y, vx, vy, phi
+                fields[Field.QX, i, j], fields[Field.QY, i, j], fields[Field.X, i, j], y, own_x, own_y, own_phi
             )
         lost = 0.0  # by a particle that crosses the patch along this strip, over the circumference
         for j in range(columns):
@@ -77,6 +85,6 @@ def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, da
             stress_max = max(stress_max, damage_fields[DamageField.STRESS_INDEX, i, j])
             energy_max = max(energy_max, damage_fields[DamageField.ENERGY_INDEX, i, j])
         depth_max = max(depth_max, lost)
-        volume += lost * circumference * strips[Strip.DY, i]
+        volume += lost * circumference * strip_width(strips, i)
     damage.archard_depth, damage.archard_volume = depth_max, volume
     damage.stress_index, damage.energy_index = stress_max, energy_max

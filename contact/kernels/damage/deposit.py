@@ -7,6 +7,7 @@ convention of the right side; its arc length counts from the point nearest to y 
 import math
 
 from contact._jit import kernel
+from contact.kernels.damage.assess import strip_width
 from contact.kernels.damage.usfd import usfd_kernel
 from contact.kernels.layout import Bin, Curve, DamageField, Field, Strip, WearLaw
 
@@ -45,7 +46,7 @@ def strip_rates(strips, n, fields, parameters, damage, damage_fields, rates):
     """
     area = 0.0
     for i in range(n):
-        area += 2.0 * strips[Strip.A, i] * strips[Strip.DY, i]
+        area += 2.0 * strips[Strip.A, i] * strip_width(strips, i)
     for i in range(n):
         chord, length, energy, stress, greatest = 2.0 * strips[Strip.A, i], 0.0, 0.0, -math.inf, -math.inf
         for j in range(fields.shape[2]):
@@ -161,7 +162,7 @@ def deposit(rates, edges, strips, n, settings, is_wheel, bins):
             right = high if k == last else min(max(width * (start + k + 1.0), left), high)
             share = (right - left) / (high - low) if high > low else 1.0
             left = right
-            amount = distance * strips[Strip.DY, i] * share
+            amount = distance * strip_width(strips, i) * share
             for row in range(Bin.ENERGY_INDEX_MAX):
                 rate = rates[Bin.VOLUME, i] if row == Bin.WEAR and not is_wheel else rates[row, i]
                 of_the_bin = row == Bin.VOLUME or row == Bin.T_GAMMA  # the others are means over its width

@@ -13,7 +13,11 @@ from contact.kernels.geometry.search import axle, combine, lobes, on_wheel
 from contact.kernels.layout import Curve, Sep
 from contact.kernels.memory import Search
 
+Direction = tuple[float, float, float]
+
 MARGIN = 3e-3  # [m] by which samples extend beyond the interpenetration: the room of a second difference there
+_ARM = 0.2e-3  # [m] to both sides, over which the curvature of the trace line is taken
+_MOST = 0.8  # share of A that it may make; only noise of a profile makes more
 _OPENING = 1.0  # slope at which the gap opens where a profile, or the patch's own range, ends
 
 
@@ -55,6 +59,41 @@ def positions(motion: Record, frame: Frame, wheel: Array, n_wheel: int, patch: R
 
 
 @kernel
+def half_curvature(wheel: Array, n_wheel: int, j: int, u: float, tilt: float, r: float, axis: Direction) -> float:
+    """Half the second derivative along x of the gap at the trace point `u`: A [1/m], exact for any yaw and roll.
+
+    The surface is F = rho - R(d) = 0 with d the distance along the axle l and rho that from it. At a point of the trace line
+    F_x = 0, so that the height v along the plane's normal N has v_xx = -F_xx/F_v. With the ring's tangent t = l × e_r
+
+        F_xx = t_x²/r - R'' l_x²,   t_x² = 1 - s²,   s² = l_x² (1 + R'²),   F_v = |grad F| cos D = √(1 + R'²) cos D,
+
+    D the angle between surface and plane. In normal curvatures, of the ring a = 1/(r √(1 + R'²)) and of the profile
+    m = -R''/(1 + R'²)^(3/2), this is Euler's 2 A cos D = a (1 - s²) + m s². The trace line is the outline of the wheel seen
+    along x; its curvature k obeys k (a (1 - s²) + m s²) = a m (both are Gauss's curvature), and m drops out:
+
+        2 A cos D = a (1 - s²)/(1 - k s²/a).
+
+    k is that of the arc through the trace line's points at `_ARM` on both sides: profiles' own second derivatives are noise.
+    `tilt` is the slope of the trace line in track coordinates, `axis` the direction of the axle.
+    """
+    lx, ly, lz = axis
+    slope = at(wheel, j, u)[1]
+    normal_y, normal_z = -tilt / math.sqrt(1.0 + tilt * tilt), 1.0 / math.sqrt(1.0 + tilt * tilt)
+    nl = normal_y * ly + normal_z * lz  # -R'/√(1 + R'²)
+    across2 = 1.0 / (1.0 - nl * nl)  # 1 + R'²
+    ring, s2 = 1.0 / (r * math.sqrt(across2)), lx * lx * across2
+    low, high = max(u - _ARM, wheel[Curve.Y, 0]), min(u + _ARM, wheel[Curve.Y, n_wheel - 1])
+    while j > 0 and wheel[Curve.Y, j] > low:
+        j -= 1
+    v0, m0 = at(wheel, j, low)
+    v1, m1 = at(wheel, advance(wheel, n_wheel, j, high), high)
+    chord = math.sqrt((high - low) ** 2 + (v1 - v0) ** 2)
+    outline = 2.0 * math.sin(0.5 * (math.atan(m0) - math.atan(m1))) / chord if chord > 0.0 else 0.0
+    more = min(outline * s2 / ring, _MOST)
+    return 0.5 * ring * (1.0 - s2) / (1.0 - more) * math.sqrt(1.0 + slope * slope)
+
+
+@kernel
 def sample(
     frame: Frame, n_wheel: int, n_rail: int, low: float, high: float, patch: Record, out: Array, space: Search
 ) -> None:
@@ -83,8 +122,7 @@ def sample(
         rail_height, rail_slope = at(rail, i, v)
         gap = rail_height - height + patch.approach
         out[Sep.G, k] = max(gap, 0.0) + _OPENING * abs(u - v)
-        # curvature cos/(2 r) of the ring along its own normal, seen along the plane's: cos(angle)/(2 r cos(angle - plane))
-        out[Sep.A, k] = 0.5 / r * math.sqrt((1.0 + slope * slope) / (1.0 + tilt * tilt))
+        out[Sep.A, k] = half_curvature(wheel, n_wheel, j, v, tilt, r, (lx, ly, lz))
         out[Sep.XC, k] = x - patch.x
         out[Sep.TILT, k] = 0.5 * (slope + rail_slope)
 

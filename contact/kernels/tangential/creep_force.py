@@ -1,4 +1,4 @@
-"""Laws that give forces alone, on every patch of strips: each patch is its equivalent ellipse, rolling at its centre of load.
+"""Laws that give forces alone, patch by patch of strips: each patch is its equivalent ellipse, rolling at its centre of load.
 
 The ellipse has the area of the patch and the longest strip as semi-axis a; Poisson's ratio, friction and load are the
 patch's own. What the law says about the ellipse's middle is taken about the separation's origin. There are no fields; the
@@ -45,34 +45,28 @@ def of_ellipse(case, creepage, a, b, limit, tables):
 
 
 @kernel
-def creep_force(n, case, own, result):
-    """Fill the tangential part of `result`; traction and slip of the fields are zero."""
-    strips, fields = own.strips, own.fields
-    rows = min(n, fields.shape[1])
-    fields[Field.QX : Field.STICK + 1, :rows, :] = 0.0
-    first = 0
-    while first < n:
-        last = first
-        load, load_y, load_x, bound = 0.0, 0.0, 0.0, 0.0
-        while last < n and strips[Strip.PATCH, last] == strips[Strip.PATCH, first]:
-            share = 0.5 * math.pi * strips[Strip.P0, last] * strips[Strip.A, last] * strips[Strip.DY, last]
-            load += share
-            bound += 0.5 * math.pi * strips[Strip.BOUND, last] * strips[Strip.A, last] * strips[Strip.DY, last]
-            load_y += share * strips[Strip.Y, last]
-            load_x += share * strips[Strip.XC, last]
-            last += 1
-        a, b = equivalent_ellipse(strips[:, first:last], last - first)
-        first = last
-        if load <= 0.0 or b <= 0.0:
-            continue
-        y, x = load_y / load, load_x / load
-        vx, vy, phi = case.vx - case.phi * y, case.vy + case.phi * x, case.phi
-        limit = case.mu * bound
-        if limit <= NO_FRICTION * case.G * a * b:
-            limit = 0.0
-        Fx, Fy, Mz, slip = of_ellipse(case, (vx, vy, phi), a, b, limit, own.tables)
-        result.Fx += Fx
-        result.Fy += Fy
-        result.Mz += Mz + x * Fy - y * Fx
-        result.power += max(-(Fx * vx + Fy * vy + Mz * phi), 0.0)
-        result.slip_area += slip * math.pi * a * b
+def creep_force(part, case, own, result):
+    """Add what one patch bears to `result`; traction and slip of its fields are zero."""
+    strips, fields, first, last = own.strips, own.fields, part.first, part.last
+    fields[Field.QX : Field.STICK + 1, first : min(last, fields.shape[1]), :] = 0.0
+    load, load_y, load_x, bound = 0.0, 0.0, 0.0, 0.0
+    for i in range(first, last):
+        share = 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
+        load += share
+        bound += 0.5 * math.pi * strips[Strip.BOUND, i] * strips[Strip.A, i] * strips[Strip.DY, i]
+        load_y += share * strips[Strip.Y, i]
+        load_x += share * strips[Strip.XC, i]
+    a, b = equivalent_ellipse(strips, first, last)
+    if load <= 0.0 or b <= 0.0:
+        return
+    y, x = load_y / load, load_x / load
+    vx, vy, phi = case.vx - case.phi * y, case.vy + case.phi * x, case.phi
+    limit = case.mu * bound
+    if limit <= NO_FRICTION * case.G * a * b:
+        limit = 0.0
+    Fx, Fy, Mz, slip = of_ellipse(case, (vx, vy, phi), a, b, limit, own.tables)
+    result.Fx += Fx
+    result.Fy += Fy
+    result.Mz += Mz + x * Fy - y * Fx
+    result.power += max(-(Fx * vx + Fy * vy + Mz * phi), 0.0)
+    result.slip_area += slip * math.pi * a * b

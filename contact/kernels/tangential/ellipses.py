@@ -1,18 +1,73 @@
 """Ellipses that stand for a patch or for a strip of it, and the flexibilities of simplified theory on them (theory.md 2.5)."""
 
 import math
+from typing import NamedTuple
 
 from contact._jit import kernel
 from contact.kernels import kalker
+from contact.kernels.friction import slope_of_case
 from contact.kernels.layout import Strip
 
 
+class Part(NamedTuple):
+    """One separate patch: its strips are first … last - 1, its load `N` [N], its place (x, y) [m] that of `place_in_load`."""
+
+    first: int
+    last: int
+    N: float
+    x: float
+    y: float
+
+
 @kernel
-def equivalent_ellipse(strips, n):
+def end_of_patch(strips, n, first):
+    """The strip after the last one of the patch that begins at strip `first`."""
+    last = first + 1
+    while last < n and strips[Strip.PATCH, last] == strips[Strip.PATCH, first]:
+        last += 1
+    return last
+
+
+@kernel
+def centre_of_load(strips, first, last):
+    """Load of strips over π/2, and its centre (x, y)."""
+    load, x, y = 0.0, 0.0, 0.0
+    for i in range(first, last):
+        share = strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
+        load += share
+        x += share * strips[Strip.XC, i]
+        y += share * strips[Strip.Y, i]
+    return (load, x / load, y / load) if load > 0.0 else (0.0, 0.0, 0.0)
+
+
+@kernel
+def place_in_load(strips, n, first, last):
+    """Share of a patch in the load of all `n` strips, and its centre (x, y) from theirs: 1, 0, 0 of a single patch, exactly.
+
+    Where a law takes creepages of a patch as a whole, they are those at this place, so that separate patches do not matter to
+    each other; of a single one, and as a second is born, those at the origin.
+    """
+    total, x0, y0 = centre_of_load(strips, 0, n)
+    load, x, y = centre_of_load(strips, first, last)
+    return (load / total, x - x0, y - y0) if total > 0.0 else (1.0, 0.0, 0.0)
+
+
+@kernel
+def stiffness_of(part, case, limit, own):
+    """Shear modulus of a case times the slope of friction on one patch that friction lets bear `limit`."""
+    if case.slope == 1.0 and case.slope_far == 1.0:
+        return case.G
+    a, b = equivalent_ellipse(own.strips, part.first, part.last)
+    c11 = kalker.coefficients(own.tables.kalker, math.log(a / b))[0] if b > 0.0 else 0.0
+    return case.G * slope_of_case(case, (part.x, part.y), a, b, c11, limit)
+
+
+@kernel
+def equivalent_ellipse(strips, first, last):
     """Semi-axes of the ellipse with the longest strip as a and the area of the patch."""
     a = 0.0
     area = 0.0
-    for i in range(n):
+    for i in range(first, last):
         a = max(a, strips[Strip.A, i])
         area += 2.0 * strips[Strip.A, i] * strips[Strip.DY, i]
     return a, (area / (math.pi * a) if a > 0.0 else 0.0)

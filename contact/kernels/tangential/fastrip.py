@@ -79,17 +79,20 @@ _NOW_SX, _NOW_SY = NOW_SLIP, NOW_SLIDES  # where `_show` leaves the slip velocit
     _POWER,
 ) = (FREE_BEHIND_MARCH + row * LANES for row in range(24))
 
+_AGAIN = _C11  # behind the set-up: length of the slip zone over a in which particles stick again
+
 #: Share of the bound, squared, up to which a particle of the slip zone sticks again.
 _AT_BOUND = 1.0 - 1e-9
 
 
 @kernel
-def _set_block(strips, block, n, case, table, c_patch, lanes):
+def _set_block(part, block, case, c_patch, own):
     """Amended strip theory (theory.md 4.1) of the strips from `block` on, and the set-up of their march."""
+    strips, lanes, table = own.strips, own.space.lanes, own.tables.kalker
     G, nu = case.G, case.nu
     least = NO_FRICTION * G
     for l in range(LANES):
-        i = min(block + l, n - 1)
+        i = min(block + l, part.last - 1)
         a, bound = strips[Strip.A, i], case.mu * strips[Strip.BOUND, i]
         lanes[_A + l], lanes[_Y + l], lanes[_XC + l] = a, strips[Strip.Y, i], strips[Strip.XC, i]
         lanes[_VX + l], lanes[_VY + l], lanes[_SPIN + l] = (
@@ -108,6 +111,7 @@ def _set_block(strips, block, n, case, table, c_patch, lanes):
         c11, c22, c23, root_aspect = lanes[_C11 + l], lanes[_C22 + l], lanes[_C23 + l], lanes[_ROOT_ASPECT + l]
         rigid_x, rigid_y, phi = lanes[_VX + l], lanes[_VY + l], lanes[_SPIN + l]
         spin2 = (phi * c_patch) ** 2
+        at_x, at_y = rigid_x - phi * part.y, rigid_y + phi * part.x  # and the spin is about the patch
         live = 1.0 if bound > 0.0 else 0.0
         unit = live * G / (bound + (1.0 - live))  # no slip at all in a strip that bears nothing
         across = c23 / root_aspect
@@ -115,18 +119,14 @@ def _set_block(strips, block, n, case, table, c_patch, lanes):
         # into a single one as the leading edge comes to slip: `edge` is the utilisation of the bound there, where both
         # vanish, and beyond 1 the thesis repeats the strip with one flexibility
         L1, L2, L3 = 0.28125 * unit * c11, 0.28125 * unit * c22, 3.0 / math.pi * unit * across
-        x, z = rigid_x * L1 - phi * y * L3, rigid_y * L2 + phi * (xc + a) * L3
+        x, z = at_x * L1 - phi * (y - part.y) * L3, at_y * L2 + phi * (xc - part.x + a) * L3
         w = math.sqrt(x * x + z * z) - 1.0  # 2 edge - 1
         w = 0.5 * (w + abs(w))
         w = w if w < 1.0 else 1.0
-        single = (
-            w
-            * (rigid_x * rigid_x + rigid_y * rigid_y + spin2)
-            / (rigid_x * rigid_x * L1 + rigid_y * rigid_y * L2 + spin2 * L3 + 1e-300)
-        )
+        single = w * (at_x * at_x + at_y * at_y + spin2) / (at_x * at_x * L1 + at_y * at_y * L2 + spin2 * L3 + 1e-300)
         L1, L2, L3 = L1 / (1.0 - w + single * L1), L2 / (1.0 - w + single * L2), L3 / (1.0 - w + single * L3)
-        lanes[ROW_X + l] = rigid_x * L1 - phi * y * L3
-        lanes[ROW_Y + l] = rigid_y * L2 + phi * xc * L3
+        lanes[ROW_X + l] = at_x * L1 - phi * (y - part.y) * L3
+        lanes[ROW_Y + l] = at_y * L2 + phi * (xc - part.x) * L3
         lanes[ROW_Z + l] = phi * a * L3
         vx, vy = rigid_x - phi * y, rigid_y + phi * xc
         lanes[_VX + l], lanes[_VY + l], lanes[_SPIN + l] = vx, vy, phi * a
@@ -186,11 +186,14 @@ def _slip_zone(elements, lanes, trace, falling, block, n, fields):
     """
     for l in range(LANES):
         lanes[_FX + l], lanes[_FY + l], lanes[_MZ + l], lanes[_POWER + l] = 0.0, 0.0, 0.0, 0.0
+        lanes[_AGAIN + l] = 0.0
+    last = elements.shape[1] - 1
     load_before, moment_before = 0.0, 0.0
     for k in range(elements.shape[1]):
         s, weight = elements[Element.S, k], elements[Element.SINE, k] * elements[Element.DX, k]
         load_end, moment_end = elements[Element.LOAD_END, k], elements[Element.MOMENT_END, k]
         recall(lanes, trace[k])
+        _count_again(s, elements[Element.STEP, k], 1.0 + s if k == last else 0.0, lanes)
         sticks = 0
         for l in range(lanes.size // N_LANE_ROWS):  # as in `_normalise`: so short a loop would be written out
             sticks += 1 if lanes[NOW_SLIDES + l] < 0.5 and load_end > lanes[_LOAD + l] else 0
@@ -223,6 +226,22 @@ def _slip_zone(elements, lanes, trace, falling, block, n, fields):
             _show(s, elements[Element.SINE, k], lanes, falling)
             _write(k, block, n, lanes, fields)
         load_before, moment_before = load_end, moment_end
+
+
+@kernel
+def _count_again(s, step, behind, lanes):
+    """Add what sticks again of the slip zone on the step to s, and, of the last element, on the length `behind` it.
+
+    These are the elements that fields show as sticking, with the march's own share of the two where it changes.
+    """
+    for l in range(lanes.size // N_LANE_ROWS):
+        zone = 2.0 * lanes[_E + l] - 1.0 - s  # of the slip zone, before s
+        zone = 0.5 * (zone + abs(zone))
+        sticks, slides = lanes[NOW_STICK + l] * step, lanes[NOW_SLIDES + l]
+        room = zone if zone < step else step
+        again = sticks if sticks < room else room
+        again += behind if slides < 0.5 and zone > 0.0 else 0.0
+        lanes[_AGAIN + l] += again if s < lanes[ROW_CAME + l] else 0.0
 
 
 @kernel
@@ -293,29 +312,29 @@ def _write(k, block, n, lanes, fields):
 
 
 @kernel
-def fastrip(n, case, own, result):
-    """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`."""
-    strips, fields, elements, table = own.strips, own.fields, own.rule.elements, own.tables.kalker
+def fastrip(part, case, own, result):
+    """Fill the traction, slip and stick fields of one patch and add what it bears to `result`."""
+    strips, fields, elements, last = own.strips, own.fields, own.rule.elements, part.last
     lanes, trace = own.space.lanes, own.space.trace
-    a0, b0 = equivalent_ellipse(strips, n)
+    a0, b0 = equivalent_ellipse(strips, part.first, last)
     c_patch = math.sqrt(a0 * b0)
     Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
-    for block in range(0, n, LANES):
-        _set_block(strips, block, n, case, table, c_patch, lanes)
+    for block in range(part.first, last, LANES):
+        _set_block(part, block, case, c_patch, own)
         if case.tangential == Tangential.STRIP_THEORY:
             _keep_direction(lanes, trace)
         else:
             march(False, elements, lanes, trace)
         if varies(case):
-            begin(strips, block, n, case, _BOUND, lanes)
-            _slip_zone(elements, lanes, trace, case, block, n, fields)
+            begin(strips, block, last, case, _BOUND, lanes)
+            _slip_zone(elements, lanes, trace, case, block, last, fields)
         else:
-            _slip_zone(elements, lanes, trace, None, block, n, fields)
-        for l in range(min(LANES, n - block)):
+            _slip_zone(elements, lanes, trace, None, block, last, fields)
+        for l in range(min(LANES, last - block)):
             i = block + l
             a, dy, y, xc = strips[Strip.A, i], strips[Strip.DY, i], strips[Strip.Y, i], strips[Strip.XC, i]
             bound, e = lanes[_BOUND + l], lanes[_E + l]
-            slip_area += 2.0 * a * e * dy
+            slip_area += (2.0 * e - lanes[_AGAIN + l]) * a * dy
             if bound == 0.0:
                 continue
             outer, outer_s = lanes[_LOAD + l], lanes[_MOMENT + l]
@@ -328,5 +347,8 @@ def fastrip(n, case, own, result):
             Fy += fy
             Mz += mz + xc * fy - y * fx
             power += strip * lanes[_POWER + l]
-    result.Fx, result.Fy, result.Mz = Fx, Fy, Mz
-    result.power, result.slip_area = power, slip_area
+    result.Fx += Fx
+    result.Fy += Fy
+    result.Mz += Mz
+    result.power += power
+    result.slip_area += slip_area

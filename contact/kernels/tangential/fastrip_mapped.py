@@ -371,18 +371,12 @@ def roll_patch(first, last, case, centres, own, result):
 
 
 @kernel
-def fastrip_mapped(n, case, own, result):
-    """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`, patch by patch."""
+def fastrip_mapped(part, case, own, result):
+    """Fill the traction, slip and stick fields of one patch and add what it bears to `result`."""
     strips, tables = own.strips, own.tables
-    first = 0
-    while first < n:
-        last = first + 1
-        while last < n and strips[Strip.PATCH, last] == strips[Strip.PATCH, first]:
-            last += 1
-        a, b = equivalent_ellipse(strips[:, first:last], last - first)
-        centres = 0.0, 0.0, 1.0
-        if a > 0.0:
-            centres = elastic_centre(strips, first, last, tables.kalker, math.log(a / b))
-            set_effective(strips, first, last, case, centres[0], tables)
-        roll_patch(first, last, case, centres, own, result)
-        first = last
+    a, b = equivalent_ellipse(strips, part.first, part.last)
+    centres = 0.0, 0.0, 1.0
+    if a > 0.0:
+        centres = elastic_centre(strips, part.first, part.last, tables.kalker, math.log(a / b))
+        set_effective(strips, part.first, part.last, case, centres[0], tables)
+    roll_patch(part.first, part.last, case, centres, own, result)

@@ -9,10 +9,10 @@
     fastsim_knothe    three with which the slopes of the forces are those of the half space on the patch itself, given as
                       coefficients (`halfspace.linear`; after Knothe and Le The 1984)
 
-All but the local ones take the equivalent ellipse: the patch's area with the longest strip as semi-axis a. On an ellipse
-the local ones are that ellipse too, and they are the first method. The parabolic bound of a strip has its peak proportional
-to its p0·a, scaled so that the bounds carry the normal load: on an ellipse this is Kalker's paraboloid exactly, on any patch
-full slip gives mu N. The weighted flexibility changes with the ratio of the creepages, at any size of them.
+All but the local ones take the equivalent ellipse of each separate patch: its area with the longest strip as semi-axis a. On
+an ellipse the local ones are that ellipse too, and they are the first method. The parabolic bound of a strip has its peak
+proportional to its p0·a, scaled so that the bounds carry the patch's load: on an ellipse this is Kalker's paraboloid exactly,
+on any patch full slip gives mu N. The weighted flexibility changes with the ratio of the creepages, at any size of them.
 """
 
 import math
@@ -54,16 +54,16 @@ def _own_ellipse(strips, i, method, a0, edges):
 
 
 @kernel
-def _peak_per_load(strips, n, elements, mu, N, elliptic):
+def _peak_per_load(part, strips, elements, mu, elliptic):
     """Peak of a strip's bound over p0 (elliptic) or p0·a: parabolas that carry the load, by the fields' quadrature."""
     if elliptic:
         return mu
     cubes, spread = 0.0, 0.0
     for k in range(elements.shape[1]):
         cubes += elements[Element.SINE, k] ** 2 * elements[Element.DX, k]
-    for i in range(n):
+    for i in range(part.first, part.last):
         spread += cubes * strips[Strip.P0, i] * strips[Strip.A, i] ** 2 * strips[Strip.DY, i]
-    return mu * N / spread if spread > 0.0 else 0.0
+    return mu * part.N / spread if spread > 0.0 else 0.0
 
 
 @kernel
@@ -89,23 +89,24 @@ def _fall(case, elliptic, elements, lanes, trace):
 
 
 @kernel
-def fastsim(n, case, own, result):
-    """Fill the traction, slip and stick fields of `n` strips and the tangential part of `result`."""
+def fastsim(part, case, own, result):
+    """Fill the traction, slip and stick fields of one patch and add what it bears to `result`."""
     strips, fields, elements, table = own.strips, own.fields, own.rule.elements, own.tables.kalker
     lanes, trace = own.space.lanes, own.space.trace
     method, G = case.tangential, case.G
     Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
     elliptic = method == Tangential.FASTSIM_ELLIPTIC
     local = method == Tangential.FASTSIM_LINDER or method == Tangential.FASTSIM_STRIPES
-    a0, b0 = equivalent_ellipse(strips, n)
+    a0, b0 = equivalent_ellipse(strips, part.first, part.last)
     L1, L2, L3 = flexibilities(G, a0, b0, table)
     if method == Tangential.FASTSIM_ONE:
-        L1 = L2 = L3 = weighted(case.vx, case.vy, case.phi, math.sqrt(a0 * b0), L1, L2, L3)
+        vx, vy = case.vx - case.phi * part.y, case.vy + case.phi * part.x
+        L1 = L2 = L3 = weighted(vx, vy, case.phi, math.sqrt(a0 * b0), L1, L2, L3)
     falling = varies(case)
-    per_load = _peak_per_load(strips, n, elements, case.mu, result.N, elliptic)
-    for block in range(0, n, LANES):
+    per_load = _peak_per_load(part, strips, elements, case.mu, elliptic)
+    for block in range(part.first, part.last, LANES):
         for l in range(LANES):
-            i = min(block + l, n - 1)
+            i = min(block + l, part.last - 1)
             a = strips[Strip.A, i]
             peak = per_load * strips[Strip.BOUND, i] * (1.0 if elliptic else a)
             scale = a / peak if peak > NO_FRICTION * G else 0.0
@@ -115,14 +116,15 @@ def fastsim(n, case, own, result):
             vx, vy, phi = strips[Strip.VX, i], strips[Strip.VY, i], strips[Strip.PHI, i]
             lanes[_PEAK + l], lanes[_L1 + l], lanes[_L2 + l] = peak if scale > 0.0 else 0.0, L1, L2
             lanes[_PER_LENGTH + l] = lanes[_PEAK + l] / a if a > 0.0 else 0.0
-            lanes[ROW_X + l] = scale * (vx / L1 - phi * strips[Strip.Y, i] / L3)
-            lanes[ROW_Y + l] = scale * (vy / L2 + phi * strips[Strip.XC, i] / L3)
+            vx, vy = vx - phi * part.y, vy + phi * part.x  # L3 belongs to the spin about the patch
+            lanes[ROW_X + l] = scale * (vx / L1 - phi * (strips[Strip.Y, i] - part.y) / L3)
+            lanes[ROW_Y + l] = scale * (vy / L2 + phi * (strips[Strip.XC, i] - part.x) / L3)
             lanes[ROW_Z + l] = scale * a * phi / L3
         march(elliptic, elements, lanes, trace)
         if falling:
-            begin(strips, block, n, case, _PEAK, lanes)
+            begin(strips, block, part.last, case, _PEAK, lanes)
             _fall(case, elliptic, elements, lanes, trace)
-        for l in range(min(LANES, n - block)):
+        for l in range(min(LANES, part.last - block)):
             i = block + l
             row = min(i, fields.shape[1] - 1)  # one row serves all strips when only forces are asked for
             a, y, dy = strips[Strip.A, i], strips[Strip.Y, i], strips[Strip.DY, i]
@@ -153,5 +155,8 @@ def fastsim(n, case, own, result):
                 slip_area += (1.0 - stick) * elements[Element.STEP, k] * a * dy
             slides = 1.0 if frictionless else trace[elements.shape[1] - 1, NOW_SLIDES + l]
             slip_area += slides * (1.0 + elements[Element.S, -1]) * a * dy  # behind the last element's middle
-    result.Fx, result.Fy, result.Mz = Fx, Fy, Mz
-    result.power, result.slip_area = power, slip_area
+    result.Fx += Fx
+    result.Fy += Fy
+    result.Mz += Mz
+    result.power += power
+    result.slip_area += slip_area

@@ -1,0 +1,85 @@
+"""Under a pressure limit resultants, power and fields are one answer, in stick that of stiffness, in slip that of friction."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import contact
+
+SEPARATION = contact.Separation.hertzian(1.0, 2.0)
+LOAD, MU = 8e4, 0.3
+WITH_FIELDS = [name for name, m in contact.methods().batched.tangential.items() if m.fields]
+
+
+def solved(creepage, share, tangential, **options):
+    material = dataclasses.replace(contact.STEEL, pressure_limit=share * PEAK) if share < 1.0 else contact.STEEL
+    return contact.solve(SEPARATION, creepage, load=LOAD, material=material, tangential=tangential, **options)
+
+
+PEAK = contact.solve(SEPARATION, contact.Creepage(), load=LOAD).max_pressure
+
+
+def misfits(sol):
+    """Sums over the fields less the resultants: forces over mu N, power over its own."""
+    power = -((sol.qx * sol.sx + sol.qy * sol.sy) * sol.dA).sum()
+    return np.array(
+        [
+            ((sol.qx * sol.dA).sum() - sol.Fx) / (MU * LOAD),
+            ((sol.qy * sol.dA).sum() - sol.Fy) / (MU * LOAD),
+            ((sol.x * sol.qy - sol.y * sol.qx) * sol.dA).sum() - sol.Mz,
+            power - sol.power_per_metre,
+        ]
+    )
+
+
+@pytest.mark.parametrize("tangential", WITH_FIELDS)
+@pytest.mark.parametrize("share", [0.9, 0.6, 0.4])
+def test_the_fields_add_up_to_the_resultants_and_to_the_power(tangential, share):
+    for creepage in (contact.Creepage(1e-4), contact.Creepage(1e-3, 5e-4, 0.2), contact.Creepage(0.0, 0.0, 0.5)):
+        sol = solved(creepage, share, tangential)
+        forces = misfits(sol)
+        assert np.abs(forces[:2]).max() < 2e-3  # as without a limit: `fastrip` integrates stick in closed form
+        assert abs(forces[2]) < 2e-3 * MU * LOAD * 5e-3
+        assert abs(forces[3]) < 1e-6 * sol.power_per_metre
+
+
+@pytest.mark.parametrize("tangential", WITH_FIELDS)
+def test_forces_alone_are_the_same(tangential):
+    creepage = contact.Creepage(1e-3, 5e-4, 0.2)
+    sol = solved(creepage, 0.6, tangential)
+    material = dataclasses.replace(contact.STEEL, pressure_limit=0.6 * PEAK)
+    batch = contact.forces(SEPARATION, creepage, load=LOAD, friction=MU, material=material, tangential=tangential)
+    assert (float(batch.Fx), float(batch.Fy), float(batch.Mz)) == (sol.Fx, sol.Fy, sol.Mz)
+
+
+@pytest.mark.parametrize("tangential", WITH_FIELDS)
+def test_nothing_jumps_where_the_limit_begins(tangential):
+    creepage = contact.Creepage(1e-3, 5e-4, 0.2)
+    elastic, limited = solved(creepage, 1.0, tangential), solved(creepage, 1.0 - 1e-6, tangential)
+    assert limited.Fx == pytest.approx(elastic.Fx, rel=1e-4)
+    assert limited.power_per_metre == pytest.approx(elastic.power_per_metre, rel=1e-3)
+
+
+@pytest.mark.parametrize("tangential", ["fastrip", "fastrip_mapped"])
+@pytest.mark.parametrize("creepage", [(1e-4, 0.0, 0.0), (1e-3, 5e-4, 0.0), (0.0, 0.0, 0.5), (2e-3, 1e-3, 0.3)])
+def test_forces_are_those_of_the_half_space_under_the_cut_pressure(tangential, creepage):
+    """50 x 50 elements of the half space with the pressure cut at .7 of its peak."""
+    reference = {
+        (1e-4, 0.0, 0.0): (-0.0589, 0.0),
+        (1e-3, 5e-4, 0.0): (-0.4980, -0.2318),
+        (0.0, 0.0, 0.5): (0.0, -0.6751),
+        (2e-3, 1e-3, 0.3): (-0.6746, -0.6407),
+    }[creepage]
+    sol = solved(contact.Creepage(*creepage), 0.7, tangential)
+    assert np.hypot(sol.Fx / (MU * LOAD) - reference[0], sol.Fy / (MU * LOAD) - reference[1]) < 0.025
+
+
+@pytest.mark.parametrize("tangential", WITH_FIELDS)
+def test_a_prepared_solver_has_the_same_forces(tangential):
+    creepage = contact.Creepage(1e-3, 5e-4, 0.2)
+    sol = solved(creepage, 0.6, tangential)
+    material = dataclasses.replace(contact.STEEL, pressure_limit=0.6 * PEAK)
+    solver = contact.Solver(tangential=tangential, friction=MU, material=material)
+    found = solver.forces(SEPARATION, creepage, load=LOAD)
+    assert (found.Fx, found.Fy, found.Mz) == (sol.Fx, sol.Fy, sol.Mz)
