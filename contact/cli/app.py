@@ -13,7 +13,7 @@ import typer
 from rich.console import Console
 
 import contact
-from contact.cli import creep_table, problem, report
+from contact.cli import creep_table, extras, problem, report
 from contact.cli import options as opt
 from contact.cli.compare import compare
 from contact.cli.geometry import conicity, list_profiles
@@ -35,6 +35,7 @@ app = typer.Typer(
     name="contact",
     help="Wheel-rail contact: patches, pressure, creep forces and damage. All input and JSON are in SI units; "
     "forces act on the wheel.",
+    epilog=extras.note(),
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
