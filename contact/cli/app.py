@@ -11,6 +11,7 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 from rich.console import Console
+from rich.markup import escape
 
 import contact
 from contact.cli import creep_table, extras, problem, report
@@ -35,7 +36,7 @@ app = typer.Typer(
     name="contact",
     help="Wheel-rail contact: patches, pressure, creep forces and damage. All input and JSON are in SI units; "
     "forces act on the wheel.",
-    epilog=extras.note(),
+    epilog=escape(extras.note()),
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,

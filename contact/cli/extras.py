@@ -20,11 +20,11 @@ def missing() -> dict[str, str]:
     return {extra: use for extra, (module, use) in EXTRAS.items() if _absent(module)}
 
 
-def note() -> str | None:
-    """Return a paragraph for the help that names the missing extras; None if there is none."""
+def note() -> str:
+    """Return a paragraph for the help that names the missing extras; empty if there is none."""
     absent = missing()
     if not absent:
-        return None
+        return ""
     lines = [f"{extra} ({use})" for extra, use in absent.items()]
     return f"Not installed: {'; '.join(lines)}. Add one with  pip install 'wheelrail-contact[{next(iter(absent))}]'."
 
