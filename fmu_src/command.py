@@ -53,7 +53,9 @@ def fmu(
     smoothing: Annotated[
         float | None, typer.Option(help="Noise in m that is smoothed out of the files, like 2e-6.")
     ] = None,
-    describe: Annotated[bool, typer.Option("--describe", help="Print the variables as Markdown, build nothing.")] = False,
+    describe: Annotated[
+        bool, typer.Option("--describe", help="Print the variables as Markdown, build nothing.")
+    ] = False,
 ) -> None:
     """Build the FMUs: Wheelset, WheelRailContact and WheelRailPair.
 
@@ -62,7 +64,10 @@ def fmu(
     try:
         from fmu_src.build import main
     except ModuleNotFoundError as missing:
-        stop(f"FMUs need {missing.name}: pip install 'wheelrail-contact[fmu]', native ones 'wheelrail-contact[native]'", 1)
+        stop(
+            f"FMUs need {missing.name}: pip install 'wheelrail-contact[fmu]', native ones 'wheelrail-contact[native]'",
+            1,
+        )
     options = {
         "packaging": packaging,
         "out": out,

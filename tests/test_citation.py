@@ -34,7 +34,11 @@ def test_thesis_has_title_number_and_isbn_of_the_citation_file():
     assert [thesis["number"]] == cited("number")
     assert [thesis["isbn"]] == cited("isbn")
     assert thesis["author"] == "Shahzamanian Sichani, Matin"
-    assert (thesis["school"], thesis["address"], thesis["year"]) == ("KTH Royal Institute of Technology", "Stockholm", "2016")
+    assert (thesis["school"], thesis["address"], thesis["year"]) == (
+        "KTH Royal Institute of Technology",
+        "Stockholm",
+        "2016",
+    )
 
 
 def test_braces_are_balanced():

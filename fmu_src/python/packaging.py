@@ -57,7 +57,12 @@ def _files(model: Model) -> Iterator[tuple[str, bytes]]:
     guid, xml = model_description(model.table, INTERFACES)
     yield "modelDescription.xml", xml.encode()
     script = _SCRIPT.format(
-        name=name, version=__version__, packages=_PACKAGES, module=f"python.{model.name}", options=model.options, guid=guid
+        name=name,
+        version=__version__,
+        packages=_PACKAGES,
+        module=f"python.{model.name}",
+        options=model.options,
+        guid=guid,
     ).encode()
     module = f"{name.lower()}_{hashlib.sha256(script).hexdigest()[:16]}"
     yield f"resources/{module}.py", script
