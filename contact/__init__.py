@@ -19,7 +19,9 @@ from contact.solve import solve
 from contact.solver import Solver
 
 if TYPE_CHECKING:
-    from contact.study import Case, Comparison, compare
+    from contact.study.case import Case
+    from contact.study.compare import compare
+    from contact.study.comparison import Comparison
 
 __all__ = [
     "STEEL",

@@ -3,8 +3,8 @@
 * ``error_model="numpy"``: no exception branches. A kernel prevents a division by zero, it does not catch it.
 * ``nogil=True``: a kernel touches no Python object, so threads of a host run in parallel.
 * No ``fastmath``: results must not depend on the instruction set. The native FMU is compared bit for bit.
-* Compiled kernels are kept on disk. Their cache is keyed by the content of `contact/kernels`, and for a kernel elsewhere also by
-  the content of its own folder. Times of files do not count: another checkout with the same kernels compiles nothing.
+* Compiled kernels are kept on disk. Their cache is keyed by the content of `contact/kernels`, and for a kernel elsewhere also
+  by the content of its own folder. Times of files do not count: another checkout with the same kernels compiles nothing.
 
 Kernels allocate nothing, raise nothing and take no function argument: one source serves Python, batches and the native FMU.
 """
@@ -110,10 +110,15 @@ def kernel(function: Callable[..., Any]) -> Any:
     return dispatcher
 
 
+def inlined(function: Callable[..., Any]) -> Any:
+    """Compile `function` as part of each kernel that calls it: for thin layers, which cost seconds as kernels of their own."""
+    return njit(**_OPTIONS, inline="always")(function)
+
+
 def chosen_by(stub: Callable[..., Any], kernels: Mapping[type, Any]) -> None:
     """Let compiled calls of `stub` run the kernel that belongs to the type of its first argument, a marker of `families`."""
     functions = {marker: chosen.py_func for marker, chosen in kernels.items()}
 
-    @overload(stub, jit_options=_OPTIONS, strict=False)
-    def _choose(family, *arguments):  # type: ignore[no-untyped-def]
+    @overload(stub, jit_options=_OPTIONS, strict=False, inline="always")
+    def _choose(family, *arguments):
         return functions[family.instance_class]

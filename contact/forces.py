@@ -151,7 +151,7 @@ def forces(
         area=area,
         slip_ratio=slip_ratio,
         power_per_metre=column("power"),
-        status=column("status"),
+        status=results["status"].reshape(shape),
     )
 
 

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Numbers = float | Array
+Records = NDArray[np.void]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -126,7 +127,7 @@ class Solution:
 
     @classmethod
     def of_kernel(
-        cls, n: int, own: Workspace, case: Array, result: Array, creepage: Creepage, prepared: Prepared
+        cls, n: int, own: Workspace, case: Records, result: Records, creepage: Creepage, prepared: Prepared
     ) -> Solution:
         """Copy what a kernel has left in a workspace for `n` strips. The copy is taken apart when it is first read."""
         solution = cls.__new__(cls)

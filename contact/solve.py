@@ -146,7 +146,7 @@ def solve(
         if rolling.elementwise:
             solution = solve_pressure(solution, separation if conformal else None, surface, division, progress)
     if throw:
-        require_trustworthy(solution, separation, load, approach)
+        require_trustworthy(solution, separation.y, load, approach)
     return solution
 
 

@@ -12,7 +12,7 @@ from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.kernels.layout import RESULT, LoadKind
 from contact.kernels.memory import Workspace
-from contact.kernels.pipeline import solve_one
+from contact.kernels.pipeline import solve_case
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.separation import Separation
@@ -97,6 +97,8 @@ class Solver:
         self._member = {name: self._case[name] for name in self._case.dtype.names or ()}
         self._result = np.zeros(1, RESULT)
         self.set_surface(friction, speed)
+        self._own: Workspace
+        self._lean: Workspace
         self._make_room(int(require_number("n_samples", n_samples, 3)))
 
     def __repr__(self) -> str:
@@ -130,7 +132,7 @@ class Solver:
         """Allocate a workspace for separations of so many samples."""
         size = self.n_strips, self.n_elements, n_samples
         nu = self.material.poisson_ratio
-        self._own: Workspace = workspace.allocate(self.normal, self.tangential, nu, size)
+        self._own = workspace.allocate(self.normal, self.tangential, nu, size)
         self._n_samples = n_samples
         # forces only: one row of fields serves all strips, unless the surface of contact is bent
         one_row = self._own.fields if self.conformal else self._own.fields[:, :1].copy()
@@ -178,7 +180,7 @@ class Solver:
         own, prepared = self._own, Prepared(self.normal.name, self.tangential.name, self.material, self._speed)
         solution = Solution.of_kernel(n, own, self._case, self._result, creepage, prepared)
         if throw:
-            require_trustworthy(solution, separation, load, approach)
+            require_trustworthy(solution, separation.y, load, approach)
         return solution
 
     def forces(
@@ -233,14 +235,14 @@ class Solver:
             own = self._lean if lean else self._own
         if not warm:
             own.space.memory[0] = 0.0
-        return int(solve_one(separation.samples, self._case, own, self._result))
+        return int(solve_case(separation.samples, self._case, own, self._result))
 
 
-def require_trustworthy(solution: Solution, separation: Separation, load: float | None, approach: float | None) -> None:
+def require_trustworthy(solution: Solution, y: NDArray[np.float64], load: float | None, approach: float | None) -> None:
     """Raise a ContactError for a solution that is not to be trusted."""
     if solution.status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED):
         what, amount = ("load", load) if load is not None else ("approach", approach)
         raise ContactError(
-            f"{what} = {amount:g}: {solution.status.message}; y = [{separation.y[0]:g}, {separation.y[-1]:g}] m "
+            f"{what} = {amount:g}: {solution.status.message}; y = [{y[0]:g}, {y[-1]:g}] m "
             f"(throw=False returns the solution with this status)"
         )

@@ -3,7 +3,6 @@
 A record is a numpy structured type, aligned like a C struct: ``case.mu``, ``result.Fx``. All members are 8 bytes wide
 (int64 or float64), so a record fills a whole number of float64 and can lie anywhere in a block of them. An `IntEnum` names
 the rows of an array (``strips[Strip.Y, i]``) or the values of an integer member (``case.normal == Normal.HERTZ``).
-All quantities are in SI units; lengths in m, forces in N, angles in rad.
 """
 
 from __future__ import annotations
@@ -20,18 +19,25 @@ MAX_LOBES = 16
 #: Range of creepages [-] and spin [1/m]: slip beyond any use, and far from where squares overflow.
 LARGEST_CREEPAGE = 1e6
 
-_INT, _FLOAT = np.int64, np.float64
+#: Record → member → what it is; the header for C code is made of it (`fmu_src.native.records`).
+MEANING: dict[str, dict[str, str]] = {}
 
 
-def _record(members: str) -> np.dtype:
-    """Return the aligned record of the words of `members`: ``name`` is a float64, ``name:int`` an int64, ``name:8`` an array."""
-    fields: list[tuple] = []
-    for word in members.split():
-        name, _, kind = word.partition(":")
+def _record(name: str, members: str) -> np.dtype:
+    """Return the aligned record `name` of the lines of `members`: ``name meaning``.
+
+    ``name`` is a float64, ``name:int`` an int64, ``name:8`` an array of 8 float64.
+    """
+    fields: list[tuple[str, type] | tuple[str, type, tuple[int]]] = []
+    meaning = MEANING[name] = {}
+    for line in filter(None, map(str.strip, members.splitlines())):
+        word, _, text = line.partition(" ")
+        member, _, kind = word.partition(":")
+        meaning[member] = text.strip()
         if kind.isdigit():
-            fields.append((name, _FLOAT, (int(kind),)))
+            fields.append((member, np.float64, (int(kind),)))
         else:
-            fields.append((name, _INT if kind == "int" else _FLOAT))
+            fields.append((member, np.int64 if kind == "int" else np.float64))
     return np.dtype((np.record, np.dtype(fields, align=True)))
 
 
@@ -171,106 +177,235 @@ class WearLaw(IntEnum):
     PEARCE_SHERRATT = 3
 
 
-#: One contact problem besides its separation. `amount` is the load [N] or the approach [m], see `LoadKind`; `mu` the coefficient of
-#: friction at rest; `pressure_limit` [Pa], 0 or infinite for none; `velocity` a `SlipVelocity`; `slope`, `slope_far`, `slope_rate` the
-#: factor on the creep stiffness at small creepage, its limit at large, its rate; `gauge_factor` the factor on the coefficient on one
-#: side of `border` [m], over `border_width` [m], whose sign says on which side; `conformal` is 1 where the surface of contact is not
-#: taken as a plane, and `rolling` [1/m] is then the turn of the wheel about the plane's y axis per metre; `k_A`, `k_S` Polach's
-#: reduction factors; `drop` what heat takes off the coefficient over that of the cold surface, from the rise `warm` [K] on, over
-#: `warm_range` [K]; `heating` the heat share over 2 √(π λ ρ c) [m² K/(W √s)].
+#: One contact problem besides its separation.
 CASE = _record(
+    "case",
     """
-    load_kind:int amount
-    normal:int normal_family:int tangential:int tangential_family:int
-    vx vy phi speed
-    G nu pressure_limit
-    mu law:int kinetic half_speed velocity:int
-    slope slope_far slope_rate
-    gauge_factor border border_width
-    k_A k_S
-    drop warm warm_range heating
-    conformal:int rolling
-    """
+    load_kind:int   LoadKind
+    amount          load [N] or approach [m]
+    normal:int      Normal
+    normal_family:int
+    tangential:int  Tangential
+    tangential_family:int
+    vx              longitudinal creepage [-]
+    vy              lateral creepage [-]
+    phi             spin creepage [1/m]
+    speed           rolling speed [m/s]
+    G               shear modulus [Pa]
+    nu              Poisson's ratio [-]
+    pressure_limit  [Pa]; 0 or infinite for none
+    mu              coefficient of friction; at rest, when it falls
+    law:int         FrictionLaw
+    kinetic         coefficient in fast sliding
+    half_speed      [m/s]
+    velocity:int    SlipVelocity
+    slope           factor on the creep stiffness at small creepage
+    slope_far       its limit at large creepage
+    slope_rate      its rate
+    gauge_factor    on the coefficient of friction on one side of the border
+    border          [m]
+    border_width    [m]; its sign says on which side
+    k_A             Polach's reduction factor in the area of adhesion
+    k_S             and in that of slip
+    drop            what heat takes off the coefficient, over that of the cold surface; 0 for nothing
+    warm            rise of temperature above that of the bodies from which on it falls [K]
+    warm_range      over which it falls [K]
+    heating         share of heat over 2 sqrt(pi lambda rho c) [m2 K/(W sqrt(s))]
+    conformal:int   1 where the surface of contact is not taken as a plane
+    rolling         turn of the wheel about the plane's y axis per metre rolled [1/m]; for a bent surface
+    """,
 )
 
-#: What a solver says besides fields. `slip_area` [m²]; `power` is the dissipated energy per metre rolled [N], -∬ q·s dA; `stiffness`
-#: dN/d(approach) [N/m]; `pressure_y` what of `Fy` is the pressure on a bent surface; `touch` the approach at which the bodies first
-#: touch [m]; `limited` is 1 where the pressure was cut at its limit; `edges` holds the lateral edges of the patches, two each.
+#: What a solver says besides fields. Forces act on the wheel.
 RESULT = _record(
+    "result",
     f"""
-    Fx Fy Mz N
-    approach pmax area slip_area power stiffness length width
-    n_patches:int iterations:int status:int limited:int
-    pressure_y touch
-    edges:{2 * MAX_PATCHES}
-    """
+    Fx              longitudinal force [N]
+    Fy              lateral force [N]
+    Mz              spin moment about the separation's origin [N m]
+    N               normal force [N]
+    approach        [m]
+    pmax            greatest pressure [Pa]
+    area            contact area [m2]
+    slip_area       [m2]
+    power           dissipated energy per metre rolled [N]
+    stiffness       dN/d(approach) [N/m]
+    length          of the patch along x [m]
+    width           along y [m]
+    n_patches:int
+    iterations:int
+    status:int      Status
+    limited:int     1 where the pressure was cut at its limit
+    pressure_y      what of Fy is pressure on a bent surface, no creep force [N]
+    touch           approach at which the bodies first touch [m]
+    edges:{2 * MAX_PATCHES}         lateral edges of the patches, two each [m]
+    """,
 )
 
-#: Pose, velocity and irregularity as a caller gives them, of either side. The wheelset's centre is at (0, y, z - radius).
-GIVEN = _record(
+_GIVEN = """
+    y               of the wheelset's centre [m]
+    z               pose.z [m]; the centre is at z - radius
+    roll            [rad]
+    yaw             [rad]
+    vx              forward velocity [m/s]
+    vy              [m/s]
+    vz              [m/s]
+    roll_rate       [rad/s]
+    yaw_rate        [rad/s]
+    spin            about the axle, negative when rolling forward [rad/s]
+    rail_y          displacement of the rail [m]
+    rail_z          [m]
+    rail_roll       [rad]
+    rail_vy         [m/s]
+    rail_vz         [m/s]
+    rail_roll_rate  [rad/s]
     """
-    y z roll yaw
-    vx vy vz roll_rate yaw_rate spin
-    rail_y rail_z rail_roll rail_vy rail_vz rail_roll_rate
-    """
-)
 
-#: The same on the right side, with the rail's origin added to `rail_y` and `rail_z`, and what a search needs besides: the nominal
-#: rolling `radius`, the distance of the `tape` circle from the wheelset's centre, when lobes share a plane, `mirror` 1 for the right
-#: and -1 for the left side, and the `origin` of the rail's profile without irregularity.
+#: Pose, velocity and irregularity of the rail as a caller gives them, of either side.
+GIVEN = _record("given", _GIVEN)
+
+#: The same on the right side, `rail_y` and `rail_z` with the rail's origin added, and what a search needs besides.
 MOTION = _record(
-    """
-    y z roll yaw
-    vx vy vz roll_rate yaw_rate spin
-    rail_y rail_z rail_roll rail_vy rail_vz rail_roll_rate
-    radius tape combine_distance combine_angle most_patches:int mirror origin_y origin_z
-    """
+    "motion",
+    _GIVEN
+    + """
+    radius          nominal rolling radius [m]
+    tape            distance of the tape circle from the wheelset's centre [m]
+    combine_distance  lobes that are nearer share a plane [m]
+    combine_angle   as do those that differ by less [rad]
+    most_patches:int
+    mirror          1 for the right side, -1 for the left
+    origin_y        of the rail's profile without irregularity [m]
+    origin_z        [m]
+    """,
 )
 
-#: Runs of interpenetration, later whole patches; moments are weighted with the interpenetration.
-LOBE = _record("low high weight moment cosine sine")
+#: A run of interpenetration, later a whole patch. Moments are weighted with the interpenetration.
+LOBE = _record(
+    "lobe",
+    """
+    low             where it begins, track y [m]
+    high            where it ends [m]
+    weight
+    moment          weight times y
+    cosine          weight times cosine of the angle
+    sine            weight times its sine
+    """,
+)
 
-#: One patch of a search, on the right side. (x, y, z) is the reference point in track coordinates, `rail_…` and `wheel_…` the same
-#: point in profile coordinates, `point_…` the wheel's point opposite; `low` and `high` are the edges of the interpenetration along
-#: the plane; `load` is filled by a search for a load.
+#: One patch of a search, on the right side.
 PATCH = _record(
+    "patch",
     """
-    angle x y z rail_y rail_z wheel_y wheel_z radius approach
-    vx vy phi
-    low high load point_y point_z
-    """
+    angle           contact angle [rad]
+    x               reference point in track coordinates [m]
+    y               [m]
+    z               [m]
+    rail_y          the same in the rail's profile [m]
+    rail_z          [m]
+    wheel_y         and in the wheel's [m]
+    wheel_z         [m]
+    radius          rolling radius there [m]
+    approach        [m]
+    vx              longitudinal creepage [-]
+    vy              lateral creepage [-]
+    phi             spin creepage [1/m]
+    low             edges of the interpenetration along the plane [m]
+    high            [m]
+    load            normal force [N], filled by a search for a load
+    point_y         the wheel's point opposite the reference point [m]
+    point_z         [m]
+    """,
 )
 
-#: One patch of a pair. Forces act on the wheel in the contact frame; `Mx`, `My` are moments of the pressure about the reference point;
-#: (x, y, z) is the wheel's point opposite it in track coordinates; creepages are those there.
+#: One patch of a pair. Forces act on the wheel, in the contact frame.
 CONTACT = _record(
-    "N Fx Fy Mx My Mz x y z angle area pmax longitudinal lateral spin approach status:int",
+    "contact",
+    """
+    N               normal force [N]
+    Fx              longitudinal creep force [N]
+    Fy              lateral creep force [N]
+    Mx              moments of the normal pressure about the reference point [N m]
+    My              [N m]
+    Mz              spin moment [N m]
+    x               the wheel's point opposite the reference point, track coordinates [m]
+    y               [m]
+    z               [m]
+    angle           contact angle [rad]
+    area            [m2]
+    pmax            [Pa]
+    longitudinal    creepages there [-]
+    lateral         [-]
+    spin            [1/m]
+    approach        [m]
+    status:int      Status
+    """,
 )
 
-#: Damage numbers of `contact.damage.Damage`; indices are maxima [Pa], Archard's per metre rolled.
-DAMAGE = _record(
+_DAMAGE = """
+    T_gamma         |Fx vx| + |Fy vy| [N]
+    T_gamma_spin    the same + |Mz phi| [N]
+    dissipation     [N]
+    pearce_sherratt tread area lost [m2/m]
+    burstow         share of RCF life per pass [-]
+    usfd            volume lost per contact area [m/m]
+    archard_depth   greatest [m/m]
+    archard_volume  [m3/m]
+    fatigue_index   surface fatigue index [-]
+    stress_index    greatest [Pa]
+    energy_index    greatest [Pa]
     """
-    T_gamma T_gamma_spin dissipation pearce_sherratt burstow usfd archard_depth archard_volume
-    fatigue_index stress_index energy_index
-    """
-)
 
-#: All patches of a pair together. Forces on the wheel in track coordinates, moments about the wheelset's centre; `z` is pose.z as
-#: given or as found; `power` is the dissipated energy per metre rolled [N]. Then damage, added up or the greatest.
+#: Damage of one patch; per metre rolled.
+DAMAGE = _record("damage", _DAMAGE)
+
+#: All patches of a pair together; damage is added up or the greatest.
 TOTAL = _record(
-    "Fx Fy Fz Mx My Mz z n_patches:int status:int pmax area slip_area power " + " ".join(DAMAGE.names or ()),
+    "total",
+    """
+    Fx              on the wheel, track coordinates [N]
+    Fy              [N]
+    Fz              [N]
+    Mx              about the wheelset's centre [N m]
+    My              [N m]
+    Mz              [N m]
+    z               pose.z, as given or as found [m]
+    n_patches:int
+    status:int      Status
+    pmax            [Pa]
+    area            [m2]
+    slip_area       [m2]
+    power           dissipated energy per metre rolled [N]
+    """
+    + _DAMAGE,
 )
 
-#: Constants of the damage models; the arrays are those of `contact.damage`'s dataclasses.
+#: Constants of the damage models. The arrays are those of the dataclasses of `contact.damage`.
 DAMAGE_PARAMETERS = _record(
+    "damage_parameters",
     """
-    speed wheel_radius hardness shear_yield with_spin:int wear_law:int
-    pearce_sherratt:7 burstow:5 usfd:7 archard:7
-    """
+    speed           [m/s]
+    wheel_radius    [m]
+    hardness        [Pa]
+    shear_yield     [Pa]
+    with_spin:int   1 where laws take T_gamma_spin
+    wear_law:int    WearLaw
+    pearce_sherratt:7
+    burstow:5
+    usfd:7
+    archard:7
+    """,
 )
 
-#: Bins of a ledger: `start` is where the first begins, in widths; `width` of a bin [m]; `distance` the next solution is for [m].
-LEDGER = _record("start width distance")
+#: Bins of a ledger.
+LEDGER = _record(
+    "ledger",
+    """
+    start           where the first bin begins, in widths
+    width           of a bin [m]
+    distance        that the next solution is for [m]
+    """,
+)
 
 
 class Strip(IntEnum):

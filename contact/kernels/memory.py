@@ -193,12 +193,12 @@ class Size(NamedTuple):
 
 
 @intrinsic
-def ahead(typing_context, pointer, count):  # type: ignore[no-untyped-def]
+def ahead(typing_context, pointer, count):
     """Return the pointer advanced by `count` float64 values."""
     if pointer != types.CPointer(types.float64):
         raise TypingError("a block in compiled code is a pointer to float64")
 
-    def generate(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
+    def generate(context, builder, signature, arguments):
         base, offset = arguments
         return builder.gep(base, [offset], source_etype=ir.DoubleType())
 
@@ -206,10 +206,10 @@ def ahead(typing_context, pointer, count):  # type: ignore[no-untyped-def]
 
 
 @intrinsic
-def _untyped(typing_context, pointer):  # type: ignore[no-untyped-def]
+def _untyped(typing_context, pointer):
     """Return the pointer without its type, which `carray` wants for records."""
 
-    def generate(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
+    def generate(context, builder, signature, arguments):
         return builder.bitcast(arguments[0], context.get_value_type(types.voidptr))
 
     return types.voidptr(pointer), generate
@@ -238,25 +238,25 @@ def records(block: Array, end: int, n: int, dtype: Any) -> tuple[Array, int]:
 
 
 @overload(vector)
-def _vector(block, end, n):  # type: ignore[no-untyped-def]
+def _vector(block, end, n):
     return lambda block, end, n: (carray(ahead(block, end), (n,)), end + n)
 
 
 @overload(matrix)
-def _matrix(block, end, rows, columns):  # type: ignore[no-untyped-def]
+def _matrix(block, end, rows, columns):
     return lambda block, end, rows, columns: (carray(ahead(block, end), (rows, columns)), end + rows * columns)
 
 
 @overload(cube)
-def _cube(block, end, layers, rows, columns):  # type: ignore[no-untyped-def]
-    def lay(block, end, layers, rows, columns):  # type: ignore[no-untyped-def]
+def _cube(block, end, layers, rows, columns):
+    def lay(block, end, layers, rows, columns):
         return carray(ahead(block, end), (layers, rows, columns)), end + layers * rows * columns
 
     return lay
 
 
 @overload(records)
-def _records(block, end, n, dtype):  # type: ignore[no-untyped-def]
+def _records(block, end, n, dtype):
     words = dtype.dtype.size // 8
     return lambda block, end, n, dtype: (carray(_untyped(ahead(block, end)), (n,), dtype), end + n * words)
 

@@ -185,7 +185,7 @@ def solve_pair(mode, amount, given, bench):
         samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
         space = _space_of_patch(own.space, memory[1 + k * piece : 1 + (k + 1) * piece])
         of_patch = Workspace(own.families, own.rule, own.tables, space, own.strips, own.fields)
-        n_strips = solve_case(samples, case, of_patch, result)
+        n_strips = solve_case(samples, bench.patch_case, of_patch, bench.result)
         parameters.speed, parameters.wheel_radius = motion.vx, patch.radius
         damage_kernel(own.strips, n_strips, own.fields, case, result, parameters, bench.damage_fields, damage)
         by_y, by_x = _pressure_centre(own.strips, n_strips)

@@ -2,7 +2,7 @@
 
 import math
 
-from contact._jit import chosen_by, kernel
+from contact._jit import chosen_by, inlined, kernel
 from contact.kernels import families, kalker
 from contact.kernels.conformal import bend, project
 from contact.kernels.friction import of_bodies, of_case, over_profile, slope_of_case
@@ -96,22 +96,22 @@ def _roll_by(family, n, case, own, result):
     raise NotImplementedError("only compiled kernels call this")
 
 
-@kernel
+@inlined
 def _fastrip(family, n, case, own, result):
     fastrip(n, case, own, result)
 
 
-@kernel
+@inlined
 def _fastrip_mapped(family, n, case, own, result):
     fastrip_mapped(n, case, own, result)
 
 
-@kernel
+@inlined
 def _fastsim(family, n, case, own, result):
     fastsim(n, case, own, result)
 
 
-@kernel
+@inlined
 def _creep_force(family, n, case, own, result):
     creep_force(n, case, own, result)
 
@@ -140,7 +140,7 @@ chosen_by(
 )
 
 
-@kernel
+@inlined
 def _roll(n, case, own, result):
     """Solve the tangential problem with the friction and the creep stiffness of the surface."""
     own.space.case[0] = case
@@ -153,7 +153,7 @@ def _roll(n, case, own, result):
     _roll_by(own.families.tangential, n, surface, own, result)
 
 
-@kernel
+@inlined
 def press_case(sep, case, own, result):
     """The first half of `solve_case`: the normal problem, and the creepages and the bound with which each strip rolls."""
     n = press(sep, case, own, result)
@@ -183,7 +183,7 @@ def press_case(sep, case, own, result):
     return n
 
 
-@kernel
+@inlined
 def roll_case(n, case, own, result):
     """The second half of `solve_case`: the tangential problem of `n` > 0 strips."""
     strips = own.strips
@@ -198,18 +198,19 @@ def roll_case(n, case, own, result):
 
 
 @kernel
-def solve_case(sep, case, own, result):
+def solve_case(sep, cases, own, results):
     """Solve one case; fill the strips and fields of `own`, and `result`. Return the strip count.
 
     Parameters
     ----------
     sep : Samples
-    case, result : records CASE and RESULT of `layout`
-        The case is only read.
+    cases, results : arrays of one record CASE and RESULT of `layout`
+        The case is only read. An array is cheaper to pass from Python than a record.
     own : Workspace
         `contact.workspace.allocate` makes a fitting one. Where fields have a single row only strips and result have a meaning. A
         case on a bent surface (`case.conformal`) needs all rows.
     """
+    case, result = cases[0], results[0]
     n = press_case(sep, case, own, result)
     if n == 0:
         return 0
@@ -223,12 +224,6 @@ def solve_case(sep, case, own, result):
 
 
 @kernel
-def solve_one(sep, case, own, result):
-    """As `solve_case`, with case and result in arrays of one record: passing an array from Python costs a fifth."""
-    return solve_case(sep, case[0], own, result[0])
-
-
-@kernel
 def solve_cases(first, last, samples, bounds, which, cases, own, results):
     """Solve cases[first:last] one after the other. Separation k is samples[bounds[k]:bounds[k+1]], case c uses which[c].
 
@@ -239,4 +234,4 @@ def solve_cases(first, last, samples, bounds, which, cases, own, results):
         low, high = bounds[which[c]], bounds[which[c] + 1]
         own.space.memory[0] = 0.0
         sep = Samples(y[low:high], g[low:high], A[low:high], x_c[low:high], tilt[low:high])
-        solve_case(sep, cases[c], own, results[c])
+        solve_case(sep, cases[c : c + 1], own, results[c : c + 1])

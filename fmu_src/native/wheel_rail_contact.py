@@ -258,7 +258,7 @@ def _move(case, j, by):
 @compiled
 def _solve(n, a):
     """Solve what the posed case and its first `n` samples say."""
-    a.count[0] = solve_case(_first(a.samples, n), a.case[0], a.own, a.result[0])
+    a.count[0] = solve_case(_first(a.samples, n), a.case, a.own, a.result)
 
 
 def _entries(table: Table) -> dict[str, Callable[..., Any]]:

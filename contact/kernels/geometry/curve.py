@@ -5,6 +5,7 @@ arcs stays where it is; a spline through the points would ring there.
 """
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,7 @@ from contact._jit import kernel
 from contact.kernels.layout import Curve
 
 Array = NDArray[np.float64]
+Record = Any  # of `contact.kernels.layout`
 
 
 @kernel

@@ -7,7 +7,7 @@ origin, the reference point, lies on the rail; on the wheel it is the point oppo
 import math
 
 from contact._jit import kernel
-from contact.kernels.geometry.curve import Array, advance, at
+from contact.kernels.geometry.curve import Array, Record, advance, at
 from contact.kernels.geometry.plane import Frame, along, normal_gap, project, spread, track_slope
 from contact.kernels.geometry.search import axle, combine, lobes, on_wheel
 from contact.kernels.layout import Curve, Sep
@@ -18,7 +18,7 @@ _OPENING = 1.0  # slope at which the gap opens where a profile, or the patch's o
 
 
 @kernel
-def creepages(motion: Array, frame: Frame, x: float, y: float, z: float, patch: Array) -> None:
+def creepages(motion: Record, frame: Frame, x: float, y: float, z: float, patch: Record) -> None:
     """Creepages at the wheel's point (x, y, z): its velocity v + Omega × p less the rail's, over V (theory.md 9.4)."""
     lx, ly, lz = axle(motion.roll, motion.yaw)
     wx = motion.roll_rate * math.cos(motion.yaw) + motion.spin * lx
@@ -35,7 +35,7 @@ def creepages(motion: Array, frame: Frame, x: float, y: float, z: float, patch: 
 
 
 @kernel
-def positions(motion: Array, frame: Frame, wheel: Array, n_wheel: int, patch: Array) -> None:
+def positions(motion: Record, frame: Frame, wheel: Array, n_wheel: int, patch: Record) -> None:
     """Where the reference point is, on the rail and opposite on the wheel, with the creepages there."""
     y0, z0, c, s = frame
     height, slope = at(wheel, advance(wheel, n_wheel, 0, 0.0), 0.0)
@@ -56,7 +56,7 @@ def positions(motion: Array, frame: Frame, wheel: Array, n_wheel: int, patch: Ar
 
 @kernel
 def sample(
-    frame: Frame, n_wheel: int, n_rail: int, low: float, high: float, patch: Array, out: Array, space: Search
+    frame: Frame, n_wheel: int, n_rail: int, low: float, high: float, patch: Record, out: Array, space: Search
 ) -> None:
     """Fill the separation: at the positions `grid`, or, when that is empty, over low … high, dense where the gap is small.
 
@@ -91,7 +91,7 @@ def sample(
 
 @kernel
 def describe(
-    first_node: int, start: int, end: int, lobe: Array, neighbours: tuple[float, float], k: int, space: Search
+    first_node: int, start: int, end: int, lobe: Record, neighbours: tuple[float, float], k: int, space: Search
 ) -> bool:
     """Fill patch and separation `k` of one combined lobe. Return False when too little of the profiles faces its plane.
 

@@ -6,7 +6,7 @@ A profile is an array with the rows y, z [m] and the angle of the tangent [rad],
 import math
 
 from contact._jit import kernel
-from contact.kernels.geometry.curve import Array, hermite, least
+from contact.kernels.geometry.curve import Array, Record, hermite, least
 from contact.kernels.layout import Curve
 
 #: Steeper parts of the profiles take no part in the search, whatever roll is allowed on top [rad].
@@ -97,7 +97,7 @@ def rail_origin(rail: Array, gauge: float, gauge_point: float) -> tuple[float, f
 
 
 @kernel
-def move(given: Array, motion: Array) -> None:
+def move(given: Record, motion: Record) -> None:
     """Take over pose, velocity and the rail's irregularity from a record GIVEN of `layout`, mirrored to the right side."""
     mirror = motion.mirror
     motion.y, motion.z, motion.roll, motion.yaw = mirror * given.y, given.z, mirror * given.roll, mirror * given.yaw

@@ -8,7 +8,7 @@ can lie nowhere else (Wang's trace line, theory.md 9.4). With it the search is o
 import math
 
 from contact._jit import kernel
-from contact.kernels.geometry.curve import Array, advance, at, hermite, least, root
+from contact.kernels.geometry.curve import Array, Record, advance, at, hermite, least, root
 from contact.kernels.layout import MAX_LOBES, Curve
 
 _COINCIDENT = 1e-9  # [m]
@@ -123,7 +123,7 @@ def touch(line: Array, start: int, end: int) -> float:
 
 
 @kernel
-def _weigh(line: Array, j: int, z: float, t0: float, t1: float, lobe: Array, k: int) -> None:
+def _weigh(line: Array, j: int, z: float, t0: float, t1: float, lobe: Record, k: int) -> None:
     """Add segment j between t0 and t1 to the moments of lobe k, by three Gauss points."""
     h = line[Curve.Y, j + 1] - line[Curve.Y, j]
     for i in range(3):
@@ -146,7 +146,7 @@ def _weigh(line: Array, j: int, z: float, t0: float, t1: float, lobe: Array, k: 
 
 
 @kernel
-def lobes(line: Array, start: int, end: int, z: float, lobe: Array) -> int:
+def lobes(line: Array, start: int, end: int, z: float, lobe: Record) -> int:
     """Runs of y in which the wheel, lowered by z, lies inside the rail; returns their number.
 
     Points are weighted with depth^(5/2), which is the square of the interpenetration integrated along x. The mean position
@@ -183,7 +183,7 @@ def lobes(line: Array, start: int, end: int, z: float, lobe: Array) -> int:
 
 
 @kernel
-def combine(lobe: Array, n: int, distance: float, angle: float, most: int) -> int:
+def combine(lobe: Record, n: int, distance: float, angle: float, most: int) -> int:
     """Merge neighbouring lobes in place into at most `most` patches; returns the number of patches.
 
     Two lobes stay separate patches when they are further apart than `distance` [m] (along the mean of their tangents) and

@@ -6,7 +6,7 @@ These are the entry kernels of the geometry. They return the number of patches o
 import math
 
 from contact._jit import kernel
-from contact.kernels.geometry.curve import Array
+from contact.kernels.geometry.curve import Array, Record
 from contact.kernels.geometry.frame import describe_all
 from contact.kernels.geometry.search import place, touch, trace, vertical_gap
 from contact.kernels.layout import Height, LoadKind, NoAnswer, Sep
@@ -20,7 +20,7 @@ DEEPEST = 5e-3  # [m] below first touch: far beyond any load that steel carries
 
 
 @kernel
-def oppose(wheel: Array, rail: Array, motion: Array, line: Array, placed: Array) -> tuple[int, int, int]:
+def oppose(wheel: Array, rail: Array, motion: Record, line: Array, placed: Array) -> tuple[int, int, int]:
     """Trace line, placed rail and the gap between; returns the first trace node and the range of those above the rail."""
     n = wheel.shape[1]
     first = trace(wheel, n, motion.radius, motion.tape, motion.y, motion.roll, motion.yaw, line)
@@ -30,7 +30,7 @@ def oppose(wheel: Array, rail: Array, motion: Array, line: Array, placed: Array)
 
 
 @kernel
-def first_touch(wheel: Array, rail: Array, motion: Array, line: Array, placed: Array) -> tuple[bool, float]:
+def first_touch(wheel: Array, rail: Array, motion: Record, line: Array, placed: Array) -> tuple[bool, float]:
     """Do the profiles lie above each other, and the z at which the rigid wheel just touches."""
     _, start, end = oppose(wheel, rail, motion, line, placed)
     if end - start < 3:

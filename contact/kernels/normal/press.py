@@ -11,7 +11,7 @@ a strip, the tangential problem - the strip gets the peak p0·kept of the semi-e
 
 import math
 
-from contact._jit import chosen_by, kernel
+from contact._jit import chosen_by, inlined, kernel
 from contact.kernels import families
 from contact.kernels.layout import Element, LoadKind, NormalFamily, Status, Strip
 from contact.kernels.normal.analyn import analyn
@@ -59,22 +59,22 @@ def _elastic(family, sep, case, own, result):
     raise NotImplementedError("only compiled kernels call this")
 
 
-@kernel
+@inlined
 def _analyn(family, sep, case, own, result):
     return analyn(sep, case, own.rule.across, own.space.grid, own.strips, result)
 
 
-@kernel
+@inlined
 def _hertzian(family, sep, case, own, result):
     return hertzian(sep, case, own.rule.across, own.space.grid, own.strips, result)
 
 
-@kernel
+@inlined
 def _strip_halfspace(family, sep, case, own, result):
     return strip_halfspace(sep, case, own, result)
 
 
-@kernel
+@inlined
 def _by_approach(family, sep, case, own, result):
     return by_approach(sep, case, own.rule.across, own.space.grid, own.strips, result)
 
@@ -112,7 +112,7 @@ def _cut_load(strips, n, limit):
     return N
 
 
-@kernel
+@inlined
 def _solve_elastic(sep, case, own, result):
     """As `_elastic`, from a cleared result."""
     clear(result)

@@ -22,7 +22,7 @@ from contact.kernels.tangential.vermeulen_johnson import vermeulen_johnson
 @kernel
 def of_ellipse(case, creepage, a, b, limit, tables):
     """Fx, Fy, Mz and the share of slip of one ellipse that rolls with a creepage (vx, vy, phi); `limit` is mu N."""
-    vx, vy, phi = creepage
+    vx, vy, _ = creepage
     law, G, nu = case.tangential, case.G, case.nu
     if law == Tangential.CARTER:
         force, slip = carter(vx, creepage_of_full_slip(limit, math.pi * a * b, G, nu))
