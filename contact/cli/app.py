@@ -81,6 +81,8 @@ def solve(
 
     Examples:  contact solve --y 3e-3 --load 80e3   ·   contact solve --curvatures 1.1 0.8 --creepage 1e-3 0 0.1
     """
+    if plot is not None:
+        drawing()
     surface = opt.surface(friction, falling, slip_velocity, gauge_friction, hot, temperature)
     material = opt.steel(pressure_limit)
     options = {"friction": surface, "material": material, "normal": normal, "tangential": tangential}
@@ -139,6 +141,7 @@ def patch(
 
     Example:  contact patch --y 6e-3 --yaw 2e-3 --out flange.png
     """
+    drawing()
     case = _position(
         wheel, rail, opt.reading(inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed
     )
@@ -194,6 +197,8 @@ def curve(
 
     Example:  contact curve --over lateral --tangential fastrip --tangential fastsim --plot curve.png
     """
+    if plot is not None:
+        drawing()
     end = largest if largest is not None else (1.0 if over is opt.Motion.spin else 0.01)
     start = Creepage() if creepage is None else Creepage(*creepage)
     values = np.linspace(0.0, require_number("max", end), points).tolist()
