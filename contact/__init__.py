@@ -6,6 +6,7 @@ forces act on the wheel. Start with `solve`.
 
 from typing import TYPE_CHECKING, Any
 
+from contact.citation import cite
 from contact.creepage import Creepage
 from contact.errors import ContactError
 from contact.forces import forces
@@ -38,6 +39,7 @@ __all__ = [
     "Solver",
     "Status",
     "Strips",
+    "cite",
     "compare",
     "forces",
     "hertz",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from contact.errors import ContactError, require_number
 from contact.kernels.friction import coefficient, over_profile
 from contact.material import Thermal
+from contact.notebook import table
 
 #: Greatest coefficient [-]: adhesion beyond any use, and far from where squares overflow.
 LARGEST = 1e6
@@ -24,8 +25,21 @@ LAWS = ("coulomb", "linear", "rational", "rational_square", "exponential")
 #: Slip velocities that a law may follow; the place is the number by which kernels know them.
 VELOCITIES = ("global", "local", "greatest")
 
+#: Of what is no pure number, for `Friction._repr_html_`.
+_UNITS = {
+    "half_speed": "m/s",
+    "border": "m",
+    "border_width": "m",
+    "reference_temperature": "K",
+    "temperature_range": "K",
+    "background_temperature": "K",
+    "law": "",
+    "velocity": "",
+    "thermal": "",
+}
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(frozen=True, slots=True, repr=False)
 class Friction:
     """Friction of a real surface, in place of a constant coefficient.
 
@@ -130,6 +144,27 @@ class Friction:
         require_number("friction.reference_temperature", self.reference_temperature, 0.0, HOTTEST)
         require_number("friction.temperature_range", self.temperature_range, 0.0, HOTTEST, open_minimum=True)
         require_number("friction.background_temperature", self.background_temperature, 0.0, HOTTEST)
+
+    def __repr__(self) -> str:
+        others = (f"{name}={value!r}" for name, value in self._changed().items())
+        return f"Friction({', '.join((f'{self.static!r}', *others))})"
+
+    def _repr_html_(self) -> str:
+        """Return a table of what differs from a constant coefficient, for a notebook."""
+        shown = {"static": self.static, **self._changed()}
+        return table(
+            ("friction", "value", "unit"),
+            (
+                (name, f"{value:g}" if isinstance(value, float | int) else str(value), _UNITS.get(name, "-"))
+                for name, value in shown.items()
+            ),
+        )
+
+    def _changed(self) -> dict[str, Any]:
+        """Return the parameters after the first that differ from their default."""
+        default = Friction(0.0)
+        names = [each.name for each in fields(self)[1:]]
+        return {name: getattr(self, name) for name in names if getattr(self, name) != getattr(default, name)}
 
     @classmethod
     def polach(cls, static: float = 0.55, A: float = 0.4, B: float = 0.6, **others: Any) -> Friction:

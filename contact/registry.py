@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from contact.errors import ContactError, suggestion
 from contact.kernels.layout import Normal, NormalFamily, Tangential, TangentialFamily
+from contact.notebook import table
 
 #: The methods of the thesis, used when none is named.
 DEFAULT_NORMAL, DEFAULT_TANGENTIAL = "analyn", "fastrip"
@@ -54,6 +55,22 @@ class Method:
     calibrated: bool = False
 
     @property
+    def abilities(self) -> tuple[str, ...]:
+        """What it can do, and others of its kind perhaps cannot."""
+        tangential = isinstance(self.id, Tangential)
+        said = {
+            "non-elliptic": self.non_elliptic,
+            "several patches": self.several_patches,
+            "spin": tangential and self.spin,
+            "slip field": tangential and self.fields,
+            "longitudinal creepage alone": not self.lateral,
+            "no friction": not self.saturates,
+            "interacting strips": self.interacting,
+            "load may step": not self.continuous,
+        }
+        return tuple(what for what, true in said.items() if true)
+
+    @property
     def elementwise(self) -> bool:
         """Whether it is the element-wise half space."""
         return self.family in (NormalFamily.NONE, TangentialFamily.NONE)
@@ -77,6 +94,20 @@ class Methods(NamedTuple):
 
     normal: MappingProxyType[str, Method]
     tangential: MappingProxyType[str, Method]
+
+    def __repr__(self) -> str:
+        return f"Methods(normal: {', '.join(self.normal)}; tangential: {', '.join(self.tangential)})"
+
+    def _repr_html_(self) -> str:
+        """Return a table of the methods with what each can do, for a notebook."""
+        return "".join(
+            table(
+                ("name", "method", "source", "can do"),
+                ((method.name, method.title, method.source, ", ".join(method.abilities)) for method in known.values()),
+                f"{kind} methods",
+            )
+            for kind, known in self._asdict().items()
+        )
 
     @property
     def batched(self) -> Methods:

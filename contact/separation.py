@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from html import escape
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError, require_number
 from contact.kernels.memory import Samples
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
+from contact.notebook import Sketch
 
 #: Of a slope of the surface [-] and of its rolling [1/m]: steeper than any surface, a wheel of a millimetre.
 LARGEST_TILT, LARGEST_ROLLING = 1e3, 1e3
+#: Gap above its least value up to which a notebook shows it [mm].
+SKETCHED = 2.0
 
 
 class Separation:
@@ -103,6 +108,17 @@ class Separation:
             array.setflags(write=False)
         other.samples = Samples(other.y, other.g, other.A, other.x_c, other.tilt)
         return other
+
+    def _repr_html_(self) -> str:
+        """Return a sketch of the gap near its least value, for a notebook."""
+        height = 1e3 * (self.g - self.g.min())
+        near = np.flatnonzero(height <= max(SKETCHED, float(np.sort(height)[2])))
+        first, last = max(int(near[0]) - 1, 0), min(int(near[-1]) + 2, height.size)
+        y, height = 1e3 * self.y[first:last], np.minimum(height, SKETCHED)[first:last]
+        top = float(height.max())
+        drawn = Sketch((y[0], y[-1]), (0.0, top), ("y [mm]", "gap above its least value [mm]"), "gap of the separation")
+        drawn.area(np.r_[y[0], y, y[-1]], np.r_[top, height, top])
+        return f"{drawn.svg()}<div>{escape(repr(self))}</div>"
 
     def __repr__(self) -> str:
         return f"Separation({self.y.size} points, y = {self.y[0]:g} … {self.y[-1]:g} m, least gap {self.g.min():g} m)"

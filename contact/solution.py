@@ -16,6 +16,7 @@ from contact.kernels.friction import of_case
 from contact.kernels.layout import CASE, RESULT, Field, Status, Strip
 from contact.kernels.memory import Workspace
 from contact.material import Material
+from contact.notebook import Sketch, beside, table
 from contact.registry import methods
 
 if TYPE_CHECKING:
@@ -72,8 +73,10 @@ class Solution:
     shape (n_strips, n_elements), element 0 at the leading edge. With no contact they are empty and all numbers zero. Where
     the tangential method gives forces alone, reading traction, slip or stick raises a ContactError (`has_fields`).
 
-    Two solutions are equal if they are the same one. The arrays of a solver's solution are read-only copies.
-    `dataclasses.replace` makes a changed one.
+    Two solutions are equal if they are the same one. All arrays are read-only, and each owns exactly what it shows: an array
+    that is kept keeps nothing else. `dataclasses.replace` makes a changed solution; a solution can be copied, pickled and
+    taken apart by `dataclasses.asdict`. Where the tangential method gives forces only, `replace` and `asdict` raise the
+    ContactError of the missing fields.
 
     Attributes
     ----------
@@ -148,6 +151,20 @@ class Solution:
         self.__dict__.update(_attributes(*self.__dict__.pop("_left")))
         return getattr(self, name)
 
+    def __post_init__(self) -> None:
+        """Own the arrays."""
+        _own_all(self.__dict__)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what a copy or a pickle holds; the damage is evaluated anew."""
+        if "_left" in self.__dict__:
+            self.__getattr__("status")
+        return {name: value for name, value in self.__dict__.items() if name != "damage"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        _own_all(self.__dict__)
+
     def __repr__(self) -> str:
         return (
             f"Solution({self.status.name}: N = {self.N:.6g} N, Fx = {self.Fx:.6g} N, Fy = {self.Fy:.6g} N, "
@@ -155,6 +172,30 @@ class Solution:
             f"{self.n_patches} patch(es), {self.area * 1e6:.4g} mm², {self.max_pressure / 1e6:.5g} MPa; "
             f"{self.normal} + {self.tangential})"
         )
+
+    def _repr_html_(self) -> str:
+        """Return the main numbers as a table, and a sketch of the patch and its pressure, for a notebook."""
+        numbers = (
+            ("status", self.status.name),
+            ("N", f"{self.N:.6g} N"),
+            ("Fx, Fy", f"{self.Fx:.6g} N, {self.Fy:.6g} N"),
+            ("Mz", f"{self.Mz:.6g} N m"),
+            (
+                "creepages",
+                f"{self.creepage.longitudinal:g}, {self.creepage.lateral:g}; spin {self.creepage.spin:g} 1/m",
+            ),
+            ("approach", f"{1e6 * self.approach:.5g} µm"),
+            ("patches", f"{self.n_patches}"),
+            ("area", f"{1e6 * self.area:.4g} mm²"),
+            ("slip area / area", f"{self.slip_ratio:.3g}"),
+            ("length × width", f"{1e3 * self.length:.4g} mm × {1e3 * self.width:.4g} mm"),
+            ("greatest pressure", f"{1e-6 * self.max_pressure:.5g} MPa"),
+            ("friction", f"{self.friction:g}"),
+            ("utilisation", f"{self.utilisation:.3g}"),
+            ("energy per metre", f"{self.power_per_metre:.4g} J/m"),
+        )
+        shown = table((), numbers, f"{self.normal} + {self.tangential}")
+        return beside(shown, _sketch(self.strips)) if self.strips.y.size else shown
 
     @property
     def has_fields(self) -> bool:
@@ -250,9 +291,7 @@ def _attributes(
     y, dA = np.repeat(strips[Strip.Y][:, None], fields.shape[2], axis=1), fields[Field.DX] * strips[Strip.DY][:, None]
     stick, patch = fields[Field.STICK] > 0.5, strips[Strip.PATCH].astype(np.int64)
     edges, bent = result.edges[: 2 * result.n_patches].reshape(-1, 2), case.view(CASE)[0].conformal != 0
-    for array in (numbers, strips, fields, memory, y, dA, stick, patch, edges):
-        array.setflags(write=False)
-    return {
+    found = {
         "Fx": float(result.Fx),
         "Fy": float(result.Fy),
         "Mz": float(result.Mz),
@@ -300,6 +339,45 @@ def _attributes(
         "patch_edges": edges,
         "memory": memory,
     }
+    _own_all(found)
+    return found
+
+
+def _own_all(values: dict[str, Any]) -> None:
+    """Replace arrays, also those of strips and of tuples, by read-only ones that own their memory."""
+    for name, value in values.items():
+        if isinstance(value, np.ndarray):
+            values[name] = _own(value)
+        elif isinstance(value, Strips):
+            values[name] = Strips(**{k: _own(getattr(value, k)) for k in Strips.__slots__})
+        elif isinstance(value, tuple) and value and all(isinstance(part, np.ndarray) for part in value):
+            values[name] = tuple(map(_own, value))
+
+
+def _own(array: Any) -> Any:
+    """Return a read-only array that owns its memory: the array itself if it is one, else a copy."""
+    if not isinstance(array, np.ndarray) or (array.base is None and not array.flags.writeable):
+        return array
+    own = array.copy()
+    own.setflags(write=False)
+    return own
+
+
+def _sketch(strips: Strips) -> str:
+    """Return an SVG of the strips, the darker the higher their peak pressure, over one of the peak pressure."""
+    y, dy, x_c, a, p0 = (1e3 * value for value in (strips.y, strips.dy, strips.x_c, strips.a, 1e-9 * strips.p0))
+    ends = float((y - 0.5 * dy).min()), float((y + 0.5 * dy).max())
+    extent = float((x_c - a).min()), float((x_c + a).max())
+    seen = Sketch(ends, extent, ("y [mm]", "x [mm], rolling direction"), "contact patch", width=200.0, equal=True)
+    pressure = Sketch(
+        ends, (0.0, float(p0.max())), ("y [mm]", "peak pressure [MPa]"), "peak pressure", width=200.0, height=70.0
+    )
+    seen.bars(y, dy, x_c - a, x_c + a, 0.1 + 0.8 * p0 / max(float(p0.max()), 1e-300))
+    for k in np.unique(strips.patch):
+        own = strips.patch == k
+        seen.area(np.r_[y[own], y[own][::-1]], np.r_[(x_c - a)[own], (x_c + a)[own][::-1]], 0.0)
+        pressure.area(np.r_[y[own][0], y[own], y[own][-1]], np.r_[0.0, p0[own], 0.0])
+    return f"{seen.svg()}<br/>{pressure.svg()}"
 
 
 def _uncut(load: Array, a2: Array, limit: float) -> Array | float:

@@ -128,8 +128,8 @@ class Solver:
 
     def set_surface(self, friction: float | Friction, speed: float) -> None:
         """Set the friction [-] and the rolling speed [m/s] of the following calls that name no other."""
-        self._friction = as_friction(friction)
-        self._speed = require_number("speed", speed, 0.0, open_minimum=True)
+        surface, velocity = as_friction(friction), require_number("speed", speed, 0.0, open_minimum=True)
+        self._friction, self._speed = surface, velocity
         set_surface(self._case, self._friction, self._speed)
 
     def forget(self) -> None:
@@ -236,14 +236,13 @@ class Solver:
             raise ContactError(f"creepage = {creepage!r} is not a contact.Creepage")
         if (load is None) == (approach is None):
             raise ContactError(f"exactly one of load and approach is needed; load = {load}, approach = {approach}")
+        amount = require_number("load", load, 0.0) if load is not None else require_number("approach", approach)
         friction, speed = surface
         if (friction is not None and friction is not self._friction) or (speed is not None and speed != self._speed):
             self.set_surface(self._friction if friction is None else friction, self._speed if speed is None else speed)
         member = self._member
-        if load is not None:
-            member["load_kind"][0], member["amount"][0] = LoadKind.LOAD, require_number("load", load, 0.0)
-        else:
-            member["load_kind"][0], member["amount"][0] = LoadKind.APPROACH, require_number("approach", approach)
+        member["load_kind"][0] = LoadKind.APPROACH if load is None else LoadKind.LOAD
+        member["amount"][0] = amount
         member["vx"][0], member["vy"][0], member["phi"][0] = creepage.longitudinal, creepage.lateral, creepage.spin
         member["rolling"][0] = separation.rolling
         if separation.y.size > self._n_samples:

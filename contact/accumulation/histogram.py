@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from html import escape
 from typing import Literal, get_args
 
 import numpy as np
@@ -17,6 +18,7 @@ from contact.geometry.records import Patch
 from contact.kernels.damage import deposit
 from contact.kernels.layout import LEDGER, N_BIN_ROWS
 from contact.material import Material
+from contact.notebook import Sketch
 from contact.solution import Solution
 
 Array = NDArray[np.float64]
@@ -245,6 +247,20 @@ class Histogram:
     def volume(self) -> float:
         """Volume worn off [m³]: from this wheel, or from the rail along the distance."""
         return float(self["volume"].sum())
+
+    def _repr_html_(self) -> str:
+        """Return a sketch of the depth over the arc length, for a notebook."""
+        depth, edges = 1e6 * self.depth, 1e3 * self.edges
+        worn = np.flatnonzero(depth)
+        first, last = (max(int(worn[0]) - 2, 0), min(int(worn[-1]) + 3, depth.size)) if worn.size else (0, depth.size)
+        ends = edges[first : last + 1]
+        what = "depth worn off" if self.profile.kind == "wheel" else "depth worn off in one pass"
+        drawn = Sketch((ends[0], ends[-1]), (0.0, float(depth.max())), ("arc length [mm]", f"{what} [µm]"), what)
+        drawn.area(
+            np.r_[ends[0], np.repeat(ends[1:-1], 2), ends[-1], ends[-1], ends[0]],
+            np.r_[np.repeat(depth[first:last], 2), 0.0, 0.0],
+        )
+        return f"{drawn.svg()}<div>{escape(repr(self))}</div>"
 
     def __repr__(self) -> str:
         return (

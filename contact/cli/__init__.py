@@ -4,14 +4,24 @@ from __future__ import annotations
 
 import sys
 
+_HELP = """\
+usage: contact COMMAND [OPTIONS]
+
+Wheel-rail contact: patches, pressure, creep forces and damage.
+"""
+
 
 def main() -> None:
     """Entry point: run the command that sys.argv names; exit code 0, 1 (something is missing) or 2 (bad input)."""
     try:
         from contact.cli.app import run
     except ModuleNotFoundError as missing:
-        if missing.name not in ("typer", "rich"):
+        if (missing.name or "").partition(".")[0] not in ("typer", "rich"):
             raise
-        sys.stderr.write(f"contact: {missing.name} is missing; pip install 'wheelrail-contact[cli]'\n")
+        line = f"contact: {missing.name} is missing; pip install 'wheelrail-contact[cli]'\n"
+        if set(sys.argv[1:]) & {"-h", "--help"}:
+            sys.stdout.write(f"{_HELP}\n{line}")
+            sys.exit(0)
+        sys.stderr.write(line)
         sys.exit(1)
     run(sys.argv[1:])

@@ -11,9 +11,10 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 from rich.console import Console
+from rich.markup import escape
 
 import contact
-from contact.cli import creep_table, problem, report
+from contact.cli import creep_table, extras, problem, report
 from contact.cli import options as opt
 from contact.cli.compare import compare
 from contact.cli.geometry import conicity, list_profiles
@@ -35,6 +36,7 @@ app = typer.Typer(
     name="contact",
     help="Wheel-rail contact: patches, pressure, creep forces and damage. All input and JSON are in SI units; "
     "forces act on the wheel.",
+    epilog=escape(extras.note()),
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -80,6 +82,8 @@ def solve(
 
     Examples:  contact solve --y 3e-3 --load 80e3   ·   contact solve --curvatures 1.1 0.8 --creepage 1e-3 0 0.1
     """
+    if plot is not None:
+        drawing()
     surface = opt.surface(friction, falling, slip_velocity, gauge_friction, hot, temperature)
     material = opt.steel(pressure_limit)
     options = {"friction": surface, "material": material, "normal": normal, "tangential": tangential}
@@ -139,6 +143,7 @@ def patch(
 
     Example:  contact patch --y 6e-3 --yaw 2e-3 --out flange.png
     """
+    drawing()
     case = _position(
         wheel, rail, opt.reading(inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed
     )
@@ -195,6 +200,8 @@ def curve(
 
     Example:  contact curve --over lateral --tangential fastrip --tangential fastsim --plot curve.png
     """
+    if plot is not None:
+        drawing()
     end = largest if largest is not None else (1.0 if over is opt.Motion.spin else 0.01)
     start = Creepage() if creepage is None else Creepage(*creepage)
     values = np.linspace(0.0, require_number("max", end), points).tolist()

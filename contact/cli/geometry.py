@@ -63,6 +63,8 @@ def geometry(
 
     Example:  contact geometry --wheel 1/40 --rail UIC60 --inclination 0.05 --max 8e-3 --plot points.png
     """
+    if plot is not None:
+        drawing()
     reading = opt.reading(inclination, unit, drawn_side, smoothing)
     pair = _pair(wheel, rail, left_wheel, left_rail, reading, radius, left_radius, gauge, back_to_back, roll)
     n = max(1, round(reach / step))
@@ -103,6 +105,8 @@ def conicity(
 
     Example:  contact conicity --wheel s1002 --rail 60e2 --gauge 1.432 --plot conicity.png
     """
+    if plot is not None:
+        drawing()
     reading = opt.reading(inclination, unit, drawn_side, smoothing)
     pair = _pair(wheel, rail, left_wheel, left_rail, reading, radius, left_radius, gauge, back_to_back, roll)
     found = conicity_of(**pair, amplitudes=amplitude or None)

@@ -9,6 +9,7 @@ from typing import Any, NoReturn, TypeVar
 
 import typer
 
+from contact.cli.extras import EXTRAS, missing
 from contact.errors import ContactError
 from contact.study.files import PICTURES, csv_of, require_ending, write
 
@@ -16,7 +17,7 @@ Command = TypeVar("Command", bound=Callable[..., None])
 
 
 def reported(command: Command) -> Command:
-    """Let a command end with a message on stderr and exit code 2 when it gets bad input."""
+    """Let a command end with a message on stderr: exit code 2 when it gets bad input, 1 when an extra is missing."""
 
     @functools.wraps(command)
     def wrapper(*args: Any, **kwargs: Any) -> None:
@@ -24,6 +25,10 @@ def reported(command: Command) -> Command:
             command(*args, **kwargs)
         except ContactError as error:
             stop(str(error), 2)
+        except ImportError as error:
+            if "pip install 'wheelrail-contact[" not in str(error):
+                raise
+            stop(str(error), 1)
 
     return wrapper  # type: ignore[return-value]
 
@@ -35,6 +40,13 @@ def drawing() -> Any:
     except ImportError as error:
         stop(str(error), 1)
     return plot
+
+
+def require_extra(extra: str) -> None:
+    """Go on if an extra is installed; else end the program with a line that names it."""
+    if extra in missing():
+        module, use = EXTRAS[extra]
+        stop(f"{module} is missing ({use}): pip install 'wheelrail-contact[{extra}]'", 1)
 
 
 def write_picture(figure: Any, path: Path) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from rich.console import Console
@@ -12,7 +12,7 @@ from rich.table import Table
 from contact.cli.problem import Touch
 from contact.damage import Damage, evaluate
 from contact.geometry.wheelset import Patch
-from contact.registry import Method, Methods
+from contact.registry import Methods
 from contact.solution import Solution
 from contact.study.table import number
 
@@ -118,28 +118,8 @@ def show_methods(methods: Methods, console: Console) -> None:
         for heading in ("method", "source", "can do"):
             table.add_column(heading)
         for method in known.values():
-            table.add_row(method.name, method.title, method.source, ", ".join(_abilities(method, kind)))
+            table.add_row(method.name, method.title, method.source, ", ".join(method.abilities))
         console.print(table)
-
-
-def _abilities(method: Method, kind: str) -> Iterator[str]:
-    """What the method can do and others of its kind perhaps cannot."""
-    if method.non_elliptic:
-        yield "non-elliptic"
-    if method.several_patches:
-        yield "several patches"
-    if kind == "tangential" and method.spin:
-        yield "spin"
-    if kind == "tangential" and method.fields:
-        yield "slip field"
-    if not method.lateral:
-        yield "longitudinal creepage alone"
-    if not method.saturates:
-        yield "no friction"
-    if method.interacting:
-        yield "interacting strips"
-    if not method.continuous:
-        yield "load may step"
 
 
 def show_curve(

@@ -120,7 +120,10 @@ class OneEllipse:
 
     def fitted(self, at: tuple[int, int, int], true: Array, start: Array, expected: Array, stiff: float) -> Array:
         """The change with which the march has the forces `true` at a node, as near to `expected` as they let it."""
-        from scipy.optimize import least_squares
+        try:
+            from scipy.optimize import least_squares
+        except ImportError as missing:
+            raise ImportError("fitting needs scipy: pip install 'wheelrail-contact[profiles]'") from missing
 
         _, alpha, beta, rho = table.nodes()
         j, k, l = at

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from fmu_src.native.libm import ZIG
-
-_OWN = Path(__file__).parents[2] / "LICENSE"  # FMUs are built from the source tree
+from fmu_src.place import licence
 
 _OVERVIEW = """\
 What is in this FMU, and under which licence:
@@ -32,7 +31,7 @@ def licences(headers: Path) -> Iterator[tuple[str, str]]:
     interface = (headers / "fmi2Functions.h").read_text()
     interface = interface[interface.index("Copyright") :]
     yield "license.txt", _OVERVIEW
-    yield "wheelrail-contact.txt", _OWN.read_text()
+    yield "wheelrail-contact.txt", licence()
     yield "fmi.txt", interface[: interface.index("*/")].rstrip() + "\n"
     for name, path in (
         ("zig", "LICENSE"),

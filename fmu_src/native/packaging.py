@@ -16,7 +16,6 @@ import fmpy
 
 import contact
 import fmu_src
-import models
 from fmu_src import archive
 from fmu_src.catalogue import Model
 from fmu_src.description import model_description
@@ -26,6 +25,7 @@ from fmu_src.native import source
 from fmu_src.native.emit import OWN_LIBM, TRIPLES, objects
 from fmu_src.native.libm import compile_libm
 from fmu_src.native.licences import licences
+from models import wheelset
 
 _COMMON = {
     "needsExecutionTool": "false",
@@ -155,8 +155,8 @@ def kernels(model: Model, cache: Path, say: Callable[[str], None]) -> dict[str, 
     """Object files of a model's kernels, compiled anew only if their sources or numba have changed."""
     options = json.dumps(dict(model.options))
     fingerprint = hashlib.sha256(f"{model.name} {options} {version('numba')} {version('llvmlite')}".encode())
-    for package in (contact, fmu_src, models):
-        for path in sorted(Path(package.__path__[0]).rglob("*.py")):
+    for package in (Path(contact.__file__), Path(fmu_src.__file__), Path(wheelset.__file__).parent):
+        for path in sorted(package.parent.rglob("*.py")):
             fingerprint.update(path.read_bytes())
     folder = cache / fingerprint.hexdigest()[:16]
     paths = {platform: objects(folder, platform) for platform in TRIPLES}

@@ -21,11 +21,20 @@ from fmu_src.description import model_description
 from fmu_src.documentation import markdown
 from fmu_src.python.slave import INTERFACES
 
+#: Packages in which a slave may be: of an installed wheel, of a checkout. The build of a wheel renames the latter wherever it
+#: stands in one piece (tools/build_backend.py); here it is meant as it is.
+_PACKAGES = ("contact_fmu", "fmu" + "_src")
+
 _SCRIPT = '''\
 """Slave of the FMU {name}. The code is in the package wheelrail-contact {version}, installed in the host's Python."""
 
+from importlib.util import find_spec
+
 try:
-    from {module} import {name}Slave
+    if find_spec("{packages[0]}"):
+        from {packages[0]}.{module} import {name}Slave
+    else:
+        from {packages[1]}.{module} import {name}Slave
 except ImportError as error:
     raise ImportError(
         f"the FMU {name} needs the package wheelrail-contact {version} in the host's Python: {{error}}"
@@ -48,7 +57,12 @@ def _files(model: Model) -> Iterator[tuple[str, bytes]]:
     guid, xml = model_description(model.table, INTERFACES)
     yield "modelDescription.xml", xml.encode()
     script = _SCRIPT.format(
-        name=name, version=__version__, module=model.module("python").__name__, options=model.options, guid=guid
+        name=name,
+        version=__version__,
+        packages=_PACKAGES,
+        module=f"python.{model.name}",
+        options=model.options,
+        guid=guid,
     ).encode()
     module = f"{name.lower()}_{hashlib.sha256(script).hexdigest()[:16]}"
     yield f"resources/{module}.py", script

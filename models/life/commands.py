@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from contact.cli.output import drawing, reported, stop
+from contact.cli.output import drawing, reported, require_extra, stop
 from contact.cli.progress import progress_bar
 from models.life import checkpoint, declared_set, scenario
 from models.life.run import Run
@@ -35,6 +35,7 @@ def run(
     Interrupted, it goes on from its last checkpoint when it is called again, to the same result bit for bit.
     """
     drawing()
+    require_extra("xarray")
     folder = out or Path("out") / file.stem
     started = Run(scenario.read(file))
     complete(started, folder / "checkpoint.npz", fresh, every)
@@ -77,6 +78,7 @@ def wear(
     Interrupted, it goes on from the last whole step when it is called again. The result does not depend on the workers.
     """
     drawing()
+    require_extra("xarray")
     folder = out or Path("out") / file.stem
     life = Life(declared_set.read(file))
     path, fingerprint = folder / "checkpoint.npz", life.plan.fingerprint

@@ -51,7 +51,7 @@ def demo(
     step: Annotated[float, typer.Option(help="Communication step in s.")] = 1e-3,
     friction: Annotated[float, typer.Option(help="Coefficient of friction.")] = 0.3,
     scheme: Annotated[str, typer.Option(help="gauss_seidel, jacobi or iterated.")] = "gauss_seidel",
-    fmus: Annotated[Path, typer.Option(help="Folder with the FMUs that build_fmu.py made.")] = Path("dist"),
+    fmus: Annotated[Path, typer.Option(help="Folder with the FMUs that `contact fmu` made.")] = Path("dist"),
     python: Annotated[bool, typer.Option("--python", help="Couple Python objects instead of FMUs.")] = False,
 ) -> None:
     """Run a wheelset above its critical speed into flange contact: one Wheelset FMU and two WheelRailContact FMUs."""
@@ -89,7 +89,11 @@ def _fmus(
     paths = [folder / f"{name}.fmu" for name in FMUS]
     for path in paths:
         if not path.is_file():
-            stop(f"{path} is missing; make it with  python build_fmu.py --out {folder}  or use --python", 1)
+            stop(
+                f"{path} is missing; make it with  python build_fmu.py --out {folder}  in a checkout, with  "
+                f"contact fmu --out {folder}  elsewhere, or use --python",
+                1,
+            )
     wheelset = {"speed": parameters.speed, "initial.lateral": parameters.lateral}
     contact = {"speed": parameters.speed, "friction.coefficient": friction, "wheel.radius": parameters.radius}
     first, *others = (

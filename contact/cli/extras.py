@@ -1,0 +1,36 @@
+"""Which extras of the package are not installed, and what for."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+
+#: Extra → a module that comes with it, and what needs it.
+EXTRAS = {
+    "plot": ("matplotlib", "pictures: patch, demo, run, wear, --plot"),
+    "xarray": ("xarray", "result files: run, wear"),
+    "profiles": ("scipy", "smoothing of measured profiles"),
+    "scale": ("dask", "wear on several processes"),
+    "fmu": ("pythonfmu", "fmu, demo without --python"),
+    "native": ("ziglang", "fmu for hosts without Python"),
+}
+
+
+def missing() -> dict[str, str]:
+    """Return extra → what needs it, for every extra that is not installed."""
+    return {extra: use for extra, (module, use) in EXTRAS.items() if _absent(module)}
+
+
+def note() -> str:
+    """Return a paragraph for the help that names the missing extras; empty if there is none."""
+    absent = missing()
+    if not absent:
+        return ""
+    lines = [f"{extra} ({use})" for extra, use in absent.items()]
+    return f"Not installed: {'; '.join(lines)}. Add one with  pip install 'wheelrail-contact[{next(iter(absent))}]'."
+
+
+def _absent(module: str) -> bool:
+    try:
+        return find_spec(module) is None
+    except ValueError:  # a module without a specification
+        return False

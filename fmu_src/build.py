@@ -1,0 +1,92 @@
+"""Build the FMUs: `contact fmu`, ``python -m fmu_src.build`` and, in a checkout, ``python build_fmu.py``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import time
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from contact.errors import ContactError
+from fmu_src import place, profiles, ssp
+from fmu_src.catalogue import Model, models
+from fmu_src.documentation import markdown
+from fmu_src.python import packaging as python
+from models.wheelset import ports
+
+
+def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
+    """Build what the command line asks for, and say so; `words` stand in place of those of the process, `name` of its name."""
+    parser = argparse.ArgumentParser(prog=name, description="Build the FMUs of wheelrail-contact.")
+    parser.add_argument(
+        "--packaging",
+        choices=["python", "native", "all"],
+        default="all",
+        help="for hosts with Python, into FOLDER; without Python, into FOLDER/native (default: all)",
+    )
+    parser.add_argument("--out", type=Path, default=Path("dist"), metavar="FOLDER", help="where to (default: dist)")
+    parser.add_argument(
+        "--points",
+        type=int,
+        default=ports.POINTS,
+        help=f"samples of the separation of WheelRailContact, at least 3 (default: {ports.POINTS}, what Wheelset gives)",
+    )
+    profiles.add_options(parser)
+    parser.add_argument("--describe", action="store_true", help="print the variables as Markdown and build nothing")
+    arguments = parser.parse_args(words)
+    if arguments.points < 3:
+        parser.error(f"--points {arguments.points}: a separation has at least 3 samples")
+
+    try:
+        chosen = models(arguments.points, profiles.chosen(arguments))
+    except (ContactError, ImportError) as error:
+        parser.error(str(error))
+    if arguments.describe:
+        print("\n".join(markdown(model.table) for model in chosen))
+        return
+    if arguments.packaging != "native":
+        for model in chosen:
+            print(f"{model.table.name}, for hosts with Python ... ", end="", flush=True)
+            print(_size(python.build(model, arguments.out)))
+        build_system(arguments.out)
+    if arguments.packaging != "python":
+        build_native(chosen, arguments.out / "native")
+        build_system(arguments.out / "native")
+
+
+def build_native(chosen: Sequence[Model], folder: Path) -> None:
+    """Build FMUs that need no Python, side by side as far as there are processors, telling how far it has come."""
+    try:
+        from fmu_src.native import packaging as native
+    except ModuleNotFoundError as error:
+        raise SystemExit(f"{error}: native FMUs need  pip install 'wheelrail-contact[native]'") from None
+    begin = time.monotonic()
+
+    def build(model: Model) -> None:
+        def say(what: str) -> None:
+            print(f"  {time.monotonic() - begin:3.0f} s  {model.table.name}: {what}", flush=True)
+
+        for path in native.build(model, folder, place.objects(), say):
+            say(_size(path))
+
+    print("Native, for hosts without Python:")
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        list(pool.map(build, chosen))
+
+
+def build_system(folder: Path) -> None:
+    """Build the coupled wheelset of the FMUs in a folder, or say why it cannot be."""
+    if obstacle := ssp.obstacle(folder):
+        print(f"{ssp.NAME}, a system of these: not made, {obstacle}")
+    else:
+        print(f"{ssp.NAME}, a system of these: {_size(ssp.build(folder))}")
+
+
+def _size(path: Path) -> str:
+    return f"{path} ({path.stat().st_size / 1024:.0f} kB)"
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,82 @@
+"""`contact fmu`: build the FMUs."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from contact.cli.output import stop
+
+
+class Packaging(StrEnum):
+    """What a host needs."""
+
+    python = "python"
+    native = "native"
+    all = "all"
+
+
+class Unit(StrEnum):
+    """Of a profile file."""
+
+    m = "m"
+    mm = "mm"
+
+
+class Side(StrEnum):
+    """That a profile file shows."""
+
+    right = "right"
+    left = "left"
+
+
+PROFILE = "a name of `contact profiles`, or a file"
+
+
+def fmu(
+    packaging: Annotated[
+        Packaging,
+        typer.Option(help="For hosts with Python, into the folder; without Python, into its folder native."),
+    ] = Packaging.all,
+    out: Annotated[Path, typer.Option(help="Folder for the FMUs.")] = Path("dist"),
+    points: Annotated[
+        int | None,
+        typer.Option(help="Samples of the separation of WheelRailContact; by default as many as Wheelset gives."),
+    ] = None,
+    wheel: Annotated[str | None, typer.Option(help=f"Profile of the wheel: {PROFILE}.")] = None,
+    rail: Annotated[str | None, typer.Option(help=f"Profile of the rail: {PROFILE}.")] = None,
+    unit: Annotated[Unit | None, typer.Option(help="Unit of the profile files, for plain columns.")] = None,
+    side: Annotated[Side | None, typer.Option(help="Side that the files show, for plain columns.")] = None,
+    smoothing: Annotated[
+        float | None, typer.Option(help="Noise in m that is smoothed out of the files, like 2e-6.")
+    ] = None,
+    describe: Annotated[
+        bool, typer.Option("--describe", help="Print the variables as Markdown, build nothing.")
+    ] = False,
+) -> None:
+    """Build the FMUs: Wheelset, WheelRailContact and WheelRailPair.
+
+    Example:  contact fmu --packaging python --out dist
+    """
+    try:
+        from fmu_src.build import main
+    except ModuleNotFoundError as missing:
+        stop(
+            f"FMUs need {missing.name}: pip install 'wheelrail-contact[fmu]', native ones 'wheelrail-contact[native]'",
+            1,
+        )
+    options = {
+        "packaging": packaging,
+        "out": out,
+        "points": points,
+        "wheel": wheel,
+        "rail": rail,
+        "unit": unit,
+        "side": side,
+        "smoothing": smoothing,
+    }
+    words = [f"--{name}={value}" for name, value in options.items() if value is not None]
+    main([*words, *(["--describe"] if describe else [])], "contact fmu")

@@ -1,0 +1,297 @@
+"""Records: how they are written, shown in a notebook, copied, pickled, replaced; what their arrays own."""
+
+import copy
+import dataclasses
+import pickle
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+import pytest
+
+import contact
+from contact import notebook
+from contact.accumulation import Histogram
+from contact.errors import ContactError
+from contact.friction import Friction
+from contact.geometry import profile
+from contact.material import Thermal
+from contact.solution import Solution
+
+CREEPAGE = contact.Creepage(1e-3, -5e-4, 0.2)
+FIELDS = ("x", "y", "p", "qx", "qy", "sx", "sy", "stick", "dA")
+PAIRS = {"strips": {}, "grid": {"normal": "halfspace", "tangential": "halfspace", "n_strips": 12, "n_elements": 12}}
+COPIES = {
+    "copy": copy.copy,
+    "deepcopy": copy.deepcopy,
+    **{f"pickle {k}": lambda s, k=k: pickle.loads(pickle.dumps(s, k)) for k in range(2, pickle.HIGHEST_PROTOCOL + 1)},
+}
+
+
+@pytest.fixture(params=PAIRS)
+def solution(request, ellipse):
+    """A new solution, of which nothing has been read."""
+    return contact.solve(ellipse, CREEPAGE, load=60e3, **PAIRS[request.param])
+
+
+@pytest.fixture
+def forces_only(ellipse):
+    return contact.solve(ellipse, CREEPAGE, load=60e3, tangential="polach")
+
+
+def arrays(solution):
+    """Every array of a solution, those of its strips and of its grid too, by name."""
+    found = {}
+    for each in dataclasses.fields(solution):
+        value = getattr(solution, each.name)
+        if isinstance(value, np.ndarray):
+            found[each.name] = value
+        elif isinstance(value, tuple):
+            found |= {f"{each.name}[{k}]": part for k, part in enumerate(value)}
+    return found | {f"strips.{name}": getattr(solution.strips, name) for name in solution.strips.__slots__}
+
+
+def assert_same(a, b):
+    """Two solutions agree in all that they say, to the last bit."""
+    mine, others = arrays(a), arrays(b)
+    assert mine.keys() == others.keys()
+    for name, array in mine.items():
+        np.testing.assert_array_equal(array, others[name], err_msg=name, strict=True)
+    for each in dataclasses.fields(a):
+        value = getattr(a, each.name)
+        if not isinstance(value, np.ndarray | tuple | contact.Strips):
+            assert getattr(b, each.name) == value, each.name
+
+
+def parsed(html):
+    """The elements of a piece of HTML, which must be well-formed and refer to nothing outside."""
+    for foreign in ("<script", "<img", "<link", "href", "url(", "@import"):
+        assert foreign not in html
+    return list(ElementTree.fromstring(f"<div>{html}</div>").iter())
+
+
+def words(html):
+    return " ".join(
+        "".join(element.itertext()) for element in parsed(html) if element.tag in ("td", "th", "caption", "div")
+    )
+
+
+def drawn(html):
+    """Corners of every polygon, in pixels."""
+    return [
+        np.array([point.split(",") for point in element.get("points").split()], dtype=np.float64)
+        for element in parsed(html)
+        if element.tag.endswith("polygon")
+    ]
+
+
+# Solution
+
+
+def test_arrays_of_a_solution_are_read_only_and_own_just_what_they_show(solution):
+    for name, array in arrays(solution).items():
+        assert array.base is None, name
+        assert array.flags.owndata, name
+        assert not array.flags.writeable, name
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0
+
+
+def test_a_solution_that_was_not_read_keeps_no_workspace(ellipse):
+    solver = contact.Solver(n_strips=8, n_elements=8, n_samples=100_000)
+    solution = solver.solve(ellipse, CREEPAGE, load=60e3)
+    assert len(pickle.dumps(solution)) < 100_000
+    for name, array in arrays(solution).items():
+        assert array.nbytes <= 8 * 64 or name == "memory", name
+
+
+@pytest.mark.parametrize("read", [True, False], ids=["read", "not read"])
+@pytest.mark.parametrize("way", COPIES)
+def test_a_copy_says_the_same_and_its_arrays_are_read_only(solution, way, read):
+    if read:
+        assert solution.damage is not None
+    other = COPIES[way](solution)
+    assert type(other) is type(solution)
+    assert_same(other, solution)
+    for name, array in arrays(other).items():
+        assert array.base is None, name
+        assert not array.flags.writeable, name
+    assert other.damage.T_gamma == solution.damage.T_gamma
+    np.testing.assert_array_equal(other.pressure([0.0, 1e-3], 0.0), solution.pressure([0.0, 1e-3], 0.0))
+
+
+@pytest.mark.parametrize("way", COPIES)
+def test_a_copy_of_forces_only_has_the_forces_and_no_fields(forces_only, way):
+    other = COPIES[way](forces_only)
+    assert (other.Fx, other.Fy, other.Mz) == (forces_only.Fx, forces_only.Fy, forces_only.Mz)
+    with pytest.raises(ContactError, match="there is no qx"):
+        _ = other.qx
+
+
+def test_replace_changes_what_it_is_told_and_nothing_else(solution):
+    other = dataclasses.replace(solution, speed=33.0)
+    assert (other.speed, solution.speed) == (33.0, 20.0)
+    assert type(other) is type(solution)
+    assert_same(dataclasses.replace(other, speed=solution.speed), solution)
+
+
+def test_replace_copies_an_array_that_it_is_given(solution):
+    pressure = solution.p.copy()
+    other = dataclasses.replace(solution, p=pressure)
+    pressure[:] = 0.0
+    np.testing.assert_array_equal(other.p, solution.p)
+    assert not other.p.flags.writeable
+
+
+def test_replace_evaluates_the_damage_anew(solution):
+    before = solution.damage.T_gamma
+    other = dataclasses.replace(solution, power_per_metre=2.0 * solution.power_per_metre)
+    assert "damage" not in other.__dict__
+    assert solution.damage.T_gamma == before
+
+
+def test_asdict_holds_every_field_and_those_of_strips_creepage_and_material(solution):
+    found = dataclasses.asdict(solution)
+    assert list(found) == [each.name for each in dataclasses.fields(Solution)] + ["grid"] * ("grid" in found)
+    assert found["N"] == solution.N
+    assert found["creepage"] == {"longitudinal": 1e-3, "lateral": -5e-4, "spin": 0.2}
+    assert found["material"]["shear_modulus"] == contact.STEEL.shear_modulus
+    np.testing.assert_array_equal(found["strips"]["a"], solution.strips.a)
+    np.testing.assert_array_equal(found["p"], solution.p)
+
+
+@pytest.mark.parametrize(
+    "way", [dataclasses.asdict, lambda s: dataclasses.replace(s, speed=1.0)], ids=["asdict", "replace"]
+)
+def test_asdict_and_replace_refuse_a_solution_without_fields_and_say_why(forces_only, way):
+    with pytest.raises(ContactError, match="there is no qx: tangential = 'polach' gives forces alone"):
+        way(forces_only)
+
+
+def test_attributes_of_a_solution_cannot_be_set(solution):
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        solution.N = 0.0
+
+
+def test_an_unknown_attribute_is_an_attribute_error_even_of_an_empty_record(solution):
+    with pytest.raises(AttributeError, match="no attribute 'Nx'"):
+        _ = solution.Nx
+    with pytest.raises(AttributeError, match="no attribute 'N'"):
+        _ = Solution.__new__(Solution).N
+
+
+def test_a_notebook_shows_the_main_numbers_with_units(solution):
+    text = words(solution._repr_html_())
+    for number in (
+        f"{solution.N:.6g} N",
+        f"{solution.Mz:.6g} N m",
+        f"{1e-6 * solution.max_pressure:.5g} MPa",
+        "mm²",
+        "µm",
+    ):
+        assert number in text
+    assert f"{solution.normal} + {solution.tangential}" in text
+
+
+def test_a_notebook_shows_the_outline_of_the_patch_in_equal_scales(solution):
+    outline, pressure = drawn(solution._repr_html_())
+    wide, tall = np.ptp(outline, axis=0)
+    strips = solution.strips
+    assert wide / tall == pytest.approx(np.ptp(strips.y) / (2.0 * strips.a.max()), rel=0.02)
+    assert np.ptp(pressure[:, 1]) == pytest.approx(70.0, abs=0.2)  # the greatest pressure fills the height
+
+
+def test_a_notebook_shows_forces_only_and_no_contact(forces_only, ellipse):
+    assert "polach" in words(forces_only._repr_html_())
+    apart = contact.solve(ellipse, CREEPAGE, approach=-1e-3)
+    assert "NO_CONTACT" in words(apart._repr_html_())
+    assert not drawn(apart._repr_html_())
+
+
+# The others
+
+
+def test_methods_are_written_by_name_and_shown_with_what_they_can_do():
+    known = contact.methods()
+    assert repr(known).startswith("Methods(normal: analyn, hertz, ")
+    assert len(repr(known)) < 600
+    assert "halfspace" not in repr(known.batched).replace("strip_halfspace", "")
+    rows = [element for element in parsed(known._repr_html_()) if element.tag == "tr"]
+    assert len(rows) == len(known.normal) + len(known.tangential) + 2
+    shown = {row[0].text: row[3].text for row in rows}
+    assert shown["multi_hertz"] == "non-elliptic, several patches, load may step"
+    assert "slip field" in (shown["fastrip"] or "")
+
+
+def test_separation_is_sketched_with_its_least_gap_at_the_axis(ellipse):
+    assert repr(ellipse).startswith("Separation(41 points, y = ")
+    (gap,) = drawn(ellipse._repr_html_())
+    lowest = gap[np.argmax(gap[:, 1])]
+    assert lowest == pytest.approx([0.5 * np.ptp(gap[:, 0]), 110.0], abs=0.2)
+
+
+@pytest.mark.parametrize("g", [[5.0, 0.0, 5.0], [0.0, 0.0, 0.0], [-1e-3, 3.0, 3.0]], ids=["steep", "flat", "at an end"])
+def test_any_separation_can_be_sketched(g):
+    assert drawn(contact.Separation([-1e-2, 0.0, 1e-2], g, 1.0)._repr_html_())
+
+
+@pytest.mark.parametrize(
+    "friction",
+    [
+        Friction(0.3),
+        Friction.polach(),
+        Friction(0.4, gauge_factor=0.5, border=-0.01, velocity="local"),
+        Friction(0.4, hot_factor=0.2, thermal=Thermal(conductivity=40.0)),
+    ],
+)
+def test_friction_is_written_so_that_it_can_be_read_again(friction):
+    assert eval(repr(friction), {"Friction": Friction, "Thermal": Thermal}) == friction
+
+
+def test_friction_says_only_what_differs_from_a_constant_coefficient():
+    assert repr(Friction(0.3)) == "Friction(0.3)"
+    assert repr(Friction(0.3, border=-0.01)) == "Friction(0.3, border=-0.01)"
+    rows = [
+        [cell.text for cell in element]
+        for element in parsed(Friction(0.3, border=-0.01)._repr_html_())
+        if element.tag == "tr"
+    ]
+    assert rows == [["friction", "value", "unit"], ["static", "0.3", "-"], ["border", "-0.01", "m"]]
+
+
+def test_histogram_is_sketched_where_there_is_wear():
+    histogram = Histogram(profile.s1002())
+    assert repr(histogram).startswith("Histogram(")
+    assert drawn(histogram._repr_html_())
+    n = histogram.centres.size
+    depth = np.where(np.arange(n) == n // 2, 3e-6, 0.0)
+    values = {name: histogram[name] for name in ("contact", "volume", "T_gamma", "energy_index")}
+    values |= {name: histogram[name] for name in ("stress_exceedance", "fatigue_exceedance", "energy_index_max")}
+    histogram.restore(values | {"wear": depth}, 1.0, set(), set())
+    (bar,) = drawn(histogram._repr_html_())
+    assert bar[:, 1].min() == 0.0
+    assert "mm³ worn off" in words(histogram._repr_html_())
+    assert ">3<" in histogram._repr_html_()  # micrometres
+
+
+# The helpers
+
+
+def test_text_is_escaped():
+    shown = notebook.table(("a<b",), [("<script>alert(1)</script>",)], "x & y")
+    assert "<script>" not in shown
+    assert [element.text for element in parsed(shown) if element.tag in ("caption", "th", "td")] == [
+        "x & y", "a<b", "<script>alert(1)</script>",
+    ]  # fmt: skip
+    assert "<b>" not in notebook.Sketch((0.0, 1.0), (0.0, 1.0), ("<b>", "<b>"), "<b>").svg()
+
+
+def test_lines_and_text_take_the_colour_of_the_page(ellipse):
+    """Light or dark: nothing is drawn black or white."""
+    for element in parsed(ellipse._repr_html_()):
+        for name in ("fill", "stroke"):
+            assert element.get(name) in (None, "none", "currentColor", notebook.COLOUR)
+
+
+def test_a_sketch_of_many_points_stays_small():
+    y = np.linspace(-0.02, 0.02, 100_001)
+    assert len(contact.Separation(y, y**2, 1.0)._repr_html_()) < 20_000

@@ -1,0 +1,267 @@
+"""`contact.Solver` beside `contact.solve`: the same bits, whatever was asked before."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import contact
+from contact.errors import ContactError
+from contact.friction import Friction
+
+#: Iterative and not, one march each, forces only.
+PAIRS = [
+    ("analyn", "fastrip"),
+    ("analyn", "polach"),
+    ("hertz", "fastsim"),
+    ("strip_halfspace", "fastrip_mapped"),
+    ("kik_piotrowski", "table"),
+]
+SMALL = {"n_strips": 10, "n_elements": 10}
+#: All but `memory`, of which a warm start reads only what the patches of the solution have filled.
+ARRAYS = ("x", "y", "p", "dA", "patch_edges")
+WITH_FIELDS = ("qx", "qy", "sx", "sy", "stick")
+
+
+def wheel(depth=0.0):
+    """A gap with two summits: an ellipse beside a shallower one, `depth` [m] lower than the first."""
+    y = np.linspace(-0.02, 0.02, 81)
+    return contact.Separation(y, np.minimum(2.0 * (y + 0.004) ** 2, 3.0 * (y - 0.008) ** 2 + depth), 1.1)
+
+
+ELLIPSE = contact.Separation.hertzian(1.0, 2.0)
+CALLS = [
+    (ELLIPSE, contact.Creepage(1e-3, -5e-4, 0.2), {"load": 60e3}),
+    (wheel(2e-5), contact.Creepage(-2e-3, 1e-3, 0.0), {"load": 90e3}),
+    (ELLIPSE, contact.Creepage(), {"approach": 5e-5}),
+    (ELLIPSE, contact.Creepage(0.0, 0.0, 1.0), {"approach": -1e-5}),  # apart
+    (wheel(), contact.Creepage(0.05, 0.0, 0.0), {"load": 20e3}),  # slips as a whole
+    (ELLIPSE, contact.Creepage(1e-3, -5e-4, 0.2), {"load": 60e3}),  # the first one again
+]
+
+
+def prepared(normal="analyn", tangential="fastrip", **others):
+    return contact.Solver(normal=normal, tangential=tangential, **(SMALL | others))
+
+
+def numbers(solution):
+    """Every plain number of a solution."""
+    found = {
+        each.name: getattr(solution, each.name)
+        for each in dataclasses.fields(solution)
+        if each.type in ("float", "int")
+    }
+    return found | {"status": solution.status}
+
+
+def arrays(solution):
+    """Every array of a solution."""
+    names = ARRAYS + (WITH_FIELDS if solution.has_fields else ())
+    found = {name: getattr(solution, name) for name in names}
+    return found | {f"strips.{name}": getattr(solution.strips, name) for name in solution.strips.__slots__}
+
+
+def assert_same_bits(found, expected):
+    assert numbers(found) == numbers(expected)
+    for name, array in arrays(expected).items():
+        np.testing.assert_array_equal(arrays(found)[name], array, err_msg=name, strict=True)
+
+
+# The answers of contact.solve
+
+
+@pytest.mark.parametrize(("normal", "tangential"), PAIRS)
+def test_answers_are_those_of_solve_bit_for_bit_whatever_was_asked_before(normal, tangential):
+    solver = prepared(normal, tangential, friction=0.35, speed=30.0)
+    for separation, creepage, amount in CALLS:
+        methods = {"normal": normal, "tangential": tangential, **SMALL}
+        expected = contact.solve(separation, creepage, friction=0.35, speed=30.0, throw=False, **methods, **amount)
+        assert_same_bits(solver.solve(separation, creepage, throw=False, **amount), expected)
+
+
+@pytest.mark.parametrize(("normal", "tangential"), PAIRS)
+def test_forces_only_are_those_of_solve_bit_for_bit(normal, tangential):
+    solver = prepared(normal, tangential)
+    for separation, creepage, amount in CALLS:
+        full = solver.solve(separation, creepage, throw=False, **amount)
+        forces = solver.forces(separation, creepage, **amount)
+        for each in dataclasses.fields(forces):
+            assert getattr(forces, each.name) == getattr(full, each.name), each.name
+
+
+def test_a_bent_surface_is_solved_as_by_solve():
+    y = np.linspace(-0.02, 0.02, 81)
+    bent = contact.Separation(y, 2.0 * y**2, 1.1, tilt=8.0 * y, rolling=2.0)
+    solver = prepared(conformal=True)
+    expected = contact.solve(bent, CALLS[0][1], load=60e3, conformal=True, **SMALL)
+    assert_same_bits(solver.solve(bent, CALLS[0][1], load=60e3), expected)
+    assert solver.forces(bent, CALLS[0][1], load=60e3).Fy == expected.Fy
+    assert expected.pressure_y != 0.0 or expected.Fy != contact.solve(bent, CALLS[0][1], load=60e3, **SMALL).Fy
+
+
+def test_material_and_friction_are_those_of_solve():
+    soft = contact.Material(70e9, 0.3, pressure_limit=8e8)
+    wet = Friction.polach(0.3, 0.4, 0.2)
+    solver = prepared(material=soft, friction=wet)
+    expected = contact.solve(ELLIPSE, CALLS[0][1], load=60e3, material=soft, friction=wet, **SMALL)
+    assert_same_bits(solver.solve(ELLIPSE, CALLS[0][1], load=60e3), expected)
+
+
+def test_friction_and_speed_of_a_call_hold_for_the_following_ones():
+    solver, (separation, creepage, amount) = prepared(), CALLS[4]
+    falling = Friction.polach()
+    first = solver.solve(separation, creepage, friction=falling, speed=10.0, **amount)
+    assert_same_bits(solver.solve(separation, creepage, **amount), first)
+    assert_same_bits(first, contact.solve(separation, creepage, friction=falling, speed=10.0, **SMALL, **amount))
+    faster = solver.solve(separation, creepage, speed=40.0, **amount)
+    assert_same_bits(faster, contact.solve(separation, creepage, friction=falling, speed=40.0, **SMALL, **amount))
+
+
+# Warm starts
+
+
+@pytest.mark.parametrize("depth", [0.0, 1e-5, 3e-5])
+def test_a_warm_start_gives_the_same_answer_within_the_tolerance_of_the_method(depth):
+    solver = prepared("strip_halfspace", "fastrip", n_strips=20)
+    solver.solve(wheel(depth), CALLS[0][1], load=80e3)
+    near = wheel(depth + 5e-7)
+    warm = solver.solve(near, CALLS[0][1], load=81e3, warm=True)
+    cold = contact.solve(near, CALLS[0][1], load=81e3, normal="strip_halfspace", n_strips=20, n_elements=10)
+    assert pytest.approx(cold.N, rel=1e-3) == warm.N
+    assert warm.approach == pytest.approx(cold.approach, rel=1e-3)
+    assert warm.area == pytest.approx(cold.area, rel=2e-3)
+    assert abs(warm.Fx - cold.Fx) < 1e-3 * 0.3 * cold.N
+    assert abs(warm.Fy - cold.Fy) < 1e-3 * 0.3 * cold.N
+    assert warm.iterations <= cold.iterations
+
+
+def test_after_forget_a_warm_call_is_a_cold_one():
+    solver = prepared("strip_halfspace")
+    solver.solve(wheel(), CALLS[0][1], load=80e3)
+    solver.forget()
+    again = solver.solve(wheel(), CALLS[0][1], load=70e3, warm=True)
+    assert_same_bits(again, contact.solve(wheel(), CALLS[0][1], load=70e3, normal="strip_halfspace", **SMALL))
+
+
+def test_a_warm_start_from_a_solution_is_that_of_solve():
+    start = contact.solve(wheel(), CALLS[0][1], load=80e3, normal="strip_halfspace", **SMALL)
+    solver = prepared("strip_halfspace")
+    solver.start_from(start)
+    expected = contact.solve(wheel(), CALLS[0][1], load=70e3, normal="strip_halfspace", start=start, **SMALL)
+    assert_same_bits(solver.solve(wheel(), CALLS[0][1], load=70e3, warm=True), expected)
+
+
+# Room
+
+
+@pytest.mark.parametrize("way", ["solve", "forces"])
+def test_a_larger_separation_makes_room(way):
+    y = np.linspace(-0.02, 0.02, 501)
+    large = contact.Separation(y, 2.0 * y**2, 1.0)
+    solver = prepared(n_samples=41)
+    small = solver.solve(ELLIPSE, CALLS[0][1], load=60e3)
+    found = getattr(solver, way)(large, CALLS[0][1], load=60e3)
+    expected = contact.solve(large, CALLS[0][1], load=60e3, **SMALL)
+    assert (found.Fx, found.Fy, found.Mz, found.N, found.area) == (
+        expected.Fx, expected.Fy, expected.Mz, expected.N, expected.area,
+    )  # fmt: skip
+    assert_same_bits(solver.solve(large, CALLS[0][1], load=60e3), expected)
+    assert_same_bits(solver.solve(ELLIPSE, CALLS[0][1], load=60e3), small)
+
+
+# Bad input
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"load": -1.0}, r"load = -1 is outside the allowed range \[0, inf\["),
+        ({"load": float("nan")}, r"load = nan is outside the allowed range \[0, inf\["),
+        ({"load": "80e3"}, "load = '80e3' is not a number"),
+        ({"approach": float("inf")}, r"approach = inf is outside the allowed range \]-inf, inf\["),
+        ({}, "exactly one of load and approach is needed; load = None, approach = None"),
+        ({"load": 1.0, "approach": 1e-5}, "exactly one of load and approach is needed; load = 1.0, approach = 1e-05"),
+        ({"load": 1e3, "friction": -0.1}, r"friction = -0.1 is outside the allowed range \[0, 1e\+06\]"),
+        ({"load": 1e3, "friction": 0.5, "speed": 0.0}, r"speed = 0 is outside the allowed range \]0, inf\["),
+        ({"load": -1.0, "friction": 0.5}, r"load = -1 is outside the allowed range \[0, inf\["),
+        ({"load": 1e9}, r"load = 1e\+09: .*y = \[-0.0223607, 0.0223607\] m"),
+    ],
+)
+def test_bad_input_is_named_with_its_range_and_the_solver_goes_on(arguments, message):
+    solver = prepared()
+    before = solver.solve(ELLIPSE, CALLS[0][1], load=60e3)
+    with pytest.raises(ContactError, match=message):
+        solver.solve(ELLIPSE, CALLS[0][1], **arguments)
+    assert_same_bits(solver.solve(ELLIPSE, CALLS[0][1], load=60e3), before)
+    assert_same_bits(solver.solve(ELLIPSE, CALLS[0][1], load=60e3, speed=20.0), before)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((None, contact.Creepage()), "separation = None is not a contact.Separation"),
+        ((ELLIPSE, (1e-3, 0.0, 0.0)), r"creepage = \(0.001, 0.0, 0.0\) is not a contact.Creepage"),
+    ],
+)
+@pytest.mark.parametrize("way", ["solve", "forces"])
+def test_arguments_of_another_type_are_named(arguments, message, way):
+    solver = prepared()
+    with pytest.raises(ContactError, match=message):
+        getattr(solver, way)(*arguments, load=60e3)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"normal": "analin"}, "normal = 'analin' is not a registered method, did you mean 'analyn'"),
+        ({"normal": "halfspace"}, "normal = 'halfspace' is not offered here, but by contact.solve"),
+        ({"tangential": "fastsim_knothe"}, "tangential = 'fastsim_knothe' is not offered here, but by contact.solve"),
+        ({"n_strips": 3}, r"n_strips = 3 is not an integer in the allowed range \[4, 1000\]"),
+        ({"n_elements": 1e2}, r"n_elements = 100.0 is not an integer in the allowed range \[4, 1000\]"),
+        ({"n_samples": 2}, r"n_samples = 2 is outside the allowed range \[3, inf\["),
+        ({"friction": "dry"}, "friction = 'dry' is not a number"),
+        ({"speed": -1.0}, r"speed = -1 is outside the allowed range \]0, inf\["),
+        ({"tangential": "polach", "conformal": True}, "conformal: tangential = 'polach' knows the contact plane"),
+    ],
+)
+def test_bad_preparation_is_named_with_its_range(arguments, message):
+    with pytest.raises(ContactError, match=message):
+        prepared(**arguments)
+
+
+def test_forces_that_cannot_be_trusted_say_so_by_their_status():
+    solver = prepared()
+    assert solver.forces(ELLIPSE, CALLS[0][1], load=1e9).status == contact.Status.OUT_OF_RANGE
+    assert solver.solve(ELLIPSE, CALLS[0][1], load=1e9, throw=False).status == contact.Status.OUT_OF_RANGE
+    assert solver.forces(ELLIPSE, CALLS[0][1], load=60e3).status == contact.Status.OK
+
+
+# Later calls
+
+
+@pytest.mark.parametrize("read", [True, False], ids=["read before", "read after"])
+def test_later_calls_do_not_change_earlier_solutions(read):
+    solver = prepared()
+    separation, creepage, amount = CALLS[0]
+    first = solver.solve(separation, creepage, **amount)
+    before = {name: array.copy() for name, array in arrays(first).items()} if read else {}
+    for other in CALLS[1:5]:
+        solver.solve(*other[:2], friction=0.1, speed=5.0, throw=False, **other[2])
+        solver.forces(*other[:2], **other[2])
+    solver.solve(
+        contact.Separation(np.linspace(-0.02, 0.02, 301), np.linspace(-0.02, 0.02, 301) ** 2, 2.0), creepage, load=1e4
+    )
+    assert_same_bits(first, contact.solve(separation, creepage, **SMALL, **amount))
+    for name, array in before.items():
+        np.testing.assert_array_equal(arrays(first)[name], array)
+
+
+def test_two_solvers_do_not_share_memory():
+    one, other = prepared(), prepared()
+    first = one.solve(ELLIPSE, CALLS[0][1], load=60e3)
+    other.solve(wheel(), CALLS[1][1], load=90e3, friction=0.1)
+    assert_same_bits(one.solve(ELLIPSE, CALLS[0][1], load=60e3), first)
+
+
+def test_a_solver_says_what_it_was_made_for():
+    assert repr(prepared(friction=0.4)) == "Solver(analyn + fastrip, 10 strips x 10 elements, friction 0.4)"

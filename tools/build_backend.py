@@ -1,0 +1,104 @@
+"""The build backend of wheelrail-contact: setuptools, with other names for two packages in a wheel.
+
+In the repository the packages are called `contact`, `fmu_src` and `models`. Beside every other installed package the last two
+names would be in the way: a user's own `models.py` would break the command line. A wheel therefore holds `contact`,
+`contact_fmu` and `contact_models`. `build_wheel` copies the sources into a temporary folder, renames the two packages there
+and lets setuptools build. An editable install and an sdist are setuptools' own, with the names of the repository.
+"""
+
+from __future__ import annotations
+
+import ast
+import os
+import re
+import shutil
+from collections.abc import Mapping
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from setuptools import build_meta
+from setuptools.build_meta import (  # what a front end calls besides `build_wheel`
+    build_editable,
+    build_sdist,
+    get_requires_for_build_editable,
+    get_requires_for_build_sdist,
+    get_requires_for_build_wheel,
+    prepare_metadata_for_build_editable,
+)
+
+__all__ = [
+    "build_editable",
+    "build_sdist",
+    "build_wheel",
+    "get_requires_for_build_editable",
+    "get_requires_for_build_sdist",
+    "get_requires_for_build_wheel",
+    "prepare_metadata_for_build_editable",
+]
+
+#: Name in the repository → name in a wheel.
+NAMES = {"fmu_src": "contact_fmu", "models": "contact_models"}
+
+# `fmu_src` is no other word, `models` is: only an import, a dotted name and a path of its two packages are meant.
+_MENTION = re.compile(
+    r"\bfmu_src\b|(?:(?<=^from )|(?<=^import )|(?<=    from )|(?<=    import )|\b(?=models[./](?:life|wheelset)\b))models\b",
+    re.MULTILINE,
+)
+
+
+def renamed(text: str) -> str:
+    """Return a source with the packages' names as they are in a wheel."""
+    return _MENTION.sub(lambda found: NAMES[found[0]], text)
+
+
+def lay_out(root: Path, folder: Path) -> None:
+    """Write what a wheel is built of into `folder`, with the packages' names as they are in a wheel.
+
+    Raises
+    ------
+    RuntimeError
+        A source that still imports a package by its name in the repository.
+    """
+    for name in ("README.md", "LICENSE"):
+        shutil.copy2(root / name, folder / name)
+    settings = (root / "pyproject.toml").read_text(encoding="utf-8")
+    for old, new in NAMES.items():
+        settings = settings.replace(f'"{old}*"', f'"{new}*"')
+    (folder / "pyproject.toml").write_text(renamed(settings), encoding="utf-8")
+    for name in ("contact", *NAMES):
+        packed = folder / NAMES.get(name, name)
+        shutil.copytree(root / name, packed, ignore=shutil.ignore_patterns("__pycache__", "*.pyc"))
+        for path in sorted(packed.rglob("*")) if name in NAMES else ():
+            if path.suffix in (".py", ".md", ".c", ".h"):
+                _rename_in(path)
+
+
+def build_wheel(
+    wheel_directory: str, config_settings: Mapping[str, Any] | None = None, metadata_directory: str | None = None
+) -> str:
+    """Build a wheel into a folder and return its name; the hook of PEP 517."""
+    root, target = Path.cwd(), os.path.abspath(wheel_directory)
+    with TemporaryDirectory() as folder:
+        lay_out(root, Path(folder))
+        os.chdir(folder)
+        try:
+            return str(build_meta.build_wheel(target, config_settings, None))
+        finally:
+            os.chdir(root)
+
+
+def _rename_in(path: Path) -> None:
+    """Rename the packages in a file, whose time stays as it is, and check what it imports."""
+    times = path.stat()
+    text = renamed(path.read_text(encoding="utf-8"))
+    path.write_text(text, encoding="utf-8")
+    os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
+    if path.suffix != ".py":
+        return
+    for node in ast.walk(ast.parse(text)):
+        imported = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+        if isinstance(node, ast.ImportFrom) and not node.level:
+            imported = [node.module or ""]
+        if left := [name for name in imported if name.partition(".")[0] in NAMES]:
+            raise RuntimeError(f"{path}, line {node.lineno}: {left[0]} is imported by its name in the repository")
