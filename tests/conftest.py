@@ -5,6 +5,9 @@ from hypothesis import settings
 
 import contact
 
+# Helpers whose assertions are to say as much as those of tests.
+pytest.register_assert_rewrite("tests.command_line", "tests.post_conditions")
+
 # The same examples every time: what a run finds is due to the change that it tests. --hypothesis-profile=search looks farther.
 settings.register_profile("repeatable", derandomize=True)
 settings.register_profile("search", print_blob=True)

@@ -20,13 +20,7 @@ from typer.testing import CliRunner  # noqa: E402
 
 from contact.cli import app as cli  # noqa: E402
 from contact.cli.plugins import GROUP, add_plugins  # noqa: E402
-
-
-def call(*words, code=0):
-    """Run one command; return its result after a look at the exit code."""
-    result = CliRunner().invoke(cli.app, [str(word) for word in words])
-    assert result.exit_code == code, f"{result.output}\n{result.exception!r}"
-    return result
+from tests.command_line import call  # noqa: E402
 
 
 def test_solve_gives_the_numbers_of_the_python_api():

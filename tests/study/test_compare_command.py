@@ -8,7 +8,7 @@ import contact
 
 pytest.importorskip("typer")
 
-from tests.test_cli import call
+from tests.command_line import call
 
 QUICK = ("--method", "hertz+fastsim", "--reference-elements", 12)
 

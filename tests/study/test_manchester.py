@@ -10,7 +10,7 @@ import pytest
 import contact
 from contact.study import Comparison
 from contact.study.manchester import Manchester, manchester, places
-from tests.study.test_compare import Page
+from tests.study.page import Page
 
 
 @pytest.fixture(scope="module")
@@ -79,7 +79,7 @@ def test_no_place_is_refused():
 
 def test_the_command_shows_kpec_as_it_is():
     pytest.importorskip("typer")
-    from tests.test_cli import call
+    from tests.command_line import call
 
     words = ("--method", "hertz+fastsim", "--reference-elements", 20)
     output = call("manchester", *words).stdout
