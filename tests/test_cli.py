@@ -158,6 +158,7 @@ def test_unknown_commands_and_options_end_with_code_2():
     assert "No such option" in call("solve", "--lode", "1", code=2).output
 
 
+@pytest.mark.slow
 def test_patch_draws_both_wheels(tmp_path):
     mpl = pytest.importorskip("matplotlib")
     path = tmp_path / "flange.png"
@@ -209,6 +210,7 @@ def test_methods_lists_the_whole_registry():
             assert name in output
 
 
+@pytest.mark.slow
 def test_conicity_gives_the_numbers_of_the_python_api(tmp_path):
     pytest.importorskip("matplotlib")
     paths = [tmp_path / name for name in ("conicity.csv", "conicity.png")]

@@ -15,7 +15,11 @@ from tests.separations import KINDS
 
 NORMAL, TANGENTIAL = contact.methods().batched
 PAIRS = random_cases.method_pairs()
-CALIBRATED = [("analyn", name) for name, method in contact.methods().tangential.items() if method.calibrated]
+CALIBRATED = [
+    pytest.param("analyn", name, marks=pytest.mark.slow)
+    for name, method in contact.methods().tangential.items()
+    if method.calibrated
+]
 CREEPAGES = [(1e-3, 0.0, 0.0), (-5e-4, 2e-3, 0.4), (0.0, 0.0, -0.9), (3e-2, -2e-2, 0.0)]
 
 

@@ -39,6 +39,7 @@ def of(row, step=2e-5):
     return computed(row["right"], row["left"], row["left_radius"], step)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("edition", ["2021", "2008"])
 def test_reference_wheels_lie_within_the_tolerances_of_the_standard(edition):
     for row in tabulated(edition):

@@ -144,6 +144,7 @@ def test_the_dataset_is_labelled_by_case_and_method(small):
     assert data.status.sel(case="apart").values.tolist() == ["NO_CONTACT"] * 3
 
 
+@pytest.mark.slow
 def test_the_page_needs_nothing_from_outside(small):
     pytest.importorskip("matplotlib")
     text = small.html()
@@ -165,6 +166,7 @@ def test_names_are_text_and_not_markup_on_the_page():
     assert "&lt;b&gt;&amp;" in text
 
 
+@pytest.mark.slow
 def test_pictures_show_one_panel_a_method(small, tmp_path):
     pytest.importorskip("matplotlib")
     figure = small.figure()

@@ -65,6 +65,7 @@ def test_files_of_cases_say_the_same(tmp_path, name):
     assert b["results"][1]["max_pressure"] == pytest.approx(contact.hertz(1, 2, load=2e4).p0)
 
 
+@pytest.mark.slow
 def test_tables_and_files(tmp_path):
     pytest.importorskip("matplotlib")
     files = [tmp_path / f"out.{ending}" for ending in ("html", "csv", "png", "json")]

@@ -55,6 +55,7 @@ def test_tables_set_methods_beside_contact(three):
     assert len(tables[-1].rows) == 0  # CONTACT's KPEC and ANALYN are known at other places
 
 
+@pytest.mark.slow
 def test_files_hold_ours_and_contacts(three):
     pytest.importorskip("matplotlib")
     lines = list(csv.DictReader(io.StringIO(three.csv())))

@@ -115,6 +115,7 @@ def test_files_of_another_run_are_refused(tmp_path, sample):
         reference_forces(sample.design, 16, stored=path, processes=1)
 
 
+@pytest.mark.slow
 def test_two_processes_give_the_same(sample):
     two = statistics(["fastrip"], cases=22, elements=8, processes=2)
     one = statistics(["fastrip"], cases=22, elements=8, processes=1)

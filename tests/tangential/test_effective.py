@@ -40,6 +40,7 @@ def test_at_its_nodes_the_march_has_the_half_spaces_force_and_moment(i, j, k, l)
     np.testing.assert_allclose(forces(*node(i, j, k, l)), FORCES[i, j, k, l, :3], atol=0.004)
 
 
+@pytest.mark.slow
 def test_cases_that_the_table_has_not_seen():
     """300 random ellipses by our half space; without effective creepages .0081 / .0261 / .0927, moment .0075."""
     errors = unseen.errors(*reference.unseen_ellipses(), "fastrip_mapped")

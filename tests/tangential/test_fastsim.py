@@ -106,6 +106,7 @@ def test_linear_theory_on_an_ellipse_gives_kalkers_flexibilities(separation):
         assert math.hypot(one.Fx - other.Fx, one.Fy - other.Fy) < 5e-3 * MU * N
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("index", [0, 3, 7])
 def test_slopes_of_linear_theory_on_the_patch_itself(index):
     """`fastsim_knothe` has the slopes of `benchmarks/linear_slopes.py`, which `fastsim` misses by 20 %; reached: 1.7 %."""

@@ -89,6 +89,7 @@ def test_full_slip_is_the_end():
     assert math.hypot(*found[:2]) <= 1.0 + 1e-12
 
 
+@pytest.mark.slow
 def test_cases_that_the_table_has_not_seen():
     """Half space on the same number of elements (`reference`): what interpolation costs."""
     cases, true = reference.unseen_ellipses()
