@@ -6,7 +6,7 @@ READY  := $(VENV)/.ready
 READY_FOR_DOCS := $(VENV)/.ready-for-docs
 
 .DEFAULT_GOAL := help
-.PHONY: help demo docs test soak lint fmu accuracy bench coupling smoothness pictures format clean
+.PHONY: help demo docs test check soak lint fmu accuracy bench coupling smoothness pictures format clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -28,6 +28,9 @@ fmu: $(READY)    ## build the FMUs into dist/
 
 test: $(READY)   ## run the tests
 	$(BIN)/python -m pytest -n 2 --dist worksteal
+
+check: $(READY)  ## run the quick tests: a minute, if the kernels are compiled
+	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow"
 
 soak: $(READY)   ## 10 000 instances and a million steps of every native FMU: memory stays as it is (some minutes)
 	SOAK=1 $(BIN)/python -m pytest tests/system/test_native_host.py -k leave_memory

@@ -2,118 +2,25 @@
 
     python benchmarks/coupling.py [--write docs/coupling.md]
 
-A run starts a little off the centre. It is unstable if the sixth differences of the velocities, which show what alternates from
-step to step and hide the slow motion, have grown after 90 steps; of the iterated scheme, if forces agree in less than nine
-steps of ten. The largest stable step is found by bisection.
+How a step is found to be stable is said in `reference.stability`.
 """
 
 from __future__ import annotations
 
 import argparse
 import functools
-from collections.abc import Callable, Iterable
-from dataclasses import replace
+from collections.abc import Iterable
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
-from benchmarks.robustness import table
-from contact.errors import ContactError
+from benchmarks.tables import table
 from models.wheelset import master
-from models.wheelset.components import DirectContact, DirectWheelset, direct
-from models.wheelset.model import WheelsetModel
 from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import CREEPAGE
+from reference.stability import EXPLICIT, LONGEST, coupled, measured, modes
 
 SPEEDS = (1.0, 2.0, 5.0, 10.0, 20.0, 40.0)
-EXPLICIT = {"jacobi": 1.0, "gauss_seidel": 2.0}  # the largest stable z = c h/m of  m dv/dt = -c v  with the force held
-OFFSET = {"jacobi": 1e-5, "gauss_seidel": 1e-5, "iterated": 1e-3}  # [m] what grows needs room below saturation
-STEPS, ORDER, EARLY, LATE = 90, 6, 5, 20
-LONGEST = 20e-3  # [s] no longer steps are tried: the motion itself would not be resolved
-HELD = 1e9  # [kg m²] an axle whose spin cannot change
 HUNTING = 28.0  # [m/s] speed of the runs that are compared
-
-
-class Mode(NamedTuple):
-    """A motion that the creep forces damp: m dv/dt = -c v."""
-
-    name: str
-    mass: float
-    damping: float
-
-
-def modes(p: WheelsetParameters) -> list[Mode]:
-    """Lateral motion, yaw and spin with the slopes f of the contact at rest: c = 2 f/V, masses seen at the contact."""
-    wheelset, contact = DirectWheelset(WheelsetModel(replace(p, lateral=0.0))), DirectContact(p)
-    f11, f22 = (slope(contact, wheelset.read("right.problem"), axis) for axis in range(2))
-    _, base, radius, _ = wheelset.read("right.frame")
-    return [
-        Mode("lateral", p.mass, 2.0 * f22 / p.speed),
-        Mode("yaw", p.yaw_inertia / base**2, 2.0 * f11 / p.speed),
-        Mode("spin", p.spin_inertia / radius**2, 2.0 * f11 / p.speed),
-    ]
-
-
-def slope(contact: DirectContact, problem: np.ndarray, axis: int, creepage: float = 1e-6) -> float:
-    """Slope f [N] of the longitudinal (0) or lateral (1) creep force at a problem's own creepages."""
-    forces = []
-    for sign in (1.0, -1.0):
-        moved = problem.copy()
-        moved[CREEPAGE.start + axis] += sign * creepage
-        contact.write("problem", moved)
-        contact.step(0.0, 0.0)
-        forces.append(contact.read("reaction")[axis])
-    return (forces[1] - forces[0]) / (2.0 * creepage)
-
-
-def coupled(p: WheelsetParameters, h: float, duration: float, scheme: str) -> master.History:
-    wheelset, contacts = direct(p)
-    return master.run(wheelset, contacts, speed=p.speed, step=h, duration=duration, scheme=scheme)
-
-
-def alternation(history: master.History) -> np.ndarray:
-    """Differences of lateral, yaw and spin velocity at the contacts [m/s], shape (3, n - ORDER)."""
-    velocities = (history["lateral_velocity"], 0.75 * history["yaw_rate"], 0.46 * history["spin"])
-    return np.abs(np.diff(velocities, ORDER, axis=1))
-
-
-def stable(p: WheelsetParameters, h: float, scheme: str) -> bool:
-    try:
-        history = coupled(replace(p, lateral=OFFSET[scheme]), h, STEPS * h, scheme)
-    except ContactError:  # off the rails
-        return False
-    if scheme == "iterated":
-        return bool((history.rounds <= master.MOST_ROUNDS).mean() >= 0.9)
-    size = alternation(history).max(axis=0)
-    return bool(size[-LATE:].max() <= 2.0 * size[:EARLY].max())
-
-
-def largest(test: Callable[[float], bool], start: float, tolerance: float = 0.01) -> float:
-    """Largest h up to LONGEST that passes, by doubling from `start`, which must pass, and bisection; inf if all pass."""
-    low, high = start, 1.3 * start
-    if not test(low):
-        raise ValueError(f"h = {low:g} s fails already")
-    while test(high):
-        if high >= LONGEST:
-            return np.inf
-        low, high = high, min(1.3 * high, LONGEST)
-    while high - low > tolerance * low:
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if test(middle) else (low, middle)
-    return low
-
-
-@functools.cache
-def measured(speed: float, scheme: str, spins: bool = True) -> tuple[float, str]:
-    """Largest stable step [s], and the motion that grows above it."""
-    p = WheelsetParameters(speed=speed) if spins else WheelsetParameters(speed=speed, spin_inertia=HELD)
-    limit = min(m.mass / m.damping for m in modes(p))
-    h = largest(lambda h: stable(p, h, scheme), 0.5 * limit)
-    if np.isinf(h) or scheme == "iterated":
-        return h, ""
-    above = alternation(coupled(replace(p, lateral=OFFSET[scheme]), 1.05 * h, STEPS * h, scheme))[:, -LATE:].max(axis=1)
-    return h, modes(p)[int(np.argmax(above))].name
 
 
 def milliseconds(h: float) -> str:
@@ -138,7 +45,7 @@ def limits(spins: bool, schemes: Iterable[str]) -> list[list[str]]:
 
 
 @functools.cache
-def reference() -> master.History:
+def finest() -> master.History:
     """The run that the others are compared with."""
     return coupled(WheelsetParameters(speed=HUNTING, lateral=5e-3), 1.25e-4, 1.0, "iterated")
 
@@ -146,7 +53,7 @@ def reference() -> master.History:
 def losses(h: float, scheme: str) -> list[str]:
     """Error of the motion, power residual and cost of a second of hunting."""
     p = WheelsetParameters(speed=HUNTING, lateral=5e-3)
-    history, fine = coupled(p, h, 1.0, scheme), reference()
+    history, fine = coupled(p, h, 1.0, scheme), finest()
     every = round(h / fine.step)
     error = np.abs(history["lateral"] - fine["lateral"][::every][: history.values.shape[0]]).max()
     dissipated = float(fine.creep_power.sum() * fine.step)

@@ -1,6 +1,6 @@
 """Interpolation error of the table of creep forces: random cases that it has not seen, solved by the half space.
 
-    python benchmarks/creep_table.py [--cases 300] [--write tests/reference/creep_table_unseen.csv]
+    python benchmarks/creep_table.py [--cases 300] [--write reference/creep_table_unseen.csv]
 
 a/b is log-uniform within the table, the direction in the table's coordinates uniform on the sphere, the size r log-uniform from
 .05 to 20.
@@ -9,21 +9,17 @@ a/b is log-uniform within the table, the direction in the table's coordinates un
 from __future__ import annotations
 
 import argparse
-import csv
 import math
 from pathlib import Path
 
 import numpy as np
 
-import contact
 from contact import force_table as table
 from contact import kalker
-from contact.study.ellipse import ellipse
+from reference.unseen import LOAD, MATERIAL, MU, C, errors, solve
 
-MATERIAL, LOAD, MU, C = contact.Material(82e9, table.NU), 82e3, 0.3, 6e-3
 #: Of the half space.
 ELEMENTS = 60
-UNSEEN = Path(__file__).parent.parent / "tests" / "reference" / "creep_table_unseen.csv"
 
 
 def random_case(rng: np.random.Generator) -> tuple[float, float, float, float]:
@@ -35,28 +31,6 @@ def random_case(rng: np.random.Generator) -> tuple[float, float, float, float]:
     unit *= MU * LOAD / (MATERIAL.shear_modulus * C * C)
     spin = z / table.spin_weight(log_aspect, c11, c22, c23)
     return math.exp(log_aspect), unit * x / c11, unit * y / c22, unit * spin / (c23 * C)
-
-
-def solve(a_over_b: float, *creepage: float, tangential: str, n: int = 40) -> np.ndarray:
-    """Fx, Fy over mu N, Mz over mu N c, share of slip."""
-    sol = contact.solve(
-        ellipse(a_over_b, C, LOAD, MATERIAL), contact.Creepage(*creepage), load=LOAD, friction=MU, material=MATERIAL,
-        normal="hertz", tangential=tangential, n_strips=n, n_elements=n,
-    )  # fmt: skip
-    return np.array([sol.Fx, sol.Fy, sol.Mz / C, MU * LOAD * sol.slip_ratio]) / (MU * LOAD)
-
-
-def unseen(path: Path = UNSEEN) -> tuple[np.ndarray, np.ndarray]:
-    """Cases (n, 4) and the half space's results (n, 4)."""
-    with open(path) as file:
-        rows = np.array([[float(v) for v in row] for row in csv.reader(line for line in file if line[0] not in "#a")])
-    return rows[:, :4], rows[:, 4:]
-
-
-def errors(cases: np.ndarray, true: np.ndarray, tangential: str = "table") -> dict[str, np.ndarray]:
-    """Errors of force, moment and share of slip."""
-    d = np.array([solve(*case, tangential=tangential) for case in cases]) - true
-    return {"force": np.hypot(d[:, 0], d[:, 1]), "moment": np.abs(d[:, 2]), "slip": np.abs(d[:, 3])}
 
 
 def main() -> None:

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import fmpy
 
+from reference.native import Host, kernel_library
+
 ROOT = Path(__file__).parents[1]
-sys.path.insert(0, str(ROOT / "tests" / "system"))  # the host in C
-from native_host import Host, kernel_library  # noqa: E402
 
 
 def main() -> None:

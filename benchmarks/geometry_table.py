@@ -8,24 +8,17 @@ are freed of its mean rolling speed. Its longitudinal creepage is that of the wh
 wheel's surface opposite the reference point: they differ by design.
 """
 
-import csv
 import sys
 from pathlib import Path
 
 import numpy as np
 
 import contact
+import reference
 from contact.geometry import profile, wheelset
 
-REFERENCE = Path(__file__).parents[1] / "tests" / "reference" / "wheel_rail.csv"
 LOAD = 80e3  # [N]
 NOMINAL_RADIUS = 0.460
-
-
-def rows(path: Path) -> list[dict[str, str]]:
-    """Rows of the reference, without its comments."""
-    with path.open() as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
 
 
 def pairs() -> dict[tuple[str, str], wheelset.Pair]:
@@ -37,7 +30,7 @@ def pairs() -> dict[tuple[str, str], wheelset.Pair]:
     return {(c, s): wheelset.Pair(wheel, rails[c], side=sides[s]) for c in rails for s in sides}
 
 
-def main(path: Path) -> None:
+def main(rows: reference.Rows) -> None:
     """Print the table and the largest and mean deviations."""
     table = pairs()
     print(
@@ -46,7 +39,7 @@ def main(path: Path) -> None:
     print("rail side dy     ours    diff     ours    diff     ours   diff   ours   diff  depth [um] diff   depth diff   "
           "pmax [MPa] CONTACT  its ANALYN")  # fmt: skip
     deviations = []
-    for row in rows(path):
+    for row in rows:
         pair = table[row["cant"], row["side"]]
         pose = wheelset.Pose(y=1e-3 * float(row["dy"]), z=1e-3 * float(row["z"]))
         (patch,) = pair.contacts(pose)
@@ -90,4 +83,4 @@ def main(path: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else REFERENCE)
+    main(reference.rows(Path(sys.argv[1]).resolve()) if len(sys.argv) > 1 else reference.wheel_rail())

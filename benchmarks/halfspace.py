@@ -18,17 +18,19 @@ from typing import Any
 import numpy as np
 
 import contact
-from benchmarks import accuracy
+import reference
+from benchmarks.tables import table
 from contact.halfspace import Tangential, norm, tang
+from contact.study.ellipse import ellipse
 
-MU, STEEL = accuracy.MU, accuracy.STEEL
+MU, STEEL = reference.MU, reference.STEEL
 #: CONTACT's grid on ellipses: elements across each axis, and all.
 ACROSS, ALL = 62, 66
 
 
-def ellipse(aspect: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def on_grid(aspect: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """x, y and gap of set A on CONTACT's grid."""
-    separation = accuracy.ellipse(aspect, 5e-3, accuracy.N_ELLIPSE)
+    separation = ellipse(aspect, 5e-3, reference.N_ELLIPSE)
     s = (np.arange(ALL) - 0.5 * (ALL - 1)) * 2.0 / ACROSS
     x, y = 5e-3 * math.sqrt(aspect) * s, 5e-3 / math.sqrt(aspect) * s
     B = separation.g[0] / separation.y[0] ** 2
@@ -37,7 +39,7 @@ def ellipse(aspect: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def patch(case: dict[str, Any], h: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """x, y and gap of a case of set D on elements of `h` [m]; CONTACT's grid for 0.2 mm."""
-    separation = accuracy.separation_of(case)
+    separation = reference.separation_of(case)
     if math.isclose(h, 0.2e-3):
         x, y = (np.arange(v[0], v[-1] + 0.3, 0.2) * 1e-3 for v in (case["x_p"], case["y_p"]))
         y = y[y < separation.y[-1] + 1e-9]
@@ -69,10 +71,10 @@ def on_ellipses(offset: float) -> tuple[np.ndarray, int, int]:
     """Errors of Fx, Fy, Mz on set A, most steps of Newton, number not converged."""
     pressures: dict[float, tuple[np.ndarray, ...]] = {}
     errors, steps, failed = [], 0, 0
-    for row in accuracy.ellipses():
+    for row in reference.ellipses():
         if row["aob"] not in pressures:
-            x, y, gap = ellipse(row["aob"])
-            p = norm(gap, x[1] - x[0], y[1] - y[0], STEEL, load=accuracy.N_ELLIPSE).p
+            x, y, gap = on_grid(row["aob"])
+            p = norm(gap, x[1] - x[0], y[1] - y[0], STEEL, load=reference.N_ELLIPSE).p
             pressures[row["aob"]] = x, y, p
         x, y, p = pressures[row["aob"]]
         found = tang(p, x, y, contact.Creepage(row["xi"], row["eta"], row["phi"] * 1e3), MU, STEEL, offset=offset)
@@ -85,7 +87,7 @@ def on_patches(h: float) -> tuple[dict[str, np.ndarray], list[list[str]]]:
     """Errors against CONTACT at 0.2 mm on set D, and rows of times."""
     errors: dict[str, list[float]] = {"N": [], "pmax": [], "L2": [], "force": [], "moment": []}
     rows = []
-    for case in accuracy.patches():
+    for case in reference.patches():
         x, y, gap = patch(case, h)
         delta, true = case["delta"] * 1e-3, case["contact"]
 
@@ -149,7 +151,7 @@ def _force(aspect: float, creepage: tuple[float, float, float], n: int, offset: 
 
 def report() -> str:
     errors, steps, failed = on_ellipses(1 / 6)
-    a = accuracy.table(
+    a = table(
         ["", "mean", "max"],
         [
             [name, f"{e.mean():.1e}", f"{e.max():.1e}"]
@@ -165,7 +167,7 @@ def report() -> str:
         "force": "force over μN",
         "moment": "moment",
     }
-    d = accuracy.table(
+    d = table(
         ["", "0.2 mm: mean / max", "0.5 mm: mean / max"],
         [
             [title, *(f"{e[k].mean():.1e} / {e[k].max():.1e}" if e[k].size else "" for e in (fine, coarse))]
@@ -179,9 +181,9 @@ def report() -> str:
         failed=failed,
         a=a,
         d=d,
-        fine=accuracy.table(header, fine_rows),
-        coarse=accuracy.table(header, coarse_rows),
-        order=accuracy.table(["case", "rigid slip at", "12", "24", "48", "96 elements"], convergence()),
+        fine=table(header, fine_rows),
+        coarse=table(header, coarse_rows),
+        order=table(["case", "rigid slip at", "12", "24", "48", "96 elements"], convergence()),
     )
 
 

@@ -1,6 +1,6 @@
 """Slopes of forces and moment at vanishing creepage on the real patches, by boundary elements in full adhesion.
 
-    python benchmarks/linear_slopes.py        # writes tests/reference/linear_slopes.json; some minutes
+    python benchmarks/linear_slopes.py        # writes reference/linear_slopes.json; some minutes
 
 Kalker's linear theory on the patch of `strip_halfspace`: every particle sticks, so the displacement of constant-traction
 elements follows the rigid creep, u(x) - u(x + dx) = -w dx (theory.md 6). `check` holds the same computation on ellipses against
@@ -12,16 +12,16 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 
 import contact
-from benchmarks import accuracy
+import reference
 from contact import kalker
 from contact.halfspace import linear
+from contact.study.ellipse import ellipse
 
-TARGET = Path(__file__).parent.parent / "tests" / "reference" / "linear_slopes.json"
+TARGET = reference.FOLDER / "linear_slopes.json"
 Array = np.ndarray
 
 
@@ -37,18 +37,23 @@ def extrapolated(solve: Callable[[int], contact.Solution]) -> Array:
 
 def kalker_error(aspect: float) -> dict[str, float]:
     """Relative deviation of C11, C22, C23, C33 of this computation from the published table, on an ellipse."""
-    c, separation = 5e-3, accuracy.ellipse(aspect, 5e-3, 5e4)
+    c, separation = 5e-3, ellipse(aspect, 5e-3, 5e4)
     s = extrapolated(lambda n: contact.solve(separation, contact.Creepage(), load=5e4, n_strips=n))
-    G = accuracy.STEEL.shear_modulus
+    G = reference.STEEL.shear_modulus
     own = (-s[0, 0] / (G * c**2), -s[1, 1] / (G * c**2), -s[2, 1] / (G * c**3), -s[2, 2] / (G * c**4))
     table = kalker.coefficients(kalker.table(0.28), math.log(aspect))
     return {n: round(float(o / t - 1), 4) for n, o, t in zip(("C11", "C22", "C23", "C33"), own, table, strict=True)}
 
 
+def digits(values: Array, n: int = 5) -> list[float]:
+    """Numbers rounded to n significant digits."""
+    return [float(f"{v:.{n}g}") for v in values]
+
+
 def main() -> None:
     cases = []
-    for case in accuracy.patches():
-        separation = accuracy.separation_of(case)
+    for case in reference.patches():
+        separation = reference.separation_of(case)
 
         def solve(
             n: int, separation: contact.Separation = separation, delta: float = case["delta"] * 1e-3
@@ -58,11 +63,11 @@ def main() -> None:
                 contact.Creepage(),
                 approach=delta,
                 normal="strip_halfspace",
-                material=accuracy.STEEL,
+                material=reference.STEEL,
                 n_strips=n,
             )
 
-        cases.append({"name": case["name"], "slopes": [accuracy.digits(row) for row in extrapolated(solve)]})
+        cases.append({"name": case["name"], "slopes": [digits(row) for row in extrapolated(solve)]})
         print(cases[-1], flush=True)
     check = {str(a): kalker_error(a) for a in (0.3, 1.0, 3.0)}
     print(check)

@@ -11,12 +11,14 @@ from pathlib import Path
 import numpy as np
 
 import contact
-from benchmarks import accuracy
+import reference
+from benchmarks.tables import table
+from reference import accuracy
 
 TEXT = """# Normal methods side by side
 
 Written by `make accuracy` (`benchmarks/normal_methods.py`). Truth is CONTACT 25.1's half-space solution of {n} patches of S1002
-on UIC60 (tests/reference/patches.json). Figures are mean (worst) absolute errors in per cent; L2 is ‖p − p_ref‖/‖p_ref‖.
+on UIC60 (reference/patches.json). Figures are mean (worst) absolute errors in per cent; L2 is ‖p − p_ref‖/‖p_ref‖.
 
 ## The same approach
 
@@ -69,13 +71,13 @@ def report() -> str:
     own, theirs = accuracy.errors_of_normal("kpec"), accuracy.published_on_patches("kpec_fastsim")
     kpec = [
         [case["name"], *(f"{100 * own[k][i]:.1f} / {100 * theirs[k][i]:.1f}" for k in ("N", "pmax", "area", "L2"))]
-        for i, case in enumerate(accuracy.patches())
+        for i, case in enumerate(reference.patches())
     ]
     return TEXT.format(
-        n=len(accuracy.patches()),
-        approach=accuracy.table(["method", "N", *heading], approach),
-        load=accuracy.table(["method", "approach", *heading], load),
-        kpec=accuracy.table(["patch", "N", *heading], kpec),
+        n=len(reference.patches()),
+        approach=table(["method", "N", *heading], approach),
+        load=table(["method", "approach", *heading], load),
+        kpec=table(["patch", "N", *heading], kpec),
     )
 
 

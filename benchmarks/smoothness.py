@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 import contact
-from benchmarks.robustness import table
+from benchmarks.tables import table
 from contact import kalker
 from contact.geometry import profile, wheelset
 from contact.solver import N_ELEMENTS, N_STRIPS

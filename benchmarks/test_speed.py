@@ -13,14 +13,14 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 import contact
-from benchmarks import accuracy
+import reference
 from contact import workspace
 from contact.case import cases, set_surface
 from contact.friction import Friction
 from contact.kernels.layout import RESULT, LoadKind
 from contact.kernels.pipeline import solve_cases
 
-PATCH = next(case for case in accuracy.patches() if case["name"].startswith("c40_dy+0"))
+PATCH = next(case for case in reference.patches() if case["name"].startswith("c40_dy+0"))
 SEPARATION = contact.Separation(np.array(PATCH["y"]) * 1e-3, np.array(PATCH["g"]) * 1e-3, np.array(PATCH["A"]) * 1e3)
 METHODS = contact.methods().batched
 CREEP = contact.Creepage(1e-3, 5e-4, 0.1)

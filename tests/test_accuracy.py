@@ -6,13 +6,15 @@ Bars of issue "The solver" in brackets; the reached values stand in docs/accurac
 import numpy as np
 import pytest
 
-from benchmarks import accuracy
+import reference
+from contact.study.errors import mean_p95_max
+from reference import accuracy
 
 SLACK = 1.1
 
 
 def assert_held(name, values, reached):
-    found = accuracy.mean_p95_max(values)
+    found = mean_p95_max(values)
     for what, value, limit in zip(("mean", "p95", "max"), found, reached, strict=False):
         assert value <= SLACK * limit, f"{name}, {what}: {value:.5f}, reached before: {limit}"
 
@@ -35,7 +37,7 @@ def test_creep_forces_on_ellipses(method, force, moment, adhesion):
 
 def by_spin(method):
     """Force errors on ellipses without and with spin."""
-    spin = np.array([row["phi"] != 0.0 for row in accuracy.ellipses()])
+    spin = np.array([row["phi"] != 0.0 for row in reference.ellipses()])
     errors = accuracy.errors_on_ellipses(method)["force"]
     return errors[~spin], errors[spin]
 

@@ -20,13 +20,7 @@ from typer.testing import CliRunner  # noqa: E402
 
 from contact.cli import app as cli  # noqa: E402
 from contact.cli.plugins import GROUP, add_plugins  # noqa: E402
-
-
-def call(*words, code=0):
-    """Run one command; return its result after a look at the exit code."""
-    result = CliRunner().invoke(cli.app, [str(word) for word in words])
-    assert result.exit_code == code, f"{result.output}\n{result.exception!r}"
-    return result
+from tests.command_line import call  # noqa: E402
 
 
 def test_solve_gives_the_numbers_of_the_python_api():
@@ -164,6 +158,7 @@ def test_unknown_commands_and_options_end_with_code_2():
     assert "No such option" in call("solve", "--lode", "1", code=2).output
 
 
+@pytest.mark.slow
 def test_patch_draws_both_wheels(tmp_path):
     mpl = pytest.importorskip("matplotlib")
     path = tmp_path / "flange.png"
@@ -215,6 +210,7 @@ def test_methods_lists_the_whole_registry():
             assert name in output
 
 
+@pytest.mark.slow
 def test_conicity_gives_the_numbers_of_the_python_api(tmp_path):
     pytest.importorskip("matplotlib")
     paths = [tmp_path / name for name in ("conicity.csv", "conicity.png")]

@@ -9,38 +9,18 @@ import numpy as np
 import pytest
 
 import contact
-from benchmarks import robustness
-from contact.geometry import wheelset
-from tests.normal.test_analyn import two_lobes
-from tests.test_solve import assert_post_conditions
+from reference import random_cases
+from tests.post_conditions import assert_post_conditions
+from tests.separations import KINDS
 
 NORMAL, TANGENTIAL = contact.methods().batched
-PAIRS = robustness.method_pairs()
-CALIBRATED = [("analyn", name) for name, method in contact.methods().tangential.items() if method.calibrated]
+PAIRS = random_cases.method_pairs()
+CALIBRATED = [
+    pytest.param("analyn", name, marks=pytest.mark.slow)
+    for name, method in contact.methods().tangential.items()
+    if method.calibrated
+]
 CREEPAGES = [(1e-3, 0.0, 0.0), (-5e-4, 2e-3, 0.4), (0.0, 0.0, -0.9), (3e-2, -2e-2, 0.0)]
-
-
-def real_patch(y, yaw=0.0):
-    """S1002 on 60E1, the right side."""
-    return robustness.pair().contacts(wheelset.Pose(y=y, yaw=yaw), load=8e4)[0].separation
-
-
-def yawed():
-    y = np.linspace(-20e-3, 20e-3, 161)
-    return contact.Separation(y, 1.5 * y**2 + 40.0 * np.maximum(y, 0.0) ** 3, 1.1, x_c=0.04 * y)
-
-
-#: Separation and load; a method without `non_elliptic` answers on all of them too, as if they were elliptic.
-KINDS = {
-    "a/b = 0.2": (contact.Separation.hertzian(3.0, 0.3), 8e4),
-    "a/b = 1": (contact.Separation.hertzian(1.0, 1.0), 8e4),
-    "a/b = 5": (contact.Separation.hertzian(1.0, 12.0), 8e4),
-    "tread": (real_patch(0.0), 8e4),
-    "flange root": (real_patch(6e-3, 8e-3), 9e4),
-    "two patches": (two_lobes(2e-6), 2e4),
-    "yawed": (yawed(), 7e4),
-    "tiny load": (real_patch(3e-3), 1e-3),
-}
 
 
 def solve(kind, normal, tangential="fastrip", creepage=(0.0, 0.0, 0.0), **given):

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import contact
-from benchmarks import robustness
+from reference import random_cases
 
 NAMES = ("Fx", "Fy", "Mz", "N", "approach", "max_pressure", "area", "slip_ratio", "power_per_metre", "status")
 
 
-@pytest.mark.parametrize(("normal", "tangential"), robustness.method_pairs())
+@pytest.mark.parametrize(("normal", "tangential"), random_cases.method_pairs())
 def test_equals_solve_case_by_case(normal, tangential, ellipse):
     other = contact.Separation.hertzian(2.0, 0.7)
     creep = np.linspace(-2e-3, 2e-3, 5)

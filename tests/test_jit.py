@@ -39,6 +39,7 @@ def run(checkout, cache):
     return tuple(json.loads(done.stdout))
 
 
+@pytest.mark.slow
 def test_only_a_changed_kernel_compiles_anew(checkout, tmp_path):
     cache = tmp_path / "cache"
     first, misses = run(checkout, cache)

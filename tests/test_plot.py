@@ -110,6 +110,7 @@ def test_negative_energy_is_shown_and_not_cut_off(solution):
     assert high >= field.max() * 1e-6
 
 
+@pytest.mark.slow
 def test_pictures_are_written_and_not_blank(tmp_path, solution, apart, two_patches):
     blank = tmp_path / "blank.png"
     mpl.figure.Figure(figsize=(2.0, 2.0)).savefig(blank)

@@ -8,9 +8,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import contact
-from benchmarks import robustness
 from contact.kernels.normal import strip_halfspace
-from tests.test_solve import assert_post_conditions
+from reference import random_cases
+from tests.post_conditions import assert_post_conditions
 
 NORMAL, METHODS = list(contact.methods().batched.normal), contact.methods().batched.tangential
 TANGENTIAL = [name for name, method in METHODS.items() if method.saturates]  # tolerances are parts of mu N
@@ -26,10 +26,10 @@ creepages = st.builds(
 
 
 @st.composite
-def separations(draw, kinds=tuple(robustness.KINDS)):
+def separations(draw, kinds=tuple(random_cases.KINDS)):
     """Real, worn, near-conformal, nearly flat, two-lobed, asymmetric and noisy separations."""
     kind = draw(st.sampled_from(kinds))
-    return robustness.KINDS[kind](np.random.default_rng(draw(st.integers(0, 10_000))))
+    return random_cases.KINDS[kind](np.random.default_rng(draw(st.integers(0, 10_000))))
 
 
 def solve(separation, creepage=(0.0, 0.0, 0.0), **options):
@@ -48,7 +48,7 @@ def test_post_conditions_on_any_separation(separation, creepage, load, normal, t
     """|F| ≤ μN, |q| ≤ μp, dissipation ≥ 0, Σ p dA = N, also where the iteration stops at its cap."""
     sol = solve(separation, creepage, load=load, normal=normal, tangential=tangential)
     assert abs(sol.N / load - 1.0) < 1e-12
-    assert sol.iterations <= robustness.CAPS[normal]
+    assert sol.iterations <= random_cases.CAPS[normal]
     assert_post_conditions(sol)
 
 
@@ -109,8 +109,8 @@ def test_millimetres_and_newtons_give_the_same_forces(ratio, creepage, load, nor
 @pytest.mark.parametrize(
     ("normal", "kinds", "least_step"),
     [
-        ("analyn", tuple(robustness.KINDS), 1e-6),
-        ("hertz", tuple(robustness.KINDS), 1e-6),
+        ("analyn", tuple(random_cases.KINDS), 1e-6),
+        ("hertz", tuple(random_cases.KINDS), 1e-6),
         ("strip_halfspace", ("pose", "worn", "ellipse", "near-conformal"), 1e-3),  # solved to 1e-4
     ],
 )

@@ -3,16 +3,16 @@
 import pytest
 
 import contact
-from benchmarks import robustness
+from reference import random_cases
 
 
-@pytest.mark.parametrize(("normal", "tangential"), robustness.method_pairs())
+@pytest.mark.parametrize(("normal", "tangential"), random_cases.method_pairs())
 def test_random_physical_cases_are_solved(normal, tangential):
-    found = robustness.run(normal, tangential, 320, seed=11, solved=16)
+    found = random_cases.run(normal, tangential, 320, seed=11, solved=16)
     statuses, method = found["statuses"], contact.methods().tangential[tangential]
     assert sum(statuses.values()) == 320
     assert found["finite"] == 0, "results that are not finite"
-    assert found["iterations"] <= robustness.CAPS[normal]
+    assert found["iterations"] <= random_cases.CAPS[normal]
     assert found["force"] <= 1e-9 or not method.saturates, "|F| ≤ μN"
     assert found["power"] >= 0.0, "dissipation"
     assert found["work"] >= (-1e-9 if method.admissible else -0.1), "dissipation of each element"

@@ -23,7 +23,7 @@ from contact.hertz import local_factors
 from contact.plot.style import INK, LINES, style
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
-from benchmarks.accuracy import ellipse as _ellipse
+from contact.study.ellipse import ellipse as _ellipse
 
 set_matplotlib_formats("svg")
 _STYLE = style()

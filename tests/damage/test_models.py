@@ -1,12 +1,11 @@
 """Each damage model by itself: the published breakpoints, the disputed variants as options, what is refused."""
 
-import csv
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+import reference
 from contact import ContactError
 from contact.damage import (
     ArchardMap,
@@ -25,12 +24,9 @@ from contact.damage import (
 )
 from contact.damage.shakedown import ELLIPSE, LINE
 
-REFERENCE = Path(__file__).parents[1] / "reference" / "frictional_energy.csv"
-
 
 def energies():
-    rows = csv.reader(line for line in REFERENCE.read_text().splitlines() if not line.startswith("#"))
-    return [pytest.param(*map(float, row[1:]), id=row[0]) for row in rows]
+    return [pytest.param(*values, id=name) for name, values in reference.frictional_energies()]
 
 
 @pytest.mark.parametrize(("xi", "eta", "phi", "Fx", "Fy", "Mz", "dissipation"), energies())

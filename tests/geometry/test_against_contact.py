@@ -1,22 +1,16 @@
-"""The contact search against CONTACT: S1002 on UIC 60, both sides, 1:40 and 1:20 (tests/reference/wheel_rail.csv)."""
+"""The contact search against CONTACT: S1002 on UIC 60, both sides, 1:40 and 1:20 (reference/wheel_rail.csv)."""
 
-import csv
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import contact
+import reference
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose
 
 LOAD, R0 = 80e3, 0.460
-
-
-def reference():
-    with (Path(__file__).parents[1] / "reference" / "wheel_rail.csv").open() as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +24,7 @@ def pairs():
 def rows(pairs):
     """Each row with our patch at CONTACT's height of the wheelset, and under its load."""
     result = []
-    for row in reference():
+    for row in reference.wheel_rail():
         pair = pairs[row["cant"], row["side"]]
         pose = Pose(y=1e-3 * float(row["dy"]), z=1e-3 * float(row["z"]))
         (patch,) = pair.contacts(pose)

@@ -1,13 +1,12 @@
 """Rigid contact points and equivalent conicity: cones in closed form, the reference tables of both editions of EN 15302."""
 
-import csv
 import math
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+import reference
 from contact import ContactError
 from contact.geometry import conicity, contact_points, equivalent_conicity, profile
 from contact.geometry.wheelset import Pair, Pose
@@ -18,10 +17,8 @@ GAUGE = 1.4351645  # places the origin of rail A 750 mm from the centre of the t
 AMPLITUDES = np.arange(1, 8) * 1e-3
 
 
-def reference(edition):
-    path = Path(__file__).parent.parent / "reference" / "en15302.csv"
-    lines = [line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
-    return [row for row in csv.DictReader(lines) if row["edition"] == edition]
+def tabulated(edition):
+    return [row for row in reference.conicities() if row["edition"] == edition]
 
 
 @cache
@@ -42,16 +39,17 @@ def of(row, step=2e-5):
     return computed(row["right"], row["left"], row["left_radius"], step)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("edition", ["2021", "2008"])
 def test_reference_wheels_lie_within_the_tolerances_of_the_standard(edition):
-    for row in reference(edition):
+    for row in tabulated(edition):
         given, wanted = columns(row)
         tolerance = np.maximum(np.minimum(0.05, 0.5 * wanted), 5e-4)  # zero is printed with three decimals
         np.testing.assert_array_less(np.abs(of(row).conicity[given] - wanted), tolerance, err_msg=str(row))
 
 
 def test_conicity_of_the_edition_of_2008_comes_out_with_its_own_step():
-    for row in reference("2008"):
+    for row in tabulated("2008"):
         given, wanted = columns(row)
         np.testing.assert_allclose(of(row, 1e-4).conicity[given], wanted, rtol=0, atol=2.5e-3, err_msg=str(row))
 
@@ -59,7 +57,7 @@ def test_conicity_of_the_edition_of_2008_comes_out_with_its_own_step():
 @pytest.mark.parametrize(("edition", "tolerance"), [("2021", 2e-3), ("2008", 13e-3)])
 def test_rolling_radius_differences_are_those_of_the_tables(edition, tolerance):
     # mm; the wheels' formulas are those of 2021, from which the tables of 2008 differ by up to 0.012 mm
-    for row in reference(edition):
+    for row in tabulated(edition):
         if row["dr3"]:
             points = of(row).points
             dr = 1e3 * np.interp(3e-3, points.y, points.radius_difference)

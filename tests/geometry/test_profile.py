@@ -7,7 +7,7 @@ import pytest
 
 from contact import ContactError
 from contact.geometry import profile
-from contact.kernels.geometry import curve
+from tests.geometry.heights import height
 
 # y, z [mm] copied from MBench_S1002_v3.prw (y turned to the field side) and MBench_UIC60_v3.prr, the profile files of the
 # Manchester contact benchmark in the examples of CONTACT 25.1 (Apache-2.0).
@@ -27,14 +27,6 @@ RAIL_FILE = np.array(
         (28.422032, 10.966405),
     ]
 )  # fmt: skip
-
-
-def height(shape: profile.Profile, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """z and dz/dy [mm] of a profile at y [mm], between its points."""
-    table = np.stack((shape.y, shape.z, np.tan(shape.angle)))
-    segments = np.clip(np.searchsorted(shape.y, 1e-3 * y) - 1, 0, shape.y.size - 2)
-    values = [curve.at(table, int(j), 1e-3 * v) for j, v in zip(segments, y, strict=True)]
-    return 1e3 * np.array([v[0] for v in values]), np.array([v[1] for v in values])
 
 
 def test_s1002_is_the_benchmark_file_to_its_printed_digits():

@@ -8,7 +8,7 @@ import pytest
 from contact import ContactError
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, _rail_origin
-from tests.geometry.test_profile import height
+from tests.geometry.heights import height
 
 # Half head width and its depth below the crown [mm], constants.md 14.
 HEADS = {

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import dblquad
 
 import contact
-from benchmarks import accuracy
+import reference
 from contact.halfspace import influence, norm
 
 
@@ -119,16 +119,16 @@ def test_no_overlap_and_no_load_give_no_pressure():
         assert found.converged
 
 
-@pytest.mark.parametrize("case", accuracy.patches(), ids=lambda case: case["name"])
+@pytest.mark.parametrize("case", reference.patches(), ids=lambda case: case["name"])
 def test_real_patches_are_contacts(case):
     """S1002 on UIC60 at CONTACT's approach on its grid: N, peak and pressure to the printed digits."""
     x, y = (np.array(case[k]) * 1e-3 for k in ("x_p", "y_p"))
     fine_x, fine_y = ((np.arange(2 * v.size) - 0.0) * 0.2e-3 + v[0] for v in (x, y))
-    separation = accuracy.separation_of(case)
+    separation = reference.separation_of(case)
     inside = fine_y <= separation.y[-1] + 1e-9
     fine_y = fine_y[inside]
     g, A = (np.interp(fine_y, separation.y, v) for v in (separation.g, separation.A))
-    found = norm(g[:, None] + A[:, None] * fine_x**2, 0.2e-3, 0.2e-3, accuracy.STEEL, approach=case["delta"] * 1e-3)
+    found = norm(g[:, None] + A[:, None] * fine_x**2, 0.2e-3, 0.2e-3, reference.STEEL, approach=case["delta"] * 1e-3)
     true = case["contact"]
     assert found.p.sum() * 0.04e-6 == pytest.approx(true["N"], rel=2e-5)
     assert found.p.max() * 1e-6 == pytest.approx(true["pmax"], rel=2e-5)

@@ -5,9 +5,8 @@ import pytest
 
 import contact
 from contact.halfspace import Gap
-from tests.normal.test_analyn import two_lobes
-from tests.test_every_method import KINDS
-from tests.test_solve import assert_post_conditions
+from tests.post_conditions import assert_post_conditions
+from tests.separations import KINDS, two_lobes
 
 BOTH = {"normal": "halfspace", "tangential": "halfspace"}
 CREEPAGES = [(1e-3, 0.0, 0.0), (-5e-4, 2e-3, 0.4), (0.0, 0.0, -0.9), (3e-2, -2e-2, 0.0)]

@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 
 import contact
-from benchmarks import accuracy
+import reference
 from contact import kalker
 from contact.halfspace import influence, norm, tang
+from contact.study.ellipse import ellipse
 
-MU, STEEL = 0.3, accuracy.STEEL
+MU, STEEL = 0.3, reference.STEEL
 TANG = sys.modules["contact.halfspace.tang"]
 
 
@@ -42,15 +43,15 @@ def extrapolated(aspect, creepage, n=24):
     return 2.0 * on_ellipse(aspect, creepage, 2 * n) - on_ellipse(aspect, creepage, n)
 
 
-@pytest.mark.parametrize("row", accuracy.ellipses()[7::38], ids=lambda r: f"{r['curve']} {r['aob']:.2g}")
+@pytest.mark.parametrize("row", reference.ellipses()[7::38], ids=lambda r: f"{r['curve']} {r['aob']:.2g}")
 def test_forces_on_ellipses_are_contacts(row):
     """Set A on CONTACT's own grid, pressure included: 1e-5 of mu N, the digits of the reference."""
     a, b, n = 5e-3 * math.sqrt(row["aob"]), 5e-3 / math.sqrt(row["aob"]), 62
-    separation = accuracy.ellipse(row["aob"], 5e-3, accuracy.N_ELLIPSE)
+    separation = ellipse(row["aob"], 5e-3, reference.N_ELLIPSE)
     s = (np.arange(n + 4) - 0.5 * (n + 3)) * 2.0 / n
     x, y = a * s, b * s
     gap = separation.A[0] * x**2 + separation.g[0] / separation.y[0] ** 2 * y[:, None] ** 2
-    p = norm(gap, x[1] - x[0], y[1] - y[0], STEEL, load=accuracy.N_ELLIPSE).p
+    p = norm(gap, x[1] - x[0], y[1] - y[0], STEEL, load=reference.N_ELLIPSE).p
     found = tang(p, x, y, contact.Creepage(row["xi"], row["eta"], row["phi"] * 1e3), MU, STEEL)
     assert found.converged
     true = [row[f"{k}_contact"] for k in ("fx", "fy", "mz")]
@@ -58,7 +59,7 @@ def test_forces_on_ellipses_are_contacts(row):
     assert found.stick.sum() / (p > 0).sum() == pytest.approx(row["adh_contact"], abs=1e-3)
 
 
-@pytest.mark.parametrize("case", accuracy.fields(), ids=lambda case: case["name"])
+@pytest.mark.parametrize("case", reference.fields(), ids=lambda case: case["name"])
 def test_traction_fields_are_contacts(case):
     """Set B (mm, N) on CONTACT's grid, of which every third element is kept; here with Hertz' pressure: 1 % in L2."""
     x, y = (v[0] + (np.arange(66) - 1.0) * (v[1] - v[0]) / 3.0 for v in (np.array(case["x"]), np.array(case["y"])))
@@ -73,11 +74,11 @@ def test_traction_fields_are_contacts(case):
 
 
 @pytest.mark.parametrize(
-    ("k", "case"), list(enumerate(accuracy.patches())), ids=lambda v: v["name"] if isinstance(v, dict) else ""
+    ("k", "case"), list(enumerate(reference.patches())), ids=lambda v: v["name"] if isinstance(v, dict) else ""
 )
 def test_forces_on_real_patches_are_contacts(k, case):
     """Set D, two of seven states each, on CONTACT's grid: 1e-4 of mu N (bar 0.004)."""
-    separation = accuracy.separation_of(case)
+    separation = reference.separation_of(case)
     h = 0.2e-3
     x, y = (np.arange(case_x[0], case_x[-1] + 0.3, 0.2) * 1e-3 for case_x in (case["x_p"], case["y_p"]))
     y = y[y < separation.y[-1] + 1e-9]

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import contact
+from tests.separations import two_lobes
 
 STEEL = contact.STEEL
 NO_CREEP = contact.Creepage()
@@ -39,13 +40,6 @@ def test_a_patch_narrower_than_the_sampling_is_resolved():
     exact = contact.hertz(1.0, 3.0, load=1e-3)
     assert sol.width < 1e-4
     assert sol.max_pressure == pytest.approx(exact.p0, rel=1e-5)
-
-
-def two_lobes(depth: float, spacing: float = 12e-3) -> contact.Separation:
-    """Two parabolas side by side, the second `depth` higher, with a ridge between."""
-    y = np.linspace(-25e-3, 25e-3, 501)
-    g = np.minimum(2.0 * (y + spacing / 2) ** 2, depth + 2.0 * (y - spacing / 2) ** 2)
-    return contact.Separation(y, g, 1.0)
 
 
 def test_separate_patches_are_labelled():

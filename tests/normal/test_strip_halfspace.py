@@ -10,7 +10,7 @@ import contact
 from contact import workspace
 from contact.geometry import profile, wheelset
 from contact.kernels.normal import influence
-from tests.normal.test_analyn import two_lobes
+from tests.separations import two_lobes
 
 NO_CREEP = contact.Creepage()
 CENTRE, PLANE = workspace.strip_tables()

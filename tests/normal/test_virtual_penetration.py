@@ -10,7 +10,7 @@ import contact
 from contact.kernels.normal.kik_piotrowski import PENETRATION
 from contact.kernels.normal.multi_hertz import _outside
 from contact.kernels.normal.semi_winkler import _share, _strip
-from tests.normal.test_analyn import two_lobes
+from tests.separations import two_lobes
 
 NO_CREEP = contact.Creepage()
 E = contact.STEEL.contact_modulus

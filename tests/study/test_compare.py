@@ -7,7 +7,6 @@ import math
 import re
 import subprocess
 import sys
-from html.parser import HTMLParser
 
 import numpy as np
 import pytest
@@ -15,7 +14,8 @@ import pytest
 import contact
 from contact.study import REFERENCE, SELECTION, comparison, every_pair, pairs_of
 from contact.study.table import number
-from tests.study.conftest import METHODS, problem
+from tests.study.page import Page
+from tests.study.problems import METHODS, problem
 
 
 def test_rows_are_what_solve_returns(small):
@@ -144,19 +144,7 @@ def test_the_dataset_is_labelled_by_case_and_method(small):
     assert data.status.sel(case="apart").values.tolist() == ["NO_CONTACT"] * 3
 
 
-class Page(HTMLParser):
-    def __init__(self):
-        super().__init__()
-        self.links, self.cells, self.tags = [], [], []
-
-    def handle_starttag(self, tag, attrs):
-        self.tags.append(tag)
-        self.links += [value for name, value in attrs if name in ("src", "srcset", "href", "data")]
-
-    def handle_data(self, data):
-        self.cells.append(data.strip())
-
-
+@pytest.mark.slow
 def test_the_page_needs_nothing_from_outside(small):
     pytest.importorskip("matplotlib")
     text = small.html()
@@ -178,6 +166,7 @@ def test_names_are_text_and_not_markup_on_the_page():
     assert "&lt;b&gt;&amp;" in text
 
 
+@pytest.mark.slow
 def test_pictures_show_one_panel_a_method(small, tmp_path):
     pytest.importorskip("matplotlib")
     figure = small.figure()

@@ -8,7 +8,7 @@ import contact
 
 pytest.importorskip("typer")
 
-from tests.test_cli import call
+from tests.command_line import call
 
 QUICK = ("--method", "hertz+fastsim", "--reference-elements", 12)
 
@@ -65,6 +65,7 @@ def test_files_of_cases_say_the_same(tmp_path, name):
     assert b["results"][1]["max_pressure"] == pytest.approx(contact.hertz(1, 2, load=2e4).p0)
 
 
+@pytest.mark.slow
 def test_tables_and_files(tmp_path):
     pytest.importorskip("matplotlib")
     files = [tmp_path / f"out.{ending}" for ending in ("html", "csv", "png", "json")]

@@ -10,7 +10,7 @@ import pytest
 import contact
 from contact.study import Comparison
 from contact.study.manchester import Manchester, manchester, places
-from tests.study.test_compare import Page
+from tests.study.page import Page
 
 
 @pytest.fixture(scope="module")
@@ -55,6 +55,7 @@ def test_tables_set_methods_beside_contact(three):
     assert len(tables[-1].rows) == 0  # CONTACT's KPEC and ANALYN are known at other places
 
 
+@pytest.mark.slow
 def test_files_hold_ours_and_contacts(three):
     pytest.importorskip("matplotlib")
     lines = list(csv.DictReader(io.StringIO(three.csv())))
@@ -79,7 +80,7 @@ def test_no_place_is_refused():
 
 def test_the_command_shows_kpec_as_it_is():
     pytest.importorskip("typer")
-    from tests.test_cli import call
+    from tests.command_line import call
 
     words = ("--method", "hertz+fastsim", "--reference-elements", 20)
     output = call("manchester", *words).stdout

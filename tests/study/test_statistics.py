@@ -11,7 +11,7 @@ import contact
 from contact.study.design import ELLIPSES, FRICTION, LOAD, MATERIAL, design
 from contact.study.reference import reference_forces, separation_of
 from contact.study.statistics import statistics
-from tests.study.test_compare import Page
+from tests.study.page import Page
 
 TESTED = ("fastsim", "fastrip")
 
@@ -115,6 +115,7 @@ def test_files_of_another_run_are_refused(tmp_path, sample):
         reference_forces(sample.design, 16, stored=path, processes=1)
 
 
+@pytest.mark.slow
 def test_two_processes_give_the_same(sample):
     two = statistics(["fastrip"], cases=22, elements=8, processes=2)
     one = statistics(["fastrip"], cases=22, elements=8, processes=1)
@@ -153,7 +154,7 @@ def test_files_hold_the_errors(sample, tmp_path):
 
 def test_the_command_prints_what_python_computes():
     pytest.importorskip("typer")
-    from tests.test_cli import call
+    from tests.command_line import call
 
     words = ("--cases", 12, "--elements", 16, "--processes", 1, "--tangential", "fastsim", "--tangential", "fastrip")
     output = call("statistics", *words).stdout

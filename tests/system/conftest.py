@@ -13,7 +13,8 @@ import pytest
 from contact_case import NAME
 from fmu_instance import Instance
 from fmu_instance_fmi3 import Instance3
-from native_host import Host
+
+from reference.native import Host
 
 ROOT = Path(__file__).parents[2]
 

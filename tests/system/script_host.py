@@ -8,8 +8,9 @@ import fmpy
 import numpy as np
 
 from fmu_src.native.packaging import HEADERS, compiler, run
+from reference.native import HOST
 
-SOURCE = Path(__file__).parent / "host" / "script.c"
+SOURCE = HOST / "script.c"
 _PLATFORMS = {"linux64": (".so", ["-ldl"], []), "win64": (".dll", [], ["wine"])}
 
 

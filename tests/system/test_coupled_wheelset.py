@@ -8,7 +8,6 @@ from typing import get_args
 import numpy as np
 import pytest
 
-from benchmarks import coupling
 from contact import STEEL, Creepage, Separation, hertz, solve
 from contact.errors import ContactError
 from models.wheelset import master
@@ -19,6 +18,7 @@ from models.wheelset.model import WheelsetModel
 from models.wheelset.parameters import WheelsetParameters
 from models.wheelset.ports import CONTACT_PORTS, MOTION, REACTION, SIDES, WHEELSET_PORTS
 from models.wheelset.stability import critical_speed, growth, state_matrix
+from reference import stability
 from tests.models.rolling import RAIL_RADIUS, on_cones
 
 
@@ -195,11 +195,11 @@ def test_iterated_steps_are_of_second_order():
 @pytest.mark.parametrize("scheme", ["jacobi", "gauss_seidel"])
 def test_largest_stable_step_is_that_of_the_axles_spin(scheme):
     """h < m/c (Jacobi), 2 m/c (Gauss–Seidel) with m = I_s/r², c = 2 f11/V: shorter than for the lateral motion."""
-    lateral, yaw, spin = coupling.modes(WheelsetParameters(speed=10.0))
-    h, grows = coupling.measured(10.0, scheme)
+    lateral, yaw, spin = stability.modes(WheelsetParameters(speed=10.0))
+    h, grows = stability.measured(10.0, scheme)
     assert grows == "spin"
-    assert h == pytest.approx(coupling.EXPLICIT[scheme] * spin.mass / spin.damping, rel=0.05)
-    assert h < 0.3 * min(lateral.mass / lateral.damping, yaw.mass / yaw.damping) * coupling.EXPLICIT[scheme]
+    assert h == pytest.approx(stability.EXPLICIT[scheme] * spin.mass / spin.damping, rel=0.05)
+    assert h < 0.3 * min(lateral.mass / lateral.damping, yaw.mass / yaw.damping) * stability.EXPLICIT[scheme]
 
 
 def test_iterated_scheme_is_stable_where_the_others_are_not():

@@ -7,12 +7,12 @@ from copy import copy
 
 import pytest
 from contact_case import NAME
-from native_host import ROLES, kernel_library, kernel_objects
-from random_cases import POINTS
 
 from fmu_src.native import source
 from fmu_src.native.packaging import FLAGS, HEADERS, WRAPPER, compiler, run
 from fmu_src.native.wheel_rail_contact import component
+from models.wheelset.ports import POINTS
+from reference.native import ROLES, kernel_library, kernel_objects
 
 OTHERS = [name for name in ROLES if name != NAME]
 VALGRIND = ("valgrind", "--error-exitcode=9", "--leak-check=full", "-q")

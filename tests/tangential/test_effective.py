@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 import contact
-from benchmarks import creep_table as unseen
+import reference
 from contact import force_table as table
 from contact import kalker
 from contact.study import creep_table, effective
 from contact.study.ellipse import ellipse
+from reference import unseen
 
 LOAD, MU, C = 82e3, 0.3, 6e-3
 FORCES = table.numbers(table.FILE)
@@ -39,9 +40,10 @@ def test_at_its_nodes_the_march_has_the_half_spaces_force_and_moment(i, j, k, l)
     np.testing.assert_allclose(forces(*node(i, j, k, l)), FORCES[i, j, k, l, :3], atol=0.004)
 
 
+@pytest.mark.slow
 def test_cases_that_the_table_has_not_seen():
     """300 random ellipses by our half space; without effective creepages .0081 / .0261 / .0927, moment .0075."""
-    errors = unseen.errors(*unseen.unseen(), "fastrip_mapped")
+    errors = unseen.errors(*reference.unseen_ellipses(), "fastrip_mapped")
     assert errors["force"].mean() < 0.0021
     assert np.percentile(errors["force"], 95) < 0.0085
     assert errors["force"].max() < 0.055

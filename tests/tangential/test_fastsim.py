@@ -1,15 +1,15 @@
 """FASTSIM with its choices of flexibility and bound, and strip theory: closed forms, CONTACT's own FASTSIM, the thesis."""
 
-import json
 import math
 
 import numpy as np
 import pytest
 
 import contact
-from benchmarks import accuracy
+import reference
 from contact import kalker
 from contact.kernels.tangential.ellipses import flexibilities, weighted
+from contact.study.ellipse import ellipse
 
 N, MU, G, NU = 8e4, 0.3, contact.STEEL.shear_modulus, contact.STEEL.poisson_ratio
 ELLIPSES = [contact.Separation.hertzian(1.0, B) for B in (0.4, 1.0, 6.0)]
@@ -52,17 +52,17 @@ def test_pure_creepage_under_the_elliptic_bound_has_polachs_closed_form(x, separ
 
 def test_one_flexibility_is_contacts():
     """CONTACT's own FASTSIM with one flexibility and the parabolic bound, 464 cases on ellipses."""
-    rows = accuracy.ellipses()
+    rows = reference.ellipses()
     theirs = np.array([[row[f"{k}_fastsim_1flx_par"] for k in ("fx", "fy", "mz")] for row in rows])
     ours = np.empty_like(theirs)
     for aspect in sorted({row["aob"] for row in rows}):
         own = [i for i, row in enumerate(rows) if row["aob"] == aspect]
         creepage = tuple(np.array([rows[i][k] for i in own]) * s for k, s in (("xi", 1), ("eta", 1), ("phi", 1e3)))
         found = contact.forces(
-            accuracy.ellipse(aspect, 5e-3, accuracy.N_ELLIPSE), creepage, load=accuracy.N_ELLIPSE, friction=accuracy.MU,
-            material=accuracy.STEEL, tangential="fastsim_one", n_strips=40, n_elements=40,
+            ellipse(aspect, 5e-3, reference.N_ELLIPSE), creepage, load=reference.N_ELLIPSE, friction=reference.MU,
+            material=reference.STEEL, tangential="fastsim_one", n_strips=40, n_elements=40,
         )  # fmt: skip
-        scale = accuracy.MU * accuracy.N_ELLIPSE
+        scale = reference.MU * reference.N_ELLIPSE
         ours[own] = np.stack([found.Fx / scale, found.Fy / scale, found.Mz / (scale * 5e-3)], axis=1)
     difference = np.abs(ours - theirs)  # reached: median .001, mean .002, max .021; theirs is a march of first order
     assert difference.mean() < 2.5e-3
@@ -87,8 +87,8 @@ def test_local_ellipses_are_the_ellipse_where_there_is_one(method):
 
 
 def test_local_ellipses_differ_on_a_real_patch_and_carry_the_same_full_slip():
-    case = accuracy.patches()[0]
-    separation, forces = accuracy.separation_of(case), []
+    case = reference.patches()[0]
+    separation, forces = reference.separation_of(case), []
     for method in ("fastsim", "fastsim_linder", "fastsim_stripes"):
         sol = solve(separation, 3e-4, 0.0, 0.0, method, normal="analyn")
         forces.append(sol.Fx)
@@ -106,16 +106,17 @@ def test_linear_theory_on_an_ellipse_gives_kalkers_flexibilities(separation):
         assert math.hypot(one.Fx - other.Fx, one.Fy - other.Fy) < 5e-3 * MU * N
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("index", [0, 3, 7])
 def test_slopes_of_linear_theory_on_the_patch_itself(index):
     """`fastsim_knothe` has the slopes of `benchmarks/linear_slopes.py`, which `fastsim` misses by 20 %; reached: 1.7 %."""
-    case = accuracy.patches()[index]
-    truth = np.array(json.loads((accuracy.REFERENCE / "linear_slopes.json").read_text())["cases"][index]["slopes"])
+    case = reference.patches()[index]
+    truth = np.array(reference.linear_slopes()[index]["slopes"])
     tiny = 1e-8
     found = [
         contact.solve(
-            accuracy.separation_of(case), contact.Creepage(*creepage), approach=case["delta"] * 1e-3, friction=MU,
-            material=accuracy.STEEL, normal="strip_halfspace", tangential="fastsim_knothe", n_elements=60,
+            reference.separation_of(case), contact.Creepage(*creepage), approach=case["delta"] * 1e-3, friction=MU,
+            material=reference.STEEL, normal="strip_halfspace", tangential="fastsim_knothe", n_elements=60,
         )
         for creepage in tiny * np.eye(3)
     ]  # fmt: skip
@@ -153,7 +154,7 @@ def test_strip_theory_under_pure_spin_sticks_along_the_middle():
 ])  # fmt: skip
 def test_strip_theory_is_a_quarter_low_on_circles_and_worse_in_spin(aspect, creepage, off):
     """Thesis 4.4: 25 % under creepage on a circle (18 and 34 here), 20 % (a/b = .2) to 40 % (circle) under spin."""
-    separation = accuracy.ellipse(aspect, 5e-3, N)
+    separation = ellipse(aspect, 5e-3, N)
     _, C = kalkers(separation)
     tiny = tuple(1e-6 * c * s for c, s in zip(creepage, (1.0, 1.0, 200.0), strict=True))
     sol = solve(separation, *tiny, tangential="strip_theory")

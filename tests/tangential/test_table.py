@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 import contact
-from benchmarks import creep_table as unseen
+import reference
 from contact import force_table as table
 from contact import kalker
 from contact.kernels.tangential import table as kernel
 from contact.study import creep_table
+from reference import unseen
 
 G, C, LIMIT, NU = 82e9, 6e-3, 24600.0, table.NU
 
@@ -88,9 +89,10 @@ def test_full_slip_is_the_end():
     assert math.hypot(*found[:2]) <= 1.0 + 1e-12
 
 
+@pytest.mark.slow
 def test_cases_that_the_table_has_not_seen():
-    """Half space on the same number of elements (tests/reference): what interpolation costs."""
-    cases, true = unseen.unseen()
+    """Half space on the same number of elements (`reference`): what interpolation costs."""
+    cases, true = reference.unseen_ellipses()
     errors = unseen.errors(cases, true)
     assert errors["force"].mean() < 0.0025
     assert np.percentile(errors["force"], 95) < 0.0095

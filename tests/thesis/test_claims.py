@@ -1,4 +1,4 @@
-"""What the thesis says of the methods in words, on CONTACT's own numbers (tests/reference) or our half space.
+"""What the thesis says of the methods in words, on CONTACT's own numbers (`reference`) or our half space.
 
 The figures quoted in a test's name are the thesis'; errors are over mu N unless a test says otherwise. The pages under
 docs/thesis draw the same.
@@ -10,30 +10,32 @@ import numpy as np
 import pytest
 
 import contact
-from benchmarks import accuracy
+import reference
 from contact import kalker
 from contact.damage import evaluate
 from contact.geometry import profile, wheelset
+from contact.study.ellipse import ellipse
+from reference import accuracy
 
-LOAD, C, MU = accuracy.N_ELLIPSE, 5e-3, accuracy.MU
+LOAD, C, MU = reference.N_ELLIPSE, 5e-3, reference.MU
 
 
 def worst(method: str, *curves: str) -> float:
     """Largest force error of a method on the curves of that name, a/b from 0.2 to 5."""
     errors = accuracy.errors_on_ellipses(method)["force"]
-    return max(e for e, row in zip(errors, accuracy.ellipses(), strict=True) if row["curve"] in curves)
+    return max(e for e, row in zip(errors, reference.ellipses(), strict=True) if row["curve"] in curves)
 
 
 def on_circle(creepage: contact.Creepage, tangential: str, n: int = 40) -> contact.Solution:
     return contact.solve(
-        accuracy.ellipse(1.0, C, LOAD), creepage, load=LOAD, friction=MU, normal="hertz", tangential=tangential,
+        ellipse(1.0, C, LOAD), creepage, load=LOAD, friction=MU, normal="hertz", tangential=tangential,
         n_strips=n, n_elements=n,
     )  # fmt: skip
 
 
 def circular(kind: int) -> float:
     """C11, C22, C23 or C33 of the circle."""
-    return kalker.coefficients(kalker.table(accuracy.STEEL.poisson_ratio), 0.0)[kind]
+    return kalker.coefficients(kalker.table(reference.STEEL.poisson_ratio), 0.0)[kind]
 
 
 @pytest.mark.parametrize(("curves", "limit"), [
@@ -56,7 +58,7 @@ def test_fastrip_is_within_10_percent_where_fastsim_needs_20():
 
 def test_fastsim_is_off_by_more_than_25_percent_of_the_force_at_very_large_spin():
     """Fig. 4.15: five times the spin at which the linear theory reaches mu N, on a circle."""
-    spin = 5.0 * MU * LOAD / (accuracy.STEEL.shear_modulus * C**3 * circular(2))
+    spin = 5.0 * MU * LOAD / (reference.STEEL.shear_modulus * C**3 * circular(2))
     force = {
         method: on_circle(contact.Creepage(spin=spin), method).Fy for method in ("fastsim", "fastrip", "halfspace")
     }
@@ -79,13 +81,13 @@ def test_the_parabolic_bound_is_33_percent_too_high_in_the_middle():
 ])  # fmt: skip
 def test_strip_theory_is_25_percent_low_in_creepage_and_20_to_40_in_spin(aspect, spin, percent, of):
     """Section 4.4; the figures for the circle count from strip theory's force, the other from the half space's."""
-    unit = 0.1 * MU * LOAD / (accuracy.STEEL.shear_modulus * C**2)
-    c11, _, c23, _ = kalker.coefficients(kalker.table(accuracy.STEEL.poisson_ratio), math.log(aspect))
+    unit = 0.1 * MU * LOAD / (reference.STEEL.shear_modulus * C**2)
+    c11, _, c23, _ = kalker.coefficients(kalker.table(reference.STEEL.poisson_ratio), math.log(aspect))
     creepage = contact.Creepage(spin=unit / (c23 * C)) if spin else contact.Creepage(unit / c11)
     force = {}
     for method in ("strip_theory", "halfspace"):
         sol = contact.solve(
-            accuracy.ellipse(aspect, C, LOAD), creepage, load=LOAD, friction=MU, normal="hertz", tangential=method,
+            ellipse(aspect, C, LOAD), creepage, load=LOAD, friction=MU, normal="hertz", tangential=method,
             n_strips=48, n_elements=48,
         )  # fmt: skip
         force[method] = math.hypot(sol.Fx, sol.Fy)
@@ -102,7 +104,7 @@ def test_shen_hedrick_elkins_is_good_without_spin_and_bad_with_it():
 def test_vermeulen_and_johnson_are_about_20_percent_too_stiff_on_a_circle():
     """Section 4.2, nu = 1/4: 19 % (longitudinal) and 16 % (lateral) above Kalker's slope."""
     material = contact.Material(82e9, 0.25)
-    separation = accuracy.ellipse(1.0, C, LOAD, material)
+    separation = ellipse(1.0, C, LOAD, material)
     c11, c22, *_ = kalker.coefficients(kalker.table(0.25), 0.0)
     small, stiffness = 1e-6, material.shear_modulus * C**2
     ratios = []
@@ -116,9 +118,9 @@ def test_vermeulen_and_johnson_are_about_20_percent_too_stiff_on_a_circle():
 
 def test_lateral_creepage_turns_the_wheel_as_4_11_says_with_its_third_line_corrected():
     """ERRATA 4.11: Mz = +C23 G c³ vy with Mz = ∫(x qy - y qx) dA."""
-    slope = 1e-3 * MU * LOAD / (accuracy.STEEL.shear_modulus * C**2 * circular(1))
+    slope = 1e-3 * MU * LOAD / (reference.STEEL.shear_modulus * C**2 * circular(1))
     sol = on_circle(contact.Creepage(lateral=slope), "halfspace", n=64)
-    assert sol.Mz == pytest.approx(circular(2) * accuracy.STEEL.shear_modulus * C**3 * slope, rel=0.02)
+    assert sol.Mz == pytest.approx(circular(2) * reference.STEEL.shear_modulus * C**3 * slope, rel=0.02)
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,6 @@
 """Condense the CONTACT computations that `make accuracy` and the tests compare with.
 
-    python tests/reference/extract.py DIRECTORY
+    python reference/extract.py DIRECTORY
 
 DIRECTORY holds sets A_hertz_creep, B_hertz_fields and D_nonhertz_gap, computed with CONTACT 25.1 (rev 2707, Apache-2.0,
 github eve70a/CONTACT). Written are text files of five significant digits: the whole of set A with CONTACT's own fast methods

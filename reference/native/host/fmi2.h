@@ -6,7 +6,7 @@
 #include "common.h"
 #include "fmi2FunctionTypes.h"
 #include "model.h"
-#include "roles.h" /* made by native_host.py: which variables of the FMU the commands below use, and for what */
+#include "roles.h" /* made by reference/native: which variables of the FMU the commands below use, and for what */
 
 #define FUNCTIONS(X) \
     X(GetTypesPlatform) X(GetVersion) X(SetDebugLogging) X(Instantiate) X(FreeInstance) X(SetupExperiment) \

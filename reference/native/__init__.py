@@ -2,13 +2,11 @@
 
 import os
 import subprocess
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import fmpy
 import numpy as np
-from contact_case import NAME
-from random_cases import OUTPUTS, POINTS, Case
 
 from contact.kernels.layout import MAX_PATCHES
 from contact.solver import N_ELEMENTS, N_STRIPS
@@ -16,8 +14,10 @@ from fmu_src.catalogue import models
 from fmu_src.native import source
 from fmu_src.native.packaging import HEADERS, compiler, kernels, run
 from fmu_src.native.wheel_rail_contact import component
+from models.wheelset.ports import POINTS
 
 ROOT = Path(__file__).parents[2]
+NAME = "WheelRailContact"
 HOST = Path(__file__).with_name("host")
 _FMI2 = ("fmi2.c", "calls.c", "runs.c", "speed.c")
 _FMI3 = ("fmi3.c",)
@@ -86,17 +86,17 @@ class Host:
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
         return done.stdout
 
-    def solve(self, cases: Iterable[Case]) -> np.ndarray:
-        """OUTPUTS of the FMU after one step from the start, a row for each case."""
+    def solve(self, cases: Iterable[Mapping[str, float]], outputs: Sequence[str]) -> np.ndarray:
+        """`outputs` of the FMU after one step from the start, a row for each case, which gives values of its inputs by name."""
         table = component(POINTS).table
         names = [scalar.name for scalar in table.scalars]
         lines = []
         for case in cases:
-            kinds = ("i" if isinstance(value, int) else "r" for value in case.values.values())
-            words = (f"{names.index(n)} {k} {float(v)!r}" for (n, v), k in zip(case.values.items(), kinds, strict=True))
-            lines.append(f"{len(case.values)} {' '.join(words)}")
+            kinds = ("i" if isinstance(value, int) else "r" for value in case.values())
+            words = (f"{names.index(n)} {k} {float(v)!r}" for (n, v), k in zip(case.items(), kinds, strict=True))
+            lines.append(f"{len(case)} {' '.join(words)}")
         rows = np.loadtxt(self("cases", stdin="\n".join(lines)).splitlines(), ndmin=2)
-        return rows[:, [names.index(name) - names.index("force.x") for name in OUTPUTS]]
+        return rows[:, [names.index(name) - names.index("force.x") for name in outputs]]
 
 
 def resources_of(unzipped: Path, platform: str) -> str:

@@ -1,0 +1,120 @@
+"""Who may import whom: read from the sources of all imports, those inside functions included."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+FOLDERS = ("contact", "fmu_src", "models", "reference", "tests", "benchmarks", "examples", "docs")
+#: Files that may import a module of `contact` whose name begins with an underscore, and what from it.
+PRIVATE = {
+    "models/wheelset/dynamics.py": {"contact._jit.kernel"},
+    "models/wheelset/motion.py": {"contact._jit.kernel"},
+    "tests/test_jit.py": {"contact._jit"},  # the test of that module
+}
+
+
+def sources(*folders: str) -> list[Path]:
+    return sorted(path for folder in folders for path in (ROOT / folder).rglob("*.py"))
+
+
+def imports(path: Path) -> Iterator[str]:
+    """Whole names of what a file imports, `a.b.c` for `from a.b import c`."""
+    package = path.relative_to(ROOT).parent.parts
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            above = package[: len(package) - node.level + 1] if node.level else ()
+            module = ".".join((*above, *(node.module or "").split("."))).strip(".")
+            yield from (f"{module}.{alias.name}" for alias in node.names)
+
+
+def strings(path: Path) -> Iterator[str]:
+    """All strings of a file but docstrings and other strings that stand alone."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    alone = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in alone:
+            yield node.value
+
+
+def is_test(name: str) -> bool:
+    return any(part.startswith("test_") or part == "conftest" for part in name.split("."))
+
+
+def found(folders: tuple[str, ...], refused) -> list[str]:
+    """Imports of files in `folders` that are refused, as "file: name"."""
+    return [
+        f"{path.relative_to(ROOT)}: {name}" for path in sources(*folders) for name in imports(path) if refused(name)
+    ]
+
+
+def test_no_test_is_imported():
+    modules = {path.stem for path in sources("tests") if is_test(path.stem)}
+
+    def refused(name):
+        parts = name.split(".")
+        return parts[0] in modules or (parts[0] == "tests" and any(part in modules for part in parts[1:3]))
+
+    assert found(("tests", "benchmarks", "reference"), refused) == []
+
+
+def test_tests_import_no_benchmark():
+    assert found(("tests",), lambda name: name.split(".")[0] == "benchmarks") == []
+
+
+def test_benchmarks_and_reference_know_nothing_of_tests():
+    assert found(("benchmarks", "reference"), lambda name: name.split(".")[0] == "tests") == []
+    assert found(("reference",), lambda name: name.split(".")[0] == "benchmarks") == []
+    read = [
+        f"{path.relative_to(ROOT)}: {text}"
+        for path in sources("benchmarks", "reference")
+        for text in strings(path)
+        if text == "tests" or "tests/" in text
+    ]
+    assert read == []
+
+
+def test_the_library_imports_neither_tests_nor_what_they_share():
+    others = {"tests", "benchmarks", "reference"}
+    assert found(("contact", "fmu_src", "models"), lambda name: name.split(".")[0] in others) == []
+
+
+def test_private_modules_of_contact_stay_in_contact():
+    def private(name):
+        parts = name.split(".")
+        return parts[0] == "contact" and any(is_private_module(parts[: k + 1]) for k in range(1, len(parts)))
+
+    used: dict[str, set[str]] = {}
+    for path in [*sources(*(folder for folder in FOLDERS if folder != "contact")), ROOT / "build_fmu.py"]:
+        if names := set(filter(private, imports(path))):
+            used[path.relative_to(ROOT).as_posix()] = names
+    assert used == PRIVATE
+
+
+def is_private_module(parts: list[str]) -> bool:
+    path = ROOT.joinpath(*parts)
+    private = parts[-1].startswith("_") and not parts[-1].startswith("__")
+    return private and (path.with_suffix(".py").exists() or path.is_dir())
+
+
+@pytest.mark.parametrize(
+    ("line", "name"),
+    [
+        ("import a.b", "a.b"),
+        ("from a.b import c as d", "a.b.c"),
+        ("def f():\n    from a import b", "a.b"),
+        ("from . import b", "tests.b"),
+        ("from .a import b", "tests.a.b"),
+    ],
+)
+def test_imports_are_found(line, name, tmp_path, monkeypatch):
+    """The reader itself, for without it every rule above would hold."""
+    monkeypatch.setattr(f"{__name__}.ROOT", tmp_path)
+    (tmp_path / "tests").mkdir()
+    path = tmp_path / "tests" / "some.py"
+    path.write_text(line)
+    assert list(imports(path)) == [name]
