@@ -32,7 +32,6 @@ from contact.kernels.normal.strip_system import (
     assemble,
     distances,
     edge_displacements,
-    skewed_edge_displacements,
     solve_active,
 )
 
@@ -51,9 +50,10 @@ MEM_PANELS, MEM_ENDS, MEM_START, MEM_LN_A = 0, 1, 1 + 2 * MAX_PATCHES, 3 + 2 * M
 
 
 @kernel
-def _write(n, n_panels, panels, cosines, vectors, y, work, strips, result):
-    """Loaded strips in ascending order of y into `strips`; runs of neighbours are the patches. Returns their number."""
-    size = y.size
+def _write(y, n_panels, panels, own, result):
+    """Loaded strips in ascending order of y into `own.strips`; runs of neighbours are the patches. Returns their number."""
+    cosines, vectors, work, strips = own.rule.cosines, own.space.vectors, own.space.grid, own.strips
+    n, size = cosines.size - 1, y.size
     count, patch = 0, -1
     done = -math.inf
     k = 0
@@ -98,8 +98,8 @@ def strip_halfspace(sep, case, own, result):
     A filled `space.memory` is the start instead of ANALYN's patch; it is left filled for the next call. With the status
     NOT_CONVERGED the answer is the last iterate if that was nearly at rest, and ANALYN's otherwise.
     """
-    y, g, A, xc = sep.y, sep.g, sep.A, sep.x_c
-    rule, tables, space, strips = own.rule, own.tables, own.space, own.strips
+    y, xc = sep.y, sep.x_c
+    rule, space, strips = own.rule, own.space, own.strips
     memory, vectors = space.memory, space.vectors
     n_strips = analyn(sep, case, rule.across, space.grid, strips, result)
     if n_strips == 0:
@@ -108,6 +108,7 @@ def strip_halfspace(sep, case, own, result):
     n = rule.across.nodes.size
     size = y.size
     modulus = case.G / (1.0 - case.nu)
+    unit = 1.0 / (math.pi * modulus)
     by_load = case.load_kind != LoadKind.APPROACH
     g_least = result.touch
     amount = case.amount if by_load else case.amount - g_least
@@ -137,22 +138,16 @@ def strip_halfspace(sep, case, own, result):
     delta, iteration, known, error, load, last_error = 0.0, 0, 0, math.inf, 0.0, math.inf
     for iteration in range(MAX_ITERATIONS):
         total = n * n_panels
-        lay_panels(y, g, A, xc, g_least, space.grid, panels, n_panels, rule.cosines, vectors)
-        distances(panels, n_panels, rule.cosines, rule.cosine_logs, vectors, space.logs)
+        lay_panels(sep, g_least, panels, n_panels, own)
+        distances(panels, n_panels, own)
         half_lengths(vectors, n, n_panels)
-        assemble(
-            n, n_panels, panels, vectors, space.logs, tables.centre, rule.columns, tables.plane, skewed, modulus,
-            space.matrix,
-        )  # fmt: skip
-        delta = solve_active(n, n_panels, vectors, space.matrix, space.lu, by_load, amount)
+        assemble(panels, n_panels, own, skewed, unit)
+        delta = solve_active(n, n_panels, space, by_load, amount)
         error, load = math.inf, 0.0
         if not abs(delta) < math.inf:
             break
         # the strip ends: stretch each strip by the ratio of the overlap at its ends to the one that a parabola leaves
-        if skewed:
-            skewed_edge_displacements(n, n_panels, vectors, space.logs, tables.plane, modulus)
-        else:
-            edge_displacements(n, n_panels, vectors, space.logs, tables.plane, modulus)
+        edge_displacements(panels, n_panels, own, skewed, unit)
         error, load = 0.0, 0.0
         for i in range(total):
             vectors[Vector.R, i] = 0.0
@@ -178,9 +173,7 @@ def strip_halfspace(sep, case, own, result):
         ghosts = False
         if settled or iteration == 1:
             least = GHOST if settled else EARLY_GHOST
-            n_panels, ghosts = extend_to_ghosts(
-                y, g, g_least, delta, least, modulus, n, n_panels, panels, rule.cosines, vectors, tables.centre
-            )
+            n_panels, ghosts = extend_to_ghosts(sep, g_least, delta, least, unit, n_panels, panels, own)
             if settled and not ghosts:
                 converged = True
                 break
@@ -208,7 +201,7 @@ def strip_halfspace(sep, case, own, result):
     memory[MEM_PANELS], memory[MEM_START], memory[MEM_START + 1] = n_panels, start_low, start_high
     for i in range(n_panels * n):
         memory[MEM_LN_A + i] = vectors[Vector.LN_A, i]
-    count = _write(n, n_panels, panels, rule.cosines, vectors, y, space.grid, strips, result)
+    count = _write(y, n_panels, panels, own, result)
     N = 0.0
     for i in range(count):
         N += 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
