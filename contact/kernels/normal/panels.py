@@ -4,12 +4,10 @@ import math
 
 from contact._jit import kernel
 from contact.kernels.layout import MAX_PATCHES, Sample, Strip, Vector
+from contact.kernels.normal.descent import END_LENGTH, END_SLOPE, END_STEP, END_VALUE
 from contact.kernels.normal.lay import locate
 from contact.kernels.normal.strip_system import displacement_outside
 
-#: Share of an end's move that its rule asks for.
-_END_STEP = 0.6
-_END_VALUE, _END_SLOPE = 0.365, 0.108  # (p1/p2)² at the exact half width and its slope (strip_halfspace.md 2, step 4)
 _END_RANGE = (-3.0, 20.0)  # of one move outwards before damping, in widths of the end strip
 #: A frozen end still moves outwards from here on: the pressure rises towards the corner of a punch.
 _PUNCH = 1.0
@@ -75,8 +73,8 @@ def half_lengths(vectors, n, n_panels):
         for i in range(first + 1, first + n - 1):
             vectors[Vector.A, i] = math.exp(vectors[Vector.LN_A, i])
             vectors[Vector.FLOORED, i] = 0.0
-        vectors[Vector.A, first] = 0.447 * vectors[Vector.A, first + 1]
-        vectors[Vector.A, first + n - 1] = 0.447 * vectors[Vector.A, first + n - 2]
+        vectors[Vector.A, first] = END_LENGTH * vectors[Vector.A, first + 1]
+        vectors[Vector.A, first + n - 1] = END_LENGTH * vectors[Vector.A, first + n - 2]
         for i in range(first + 1, first + n - 1):
             if vectors[Vector.ACTIVE, i] != 0.0:
                 floor = 0.3 * max(vectors[Vector.A, i - 1], vectors[Vector.A, i + 1])
@@ -149,8 +147,8 @@ def _end_move(vectors, n, first, step, cosines, frozen):
     q = (vectors[Vector.P, first + step] / vectors[Vector.P, first + 2 * step]) ** 2
     if frozen and q < _PUNCH:
         return 0.0, idle
-    wanted = min(max((q - _END_VALUE) / _END_SLOPE, _END_RANGE[0]), _END_RANGE[1])
-    return _END_STEP * wanted * (1.0 + cosines[1]), idle
+    wanted = min(max((q - END_VALUE) / END_SLOPE, _END_RANGE[0]), _END_RANGE[1])
+    return END_STEP * wanted * (1.0 + cosines[1]), idle
 
 
 @kernel
@@ -187,42 +185,37 @@ def cut_idle(n, n_panels, panels, cosines, vectors):
 
 @kernel
 def _summarise(n, n_panels, vectors, unit):
-    """Displacement of strips at unit distance and the mean square of their points' distances from their middles.
-
-    Into Vector.Q1 and Vector.Q2; the same of whole panels, with the middle between, into Vector.U of their first three strips.
-    """
+    """Reach and spread of strips and of whole panels."""
     for first in range(0, n * n_panels, n):
         load, moment, square = 0.0, 0.0, 0.0
         for j in range(first, first + n):
             a, h, at = vectors[Vector.A, j], vectors[Vector.HALF, j], vectors[Vector.Y, j]
             own, spread = math.pi * unit * vectors[Vector.P, j] * a * h, 0.25 * a * a + h * h / 3.0
-            vectors[Vector.Q1, j], vectors[Vector.Q2, j] = own, spread
+            vectors[Vector.REACH, j], vectors[Vector.SPREAD, j], vectors[Vector.LN_LENGTH, j] = own, spread, math.log(a)
             load, moment, square = load + own, moment + own * at, square + own * (at * at + spread)
         middle = moment / load if load > 0.0 else 0.0
-        vectors[Vector.U, first], vectors[Vector.U, first + 1] = load, middle
-        vectors[Vector.U, first + 2] = max(square / load - middle * middle, 1e-300) if load > 0.0 else 1.0
+        vectors[Vector.REACH_OF_PANEL, first], vectors[Vector.MIDDLE_OF_PANEL, first] = load, middle
+        vectors[Vector.SPREAD_OF_PANEL, first] = max(square / load - middle * middle, 1e-300) if load > 0.0 else 1.0
 
 
 @kernel
-def _is_overlapped(at, allowed, n_panels, own, unit):
+def _is_overlapped(at, allowed, n, n_panels, vectors, centre, unit):
     """Whether the displacement at a point outside the panels is less than `allowed`.
 
     First as if the load of every panel, then of every strip, lay at the root mean square of its distances: that displaces no
     more than the load does, and is cheap.
     """
-    vectors = own.space.vectors
-    n = own.rule.cosines.size - 1
     u = 0.0
     for first in range(0, n * n_panels, n):
-        away = at - vectors[Vector.U, first + 1]
-        u += vectors[Vector.U, first] / math.sqrt(away * away + vectors[Vector.U, first + 2])
+        away = at - vectors[Vector.MIDDLE_OF_PANEL, first]
+        u += vectors[Vector.REACH_OF_PANEL, first] / math.sqrt(away * away + vectors[Vector.SPREAD_OF_PANEL, first])
     if allowed <= u:
         return False
     u = 0.0
     for j in range(n * n_panels):
         away = at - vectors[Vector.Y, j]
-        u += vectors[Vector.Q1, j] / math.sqrt(away * away + vectors[Vector.Q2, j])
-    return allowed > u and allowed > displacement_outside(at, n * n_panels, vectors, own.tables.centre, unit)
+        u += vectors[Vector.REACH, j] / math.sqrt(away * away + vectors[Vector.SPREAD, j])
+    return allowed > u and allowed > displacement_outside(at, n, n_panels, vectors, centre, unit)
 
 
 @kernel
@@ -232,7 +225,7 @@ def extend_to_ghosts(sep, g_least, delta, least, unit, n_panels, panels, own):
     Without this a second patch that the start solution missed stays unseen (strip_halfspace.md 2, step 5). Returns the
     number of panels and whether anything changed.
     """
-    y, g, cosines, vectors = sep.y, sep.g, own.rule.cosines, own.space.vectors
+    y, g, cosines, vectors, centre = sep.y, sep.g, own.rule.cosines, own.space.vectors, own.tables.centre
     size, n = y.size, cosines.size - 1
     known = n_panels  # new ones displace nothing while further ghosts are looked for
     changed = False
@@ -243,11 +236,15 @@ def extend_to_ghosts(sep, g_least, delta, least, unit, n_panels, panels, own):
         inside = g[i] >= highest
         for p in range(n_panels):
             inside = inside or panels[2 * p] <= y[i] <= panels[2 * p + 1]
-        if inside or not _is_overlapped(y[i], highest - g[i], known, own, unit):
+        if inside or not _is_overlapped(y[i], highest - g[i], n, known, vectors, centre, unit):
             i += 1
             continue
         k = i  # how far does it go
-        while k + 1 < size and g[k + 1] < highest and _is_overlapped(y[k + 1], highest - g[k + 1], known, own, unit):
+        while (
+            k + 1 < size
+            and g[k + 1] < highest
+            and _is_overlapped(y[k + 1], highest - g[k + 1], n, known, vectors, centre, unit)
+        ):
             k += 1
         margin = 1 if least <= GHOST else 0  # while the ends still move, no further than necessary
         low, high = y[max(i - margin, 0)], y[min(k + margin, size - 1)]

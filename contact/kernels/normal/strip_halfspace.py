@@ -14,8 +14,9 @@ import math
 from contact._jit import kernel
 from contact.kernels.layout import MAX_PATCHES, LoadKind, Sample, Status, Strip, Vector
 from contact.kernels.normal.analyn import analyn
+from contact.kernels.normal.descent import descend, has_one_run
 from contact.kernels.normal.lay import locate
-from contact.kernels.normal.mixing import advance
+from contact.kernels.normal.mixing import advance, mix
 from contact.kernels.normal.panels import (
     EARLY_GHOST,
     GHOST,
@@ -38,10 +39,14 @@ from contact.kernels.normal.strip_system import (
 MAX_ITERATIONS = 40
 #: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops.
 TOLERANCE = 1e-4
+#: Where steps take the Jacobian of an ellipse: what mixing may leave of the step, and how large the residuals may be.
+LEFT, CLOSE = 8e-4, 8e-3
 #: What counts as converged at the cap.
 ACCEPTABLE = 1e-3
 #: From here on the ends stand still: at the corner of a punch and on rough gaps their rule has no steady answer.
 FREEZE = 12
+#: An end that moves further than this, over the width, and turns back, goes half the way.
+TURN = 0.02
 #: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's answer is.
 USABLE = 0.02
 
@@ -92,6 +97,15 @@ def _write(y, n_panels, panels, own, result):
 
 
 @kernel
+def _damp_turns(n, panels, vectors, known):
+    """Let an end of a single panel that turns back go half the way."""
+    for end in (0, n - 1):
+        move = vectors[Vector.R, end]
+        if known > 0 and vectors[Vector.STEP, end] * move < 0.0 and abs(move) > TURN * (panels[1] - panels[0]):
+            vectors[Vector.R, end] = 0.5 * move
+
+
+@kernel
 def strip_halfspace(sep, case, own, result):
     """Solve the normal problem; same answers as `analyn`, which gives the start and the local aspect ratios.
 
@@ -134,7 +148,7 @@ def strip_halfspace(sep, case, own, result):
     if n_panels == 0:
         n_panels = start_panels(n_strips, n, strips, result, panels, rule.cosines, vectors)
 
-    converged = False
+    converged, descending = False, False
     delta, iteration, known, error, load, last_error = 0.0, 0, 0, math.inf, 0.0, math.inf
     for iteration in range(MAX_ITERATIONS):
         total = n * n_panels
@@ -166,10 +180,20 @@ def strip_halfspace(sep, case, own, result):
         if n_panels == 0:
             break
         moved, cut = end_moves(y, n, n_panels, panels, rule.cosines, vectors, iteration >= FREEZE)
-        if n_panels < before or error > 2.0 * last_error * load or iteration == FREEZE:
+        by_jacobian = descending
+        descending = n_panels == 1 and rule.descent.shape[1] == n and iteration < FREEZE and not cut
+        descending = descending and has_one_run(n, vectors[Vector.P])
+        if n_panels < before or error > 2.0 * last_error * load or iteration == FREEZE or descending != by_jacobian:
             known = 0
         last_error = error / load
-        settled = not cut and error < TOLERANCE * load and moved < 2.0 * TOLERANCE
+        if descending:
+            _damp_turns(n, panels, vectors, known)
+            descend(n, panels[1] - panels[0], rule.descent, vectors)
+        left = 0.0 if cut else mix(n, n_panels, panels, vectors, load, known, space.lu)
+        if descending:
+            settled = left < LEFT and error < CLOSE * load and moved < CLOSE
+        else:
+            settled = not cut and error < TOLERANCE * load and moved < 2.0 * TOLERANCE
         ghosts = False
         if settled or iteration == 1:
             least = GHOST if settled else EARLY_GHOST
@@ -183,13 +207,19 @@ def strip_halfspace(sep, case, own, result):
             cut_idle(n, n_panels, panels, rule.cosines, vectors)
             known = 0
         else:
-            advance(n, n_panels, panels, vectors, load, known, space.lu)
+            advance(n, n_panels, panels, vectors)
             known += 1
         n_panels, joined = join_panels(n, n_panels, panels, rule.cosines, vectors)
         if joined:
             known = 0
 
     result.iterations = iteration + 1
+    if converged and descending:  # the last step is worth its pressures
+        advance(n, n_panels, panels, vectors)
+        lay_panels(sep, g_least, panels, n_panels, own)
+        half_lengths(vectors, n, n_panels)
+        assemble(panels, n_panels, own, skewed, unit)
+        delta = solve_active(n, n_panels, space, by_load, amount)
     peak = 0.0
     for i in range(n_panels * n):
         peak = max(peak, vectors[Vector.P, i])

@@ -157,17 +157,24 @@ def edge_displacements(panels, n_panels, own, skewed, unit):
 
 
 @kernel
-def displacement_outside(at, total, vectors, centre, unit):
+def displacement_outside(at, n, n_panels, vectors, centre, unit):
     """Displacement at a point of the centre line that lies in no panel."""
     u = 0.0
-    for j in range(total):
-        if vectors[Vector.P, j] == 0.0:
-            continue
-        a, h = vectors[Vector.A, j], vectors[Vector.HALF, j]
-        across = abs(at - vectors[Vector.Y, j])
-        near, far = max(across - h, 1e-12 * h), across + h
-        low, high = at_centre(centre, math.log(near / a)), at_centre(centre, math.log(far / a))
-        u += vectors[Vector.P, j] * a * unit * (high - low)
+    for p in range(n_panels):
+        first = p * n
+        side = 1.0 if at < vectors[Vector.Y, first] else -1.0
+        ln_away = math.log(
+            max(abs(vectors[Vector.Y, first] - at - vectors[Vector.HALF, first]), 1e-12 * vectors[Vector.HALF, first])
+        )
+        for j in range(first, first + n):
+            before = ln_away
+            ln_away = math.log(
+                max(abs(vectors[Vector.Y, j] - at + vectors[Vector.HALF, j]), 1e-12 * vectors[Vector.HALF, j])
+            )
+            if vectors[Vector.P, j] > 0.0:
+                ln_a = vectors[Vector.LN_LENGTH, j]
+                beyond = at_centre(centre, ln_away - ln_a) - at_centre(centre, before - ln_a)
+                u += vectors[Vector.P, j] * vectors[Vector.A, j] * unit * side * beyond
     return u
 
 
