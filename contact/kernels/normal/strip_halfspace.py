@@ -40,7 +40,7 @@ MAX_ITERATIONS = 40
 #: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops.
 TOLERANCE = 1e-4
 #: Where steps take the Jacobian of an ellipse: what mixing may leave of the step, and how large the residuals may be.
-LEFT, CLOSE = 8e-4, 8e-3
+LEFT, CLOSE = 4e-4, 4e-3
 #: What counts as converged at the cap.
 ACCEPTABLE = 1e-3
 #: From here on the ends stand still: at the corner of a punch and on rough gaps their rule has no steady answer.
@@ -97,6 +97,26 @@ def _write(y, n_panels, panels, own, result):
 
 
 @kernel
+def _keep_best(n, n_panels, panels, vectors):
+    """Keep lengths and ends."""
+    for i in range(n * n_panels):
+        vectors[Vector.BEST, i] = vectors[Vector.LN_A, i]
+    for p in range(n_panels):
+        vectors[Vector.BEST, p * n], vectors[Vector.BEST, p * n + n - 1] = panels[2 * p], panels[2 * p + 1]
+
+
+@kernel
+def _take_best(n, n_panels, panels, vectors):
+    """Go back to the lengths and ends that were kept."""
+    for p in range(n_panels):
+        first, last = p * n, p * n + n - 1
+        panels[2 * p], panels[2 * p + 1] = vectors[Vector.BEST, first], vectors[Vector.BEST, last]
+        for i in range(first, last + 1):
+            vectors[Vector.LN_A, i] = vectors[Vector.BEST, min(max(i, first + 1), last - 1)]
+        vectors[Vector.ACTIVE, first : last + 1] = 1.0
+
+
+@kernel
 def _damp_turns(n, panels, vectors, known):
     """Let an end of a single panel that turns back go half the way."""
     for end in (0, n - 1):
@@ -148,7 +168,7 @@ def strip_halfspace(sep, case, own, result):
     if n_panels == 0:
         n_panels = start_panels(n_strips, n, strips, result, panels, rule.cosines, vectors)
 
-    converged, descending = False, False
+    converged, descending, best = False, False, math.inf
     delta, iteration, known, error, load, last_error = 0.0, 0, 0, math.inf, 0.0, math.inf
     for iteration in range(MAX_ITERATIONS):
         total = n * n_panels
@@ -186,6 +206,11 @@ def strip_halfspace(sep, case, own, result):
         if n_panels < before or error > 2.0 * last_error * load or iteration == FREEZE or descending != by_jacobian:
             known = 0
         last_error = error / load
+        if n_panels < before or iteration == FREEZE:
+            best = math.inf
+        if iteration >= FREEZE and not cut and last_error < best:
+            best = last_error
+            _keep_best(n, n_panels, panels, vectors)
         if descending:
             _damp_turns(n, panels, vectors, known)
             descend(n, panels[1] - panels[0], rule.descent, vectors)
@@ -202,7 +227,7 @@ def strip_halfspace(sep, case, own, result):
                 converged = True
                 break
         if ghosts:
-            known = 0
+            known, best = 0, math.inf
         elif cut:
             cut_idle(n, n_panels, panels, rule.cosines, vectors)
             known = 0
@@ -211,12 +236,20 @@ def strip_halfspace(sep, case, own, result):
             known += 1
         n_panels, joined = join_panels(n, n_panels, panels, rule.cosines, vectors)
         if joined:
-            known = 0
+            known, best = 0, math.inf
 
     result.iterations = iteration + 1
-    if converged and descending:  # the last step is worth its pressures
+    stepped = True  # lengths and ends are not those of the pressures
+    if converged and descending:
         advance(n, n_panels, panels, vectors)
+    elif not converged and n_panels > 0 and best * load < error:
+        _take_best(n, n_panels, panels, vectors)
+        error, load = best, 1.0
+    else:
+        stepped = False
+    if stepped:
         lay_panels(sep, g_least, panels, n_panels, own)
+        distances(panels, n_panels, own)
         half_lengths(vectors, n, n_panels)
         assemble(panels, n_panels, own, skewed, unit)
         delta = solve_active(n, n_panels, space, by_load, amount)
