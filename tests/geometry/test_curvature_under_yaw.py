@@ -37,7 +37,14 @@ def from_the_surface(pair, u):
 
 @pytest.mark.parametrize(
     ("y", "roll", "yaw"),
-    [(0.0, 0.0, 0.0), (0.0, 0.01, 0.03), (7.2e-3, 0.0, 0.01), (7.2e-3, 0.0, -0.02), (8e-3, 0.005, 0.05), (8e-3, -0.02, 0.0)],
+    [
+        (0.0, 0.0, 0.0),
+        (0.0, 0.01, 0.03),
+        (7.2e-3, 0.0, 0.01),
+        (7.2e-3, 0.0, -0.02),
+        (8e-3, 0.005, 0.05),
+        (8e-3, -0.02, 0.0),
+    ],
 )
 def test_A_is_the_second_derivative_of_the_surface(y, roll, yaw):
     pair = Pair(profile.s1002(), profile.rail_60e1(), samples=201, combine_distance=1.0)

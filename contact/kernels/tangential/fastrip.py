@@ -123,11 +123,7 @@ def _set_block(part, block, case, c_patch, own):
         w = math.sqrt(x * x + z * z) - 1.0  # 2 edge - 1
         w = 0.5 * (w + abs(w))
         w = w if w < 1.0 else 1.0
-        single = (
-            w
-            * (at_x * at_x + at_y * at_y + spin2)
-            / (at_x * at_x * L1 + at_y * at_y * L2 + spin2 * L3 + 1e-300)
-        )
+        single = w * (at_x * at_x + at_y * at_y + spin2) / (at_x * at_x * L1 + at_y * at_y * L2 + spin2 * L3 + 1e-300)
         L1, L2, L3 = L1 / (1.0 - w + single * L1), L2 / (1.0 - w + single * L2), L3 / (1.0 - w + single * L3)
         lanes[ROW_X + l] = at_x * L1 - phi * (y - part.y) * L3
         lanes[ROW_Y + l] = at_y * L2 + phi * (xc - part.x) * L3
