@@ -227,17 +227,19 @@ MOTION = _record(
     """
 )
 
-#: Runs of interpenetration, later whole patches; moments are weighted with the interpenetration.
-LOBE = _record("low high weight moment cosine sine")
+#: Runs of interpenetration, later whole patches; moments are weighted with the interpenetration; `low`, `low_z` and `high`,
+#: `high_z` are its edges, `tie` the share by which a patch still forms one with the patch before it.
+LOBE = _record("low high low_z high_z weight moment cosine sine tie")
 
 #: One patch of a search, on the right side. (x, y, z) is the reference point in track coordinates, `rail_…` and `wheel_…` the same
 #: point in profile coordinates, `point_…` the wheel's point opposite; `low` and `high` are the edges of the interpenetration along
-#: the plane; `load` is filled by a search for a load.
+#: the plane; `load` is filled by a search for a load; `share`, with which the patch counts, is below 1 only while lobes pass
+#: from one plane to planes of their own.
 PATCH = _record(
     """
     angle x y z rail_y rail_z wheel_y wheel_z radius approach
     vx vy phi
-    low high load point_y point_z
+    low high load point_y point_z share
     """
 )
 
