@@ -78,12 +78,13 @@ def row(pair: Pair, y: float) -> str:
         c, s = math.cos(patch.angle), math.sin(patch.angle)
         for k in range(2):
             sol = solve(patch, conformal=k == 1, n_strips=60)
-            sums[k] += sol.Fx, sol.Fy * c + sol.N * s, sol.N * c - sol.Fy * s, sol.Mz
+            own = sol.Fx, sol.Fy * c + sol.N * s, sol.N * c - sol.Fy * s, sol.Mz
+            sums[k] += patch.share * np.array(own)
             deepest[k] = max(deepest[k], evaluate(sol, patch.rolling_radius).archard.depth_max)
         turn = np.degrees(
             np.arctan(np.interp(sol.patch_edges.ravel()[[0, -1]], patch.separation.y, patch.separation.tilt))
         )
-        told.append((math.degrees(patch.angle), *turn, 1e-3 * sol.N))
+        told.append((math.degrees(patch.angle), *turn, 1e-3 * patch.share * sol.N))
     angle, turn, load = (
         " / ".join(text.format(*each) for each in told) for text in ("{0:.1f}", "{1:.1f} … {2:.1f}", "{3:.1f}")
     )

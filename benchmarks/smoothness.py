@@ -46,7 +46,7 @@ def located(rule: str, low: float = -8.0, high: float = 8.0, step: float = 0.01)
 
 
 def lateral(rule: str, patches: list, normal: str, tangential: str, creepage: str, load: float | None) -> Curves:
-    """Results over the positions; a vertical load is shared out by the patches' own loads, and forces are summed."""
+    """Results over the positions; a vertical load is shared out by the patches' own loads, forces add up by their shares."""
     flat = [patch for at in patches for patch in at]
     owner = np.repeat(np.arange(len(patches)), [len(at) for at in patches])
     if creepage == "fixed":
@@ -58,7 +58,8 @@ def lateral(rule: str, patches: list, normal: str, tangential: str, creepage: st
         [p.separation for p in flat], states, load=[p.load for p in flat] if load is None else load,
         friction=MU, normal=normal, tangential=tangential,
     )  # fmt: skip
-    total = {name: np.bincount(owner, getattr(found, name)) for name in ("Fx", "Fy", "Mz", "N", "area")}
+    share = np.array([p.share for p in flat])
+    total = {name: np.bincount(owner, share * getattr(found, name)) for name in ("Fx", "Fy", "Mz", "N", "area")}
     for name in ("approach", "max_pressure"):
         total[name] = np.maximum.reduceat(getattr(found, name), np.searchsorted(owner, np.arange(len(patches))))
     failed = np.isin(found.status, (contact.Status.NOT_CONVERGED, contact.Status.OUT_OF_RANGE))

@@ -33,7 +33,8 @@ class Contact:
 
     Attributes
     ----------
-    N, Fx, Fy : normal force and creep forces [N]
+    N, Fx, Fy : normal force and creep forces [N], with the share of the patch (`contact.geometry.records.Patch`), as the
+        moments and the area
     Mx, My : moments of the normal pressure about `position`: it is not centred there [N m]
     Mz : spin moment about `position` [N m]
     position : point of the wheel opposite the reference point, (x, y, z) [m]

@@ -170,7 +170,7 @@ class Histogram:
         deposit.strip_rates(done.strips, n, done.fields, done.constants, done.damage, done.damage_fields, rates)
         is_wheel = self.profile.kind == "wheel"
         settings = np.array([(self._start, self.width, distance)], LEDGER)[0]
-        deposit.deposit(rates, edges, done.strips, n, settings, is_wheel, values)
+        deposit.deposit(rates, edges, done.strips, n, settings, patch.share, is_wheel, values)
 
     def __add__(self, other: Histogram) -> Histogram:
         if not isinstance(other, Histogram):

@@ -22,6 +22,8 @@ PLACE: Sequence[tuple[str, str, Callable[[Patch], float]]] = (
     ("position z", "mm", lambda p: 1e3 * p.position[2]),
     ("rolling radius", "mm", lambda p: 1e3 * p.rolling_radius),
 )
+#: Shown where lobes pass from one plane to planes of their own: forces and damage count times it.
+SHARE: tuple[str, str, Callable[[Patch], float]] = ("share with which it counts", "-", lambda p: p.share)
 CONTACT: Sequence[tuple[str, str, Callable[[Solution], float]]] = (
     ("longitudinal creepage", "‰", lambda s: 1e3 * s.creepage.longitudinal),
     ("lateral creepage", "‰", lambda s: 1e3 * s.creepage.lateral),
@@ -67,8 +69,9 @@ def show(touches: Sequence[Touch], title: str, wheel_radius: float, console: Con
     for touch in touches:
         table.add_column(touch.name, justify="right")
     if touches[0].patch is not None:
-        for label, unit, value in PLACE:
-            table.add_row(label, unit, *(number(value(t.patch)) for t in touches if t.patch is not None))
+        patches = [t.patch for t in touches if t.patch is not None]
+        for label, unit, value in (*PLACE, *((SHARE,) if any(p.share < 1.0 for p in patches) else ())):
+            table.add_row(label, unit, *(number(value(p)) for p in patches))
         table.add_section()
     for label, unit, of_solution in CONTACT:
         table.add_row(label, unit, *(number(of_solution(t.solution)) for t in touches))
@@ -92,6 +95,7 @@ def data(touch: Touch, wheel_radius: float) -> dict[str, Any]:
             "angle": p.angle,
             "position": list(p.position),
             "rolling_radius": p.rolling_radius,
+            "share": p.share,
         }
     names = "N Fx Fy Mz approach max_pressure area slip_ratio length width normal_stiffness power_per_metre n_patches"
     content |= {name: getattr(s, name) for name in names.split()}

@@ -93,6 +93,9 @@ class Patch:
         Where the interpenetration begins and ends along the separation's y [m].
     load : float or None
         Normal force [N], when z was found from a load.
+    share : float
+        With which the patch counts. 1, but while two lobes pass from one plane to planes of their own (`wheelset.Pair`): then
+        the list has their common patch and both of their own, and forces and wear are those of each times its share.
     """
 
     separation: Separation
@@ -106,3 +109,4 @@ class Patch:
     approach: float
     edges: tuple[float, float]
     load: float | None = None
+    share: float = 1.0

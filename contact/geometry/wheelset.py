@@ -57,10 +57,11 @@ class Pair:
     gauge_point : float
         Depth below the top of the rail at which the gauge is measured [m].
     combine_distance, combine_angle : float
-        Lobes of interpenetration further apart than this [m] and differing in angle by more than this [rad] become
-        separate patches with frames of their own; others share one plane.
+        Lobes of interpenetration whose edges are further apart than this [m], in a straight line, and whose angles differ by
+        more than this [rad] become separate patches with frames of their own; others share one plane. From 1 to 5/4 of
+        these limits the one passes into the other: there they are described in both ways, with shares (`Patch.share`).
     most_patches : int
-        Of separate patches, 1 to 4; further lobes share the plane of the last.
+        Of separate patches, 1 to 4; further lobes share the plane of the last. While lobes pass the list is longer.
     samples : int or array_like
         Number of samples of each separation, 5 to 2001, spread over the interpenetration and a margin; or their
         increasing positions in the contact plane [m], for a model whose separation lies on a fixed grid. There the gap
@@ -92,7 +93,7 @@ class Pair:
         flange_back: float = 1.360,
         gauge_point: float = 0.014,
         combine_distance: float = 8e-3,
-        combine_angle: float = math.radians(20.0),
+        combine_angle: float = math.radians(10.0),
         most_patches: int = MAX_PATCHES,
         samples: int | ArrayLike = SAMPLES,
         material: Material = STEEL,
@@ -224,6 +225,7 @@ class Pair:
             approach=float(p.approach),
             edges=edges if m > 0.0 else (-edges[1], -edges[0]),
             load=float(p.load) if loaded else None,
+            share=float(p.share),
         )
 
     def _apart(self, pose: Pose) -> ContactError:
@@ -260,7 +262,7 @@ def contacts(
         Default: steady rolling at the nominal radius.
     load : float, optional
         Vertical force of this wheel on its rail [N]: z is found so that the normal forces of all patches (ANALYN, without
-        friction) add up to it, sum of N cos(angle) = load.
+        friction) add up to it, sum of share N cos(angle) = load.
     penetration : float, optional
         Depth below first touch [m], vertically.
     irregularity : Irregularity, optional

@@ -286,10 +286,13 @@ LOBE = _record(
     """
     low             where it begins, track y [m]
     high            where it ends [m]
+    low_z           track z there [m]
+    high_z          [m]
     weight
     moment          weight times y
     cosine          weight times cosine of the angle
     sine            weight times its sine
+    tie             share with which it still forms one patch with the one before it
     """,
 )
 
@@ -315,6 +318,7 @@ PATCH = _record(
     load            normal force [N], filled by a search for a load
     point_y         the wheel's point opposite the reference point [m]
     point_z         [m]
+    share           with which it counts; below 1 only while lobes pass into planes of their own
     """,
 )
 

@@ -13,6 +13,6 @@ def enter(patch, n, damage, bench):
     strip_rates(strips, n, fields, bench.damage_parameters[0], damage, bench.damage_fields, rates)
     on_wheel, on_rail = (patch.wheel_y, patch.wheel_z), (patch.rail_y, patch.rail_z)
     place(ledger.wheel, ledger.wheel_arc, on_wheel, patch.angle, 1.0, strips, n, edges)
-    deposit(rates, edges, strips, n, settings, True, ledger.bins[Body.WHEEL])
+    deposit(rates, edges, strips, n, settings, patch.share, True, ledger.bins[Body.WHEEL])
     place(ledger.rail, ledger.rail_arc, on_rail, patch.angle, 1.0, strips, n, edges)
-    deposit(rates, edges, strips, n, settings, False, ledger.bins[Body.RAIL])
+    deposit(rates, edges, strips, n, settings, patch.share, False, ledger.bins[Body.RAIL])

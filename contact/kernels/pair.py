@@ -31,12 +31,13 @@ def _pressure_centre(strips, n):
 
 @kernel
 def _report(patch, case, result, by_y, by_x, contact):
-    """Fill the contact of one patch, on the right side."""
-    contact.N, contact.Fx, contact.Fy = result.N, result.Fx, result.Fy
-    contact.Mx, contact.My, contact.Mz = -by_y, by_x, result.Mz
+    """Fill the contact of one patch, on the right side: forces, moments and area with the share with which it counts."""
+    share = patch.share
+    contact.N, contact.Fx, contact.Fy = share * result.N, share * result.Fx, share * result.Fy
+    contact.Mx, contact.My, contact.Mz = -share * by_y, share * by_x, share * result.Mz
     contact.x, contact.y = patch.x, patch.point_y
     contact.z, contact.angle = patch.point_z, patch.angle
-    contact.area, contact.pmax = result.area, result.pmax
+    contact.area, contact.pmax = share * result.area, result.pmax
     contact.longitudinal, contact.lateral = case.vx, case.vy
     contact.spin, contact.approach = case.phi, result.approach
     contact.status = result.status
@@ -73,19 +74,19 @@ def _worse(status, other):
 
 
 @kernel
-def _add_results(result, damage, total):
-    """Add what belongs to a patch that carries, besides its wrench: rates add up, of indices the greatest counts."""
+def _add_results(result, damage, share, total):
+    """Add what belongs to a patch that carries, besides its wrench: rates add up by `share`, of indices the greatest counts."""
     first = total.area == 0.0
     total.status = _worse(total.status, result.status)
     total.pmax = max(total.pmax, result.pmax)
-    total.area += result.area
-    total.slip_area += result.slip_area
-    total.power += result.power
-    total.T_gamma += damage.T_gamma
-    total.T_gamma_spin += damage.T_gamma_spin
-    total.dissipation += damage.dissipation
-    total.pearce_sherratt += damage.pearce_sherratt
-    total.archard_volume += damage.archard_volume
+    total.area += share * result.area
+    total.slip_area += share * result.slip_area
+    total.power += share * result.power
+    total.T_gamma += share * damage.T_gamma
+    total.T_gamma_spin += share * damage.T_gamma_spin
+    total.dissipation += share * damage.dissipation
+    total.pearce_sherratt += share * damage.pearce_sherratt
+    total.archard_volume += share * damage.archard_volume
     total.burstow = damage.burstow if first else max(total.burstow, damage.burstow)
     total.usfd = damage.usfd if first else max(total.usfd, damage.usfd)
     total.archard_depth = damage.archard_depth if first else max(total.archard_depth, damage.archard_depth)
@@ -159,9 +160,9 @@ def solve_pair(mode, amount, given, bench):
 
     `given` is a record GIVEN of `layout`, `mode` and `amount` are those of `settle`. Under a load every patch is solved for
     the normal force that the search has found for it, so the vertical parts of the normal forces add up to the load for
-    every normal method; else for its approach. Damage is per patch, with its own rolling radius. Fills bench.contacts and
-    bench.total, and enters what the patches do into bench.ledger. Returns the number of patches, or a code of `settle` where
-    there is no answer.
+    every normal method; else for its approach. Damage is per patch, with its own rolling radius. What adds up does so with
+    the patches' shares (`search.combine`), which are 1 nearly always. Fills bench.contacts and bench.total, and enters what
+    the patches do into bench.ledger. Returns the number of patches, or a code of `settle` where there is no answer.
     """
     search, own, memory = bench.search, bench.own, bench.memory
     total, result, damage, parameters = bench.total[0], bench.result[0], bench.damage[0], bench.damage_parameters[0]
@@ -192,7 +193,7 @@ def solve_pair(mode, amount, given, bench):
         _report(patch, case, result, by_y, by_x, contact)
         if n_strips > 0:
             _add_wrench(contact, motion.y, motion.z - motion.radius, total)
-            _add_results(result, damage, total)
+            _add_results(result, damage, patch.share, total)
             if bench.ledger.bins.shape[2] > 0:
                 enter(patch, n_strips, damage, bench)
     total.z, total.n_patches = motion.z, n

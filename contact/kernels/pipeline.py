@@ -71,11 +71,8 @@ def _limit_pressure(strips, n, limit, elements, fields, N):
 def _bears_pressure(case):
     """Whether the traction of a method is bounded by the pressure: not so where forces are all or the bound is a parabola."""
     family = case.tangential_family
-    return (
-        family == TangentialFamily.FASTRIP
-        or family == TangentialFamily.FASTRIP_MAPPED
-        or (case.tangential == Tangential.FASTSIM_ELLIPTIC)
-    )
+    by_strips = family == TangentialFamily.FASTRIP or family == TangentialFamily.FASTRIP_MAPPED
+    return by_strips or case.tangential == Tangential.FASTSIM_ELLIPTIC
 
 
 @kernel
@@ -115,7 +112,7 @@ def _set_rolling(strips, n, case):
         strips[Strip.VX, i], strips[Strip.VY, i], strips[Strip.PHI, i] = case.vx, case.vy, case.phi
         strips[Strip.BOUND, i] = strips[Strip.P0, i] * bodies
         strips[Strip.TO_X, i], strips[Strip.TO_Y, i], strips[Strip.TO_PHI, i] = 0.0, 0.0, 0.0
-        strips[Strip.TO_EXPONENT, i] = 0.0
+        strips[Strip.TO_EXPONENT, i], strips[Strip.TILT, i] = 0.0, 0.0
         if factor != 1.0:
             strips[Strip.BOUND, i] *= over_profile(factor, case.border, case.border_width, strips[Strip.Y, i])
 

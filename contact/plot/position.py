@@ -105,7 +105,7 @@ def _section(ax: Axes, wheel: Wheel, roll: float, strongest: float) -> None:
     for k, (p, s) in enumerate(zip(wheel.patches, wheel.solutions, strict=True)):
         y, z = MM * p.position[1], MM * p.position[2]
         # the force on the wheel points against the z axis of the contact frame, (−sin γ, cos γ) in (y, z)
-        length = 24.0 * s.N / strongest
+        length = 24.0 * p.share * s.N / strongest
         ax.annotate(
             "",
             (y + length * math.sin(p.angle), z - length * math.cos(p.angle)),

@@ -91,9 +91,9 @@ class NativeContact:
             slip = velocity + np.cross(rotation, arm)
             creepage = (1.0 + slip[0] / self._speed, slip @ tangent / self._speed, rotation @ normal / self._speed)
             fx, fy, n, mz = self._solve(patch, creepage)
-            force = np.array([fx, 0.0, 0.0]) + fy * tangent - n * normal
+            force = patch.share * (np.array([fx, 0.0, 0.0]) + fy * tangent - n * normal)
             total[:3] += force
-            total[3:] += np.cross(arm, force) + mz * normal
+            total[3:] += np.cross(arm, force) + patch.share * mz * normal
         return total
 
     def _solve(self, patch: Patch, creepage: tuple[float, float, float]) -> list[float]:

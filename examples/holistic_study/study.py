@@ -54,7 +54,9 @@ class Batch:
 def solve(batch: Batch) -> Array:
     """Shape (quantities, loads, friction): of the right wheel's patch that carries most."""
     pair = Pair(profile.named(batch.wheel, kind="wheel"), profile.named(batch.rail, inclination=batch.inclination))
-    patch = max(pair.contacts(Pose(y=batch.y), Velocity(), load=LOADS.max()), key=lambda patch: patch.load)
+    patch = max(
+        pair.contacts(Pose(y=batch.y), Velocity(), load=LOADS.max()), key=lambda patch: patch.share * patch.load
+    )
     root = np.linspace(-1.0, 1.0, batch.creepages)
     creepage = LARGEST * root * np.abs(root)
     shape = (LOADS.size, FRICTION.size, creepage.size, creepage.size)

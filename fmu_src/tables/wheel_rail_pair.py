@@ -157,7 +157,7 @@ def _parameters(inclination: float) -> Iterable[Variable]:
         "patches.combine_angle",
         "Neighbours whose angles differ by less share one plane",
         unit="rad",
-        start=math.radians(20.0),
+        start=math.radians(10.0),
         minimum=0.0,
     )
     yield from solver.parameters()

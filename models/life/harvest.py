@@ -92,9 +92,13 @@ class Harvest:
             ]
             for body in BODIES:
                 self.histograms[side, body].add(patches, solutions, distance=distance)
-            dissipation = math.fsum(s.power_per_metre for s in solutions)
+            shares = [patch.share for patch in patches]
+            dissipation = math.fsum(w * s.power_per_metre for w, s in zip(shares, solutions, strict=True))
             self.energy[i] += dissipation * distance
-            T_gamma = math.fsum(abs(s.Fx * s.creepage.longitudinal) + abs(s.Fy * s.creepage.lateral) for s in solutions)
+            T_gamma = math.fsum(
+                w * (abs(s.Fx * s.creepage.longitudinal) + abs(s.Fy * s.creepage.lateral))
+                for w, s in zip(shares, solutions, strict=True)
+            )
             found[i] = T_gamma, dissipation, max((s.max_pressure for s in solutions), default=0.0), len(solutions)
         return found
 

@@ -146,7 +146,7 @@ def test_a_strip_is_shared_by_overlap_and_what_lies_beyond_stays_in_the_outer_bi
     for is_wheel in (True, False):
         bins = np.zeros((N_BIN_ROWS, 3))
         settings = np.array([(start, width, distance)], LEDGER)[0]
-        deposit.deposit(rates, edges, strips, 4, settings, is_wheel, bins)
+        deposit.deposit(rates, edges, strips, 4, settings, 1.0, is_wheel, bins)
         for row in range(Bin.ENERGY_INDEX_MAX):
             rate = rates[Bin.VOLUME if row == Bin.WEAR and not is_wheel else row]
             of_bins = distance * dy * rate @ expected

@@ -226,9 +226,10 @@ def worn_pair(**options):
 
 def test_tread_and_flange_touch_in_frames_of_their_own():
     pair = worn_pair()
-    patches = pair.contacts(Pose(y=6.37e-3), load=80e3)
+    patches = pair.contacts(Pose(y=6.385e-3), load=80e3)
     assert len(patches) == 2
     tread, flange = patches
+    assert tread.share == flange.share == 1.0
     assert abs(flange.angle) - abs(tread.angle) > math.radians(20.0)
     assert flange.position[1] < tread.position[1] - 8e-3
     assert sum(p.load * math.cos(p.angle) for p in patches) == pytest.approx(80e3, rel=1e-8)
@@ -236,7 +237,7 @@ def test_tread_and_flange_touch_in_frames_of_their_own():
     for patch in patches:
         outside = (patch.separation.y < patch.edges[0] - 1e-4) | (patch.separation.y > patch.edges[1] + 1e-4)
         assert patch.separation.g[outside].min() > patch.approach
-    assert len(worn_pair(combine_distance=1.0).contacts(Pose(y=6.37e-3), load=80e3)) == 1
+    assert len(worn_pair(combine_distance=1.0).contacts(Pose(y=6.385e-3), load=80e3)) == 1
 
 
 @pytest.mark.parametrize("y", [-3e-3, 0.0, 5e-3, 6.5e-3])

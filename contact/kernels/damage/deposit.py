@@ -146,12 +146,13 @@ def place(profile, arc, point, angle, mirror, strips, n, edges):
 
 
 @kernel
-def deposit(rates, edges, strips, n, settings, is_wheel, bins):
+def deposit(rates, edges, strips, n, settings, share, is_wheel, bins):
     """Let `n` strips act on a wheel or a rail over a distance: each is shared over the bins that it overlaps.
 
-    `settings` is a record LEDGER of `layout`. Bin k begins at width·(start + k); the first and the last are open outwards, so that nothing is lost.
+    `settings` is a record LEDGER of `layout`, `share` that with which the patch counts. Bin k begins at width·(start + k); the
+    first and the last are open outwards, so that nothing is lost.
     """
-    start, width, distance = settings.start, settings.width, settings.distance
+    start, width, distance = settings.start, settings.width, share * settings.distance
     greatest = bins.shape[1] - 1
     for i in range(n):
         low, high = edges[0, i], edges[1, i]

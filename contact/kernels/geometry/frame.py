@@ -9,7 +9,7 @@ import math
 from contact._jit import kernel
 from contact.kernels.geometry.curve import Array, Record, advance, at
 from contact.kernels.geometry.plane import Frame, along, normal_gap, project, spread, track_slope
-from contact.kernels.geometry.search import axle, combine, lobes, on_wheel
+from contact.kernels.geometry.search import axle, combine, join, lobes, on_wheel, shared, untie
 from contact.kernels.layout import Curve, Sep
 from contact.kernels.memory import Search
 
@@ -175,14 +175,26 @@ def describe(
 
 @kernel
 def describe_all(first_node: int, start: int, end: int, space: Search) -> int:
-    """Describe all patches at the pose in `space.motion`, from the field side to the flange; return their number."""
+    """Describe all patches at the pose in `space.motion`, from the field side to the flange; return their number.
+
+    While lobes pass from one plane to planes of their own they are described in both, with shares (`search.combine`).
+    """
     motion, lobe = space.motion[0], space.lobes
     n = lobes(space.line, start, end, motion.z, lobe)
     n = combine(lobe, n, motion.combine_distance, motion.combine_angle, motion.most_patches)
-    found = 0
-    for k in range(n - 1, -1, -1):
-        before = 0.5 * (lobe[k - 1].high + lobe[k].low) if k > 0 else -math.inf
-        after = 0.5 * (lobe[k].high + lobe[k + 1].low) if k < n - 1 else math.inf
-        if describe(first_node, start, end, lobe[k], (before, after), found, space):
-            found += 1
+    untie(lobe, n, space.patches.size)
+    found, spare = 0, lobe.size - 1  # of the lobes at most as many are left as there are patches
+    for last in range(n - 1, -1, -1):
+        for first in range(last, -1, -1):
+            share = shared(lobe, n, first, last)
+            if share <= 0.0:
+                continue
+            lobe[spare] = lobe[first]
+            for k in range(first + 1, last + 1):
+                join(lobe[k], lobe[spare])
+            before = 0.5 * (lobe[first - 1].high + lobe[first].low) if first > 0 else -math.inf
+            after = 0.5 * (lobe[last].high + lobe[last + 1].low) if last < n - 1 else math.inf
+            if describe(first_node, start, end, lobe[spare], (before, after), found, space):
+                space.patches[found].share = share
+                found += 1
     return found

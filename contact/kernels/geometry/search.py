@@ -13,6 +13,7 @@ from contact.kernels.layout import MAX_LOBES, Curve
 
 _COINCIDENT = 1e-9  # [m]
 _GAUSS_T = 0.5 * math.sqrt(0.6)
+_TRANSITION = 0.25  # of the limits of distance and angle: over so much beyond them one plane passes into two
 
 
 @kernel
@@ -176,32 +177,89 @@ def lobes(line: Array, start: int, end: int, z: float, lobe: Record) -> int:
             k += 1
             lobe[k].weight, lobe[k].moment, lobe[k].cosine, lobe[k].sine = 0.0, 0.0, 0.0, 0.0
             lobe[k].low = line[Curve.Y, j] + t0 * h
+            lobe[k].low_z = at(line, j, lobe[k].low)[0] + z
         _weigh(line, j, z, t0, t1, lobe, k)
         lobe[k].high = line[Curve.Y, j] + t1 * h
+        lobe[k].high_z = at(line, j, lobe[k].high)[0] + z
         inside = g1 < 0.0
     return k + 1
+
+
+@kernel
+def _beyond(value: float, limit: float) -> float:
+    """0 up to the limit, 1 from 5/4 of it on, smooth between."""
+    if limit <= 0.0:
+        return 1.0 if value > 0.0 else 0.0
+    t = min(max((value - limit) / (_TRANSITION * limit), 0.0), 1.0)
+    return t * t * (3.0 - 2.0 * t)
 
 
 @kernel
 def combine(lobe: Record, n: int, distance: float, angle: float, most: int) -> int:
     """Merge neighbouring lobes in place into at most `most` patches; returns the number of patches.
 
-    Two lobes stay separate patches when they are further apart than `distance` [m] (along the mean of their tangents) and
-    their angles differ by more than `angle` [rad]; nearer ones share one plane, as with CONTACT's D_COMB.
+    Two lobes become patches of their own when their nearest edges are further apart than `distance` [m], in a straight line,
+    and their angles differ by more than `angle` [rad]; nearer ones share one plane. From 1 to 5/4 of these limits they are
+    both, each with a share (`shared`): no normal method has the same answer for two lobes in one plane and for each alone,
+    so that only a mean of both leads smoothly from one to the other. CONTACT lets the interaction of lobes fade from 4 to
+    8 mm and takes planes of their own from there on, whatever the angle.
+    The angle of each side is that of all that lies near on it, so that it does not matter whether they are one lobe or two.
     """
-    k = 0
-    last = math.atan2(lobe[0].sine, lobe[0].cosine) if n > 0 else 0.0
     for i in range(1, n):
-        own = math.atan2(lobe[i].sine, lobe[i].cosine)
-        apart = (lobe[i].low - lobe[k].high) / math.cos(0.5 * (own + last)) > distance
-        if apart and abs(own - last) > angle and k < most - 1:
+        dy, dz = lobe[i].low - lobe[i - 1].high, lobe[i].low_z - lobe[i - 1].high_z
+        lobe[i].tie = 1.0 - _beyond(math.sqrt(dy * dy + dz * dz), distance)
+    k, tie, cosine, sine = 0, 0.0, 0.0, 0.0
+    for i in range(1, n):
+        cosine, sine = lobe[i - 1].cosine + tie * cosine, lobe[i - 1].sine + tie * sine
+        tie = lobe[i].tie
+        share, cosine_ahead, sine_ahead = 1.0, 0.0, 0.0
+        for j in range(i, n):
+            share *= lobe[j].tie if j > i else 1.0
+            cosine_ahead += share * lobe[j].cosine
+            sine_ahead += share * lobe[j].sine
+        turn = abs(math.atan2(sine_ahead, cosine_ahead) - math.atan2(sine, cosine))
+        apart = (1.0 - tie) * _beyond(turn, angle)
+        if apart > 0.0 and k < most - 1:
             k += 1
             lobe[k] = lobe[i]
+            lobe[k].tie = 1.0 - apart
         else:
-            lobe[k].high = lobe[i].high
-            lobe[k].weight += lobe[i].weight
-            lobe[k].moment += lobe[i].moment
-            lobe[k].cosine += lobe[i].cosine
-            lobe[k].sine += lobe[i].sine
-        last = own
+            join(lobe[i], lobe[k])
     return k + 1 if n > 0 else 0
+
+
+@kernel
+def join(lobe: Record, patch: Record) -> None:
+    """Add a lobe to a patch on its left."""
+    patch.high, patch.high_z = lobe.high, lobe.high_z
+    patch.weight += lobe.weight
+    patch.moment += lobe.moment
+    patch.cosine += lobe.cosine
+    patch.sine += lobe.sine
+
+
+@kernel
+def shared(lobe: Record, n: int, first: int, last: int) -> float:
+    """Share with which the patches first … last of `n` count as one: the shares of each patch so add up to 1."""
+    share = 1.0 if first == 0 else 1.0 - lobe[first].tie
+    for k in range(first + 1, last + 1):
+        share *= lobe[k].tie
+    return share if last == n - 1 else share * (1.0 - lobe[last + 1].tie)
+
+
+@kernel
+def untie(lobe: Record, n: int, most: int) -> None:
+    """Round ties, the nearest to 0 or 1 first, until `n` patches with all that they form together are at most `most`."""
+    for _ in range(n):
+        count = 0
+        for last in range(n):
+            for first in range(last + 1):
+                count += 1 if shared(lobe, n, first, last) > 0.0 else 0
+        if count <= most:
+            return
+        nearest, least_rest = 0, 2.0
+        for k in range(1, n):
+            rest = min(lobe[k].tie, 1.0 - lobe[k].tie)
+            if 0.0 < rest < least_rest:
+                nearest, least_rest = k, rest
+        lobe[nearest].tie = 1.0 if lobe[nearest].tie >= 0.5 else 0.0

@@ -40,7 +40,7 @@ def first_touch(wheel: Array, rail: Array, motion: Record, line: Array, placed: 
 
 @kernel
 def carried(n: int, space: Search) -> float:
-    """Vertical force of the pressures of n patches by ANALYN at their approaches, sum of N cos(angle); fills `load` of each patch."""
+    """Vertical force of the pressures of n patches by ANALYN, sum of share N cos(angle); fills `load` of each patch."""
     total = 0.0
     case, result, patches = space.case[0], space.result[0], space.patches
     case.load_kind = LoadKind.APPROACH
@@ -51,7 +51,7 @@ def carried(n: int, space: Search) -> float:
         clear(result)
         analyn(samples, case, space.across, space.work, space.strips, result)
         patches[k].load = result.N
-        total += result.N * math.cos(patches[k].angle)
+        total += patches[k].share * result.N * math.cos(patches[k].angle)
     return total
 
 
