@@ -63,19 +63,23 @@ def main() -> None:
 
 
 def build_native(chosen: Sequence[Model], folder: Path) -> None:
-    """Build FMUs that need no Python, side by side as far as there are processors, telling how far it has come."""
+    """Build FMUs that need no Python, telling how far it has come: kernels of all at once, the rest side by side."""
     from fmu_src.native import packaging as native
 
     begin = time.monotonic()
 
-    def build(model: Model) -> None:
-        def say(what: str) -> None:
-            print(f"  {time.monotonic() - begin:3.0f} s  {model.table.name}: {what}", flush=True)
+    def say(what: str) -> None:
+        print(f"  {time.monotonic() - begin:3.0f} s  {what}", flush=True)
 
-        for path in native.build(model, folder, OBJECTS, say):
-            say(_size(path))
+    def build(model: Model) -> None:
+        def say_of_it(what: str) -> None:
+            say(f"{model.table.name}: {what}")
+
+        for path in native.build(model, folder, OBJECTS, say_of_it):
+            say_of_it(_size(path))
 
     print("Native, for hosts without Python:")
+    native.compile_kernels(chosen, OBJECTS, say)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         list(pool.map(build, chosen))
 
