@@ -57,21 +57,25 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
 
 
 def build_native(chosen: Sequence[Model], folder: Path) -> None:
-    """Build FMUs that need no Python, side by side as far as there are processors, telling how far it has come."""
+    """Build FMUs that need no Python, telling how far it has come: kernels of all at once, the rest side by side."""
     try:
         from fmu_src.native import packaging as native
     except ModuleNotFoundError as error:
         raise SystemExit(f"{error}: native FMUs need  pip install 'wheelrail-contact[native]'") from None
     begin = time.monotonic()
 
-    def build(model: Model) -> None:
-        def say(what: str) -> None:
-            print(f"  {time.monotonic() - begin:3.0f} s  {model.table.name}: {what}", flush=True)
+    def say(what: str) -> None:
+        print(f"  {time.monotonic() - begin:3.0f} s  {what}", flush=True)
 
-        for path in native.build(model, folder, place.objects(), say):
-            say(_size(path))
+    def build(model: Model) -> None:
+        def say_of_it(what: str) -> None:
+            say(f"{model.table.name}: {what}")
+
+        for path in native.build(model, folder, place.objects(), say_of_it):
+            say_of_it(_size(path))
 
     print("Native, for hosts without Python:")
+    native.compile_kernels(chosen, place.objects(), say)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         list(pool.map(build, chosen))
 

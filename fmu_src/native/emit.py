@@ -1,9 +1,12 @@
 """From kernels to object files: numba's IR, freed of everything that is Python, compiled for each platform.
 
-Run as a program, ``python -m fmu_src.native.emit NAME OPTIONS FOLDER``, since numba must be told before it is imported
+Run as a program, ``python -m fmu_src.native.emit NAME OPTIONS FOLDER …``, since numba must be told before it is imported
 not to optimise and not to know this machine: loops that arrive unrolled vectorise badly later, and code for this very CPU
-would not run on another. numba's conventions used here (the prefix `cfunc.`, the arguments of a function's body, the names
-of its runtime) are not documented; pyproject.toml pins numba's version for the build, and tests compare results.
+would not run on another. Several models in one process share what numba compiles of the kernels; LLVM optimises each in
+processes beside it.
+
+numba's conventions used here (the prefix `cfunc.`, the arguments of a function's body, the names of its runtime, how it
+makes machine code) are not documented; pyproject.toml pins numba's version for the build, and tests compare results.
 """
 
 from __future__ import annotations
@@ -14,6 +17,8 @@ import re
 import struct
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -60,6 +65,9 @@ _LIBM = {
 }
 ALLOWED = _LIBM | {"memset", "memcpy", "memmove"}
 
+#: Beginnings of the names of data that only exceptions and objects of Python need.
+_REFUSED = (".const.pickle", "numba.dynamic")
+
 #: Platforms whose exp, log and pow come with the FMU, once for every processor: `libm.py`.
 OWN_LIBM = {"win64"}
 
@@ -69,30 +77,74 @@ def objects(folder: Path, platform: str) -> list[Path]:
     return [folder / f"{platform}-{part}.o" for part in ("data", *CPUS)]
 
 
-def emit(component: Component, folder: Path) -> None:
-    """Write a component's `objects` for every platform; the kernels' names end with that of the processor, model_outputs_v2.
+def emit(components: Mapping[Path, Component]) -> None:
+    """Write the `objects` of each component for every platform into its folder.
+
+    The kernels' names end with that of the processor, model_outputs_v2. What is written of a component does not depend on
+    which others are emitted with it. No kernel can be called in this process afterwards.
 
     Raises
     ------
     RuntimeError
         If the kernels need something that is not ALLOWED.
     """
+    # Before machine code is done without: components may call kernels to make their data.
+    made = {folder: (own.entries(), own.data(), bool(own.resources)) for folder, own in components.items()}
+    _make_no_machine_code()
+    with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as pool:
+        parts = []
+        for folder, (entries, data, with_resources) in made.items():
+            text = str(_linked(entries, data, with_resources))
+            parts += [pool.submit(_write_kernels, text, tuple(entries), suffix, folder) for suffix in CPUS]
+            parts.append(pool.submit(_write_data, _constants(data), folder))
+        for part in parts:
+            part.result()
+
+
+def _make_no_machine_code() -> None:
+    """Let numba make IR alone: neither code for this process nor wrappers for calls from Python, half of its work."""
+    from numba.core import caching, codegen, cpu, registry
+
+    def no_pointer(library: Any, name: str) -> int:
+        library._ensure_finalized()  # links what it calls
+        return 0
+
+    registry.cpu_target.target_context.refresh()
+    codegen.JITCodeLibrary._finalize_specific = lambda library: None
+    codegen.JITCodeLibrary.get_pointer_to_function = no_pointer
+    codegen.JITCPUCodegen._add_module = lambda self, module: None
+    codegen.JITCPUCodegen.set_env = lambda self, name, environment: None
+    cpu.CPUContext.create_cpython_wrapper = lambda self, *arguments, **options: None
+    # Kernels kept on disk are machine code.
+    caching.Cache.load_overload = lambda self, signature, context: None
+    caching.Cache.save_overload = lambda self, signature, compiled: None
+
+
+def _write_data(text: str, folder: Path) -> None:
+    """Write the objects of a component's data, given as IR."""
+    llvm = _llvm_for_all()
+    for platform in TRIPLES:
+        _write(llvm.parse_assembly(text), platform, "", objects(folder, platform)[0])
+
+
+def _write_kernels(text: str, entries: Sequence[str], suffix: str, folder: Path) -> None:
+    """Write the objects of a component's kernels, given as IR, for one processor."""
+    _llvm_for_all()
+    optimised = _optimised(text, entries, suffix, CPUS[suffix])
+    for platform in TRIPLES:
+        path = objects(folder, platform)[1 + list(CPUS).index(suffix)]
+        _write(optimised.clone(), platform, CPUS[suffix], path)
+        if platform in OWN_LIBM:
+            path.write_bytes(_with_own_libm(path.read_bytes(), suffix))
+
+
+def _llvm_for_all() -> Any:
+    """LLVM, ready for all platforms."""
     from llvmlite import binding as llvm
 
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
-    arrays = component.data()
-    entries = component.entries()
-    module = _linked(entries, arrays, bool(component.resources))
-    text = _without_origin(str(module))
-    optimised = {suffix: _optimised(text, entries, suffix, cpu) for suffix, cpu in CPUS.items()}
-    for platform in TRIPLES:
-        constants, *kernels = objects(folder, platform)
-        _write(llvm.parse_assembly(_constants(arrays)), platform, "", constants)
-        for (suffix, compiled), path in zip(optimised.items(), kernels, strict=True):
-            _write(compiled.clone(), platform, CPUS[suffix], path)
-            if platform in OWN_LIBM:
-                path.write_bytes(_with_own_libm(path.read_bytes(), suffix))
+    return llvm
 
 
 def _direct(module: Any, platform: str, cpu: str) -> Any:
@@ -131,7 +183,7 @@ def _linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any], with
         pointers = len(data) + with_resources
         signature = result(*arguments, *(Doubles for _ in range(pointers)))
         compiled = cfunc(signature, error_model="numpy")(entries[name])
-        text = re.sub(r"^target .*$", "", compiled.inspect_llvm(), flags=re.MULTILINE)
+        text = re.sub(r"^target .*$", "", _without_origin(compiled.inspect_llvm()), flags=re.MULTILINE)
         glue.add(name, result, arguments, compiled.native_name.removeprefix("cfunc."))
         parts.append(llvm.parse_assembly(text))
     module, *others = parts
@@ -141,12 +193,24 @@ def _linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any], with
         if function.name in ("NRT_incref", "NRT_decref") and not function.is_declaration:
             function.linkage = "weak_any"
     module.link_in(llvm.parse_assembly(glue.text()))
-    for symbol in (*module.functions, *module.global_variables):
+    for i, symbol in enumerate((*module.functions, *module.global_variables)):
         if symbol.name in entries:
             symbol.visibility = "hidden"
         elif not symbol.is_declaration:
             symbol.linkage = "internal"
+            if not symbol.name.startswith(_REFUSED):
+                symbol.name = f"{_readable(symbol.name)}.{i}"
     return module
+
+
+def _readable(name: str) -> str:
+    """The dotted name of a function of numba's, without the numbers that depend on what the process compiled before."""
+    parts, rest = [], name.removeprefix("_ZN") if name.startswith("_ZN") else ""
+    while found := re.match(r"\d+", rest):
+        end = found.end() + int(found[0])
+        parts.append(rest[found.end() : end])
+        rest = rest[end:]
+    return ".".join(parts) or "data"
 
 
 class _Glue:
@@ -228,13 +292,13 @@ def _with_own_libm(code: bytes, suffix: str) -> bytes:
 def _refuse_the_rest(module: Any) -> None:
     needed = {f.name for f in module.functions if f.is_declaration and not f.name.startswith("llvm.")}
     needed |= {g.name for g in module.global_variables if g.is_declaration and not g.name.startswith("model_data")}
-    needed |= {g.name for g in module.global_variables if g.name.startswith((".const.pickle", "numba.dynamic"))}
+    needed |= {g.name for g in module.global_variables if g.name.startswith(_REFUSED)}
     if needed - ALLOWED:
         raise RuntimeError(f"the kernels need more than the FMU may have: {', '.join(sorted(needed - ALLOWED))}")
 
 
 def main() -> None:
-    """Emit the objects of one model of the catalogue."""
+    """Emit the objects of models of the catalogue."""
     if any(os.environ.get(name) != value for name, value in ENVIRONMENT.items()):
         os.execve(
             sys.executable, [sys.executable, "-m", "fmu_src.native.emit", *sys.argv[1:]], os.environ | ENVIRONMENT
@@ -246,9 +310,11 @@ def main() -> None:
     warnings.simplefilter("ignore", NumbaWarning)  # unoptimised code cannot be cached
     from fmu_src.catalogue import Model
 
-    name, options, folder = sys.argv[1:]
-    model = Model(name, json.loads(options))
-    emit(model.module("native").component(**model.options), Path(folder))
+    components = {}
+    for name, options, folder in zip(*(iter(sys.argv[1:]),) * 3, strict=True):
+        model = Model(name, json.loads(options))
+        components[Path(folder)] = model.module("native").component(**model.options)
+    emit(components)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ import hashlib
 import json
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from importlib.metadata import version
 from itertools import chain
 from pathlib import Path
@@ -153,15 +153,29 @@ def run(*command: str | Path) -> None:
 
 def kernels(model: Model, cache: Path, say: Callable[[str], None]) -> dict[str, list[Path]]:
     """Object files of a model's kernels, compiled anew only if their sources or numba have changed."""
+    compile_kernels([model], cache, say)
+    folder = _kept(model, cache)
+    return {platform: objects(folder, platform) for platform in TRIPLES}
+
+
+def compile_kernels(chosen: Sequence[Model], cache: Path, say: Callable[[str], None]) -> None:
+    """Compile what is not in the cache of the kernels of some models, in one process, where they share most of the work."""
+    words: list[str | Path] = []
+    for model in chosen:
+        folder = _kept(model, cache)
+        if not all(path.exists() for platform in TRIPLES for path in objects(folder, platform)):
+            folder.mkdir(parents=True, exist_ok=True)
+            words += [model.name, json.dumps(dict(model.options)), folder]
+    if words:
+        say("compiling the kernels (some minutes)")
+        run(sys.executable, "-m", "fmu_src.native.emit", *words)
+
+
+def _kept(model: Model, cache: Path) -> Path:
+    """The folder of the cache for a model's kernels, named after all that they are made of."""
     options = json.dumps(dict(model.options))
     fingerprint = hashlib.sha256(f"{model.name} {options} {version('numba')} {version('llvmlite')}".encode())
     for package in (Path(contact.__file__), Path(fmu_src.__file__), Path(wheelset.__file__).parent):
         for path in sorted(package.parent.rglob("*.py")):
             fingerprint.update(path.read_bytes())
-    folder = cache / fingerprint.hexdigest()[:16]
-    paths = {platform: objects(folder, platform) for platform in TRIPLES}
-    if not all(path.exists() for parts in paths.values() for path in parts):
-        say("compiling the kernels (one or two minutes)")
-        folder.mkdir(parents=True, exist_ok=True)
-        run(sys.executable, "-m", "fmu_src.native.emit", model.name, options, folder)
-    return paths
+    return cache / fingerprint.hexdigest()[:16]

@@ -1,4 +1,7 @@
-"""Emits the objects of a component of a few lines, in the place of real ones, which compile for a minute: FOLDER."""
+"""Emits the objects of a component of a few lines, in the place of real ones, which compile for a minute: FOLDER [OTHERS …].
+
+Before it, with the same functions, one of other data into each of the others.
+"""
 
 import math
 import os
@@ -52,4 +55,6 @@ def entries():
 
 
 if __name__ == "__main__":
-    emit(Component(table=None, entries=entries, data=lambda: (np.arange(4.0),)), Path(sys.argv[1]))
+    own, *others = map(Path, sys.argv[1:])
+    components = {folder: Component(table=None, entries=entries, data=lambda: (np.arange(5.0),)) for folder in others}
+    emit({**components, own: Component(table=None, entries=entries, data=lambda: (np.arange(4.0),))})

@@ -21,11 +21,13 @@ def test_the_same_kernels_give_the_same_bytes(native_wheelset, tmp_path):
 
 
 def test_the_same_sources_give_the_same_kernels(tmp_path):
-    """Whatever the order of sets in the process that compiles."""
+    """Whatever the order of sets in the process that compiles, and whatever else it has compiled before."""
     found = []
-    for seed in ("1", "2"):
-        (tmp_path / seed).mkdir()
-        command = [sys.executable, Path(__file__).with_name("small_component.py"), tmp_path / seed]
+    for seed, others in (("1", ()), ("2", ("before",))):
+        folders = [tmp_path / name for name in (seed, *others)]
+        for folder in folders:
+            folder.mkdir()
+        command = [sys.executable, Path(__file__).with_name("small_component.py"), *folders]
         subprocess.run(command, check=True, env=os.environ | {"PYTHONHASHSEED": seed}, timeout=300)
         found.append({path.name: path.read_bytes() for path in sorted((tmp_path / seed).iterdir())})
     assert found[0] == found[1]
