@@ -116,6 +116,7 @@ class Solver:
         self._status = self._result["status"]
         self._numbers = self._case.view(np.float64), self._result.view(np.float64)  # quicker to copy than records
         self.set_surface(friction, speed)
+        self._coefficients: NDArray[np.float64] | None = None
         self._own: Workspace
         self._lean: Workspace
         self._make_room(int(require_number("n_samples", n_samples, 3)))
@@ -144,14 +145,16 @@ class Solver:
 
     def calibrate(self, table: NDArray[np.float64]) -> None:
         """Use another table of creepage coefficients (`contact.kalker.constant_table`) than that of linear theory."""
-        self._own = self._own._replace(tables=self._own.tables._replace(kalker=table))
-        self._lean = self._lean._replace(tables=self._own.tables)
+        self._coefficients = table
+        self._make_room(self._n_samples)
 
     def _make_room(self, n_samples: int) -> None:
         """Allocate a workspace for separations of so many samples."""
         size = self.n_strips, self.n_elements, n_samples
         nu = self.material.poisson_ratio
         self._own = workspace.allocate(self.normal, self.tangential, nu, size)
+        if self._coefficients is not None:
+            self._own = self._own._replace(tables=self._own.tables._replace(kalker=self._coefficients))
         self._n_samples = n_samples
         self._kernel = _kernel(self._own, self._case, self._result)
         # forces only: one row of fields serves all strips, unless forces are changed by what their fields change

@@ -47,7 +47,8 @@ def arrays(solution):
             found[each.name] = value
         elif isinstance(value, tuple):
             found |= {f"{each.name}[{k}]": part for k, part in enumerate(value)}
-    return found | {f"strips.{name}": getattr(solution.strips, name) for name in solution.strips.__slots__}
+    strips = {f"strips.{name}": getattr(solution.strips, name) for name in solution.strips.__slots__}
+    return found | {name: array for name, array in strips.items() if array is not None}  # None on a plane
 
 
 def assert_same(a, b):

@@ -10,6 +10,7 @@ ROOT = Path(__file__).parents[1]
 FOLDERS = ("contact", "fmu_src", "models", "reference", "tests", "benchmarks", "examples", "docs")
 #: Files that may import a module of `contact` whose name begins with an underscore, and what from it.
 PRIVATE = {
+    "fmu_src/place.py": {"contact._jit.cache_directory"},  # where what is compiled is kept
     "models/wheelset/dynamics.py": {"contact._jit.kernel"},
     "models/wheelset/motion.py": {"contact._jit.kernel"},
     "tests/test_jit.py": {"contact._jit"},  # the test of that module

@@ -161,10 +161,9 @@ class Ledger(NamedTuple):
 class Bench(NamedTuple):
     """All arrays of one pair.
 
-    `search`, `own` and `damage_parameters` hold sizes and constants, `case` methods, material and friction, `patch_case` the same
-    for the patch at hand; `memory` is what
-    the next call may start from: the number of patches, then one piece for each of MAX_PATCHES. `contacts` and `total`
-    are the answer; `ledger` adds up.
+    `search`, `own` and `damage_parameters` hold sizes and constants. `case` holds methods, material and friction, `patch_case`
+    the same for the patch at hand. `memory` is what the next call may start from: the number of patches, then one piece for
+    each of MAX_PATCHES. `contacts` and `total` are the answer; `ledger` adds up.
     """
 
     search: Search

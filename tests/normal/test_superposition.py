@@ -70,7 +70,7 @@ def test_two_lobes_far_apart_are_twice_one_lobe(normal, distance):
     two, one = solved(normal, distance, 2), solved(normal, distance, 1)
     assert (two.n_patches, one.n_patches) == (2, 1)
     felt, f = FELT.get(normal), LOAD / (math.pi * contact.STEEL.contact_modulus * distance) / one.approach
-    tolerance = 1e-9 if felt is None else f * f + 1e-4  # beside strips that are solved to 1e-4
+    tolerance = 1e-9 if felt is None else f * f + 5e-4  # beside strips that are solved to 1e-4, their ends to 2e-4
     found = (two.approach / one.approach, two.max_pressure / one.max_pressure, 0.5 * two.area / one.area, *loads(two))
     felt = felt or Felt()
     changes = f * np.array([felt.approach, felt.pressure, felt.area, felt.load, -felt.load])

@@ -1,7 +1,7 @@
 """Effective creepages: those at which mapped strip marching gives the half space's forces on the patch's equivalent ellipse.
 
 On an ellipse the march differs from the half space by .011 of mu N in the mean over the nodes of the table of creep forces
-(`contact.kernels.tangential.table`), as it knows each strip alone (theory.md 4.4). For every node the table holds the relative change
+(`tangential.table`), as it knows each strip alone (theory.md 4.4). For every node the table holds the relative change
 of (X, Y, w Z), by r, and a change of the exponent of the map, with which the march has force and moment of the half space and
 its share of slip more nearly. Strips of a patch get these changes for the patch's equivalent ellipse, load and mean creepages.
 So pressure, strips and march still make what is not elliptic about a patch; tractions are the march's own and never exceed

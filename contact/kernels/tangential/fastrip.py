@@ -79,8 +79,6 @@ _NOW_SX, _NOW_SY = NOW_SLIP, NOW_SLIDES  # where `_show` leaves the slip velocit
     _POWER,
 ) = (FREE_BEHIND_MARCH + row * LANES for row in range(24))
 
-_AGAIN = _C11  # behind the set-up: length of the slip zone over a in which particles stick again
-
 #: Share of the bound, squared, up to which a particle of the slip zone sticks again.
 _AT_BOUND = 1.0 - 1e-9
 
@@ -186,14 +184,11 @@ def _slip_zone(elements, lanes, trace, falling, block, n, fields):
     """
     for l in range(LANES):
         lanes[_FX + l], lanes[_FY + l], lanes[_MZ + l], lanes[_POWER + l] = 0.0, 0.0, 0.0, 0.0
-        lanes[_AGAIN + l] = 0.0
-    last = elements.shape[1] - 1
     load_before, moment_before = 0.0, 0.0
     for k in range(elements.shape[1]):
         s, weight = elements[Element.S, k], elements[Element.SINE, k] * elements[Element.DX, k]
         load_end, moment_end = elements[Element.LOAD_END, k], elements[Element.MOMENT_END, k]
         recall(lanes, trace[k])
-        _count_again(s, elements[Element.STEP, k], 1.0 + s if k == last else 0.0, lanes)
         sticks = 0
         for l in range(lanes.size // N_LANE_ROWS):  # as in `_normalise`: so short a loop would be written out
             sticks += 1 if lanes[NOW_SLIDES + l] < 0.5 and load_end > lanes[_LOAD + l] else 0
@@ -226,22 +221,6 @@ def _slip_zone(elements, lanes, trace, falling, block, n, fields):
             _show(s, elements[Element.SINE, k], lanes, falling)
             _write(k, block, n, lanes, fields)
         load_before, moment_before = load_end, moment_end
-
-
-@kernel
-def _count_again(s, step, behind, lanes):
-    """Add what sticks again of the slip zone on the step to s, and, of the last element, on the length `behind` it.
-
-    These are the elements that fields show as sticking, with the march's own share of the two where it changes.
-    """
-    for l in range(lanes.size // N_LANE_ROWS):
-        zone = 2.0 * lanes[_E + l] - 1.0 - s  # of the slip zone, before s
-        zone = 0.5 * (zone + abs(zone))
-        sticks, slides = lanes[NOW_STICK + l] * step, lanes[NOW_SLIDES + l]
-        room = zone if zone < step else step
-        again = sticks if sticks < room else room
-        again += behind if slides < 0.5 and zone > 0.0 else 0.0
-        lanes[_AGAIN + l] += again if s < lanes[ROW_CAME + l] else 0.0
 
 
 @kernel
@@ -334,7 +313,7 @@ def fastrip(part, case, own, result):
             i = block + l
             a, dy, y, xc = strips[Strip.A, i], strips[Strip.DY, i], strips[Strip.Y, i], strips[Strip.XC, i]
             bound, e = lanes[_BOUND + l], lanes[_E + l]
-            slip_area += (2.0 * e - lanes[_AGAIN + l]) * a * dy
+            slip_area += 2.0 * a * e * dy
             if bound == 0.0:
                 continue
             outer, outer_s = lanes[_LOAD + l], lanes[_MOMENT + l]

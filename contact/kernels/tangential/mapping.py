@@ -45,7 +45,9 @@ def mapped(ux, uy, o, n):
 
 @kernel
 def slid_at(s, direction, r, pole, rigid, from_edge):
-    """Slip of a particle at s that slides along `direction` against the `rigid` slip (Xs, Ys + 2 spin s), over the lateral flexibility; 0 or more.
+    """Slip of a particle at s over the lateral flexibility; 0 or more.
+
+    It slides along `direction` against the `rigid` slip (Xs, Ys + 2 spin s).
 
     Where the strip slips from its edge this is the march's own slip. Behind a stick zone that ends at s_b the march has
     (1 - s) + (s_b - s), which belongs to the parabola, and strip theory 2√((1 - s)(s_b - s)), both times the traction
