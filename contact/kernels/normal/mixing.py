@@ -11,7 +11,7 @@ _END_WEIGHT = 1.0
 def advance(n, n_panels, panels, vectors, load, known, gram):
     """Next half lengths and ends by Anderson's mixing over the last `DEPTH` of the `known` steps, weighted with strip loads.
 
-    The end strips' entries of the residual Vector.R and of the steps stand for the ends of their panel. Steps and changes of the
+    The entries of the end strips in the residual Vector.R and the steps stand for their panel's ends. Steps and changes of the
     residual are kept in rings of rows.
     """
     total = n * n_panels
