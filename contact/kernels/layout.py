@@ -522,8 +522,15 @@ class Vector(IntEnum):
     INDEX = 14
     FLOORED = 15  # the half length stands at its lower bound
     U = 16  # displacement at the strip's ends
-    STEPS = 17  # first of DEPTH rows: steps of the last iterations
-    CHANGES = 20  # first of DEPTH rows: changes of the residual
+    REACH = 17  # displacement by the strip's load at unit distance
+    SPREAD = 18  # mean square of its points' distances from its middle
+    REACH_OF_PANEL = 19  # in the panel's first strip, as the next two
+    SPREAD_OF_PANEL = 20
+    MIDDLE_OF_PANEL = 21
+    LN_LENGTH = 22  # ln of the half length with which the pressures were found
+    BEST = 23  # ln a of the best iterate; in the end strips the ends of their panel
+    STEPS = 24  # first of DEPTH rows: steps of the last iterations
+    CHANGES = 27  # first of DEPTH rows: changes of the residual
 
 
 #: Steps of the strip half space's iteration that are remembered.

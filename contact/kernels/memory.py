@@ -40,6 +40,7 @@ from contact.kernels.layout import (
     RESULT,
     TOTAL,
 )
+from contact.kernels.normal.descent import FEWEST, MOST, N_LAYERS
 from contact.kernels.normal.influence import MOST_TABULATED, N_COLUMNS
 from contact.kernels.normal.strip_halfspace import MEM_LN_A
 from contact.kernels.tangential.lanes import LANES, N_LANE_ROWS, TRACE_WIDTH
@@ -77,6 +78,7 @@ class Rule(NamedTuple):
     cosines: Array
     cosine_logs: Array
     columns: Array
+    descent: Array
 
 
 class Tables(NamedTuple):
@@ -290,7 +292,9 @@ def lay_rule(block: Array, end: int, size: Size) -> tuple[Rule, int]:
     cosine_logs, end = matrix(block, end, n, n + 1)
     tabulated = size.interacting != 0 and n <= MOST_TABULATED  # else the table of columns is not used
     columns, end = cube(block, end, N_COLUMNS if tabulated else 1, n if tabulated else 1, n if tabulated else 1)
-    return Rule(across, elements, cosines, cosine_logs, columns), end
+    descending = size.interacting != 0 and FEWEST <= n <= MOST
+    descent, end = cube(block, end, N_LAYERS if descending else 1, n if descending else 1, n if descending else 1)
+    return Rule(across, elements, cosines, cosine_logs, columns, descent), end
 
 
 @register_jitable

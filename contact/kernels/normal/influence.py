@@ -153,6 +153,12 @@ def row_at(X, ln_X):
 
 
 @kernel
+def logarithm(X):
+    """Ln X where `row_at` needs it."""
+    return math.log(X) if X >= _X_MAX else 0.0
+
+
+@kernel
 def in_row(plane, i, u, log_t):
     """U(X, t) for t > 0, bilinear in the table at the row and share given by `row_at`; logarithmic beyond its range of t."""
     v = (log_t - _LN_T_LOW) * _PER_T_STEP
@@ -169,5 +175,5 @@ def in_row(plane, i, u, log_t):
 @kernel
 def anywhere(plane, X, log_t):
     """U(X, t) for X >= 0, t > 0; error below 1e-3."""
-    i, u, ln_X = row_at(X, math.log(max(X, 1e-300)))
+    i, u, ln_X = row_at(X, logarithm(X))
     return in_row(plane, i, u, log_t - ln_X)

@@ -8,11 +8,12 @@ _END_WEIGHT = 1.0
 
 
 @kernel
-def advance(n, n_panels, panels, vectors, load, known, gram):
-    """Next half lengths and ends by Anderson's mixing over the last `DEPTH` of the `known` steps, weighted with strip loads.
+def mix(n, n_panels, panels, vectors, load, known, gram):
+    """Next step of half lengths and ends, into Vector.STEP: Anderson's mixing over the last `DEPTH` of the `known` steps, weighted with strip loads.
 
-    The entries of the end strips in the residual Vector.R and the steps stand for their panel's ends. Steps and changes of the
-    residual are kept in rings of rows.
+    The end strips' entries of the residual Vector.R and of the steps stand for the ends of their panel. Steps and changes of the
+    residual are kept in rings of rows. Returns what the mixing leaves: of the half lengths' residual the weighted mean, or of the
+    ends' the largest over the width, whichever is more.
     """
     total = n * n_panels
     if known > 0:
@@ -53,7 +54,22 @@ def advance(n, n_panels, panels, vectors, load, known, gram):
         gram[k, depth] /= gram[k, k]
     for k in range(depth):
         for i in range(total):
-            vectors[Vector.STEP, i] -= gram[k, depth] * (vectors[Vector.STEPS + k, i] + vectors[Vector.CHANGES + k, i])
+            vectors[Vector.STEP, i] -= gram[k, depth] * vectors[Vector.CHANGES + k, i]
+    lengths, ends = 0.0, 0.0
+    for i in range(total):
+        if i % n in (0, n - 1):
+            ends = max(ends, abs(vectors[Vector.STEP, i]) / (panels[2 * (i // n) + 1] - panels[2 * (i // n)]))
+        else:
+            lengths += vectors[Vector.Q1, i] * abs(vectors[Vector.STEP, i])
+    for k in range(depth):
+        for i in range(total):
+            vectors[Vector.STEP, i] -= gram[k, depth] * vectors[Vector.STEPS + k, i]
+    return max(lengths, ends)
+
+
+@kernel
+def advance(n, n_panels, panels, vectors):
+    """Take the step that `mix` has found."""
     for p in range(n_panels):
         first, last = p * n, p * n + n - 1
         for i in range(first + 1, last):

@@ -4,12 +4,10 @@ import math
 
 from contact._jit import kernel
 from contact.kernels.layout import MAX_PATCHES, Sample, Strip, Vector
+from contact.kernels.normal.descent import END_LENGTH, END_SLOPE, END_STEP, END_VALUE
 from contact.kernels.normal.lay import locate
 from contact.kernels.normal.strip_system import displacement_outside
 
-#: Share of an end's move that its rule asks for.
-_END_STEP = 0.6
-_END_VALUE, _END_SLOPE = 0.365, 0.108  # (p1/p2)² at the exact half width and its slope (strip_halfspace.md 2, step 4)
 _END_RANGE = (-3.0, 20.0)  # of one move outwards before damping, in widths of the end strip
 #: A frozen end still moves outwards from here on: the pressure rises towards the corner of a punch.
 _PUNCH = 1.0
@@ -33,11 +31,12 @@ def _hermite_integral(h, f0, m0, f1, m1, t):
 
 
 @kernel
-def lay_panels(y, g, A, xc, g_least, work, panels, n_panels, cosines, vectors):
+def lay_panels(sep, g_least, panels, n_panels, own):
     """Strip positions, mean gaps, curvatures and loci for the present ends of the panels."""
+    y, g, A, xc, cosines, vectors = sep.y, sep.g, sep.A, sep.x_c, own.rule.cosines, own.space.vectors
     n = cosines.size - 1
     size = y.size
-    m = work[Sample.GAP_SLOPE]
+    m = own.space.grid[Sample.GAP_SLOPE]
     k = 0
     for p in range(n_panels):
         centre = 0.5 * (panels[2 * p] + panels[2 * p + 1])
@@ -74,8 +73,8 @@ def half_lengths(vectors, n, n_panels):
         for i in range(first + 1, first + n - 1):
             vectors[Vector.A, i] = math.exp(vectors[Vector.LN_A, i])
             vectors[Vector.FLOORED, i] = 0.0
-        vectors[Vector.A, first] = 0.447 * vectors[Vector.A, first + 1]
-        vectors[Vector.A, first + n - 1] = 0.447 * vectors[Vector.A, first + n - 2]
+        vectors[Vector.A, first] = END_LENGTH * vectors[Vector.A, first + 1]
+        vectors[Vector.A, first + n - 1] = END_LENGTH * vectors[Vector.A, first + n - 2]
         for i in range(first + 1, first + n - 1):
             if vectors[Vector.ACTIVE, i] != 0.0:
                 floor = 0.3 * max(vectors[Vector.A, i - 1], vectors[Vector.A, i + 1])
@@ -148,8 +147,8 @@ def _end_move(vectors, n, first, step, cosines, frozen):
     q = (vectors[Vector.P, first + step] / vectors[Vector.P, first + 2 * step]) ** 2
     if frozen and q < _PUNCH:
         return 0.0, idle
-    wanted = min(max((q - _END_VALUE) / _END_SLOPE, _END_RANGE[0]), _END_RANGE[1])
-    return _END_STEP * wanted * (1.0 + cosines[1]), idle
+    wanted = min(max((q - END_VALUE) / END_SLOPE, _END_RANGE[0]), _END_RANGE[1])
+    return END_STEP * wanted * (1.0 + cosines[1]), idle
 
 
 @kernel
@@ -185,37 +184,67 @@ def cut_idle(n, n_panels, panels, cosines, vectors):
 
 
 @kernel
-def extend_to_ghosts(y, g, g_least, delta, least, modulus, n, n_panels, panels, cosines, vectors, centre):
+def _summarise(n, n_panels, vectors, unit):
+    """Reach and spread of strips and of whole panels."""
+    for first in range(0, n * n_panels, n):
+        load, moment, square = 0.0, 0.0, 0.0
+        for j in range(first, first + n):
+            a, h, at = vectors[Vector.A, j], vectors[Vector.HALF, j], vectors[Vector.Y, j]
+            own, spread = math.pi * unit * vectors[Vector.P, j] * a * h, 0.25 * a * a + h * h / 3.0
+            vectors[Vector.REACH, j], vectors[Vector.SPREAD, j], vectors[Vector.LN_LENGTH, j] = own, spread, math.log(a)
+            load, moment, square = load + own, moment + own * at, square + own * (at * at + spread)
+        middle = moment / load if load > 0.0 else 0.0
+        vectors[Vector.REACH_OF_PANEL, first], vectors[Vector.MIDDLE_OF_PANEL, first] = load, middle
+        vectors[Vector.SPREAD_OF_PANEL, first] = max(square / load - middle * middle, 1e-300) if load > 0.0 else 1.0
+
+
+@kernel
+def _is_overlapped(at, allowed, n, n_panels, vectors, centre, unit):
+    """Whether the displacement at a point outside the panels is less than `allowed`.
+
+    First as if the load of every panel, then of every strip, lay at the root mean square of its distances: that displaces no
+    more than the load does, and is cheap.
+    """
+    u = 0.0
+    for first in range(0, n * n_panels, n):
+        away = at - vectors[Vector.MIDDLE_OF_PANEL, first]
+        u += vectors[Vector.REACH_OF_PANEL, first] / math.sqrt(away * away + vectors[Vector.SPREAD_OF_PANEL, first])
+    if allowed <= u:
+        return False
+    u = 0.0
+    for j in range(n * n_panels):
+        away = at - vectors[Vector.Y, j]
+        u += vectors[Vector.REACH, j] / math.sqrt(away * away + vectors[Vector.SPREAD, j])
+    return allowed > u and allowed > displacement_outside(at, n, n_panels, vectors, centre, unit)
+
+
+@kernel
+def extend_to_ghosts(sep, g_least, delta, least, unit, n_panels, panels, own):
     """Where the gap outside all panels would be overlapped, widen the nearest panel or open a new one.
 
     Without this a second patch that the start solution missed stays unseen (strip_halfspace.md 2, step 5). Returns the
     number of panels and whether anything changed.
     """
-    size = y.size
+    y, g, cosines, vectors, centre = sep.y, sep.g, own.rule.cosines, own.space.vectors, own.tables.centre
+    size, n = y.size, cosines.size - 1
+    known = n_panels  # new ones displace nothing while further ghosts are looked for
     changed = False
-    width = 0.0
-    for p in range(n_panels):
-        width = max(width, panels[2 * p + 1] - panels[2 * p])
-    checked = -math.inf  # a fiftieth of the patch apart is near enough: a ghost is an overlap of the undeformed bodies
+    _summarise(n, n_panels, vectors, unit)
+    highest = (1.0 - least) * delta + g_least
     i = 0
     while i < size:
-        inside = g[i] - g_least >= delta * (1.0 - 1e-3)
+        inside = g[i] >= highest
         for p in range(n_panels):
             inside = inside or panels[2 * p] <= y[i] <= panels[2 * p + 1]
-        if inside or (y[i] - checked < 0.02 * width and y[i] > y[0]):
+        if inside or not _is_overlapped(y[i], highest - g[i], n, known, vectors, centre, unit):
             i += 1
             continue
-        checked = y[i]
-        u = displacement_outside(y[i], n, n_panels, panels, cosines, vectors, centre, modulus)
-        if delta - (g[i] - g_least) - u <= least * delta:
-            i += 1
-            continue
-        # overlap at y[i]: how far does it go
-        k = i
-        while k + 1 < size and g[k + 1] - g_least < delta:
-            u = displacement_outside(y[k + 1], n, n_panels, panels, cosines, vectors, centre, modulus)
-            if delta - (g[k + 1] - g_least) - u <= least * delta:
-                break
+        k = i  # how far does it go
+        while (
+            k + 1 < size
+            and g[k + 1] < highest
+            and _is_overlapped(y[k + 1], highest - g[k + 1], n, known, vectors, centre, unit)
+        ):
             k += 1
         margin = 1 if least <= GHOST else 0  # while the ends still move, no further than necessary
         low, high = y[max(i - margin, 0)], y[min(k + margin, size - 1)]
@@ -234,15 +263,12 @@ def extend_to_ghosts(y, g, g_least, delta, least, modulus, n, n_panels, panels, 
             for j in range(n):
                 reference = max(reference, vectors[Vector.A, nearest * n + j])
             for j in range(n):
-                unit = 0.5 * (cosines[j] + cosines[j + 1])
-                a = max(
-                    0.5 * reference * math.sqrt((high - low) / width) * math.sqrt(1.0 - unit * unit), 1e-3 * reference
-                )
-                vectors[Vector.LN_A, p * n + j] = math.log(a)
+                unit_y = 0.5 * (cosines[j] + cosines[j + 1])
+                a = 0.5 * reference * math.sqrt((high - low) / width * (1.0 - unit_y * unit_y))
+                vectors[Vector.LN_A, p * n + j] = math.log(max(a, 1e-3 * reference))
+                vectors[Vector.A, p * n + j] = reference
                 vectors[Vector.ACTIVE, p * n + j] = 1.0
-                vectors[Vector.P, p * n + j] = (
-                    0.0  # not known yet: it displaces nothing while further ghosts are looked for
-                )
+                vectors[Vector.P, p * n + j] = 0.0
         else:
             p = nearest
             old_low, old_high = panels[2 * p], panels[2 * p + 1]

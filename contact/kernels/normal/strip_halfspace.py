@@ -14,8 +14,9 @@ import math
 from contact._jit import kernel
 from contact.kernels.layout import MAX_PATCHES, LoadKind, Sample, Status, Strip, Vector
 from contact.kernels.normal.analyn import analyn
+from contact.kernels.normal.descent import descend, has_one_run
 from contact.kernels.normal.lay import locate
-from contact.kernels.normal.mixing import advance
+from contact.kernels.normal.mixing import advance, mix
 from contact.kernels.normal.panels import (
     EARLY_GHOST,
     GHOST,
@@ -32,17 +33,20 @@ from contact.kernels.normal.strip_system import (
     assemble,
     distances,
     edge_displacements,
-    skewed_edge_displacements,
     solve_active,
 )
 
 MAX_ITERATIONS = 40
 #: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops.
 TOLERANCE = 1e-4
+#: Where steps take the Jacobian of an ellipse: what mixing may leave of the step, and how large the residuals may be.
+LEFT, CLOSE = 4e-4, 4e-3
 #: What counts as converged at the cap.
 ACCEPTABLE = 1e-3
 #: From here on the ends stand still: at the corner of a punch and on rough gaps their rule has no steady answer.
 FREEZE = 12
+#: An end that moves further than this, over the width, and turns back, goes half the way.
+TURN = 0.02
 #: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's answer is.
 USABLE = 0.02
 
@@ -51,9 +55,10 @@ MEM_PANELS, MEM_ENDS, MEM_START, MEM_LN_A = 0, 1, 1 + 2 * MAX_PATCHES, 3 + 2 * M
 
 
 @kernel
-def _write(n, n_panels, panels, cosines, vectors, y, work, strips, result):
-    """Loaded strips in ascending order of y into `strips`; runs of neighbours are the patches. Returns their number."""
-    size = y.size
+def _write(y, n_panels, panels, own, result):
+    """Loaded strips in ascending order of y into `own.strips`; runs of neighbours are the patches. Returns their number."""
+    cosines, vectors, work, strips = own.rule.cosines, own.space.vectors, own.space.grid, own.strips
+    n, size = cosines.size - 1, y.size
     count, patch = 0, -1
     done = -math.inf
     k = 0
@@ -92,14 +97,43 @@ def _write(n, n_panels, panels, cosines, vectors, y, work, strips, result):
 
 
 @kernel
+def _keep_best(n, n_panels, panels, vectors):
+    """Keep lengths and ends."""
+    for i in range(n * n_panels):
+        vectors[Vector.BEST, i] = vectors[Vector.LN_A, i]
+    for p in range(n_panels):
+        vectors[Vector.BEST, p * n], vectors[Vector.BEST, p * n + n - 1] = panels[2 * p], panels[2 * p + 1]
+
+
+@kernel
+def _take_best(n, n_panels, panels, vectors):
+    """Go back to the lengths and ends that were kept."""
+    for p in range(n_panels):
+        first, last = p * n, p * n + n - 1
+        panels[2 * p], panels[2 * p + 1] = vectors[Vector.BEST, first], vectors[Vector.BEST, last]
+        for i in range(first, last + 1):
+            vectors[Vector.LN_A, i] = vectors[Vector.BEST, min(max(i, first + 1), last - 1)]
+        vectors[Vector.ACTIVE, first : last + 1] = 1.0
+
+
+@kernel
+def _damp_turns(n, panels, vectors, known):
+    """Let an end of a single panel that turns back go half the way."""
+    for end in (0, n - 1):
+        move = vectors[Vector.R, end]
+        if known > 0 and vectors[Vector.STEP, end] * move < 0.0 and abs(move) > TURN * (panels[1] - panels[0]):
+            vectors[Vector.R, end] = 0.5 * move
+
+
+@kernel
 def strip_halfspace(sep, case, own, result):
     """Solve the normal problem; same answers as `analyn`, which gives the start and the local aspect ratios.
 
     A filled `space.memory` is the start instead of ANALYN's patch; it is left filled for the next call. With the status
     NOT_CONVERGED the answer is the last iterate if that was nearly at rest, and ANALYN's otherwise.
     """
-    y, g, A, xc = sep.y, sep.g, sep.A, sep.x_c
-    rule, tables, space, strips = own.rule, own.tables, own.space, own.strips
+    y, xc = sep.y, sep.x_c
+    rule, space, strips = own.rule, own.space, own.strips
     memory, vectors = space.memory, space.vectors
     n_strips = analyn(sep, case, rule.across, space.grid, strips, result)
     if n_strips == 0:
@@ -108,6 +142,7 @@ def strip_halfspace(sep, case, own, result):
     n = rule.across.nodes.size
     size = y.size
     modulus = case.G / (1.0 - case.nu)
+    unit = 1.0 / (math.pi * modulus)
     by_load = case.load_kind != LoadKind.APPROACH
     g_least = result.touch
     amount = case.amount if by_load else case.amount - g_least
@@ -133,26 +168,20 @@ def strip_halfspace(sep, case, own, result):
     if n_panels == 0:
         n_panels = start_panels(n_strips, n, strips, result, panels, rule.cosines, vectors)
 
-    converged = False
+    converged, descending, best = False, False, math.inf
     delta, iteration, known, error, load, last_error = 0.0, 0, 0, math.inf, 0.0, math.inf
     for iteration in range(MAX_ITERATIONS):
         total = n * n_panels
-        lay_panels(y, g, A, xc, g_least, space.grid, panels, n_panels, rule.cosines, vectors)
-        distances(panels, n_panels, rule.cosines, rule.cosine_logs, vectors, space.logs)
+        lay_panels(sep, g_least, panels, n_panels, own)
+        distances(panels, n_panels, own)
         half_lengths(vectors, n, n_panels)
-        assemble(
-            n, n_panels, panels, vectors, space.logs, tables.centre, rule.columns, tables.plane, skewed, modulus,
-            space.matrix,
-        )  # fmt: skip
-        delta = solve_active(n, n_panels, vectors, space.matrix, space.lu, by_load, amount)
+        assemble(panels, n_panels, own, skewed, unit)
+        delta = solve_active(n, n_panels, space, by_load, amount)
         error, load = math.inf, 0.0
         if not abs(delta) < math.inf:
             break
         # the strip ends: stretch each strip by the ratio of the overlap at its ends to the one that a parabola leaves
-        if skewed:
-            skewed_edge_displacements(n, n_panels, vectors, space.logs, tables.plane, modulus)
-        else:
-            edge_displacements(n, n_panels, vectors, space.logs, tables.plane, modulus)
+        edge_displacements(panels, n_panels, own, skewed, unit)
         error, load = 0.0, 0.0
         for i in range(total):
             vectors[Vector.R, i] = 0.0
@@ -171,32 +200,59 @@ def strip_halfspace(sep, case, own, result):
         if n_panels == 0:
             break
         moved, cut = end_moves(y, n, n_panels, panels, rule.cosines, vectors, iteration >= FREEZE)
-        if n_panels < before or error > 2.0 * last_error * load or iteration == FREEZE:
+        by_jacobian = descending
+        descending = n_panels == 1 and rule.descent.shape[1] == n and iteration < FREEZE and not cut
+        descending = descending and has_one_run(n, vectors[Vector.P])
+        if n_panels < before or error > 2.0 * last_error * load or iteration == FREEZE or descending != by_jacobian:
             known = 0
         last_error = error / load
-        settled = not cut and error < TOLERANCE * load and moved < 2.0 * TOLERANCE
+        if n_panels < before or iteration == FREEZE:
+            best = math.inf
+        if iteration >= FREEZE and not cut and last_error < best:
+            best = last_error
+            _keep_best(n, n_panels, panels, vectors)
+        if descending:
+            _damp_turns(n, panels, vectors, known)
+            descend(n, panels[1] - panels[0], rule.descent, vectors)
+        left = 0.0 if cut else mix(n, n_panels, panels, vectors, load, known, space.lu)
+        if descending:
+            settled = left < LEFT and error < CLOSE * load and moved < CLOSE
+        else:
+            settled = not cut and error < TOLERANCE * load and moved < 2.0 * TOLERANCE
         ghosts = False
         if settled or iteration == 1:
             least = GHOST if settled else EARLY_GHOST
-            n_panels, ghosts = extend_to_ghosts(
-                y, g, g_least, delta, least, modulus, n, n_panels, panels, rule.cosines, vectors, tables.centre
-            )
+            n_panels, ghosts = extend_to_ghosts(sep, g_least, delta, least, unit, n_panels, panels, own)
             if settled and not ghosts:
                 converged = True
                 break
         if ghosts:
-            known = 0
+            known, best = 0, math.inf
         elif cut:
             cut_idle(n, n_panels, panels, rule.cosines, vectors)
             known = 0
         else:
-            advance(n, n_panels, panels, vectors, load, known, space.lu)
+            advance(n, n_panels, panels, vectors)
             known += 1
         n_panels, joined = join_panels(n, n_panels, panels, rule.cosines, vectors)
         if joined:
-            known = 0
+            known, best = 0, math.inf
 
     result.iterations = iteration + 1
+    stepped = True  # lengths and ends are not those of the pressures
+    if converged and descending:
+        advance(n, n_panels, panels, vectors)
+    elif not converged and n_panels > 0 and best * load < error:
+        _take_best(n, n_panels, panels, vectors)
+        error, load = best, 1.0
+    else:
+        stepped = False
+    if stepped:
+        lay_panels(sep, g_least, panels, n_panels, own)
+        distances(panels, n_panels, own)
+        half_lengths(vectors, n, n_panels)
+        assemble(panels, n_panels, own, skewed, unit)
+        delta = solve_active(n, n_panels, space, by_load, amount)
     peak = 0.0
     for i in range(n_panels * n):
         peak = max(peak, vectors[Vector.P, i])
@@ -208,7 +264,7 @@ def strip_halfspace(sep, case, own, result):
     memory[MEM_PANELS], memory[MEM_START], memory[MEM_START + 1] = n_panels, start_low, start_high
     for i in range(n_panels * n):
         memory[MEM_LN_A + i] = vectors[Vector.LN_A, i]
-    count = _write(n, n_panels, panels, rule.cosines, vectors, y, space.grid, strips, result)
+    count = _write(y, n_panels, panels, own, result)
     N = 0.0
     for i in range(count):
         N += 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]

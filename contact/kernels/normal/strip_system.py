@@ -4,162 +4,188 @@ import math
 
 from contact._jit import kernel
 from contact.kernels.layout import Vector
-from contact.kernels.normal.influence import anywhere, at_centre, column, in_row, row_at
+from contact.kernels.normal.elimination import eliminate
+from contact.kernels.normal.influence import anywhere, at_centre, column, in_row, logarithm, row_at
+
+#: Offset along x over the half length below which strips count as in line: the table off the centre line is no more exact.
+IN_LINE = 0.01
 
 
 @kernel
-def distances(panels, n_panels, cosines, cosine_logs, vectors, logs):
-    """ln|Y_k - y_i| of every strip i to every panel edge k, into logs[i, k]; n + 1 edges a panel.
+def distances(panels, n_panels, own):
+    """ln|Y_k - y_i| of every strip i to every edge k of other panels, into `own.space.logs[i, k]`; n + 1 edges a panel.
 
-    Within a panel the strips sit at fixed cosines, so this is a constant table plus ln of the panel's half width.
+    Within a panel the strips sit at fixed cosines: a constant table plus ln of the panel's half width.
     """
+    cosines, vectors, logs = own.rule.cosines, own.space.vectors, own.space.logs
     n = cosines.size - 1
     for p in range(n_panels):
-        half = 0.5 * (panels[2 * p + 1] - panels[2 * p])
-        ln_half = math.log(half)
+        least = 0.5e-12 * (panels[2 * p + 1] - panels[2 * p])
         for q in range(n_panels):
-            centre = 0.5 * (panels[2 * q] + panels[2 * q + 1])
-            half_q = 0.5 * (panels[2 * q + 1] - panels[2 * q])
-            for i in range(n):
-                row = p * n + i
+            if p == q:
+                continue
+            centre, half = 0.5 * (panels[2 * q] + panels[2 * q + 1]), 0.5 * (panels[2 * q + 1] - panels[2 * q])
+            for i in range(p * n, p * n + n):
                 for k in range(n + 1):
-                    if p == q:
-                        logs[row, q * (n + 1) + k] = ln_half + cosine_logs[i, k]
-                    else:
-                        distance = abs(centre + half_q * cosines[k] - vectors[Vector.Y, row])
-                        logs[row, q * (n + 1) + k] = math.log(max(distance, 1e-12 * half))
+                    distance = abs(centre + half * cosines[k] - vectors[Vector.Y, i])
+                    logs[i, q * (n + 1) + k] = math.log(max(distance, least))
 
 
 @kernel
-def assemble(n, n_panels, panels, vectors, logs, centre, columns, plane, skewed, modulus, matrix):
-    """Displacement on the centre line of strip i by unit peak pressure on strip j, into matrix[j, i]."""
-    total = n * n_panels
-    tabulated = not skewed and columns.shape[1] == n
-    for j in range(total):
+def _fill_skewed(first, j, n, own, ln_a, scale):
+    """Column of strip j within its panel, which begins at strip `first`, where strips lie off each other's centre."""
+    cosine_logs, vectors, row = own.rule.cosine_logs, own.space.vectors, own.space.matrix[j]
+    centre, plane = own.tables.centre, own.tables.plane
+    tabulated, k = own.rule.columns.shape[1] == n, j - first
+    for i in range(n):
+        X = abs(vectors[Vector.XC, first + i] - vectors[Vector.XC, j]) / vectors[Vector.A, j]
+        left, right, sign = cosine_logs[i, k] - ln_a, cosine_logs[i, k + 1] - ln_a, 1.0 if i == k else -1.0
+        if X > IN_LINE:
+            place, share, ln_X = row_at(X, logarithm(X))
+            low, high = in_row(plane, place, share, left - ln_X), in_row(plane, place, share, right - ln_X)
+            row[first + i] = scale * abs(high + sign * low)
+        elif not tabulated:
+            row[first + i] = scale * abs(at_centre(centre, right) + sign * at_centre(centre, left))
+
+
+@kernel
+def assemble(panels, n_panels, own, skewed, unit):
+    """Displacement on the centre line of strip i by unit peak pressure on strip j, into `own.space.matrix[j, i]`.
+
+    `unit` is 1/(pi E*); `skewed` says whether strips lie off each other's centre.
+    """
+    columns, vectors, logs, matrix = own.rule.columns, own.space.vectors, own.space.logs, own.space.matrix
+    centre, plane = own.tables.centre, own.tables.plane
+    n = own.rule.cosines.size - 1
+    tabulated = columns.shape[1] == n
+    for j in range(n * n_panels):
         panel = j // n
-        first = panel * n
-        a, k = vectors[Vector.A, j], j + panel  # k: the first of its two edges
-        scale = a / (math.pi * modulus)
-        ln_a = math.log(a)
-        for i in range(total):
-            if tabulated and i // n == panel:
+        first, k = panel * n, j + panel  # k: the first of its two edges
+        a = vectors[Vector.A, j]
+        scale, ln_a = a * unit, math.log(a)
+        ln_share = ln_a - math.log(0.5 * (panels[2 * panel + 1] - panels[2 * panel]))
+        if tabulated:
+            column(columns, j - first, ln_share, scale, matrix[j, first : first + n])
+        if skewed or not tabulated:
+            _fill_skewed(first, j, n, own, ln_share, scale)
+        for i in range(n * n_panels if n_panels > 1 else 0):
+            if first <= i < first + n:
                 continue
             left, right = logs[i, k] - ln_a, logs[i, k + 1] - ln_a
-            sign = 1.0 if i == j else -1.0
-            offset = abs(vectors[Vector.XC, i] - vectors[Vector.XC, j]) / a
-            if offset > 1e-9:
-                low, high = anywhere(plane, offset, left), anywhere(plane, offset, right)
+            X = abs(vectors[Vector.XC, i] - vectors[Vector.XC, j]) / a
+            if X > IN_LINE:
+                low, high = anywhere(plane, X, left), anywhere(plane, X, right)
             else:
                 low, high = at_centre(centre, left), at_centre(centre, right)
-            matrix[j, i] = scale * abs(high + sign * low)
-        if tabulated:
-            half = 0.5 * (panels[2 * panel + 1] - panels[2 * panel])
-            column(columns, j - first, ln_a - math.log(half), scale, matrix[j, first : first + n])
+            matrix[j, i] = scale * abs(high - low)
 
 
 @kernel
-def edge_displacements(n, n_panels, vectors, logs, plane, modulus):
+def _add_panel(p, q, n, logs, ln_unit, vectors, plane):
+    """Add to Vector.U the displacement at the ends of panel p's strips by panel q; `logs` + `ln_unit` are ln|Y_k - y_i|.
+
+    `logs` are of all panels, or of one and itself.
+    """
+    row, edge = (0, 0) if p == q else (p * n, q * (n + 1))
+    first, last = q * n, (q + 1) * n
+    logs_a, inverses = vectors[Vector.Q1, first:last], vectors[Vector.Q2, first:last]
+    forces = vectors[Vector.R, first:last]
+    for k in range(n):
+        i = p * n + k
+        if vectors[Vector.P, i] == 0.0:
+            continue
+        a, ln_a, at = vectors[Vector.A, i], vectors[Vector.Q1, i], logs[row + k, edge : edge + n + 1]
+        u = 0.0
+        for m in range(n):
+            place, share, start = row_at(a * inverses[m], ln_a - logs_a[m])
+            start += logs_a[m] - ln_unit
+            low, high = in_row(plane, place, share, at[m] - start), in_row(plane, place, share, at[m + 1] - start)
+            u += forces[m] * (low + high if m == i - first else abs(high - low))
+        vectors[Vector.U, i] += u
+
+
+@kernel
+def _add_skewed_panel(p, q, n, logs, ln_unit, vectors, plane):
+    """As `_add_panel` under yaw: the mean of both ends of strips that lie off each other's centre."""
+    row, edge = (0, 0) if p == q else (p * n, q * (n + 1))
+    first, last = q * n, (q + 1) * n
+    logs_a, inverses = vectors[Vector.Q1, first:last], vectors[Vector.Q2, first:last]
+    forces, loci = vectors[Vector.R, first:last], vectors[Vector.XC, first:last]
+    for k in range(n):
+        i = p * n + k
+        if vectors[Vector.P, i] == 0.0:
+            continue
+        a, x, at = vectors[Vector.A, i], vectors[Vector.XC, i], logs[row + k, edge : edge + n + 1]
+        u = 0.0
+        for m in range(n):
+            shift, ln_a = loci[m] - x, logs_a[m] - ln_unit
+            left, right = at[m] - ln_a, at[m + 1] - ln_a
+            X = abs(a + shift) * inverses[m]
+            place, share, start = row_at(X, logarithm(X))
+            low, high = in_row(plane, place, share, left - start), in_row(plane, place, share, right - start)
+            one = low + high if m == i - first else abs(high - low)
+            if shift != 0.0:
+                X = abs(a - shift) * inverses[m]
+                place, share, start = row_at(X, logarithm(X))
+                low, high = in_row(plane, place, share, left - start), in_row(plane, place, share, right - start)
+                one = 0.5 * (one + abs(high - low))
+            u += forces[m] * one
+        vectors[Vector.U, i] += u
+
+
+@kernel
+def edge_displacements(panels, n_panels, own, skewed, unit):
     """Displacement at the ends of every loaded strip into Vector.U."""
-    total = n * n_panels
-    for j in range(total):
+    cosine_logs, vectors, logs, plane = own.rule.cosine_logs, own.space.vectors, own.space.logs, own.tables.plane
+    n = cosine_logs.shape[0]
+    for j in range(n * n_panels):
         vectors[Vector.Q1, j] = math.log(vectors[Vector.A, j])
         vectors[Vector.Q2, j] = 1.0 / vectors[Vector.A, j]
-        vectors[Vector.R, j] = vectors[Vector.P, j] * vectors[Vector.A, j] / (math.pi * modulus)
-    for i in range(total):
-        vectors[Vector.U, i] = 0.0
-        if vectors[Vector.P, i] == 0.0:
-            continue
-        a, ln_a = vectors[Vector.A, i], vectors[Vector.Q1, i]
-        u = 0.0
-        for p in range(n_panels):
-            at = logs[i, p * (n + 1) : (p + 1) * (n + 1)]
-            for j in range(n):
-                J = p * n + j
-                row, share, ln_X = row_at(a * vectors[Vector.Q2, J], ln_a - vectors[Vector.Q1, J])
-                ln_X += vectors[Vector.Q1, J]
-                low, high = in_row(plane, row, share, at[j] - ln_X), in_row(plane, row, share, at[j + 1] - ln_X)
-                u += vectors[Vector.R, J] * (low + high if i == J else abs(high - low))
-        vectors[Vector.U, i] = u
+        vectors[Vector.R, j] = vectors[Vector.P, j] * vectors[Vector.A, j] * unit
+        vectors[Vector.U, j] = 0.0
+    for p in range(n_panels):
+        ln_half = math.log(0.5 * (panels[2 * p + 1] - panels[2 * p]))
+        if skewed:
+            _add_skewed_panel(p, p, n, cosine_logs, ln_half, vectors, plane)
+        else:
+            _add_panel(p, p, n, cosine_logs, ln_half, vectors, plane)
+        for q in range(n_panels):
+            if q != p and skewed:
+                _add_skewed_panel(p, q, n, logs, 0.0, vectors, plane)
+            elif q != p:
+                _add_panel(p, q, n, logs, 0.0, vectors, plane)
 
 
 @kernel
-def skewed_edge_displacements(n, n_panels, vectors, logs, plane, modulus):
-    """As `edge_displacements` under yaw: the mean of both ends of strips that lie off each other's centre."""
-    total = n * n_panels
-    for i in range(total):
-        vectors[Vector.U, i] = 0.0
-        if vectors[Vector.P, i] == 0.0:
-            continue
-        u = 0.0
-        for j in range(total):
-            a, k = vectors[Vector.A, j], j + j // n
-            ln_a = math.log(a)
-            left, right = logs[i, k] - ln_a, logs[i, k + 1] - ln_a
-            for side in (-1.0, 1.0):
-                X = abs(vectors[Vector.A, i] + side * (vectors[Vector.XC, i] - vectors[Vector.XC, j])) / a
-                low, high = anywhere(plane, X, left), anywhere(plane, X, right)
-                u += 0.5 * vectors[Vector.P, j] * a * (low + high if i == j else abs(high - low))
-        vectors[Vector.U, i] = u / (math.pi * modulus)
-
-
-@kernel
-def displacement_outside(at, n, n_panels, panels, cosines, vectors, centre, modulus):
+def displacement_outside(at, n, n_panels, vectors, centre, unit):
     """Displacement at a point of the centre line that lies in no panel."""
     u = 0.0
     for p in range(n_panels):
-        middle = 0.5 * (panels[2 * p] + panels[2 * p + 1])
-        half = 0.5 * (panels[2 * p + 1] - panels[2 * p])
-        for k in range(n):
-            j = p * n + k
-            if vectors[Vector.P, j] == 0.0:
-                continue
-            a = vectors[Vector.A, j]
-            near = max(abs(middle + half * cosines[k] - at), 1e-12 * half)
-            far = max(abs(middle + half * cosines[k + 1] - at), 1e-12 * half)
-            low, high = at_centre(centre, math.log(near / a)), at_centre(centre, math.log(far / a))
-            u += vectors[Vector.P, j] * a / (math.pi * modulus) * abs(high - low)
+        first = p * n
+        side = 1.0 if at < vectors[Vector.Y, first] else -1.0
+        ln_away = math.log(
+            max(abs(vectors[Vector.Y, first] - at - vectors[Vector.HALF, first]), 1e-12 * vectors[Vector.HALF, first])
+        )
+        for j in range(first, first + n):
+            before = ln_away
+            ln_away = math.log(
+                max(abs(vectors[Vector.Y, j] - at + vectors[Vector.HALF, j]), 1e-12 * vectors[Vector.HALF, j])
+            )
+            if vectors[Vector.P, j] > 0.0:
+                ln_a = vectors[Vector.LN_LENGTH, j]
+                beyond = at_centre(centre, ln_away - ln_a) - at_centre(centre, before - ln_a)
+                u += vectors[Vector.P, j] * vectors[Vector.A, j] * unit * side * beyond
     return u
 
 
 @kernel
-def _eliminate(lu, m, first, second):
-    """Solve lu·x = first and = second in place by Gaussian elimination; the influence matrix needs no pivoting.
-
-    Two pivots at a time: a row is read and written half as often.
-    """
-    for k in range(0, m - 1, 2):
-        above, below = lu[k], lu[k + 1]
-        inverse = 1.0 / above[k]
-        factor = below[k] * inverse
-        for j in range(k + 1, m):
-            below[j] -= factor * above[j]
-        first[k + 1] -= factor * first[k]
-        second[k + 1] -= factor * second[k]
-        across, next_inverse = above[k + 1], 1.0 / below[k + 1]
-        for i in range(k + 2, m):
-            row = lu[i]
-            f = row[k] * inverse
-            h = (row[k + 1] - f * across) * next_inverse
-            for j in range(k + 2, m):
-                row[j] -= f * above[j] + h * below[j]
-            first[i] -= f * first[k] + h * first[k + 1]
-            second[i] -= f * second[k] + h * second[k + 1]
-    for k in range(m - 1, -1, -1):
-        row = lu[k]
-        one, other = first[k], second[k]
-        for j in range(k + 1, m):
-            one -= row[j] * first[j]
-            other -= row[j] * second[j]
-        first[k], second[k] = one / row[k], other / row[k]
-
-
-@kernel
-def solve_active(n, n_panels, vectors, matrix, lu, by_load, amount):
+def solve_active(n, n_panels, space, by_load, amount):
     """Peak pressures that close the gap of every loaded strip; return the approach above first touch.
 
     p = delta·q1 + q2 with q1 the answer to a unit approach, so load- and approach-prescribed differ in one line. Strips under
     tension leave the active set, separated strips that would overlap enter it; at most 20 rounds.
     """
+    vectors, matrix, lu = space.vectors, space.matrix, space.lu
     total = n * n_panels
     delta = 0.0
     for _ in range(20):
@@ -173,7 +199,7 @@ def solve_active(n, n_panels, vectors, matrix, lu, by_load, amount):
             vectors[Vector.Q1, r], vectors[Vector.Q2, r] = 1.0, -vectors[Vector.GAP, i]
             for c in range(m):
                 lu[r, c] = matrix[int(vectors[Vector.INDEX, c]), i]
-        _eliminate(lu, m, vectors[Vector.Q1], vectors[Vector.Q2])
+        eliminate(lu, m, vectors[Vector.Q1], vectors[Vector.Q2])
         stiffness, offset = 0.0, 0.0
         for r in range(m):
             i = int(vectors[Vector.INDEX, r])

@@ -1,0 +1,214 @@
+"""How half lengths and ends answer to the residuals of the strip half space: inverse Jacobians of Hertz contacts.
+
+The plain step of the half lengths, their own residual, removes a fifth to a third of an error. On strips at fixed cosines the
+Jacobian of a Hertz contact depends on a/b alone, and that of other patches is near the one of the ellipse with their a/b: its
+inverse takes away three quarters of an error and more at every step (strip_halfspace.md 2, step 6).
+"""
+
+import math
+
+from contact._jit import kernel
+from contact.kernels.layout import Vector
+from contact.kernels.normal.elimination import eliminate
+from contact.kernels.normal.influence import at_centre, in_row, logarithm, row_at
+from contact.kernels.quadrature import on_circle
+
+#: Layers of the table: ln(a/b) of the first, their distance, their number.
+_LOW, _STEP, N_LAYERS = -3.0, 0.7, 10
+#: With fewer strips a panel, and with more, the steps are plain.
+FEWEST, MOST = 8, 64
+#: Steps of the differences: of ln a, and of an end over the width of the end strip.
+_DIFFERENCE, _END_DIFFERENCE = 0.01, 0.05
+#: From this move on, over the width, the rule of the ends says where the end is and the Jacobian has no say.
+_HOLD = 0.03
+#: Half lengths of end strips over their neighbours'.
+END_LENGTH = 0.447
+#: Share of an end's move that its rule asks for; (p1/p2)² at the exact half width and its slope (strip_halfspace.md 2, step 4).
+END_STEP, END_VALUE, END_SLOPE = 0.6, 0.365, 0.108
+
+
+@kernel
+def _lay(n, low, high, y, h):
+    """Middles and half widths of cosine-spaced strips."""
+    centre, half = 0.5 * (low + high), 0.5 * (high - low)
+    for i in range(n):
+        left, right = centre - half * on_circle(i, n)[0], centre - half * on_circle(i + 1, n)[0]
+        y[i], h[i] = 0.5 * (left + right), 0.5 * (right - left)
+
+
+@kernel
+def _influence(i, j, X, y, h, a, centre, plane):
+    """Displacement at strip i, x = X·a_j, by a unit pressure on strip j; pi E* = 1."""
+    near = max(abs(y[j] - h[j] - y[i]), 1e-12)
+    far = max(abs(y[j] + h[j] - y[i]), 1e-12)
+    near, far = math.log(near / a[j]), math.log(far / a[j])
+    sign = 1.0 if i == j else -1.0
+    if X == 0.0:
+        return a[j] * abs(at_centre(centre, far) + sign * at_centre(centre, near))
+    row, share, ln_X = row_at(X, logarithm(X))
+    return a[j] * abs(in_row(plane, row, share, far - ln_X) + sign * in_row(plane, row, share, near - ln_X))
+
+
+@kernel
+def _residual(low, high, scratch, B, A, centre, plane, out):
+    """Residuals of a Hertz contact with half lengths and ends that are not its own, at the same approach."""
+    n = scratch.shape[1]
+    lu = scratch[0]
+    ln_a, a, p, q = scratch[1, 0], scratch[1, 1], scratch[1, 2], scratch[1, 3]
+    y, h, y0, g0 = scratch[2, 0], scratch[2, 1], scratch[2, 2], scratch[2, 3]
+    _lay(n, low, high, y, h)
+    for i in range(1, n - 1):
+        a[i] = math.exp(ln_a[i])
+    a[0], a[n - 1] = END_LENGTH * a[1], END_LENGTH * a[n - 2]
+    for i in range(n):
+        p[i] = q[i] = -(g0[i] + B * (y[i] * y[i] + h[i] * h[i] / 3.0 - y0[i]))
+        for j in range(n):
+            lu[i, j] = _influence(i, j, 0.0, y, h, a, centre, plane)
+    eliminate(lu, n, p, q)
+    for i in range(1, n - 1):
+        u = 0.0
+        for j in range(n):
+            u += p[j] * _influence(i, j, a[i] / a[j], y, h, a, centre, plane)
+        overlap = -(g0[i] + B * (y[i] * y[i] + h[i] * h[i] / 3.0 - y0[i])) - u
+        out[i] = 0.5 * math.log(max(overlap / (A * a[i] * a[i]), 1e-3))
+    e = 0.5 * (1.0 - on_circle(1, n)[0])  # outwards over the width
+    out[0] = END_STEP * e * ((p[1] / p[2]) ** 2 - END_VALUE) / END_SLOPE
+    out[n - 1] = END_STEP * e * ((p[n - 2] / p[n - 3]) ** 2 - END_VALUE) / END_SLOPE
+
+
+@kernel
+def _hertz(aspect, scratch, centre, plane):
+    """Half lengths, gap and curvatures B, A of the Hertz contact with half width 1, a/b = `aspect` and peak pressure 1."""
+    n = scratch.shape[1]
+    ln_a, a, p = scratch[1, 0], scratch[1, 1], scratch[1, 2]
+    y, h, y0, g0 = scratch[2, 0], scratch[2, 1], scratch[2, 2], scratch[2, 3]
+    _lay(n, -1.0, 1.0, y, h)
+    for i in range(n):
+        root = math.sqrt(1.0 - y[i] * y[i])
+        ln_a[i], p[i], a[i], y0[i] = math.log(aspect * root), root, aspect * root, y[i] * y[i] + h[i] * h[i] / 3.0
+    a[0], a[n - 1] = END_LENGTH * a[1], END_LENGTH * a[n - 2]
+    A, weight = 0.0, 0.0
+    for i in range(n):
+        g0[i] = 0.0
+        edge = 0.0
+        for j in range(n):
+            g0[i] -= p[j] * _influence(i, j, 0.0, y, h, a, centre, plane)
+            edge -= p[j] * _influence(i, j, a[i] / a[j], y, h, a, centre, plane)
+        if 4 * i >= n and 4 * i < 3 * n:
+            A += (edge - g0[i]) / (a[i] * a[i])
+            weight += 1.0
+    return (g0[n // 4] - g0[n // 2]) / (y0[n // 4] - y0[n // 2]), A / weight
+
+
+@kernel
+def _fill_layer(aspect, scratch, centre, plane, layer):
+    """Minus the inverse Jacobian of the Hertz contact with a/b = `aspect`, into `layer`."""
+    n = scratch.shape[1]
+    B, A = _hertz(aspect, scratch, centre, plane)
+    ln_a, jacobian, r, before = scratch[1, 0], scratch[3], scratch[4, 0], scratch[4, 1]
+    for k in range((n + 1) // 2):
+        step = _END_DIFFERENCE * 0.5 * (1.0 - on_circle(1, n)[0]) if k == 0 else _DIFFERENCE
+        for side in range(-1, 2, 2):
+            move = side * step
+            if k == 0:
+                _residual(-1.0 - 2.0 * move, 1.0, scratch, B, A, centre, plane, r)
+            else:
+                kept = ln_a[k]
+                ln_a[k] = kept + move
+                _residual(-1.0, 1.0, scratch, B, A, centre, plane, r)
+                ln_a[k] = kept
+            if side < 0:
+                for i in range(n):
+                    before[i] = r[i]
+        for i in range(n):
+            jacobian[i, k] = -(r[i] - before[i]) / (2.0 * step)
+            jacobian[n - 1 - i, n - 1 - k] = jacobian[i, k]
+    lu, one, other = scratch[0], scratch[4, 0], scratch[4, 1]
+    for k in range(0, n, 2):
+        for i in range(n):
+            one[i], other[i] = 0.0, 0.0
+            for j in range(n):
+                lu[i, j] = jacobian[i, j]
+        one[k], other[min(k + 1, n - 1)] = 1.0, 1.0
+        eliminate(lu, n, one, other)
+        for i in range(n):
+            layer[i, k] = one[i]
+            layer[i, min(k + 1, n - 1)] = other[i]
+    for i in range(n):  # mirror images to the last bit
+        for k in range((n + 1) // 2):
+            mean = 0.5 * (layer[i, k] + layer[n - 1 - i, n - 1 - k])
+            layer[i, k] = layer[n - 1 - i, n - 1 - k] = mean
+
+
+@kernel
+def fill_descent(centre, plane, scratch, descent):
+    """Fill the inverse Jacobians; `scratch` has five layers of the same shape or more, which are overwritten."""
+    if descent.shape[1] < FEWEST:
+        return
+    for m in range(N_LAYERS):
+        _fill_layer(math.exp(_LOW + m * _STEP), scratch, centre, plane, descent[m])
+
+
+@kernel
+def has_one_run(n, pressures):
+    """Whether no strip without pressure lies between loaded ones."""
+    runs = 0
+    for i in range(n):
+        if pressures[i] > 0.0 and (i == 0 or pressures[i - 1] <= 0.0):
+            runs += 1
+    return runs == 1
+
+
+@kernel
+def _prescribe(low, high, t, moves, held, out):
+    """Change `out` so that ends which are held make their moves, over the width, and half lengths go with them."""
+    n = low.shape[0]
+    last = n - 1
+    aa, ab = (1.0 - t) * low[0, 0] + t * high[0, 0], (1.0 - t) * low[0, last] + t * high[0, last]
+    ba, bb = (1.0 - t) * low[last, 0] + t * high[last, 0], (1.0 - t) * low[last, last] + t * high[last, last]
+    miss_low, miss_high = moves[0] - out[0], moves[1] - out[last]
+    one, other = 0.0, 0.0
+    if held[0] and held[1]:
+        determinant = aa * bb - ab * ba
+        one, other = (bb * miss_low - ab * miss_high) / determinant, (aa * miss_high - ba * miss_low) / determinant
+    elif held[0]:
+        one = miss_low / aa
+    else:
+        other = miss_high / bb
+    for i in range(n):
+        out[i] += one * ((1.0 - t) * low[i, 0] + t * high[i, 0]) + other * (
+            (1.0 - t) * low[i, last] + t * high[i, last]
+        )
+
+
+@kernel
+def descend(n, width, descent, vectors):
+    """Turn the residuals Vector.R of a single panel into steps: times the inverse Jacobian of the Hertz contact with its a/b.
+
+    The entries of the end strips are the moves of the ends. Ends that move far do so as their rule says.
+    """
+    r, out = vectors[Vector.Q1], vectors[Vector.R]
+    last = n - 1
+    longest = 0.0
+    for i in range(n):
+        longest = max(longest, vectors[Vector.A, i])
+        r[i] = out[i]
+    u = (math.log(longest / (0.5 * width)) - _LOW) * (1.0 / _STEP)
+    u = u if u > 0.0 else 0.0  # so written, no NaN becomes an index
+    u = min(u, N_LAYERS - 1.000001)
+    m = int(u)
+    t = u - m
+    move_low, move_high = -r[0] / width, r[last] / width
+    hold_low, hold_high = abs(move_low) > _HOLD, abs(move_high) > _HOLD
+    r[0], r[last] = 0.0 if hold_low else move_low, 0.0 if hold_high else move_high
+    low, high = descent[m], descent[m + 1]
+    for i in range(n):
+        one, other = 0.0, 0.0
+        for j in range(n):
+            one += low[i, j] * r[j]
+            other += high[i, j] * r[j]
+        out[i] = (1.0 - t) * one + t * other
+    if hold_low or hold_high:
+        _prescribe(low, high, t, (move_low, move_high), (hold_low, hold_high), out)
+    out[0] *= -width
+    out[last] *= width
