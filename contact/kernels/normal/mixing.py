@@ -9,11 +9,11 @@ _END_WEIGHT = 1.0
 
 @kernel
 def mix(n, n_panels, panels, vectors, load, known, gram):
-    """Next step of half lengths and ends, into Vector.STEP: Anderson's mixing over the last `DEPTH` of the `known` steps, weighted with strip loads.
+    """Next step of half lengths and ends, into Vector.STEP: Anderson's mixing over the last `DEPTH` of the `known` steps.
 
-    The end strips' entries of the residual Vector.R and of the steps stand for the ends of their panel. Steps and changes of the
-    residual are kept in rings of rows. Returns what the mixing leaves: of the half lengths' residual the weighted mean, or of the
-    ends' the largest over the width, whichever is more.
+    Weighted with strip loads. The end strips' entries of the residual Vector.R and of the steps stand for the ends of their
+    panel. Steps and changes of the residual are kept in rings of rows. Returns what the mixing leaves: of the half lengths'
+    residual the weighted mean, or of the ends' the largest over the width, whichever is more.
     """
     total = n * n_panels
     if known > 0:

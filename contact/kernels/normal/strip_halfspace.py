@@ -6,7 +6,8 @@ Hertz's ellipse satisfies both exactly for every aspect ratio. Strips are cosine
 strips for every patch of the start solution; all panels interact. No second derivative of the profile enters.
 
 Beyond strip_halfspace.md: half lengths and ends are mixed together; ends follow their rule for a dozen iterations and then
-stand still, and the active set ends the patch inside them (nearly flat and rough gaps: 12 → 1.2 % not converged).
+stand still, and the active set ends the patch inside them (nearly flat and rough gaps: 12 → 1.2 % not converged). The best
+iterate since then is kept, which halves the rest. A single panel steps by the Jacobian of the ellipse with its a/b (`descent`).
 """
 
 import math
@@ -130,7 +131,7 @@ def strip_halfspace(sep, case, own, result):
     """Solve the normal problem; same answers as `analyn`, which gives the start and the local aspect ratios.
 
     A filled `space.memory` is the start instead of ANALYN's patch; it is left filled for the next call. With the status
-    NOT_CONVERGED the answer is the last iterate if that was nearly at rest, and ANALYN's otherwise.
+    NOT_CONVERGED the answer is the best iterate if that was nearly at rest, and ANALYN's otherwise.
     """
     y, xc = sep.y, sep.x_c
     rule, space, strips = own.rule, own.space, own.strips

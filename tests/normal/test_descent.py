@@ -1,0 +1,91 @@
+"""Steps of the strip half space by the Jacobians of ellipses, the elimination, and the displacement outside the panels."""
+
+import math
+
+import numpy as np
+import pytest
+
+from contact import workspace
+from contact.kernels.layout import N_VECTOR_ROWS, Vector
+from contact.kernels.normal import influence
+from contact.kernels.normal.descent import FEWEST, MOST, N_LAYERS, descend, has_one_run
+from contact.kernels.normal.elimination import eliminate
+from contact.kernels.normal.panels import _is_overlapped, _summarise
+
+
+@pytest.mark.parametrize("m", [1, 2, 5, 14, 16, 31])
+def test_elimination_solves_both_sides(m):
+    rng = np.random.default_rng(1)
+    matrix = rng.random((m, m)) + m * np.eye(m)
+    first, second = rng.random(m), rng.random(m)
+    expected = np.linalg.solve(matrix, np.stack((first, second), axis=1))
+    eliminate(matrix.copy(), m, first, second)
+    np.testing.assert_allclose(np.stack((first, second), axis=1), expected, rtol=1e-10)
+
+
+@pytest.mark.parametrize("n", [FEWEST, 16, MOST])
+def test_jacobians_are_their_own_mirror_images(n):
+    layers = workspace.rule(n, 10, True).descent
+    assert len(layers) == N_LAYERS
+    assert np.isfinite(layers).all()
+    np.testing.assert_array_equal(layers, layers[:, ::-1, ::-1])
+
+
+@pytest.mark.parametrize("n", [FEWEST - 1, MOST + 1])
+def test_few_and_many_strips_do_without_jacobians(n):
+    assert workspace.rule(n, 10, True).descent.size == 1
+
+
+@pytest.mark.parametrize("move", [0.01, 0.2])
+def test_mirrored_residuals_have_mirrored_steps(move):
+    n = 16
+    rng = np.random.default_rng(2)
+    steps = []
+    residuals = rng.normal(0, 0.01, n)
+    residuals[0], residuals[-1] = -move, 0.001
+    for side in (1, -1):
+        vectors = np.zeros((N_VECTOR_ROWS, n))
+        vectors[Vector.A] = 1.5
+        vectors[Vector.R] = residuals[::side]
+        if side < 0:  # the entries of the end strips are moves along y
+            vectors[Vector.R, [0, -1]] *= -1
+        descend(n, 1.0, workspace.rule(n, 10, True).descent, vectors)
+        steps.append(vectors[Vector.R].copy())
+    steps[1][[0, -1]] *= -1
+    np.testing.assert_allclose(steps[0], steps[1][::-1], rtol=1e-12, atol=1e-15)
+    if move > 0.1:  # a far move is as the rule says
+        assert steps[0][0] == pytest.approx(-move)
+
+
+@pytest.mark.parametrize(("pressures", "one"), [([0, 1, 1, 0], True), ([1, 0, 1, 1], False), ([1, 1, 1, 1], True)])
+def test_runs_of_loaded_strips(pressures, one):
+    assert has_one_run(4, np.array(pressures, dtype=float)) == one
+
+
+def _two_panels(n):
+    """Panels from -1 to 1 and from 4 to 5 with elliptic pressures."""
+    cosines = -np.cos(np.arange(n + 1) * math.pi / n)
+    vectors = np.zeros((N_VECTOR_ROWS, 2 * n))
+    for first, centre, half in ((0, 0.0, 1.0), (n, 4.5, 0.5)):
+        middles = 0.5 * (cosines[:-1] + cosines[1:])
+        own = slice(first, first + n)
+        vectors[Vector.Y, own], vectors[Vector.HALF, own] = centre + half * middles, 0.5 * half * np.diff(cosines)
+        vectors[Vector.A, own] = vectors[Vector.P, own] = half * np.sqrt(1 - middles**2)
+    return vectors
+
+
+@pytest.mark.parametrize("at", [-2.0, -1.001, 1.2, 2.5, 3.9, 5.01, 9.0])
+def test_overlap_outside_the_panels_is_that_of_the_displacement(at):
+    n, centre = 12, workspace.strip_tables()[0]
+    vectors = _two_panels(n)
+    _summarise(n, 2, vectors, 1.0)
+    away = np.abs(at - vectors[Vector.Y])
+    u = 0.0
+    for y, h, a, p in zip(away, vectors[Vector.HALF], vectors[Vector.A], vectors[Vector.P], strict=True):
+        u += (
+            p
+            * a
+            * (influence.at_centre(centre, math.log((y + h) / a)) - influence.at_centre(centre, math.log((y - h) / a)))
+        )
+    assert _is_overlapped(at, u * (1 + 1e-9), n, 2, vectors, centre, 1.0)
+    assert not _is_overlapped(at, u * (1 - 1e-9), n, 2, vectors, centre, 1.0)
