@@ -186,7 +186,8 @@ def cut_idle(n, n_panels, panels, cosines, vectors):
 @kernel
 def _summarise(n, n_panels, vectors, unit):
     """Reach and spread of strips and of whole panels."""
-    for first in range(0, n * n_panels, n):
+    for p in range(n_panels):
+        first = p * n
         load, moment, square = 0.0, 0.0, 0.0
         for j in range(first, first + n):
             a, h, at = vectors[Vector.A, j], vectors[Vector.HALF, j], vectors[Vector.Y, j]
@@ -206,7 +207,8 @@ def _is_overlapped(at, allowed, n, n_panels, vectors, centre, unit):
     more than the load does, and is cheap.
     """
     u = 0.0
-    for first in range(0, n * n_panels, n):
+    for p in range(n_panels):
+        first = p * n
         away = at - vectors[Vector.MIDDLE_OF_PANEL, first]
         u += vectors[Vector.REACH_OF_PANEL, first] / math.sqrt(away * away + vectors[Vector.SPREAD_OF_PANEL, first])
     if allowed <= u:
