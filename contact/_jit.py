@@ -125,9 +125,12 @@ def compiled_for(dispatcher: Any, *arguments: Any) -> Callable[..., Any]:
 
 
 def chosen_by(stub: Callable[..., Any], kernels: Mapping[type, Any]) -> None:
-    """Let compiled calls of `stub` run the kernel that belongs to the type of its first argument, a marker of `families`."""
+    """Let compiled calls of `stub` run the kernel that belongs to the type of its first argument, a marker.
+
+    Several calls for one stub add up.
+    """
     functions = {marker: chosen.py_func for marker, chosen in kernels.items()}
 
     @overload(stub, jit_options=_OPTIONS, strict=False, inline="always")
     def _choose(family, *arguments):
-        return functions[family.instance_class]
+        return functions.get(family.instance_class)
