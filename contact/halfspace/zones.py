@@ -9,13 +9,15 @@ OUTSIDE, STICK, SLIP = 0.0, 1.0, 2.0
 
 
 @kernel
-def linearise(q, s, bound, rho, zone, tangent, stiffness, correction, rhs):
+def linearise(q, s, bound, rho, zone, step, stiffness):
     """Set up Newton's step for q = projection of q - s/rho on the disc of radius `bound`; return the squared residual.
 
     With z = q - s/rho: an element sticks where |z| <= bound; the step shall bring s there to zero. Elsewhere it slips against
     n = -z/|z|: `correction` brings q onto the circle, and the rest of the step, along `tangent`, turns it so that the slip
-    has no part along the tangent; `stiffness` = rho (|z|/bound - 1) is slip over bound at the solution.
+    has no part along the tangent; `stiffness` = rho (|z|/bound - 1) is slip over bound at the solution. `step` (3, 2, ny, nx)
+    holds tangent, correction and the right-hand side.
     """
+    tangent, correction, rhs = step[0], step[1], step[2]
     total = 0.0
     for i in range(bound.shape[0]):
         for j in range(bound.shape[1]):
