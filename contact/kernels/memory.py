@@ -107,6 +107,16 @@ class Space(NamedTuple):
     case: Array
 
 
+class Arrays(NamedTuple):
+    """The arrays of a workspace. Their types are the same for all methods, so a method is compiled once."""
+
+    rule: Rule
+    tables: Tables
+    space: Space
+    strips: Array
+    fields: Array
+
+
 class Workspace(NamedTuple):
     """Everything that `pipeline.solve_case` needs besides the problem. `families` chooses the kernels, by its type."""
 

@@ -7,7 +7,7 @@ from contact.kernels import cubic, families
 from contact.kernels.conformal import bend, project
 from contact.kernels.friction import of_bodies, of_case, over_profile
 from contact.kernels.layout import Element, Field, Status, Strip, Tangential, TangentialFamily
-from contact.kernels.memory import Samples
+from contact.kernels.memory import Arrays, Samples
 from contact.kernels.normal.press import fill_cut, press, share_of
 from contact.kernels.tangential.creep_force import creep_force
 from contact.kernels.tangential.ellipses import Part, end_of_patch, place_in_load, stiffness_of
@@ -166,7 +166,7 @@ chosen_by(
 
 
 @inlined
-def _roll(n, case, own, result):
+def _roll(family, n, case, own, result):
     """Solve the tangential problem patch by patch, with the friction and the creep stiffness of the surface."""
     own.space.case[0] = case
     surface = own.space.case[0]
@@ -177,14 +177,14 @@ def _roll(n, case, own, result):
         share, x, y = place_in_load(own.strips, n, first, last)
         part = Part(first, last, share * result.N, x, y)
         surface.G = stiffness_of(part, case, surface.mu * part.N, own)
-        _roll_by(own.families.tangential, part, surface, own, result)
+        _roll_by(family, part, surface, own, result)
         first = last
 
 
 @inlined
-def press_case(sep, case, own, result):
+def press_case(family, sep, case, own, result):
     """The first half of `solve_case`: the normal problem, and the creepages and the bound with which each strip rolls."""
-    n = press(sep, case, own, result)
+    n = press(family, sep, case, own, result)
     if n == 0:
         return 0
 
@@ -212,10 +212,10 @@ def press_case(sep, case, own, result):
 
 
 @inlined
-def roll_case(n, case, own, result):
+def roll_case(family, n, case, own, result):
     """The second half of `solve_case`: the tangential problem of `n` > 0 strips."""
     strips = own.strips
-    _roll(n, case, own, result)
+    _roll(family, n, case, own, result)
     if result.limited != 0 and _bears_pressure(case):
         _bear(strips, n, case, own.rule.elements, own.fields, result)
     if not abs(result.Fx) + abs(result.Fy) + abs(result.Mz) + result.N < math.inf:
@@ -241,13 +241,14 @@ def solve_case(sep, cases, own, results):
         A case on a bent surface (`case.conformal`) or with a limit of the pressure needs all rows.
     """
     case, result = cases[0], results[0]
-    n = press_case(sep, case, own, result)
+    arrays = Arrays(own.rule, own.tables, own.space, own.strips, own.fields)
+    n = press_case(own.families.normal, sep, case, arrays, result)
     if n == 0:
         return 0
     bent = case.conformal != 0 and case.tangential_family != TangentialFamily.CREEP_FORCE
     if bent:
         bend(sep, case, own.strips, n)
-    roll_case(n, case, own, result)
+    roll_case(own.families.tangential, n, case, arrays, result)
     if bent:
         project(own.strips, n, own.fields, result)
     return n

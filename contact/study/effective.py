@@ -98,7 +98,7 @@ class OneEllipse:
         size = _RESOLUTION, _RESOLUTION, s.y.size
         own = workspace.allocate(normal, lookup("tangential", "fastrip"), material.poisson_ratio, size, fields=False)
         self.result = np.zeros(1, RESULT)[0]
-        self.n = press_case(s.samples, case[0], own, self.result)
+        self.n = press_case(own.families.normal, s.samples, case[0], own, self.result)
         a, b = equivalent_ellipse(own.strips, 0, self.n)
         self.centres = elastic_centre(own.strips, 0, self.n, own.tables.kalker, math.log(a / b))
         self.case, self.own, self.strips, self.area = case[0], own, own.strips.copy(), float(self.result.area)

@@ -88,7 +88,10 @@ def settle(mode: int, amount: float, space: Search) -> int:
     if end - start < 3:
         return NoAnswer.NO_OVERLAP.value
     z0 = touch(space.line, start, end)
-    if mode == Height.PENETRATION or amount <= 0.0:
+    if amount <= 0.0:  # no load, no depth: no patch, not even one of round-off
+        motion.z = z0 + amount
+        return 0
+    if mode == Height.PENETRATION:
         return _describe_at(z0 + amount, first, start, end, space)
     target = amount ** (2.0 / 3.0)
     low, high, f_low, f_high = 0.0, math.inf, -target, 0.0

@@ -113,14 +113,14 @@ def _cut_load(strips, n, limit):
 
 
 @inlined
-def _solve_elastic(sep, case, own, result):
+def _solve_elastic(family, sep, case, own, result):
     """As `_elastic`, from a cleared result."""
     clear(result)
-    return _elastic(own.families.normal, sep, case, own, result)
+    return _elastic(family, sep, case, own, result)
 
 
 @kernel
-def _find_elastic_load(load, n, sep, case, own, result):
+def _find_elastic_load(family, load, n, sep, case, own, result):
     """Raise the elastic load of `case` until its cut pressure carries `load`, by a bracketed secant; return the strip count."""
     limit = case.pressure_limit
     before, cut_before, low, high = 0.0, 0.0, 0.0, math.inf
@@ -137,7 +137,7 @@ def _find_elastic_load(load, n, sep, case, own, result):
             new = 0.5 * (low + high) if high < math.inf else 2.0 * now
         before, cut_before, now = now, cut, min(new, 4.0 * now)
         case.amount = now
-        n = _solve_elastic(sep, case, own, result)
+        n = _solve_elastic(family, sep, case, own, result)
         cut = _cut_load(own.strips, n, limit)
     if result.status == Status.OK:
         result.status = Status.NOT_CONVERGED
@@ -145,12 +145,14 @@ def _find_elastic_load(load, n, sep, case, own, result):
 
 
 @kernel
-def press(sep, case, own, result):
-    """Solve the normal problem; return the strip count. The strips hold the elastic pressure, uncut, `result` what is left.
+def press(family, sep, case, own, result):
+    """Solve the normal problem by the kernel of the marker `family`; return the strip count.
+
+    The strips hold the elastic pressure, uncut, `result` what is left.
 
     Where it is cut the load that was asked for, or at an approach what the cut leaves, is in `result.N`.
     """
-    n = _solve_elastic(sep, case, own, result)
+    n = _solve_elastic(family, sep, case, own, result)
     strips, limit, top = own.strips, case.pressure_limit, 0.0
     for i in range(n):
         top = max(top, strips[Strip.P0, i])
@@ -160,16 +162,16 @@ def press(sep, case, own, result):
     trial = own.space.case[0]  # the elastic problem whose cut pressure answers
     by_load = case.load_kind == LoadKind.LOAD
     if by_load:
-        n = _find_elastic_load(case.amount, n, sep, trial, own, result)
+        n = _find_elastic_load(family, case.amount, n, sep, trial, own, result)
     elastic_N, approach, status = trial.amount, result.approach, result.status
     cut = _cut_load(strips, n, limit)
     # the slope of the cut load, from a step in the approach; then back
     coarse = case.normal_family == NormalFamily.STRIP_HALFSPACE
     step = (_COARSE_DIFFERENCE if coarse else _DIFFERENCE) * (approach - result.touch)
     trial.load_kind, trial.amount = LoadKind.APPROACH, approach + step
-    further = _cut_load(strips, _solve_elastic(sep, trial, own, result), limit)
+    further = _cut_load(strips, _solve_elastic(family, sep, trial, own, result), limit)
     trial.load_kind, trial.amount = case.load_kind, elastic_N
-    n = _solve_elastic(sep, trial, own, result)
+    n = _solve_elastic(family, sep, trial, own, result)
     result.status = max(status, result.status)
     result.stiffness = max(further - cut, 0.0) / step
     result.N = case.amount if by_load else cut
