@@ -62,7 +62,7 @@ def test_a_law_without_fields_shows_what_it_has(tmp_path):
     assert "T-gamma" in table
     assert "Archard" not in table
     refused = call("patch", "--tangential", "polach", "--out", tmp_path / "patch.png", code=2)
-    assert "'polach' gives forces alone" in " ".join(refused.stderr.split())
+    assert "'polach' gives forces only" in " ".join(refused.stderr.split())
 
 
 def test_solve_on_rails_gives_the_numbers_of_the_geometry_and_the_solver():

@@ -215,8 +215,8 @@ def test_arguments_of_another_type_are_named(arguments, message, way):
     ("arguments", "message"),
     [
         ({"normal": "analin"}, "normal = 'analin' is not a registered method, did you mean 'analyn'"),
-        ({"normal": "halfspace"}, "normal = 'halfspace' is not offered here, but by contact.solve"),
-        ({"tangential": "fastsim_knothe"}, "tangential = 'fastsim_knothe' is not offered here, but by contact.solve"),
+        ({"normal": "halfspace"}, "normal = 'halfspace' is not offered here, only by contact.solve"),
+        ({"tangential": "fastsim_knothe"}, "tangential = 'fastsim_knothe' is not offered here, only by contact.solve"),
         ({"n_strips": 3}, r"n_strips = 3 is not an integer in the allowed range \[4, 1000\]"),
         ({"n_elements": 1e2}, r"n_elements = 100.0 is not an integer in the allowed range \[4, 1000\]"),
         ({"n_samples": 2}, r"n_samples = 2 is outside the allowed range \[3, inf\["),
