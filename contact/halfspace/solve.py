@@ -134,11 +134,12 @@ def _roll(
     speed: float,
     progress: Callable[[int, float], None] | None,
 ) -> tuple[Tangential, float]:
-    """TANG with a law of friction; the solution and the coefficient that nowhere is exceeded.
+    """Return the solution by TANG with a friction law, and the largest coefficient of friction [-].
 
-    Where it follows the local slip velocity or the temperature, each step solves with the coefficients of the slip before,
-    from stick on; of what a law wants only a share is taken over, as several solutions and oscillation between them are
-    possible. The temperature along the rows is that by the friction that it leaves (`heat`), for a given slip.
+    If friction depends on the local slip velocity or the temperature, TANG is solved repeatedly, each time with the
+    coefficients from the previous slip. The first solution has the full coefficient. Only a share of each change is applied,
+    because several solutions and oscillation between them are possible. For a given slip, the temperature is that of the
+    reduced friction (`heat`).
     """
     surface = np.zeros(1, CASE)
     set_surface(surface, friction, speed)
