@@ -134,7 +134,7 @@ def test_no_contact_draws_nothing_and_says_so(tmp_path):
             "the rail in the file 'some.prr' is taken as it lies",
         ),
         (("conicity", "--amplitude", "3"), "amplitudes = 3 is outside the allowed range [0.0001, 0.02]"),
-        (("conicity", "--left-radius", "0.4"), "of one sign on average"),
+        (("conicity", "--left-radius", "0.4"), "has the same sign"),
         (("geometry", "--gauge", "1435"), "gauge = 1435 is outside"),
         (("solve", "--load", "1", "--penetration", "1e-5"), "exclude each other"),
         (("solve", "--y", "1.0"), "pose.y = 1"),
