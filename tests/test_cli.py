@@ -121,9 +121,9 @@ def test_no_contact_draws_nothing_and_says_so(tmp_path):
         (("solve", "--curvatures", "0", "1"), "A = 0 is outside the allowed range ]0, inf["),
         (
             ("solve", "--curvatures", "1", "1", "--wheel", "s1002", "--y", "0"),
-            "--wheel, --y: --curvatures stands in place of wheel, rail and position",
+            "--wheel, --y: --curvatures replaces wheel, rail and position",
         ),
-        (("compare", "--curvatures", "1", "1", "--smoothing", "2e-6"), "--smoothing: --curvatures stands in place"),
+        (("compare", "--curvatures", "1", "1", "--smoothing", "2e-6"), "--smoothing: --curvatures replaces"),
         (("solve", "--normal", "magic"), "normal = 'magic' is not a registered method"),
         (("solve", "--wheel", "round"), "wheel = 'round' is no profile of the standards; they are S1002, 1/40"),
         (("solve", "--wheel", "S1003"), "wheel = 'S1003' is no profile of the standards, did you mean 'S1002'"),
