@@ -72,7 +72,7 @@ def test_forces_alone_have_no_stick_area():
     assert found.rows[1].adhesion_area > 0.0
     assert next(csv.DictReader(io.StringIO(found.csv())))["adhesion_area"] == ""
     titles = [ax.get_title(loc="left") for ax in found.figure().subfigs[0].axes]
-    assert sum("forces alone" in title for title in titles) == 1
+    assert sum("forces only" in title for title in titles) == 1
 
 
 def test_pairs_go_by_name():
