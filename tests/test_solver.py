@@ -222,7 +222,7 @@ def test_arguments_of_another_type_are_named(arguments, message, way):
         ({"n_samples": 2}, r"n_samples = 2 is outside the allowed range \[3, inf\["),
         ({"friction": "dry"}, "friction = 'dry' is not a number"),
         ({"speed": -1.0}, r"speed = -1 is outside the allowed range \]0, inf\["),
-        ({"tangential": "polach", "conformal": True}, "conformal: tangential = 'polach' knows the contact plane"),
+        ({"tangential": "polach", "conformal": True}, "conformal: tangential = 'polach' is only for a plane contact"),
     ],
 )
 def test_bad_preparation_is_named_with_its_range(arguments, message):
