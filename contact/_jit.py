@@ -127,9 +127,12 @@ def compiled_for(dispatcher: Any, *arguments: Any) -> Callable[..., Any]:
 
 
 def chosen_by(stub: Callable[..., Any], kernels: Mapping[type, Any]) -> None:
-    """Make compiled calls of `stub` run the kernel for the type of its first argument, a marker of `families`."""
+    """Make compiled calls of `stub` run the kernel for the type of its first argument, a marker.
+
+    Several calls of this function for one stub add their kernels.
+    """
     functions = {marker: chosen.py_func for marker, chosen in kernels.items()}
 
     @overload(stub, jit_options=_OPTIONS, strict=False, inline="always")
     def _choose(family, *arguments):
-        return functions[family.instance_class]
+        return functions.get(family.instance_class)

@@ -10,8 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact._jit import kernel
 from contact.errors import ContactError
+from contact.kernels import cubic
+from contact.kernels.cubic import locate, slopes
 from contact.kernels.layout import MAX_PATCHES
-from contact.kernels.normal.lay import cubic, find_patches, least_point, locate, slopes
+from contact.kernels.normal.lay import find_patches, least_point
 from contact.separation import Separation
 
 Array = NDArray[np.float64]
@@ -103,7 +105,7 @@ def _sample(y, g, m, at, out):
     for i in range(at.size):
         k = locate(y, y.size, at[i], k)
         h = y[k + 1] - y[k]
-        out[i] = cubic(h, g[k], m[k], g[k + 1], m[k + 1], (at[i] - y[k]) / h)
+        out[i] = cubic.value(h, g[k], m[k], g[k + 1], m[k + 1], (at[i] - y[k]) / h)
 
 
 def _rows(separation: Separation, y: Array) -> tuple[Array, Array, Array]:

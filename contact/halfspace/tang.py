@@ -164,7 +164,8 @@ class _Rolling:
         self._inverse = h.yy / determinant, h.xx / determinant, -h.xy / determinant
         self._fade(0.0)
         self.zone, self._stiffness = np.empty_like(bound), np.empty_like(bound)
-        self._tangent, self._correction, self._rhs = (np.empty_like(w) for _ in range(3))
+        self._step = np.empty((3, *w.shape))
+        self._tangent, self._correction, self._rhs = self._step
         self._scale = math.sqrt(float(np.einsum("ij,ij->", bound, bound)))
 
     def _fade(self, per_metre: float) -> None:
@@ -206,17 +207,7 @@ class _Rolling:
         """Return the last iterate of Newton's iteration from `q`, and its residual."""
         rho = _STIFFER * self._own
         for step in range(MAX_NEWTON + 1):
-            square = zones.linearise(
-                q,
-                self.slip(q, w),
-                self.bound,
-                rho,
-                self.zone,
-                self._tangent,
-                self._stiffness,
-                self._correction,
-                self._rhs,
-            )
+            square = zones.linearise(q, self.slip(q, w), self.bound, rho, self.zone, self._step, self._stiffness)
             residual = math.sqrt(square) / self._scale
             if self.progress is not None:
                 self.progress(self.iterations, residual)

@@ -9,13 +9,15 @@ OUTSIDE, STICK, SLIP = 0.0, 1.0, 2.0
 
 
 @kernel
-def linearise(q, s, bound, rho, zone, tangent, stiffness, correction, rhs):
+def linearise(q, s, bound, rho, zone, step, stiffness):
     """Set up the Newton step for q = projection of q - s/rho on the disc of radius `bound`. Return the squared residual.
 
     Let z = q - s/rho. An element with |z| <= bound sticks, and the step has to make its s zero. All others slip, against
     the direction z/|z|: `correction` moves q onto the circle, and the rest of the step, along `tangent`, turns q until the
-    slip has no component along the tangent. `stiffness` = rho (|z|/bound - 1) is slip over bound at the solution.
+    slip has no component along the tangent. `stiffness` = rho (|z|/bound - 1) is slip over bound at the solution. `step`,
+    shape (3, 2, ny, nx), holds tangent, correction and right-hand side.
     """
+    tangent, correction, rhs = step[0], step[1], step[2]
     total = 0.0
     for i in range(bound.shape[0]):
         for j in range(bound.shape[1]):

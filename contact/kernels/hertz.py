@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from contact._jit import kernel
+from contact.kernels.cubic import basis
 
 
 def _elliptic_integrals(g: float) -> tuple[float, float, float, float]:
@@ -100,8 +101,7 @@ def local_factors(A: float, B: float) -> tuple[float, float, float, float]:
     u = min(u, 2.0 * _U_MAX / _U_STEP - 1e-9) if u > 0.0 else 0.0  # no number, from gaps that overflow, counts as 0
     i = int(u)
     t = u - i
-    w = 1.0 - t
-    h00, h10, h01, h11 = (1.0 + 2.0 * t) * w * w, t * w * w, t * t * (3.0 - 2.0 * t), -t * t * w
+    h00, h10, h01, h11 = basis(t)
     p, q = _TABLE[i], _TABLE[i + 1]
     one_alpha = h00 * p[0] + h10 * p[4] + h01 * q[0] + h11 * q[4]
     one_beta = h00 * p[1] + h10 * p[5] + h01 * q[1] + h11 * q[5]

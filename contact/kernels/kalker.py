@@ -3,6 +3,7 @@
 import math
 
 from contact._jit import kernel
+from contact.kernels.cubic import basis
 
 #: Range of ln(a/b) covered; the aspect ratio is clamped to [1/50, 50] beyond it.
 LOG_ASPECT_MAX = math.log(50.0)
@@ -37,8 +38,7 @@ def coefficients(table, log_aspect):
     u = (min(max(log_aspect, -LOG_ASPECT_MAX), LOG_ASPECT_MAX) + LOG_ASPECT_MAX) / _STEP
     i = min(int(u), N_TABLE - 2)
     t = u - i
-    w = 1.0 - t
-    h00, h10, h01, h11 = (1.0 + 2.0 * t) * w * w, t * w * w, t * t * (3.0 - 2.0 * t), -t * t * w
+    h00, h10, h01, h11 = basis(t)
     p, q = table[i], table[i + 1]
     c11 = h00 * p[0] + h10 * p[4] + h01 * q[0] + h11 * q[4]
     c22 = h00 * p[1] + h10 * p[5] + h01 * q[1] + h11 * q[5]

@@ -3,12 +3,11 @@
 import math
 
 from contact._jit import chosen_by, inlined, kernel
-from contact.kernels import families
+from contact.kernels import cubic, families
 from contact.kernels.conformal import bend, project
 from contact.kernels.friction import of_bodies, of_case, over_profile
 from contact.kernels.layout import Element, Field, Status, Strip, Tangential, TangentialFamily
 from contact.kernels.memory import Samples
-from contact.kernels.normal.lay import interval_minimum
 from contact.kernels.normal.press import fill_cut, press, share_of
 from contact.kernels.tangential.creep_force import creep_force
 from contact.kernels.tangential.ellipses import Part, end_of_patch, place_in_load, stiffness_of
@@ -45,7 +44,7 @@ def peak_pressure(strips, n):
             before, here = here, _square_slope(strips, i + 1, first, last)
             if before > 0.0 > here:
                 h = strips[Strip.Y, i + 1] - strips[Strip.Y, i]
-                _, least = interval_minimum(h, -square, -before, -(strips[Strip.P0, i + 1] ** 2), -here)
+                _, least = cubic.least(h, -square, -before, -(strips[Strip.P0, i + 1] ** 2), -here)
                 top = max(top, -least)
         first = last + 1
     return math.sqrt(top)

@@ -7,7 +7,8 @@ u = (y - y0) c + (z - z0) s; the height along its normal, from the wheel into th
 import math
 
 from contact._jit import kernel
-from contact.kernels.geometry.curve import Array, advance, at, least
+from contact.kernels.cubic import interior_minimum
+from contact.kernels.geometry.curve import Array, advance, at
 from contact.kernels.layout import Curve
 
 Frame = tuple[float, float, float, float]
@@ -108,8 +109,8 @@ def normal_gap(wheel: Array, n_wheel: int, rail: Array, n_rail: int, low: float,
             and wheel[Curve.Y, j + 1] > low
         ):
             h = wheel[Curve.Y, j + 1] - wheel[Curve.Y, j]
-            t, g = least(
-                wheel[Curve.GAP, j], wheel[Curve.GAP, j + 1], wheel[Curve.OPENING, j], wheel[Curve.OPENING, j + 1], h
+            t, g = interior_minimum(
+                h, wheel[Curve.GAP, j], wheel[Curve.OPENING, j], wheel[Curve.GAP, j + 1], wheel[Curve.OPENING, j + 1]
             )
             if low <= wheel[Curve.Y, j] + t * h <= high and t > 0.0:
                 lowest = min(lowest, g)

@@ -6,7 +6,8 @@ A profile is an array with the rows y, z [m] and the angle of the tangent [rad],
 import math
 
 from contact._jit import kernel
-from contact.kernels.geometry.curve import Array, Record, hermite, least
+from contact.kernels import cubic
+from contact.kernels.geometry.curve import Array, Record
 from contact.kernels.layout import Curve
 
 #: Steeper parts of the profiles take no part in the search, whatever roll is allowed on top [rad].
@@ -80,7 +81,7 @@ def rail_origin(rail: Array, gauge: float, gauge_point: float) -> tuple[float, f
             math.tan(rail[Curve.ANGLE, i]),
             math.tan(rail[Curve.ANGLE, i + 1]),
         )
-        t, z = least(rail[Curve.Z, i], rail[Curve.Z, i + 1], m0, m1, h)
+        t, z = cubic.interior_minimum(h, rail[Curve.Z, i], m0, rail[Curve.Z, i + 1], m1)
         top = min(top, z) if t > 0.0 else top
     deepest, i = -math.inf, highest
     for j in range(highest, -1, -1):
@@ -92,7 +93,7 @@ def rail_origin(rail: Array, gauge: float, gauge_point: float) -> tuple[float, f
         return 0.0, 0.0, deepest
     h = rail[Curve.Z, i + 1] - rail[Curve.Z, i]  # the gauge face is steep: y is interpolated over z there
     cot0, cot1 = 1.0 / math.tan(rail[Curve.ANGLE, i]), 1.0 / math.tan(rail[Curve.ANGLE, i + 1])
-    y = hermite(rail[Curve.Y, i], rail[Curve.Y, i + 1], cot0, cot1, h, (top + gauge_point - rail[Curve.Z, i]) / h)[0]
+    y = cubic.value(h, rail[Curve.Y, i], cot0, rail[Curve.Y, i + 1], cot1, (top + gauge_point - rail[Curve.Z, i]) / h)
     return 0.5 * gauge - y, -top, deepest
 
 

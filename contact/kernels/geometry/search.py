@@ -8,7 +8,8 @@ can lie nowhere else (Wang's trace line, theory.md 9.4). With it the search is o
 import math
 
 from contact._jit import kernel
-from contact.kernels.geometry.curve import Array, Record, advance, at, hermite, least, root
+from contact.kernels import cubic
+from contact.kernels.geometry.curve import Array, Record, advance, at
 from contact.kernels.layout import MAX_LOBES, Curve
 
 _COINCIDENT = 1e-9  # [m]
@@ -115,8 +116,8 @@ def touch(line: Array, start: int, end: int) -> float:
         lowest = min(lowest, line[Curve.GAP, j + 1])
         if line[Curve.OPENING, j] < 0.0 < line[Curve.OPENING, j + 1]:
             h = line[Curve.Y, j + 1] - line[Curve.Y, j]
-            t, g = least(
-                line[Curve.GAP, j], line[Curve.GAP, j + 1], line[Curve.OPENING, j], line[Curve.OPENING, j + 1], h
+            t, g = cubic.interior_minimum(
+                h, line[Curve.GAP, j], line[Curve.OPENING, j], line[Curve.GAP, j + 1], line[Curve.OPENING, j + 1]
             )
             if t > 0.0:
                 lowest = min(lowest, g)
@@ -127,15 +128,12 @@ def touch(line: Array, start: int, end: int) -> float:
 def _weigh(line: Array, j: int, z: float, t0: float, t1: float, lobe: Record, k: int) -> None:
     """Add segment j between t0 and t1 to the moments of lobe k, by three Gauss points."""
     h = line[Curve.Y, j + 1] - line[Curve.Y, j]
+    g0, m0 = line[Curve.GAP, j], line[Curve.OPENING, j]
+    g1, m1 = line[Curve.GAP, j + 1], line[Curve.OPENING, j + 1]
     for i in range(3):
         t = 0.5 * (t0 + t1) + (i - 1) * (t1 - t0) * _GAUSS_T
         share = (4.0 / 9.0 if i == 1 else 5.0 / 18.0) * (t1 - t0) * h
-        g = (
-            hermite(
-                line[Curve.GAP, j], line[Curve.GAP, j + 1], line[Curve.OPENING, j], line[Curve.OPENING, j + 1], h, t
-            )[0]
-            - z
-        )
+        g = cubic.value(h, g0, m0, g1, m1, t) - z
         weight = share * g * g * math.sqrt(max(-g, 0.0))
         wheel = line[Curve.SLOPE, j] + t * (line[Curve.SLOPE, j + 1] - line[Curve.SLOPE, j])
         slope = wheel + line[Curve.OPENING, j] + t * (line[Curve.OPENING, j + 1] - line[Curve.OPENING, j])
@@ -163,14 +161,15 @@ def lobes(line: Array, start: int, end: int, z: float, lobe: Record) -> int:
         if g0 >= 0.0 and g1 >= 0.0:
             if not m0 < 0.0 < m1:
                 continue
-            t, g = least(g0, g1, m0, m1, h)
+            t, g = cubic.interior_minimum(h, g0, m0, g1, m1)
             if t < 0.0 or g >= 0.0:
                 continue
-            t0, t1 = root(g0, g1, m0, m1, h, 0.0, t), root(g0, g1, m0, m1, h, t, 1.0)
+            t0 = cubic.crossing(h, g0, m0, g1, m1, 0.0, 0.0, t)
+            t1 = cubic.crossing(h, g0, m0, g1, m1, 0.0, t, 1.0)
         elif g0 >= 0.0:
-            t0 = root(g0, g1, m0, m1, h, 0.0, 1.0)
+            t0 = cubic.crossing(h, g0, m0, g1, m1, 0.0, 0.0, 1.0)
         elif g1 >= 0.0:
-            t1 = root(g0, g1, m0, m1, h, 0.0, 1.0)
+            t1 = cubic.crossing(h, g0, m0, g1, m1, 0.0, 0.0, 1.0)
         if not inside:
             if k == MAX_LOBES - 1:
                 return MAX_LOBES

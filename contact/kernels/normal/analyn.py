@@ -17,9 +17,11 @@ and floored (theory.md 3.3), and the deformation beta·g of a flank never falls 
 import math
 
 from contact._jit import kernel
+from contact.kernels import cubic
+from contact.kernels.cubic import locate, slopes
 from contact.kernels.hertz import local_factors
 from contact.kernels.layout import LoadKind, Sample, Status, Strip
-from contact.kernels.normal.lay import at_end, cubic, find_patches, lay_strips, least_point, locate, slopes
+from contact.kernels.normal.lay import at_end, find_patches, lay_strips, least_point
 
 #: Half base of the second difference that gives B(y) [m]: a triangular average of g'' with standard deviation 1 mm.
 CURVATURE_HALF_BASE = 2.45e-3
@@ -67,13 +69,13 @@ def lateral_curvature(y, g, m, n, i, below, above):
     if centre != y[i]:
         k = locate(y, n, centre, 0)
         h = y[k + 1] - y[k]
-        middle = cubic(h, g[k], m[k], g[k + 1], m[k + 1], (centre - y[k]) / h)
+        middle = cubic.value(h, g[k], m[k], g[k + 1], m[k + 1], (centre - y[k]) / h)
     below = locate(y, n, centre - base, below)
     h = y[below + 1] - y[below]
-    left = cubic(h, g[below], m[below], g[below + 1], m[below + 1], (centre - base - y[below]) / h)
+    left = cubic.value(h, g[below], m[below], g[below + 1], m[below + 1], (centre - base - y[below]) / h)
     above = locate(y, n, centre + base, above)
     h = y[above + 1] - y[above]
-    right = cubic(h, g[above], m[above], g[above + 1], m[above + 1], (centre + base - y[above]) / h)
+    right = cubic.value(h, g[above], m[above], g[above + 1], m[above + 1], (centre + base - y[above]) / h)
     return 0.5 * (left - 2.0 * middle + right) / (base * base), below, above
 
 
@@ -111,7 +113,7 @@ def prepare(y, g, A, n, g_least, work):
         k = locate(y, n, at, k)
         h = y[k + 1] - y[k]
         t = (at - y[k]) / h if h > 0.0 else 0.0
-        gaps[j] = cubic(h, g[k], work[Sample.GAP_SLOPE, k], g[k + 1], work[Sample.GAP_SLOPE, k + 1], t)
+        gaps[j] = cubic.value(h, g[k], work[Sample.GAP_SLOPE, k], g[k + 1], work[Sample.GAP_SLOPE, k + 1], t)
         curvatures[j] = (1.0 - t) * A[k] + t * A[k + 1]
     # no overflow, nor 0·inf, where the samples lie closer than numbers can tell
     scale, per_step = 0.5 / max((apart * step) ** 2, 1e-300), 1.0 / max(step, 1e-300)
@@ -222,7 +224,7 @@ def load_at(y, n, delta, modulus, across, work, edges):
             h = y[k + 1] - y[k]
             t = (at - y[k]) / h
             share = half * weights[i] / ((1.0 - t) * nr[k] + t * nr[k + 1])
-            N += max(delta - cubic(h, G[k], m[k], G[k + 1], m[k + 1], t), 0.0) * share
+            N += max(delta - cubic.value(h, G[k], m[k], G[k + 1], m[k + 1], t), 0.0) * share
             stiffness += share
     return modulus * N, modulus * stiffness
 
@@ -241,7 +243,7 @@ def fill_strips(sep, delta, modulus, across, work, edges, strips):
         k = locate(y, n, at, k)
         h = y[k + 1] - y[k]
         t = (at - y[k]) / h
-        d = max(delta - cubic(h, G[k], m[k], G[k + 1], m[k + 1], t), 0.0)
+        d = max(delta - cubic.value(h, G[k], m[k], G[k + 1], m[k + 1], t), 0.0)
         nr = (1.0 - t) * work[Sample.NR, k] + t * work[Sample.NR, k + 1]
         stretched = (1.0 - t) * work[Sample.STRETCHED_A, k] + t * work[Sample.STRETCHED_A, k + 1]
         a = math.sqrt(d / stretched)

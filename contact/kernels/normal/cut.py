@@ -8,9 +8,11 @@ length a = √((delta - G)/S); a constant share eps is G = g/eps, S = A/eps: A a
 import math
 
 from contact._jit import kernel
+from contact.kernels import cubic
+from contact.kernels.cubic import locate, slopes
 from contact.kernels.layout import Sample, Strip
 from contact.kernels.normal.influence import centre_slope
-from contact.kernels.normal.lay import at_end, cubic, find_patches, lay_strips, locate, slopes
+from contact.kernels.normal.lay import at_end, find_patches, lay_strips
 
 
 @kernel
@@ -40,7 +42,7 @@ def cut(sep, level, across, work, strips, edges):
         k = locate(y, n, at, k)
         h = y[k + 1] - y[k]
         t = (at - y[k]) / h
-        depth = max(level - cubic(h, G[k], m[k], G[k + 1], m[k + 1], t), 0.0)
+        depth = max(level - cubic.value(h, G[k], m[k], G[k + 1], m[k + 1], t), 0.0)
         strips[Strip.A, i] = math.sqrt(depth / ((1.0 - t) * S[k] + t * S[k + 1]))
         strips[Strip.P0, i] = depth
         strips[Strip.XC, i] = (1.0 - t) * xc[k] + t * xc[k + 1]

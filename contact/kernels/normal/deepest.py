@@ -4,10 +4,11 @@ import math
 from typing import NamedTuple
 
 from contact._jit import kernel
+from contact.kernels.cubic import locate, slopes
 from contact.kernels.hertz import local_factors
 from contact.kernels.layout import Sample
 from contact.kernels.normal.analyn import floored, lateral_curvature
-from contact.kernels.normal.lay import least_point, locate, slopes
+from contact.kernels.normal.lay import least_point
 
 
 class Deepest(NamedTuple):

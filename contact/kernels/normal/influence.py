@@ -11,6 +11,7 @@ import math
 import numpy as np
 
 from contact._jit import kernel
+from contact.kernels import cubic
 from contact.kernels.hertz import elliptic_integrals
 
 _LN_T_MIN, _LN_T_MAX = math.log(1e-5), math.log(1e5)
@@ -109,10 +110,8 @@ def at_centre(centre, log_t):
     if u >= _N_CENTRE - 1:
         return centre[_N_CENTRE - 1, 0] + 0.5 * math.pi * (log_t - _LN_T_MAX)
     i = int(u)
-    v = u - i
-    w = 1.0 - v
     p, q = centre[i], centre[i + 1]
-    return w * w * ((1.0 + 2.0 * v) * p[0] + v * p[1]) + v * v * ((1.0 + 2.0 * w) * q[0] - w * q[1])
+    return cubic.value(1.0, p[0], p[1], q[0], q[1], u - i)
 
 
 @kernel

@@ -17,10 +17,11 @@ contact elsewhere is not seen.
 import math
 
 from contact._jit import kernel
+from contact.kernels.cubic import slopes
 from contact.kernels.hertz import local_factors
 from contact.kernels.layout import Sample
 from contact.kernels.normal.analyn import floored
-from contact.kernels.normal.lay import find_patches, slopes
+from contact.kernels.normal.lay import find_patches
 
 
 @kernel

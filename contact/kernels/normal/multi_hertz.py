@@ -19,10 +19,10 @@ import math
 import numpy as np
 
 from contact._jit import kernel
+from contact.kernels.cubic import locate, slopes
 from contact.kernels.hertz import local_factors
 from contact.kernels.layout import MAX_PATCHES, Sample, Strip
 from contact.kernels.normal.analyn import floored, lateral_curvature
-from contact.kernels.normal.lay import locate, slopes
 
 #: A secondary contact with less of the approach than this is none.
 _LEAST_SHARE = 1e-4

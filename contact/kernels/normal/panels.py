@@ -3,9 +3,10 @@
 import math
 
 from contact._jit import kernel
+from contact.kernels import cubic
+from contact.kernels.cubic import locate
 from contact.kernels.layout import MAX_PATCHES, Sample, Strip, Vector
 from contact.kernels.normal.descent import END_LENGTH, END_SLOPE, END_STEP, END_VALUE
-from contact.kernels.normal.lay import locate
 from contact.kernels.normal.strip_system import displacement_outside
 
 _END_RANGE = (-3.0, 20.0)  # of one move outwards before damping, in widths of the end strip
@@ -15,19 +16,6 @@ _PUNCH = 1.0
 NO_PANEL = 1e-5
 #: Overlap outside the panels, over the approach, that counts as missed contact, early and in the end.
 EARLY_GHOST, GHOST = 2e-2, 1e-3
-
-
-@kernel
-def _hermite_integral(h, f0, m0, f1, m1, t):
-    """Integral of the cubic over its interval from 0 to t."""
-    t2 = t * t
-    t3, t4 = t2 * t, t2 * t2
-    return h * (
-        f0 * (t - t3 + 0.5 * t4)
-        + h * m0 * (0.5 * t2 - 2.0 / 3.0 * t3 + 0.25 * t4)
-        + f1 * (t3 - 0.5 * t4)
-        + h * m1 * (0.25 * t4 - t3 / 3.0)
-    )
 
 
 @kernel
@@ -45,7 +33,7 @@ def lay_panels(sep, g_least, panels, n_panels, own):
         k = locate(y, size, low, k)
         middle = k
         h = y[k + 1] - y[k]
-        before = _hermite_integral(h, g[k], m[k], g[k + 1], m[k + 1], (low - y[k]) / h)
+        before = cubic.integral(h, g[k], m[k], g[k + 1], m[k + 1], (low - y[k]) / h)
         for i in range(n):
             row = p * n + i
             high = centre + half * cosines[i + 1]
@@ -56,7 +44,7 @@ def lay_panels(sep, g_least, panels, n_panels, own):
                 integral += h * (0.5 * (g[k] + g[k + 1]) + h / 12.0 * (m[k] - m[k + 1]))
                 k += 1
                 h = y[k + 1] - y[k]
-            before = _hermite_integral(h, g[k], m[k], g[k + 1], m[k + 1], (high - y[k]) / h)
+            before = cubic.integral(h, g[k], m[k], g[k + 1], m[k + 1], (high - y[k]) / h)
             vectors[Vector.GAP, row] = (integral + before) / (high - low) - g_least
             middle = locate(y, size, at, middle)
             t = (at - y[middle]) / (y[middle + 1] - y[middle])

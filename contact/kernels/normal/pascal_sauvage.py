@@ -9,9 +9,9 @@ by way of theory.md 5 ("conserving total force"); how they choose the ratio of t
 import math
 
 from contact._jit import kernel
+from contact.kernels.cubic import locate
 from contact.kernels.hertz import local_factors
 from contact.kernels.layout import Strip
-from contact.kernels.normal.lay import locate
 from contact.kernels.normal.multi_hertz import lay_ellipse
 
 #: ln(B/A) between which the equivalent curvature is sought.

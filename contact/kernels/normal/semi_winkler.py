@@ -19,10 +19,11 @@ Strips carry a semi-ellipse: that of the same length and load as the parabola on
 import math
 
 from contact._jit import kernel
+from contact.kernels.cubic import locate, slopes
 from contact.kernels.layout import Sample, Strip
 from contact.kernels.normal.analyn import floored, lateral_curvature
 from contact.kernels.normal.deepest import unit_load
-from contact.kernels.normal.lay import least_point, locate, slopes
+from contact.kernels.normal.lay import least_point
 
 #: Row of `work` that keeps B(y).
 _B = Sample.SHARE

@@ -13,10 +13,10 @@ iterate since then is kept, which halves the rest. A single panel steps by the J
 import math
 
 from contact._jit import kernel
+from contact.kernels.cubic import locate
 from contact.kernels.layout import MAX_PATCHES, LoadKind, Sample, Status, Strip, Vector
 from contact.kernels.normal.analyn import analyn
 from contact.kernels.normal.descent import descend, has_one_run
-from contact.kernels.normal.lay import locate
 from contact.kernels.normal.mixing import advance, mix
 from contact.kernels.normal.panels import (
     EARLY_GHOST,

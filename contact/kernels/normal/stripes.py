@@ -16,10 +16,10 @@ System Dynamics 43 (2005) 161, by way of the thesis, ch. 7.
 import math
 
 from contact._jit import kernel
+from contact.kernels.cubic import slopes
 from contact.kernels.hertz import local_factors
 from contact.kernels.layout import Sample
 from contact.kernels.normal.analyn import floored, lateral_curvature
-from contact.kernels.normal.lay import slopes
 
 
 @kernel

@@ -18,7 +18,7 @@ from contact.kernels import kalker
 from contact.kernels.layout import Strip
 from contact.kernels.tangential.ellipses import mean_ellipse
 from contact.kernels.tangential.fastsim import NO_FRICTION
-from contact.kernels.tangential.table import EFFECTIVE, interpolated, spin_weight
+from contact.kernels.tangential.table import EFFECTIVE, interpolated, signs, units
 
 
 @kernel
@@ -44,11 +44,11 @@ def set_effective(strips, first, last, case, centre, tables):
     if limit <= NO_FRICTION * G * a * b or (vx == 0.0 and vy == 0.0 and phi == 0.0):
         return
     log_aspect, c = math.log(a / b), math.sqrt(a * b)
-    c11, c22, c23, _ = kalker.coefficients(tables.kalker, log_aspect)
-    unit = G * c * c / limit
-    unit_x, unit_y, unit_spin = c11 * unit, c22 * unit, spin_weight(log_aspect, c11, c22, c23) * c23 * unit * c
+    coefficients = kalker.coefficients(tables.kalker, log_aspect)
+    unit_x, unit_y, unit_z, weight = units(G, c, limit, log_aspect, coefficients)
+    unit_spin = weight * unit_z
     X, Y, spin = unit_x * vx, unit_y * vy, unit_spin * phi
-    sign_x, sign_y = 1.0 if X >= 0.0 else -1.0, 1.0 if Y > 0.0 or (Y == 0.0 and spin >= 0.0) else -1.0
+    sign_x, sign_y = signs(X, Y, spin)
     to_x, to_y, to_spin, exponent = interpolated(
         log_aspect, sign_x * X, sign_y * Y, sign_y * spin, EFFECTIVE, tables.creep
     )

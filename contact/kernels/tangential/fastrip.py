@@ -45,9 +45,9 @@ from contact.kernels.tangential.lanes import (
     keep,
     recall,
 )
-from contact.kernels.tangential.march import FREE_BEHIND_MARCH, ROW_CAME, ROW_START, ROW_X, ROW_Y, ROW_Z, march
+from contact.kernels.tangential.march import FREE_BEHIND_MARCH, ROW_CAME, ROW_START, ROW_X, ROW_Y, ROW_Z, Even, march
 from contact.kernels.tangential.strip_theory import coefficients, inner_resultants, outer_resultants, stick_zone
-from contact.kernels.tangential.varying import begin, soften, varies
+from contact.kernels.tangential.varying import begin_varying, soften, varies
 
 _NOW_SX, _NOW_SY = NOW_SLIP, NOW_SLIDES  # where `_show` leaves the slip velocity
 
@@ -303,9 +303,9 @@ def fastrip(part, case, own, result):
         if case.tangential == Tangential.STRIP_THEORY:
             _keep_direction(lanes, trace)
         else:
-            march(False, elements, lanes, trace)
+            march(Even(False), elements, lanes, trace)
         if varies(case):
-            begin(strips, block, last, case, _BOUND, lanes)
+            begin_varying(strips, block, last, case, _BOUND, lanes)
             _slip_zone(elements, lanes, trace, case, block, last, fields)
         else:
             _slip_zone(elements, lanes, trace, None, block, last, fields)

@@ -14,8 +14,9 @@ on ellipses: on set A the mean error of the force is .0025 of mu N, without them
 """
 
 import math
+from typing import NamedTuple
 
-from contact._jit import kernel
+from contact._jit import chosen_by, kernel
 from contact.kernels import kalker
 from contact.kernels.layout import Element, Field, Strip
 from contact.kernels.tangential.effective import set_effective
@@ -25,7 +26,6 @@ from contact.kernels.tangential.lanes import (
     FALL,
     FAR,
     FLUX,
-    FREE_ROW,
     HEATING,
     LANES,
     N_LANE_ROWS,
@@ -36,23 +36,43 @@ from contact.kernels.tangential.lanes import (
     NOW_Y,
     SLIP,
     decay_and_lag,
-    keep,
     small_exp,
     turned,
 )
 from contact.kernels.tangential.mapping import edge_direction, elastic_centre, mapped, slid_at
-from contact.kernels.tangential.varying import begin, soften, varies
+from contact.kernels.tangential.march import (
+    EX,
+    EY,
+    FREE_BEHIND_MARCH,
+    LEFT,
+    ROW_CAME,
+    ROW_X,
+    ROW_Y,
+    ROW_Z,
+    SLIPS,
+    TRIAL_USED,
+    TRIAL_X,
+    TRIAL_Y,
+    TX,
+    TY,
+    USED,
+    begin,
+    bound_at,
+    height_at,
+    leave,
+    march,
+    slide,
+    slip_at,
+)
+from contact.kernels.tangential.varying import begin_varying, soften, varies
 
 _NOW_SHARE = NOW_STICK  # where `_fall` leaves the share of the traction that friction still bears
 _LOG_ASPECT_FIT = 1.7  # ln(a/b) up to which the constants were fitted; frozen beyond
 
 
-# rows of `lanes`: the strip's constants, its state, its sums over mu p0
+# rows of `lanes` after those of the march: the strip's constants, its sums over mu p0
 (
-    _X,  # rigid slip over flexibility in stick: (X, Y + 2 P s)
-    _Y,
-    _P,
-    _XS,  # in slip, times the stiffness ratio: (XS, YS + 2 SPIN s)
+    _XS,  # rigid slip in slip, times the stiffness ratio: (XS, YS + 2 SPIN s)
     _YS,
     _SPIN,
     _R,  # C22/C11
@@ -60,30 +80,20 @@ _LOG_ASPECT_FIT = 1.7  # ln(a/b) up to which the constants were fitted; frozen b
     _N,  # exponent of the map less 1/2
     _POLE,
     _FROM_EDGE,
-    _TX,
-    _TY,
-    _SLIPS,
-    _USED,  # |u|²
-    _TRIAL_X,  # traction in stick, with its |u|²
-    _TRIAL_Y,
-    _TRIAL_USED,
-    _LEFT,  # share of the step when a strip comes to slide
     _SUM_X,
     _SUM_Y,
     _SUM_M,
     _POWER,
     _STICK,  # length in stick, over a
-    _EX,  # direction of slip
-    _EY,
     _BOUND,  # mu p0
     _UNIT,  # of slip
     _TO_X,  # what effective creepages add to the rigid slip, in that unit: (_TO_X, _TO_Y + _TO_SPIN s)
     _TO_Y,
     _TO_SPIN,
-) = (FREE_ROW + row * LANES for row in range(31))
+) = (FREE_BEHIND_MARCH + row * LANES for row in range(18))
 # what the set-up reads, in rows that the march writes before it reads them
 _HALF, _AT, _XC, _VX, _VY = NOW_X, NOW_Y, NOW_SLIP, NOW_SLIDES, NOW_STICK
-_PHI, _C11, _C22, _C23, _ROOT_ASPECT, _FITTED = _TRIAL_X, _TRIAL_Y, _TRIAL_USED, _SUM_X, _SUM_Y, _SUM_M
+_PHI, _C11, _C22, _C23, _ROOT_ASPECT, _FITTED = TRIAL_X, TRIAL_Y, TRIAL_USED, _SUM_X, _SUM_Y, _SUM_M
 
 
 @kernel
@@ -140,13 +150,13 @@ def _set_block(strips, block, last, case, table, centres, lanes):
         from_edge = 1.0 if used > 1.0 else 0.0
         edges += 1 if used > 1.0 else 0
         pole = P if P < 1.0 else 1.0
-        lanes[_X + l], lanes[_Y + l], lanes[_P + l] = X, Y, P
+        lanes[ROW_X + l], lanes[ROW_Y + l], lanes[ROW_Z + l] = X, Y, 2.0 * P
         lanes[_XS + l], lanes[_YS + l] = stretch * (translation + rotation) * r, stretch * lateral
         lanes[_SPIN + l], lanes[_R + l], lanes[_N + l] = spin, r, n_map
         lanes[_RATE + l] = small_exp(-0.43 + 0.79 * h - 0.54 * t)
         lanes[_POLE + l] = -(pole if pole > -1.0 else -1.0)
-        lanes[_FROM_EDGE + l], lanes[_SLIPS + l], lanes[_USED + l] = from_edge, from_edge, used if used < 1.0 else 1.0
-        lanes[_EX + l], lanes[_EY + l] = 0.0, 0.0
+        lanes[_FROM_EDGE + l], lanes[SLIPS + l], lanes[USED + l] = from_edge, from_edge, used if used < 1.0 else 1.0
+        lanes[EX + l], lanes[EY + l] = 0.0, 0.0
         per_unit, to_phi = stretch * k22, lanes[_TO_SPIN + l]
         lanes[_UNIT + l] = live / (per_unit + (1.0 - live))
         lanes[_TO_X + l] = per_unit * (lanes[_TO_X + l] - to_phi * y)
@@ -155,7 +165,7 @@ def _set_block(strips, block, last, case, table, centres, lanes):
     if edges > 0:
         _set_edges(lanes)
     for l in range(lanes.size // N_LANE_ROWS):
-        lanes[_TX + l], lanes[_TY + l], lanes[_LEFT + l] = 0.0, 0.0, 1.0
+        lanes[TX + l], lanes[TY + l], lanes[LEFT + l], lanes[ROW_CAME + l] = 0.0, 0.0, 1.0, -2.0
         lanes[_SUM_X + l], lanes[_SUM_Y + l], lanes[_SUM_M + l] = 0.0, 0.0, 0.0
         lanes[_POWER + l], lanes[_STICK + l] = 0.0, 0.0
 
@@ -165,89 +175,44 @@ def _set_edges(lanes):
     """Directions of the strips that slip from their leading edge."""
     for l in range(lanes.size // N_LANE_ROWS):
         ex, ey = edge_direction(lanes[_R + l], lanes[_XS + l], lanes[_YS + l] + 2.0 * lanes[_SPIN + l])
-        lanes[_EX + l], lanes[_EY + l] = lanes[_FROM_EDGE + l] * ex, lanes[_FROM_EDGE + l] * ey
+        lanes[EX + l], lanes[EY + l] = lanes[_FROM_EDGE + l] * ex, lanes[_FROM_EDGE + l] * ey
+
+
+class Uneven(NamedTuple):
+    """Two flexibilities in slip, a parabolic bound, and the map onto the elliptic pressure."""
 
 
 @kernel
-def _march(elements, lanes, trace):
-    """Steps 3 and 4: march a block of strips, map and sum; leave traction over mu p, slip, share in stick in `trace`."""
-    s = 1.0
-    for k in range(elements.shape[1]):
-        before, s, step, middle = s, elements[Element.S, k], elements[Element.STEP, k], elements[Element.MIDDLE, k]
-        bound = elements[Element.SINE, k] ** 2
-        per_bound = 1.0 / bound
-        come, slide, stick = 0, 0, 0
-        for l in range(LANES):
-            x = lanes[_TX + l] - step * lanes[_X + l]
-            y = lanes[_TY + l] - step * (lanes[_Y + l] + 2.0 * lanes[_P + l] * middle)
-            used = (x * x + y * y) * per_bound * per_bound
-            lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_TRIAL_USED + l] = x, y, used
-            slide += 1 if lanes[_SLIPS + l] > 0.5 else 0
-            come += 1 if used > 1.0 and lanes[_SLIPS + l] < 0.5 else 0
-        if come > 0:
-            _come_to_slide(lanes)
-        if come + slide > 0:
-            # at the edge the direction is that of the equilibrium
-            stop = _slide(s, step, middle, elements[Element.ATANH, k] if k > 0 else 0.0, bound, lanes)
-            if stop > 0:
-                _stop(before, s, step, per_bound, lanes)
-        else:
-            for l in range(LANES):
-                lanes[_TX + l], lanes[_TY + l] = lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l]
-                lanes[_USED + l] = lanes[_TRIAL_USED + l]
-                lanes[NOW_SLIP + l], lanes[NOW_SLIDES + l], lanes[NOW_STICK + l] = 0.0, 0.0, 1.0
-        for l in range(LANES):
-            stick += 1 if lanes[_SLIPS + l] < 0.5 else 0
-            lanes[NOW_X + l], lanes[NOW_Y + l] = lanes[_EX + l], lanes[_EY + l]
-        if stick > 0:
-            _map(per_bound, lanes)
-        weight = elements[Element.SINE, k] * elements[Element.DX, k]
-        for l in range(LANES):
-            lanes[_SUM_X + l] += weight * lanes[NOW_X + l]
-            lanes[_SUM_Y + l] += weight * lanes[NOW_Y + l]
-            lanes[_SUM_M + l] += weight * s * lanes[NOW_Y + l]
-            lanes[_POWER + l] += weight * lanes[NOW_SLIP + l]
-            lanes[_STICK + l] += step * lanes[NOW_STICK + l]
-        keep(lanes, trace[k])
+def _begin(rule, lanes):
+    pass  # `_set_block` has
 
 
 @kernel
-def _map(per_bound, lanes):
-    """Map the traction of the strips that stick.
-
-    The count of lanes is LANES; unknown to the compiler, which would write out so short a loop instead of using vectors.
-    """
-    for l in range(lanes.size // N_LANE_ROWS):
-        x, y, slides = lanes[_TX + l] * per_bound, lanes[_TY + l] * per_bound, lanes[_SLIPS + l]
-        map_x, map_y = mapped(x, y, lanes[_POLE + l], lanes[_N + l])
-        lanes[NOW_X + l] = map_x + slides * (lanes[_EX + l] - map_x)
-        lanes[NOW_Y + l] = map_y + slides * (lanes[_EY + l] - map_y)
+def _bound_at(rule, k, elements):
+    # at the edge the direction is that of the equilibrium
+    return elements[Element.SINE, k] ** 2, 2.0 * elements[Element.S, k], elements[Element.ATANH, k] if k > 0 else 0.0
 
 
 @kernel
-def _come_to_slide(lanes):
-    """As `march._come_to_slide`."""
-    for l in range(LANES):
-        x, y, used, before = lanes[_TX + l], lanes[_TY + l], lanes[_TRIAL_USED + l], lanes[_USED + l]
-        comes = 1.0 - lanes[_SLIPS + l] if used > 1.0 else 0.0
-        gap = used - before
-        share = (1.0 - before) / (gap if gap > 1e-12 else 1.0)
-        x, y = x + share * (lanes[_TRIAL_X + l] - x), y + share * (lanes[_TRIAL_Y + l] - y)
-        per_size = 1.0 / (math.sqrt(x * x + y * y) + 1e-300)
-        # sums, not choices: the compiler would put roots and divisions behind a branch
-        lanes[_EX + l] += comes * (x * per_size - lanes[_EX + l])
-        lanes[_EY + l] += comes * (y * per_size - lanes[_EY + l])
-        lanes[_LEFT + l] = 1.0 - comes * share
+def _height_at(rule, s):
+    return 1.0 - s * s
 
 
 @kernel
-def _slide(s, step, middle, stretch, bound, lanes):
-    """As `march._slide`, with unequal flexibilities."""
+def _slip_at(rule, s, slope, x, y, lanes, l):
+    Xs, Ys, spin, r = lanes[_XS + l], lanes[_YS + l], lanes[_SPIN + l], lanes[_R + l]
+    return -slope * (r * x * x + y * y) - (Xs * x + (Ys + 2.0 * spin * s) * y)
+
+
+@kernel
+def _slide(rule, place, bound, slope, lanes):
+    """Steps 3 of mapped_strip.md 3: the direction with unequal flexibilities, and the slip that is shown."""
+    s, step, middle, stretch = place
     stop = 0
     for l in range(LANES):
         Xs, Ys, spin, r = lanes[_XS + l], lanes[_YS + l], lanes[_SPIN + l], lanes[_R + l]
-        slid, x, y, left = lanes[_SLIPS + l], lanes[_EX + l], lanes[_EY + l], lanes[_LEFT + l]
-        trial_x, trial_y, used = lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_TRIAL_USED + l]
+        slid, x, y, left = lanes[SLIPS + l], lanes[EX + l], lanes[EY + l], lanes[LEFT + l]
+        trial_x, trial_y, used = lanes[TRIAL_X + l], lanes[TRIAL_Y + l], lanes[TRIAL_USED + l]
         c = -middle * (1.0 - r)
         wx, wy = Xs + c * x, Ys + 2.0 * spin * middle - c * y
         rate = lanes[_RATE + l] * left * stretch / (r * y * y + x * x + 1e-300)
@@ -258,46 +223,61 @@ def _slide(s, step, middle, stretch, bound, lanes):
         wx, wy = Xs + c * x, Ys + 2.0 * spin * at - c * y
         w = math.sqrt(wx * wx + wy * wy) + 1e-300
         ex, ey = turned(x, y, wx, wy, w, rest)
-        slip = -2.0 * s * (r * ex * ex + ey * ey) - (Xs * ex + (Ys + 2.0 * spin * s) * ey)
+        slip = _slip_at(rule, s, slope, ex, ey, lanes, l)
         slides = 1.0 if used > 1.0 else slid
         stop += 1 if slides > 0.5 and slip < 0.0 else 0
         shown = slid_at(s, (ex, ey), r, lanes[_POLE + l], (Xs, Ys, spin), lanes[_FROM_EDGE + l])
-        lanes[_EX + l], lanes[_EY + l] = ex, ey
-        lanes[_TX + l] = bound * ex if slides > 0.5 else trial_x
-        lanes[_TY + l] = bound * ey if slides > 0.5 else trial_y
-        lanes[_SLIPS + l], lanes[_USED + l], lanes[_LEFT + l] = slides, used, 1.0
+        lanes[EX + l], lanes[EY + l] = ex, ey
+        lanes[TX + l] = bound * ex if slides > 0.5 else trial_x
+        lanes[TY + l] = bound * ey if slides > 0.5 else trial_y
+        lanes[SLIPS + l], lanes[USED + l], lanes[LEFT + l] = slides, used, 1.0
         shown += lanes[_TO_X + l] * ex + (lanes[_TO_Y + l] + lanes[_TO_SPIN + l] * s) * ey
         lanes[NOW_SLIP + l], lanes[NOW_SLIDES + l] = 0.5 * (shown + abs(shown)) * slides, slides
         lanes[NOW_STICK + l] = (1.0 - slid) * (1.0 - left) if slides > 0.5 else 1.0
-        lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_TRIAL_USED + l] = x, y, slid
+        lanes[TRIAL_X + l], lanes[TRIAL_Y + l], lanes[TRIAL_USED + l] = x, y, slid
     return stop
 
 
 @kernel
-def _stop(before, s, step, per_bound, lanes):
-    """As `march._stop`, with unequal flexibilities."""
+def _map(per_bound, lanes):
+    """Map the traction of the strips that stick.
+
+    The count of lanes is LANES; unknown to the compiler, which would write out so short a loop instead of using vectors.
+    """
+    for l in range(lanes.size // N_LANE_ROWS):
+        x, y, slides = lanes[TX + l] * per_bound, lanes[TY + l] * per_bound, lanes[SLIPS + l]
+        map_x, map_y = mapped(x, y, lanes[_POLE + l], lanes[_N + l])
+        lanes[NOW_X + l] = map_x + slides * (lanes[EX + l] - map_x)
+        lanes[NOW_Y + l] = map_y + slides * (lanes[EY + l] - map_y)
+
+
+@kernel
+def _leave(rule, s, k, elements, lanes):
+    """Step 4: map the traction where a strip sticks, and sum."""
+    stick = 0
     for l in range(LANES):
-        Xs, Ys, spin, r = lanes[_XS + l], lanes[_YS + l], lanes[_SPIN + l], lanes[_R + l]
-        x, y, ex, ey = lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_EX + l], lanes[_EY + l]
-        slid = lanes[_TRIAL_USED + l]
-        slip_before = -2.0 * before * (r * x * x + y * y) - (Xs * x + (Ys + 2.0 * spin * before) * y)
-        slip = -2.0 * s * (r * ex * ex + ey * ey) - (Xs * ex + (Ys + 2.0 * spin * s) * ey)
-        share = slip_before / (slip_before - slip + 1e-300)
-        share = share if slip_before > 0.0 else 0.0
-        ux, uy = x + share * (ex - x), y + share * (ey - y)
-        at, left = before - share * step, (1.0 - share) * step
-        size = (1.0 - at * at) * (1.5 - 0.5 * (ux * ux + uy * uy))
-        stick_x = size * ux - left * lanes[_X + l]
-        stick_y = size * uy - left * (lanes[_Y + l] + lanes[_P + l] * (at + s))
-        used = (stick_x * stick_x + stick_y * stick_y) * per_bound * per_bound
-        stops = slip < 0.0 and slid > 0.5 and used < 1.0
-        lanes[_TX + l] = stick_x if stops else lanes[_TX + l]
-        lanes[_TY + l] = stick_y if stops else lanes[_TY + l]
-        lanes[_USED + l] = used if stops else lanes[_USED + l]
-        lanes[_SLIPS + l] = 0.0 if stops else lanes[_SLIPS + l]
-        lanes[NOW_SLIP + l] = 0.0 if stops else lanes[NOW_SLIP + l]
-        lanes[NOW_SLIDES + l] = 0.0 if stops else lanes[NOW_SLIDES + l]
-        lanes[NOW_STICK + l] = 1.0 - share if stops else lanes[NOW_STICK + l]
+        stick += 1 if lanes[SLIPS + l] < 0.5 else 0
+        lanes[NOW_X + l], lanes[NOW_Y + l] = lanes[EX + l], lanes[EY + l]
+    if stick > 0:
+        _map(1.0 / elements[Element.SINE, k] ** 2, lanes)
+    step, weight = elements[Element.STEP, k], elements[Element.SINE, k] * elements[Element.DX, k]
+    for l in range(LANES):
+        lanes[_SUM_X + l] += weight * lanes[NOW_X + l]
+        lanes[_SUM_Y + l] += weight * lanes[NOW_Y + l]
+        lanes[_SUM_M + l] += weight * s * lanes[NOW_Y + l]
+        lanes[_POWER + l] += weight * lanes[NOW_SLIP + l]
+        lanes[_STICK + l] += step * lanes[NOW_STICK + l]
+
+
+for _stub, _kernel in (
+    (begin, _begin),
+    (bound_at, _bound_at),
+    (height_at, _height_at),
+    (slide, _slide),
+    (slip_at, _slip_at),
+    (leave, _leave),
+):
+    chosen_by(_stub, {Uneven: _kernel})
 
 
 @kernel
@@ -350,9 +330,9 @@ def roll_patch(first, last, case, centres, own, result):
     falling = varies(case)
     for block in range(first, last, LANES):
         _set_block(strips, block, last, case, own.tables.kalker, centres, lanes)
-        _march(elements, lanes, trace)
+        march(Uneven(), elements, lanes, trace)
         if falling:
-            begin(strips, block, last, case, _BOUND, lanes)
+            begin_varying(strips, block, last, case, _BOUND, lanes)
             _fall(case, elements, lanes, trace)
         for l in range(min(LANES, last - block)):
             i = block + l
@@ -364,7 +344,7 @@ def roll_patch(first, last, case, centres, own, result):
             result.Fy += Fy
             result.Mz += load * a * lanes[_SUM_M + l] + xc * Fy - y * Fx
             result.power += load * lanes[_POWER + l] * unit
-            stick = lanes[_STICK + l] + behind * (1.0 - lanes[_SLIPS + l]) if bound > 0.0 else 0.0
+            stick = lanes[_STICK + l] + behind * (1.0 - lanes[SLIPS + l]) if bound > 0.0 else 0.0
             result.slip_area += max(2.0 - stick, 0.0) * a * dy
         if fields.shape[1] >= last:  # else only forces are asked for
             _write_fields(block, last, elements, falling, lanes, trace, fields)

@@ -34,8 +34,8 @@ from contact.kernels.tangential.lanes import (
     SLIP,
     TRACE_FALL,
 )
-from contact.kernels.tangential.march import FREE_BEHIND_MARCH, ROW_X, ROW_Y, ROW_Z, march
-from contact.kernels.tangential.varying import begin, soften, varies
+from contact.kernels.tangential.march import FREE_BEHIND_MARCH, ROW_X, ROW_Y, ROW_Z, Even, march
+from contact.kernels.tangential.varying import begin_varying, soften, varies
 
 #: A traction bound below this fraction of G is none: creepage over it would overflow.
 NO_FRICTION = 1e-15
@@ -120,9 +120,9 @@ def fastsim(part, case, own, result):
             lanes[ROW_X + l] = scale * (vx / L1 - phi * (strips[Strip.Y, i] - part.y) / L3)
             lanes[ROW_Y + l] = scale * (vy / L2 + phi * (strips[Strip.XC, i] - part.x) / L3)
             lanes[ROW_Z + l] = scale * a * phi / L3
-        march(elliptic, elements, lanes, trace)
+        march(Even(elliptic), elements, lanes, trace)
         if falling:
-            begin(strips, block, part.last, case, _PEAK, lanes)
+            begin_varying(strips, block, part.last, case, _PEAK, lanes)
             _fall(case, elliptic, elements, lanes, trace)
         for l in range(min(LANES, part.last - block)):
             i = block + l

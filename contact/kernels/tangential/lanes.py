@@ -17,8 +17,8 @@ NOW_X, NOW_Y, NOW_SLIP, NOW_SLIDES, NOW_STICK = (row * LANES for row in range(5)
 N_TRACE = 5
 FREE_ROW = N_TRACE * LANES
 
-#: Rows of `lanes`, of which the largest user needs 42; the last six are those of friction that varies along the strips.
-N_LANE_ROWS = 48
+#: Rows of `lanes`, of which the largest user needs 44; the last six are those of friction that varies along the strips.
+N_LANE_ROWS = 50
 SLIP, FLUX, HEATING, SLOWED, WARM, FALL = (row * LANES for row in range(N_LANE_ROWS - 6, N_LANE_ROWS))
 #: Behind what elements leave in `trace`, for such friction: the heat of an element, and its coefficient over that at rest.
 TRACE_HEAT, TRACE_FALL = N_TRACE * LANES, (N_TRACE + 1) * LANES

@@ -1,8 +1,11 @@
-"""FASTSIM's march along a block of strips in normalised form, shared by the FASTSIM methods and FaStrip's direction pass.
+"""The march along a block of strips in normalised form: of FASTSIM's methods, FaStrip's direction pass, mapped FaStrip.
 
 With x = x_c + a s, traction tau and the bound g, parabolic 1 - s² or elliptic √(1 - s²), both divided by the peak of the
 bound, the rigid slip over flexibility is W = (X, Y + Z s): X = a vx/(L1 g0), Y = a vy/(L2 g0), Z = a² phi/(L3 g0)
 (theory.md 2.5; Kalker 1982).
+
+A rule completes the march: what bounds the traction, and how a direction turns in slip. Its type chooses `begin`, `bound_at`,
+`height_at`, `slide`, `slip_at`, `leave`. `Even`, here, is Kalker's with one flexibility in slip; `fastrip_mapped` has another.
 
 Kalker's scaling of the trial traction back onto the bound is of first order in the element length: at 30 elements it left
 0.9 % of mu N under lateral creepage with spin. Here the direction of a sliding particle follows the same equation exactly
@@ -12,8 +15,9 @@ This is of second order and stable at both edges, where the bound vanishes (mapp
 """
 
 import math
+from typing import Any, NamedTuple
 
-from contact._jit import kernel
+from contact._jit import chosen_by, kernel
 from contact.kernels.layout import Element
 from contact.kernels.tangential.lanes import (
     FAR,
@@ -29,68 +33,103 @@ from contact.kernels.tangential.lanes import (
     turned,
 )
 
-# rows of `lanes` that the caller sets (X, Y, Z), that the march leaves (utilisation of the bound at the leading edge, squared,
-# and s of the element where a particle first slides, -2 for nowhere) and that it keeps: traction, 1 in slip, utilisation
-# squared, the trial traction in stick with its utilisation squared, and the share of the step left when a strip comes to slide
-ROW_X, ROW_Y, ROW_Z, ROW_START, ROW_CAME, _TX, _TY, _SLIPS, _USED, _TRIAL_X, _TRIAL_Y, _TRIAL_USED, _LEFT = (
-    FREE_ROW + row * LANES for row in range(13)
-)
-FREE_BEHIND_MARCH = FREE_ROW + 13 * LANES
+# Rows of `lanes`. The caller sets X, Y, Z. The march leaves in START the utilisation of the bound at the leading edge, squared,
+# and in CAME the s of the element where a particle first slides, -2 for nowhere.
+(
+    ROW_X,
+    ROW_Y,
+    ROW_Z,
+    ROW_START,
+    ROW_CAME,
+    TX,  # traction
+    TY,
+    SLIPS,  # 1 in slip
+    USED,  # utilisation of the bound, squared
+    TRIAL_X,  # traction in stick, with its utilisation squared
+    TRIAL_Y,
+    TRIAL_USED,
+    LEFT,  # share of the step left when a strip comes to slide
+    EX,  # direction of the traction in slip
+    EY,
+) = (FREE_ROW + row * LANES for row in range(15))
+FREE_BEHIND_MARCH = FREE_ROW + 15 * LANES
+
+
+class Even(NamedTuple):
+    """One flexibility in slip; the bound is elliptic or parabolic."""
+
+    elliptic: bool
+
+
+def begin(rule: Any, lanes: Any) -> None:
+    """Set the state at the leading edge: TX to LEFT, EX, EY."""
+    raise NotImplementedError
+
+
+def bound_at(rule: Any, k: int, elements: Any) -> tuple[float, float, float]:
+    """Return the bound at element k, its fall over s, and ∫ds/g of the step."""
+    raise NotImplementedError
+
+
+def height_at(rule: Any, s: float) -> float:
+    """Return the bound at s."""
+    raise NotImplementedError
+
+
+def slide(rule: Any, place: Any, bound: float, slope: float, lanes: Any) -> int:
+    """Turn the direction of all strips that slide; the others stick as tried. Return how many slide against their slip.
+
+    `place` holds s, the step to it, its middle and ∫ds/g. Leaves the direction from which they started, and whether they slid,
+    in the rows of the trial.
+    """
+    raise NotImplementedError
+
+
+def slip_at(rule: Any, s: float, slope: float, x: float, y: float, lanes: Any, l: int) -> float:
+    """Return the slip of lane l at s along the direction (x, y), in units of flexibility times the bound's peak over a."""
+    raise NotImplementedError
+
+
+def leave(rule: Any, s: float, k: int, elements: Any, lanes: Any) -> None:
+    """Complete what element k leaves in the rows NOW_X to NOW_STICK."""
+    raise NotImplementedError
 
 
 @kernel
-def march(elliptic, elements, lanes, trace):
+def march(rule, elements, lanes, trace):
     """March from the leading edge; leave traction over the bound and slip at each element in `trace`.
 
     Besides, whether it slides and the share of the step to it in stick. The slip is in units of flexibility times the
-    bound's peak over a. In stick the traction is exact, spin included. The bound is `elliptic` or parabolic.
+    bound's peak over a. In stick the traction is exact, spin included.
     """
-    # at the edge the traction of stick rises |W|/2 times as fast as the parabola; the ellipse is infinitely steep there
-    steepest, start = (math.inf, 0.0) if elliptic else (2.0, 0.25)
-    for l in range(LANES):
-        x, y = lanes[ROW_X + l], lanes[ROW_Y + l] + lanes[ROW_Z + l]
-        size = math.sqrt(x * x + y * y) + 1e-300
-        lanes[_TX + l], lanes[_TY + l], lanes[_LEFT + l] = 0.0, 0.0, 1.0
-        lanes[NOW_X + l], lanes[NOW_Y + l] = -x / size, -y / size
-        lanes[_SLIPS + l] = 1.0 if size > steepest else 0.0
-        lanes[ROW_START + l] = lanes[_USED + l] = start * size * size
-        lanes[ROW_CAME + l] = 1.0 if size > steepest else -2.0
+    begin(rule, lanes)
     s, slope = 1.0, 2.0
     for k in range(elements.shape[1]):
         before, s, step, middle = s, elements[Element.S, k], elements[Element.STEP, k], elements[Element.MIDDLE, k]
-        sine, slope_before = elements[Element.SINE, k], slope
-        bound, slope, stretch = (
-            sine * sine,
-            2.0 * s,
-            min(elements[Element.ATANH, k], FAR),
-        )  # slope: fall of the bound over s
-        if elliptic:
-            bound, slope, stretch = (
-                sine,
-                s / sine,
-                elements[Element.DX, k] / sine if k > 0 else 0.5 * elements[Element.DX, k] / sine,
-            )
+        slope_before = slope
+        bound, slope, stretch = bound_at(rule, k, elements)
         per_bound = 1.0 / bound
-        come, slide = 0, 0
+        come, sliding = 0, 0
         for l in range(LANES):
-            x = lanes[_TX + l] - step * lanes[ROW_X + l]
-            y = lanes[_TY + l] - step * (lanes[ROW_Y + l] + lanes[ROW_Z + l] * middle)
+            x = lanes[TX + l] - step * lanes[ROW_X + l]
+            y = lanes[TY + l] - step * (lanes[ROW_Y + l] + lanes[ROW_Z + l] * middle)
             used = (x * x + y * y) * per_bound * per_bound
-            lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_TRIAL_USED + l] = x, y, used
-            slide += 1 if lanes[_SLIPS + l] > 0.5 else 0
-            come += 1 if used > 1.0 and lanes[_SLIPS + l] < 0.5 else 0
+            lanes[TRIAL_X + l], lanes[TRIAL_Y + l], lanes[TRIAL_USED + l] = x, y, used
+            sliding += 1 if lanes[SLIPS + l] > 0.5 else 0
+            come += 1 if used > 1.0 and lanes[SLIPS + l] < 0.5 else 0
         if come > 0:
             _come_to_slide(s, lanes)
-        if come + slide > 0:
-            stop = _slide(s, step, middle, stretch, bound, slope, lanes)
+        if come + sliding > 0:
+            stop = slide(rule, (s, step, middle, stretch), bound, slope, lanes)
             if stop > 0:
-                _stop(elliptic, before, s, step, per_bound, slope_before, lanes)
+                _stop(rule, (before, s, step), slope_before, slope, bound, lanes)
         else:
             for l in range(LANES):
-                x, y = lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l]
-                lanes[_TX + l], lanes[_TY + l], lanes[_USED + l] = x, y, lanes[_TRIAL_USED + l]
+                x, y = lanes[TRIAL_X + l], lanes[TRIAL_Y + l]
+                lanes[TX + l], lanes[TY + l], lanes[USED + l] = x, y, lanes[TRIAL_USED + l]
                 lanes[NOW_X + l], lanes[NOW_Y + l] = x * per_bound, y * per_bound
                 lanes[NOW_SLIP + l], lanes[NOW_SLIDES + l], lanes[NOW_STICK + l] = 0.0, 0.0, 1.0
+        leave(rule, s, k, elements, lanes)
         keep(lanes, trace[k])
 
 
@@ -98,32 +137,88 @@ def march(elliptic, elements, lanes, trace):
 def _come_to_slide(s, lanes):
     """Where a trial traction passes the bound: its direction there, and the share of the step that is left."""
     for l in range(LANES):
-        x, y, used, before = lanes[_TX + l], lanes[_TY + l], lanes[_TRIAL_USED + l], lanes[_USED + l]
-        comes = 1.0 - lanes[_SLIPS + l] if used > 1.0 else 0.0
+        x, y, used, before = lanes[TX + l], lanes[TY + l], lanes[TRIAL_USED + l], lanes[USED + l]
+        comes = 1.0 - lanes[SLIPS + l] if used > 1.0 else 0.0
         gap = used - before
         share = (1.0 - before) / (gap if gap > 1e-12 else 1.0)
-        x, y = x + share * (lanes[_TRIAL_X + l] - x), y + share * (lanes[_TRIAL_Y + l] - y)
+        x, y = x + share * (lanes[TRIAL_X + l] - x), y + share * (lanes[TRIAL_Y + l] - y)
         per_size = 1.0 / (math.sqrt(x * x + y * y) + 1e-300)
         # sums, not choices: the compiler would put roots and divisions behind a branch
-        lanes[NOW_X + l] += comes * (x * per_size - lanes[NOW_X + l])
-        lanes[NOW_Y + l] += comes * (y * per_size - lanes[NOW_Y + l])
-        lanes[_LEFT + l] = 1.0 - comes * share
+        lanes[EX + l] += comes * (x * per_size - lanes[EX + l])
+        lanes[EY + l] += comes * (y * per_size - lanes[EY + l])
+        lanes[LEFT + l] = 1.0 - comes * share
         came = lanes[ROW_CAME + l]
         lanes[ROW_CAME + l] = s if comes > 0.5 and s > came else came
 
 
 @kernel
-def _slide(s, step, middle, stretch, bound, slope, lanes):
-    """Turn the direction of all strips that slide; the others stick as tried. Return how many slide against their slip.
+def _stop(rule, place, slope_before, slope, bound, lanes):
+    """A particle slides as far as its slip is positive; from there on it sticks, unless the bound is too low for that."""
+    before, s, step = place
+    per_bound = 1.0 / bound
+    for l in range(LANES):
+        x, y, ex, ey = lanes[TRIAL_X + l], lanes[TRIAL_Y + l], lanes[EX + l], lanes[EY + l]
+        slid = lanes[TRIAL_USED + l]
+        slip_before = slip_at(rule, before, slope_before, x, y, lanes, l)
+        slip = slip_at(rule, s, slope, ex, ey, lanes, l)
+        share = slip_before / (slip_before - slip + 1e-300)
+        share = share if slip_before > 0.0 else 0.0
+        ux, uy = x + share * (ex - x), y + share * (ey - y)
+        at, left = before - share * step, (1.0 - share) * step
+        size = height_at(rule, at) * (1.5 - 0.5 * (ux * ux + uy * uy))
+        stick_x = size * ux - left * lanes[ROW_X + l]
+        stick_y = size * uy - left * (lanes[ROW_Y + l] + 0.5 * lanes[ROW_Z + l] * (at + s))
+        used = (stick_x * stick_x + stick_y * stick_y) * per_bound * per_bound
+        stops = slip < 0.0 and slid > 0.5 and used < 1.0
+        shown = lanes[NOW_SLIP + l] if lanes[NOW_SLIP + l] > 0.0 else 0.0
+        lanes[NOW_SLIP + l] = 0.0 if stops else shown
+        lanes[NOW_X + l] = stick_x * per_bound if stops else lanes[NOW_X + l]
+        lanes[NOW_Y + l] = stick_y * per_bound if stops else lanes[NOW_Y + l]
+        lanes[TX + l] = stick_x if stops else lanes[TX + l]
+        lanes[TY + l] = stick_y if stops else lanes[TY + l]
+        lanes[USED + l] = used if stops else lanes[USED + l]
+        lanes[SLIPS + l] = 0.0 if stops else lanes[SLIPS + l]
+        lanes[NOW_SLIDES + l] = 0.0 if stops else lanes[NOW_SLIDES + l]
+        lanes[NOW_STICK + l] = 1.0 - share if stops else lanes[NOW_STICK + l]
 
-    They leave the direction and the length from which they started in the rows of the trial.
-    """
+
+@kernel
+def _begin_even(rule, lanes):
+    # at the edge the traction of stick rises |W|/2 times as fast as the parabola; the ellipse is infinitely steep there
+    steepest, start = (math.inf, 0.0) if rule.elliptic else (2.0, 0.25)
+    for l in range(LANES):
+        x, y = lanes[ROW_X + l], lanes[ROW_Y + l] + lanes[ROW_Z + l]
+        size = math.sqrt(x * x + y * y) + 1e-300
+        lanes[TX + l], lanes[TY + l], lanes[LEFT + l] = 0.0, 0.0, 1.0
+        lanes[EX + l], lanes[EY + l] = -x / size, -y / size
+        lanes[SLIPS + l] = 1.0 if size > steepest else 0.0
+        lanes[ROW_START + l] = lanes[USED + l] = start * size * size
+        lanes[ROW_CAME + l] = 1.0 if size > steepest else -2.0
+
+
+@kernel
+def _bound_even(rule, k, elements):
+    s, sine = elements[Element.S, k], elements[Element.SINE, k]
+    if rule.elliptic:
+        return sine, s / sine, (elements[Element.DX, k] if k > 0 else 0.5 * elements[Element.DX, k]) / sine
+    return sine * sine, 2.0 * s, min(elements[Element.ATANH, k], FAR)
+
+
+@kernel
+def _height_even(rule, s):
+    parabola = 1.0 - s * s
+    return math.sqrt(parabola) if rule.elliptic else parabola
+
+
+@kernel
+def _slide_even(rule, place, bound, slope, lanes):
+    s, step, middle, stretch = place
     per_bound = 1.0 / bound
     stop = 0
     for l in range(LANES):
-        X, Y, Z, slid = lanes[ROW_X + l], lanes[ROW_Y + l], lanes[ROW_Z + l], lanes[_SLIPS + l]
-        x, y, left = lanes[NOW_X + l], lanes[NOW_Y + l], lanes[_LEFT + l]
-        trial_x, trial_y, used = lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_TRIAL_USED + l]
+        X, Y, Z, slid = lanes[ROW_X + l], lanes[ROW_Y + l], lanes[ROW_Z + l], lanes[SLIPS + l]
+        x, y, left = lanes[EX + l], lanes[EY + l], lanes[LEFT + l]
+        trial_x, trial_y, used = lanes[TRIAL_X + l], lanes[TRIAL_Y + l], lanes[TRIAL_USED + l]
         wx, wy = X, Y + Z * middle
         far = left * stretch * math.sqrt(wx * wx + wy * wy)
         rest, lag = decay_and_lag(far if far < FAR else FAR)
@@ -133,45 +228,34 @@ def _slide(s, step, middle, stretch, bound, slope, lanes):
         slip = -(X * ex + (Y + Z * s) * ey) - slope
         slides = 1.0 if used > 1.0 else slid
         stop += 1 if slides > 0.5 and slip < 0.0 else 0
+        lanes[EX + l], lanes[EY + l] = ex, ey
         lanes[NOW_X + l] = ex if slides > 0.5 else trial_x * per_bound
         lanes[NOW_Y + l] = ey if slides > 0.5 else trial_y * per_bound
-        lanes[_TX + l] = bound * ex if slides > 0.5 else trial_x
-        lanes[_TY + l] = bound * ey if slides > 0.5 else trial_y
-        lanes[_SLIPS + l], lanes[_USED + l], lanes[_LEFT + l] = slides, used, 1.0
+        lanes[TX + l] = bound * ex if slides > 0.5 else trial_x
+        lanes[TY + l] = bound * ey if slides > 0.5 else trial_y
+        lanes[SLIPS + l], lanes[USED + l], lanes[LEFT + l] = slides, used, 1.0
         lanes[NOW_SLIP + l], lanes[NOW_SLIDES + l] = slip * slides, slides
         lanes[NOW_STICK + l] = (1.0 - slid) * (1.0 - left) if slides > 0.5 else 1.0
-        lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[_TRIAL_USED + l] = x, y, slid
+        lanes[TRIAL_X + l], lanes[TRIAL_Y + l], lanes[TRIAL_USED + l] = x, y, slid
     return stop
 
 
 @kernel
-def _stop(elliptic, before, s, step, per_bound, slope_before, lanes):
-    """A particle slides as far as its slip is positive; from there on it sticks, unless the bound is too low for that."""
-    for l in range(LANES):
-        X, Y, Z, slid, slip = (
-            lanes[ROW_X + l],
-            lanes[ROW_Y + l],
-            lanes[ROW_Z + l],
-            lanes[_TRIAL_USED + l],
-            lanes[NOW_SLIP + l],
-        )
-        x, y, ex, ey = lanes[_TRIAL_X + l], lanes[_TRIAL_Y + l], lanes[NOW_X + l], lanes[NOW_Y + l]
-        slip_before = -(X * x + (Y + Z * before) * y) - slope_before
-        share = slip_before / (slip_before - slip + 1e-300)
-        share = share if slip_before > 0.0 else 0.0
-        ux, uy = x + share * (ex - x), y + share * (ey - y)
-        at, left = before - share * step, (1.0 - share) * step
-        parabola = 1.0 - at * at
-        size = (math.sqrt(parabola) if elliptic else parabola) * (1.5 - 0.5 * (ux * ux + uy * uy))
-        stick_x, stick_y = size * ux - left * X, size * uy - left * (Y + 0.5 * Z * (at + s))
-        used = (stick_x * stick_x + stick_y * stick_y) * per_bound * per_bound
-        stops = slip < 0.0 and slid > 0.5 and used < 1.0
-        lanes[NOW_SLIP + l] = slip if slip > 0.0 else 0.0
-        lanes[NOW_X + l] = stick_x * per_bound if stops else ex
-        lanes[NOW_Y + l] = stick_y * per_bound if stops else ey
-        lanes[_TX + l] = stick_x if stops else lanes[_TX + l]
-        lanes[_TY + l] = stick_y if stops else lanes[_TY + l]
-        lanes[_USED + l] = used if stops else lanes[_USED + l]
-        lanes[_SLIPS + l] = 0.0 if stops else lanes[_SLIPS + l]
-        lanes[NOW_SLIDES + l] = 0.0 if stops else lanes[NOW_SLIDES + l]
-        lanes[NOW_STICK + l] = 1.0 - share if stops else lanes[NOW_STICK + l]
+def _slip_even(rule, s, slope, x, y, lanes, l):
+    return -(lanes[ROW_X + l] * x + (lanes[ROW_Y + l] + lanes[ROW_Z + l] * s) * y) - slope
+
+
+@kernel
+def _leave_even(rule, s, k, elements, lanes):
+    pass
+
+
+for _stub, _kernel in (
+    (begin, _begin_even),
+    (bound_at, _bound_even),
+    (height_at, _height_even),
+    (slide, _slide_even),
+    (slip_at, _slip_even),
+    (leave, _leave_even),
+):
+    chosen_by(_stub, {Even: _kernel})

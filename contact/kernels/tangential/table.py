@@ -45,6 +45,20 @@ def spin_weight(log_aspect, c11, c22, c23):
 
 
 @kernel
+def units(G, c, limit, log_aspect, coefficients):
+    """Return X/vx, Y/vy, Z/phi and the weight w of Z; `limit` is mu N > 0."""
+    c11, c22, c23, _ = coefficients
+    unit = G * c * c / limit
+    return c11 * unit, c22 * unit, c23 * unit * c, spin_weight(log_aspect, c11, c22, c23)
+
+
+@kernel
+def signs(X, Y, Z):
+    """Return the signs of the two symmetries, with which X and Y, or Z where Y is zero, become 0 or more."""
+    return 1.0 if X >= 0.0 else -1.0, 1.0 if Y > 0.0 or (Y == 0.0 and Z >= 0.0) else -1.0
+
+
+@kernel
 def _weights(t):
     """Cubic convolution between the second and the third of four nodes."""
     return (
@@ -95,14 +109,14 @@ def interpolated(log_aspect, X, Y, spin, first, table):
 def lookup(creepage, G, c, log_aspect, coefficients, limit, table):
     """Fx, Fy, Mz and the share of slip; `limit` is mu N, `table` from `contact.force_table.load`."""
     vx, vy, phi = creepage
-    c11, c22, c23, c33 = coefficients
+    _, c22, c23, c33 = coefficients
     if limit <= 0.0 or (vx == 0.0 and vy == 0.0 and phi == 0.0):
         return 0.0, 0.0, 0.0, 0.0 if limit > 0.0 else 1.0
-    unit = G * c * c / limit
-    X, Y, Z = c11 * unit * vx, c22 * unit * vy, c23 * unit * c * phi
-    sign_x, sign_y = 1.0 if X >= 0.0 else -1.0, 1.0 if Y > 0.0 or (Y == 0.0 and Z >= 0.0) else -1.0
+    unit_x, unit_y, unit_z, weight = units(G, c, limit, log_aspect, coefficients)
+    X, Y, Z = unit_x * vx, unit_y * vy, unit_z * phi
+    sign_x, sign_y = signs(X, Y, Z)
     X, Y, Z = sign_x * X, sign_y * Y, sign_y * Z
-    spin = spin_weight(log_aspect, c11, c22, c23) * Z
+    spin = weight * Z
     Fx, Fy, Mz, slip = interpolated(log_aspect, X, Y, spin, FORCES, table)
     r = math.sqrt(X * X + Y * Y + spin * spin)
     linear = R0 * R0 / ((r + R0) * (r + R0))  # R0 rho (1 - rho) over r

@@ -20,7 +20,7 @@ def varies(case):
 
 
 @kernel
-def begin(strips, block, n, case, bound, lanes):
+def begin_varying(strips, block, n, case, bound, lanes):
     """Set out from the leading edges of the strips from `block` on; `bound` is the row of `lanes` with their peaks of mu p."""
     for l in range(LANES):
         lanes[SLOWED + l] = 1.0
