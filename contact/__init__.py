@@ -1,7 +1,7 @@
 """Wheel-rail contact: non-elliptic patch and pressure (ANALYN), traction, stick and slip (FaStrip), forces and damage.
 
-After M. Sh. Sichani, "On Efficient Modelling of Wheel-Rail Contact in Vehicle Dynamics Simulation", KTH 2016. SI units;
-forces act on the wheel. Start with `solve`.
+The methods follow M. Sh. Sichani, "On Efficient Modelling of Wheel-Rail Contact in Vehicle Dynamics Simulation", KTH
+2016. All quantities are in SI units. Forces act on the wheel. Start with `solve`.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -51,7 +51,7 @@ __version__ = "0.1.0"
 
 
 def __getattr__(name: str) -> Any:
-    """Comparisons are imported when they are asked for: a time step does not need them."""
+    """Import the comparison classes on first access. A simulation does not need them."""
     if name not in ("Case", "Comparison", "compare"):
         raise AttributeError(f"module 'contact' has no attribute {name!r}")
     from contact import study

@@ -1,12 +1,14 @@
-"""The one numba policy of the project, and the cache of compiled kernels.
+"""Numba options of all kernels, and the cache of compiled kernels.
 
 * ``error_model="numpy"``: no exception branches. A kernel prevents a division by zero, it does not catch it.
 * ``nogil=True``: a kernel touches no Python object, so threads of a host run in parallel.
 * No ``fastmath``: results must not depend on the instruction set. The native FMU is compared bit for bit.
-* Compiled kernels are kept on disk. Their cache is keyed by the content of `contact/kernels`, and for a kernel elsewhere also
-  by the content of its own folder. Times of files do not count: another checkout with the same kernels compiles nothing.
+* Compiled kernels are kept on disk. The cache is keyed by the content of `contact/kernels`, and for a kernel elsewhere
+  also by the content of its own folder. Modification times are ignored, so another checkout with the same kernels
+  compiles nothing.
 
-Kernels allocate nothing, raise nothing and take no function argument: one source serves Python, batches and the native FMU.
+Kernels allocate no memory, raise no exception and take no function as argument. One source therefore serves Python,
+batches and the native FMU.
 """
 
 from __future__ import annotations
@@ -32,13 +34,13 @@ from numba.extending import overload
 
 _KERNELS = Path(__file__).parent / "kernels"
 _PREFIX = "wheelrail-contact-"
-#: Caches that nothing has read for this long are removed [s], and all but so many of the latest.
+#: Caches that were not used for this time [s] are removed. At most `_MOST` caches are kept.
 _STALE, _MOST = 30 * 86400.0, 8
 _OPTIONS = {"error_model": "numpy", "nogil": True}
 
 
 def _base() -> Path:
-    """Return the folder of all caches: numba's own choice of the user, or the system's folder for caches."""
+    """Return the folder of all caches: NUMBA_CACHE_DIR if it is set, else the system's cache folder."""
     if config.CACHE_DIR:
         return Path(config.CACHE_DIR)
     if sys.platform == "win32":
@@ -50,7 +52,7 @@ def _base() -> Path:
 
 @cache
 def _fingerprint(folder: Path) -> str:
-    """Return a hash of the kernels' sources and of those in `folder`."""
+    """Return a hash of the sources in `contact/kernels` and in `folder`."""
     content = hashlib.sha256(Path(__file__).read_bytes())
     for root in sorted({_KERNELS, folder}):
         for path in sorted(root.rglob("*.py")):
@@ -60,7 +62,7 @@ def _fingerprint(folder: Path) -> str:
 
 @cache
 def cache_directory(folder: Path) -> Path:
-    """Return the directory of the kernels compiled from exactly these sources; remove stale ones beside it."""
+    """Return the cache directory of the kernels with the present sources. If it is new, remove stale caches."""
     inside = _KERNELS if folder.is_relative_to(_KERNELS) else folder
     path = _base() / (_PREFIX + _fingerprint(inside))
     with contextlib.suppress(OSError):
@@ -72,7 +74,7 @@ def cache_directory(folder: Path) -> Path:
 
 
 def _remove_stale(base: Path) -> None:
-    """Remove caches of sources that have not been used for long."""
+    """Remove caches that were not used for `_STALE` seconds, and all but the `_MOST` latest."""
     caches = sorted(base.glob(_PREFIX + "*"), key=lambda path: path.stat().st_mtime, reverse=True)
     for i, path in enumerate(caches):
         if i >= _MOST or path.stat().st_mtime < time.time() - _STALE:
@@ -92,14 +94,14 @@ class _Locator(UserProvidedCacheLocator):
         return cls(function, file)
 
     def get_source_stamp(self) -> str:
-        return ""  # the directory's name says it
+        return ""  # the directory's name identifies the sources
 
     def get_disambiguator(self) -> str:
         return f"{self._module}-{self._lineno}"
 
 
 class _Implementation(CompileResultCacheImpl):
-    _locator_classes = [_Locator]  # noqa: RUF012 - numba's own shape
+    _locator_classes = [_Locator]  # noqa: RUF012 - numba declares it so
 
 
 class _ContentCache(FunctionCache):
@@ -173,7 +175,7 @@ def _show_to_kernels(dispatcher: Any, function: Callable[..., Any]) -> None:
 
 
 def kernel(function: Callable[..., Any]) -> Any:
-    """Compile `function` under the policy above, once for each set of argument types."""
+    """Compile `function` with the options above, once for each set of argument types."""
     dispatcher = njit(**_OPTIONS, no_cfunc_wrapper=True)(function)
     if not config.DISABLE_JIT:
         _show_to_kernels(dispatcher, function)
@@ -182,23 +184,23 @@ def kernel(function: Callable[..., Any]) -> Any:
 
 
 def inlined(function: Callable[..., Any]) -> Any:
-    """Compile `function` as part of each kernel that calls it: for thin layers, which cost seconds as kernels of their own."""
+    """Compile `function` into each kernel that calls it. For thin functions, which as separate kernels compile for seconds."""
     return njit(**_OPTIONS, inline="always")(function)
 
 
 def compiled_for(dispatcher: Any, *arguments: Any) -> Callable[..., Any]:
-    """Return the machine code of a kernel for arguments of these types, compiled if need be.
+    """Return the machine code of a kernel for arguments of these types; compile it if necessary.
 
-    It saves numba's look-up of the types at each call, which costs 10 µs for a workspace. Arguments of other types must not be
-    given to it: they are not checked.
+    A call of the machine code does not look up the argument types, which takes numba 10 µs for a workspace. The types are
+    not checked either: pass only arguments of the same types.
     """
     return dispatcher.compile(tuple(typeof(argument) for argument in arguments))
 
 
 def chosen_by(stub: Callable[..., Any], kernels: Mapping[type, Any]) -> None:
-    """Let compiled calls of `stub` run the kernel that belongs to the type of its first argument, a marker.
+    """Make compiled calls of `stub` run the kernel for the type of its first argument, a marker.
 
-    Several calls for one stub add up.
+    Several calls of this function for one stub add their kernels.
     """
     functions = {marker: chosen.py_func for marker, chosen in kernels.items()}
 

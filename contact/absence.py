@@ -1,4 +1,4 @@
-"""What a law that gives forces alone leaves out: reading it is an error that says so, instead of zeros."""
+"""Attributes that exist only if the tangential method computes fields. Reading a missing one raises a ContactError."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Class = TypeVar("Class")
 
 
 class _OnlyWithFields:
-    """Attribute of a record that can be read only where its `has_fields` is true."""
+    """Descriptor of an attribute that can be read only if the record's `has_fields` is true."""
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -21,7 +21,7 @@ class _OnlyWithFields:
             return self
         if not record.has_fields:
             raise ContactError(
-                f"there is no {self.name}: tangential = {record.tangential!r} gives forces alone; contact.methods() lists "
+                f"there is no {self.name}: tangential = {record.tangential!r} gives forces only; contact.methods() lists "
                 "the methods with fields"
             )
         if self.name not in record.__dict__:
@@ -33,7 +33,7 @@ class _OnlyWithFields:
 
 
 def only_with_fields(*names: str) -> Callable[[type[Class]], type[Class]]:
-    """Make these attributes of a dataclass raise a ContactError where its `has_fields` is false."""
+    """Return a class decorator: these attributes raise a ContactError if the record's `has_fields` is false."""
 
     def wrap(record: type[Class]) -> type[Class]:
         for name in names:

@@ -1,4 +1,4 @@
-"""The one place that writes what does not change from case to case: methods, material, surface."""
+"""Fill the CASE records with what is common to all cases: methods, material and surface. No other module does this."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Cases = NDArray[np.void]
 
 
 def cases(n: int, normal: Method, tangential: Method, material: Material, *, conformal: bool = False) -> Cases:
-    """Return `n` records CASE for these methods and this material, everything else zero."""
+    """Return `n` CASE records for these methods and this material. All other members are zero."""
     made = np.zeros(n, CASE)
     made["normal"], made["normal_family"] = normal.id, normal.family
     made["tangential"], made["tangential_family"] = tangential.id, tangential.family
@@ -25,7 +25,7 @@ def cases(n: int, normal: Method, tangential: Method, material: Material, *, con
 
 
 def set_surface(made: Cases, friction: Friction, speed: ArrayLike) -> None:
-    """Write friction and rolling speed [m/s] into cases."""
+    """Write friction and rolling speed [m/s] into the case records `made`."""
     for name, value in friction.members().items():
         made[name] = value
     made["speed"] = speed

@@ -1,4 +1,4 @@
-"""How this software and the thesis that it implements are cited."""
+"""BibTeX entries for this software and for the thesis that it implements."""
 
 from __future__ import annotations
 

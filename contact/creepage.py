@@ -6,15 +6,15 @@ from dataclasses import dataclass
 
 from contact.errors import require_number
 
-LARGEST_CREEPAGE = 1e6  # of a creepage [-] and a spin [1/m]: slip beyond any use, and far from where squares overflow
+LARGEST_CREEPAGE = 1e6  # limit of creepages [-] and spin [1/m]: beyond any application, and squares do not overflow
 
 
 @dataclass(frozen=True, slots=True)
 class Creepage:
     """Velocity of the wheel relative to the rail at the origin of the separation, divided by the rolling speed V.
 
-    The rigid slip is (longitudinal - spin·y, lateral + spin·x), thesis Eq. 3.5-3.6; positive creepage gives negative force
-    on the wheel. The frame is x in the rolling direction, y lateral, z along the common normal, right-handed.
+    The rigid slip is (longitudinal - spin·y, lateral + spin·x), thesis Eqs. 3.5-3.6. A positive creepage gives a negative
+    force on the wheel. The frame is right-handed: x in the rolling direction, y lateral, z along the common normal.
 
     Parameters
     ----------

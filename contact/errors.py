@@ -1,4 +1,4 @@
-"""The error of the public API, and the checks that raise it."""
+"""The exception of the public API, and the checks that raise it."""
 
 import math
 from collections.abc import Iterable
@@ -6,21 +6,32 @@ from difflib import get_close_matches
 
 
 class ContactError(ValueError):
-    """Input that the contact problem cannot be posed with; the message names argument, value and allowed range."""
+    """Invalid input. The message names the argument, its value and the allowed range."""
 
 
 def require_number(
     name: str, value: object, minimum: float = -math.inf, maximum: float = math.inf, *, open_minimum: bool = False
 ) -> float:
-    """Return `value` as a finite float within [`minimum`, `maximum`] (or ]`minimum`, …] when `open_minimum`).
+    """Return `value` as a finite float within [`minimum`, `maximum`].
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument, for the message.
+    value : object
+        Value to check. Strings are refused.
+    minimum, maximum : float
+        Allowed range.
+    open_minimum : bool
+        Exclude `minimum` itself.
 
     Raises
     ------
     ContactError
-        If it is no real number, not finite or outside the range.
+        If the value is not a real number, not finite or outside the range.
     """
     try:
-        if isinstance(value, str | bytes):  # float would take "80e3": a form or a table that was not converted
+        if isinstance(value, str | bytes):  # float() would accept "80e3", which the caller forgot to convert
             raise TypeError
         number = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):
@@ -34,7 +45,7 @@ def require_number(
 
 
 def suggestion(word: object, known: Iterable[str]) -> str:
-    """ ", did you mean 'analyn'?" when one of the `known` names is close to `word`, capitals apart; else nothing."""
+    """Return ", did you mean 'analyn'?" if one of the `known` names is close to `word`, else "". Case is ignored."""
     originals = {name.casefold(): name for name in known}
     close = get_close_matches(str(word).casefold(), originals, n=1)
     return f", did you mean {originals[close[0]]!r}?" if close else ""

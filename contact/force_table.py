@@ -1,4 +1,4 @@
-"""The half space's tables of creep forces and of effective creepages, as files and as the array that kernels take."""
+"""Read the half space's tables of creep forces and effective creepages, and make the array that kernels use."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ from contact.kernels.tangential.table import (
 Array = NDArray[np.float64]
 
 
-#: The tables that come with the package, forces and effective creepages; `contact table build` and `effective` make them.
+#: The tables in the package: creep forces (made by `contact table build`) and effective creepages (`table effective`).
 FILE = Path(__file__).parent / "data" / "creep_table.csv"
 EFFECTIVE_FILE = Path(__file__).parent / "data" / "effective_creepage.csv"
 
 
 def nodes() -> tuple[Array, Array, Array, Array]:
-    """ln(a/b), alpha, beta [rad] and rho of the table's nodes."""
+    """Return ln(a/b), alpha [rad], beta [rad] and rho of the table's nodes."""
     return (
         np.linspace(-LOG_ASPECT_MAX, LOG_ASPECT_MAX, N_ASPECT),
         np.linspace(0.0, 0.5 * math.pi, N_ALPHA),
@@ -41,7 +41,7 @@ def nodes() -> tuple[Array, Array, Array, Array]:
 
 
 def rows() -> list[tuple[int, int, int]]:
-    """Numbers of a/b, alpha and beta of the file's rows; spin alone, beta = ±90°, has one alpha."""
+    """Return the indices of a/b, alpha and beta of each row of the file. Pure spin, beta = ±90°, has only one alpha."""
     return [
         (i, j, k) for i in range(N_ASPECT) for k in range(N_BETA) for j in range(1 if k in (0, N_BETA - 1) else N_ALPHA)
     ]
@@ -49,12 +49,12 @@ def rows() -> list[tuple[int, int, int]]:
 
 @functools.cache
 def load(forces: Path = FILE, effective: Path = EFFECTIVE_FILE) -> Array:
-    """Return the array that kernels take, shape SHAPE; read once.
+    """Return the table as the array that kernels use, shape `contact.kernels.tangential.table.SHAPE`. Cached.
 
     Raises
     ------
     ContactError
-        A file that is missing or no table of these nodes.
+        If a file is missing or is not a table on these nodes.
     """
     of_forces, changes = numbers(forces), numbers(effective)
     of_forces[..., :3] -= _linear()
@@ -64,12 +64,12 @@ def load(forces: Path = FILE, effective: Path = EFFECTIVE_FILE) -> Array:
 
 
 def numbers(path: Path) -> Array:
-    """The four numbers of a file on the nodes; nothing at rho = 0.
+    """Return the four numbers of each node from a file, shape (N_ASPECT, N_ALPHA, N_BETA, N_RHO, 4); 0 at rho = 0.
 
     Raises
     ------
     ContactError
-        A file that is missing or no table of these nodes.
+        If the file is missing or is not a table on these nodes.
     """
     try:
         content = np.loadtxt(path, delimiter=",", comments="#")
@@ -80,17 +80,17 @@ def numbers(path: Path) -> Array:
         raise ContactError(f"{path} has {content.shape} numbers; a table of creep forces has {expected}")
     values = np.zeros((N_ASPECT, N_ALPHA, N_BETA, N_RHO, 4))
     for (i, j, k), row in zip(rows(), content, strict=True):
-        own = slice(None) if k in (0, N_BETA - 1) else j
-        values[i, own, k, 1:] = row.reshape(-1, 4)
+        alphas = slice(None) if k in (0, N_BETA - 1) else j
+        values[i, alphas, k, 1:] = row.reshape(-1, 4)
     return values
 
 
 def _linear() -> Array:
-    """R0 rho (1 - rho) times the linear theory's Fx, Fy over mu N and Mz over mu N c, on the nodes."""
+    """Return R0 rho (1 - rho) times linear theory's Fx/(mu N), Fy/(mu N), Mz/(mu N c) at the nodes."""
     log_aspect, alpha, beta, rho = nodes()
     C = np.array([kalker.coefficients(kalker.table(NU), value) for value in log_aspect])
     _, c22, c23, c33 = C.T[:, :, None, None]
-    weight = np.array([spin_weight(u, *own[:3]) for u, own in zip(log_aspect, C, strict=True)])[:, None, None]
+    weight = np.array([spin_weight(u, *row[:3]) for u, row in zip(log_aspect, C, strict=True)])[:, None, None]
     x, y = np.cos(alpha)[:, None] * np.cos(beta), np.sin(alpha)[:, None] * np.cos(beta)
     z = np.sin(beta) / weight
     x = x + 0.0 * z
@@ -99,21 +99,22 @@ def _linear() -> Array:
 
 
 def with_margins(values: Array) -> Array:
-    """One more node on every side: by symmetry in alpha, beta and at rho = 0, by extrapolation elsewhere.
+    """Return `values` with one more node at each end of each axis.
 
-    Changes of the creepages have the symmetries of the forces, the exponent that of the slip.
+    The new nodes follow from symmetry in alpha, in beta and at rho = 0, and from extrapolation elsewhere. Changes of the
+    creepages have the symmetries of the forces; the exponent has that of the slip.
     """
     mirror, turned = np.array([1.0, -1.0, -1.0, 1.0]), np.array([-1.0, 1.0, 1.0, 1.0])
-    # (X, -Y, Z) is the mirror image of (X, Y, -Z); (-X, Y, Z) has the opposite Fx
+    # (X, -Y, Z) is the mirror image of (X, Y, -Z). (-X, Y, Z) has the opposite Fx.
     v = np.concatenate([values[:, 1:2, ::-1] * mirror, values, values[:, -2:-1] * turned], axis=1)
-    opposite = mirror * turned  # beyond spin alone: the creepage turned by 180°
+    opposite = mirror * turned  # beyond pure spin the creepage is turned by 180°
     v = np.concatenate([v[:, :, -2:-1] * opposite, v, v[:, :, 1:2] * opposite], axis=2)
-    at_zero = np.array([1.0, 1.0, 1.0, -1.0])  # forces leave the linear theory with zero slope, slip grows from zero
+    at_zero = np.array([1.0, 1.0, 1.0, -1.0])  # forces minus linear theory are even in rho at 0, slip is odd
     v = np.concatenate([v[:, :, :, 1:2] * at_zero, v, _beyond(v[:, :, :, ::-1], 3)], axis=3)
     return np.concatenate([_beyond(v, 0), v, _beyond(v[::-1], 0)], axis=0)
 
 
 def _beyond(v: Array, axis: int) -> Array:
-    """The node before the first along an axis, on the parabola through the first three."""
+    """Return the node before the first along `axis`, on the parabola through the first three nodes."""
     first, second, third = (v.take([n], axis=axis) for n in range(3))
     return 3.0 * first - 3.0 * second + third

@@ -1,4 +1,4 @@
-"""`contact.forces`: the solver over arrays of cases."""
+"""`contact.forces`: solve arrays of cases."""
 
 from __future__ import annotations
 
@@ -44,29 +44,32 @@ def forces(
     conformal: bool = False,
     threads: int | None = None,
 ) -> Forces:
-    """Solve arrays of cases without a Python loop; the same kernel as `contact.solve`, fields left out.
+    """Return the contact forces of arrays of cases, without a Python loop over the cases.
+
+    The kernel is that of `contact.solve`. Fields over the patch are not returned.
 
     Parameters
     ----------
     separation : Separation or sequence of Separation
         A sequence of length n broadcasts like an array of shape (n,).
     creepage : Creepage or (longitudinal, lateral, spin)
-        Arrays [-], [-], [1/m], broadcast against all other input.
+        Arrays [-], [-], [1/m]. They broadcast with all other arrays.
     load, approach : array_like
-        Exactly one of them: normal force [N] or rigid approach [m].
+        Normal force [N] or rigid approach [m]. Give exactly one of them.
     friction : array_like or contact.friction.Friction
+        Coefficient of friction [-], or a friction law common to all cases.
     speed : array_like
-        Rolling speed [m/s] > 0; forces depend on it only if friction does.
+        Rolling speed [m/s] > 0. Forces depend on it only if the friction does.
     material, normal, tangential, n_strips, n_elements, conformal :
         As in `contact.solve`, common to all cases.
     threads : int
-        Number of threads; the kernels release the GIL. Default: all cores the process may use. The answer does not depend
-        on it.
+        Number of threads; default all cores that the process may use. The kernels release the GIL. The results do not
+        depend on the number of threads.
 
     Returns
     -------
     Forces
-        Nothing is raised for a case that has no trustworthy answer; its `status` says so.
+        Arrays of the broadcast shape. A case without a trustworthy solution raises nothing; see its `status`.
 
     Raises
     ------
@@ -75,7 +78,7 @@ def forces(
     """
     separations = [separation] if isinstance(separation, Separation) else list(separation)
     if not separations or not all(isinstance(s, Separation) for s in separations):
-        raise ContactError("separation holds something else than contact.Separation, or nothing")
+        raise ContactError("separation is empty or holds an object that is not a contact.Separation")
     if isinstance(creepage, Creepage):
         creepage = (creepage.longitudinal, creepage.lateral, creepage.spin)
     if len(creepage) != 3:
@@ -109,8 +112,8 @@ def forces(
     bounds = np.cumsum([0, *(s.y.size for s in separations)])
     samples = Samples(*(np.concatenate(column) for column in zip(*(s.samples for s in separations), strict=True)))
     for array in samples:
-        array.setflags(write=False)  # like a Separation's, so that numba compiles the solver for one signature only
-    which = np.array(which).ravel()  # a copy: numba warns of a broadcast one
+        array.setflags(write=False)  # as in a Separation, so that numba compiles the solver for one signature only
+    which = np.array(which).ravel()  # a copy, because numba warns about a broadcast array
 
     cases = prepared_cases(count, method, rolling, material, conformal=conformal)
     set_surface(cases, surface or Friction(0.0), V.ravel())
@@ -125,10 +128,10 @@ def forces(
 
     def work(chunks: range) -> None:
         size = n_strips, n_elements, longest
-        with_fields = conformal or material.pressure_limit < np.inf  # by which forces are changed
-        own = workspace.allocate(method, rolling, material.poisson_ratio, size, fields=with_fields)
+        with_fields = conformal or material.pressure_limit < np.inf  # both compute the forces from the fields
+        arrays = workspace.allocate(method, rolling, material.poisson_ratio, size, fields=with_fields)
         for first in chunks:
-            solve_cases(first, min(first + _CHUNK, count), samples, bounds, which, cases, own, results)
+            solve_cases(first, min(first + _CHUNK, count), samples, bounds, which, cases, arrays, results)
 
     pieces = min(threads or cores(), -(-count // _CHUNK))
     if pieces <= 1:
@@ -157,12 +160,12 @@ def forces(
 
 
 def cores() -> int:
-    """Number of cores that this process may use."""
+    """Return the number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _checked(name: str, values: ArrayLike | None, minimum: float, maximum: float = np.inf) -> Array:
-    """Return `values` as finite float64 within [minimum, maximum], or name the first that is not."""
+    """Return `values` as a float64 array. Raise a ContactError for the first value outside [minimum, maximum]."""
     try:
         array = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):

@@ -1,4 +1,4 @@
-"""Friction that falls with sliding velocity and temperature, and surfaces softer at small creepage (theory.md 8.1-8.3, 8.5)."""
+"""Friction that falls with sliding velocity and temperature, and reduced creep stiffness (theory.md 8.1-8.3, 8.5)."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from contact.kernels.friction import coefficient, over_profile
 from contact.material import Thermal
 from contact.notebook import table
 
-#: Greatest coefficient [-]: adhesion beyond any use, and far from where squares overflow.
+#: Largest allowed coefficient [-]: beyond any application, and squares do not overflow.
 LARGEST = 1e6
-#: Highest temperature [K], beyond any melt.
+#: Highest allowed temperature [K], above all melting points.
 HOTTEST = 1e5
-#: [K] of the bodies, unless told otherwise.
+#: Default temperature of the bodies [K].
 ROOM_TEMPERATURE = 293.15
-#: Names of the laws; the place is the number by which kernels know a law.
+#: Names of the friction laws. Kernels identify a law by its index here.
 LAWS = ("coulomb", "linear", "rational", "rational_square", "exponential")
-#: Slip velocities that a law may follow; the place is the number by which kernels know them.
+#: Slip velocities that a law may depend on. Kernels identify them by their index here.
 VELOCITIES = ("global", "local", "greatest")
 
-#: Of what is no pure number, for `Friction._repr_html_`.
+#: Units of the parameters that are not dimensionless, for `Friction._repr_html_`.
 _UNITS = {
     "half_speed": "m/s",
     "border": "m",
@@ -41,62 +41,68 @@ _UNITS = {
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Friction:
-    """Friction of a real surface, in place of a constant coefficient.
+    """Friction law of a surface, used instead of a constant coefficient.
 
-    With Δ = static - kinetic and s the slip velocity over `half_speed`, mu = kinetic + Δ f: linear f = max(0, 1 - s/2),
-    rational 1/(1 + s), rational_square 1/(1 + s²), exponential 2^-s. The velocity is
+    The coefficient depends on slip velocity, lateral position on the profile and temperature.
 
-    * `global`: speed·√(longitudinal² + lateral²), so the coefficient is one number for a contact;
-    * `local`: each element's own. Strips stick up to the static coefficient; an element that slips has the coefficient of the
-      slip velocity that it would have under the static one. So the answer is unique and continuous: the velocity under its
-      own coefficient would leave several answers (theory.md 8.1);
-    * `greatest`: the greatest local one of a particle since it entered the patch; what has slipped keeps the lower coefficient
-      until it leaves (Piotrowski 2010), in stick too.
+    Slip velocity: mu = kinetic + Δ f(s), with Δ = static - kinetic and s the slip velocity over `half_speed`. The law f is
+    linear, max(0, 1 - s/2); rational, 1/(1 + s); rational_square, 1/(1 + s²); or exponential, 2^-s. `velocity` selects the
+    slip velocity:
 
-    Whatever the velocity, the coefficient of an element falls with the temperature, linearly, from its full value at
-    `reference_temperature` to `hot_factor` times it a `temperature_range` further on. The temperature is the background's and
-    the flash temperature by the friction that there is, of this and all elements ahead: a causal equation with one
-    answer (theory.md 8.5). No published constants were found (constants.md 8): the values are the user's.
+    * `global`: speed·√(longitudinal² + lateral²). One coefficient holds for the whole contact.
+    * `local`: the slip velocity of each element. Strips stick up to the static coefficient. The coefficient of a slipping
+      element is that of the slip velocity it would have under the static coefficient. The solution is therefore unique and
+      continuous. With the slip velocity under the actual coefficient there can be several solutions (theory.md 8.1).
+    * `greatest`: the largest local slip velocity of a particle since it entered the patch. A particle that has slipped
+      keeps the lower coefficient until it leaves, also in the stick zone (Piotrowski 2010).
 
-    A local coefficient never exceeds the static one. Methods that give forces alone take the global velocity and the bodies'
-    temperature; the element-wise half space iterates on the velocity under its own coefficient.
+    Temperature: the coefficient of an element falls linearly with the temperature, for every choice of `velocity`. It has
+    its full value at `reference_temperature` and `hot_factor` times that value at `reference_temperature` +
+    `temperature_range`. The temperature of an element is the background temperature plus the flash temperature from the
+    friction of this element and all elements ahead of it. This equation is causal and has one solution (theory.md 8.5). No
+    published constants were found (constants.md 8), so the user chooses the values.
 
-    Real surfaces are softer than the half space at small creepage: all creep stiffness is multiplied by
-    k = slope (slope_far + (1 - slope_far)/(1 + slope_rate·eps)), eps Polach's creepage over that of saturation
-    (Spiryagin, Polach and Cole 2013). It takes the place of G in the tangential problem, so the stick zone follows as well.
+    A local coefficient never exceeds the static one. Methods that give forces only use the global velocity and the
+    background temperature. The element-wise half space iterates on the slip velocity under the actual coefficient.
+
+    Creep stiffness: real surfaces are softer than the half space at small creepage. All creep stiffness is multiplied by
+    k = slope (slope_far + (1 - slope_far)/(1 + slope_rate·eps)), with eps Polach's creepage over that of saturation
+    (Spiryagin, Polach and Cole 2013). The factor multiplies G in the tangential problem, so the stick zone changes too.
 
     Parameters
     ----------
     static : float
         Coefficient at rest [-], 0 to 1e6.
     kinetic : float
-        Coefficient in fast sliding [-]; by default as at rest.
+        Coefficient in fast sliding [-]; default `static`.
     half_speed : float
-        Sliding velocity at which half of the difference is gone [m/s], positive.
+        Sliding velocity at which the coefficient is halfway between both [m/s], positive.
     law : str
         One of `LAWS`.
     velocity : str
         One of `VELOCITIES`.
     gauge_factor, border, border_width : float
-        Over the profile: within the gauge side, y < `border` [m], all coefficients are `gauge_factor` (0 to 100) times those
-        on the other side, with a smooth transition over `border_width` [m] around the border. y is the lateral position in
-        the plane of the separation; for `contact.pair` that in the rail's profile, of either side, where the gauge face
-        lies at negative y. A negative width puts the gauge side at y > `border`, as on a left rail; 0 makes a step.
+        Friction over the profile. On the gauge side, y < `border` [m], all coefficients are multiplied by `gauge_factor`
+        (0 to 100). The transition is smooth over `border_width` [m] around the border; 0 makes a step. y is the lateral
+        position in the plane of the separation. For `contact.pair` it is the position in the rail's profile of either
+        side, where the gauge face lies at negative y. A negative width puts the gauge side at y > `border`, as on a left
+        rail.
     slope, slope_far, slope_rate : float
-        k0, α_inf and β; slope in ]0, 1], slope_far in [0, 1], slope_rate not negative. 1, 1, 1: the half space. The
-        published set is .54, .02, .64 (constants.md 7; the source contradicts itself in β: .62).
+        k0, α_inf and β. slope in ]0, 1], slope_far in [0, 1], slope_rate not negative. 1, 1, 1 is the half space. The
+        published values are .54, .02, .64 (constants.md 7; for β the source also has .62).
     k_A, k_S : float
-        Reduction factors of `tangential="polach"` alone, in the area of adhesion and that of slip, each in ]0, 1], k_S not
-        above k_A in his theory. 1, 1: the clean surface; typical of dry rails are 1, .4, of wet ones .3, .1 (Polach 2005,
-        Table 2; constants.md 6, two sources). At vanishing creepage the force is (k_A + k_S)/2 of Kalker's: not to be
-        combined with `slope`, which says the same for every method.
+        Reduction factors in the adhesion and the slip area, each in ]0, 1]; only `tangential="polach"` uses them. In
+        Polach's theory k_S does not exceed k_A. 1, 1 is the clean surface. Typical values are 1, .4 for dry rails and
+        .3, .1 for wet rails (Polach 2005, Table 2; constants.md 6, two sources). At vanishing creepage the force is
+        (k_A + k_S)/2 of Kalker's. Do not combine them with `slope`, which has the same effect for every method.
     hot_factor : float
-        What heat leaves of the coefficient, 0 to 1; 1: friction does not depend on the temperature.
+        Factor on the coefficient when hot, 0 to 1. With 1 the friction does not depend on the temperature.
     reference_temperature, temperature_range, background_temperature : float
-        [K], 0 to 1e5: from which on it falls, over how much (positive), and what the bodies have where they do not touch; of
-        two bodies the mean. Only the difference of the first and the last counts.
+        Temperatures [K], 0 to 1e5. The coefficient falls above `reference_temperature`, over `temperature_range`
+        (positive). `background_temperature` is that of the bodies outside the contact, for two bodies the mean. Only the
+        difference of reference and background matters.
     thermal : Thermal
-        Constants of the bodies; steel.
+        Thermal constants of the bodies; default steel.
 
     Raises
     ------
@@ -150,7 +156,7 @@ class Friction:
         return f"Friction({', '.join((f'{self.static!r}', *others))})"
 
     def _repr_html_(self) -> str:
-        """Return a table of what differs from a constant coefficient, for a notebook."""
+        """Return an HTML table of the parameters that differ from their default, for a notebook."""
         shown = {"static": self.static, **self._changed()}
         return table(
             ("friction", "value", "unit"),
@@ -161,23 +167,24 @@ class Friction:
         )
 
     def _changed(self) -> dict[str, Any]:
-        """Return the parameters after the first that differ from their default."""
+        """Return the parameters, without `static`, that differ from their default."""
         default = Friction(0.0)
         names = [each.name for each in fields(self)[1:]]
         return {name: getattr(self, name) for name in names if getattr(self, name) != getattr(default, name)}
 
     @classmethod
     def polach(cls, static: float = 0.55, A: float = 0.4, B: float = 0.6, **others: Any) -> Friction:
-        """mu = static ((1 - A) exp(-B w) + A) over the sliding velocity w [m/s] (Polach 2005, Eq. for falling friction).
+        """Return Polach's law mu = static ((1 - A) exp(-B w) + A), with the sliding velocity w [m/s] (Polach 2005).
 
-        The defaults are his typical values for dry rails, .30, .40, .20 those for wet ones (Wear 258, Table 2; constants.md 6).
+        The defaults are his typical values for dry rails. Those for wet rails are .30, .40, .20 (Wear 258, Table 2;
+        constants.md 6). `others` are further parameters of `Friction`.
         """
         require_number("friction.A", A, 0.0)
         require_number("friction.B", B, 0.0, open_minimum=True)
         return cls(static, A * static, math.log(2.0) / B, "exponential", **others)
 
     def coefficient(self, velocity: ArrayLike) -> float | NDArray[np.float64]:
-        """Coefficient at slip velocities [m/s], not negative."""
+        """Return the coefficient [-] at slip velocities [m/s], which must not be negative."""
         velocities = np.asarray(velocity, dtype=np.float64)
         if not (np.isfinite(velocities).all() and (velocities >= 0.0).all()):
             raise ContactError(
@@ -191,21 +198,22 @@ class Friction:
         return values.reshape(velocities.shape) if velocities.ndim else float(values[0])
 
     def factor(self, y: ArrayLike) -> NDArray[np.float64]:
-        """Factor on all coefficients at lateral positions `y` [m]."""
+        """Return the factor [-] on all coefficients at lateral positions `y` [m]."""
         at = np.asarray(y, dtype=np.float64)
         values = [over_profile(self.gauge_factor, self.border, self.border_width, float(v)) for v in at.ravel()]
         return np.array(values).reshape(at.shape)
 
     def placed(self, y: float, angle: float, mirror: float = 1.0) -> Friction:
-        """The same surface seen from a patch whose reference point lies at `y` [m] of the profile, its plane at `angle` [rad].
+        """Return this law with `border` and `border_width` in the plane of a patch.
 
-        `mirror` is -1 on the left side, whose plane is the mirror image.
+        The patch's reference point lies at `y` [m] of the profile, and its plane is inclined by `angle` [rad]. `mirror` is
+        -1 on the left side, whose plane is the mirror image.
         """
         scale = mirror / math.cos(angle)
         return replace(self, border=scale * (self.border - y), border_width=scale * self.border_width)
 
     def members(self) -> dict[str, float | int]:
-        """Return the members of a case (`contact.kernels.layout.CASE`) that say what the surface is."""
+        """Return the members of a CASE record (`contact.kernels.layout.CASE`) that describe the surface, by name."""
         return {
             "law": LAWS.index(self.law),
             "mu": self.static,
@@ -228,5 +236,5 @@ class Friction:
 
 
 def as_friction(friction: object) -> Friction:
-    """A coefficient, or a `Friction` itself."""
+    """Return `friction` as a `Friction`; a number becomes a constant coefficient."""
     return friction if isinstance(friction, Friction) else Friction(require_number("friction", friction, 0.0, LARGEST))

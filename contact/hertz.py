@@ -1,4 +1,4 @@
-"""Hertz contact by complete elliptic integrals, exact for every aspect ratio (theory.md 1.1; thesis Eqs. 2.10-2.12)."""
+"""Hertz contact by complete elliptic integrals, exact for all aspect ratios (theory.md 1.1; thesis Eqs. 2.10-2.12)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,15 @@ __all__ = ["HertzContact", "hertz", "local_factors"]
 
 @dataclass(frozen=True, slots=True)
 class HertzContact:
-    """Elliptic contact: semi-axes a along x and b along y [m], approach [m], N [N], peak pressure p0 [Pa]."""
+    """Elliptic contact.
+
+    Attributes
+    ----------
+    a, b : semi-axes along x and y [m]
+    approach : rigid approach of the bodies [m]
+    N : normal force [N]
+    p0 : peak pressure [Pa]
+    """
 
     a: float
     b: float
@@ -26,19 +34,25 @@ class HertzContact:
 def hertz(
     A: float, B: float, *, load: float | None = None, approach: float | None = None, material: Material = STEEL
 ) -> HertzContact:
-    """Solve Hertz's contact z = A x² + B y² exactly (thesis Eqs. 2.10-2.12; Johnson 1985, ch. 4).
+    """Solve the Hertz contact of the gap z = A x² + B y² (thesis Eqs. 2.10-2.12; Johnson 1985, ch. 4).
 
     Parameters
     ----------
     A, B : float
         Half curvatures along x and y [1/m], positive.
     load, approach : float
-        Exactly one of them: normal force [N] or rigid approach [m], positive.
+        Normal force [N] or rigid approach [m], positive. Give exactly one of them.
+    material : Material
+        Elastic constants; default steel.
+
+    Returns
+    -------
+    HertzContact
 
     Raises
     ------
     ContactError
-        For curvatures, load or approach outside their range, or not exactly one of load and approach.
+        If a value is outside its range, or if not exactly one of load and approach is given.
     """
     A = require_number("A", A, 0.0, open_minimum=True)
     B = require_number("B", B, 0.0, open_minimum=True)

@@ -13,8 +13,8 @@ from contact.kernels.kalker import LOG_ASPECT_MAX, N_TABLE, coefficients, fill_t
 
 __all__ = ["coefficients", "constant_table", "published", "table"]
 
-# Rows a/b = 0.1 … 1, then b/a = 0.9 … 0.1; columns C11, C22, C23, C33, each at nu = 0, 1/4, 1/2. The published numbers
-# were checked against a full-adhesion boundary-element solution to 1.5 % (theory.md 1.2).
+# Rows: a/b = 0.1 … 1, then b/a = 0.9 … 0.1. Columns: C11, C22, C23, C33, each at nu = 0, 1/4, 1/2. The published numbers
+# agree with a boundary-element solution in full adhesion to 1.5 % (theory.md 1.2).
 _PUBLISHED = """
 2.51 3.31 4.85   2.51 2.52 2.53   .334 .473 .731    6.42 8.28 11.7
 2.59 3.37 4.81   2.59 2.63 2.66   .483 .603 .809    3.46 4.27 5.66
@@ -37,19 +37,19 @@ _PUBLISHED = """
 10.7 11.7 12.9   10.7 12.8 16.0   12.2 14.6 18.0    .795 .526 .228
 """
 _NU = (0.0, 0.25, 0.5)
-_BEYOND = (0.02, 0.05)  # axis ratios below the table's 0.1 at which the asymptotes take over
-# C33 at b/a = 0.02, 0.05: boundary-element values; the common asymptote is 13-20 % off there (theory.md 1.2).
+_BEYOND = (0.02, 0.05)  # axis ratios, below the table's least 0.1, at which the asymptotes are used
+# C33 at b/a = 0.02, 0.05: boundary-element values, because the usual asymptote is 13-20 % off there (theory.md 1.2).
 _C33_LONG = {0.02: (0.780, 0.450, 0.104), 0.05: (0.783, 0.482, 0.157)}
 
 
 def _short_asymptote(g: float, nu: float) -> tuple[float, float, float, float]:
-    """a/b = g → 0 (theory.md 1.2)."""
+    """Return C11, C22, C23, C33 for a/b = g → 0 (theory.md 1.2)."""
     c23 = math.pi * math.sqrt(g) / (3.0 * (1.0 - nu)) * (1.0 + nu * (math.log(16.0 / g) - 5.0))
     return math.pi**2 / (4.0 * (1.0 - nu)), math.pi**2 / 4.0, c23, math.pi**2 / (16.0 * (1.0 - nu) * g)
 
 
 def _long_asymptote(g: float, nu: float) -> tuple[float, float, float]:
-    """b/a = g → 0: C11, C22, C23 (theory.md 1.2)."""
+    """Return C11, C22, C23 for b/a = g → 0 (theory.md 1.2)."""
     L = math.log(16.0 / g**2)
     x = L - 2.0 * nu
     q = (1.0 - nu) * L + 2.0 * nu
@@ -60,7 +60,7 @@ def _long_asymptote(g: float, nu: float) -> tuple[float, float, float]:
 
 
 def _knots() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Knots ln(a/b), shape (k,), and coefficients, shape (k, 4, 3): published table with asymptotes beyond it."""
+    """Return the knots ln(a/b), shape (k,), and coefficients, shape (k, 4, 3): the published table and asymptotes."""
     published = np.array(_PUBLISHED.split(), dtype=np.float64).reshape(19, 4, 3)
     ratio = np.r_[np.arange(1, 11) / 10.0, 1.0 / (np.arange(9, 0, -1) / 10.0)]
     short = [[_short_asymptote(g, nu) for nu in _NU] for g in _BEYOND]
@@ -71,7 +71,7 @@ def _knots() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def _monotone_slopes(x: NDArray[np.float64], f: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Slopes of the monotone cubic through f (k, …) at x (k,): Fritsch-Butland weighted harmonic means."""
+    """Return the slopes of the monotone cubic through f (k, …) at x (k,): Fritsch-Butland weighted harmonic means."""
     h = np.diff(x)[:, None]
     d = np.diff(f, axis=0) / h
     w1, w2 = 2.0 * h[1:] + h[:-1], h[1:] + 2.0 * h[:-1]
@@ -83,10 +83,10 @@ def _monotone_slopes(x: NDArray[np.float64], f: NDArray[np.float64]) -> NDArray[
 
 @functools.cache
 def published() -> NDArray[np.float64]:
-    """C11, C22, C23, C33 at Poisson's ratios 0, 1/4, 1/2 over equidistant ln(a/b), for `fill_table`; shape (129, 4, 3).
+    """Return C11, C22, C23, C33 at Poisson's ratios 0, 1/4, 1/2 over equidistant ln(a/b), shape (129, 4, 3).
 
-    Between published rows: monotone cubic of ln C in ln(a/b), so that no slope jumps where CONTACT's piecewise table has
-    jumps up to 5 %.
+    Between the published rows, ln C is a monotone cubic in ln(a/b). Its slope is continuous, unlike that of CONTACT's
+    piecewise table, which jumps by up to 5 %. `fill_table` interpolates the result in the Poisson ratio.
     """
     x, values = _knots()
     logs = np.log(values).reshape(x.size, 12)
@@ -108,12 +108,12 @@ def published() -> NDArray[np.float64]:
 
 @functools.lru_cache(maxsize=64)
 def table(poisson_ratio: float) -> NDArray[np.float64]:
-    """Tabulate C11, C22, C23, C33 over ln(a/b) for one Poisson ratio, for `coefficients` (theory.md 1.2).
+    """Return the table of C11, C22, C23, C33 over ln(a/b) that `coefficients` reads, for one Poisson ratio (theory.md 1.2).
 
     Returns
     -------
     ndarray, shape (129, 8)
-        The four coefficients and their slopes times the step, on equidistant ln(a/b). Read-only and cached.
+        The four coefficients, then their slopes times the step, at equidistant ln(a/b). Read-only and cached.
     """
     nu = require_number("poisson_ratio", poisson_ratio, 0.0, 0.5)
     result = np.empty((N_TABLE, 8))
@@ -123,7 +123,10 @@ def table(poisson_ratio: float) -> NDArray[np.float64]:
 
 
 def constant_table(c11: float, c22: float, c23: float) -> NDArray[np.float64]:
-    """A table for `coefficients` that has the same three at every aspect ratio; C33, which FASTSIM does not read, is 0."""
+    """Return a table for `coefficients`, shape (129, 8), with the same C11, C22, C23 at every aspect ratio.
+
+    C33 is 0; FASTSIM does not read it.
+    """
     result = np.zeros((N_TABLE, 8))
     result[:, :3] = c11, c22, c23
     result.setflags(write=False)

@@ -10,7 +10,7 @@ from contact.errors import require_number
 
 @dataclass(frozen=True, slots=True)
 class Material:
-    """Quasi-identical pair of elastic half-spaces (no coupling of normal and tangential displacement).
+    """Pair of quasi-identical elastic half spaces: normal and tangential displacement are not coupled.
 
     Parameters
     ----------
@@ -19,15 +19,15 @@ class Material:
     poisson_ratio : float
         Combined Poisson ratio nu [-], nu/G = (nu1/G1 + nu2/G2)/2, in [0, 0.5].
     hardness : float
-        Hardness H of the softer body [Pa]; Archard's wear law. Default 2.7 GPa, about 275 HV (recalled, rail steel R260).
+        Hardness H of the softer body [Pa], for Archard's wear law. Default 2.7 GPa, about 275 HV (recalled, rail steel
+        R260).
     shear_yield : float
-        Yield stress k in shear [Pa]; fatigue and stress index. Default 300 MPa (order of R260: 211 at first
-        plasticity, 288 at high plastic work, torsion tests of Meyer et al. 2020, doi 10.1016/j.euromechsol.2020.103977).
-
+        Yield stress k in shear [Pa], for fatigue and stress index. Default 300 MPa. Torsion tests of R260 gave 211 MPa at
+        first plasticity and 288 MPa at high plastic work (Meyer et al. 2020, doi 10.1016/j.euromechsol.2020.103977).
     pressure_limit : float
-        Pressure p_c at which the softer body yields as a whole [Pa]: the elastic pressure is cut there and the bodies approach
-        further (elastic-perfectly plastic, theory.md 8.4). Default infinite. Scales: first yield 3.1 to 3.3 k, shakedown 4.0
-        (line) to 4.7 k (circle), full indentation about 5 k [R].
+        Pressure p_c at which the softer body yields as a whole [Pa]; default infinite. The pressure is limited to p_c, and
+        the bodies approach further (elastic-perfectly plastic, theory.md 8.4). For comparison: first yield is at 3.1 to
+        3.3 k, shakedown at 4.0 k (line) to 4.7 k (circle), full indentation at about 5 k [R].
 
     Raises
     ------
@@ -56,10 +56,10 @@ class Material:
 
     @classmethod
     def from_pair(cls, E1: float, nu1: float, E2: float, nu2: float, **strength: float) -> Material:
-        """Combine two bodies with Young's moduli `E1`, `E2` [Pa] and Poisson ratios `nu1`, `nu2` (Kalker 1990).
+        """Return the material of two bodies with Young's moduli `E1`, `E2` [Pa] and Poisson ratios `nu1`, `nu2` (Kalker 1990).
 
-        `strength` are the other parameters. The normal problem of dissimilar bodies is exact; their normal-tangential
-        coupling is left out.
+        `strength` are the other parameters. The normal problem of dissimilar bodies is exact. Their coupling of normal and
+        tangential displacement is neglected.
         """
         G1 = require_number("E1", E1, 0.0, open_minimum=True) / (2.0 * (1.0 + require_number("nu1", nu1, 0.0, 0.5)))
         G2 = require_number("E2", E2, 0.0, open_minimum=True) / (2.0 * (1.0 + require_number("nu2", nu2, 0.0, 0.5)))
@@ -67,15 +67,15 @@ class Material:
         return cls(G, 0.5 * G * (nu1 / G1 + nu2 / G2), **strength)
 
 
-#: Wheel steel on rail steel, the constants of the reference computations (G = 82 GPa, nu = 0.28).
+#: Wheel steel on rail steel, with the constants of the reference computations (G = 82 GPa, nu = 0.28).
 STEEL = Material(shear_modulus=82e9, poisson_ratio=0.28)
-#: Of λ, ρ and c in SI units; wide of any solid, and their product far from overflow.
+#: Allowed range of λ, ρ and c in SI units. It includes all solids, and the product does not overflow.
 THERMAL_RANGE = (1e-6, 1e9)
 
 
 @dataclass(frozen=True, slots=True)
 class Thermal:
-    """Thermal constants of wheel and rail, of one material, each but the share within `THERMAL_RANGE`.
+    """Thermal constants of wheel and rail, which have the same material. λ, ρ and c are within `THERMAL_RANGE`.
 
     Parameters
     ----------
@@ -116,5 +116,5 @@ class Thermal:
 
 
 def heating(conductivity: float, density: float, heat_capacity: float, heat_share: float) -> float:
-    """`Thermal.heating` of these constants."""
+    """Return `Thermal.heating` [m² K/(W √s)] of these constants."""
     return heat_share / (2.0 * math.sqrt(math.pi * conductivity * density * heat_capacity))

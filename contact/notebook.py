@@ -1,6 +1,6 @@
-"""Small tables and sketches that a notebook shows for a record: HTML and SVG in one piece, without any other library.
+"""Small HTML tables and SVG sketches for notebooks, made without other libraries.
 
-Text, axes and outlines take the colour of the page's text, so they are legible on a light and on a dark page. All text is
+Text, axes and outlines have the colour of the page's text, so they are legible on light and dark pages. All text is
 escaped.
 """
 
@@ -14,16 +14,16 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
-#: Fill of areas: of middling lightness, to be seen on white and on black.
+#: Fill of areas. Its medium lightness is visible on white and on black.
 COLOUR = "#3b8bd0"
-#: Most points of a curve and most bars of a row: a sketch shows no more.
+#: Maximum number of points of a curve and of bars in a sketch.
 MOST = 240
 
 _CELL = "text-align:left;padding:1px 10px 1px 0;border:0;vertical-align:top"
 
 
 def table(headings: Sequence[str], rows: Iterable[Sequence[str]], caption: str = "") -> str:
-    """Return an HTML table; every cell is text and is escaped."""
+    """Return an HTML table. Every cell is text and is escaped."""
     title = (
         f'<caption style="text-align:left;font-weight:bold;color:inherit">{escape(caption)}</caption>'
         if caption
@@ -45,18 +45,20 @@ def beside(*parts: str) -> str:
 
 
 class Sketch:
-    """Axes with areas, bars and curves, written as an SVG.
+    """Axes with areas, bars and curves, as an SVG.
 
     Parameters
     ----------
     x, y : (float, float)
-        Ranges that are shown, in the units of `labels`.
+        Ranges to show, in the units of `labels`.
     labels : (str, str)
-        Under the horizontal axis and above the vertical one.
+        Labels below the horizontal axis and above the vertical axis.
     title : str
-        What a screen reader says.
+        Title for screen readers.
     width, height : float
-        Of the axes [px]. With `equal` the height follows from the width, so that both scales are the same.
+        Size of the axes [px].
+    equal : bool
+        Use one scale for both axes. The height then follows from the width.
     """
 
     def __init__(
@@ -73,27 +75,27 @@ class Sketch:
         (self._left, right), (self._low, high) = _range(x), _range(y)
         if equal:
             height = width * (high - self._low) / (right - self._left)
-            if height > width:  # upright: the width gives way
+            if height > width:  # a tall sketch: the given width becomes its height
                 width, height = width * width / height, width
         self._scale = width / (right - self._left), height / (high - self._low)
         self._size, self._ends, self._labels, self._title = (width, height), (right, high), labels, title
         self._parts: list[str] = []
 
     def area(self, x: ArrayLike, y: ArrayLike, opacity: float = 0.35) -> None:
-        """Fill the polygon with these corners and draw its outline."""
+        """Fill the polygon with the corners `x`, `y` and draw its outline."""
         self._parts.append(
             f'<polygon points="{self._points(x, y)}" fill="{COLOUR}" fill-opacity="{opacity:.2f}" '
             'stroke="currentColor" stroke-width="1"/>'
         )
 
     def curve(self, x: ArrayLike, y: ArrayLike) -> None:
-        """Draw a curve."""
+        """Draw a curve through the points `x`, `y`."""
         self._parts.append(
             f'<polyline points="{self._points(x, y)}" fill="none" stroke="currentColor" stroke-width="1.2"/>'
         )
 
     def bars(self, x: Array, width: Array, low: Array, high: Array, opacity: Array) -> None:
-        """Fill bars about `x` from `low` to `high`, each as opaque as it is told; of many only every other one, wider."""
+        """Draw bars centred at `x` from `low` to `high`, each with its `opacity`. If there are many, draw fewer, wider bars."""
         step = -(-x.size // MOST)
         for k in range(0, x.size, step):
             half = 0.5 * width[k] * step
@@ -105,7 +107,7 @@ class Sketch:
             )
 
     def svg(self) -> str:
-        """Return the sketch."""
+        """Return the sketch as an SVG element."""
         width, height = self._size
         wide, tall = width + 60.0, height + 52.0
         style = 'fill="currentColor" font-size="11" font-family="sans-serif"'
@@ -124,11 +126,11 @@ class Sketch:
         )
 
     def _place(self, x: float, y: float) -> tuple[float, float]:
-        """Return the pixel of a point."""
+        """Return the position of a point in pixels."""
         return (x - self._left) * self._scale[0], self._size[1] - (y - self._low) * self._scale[1]
 
     def _points(self, x: ArrayLike, y: ArrayLike) -> str:
-        """Return the pixels of points, thinned out if there are many."""
+        """Return the positions of points in pixels, as text for SVG. If there are many, keep only every n-th."""
         both = np.column_stack((np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)))
         step = max(1, -(-len(both) // (2 * MOST)))
         kept = np.unique(np.r_[0 : len(both) : step, len(both) - 1])
@@ -136,6 +138,6 @@ class Sketch:
 
 
 def _range(ends: tuple[float, float]) -> tuple[float, float]:
-    """Return a range that is not empty."""
+    """Return the range as floats. An empty range gets the length 1."""
     low, high = float(ends[0]), float(ends[1])
     return (low, high) if high > low else (low, low + 1.0)

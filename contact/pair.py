@@ -1,4 +1,4 @@
-"""`WheelRailPair`: validate, call the kernel, wrap the answer."""
+"""`WheelRailPair`: validate, call the kernel, wrap the result."""
 
 from __future__ import annotations
 
@@ -28,14 +28,16 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """One patch of a pair. Forces act on the wheel; those with x, y, z count in track coordinates, the rest in the
-    contact frame, which is the track frame turned by `angle` about x.
+    """One patch of a pair.
+
+    Forces act on the wheel. `position` is in track coordinates; everything else is in the contact frame, which is the
+    track frame turned by `angle` about x. Forces, moments and area are multiplied by the patch's share
+    (`contact.geometry.records.Patch`).
 
     Attributes
     ----------
-    N, Fx, Fy : normal force and creep forces [N], with the share of the patch (`contact.geometry.records.Patch`), as the
-        moments and the area
-    Mx, My : moments of the normal pressure about `position`: it is not centred there [N m]
+    N, Fx, Fy : normal force and creep forces [N]
+    Mx, My : moments of the normal pressure about `position`, which is not the centre of pressure [N m]
     Mz : spin moment about `position` [N m]
     position : point of the wheel opposite the reference point, (x, y, z) [m]
     angle : contact angle [rad]
@@ -61,11 +63,11 @@ class Contact:
 
 
 class PairDamage(NamedTuple):
-    """Damage of all patches of a pair together, each with its own rolling radius; names, units as in `contact.damage.Damage`.
+    """Damage of all patches of a pair. Names and units are those of `contact.damage.Damage`.
 
-    T-gamma, dissipation, Pearce-Sherratt and Archard's volume are sums; the rest are the greatest of the patches.
-    `archard_depth` [m per m rolled] and `archard_volume` [m³ per m rolled] are those of `ArchardWear`; `stress_index` and
-    `energy_index` [Pa] the maxima of the fields.
+    Each patch has its own rolling radius. T-gamma, dissipation, Pearce-Sherratt and Archard's volume are sums over the
+    patches; all others are maxima. `archard_depth` [m per m rolled] and `archard_volume` [m³ per m rolled] are those of
+    `ArchardWear`. `stress_index` and `energy_index` [Pa] are the maxima of the fields.
     """
 
     T_gamma: float
@@ -83,17 +85,18 @@ class PairDamage(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PairSolution:
-    """What one rail does to the wheelset, in track coordinates.
+    """Action of one rail on the wheelset, in track coordinates.
 
     Attributes
     ----------
     force : (x, y, z) on the wheel [N]
     moment : about the wheelset's centre (0, pose.y, z - nominal radius) [N m]
     z : pose.z, as given or as found for a load or a penetration [m]
-    contacts : every patch, from the field side to the flange
-    max_pressure, area, slip_area : greatest of all patches [Pa], sums [m²]
+    contacts : all patches, from the field side to the flange
+    max_pressure : largest pressure of all patches [Pa]
+    area, slip_area : sums over the patches [m²]
     power_per_metre : frictional energy per metre rolled, sum over the patches [N]
-    damage : all patches together
+    damage : damage of all patches
     status : Status
     """
 
@@ -115,35 +118,36 @@ class PairSolution:
 
 
 class WheelRailPair:
-    """One wheel rolling on one rail: contact search and solution, what a model calls at each time step.
+    """One wheel rolling on one rail: contact search and solution, for use at every time step of a model.
 
     Parameters
     ----------
     pair : contact.geometry.wheelset.Pair
-        Profiles, side, gauge, … and the material of the search under a load. It must not be searched by anybody else
-        at the same time.
+        Profiles, side, gauge, …, and the material of the search under a load. Do not search with it elsewhere at the same
+        time.
     material : Material
+        Material of the contact solution.
     normal, tangential : str
         Names from `contact.methods()`.
     n_strips, n_elements : int
         Strips per patch, 4 to 1000, and elements per strip, 4 to 1000.
     conformal : bool
-        Let the contact angle vary over each patch (`contact.kernels.conformal`) instead of taking it as a plane; methods that
-        give forces alone do not.
+        Let the contact angle vary over each patch (`contact.kernels.conformal`). Methods that give forces only ignore it
+        and use a plane.
     damage : DamageParameters, optional
         Constants of the damage models.
-    ledger : contact.kernels.ledger.Ledger, optional
-        Bins over both profiles that `solve(…, distance=…)` enters what the patches do in.
+    ledger : contact.kernels.memory.Ledger, optional
+        Bins over both profiles in which `solve(…, distance=…)` adds up wear and damage.
 
     Attributes
     ----------
-    bench : contact.kernels.pair.Bench
-        All arrays, as the kernel takes them. `bench.memory` is all that one call leaves to the next one.
+    bench : contact.kernels.memory.Bench
+        All arrays, as the kernel uses them. Only `bench.memory` carries over from one call to the next.
 
     Raises
     ------
     ContactError
-        For unknown methods and a resolution outside its range.
+        For unknown methods or a resolution outside its range.
     """
 
     def __init__(
@@ -164,8 +168,8 @@ class WheelRailPair:
         n_strips, n_elements = require_resolution(n_strips, n_elements)
         n_samples = pair.separations.shape[2]
         size = n_strips, n_elements, n_samples
-        own = workspace.allocate(method, rolling, material.poisson_ratio, size)
-        self.bench: Bench = workspace.bench(size, pair.space, own, ledger or workspace.closed_ledger())
+        arrays = workspace.allocate(method, rolling, material.poisson_ratio, size)
+        self.bench: Bench = workspace.bench(size, pair.space, arrays, ledger or workspace.closed_ledger())
         self.bench.case[:] = cases(1, method, rolling, material, conformal=conformal)
         self.bench.damage_parameters[:] = (damage or DamageParameters()).record(material, 1.0, 1.0)
 
@@ -180,27 +184,27 @@ class WheelRailPair:
         friction: float | Friction = 0.3,
         distance: float = 0.0,
     ) -> PairSolution:
-        """Solve every patch at one instant.
+        """Find and solve all patches at one instant.
 
         Parameters
         ----------
         pose, velocity, load, penetration, irregularity :
             As for `contact.geometry.wheelset.contacts`.
         friction : float or contact.friction.Friction
-            Coulomb's coefficient mu ≥ 0 [-], or a surface on which it falls with the sliding velocity of each patch.
+            Coulomb's coefficient mu ≥ 0 [-], or a friction law, evaluated with the sliding velocity of each patch.
         distance : float
-            That is rolled in this state [m], not negative: what the ledger adds up. Where there is no answer, nothing.
+            Distance rolled in this state [m], not negative, for the ledger. If the solution fails, nothing is added.
 
         Returns
         -------
         PairSolution
-            A wheel that does not touch is an answer: zero forces, ``Status.NO_CONTACT``. Whether a solution is to be
-            trusted, its `status` says.
+            If the wheel does not touch, all forces are zero and the status is ``Status.NO_CONTACT``. The `status` tells
+            whether the solution can be trusted.
 
         Raises
         ------
         ContactError
-            For input outside its range, where the profiles do not lie above each other, and for a load that no z carries.
+            For input outside its range, if wheel and rail do not overlap laterally, or if no z gives the load.
         """
         mode, amount = self.pair.prescribed(load, penetration)
         self.bench.ledger.settings["distance"] = require_number("distance", distance, 0.0)

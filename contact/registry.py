@@ -1,4 +1,4 @@
-"""The methods that `contact.solve` offers, with what each can do. Tests, documentation, command line and FMUs read this."""
+"""The methods of `contact.solve` and their abilities. Tests, documentation, command line and FMUs read this registry."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from contact.errors import ContactError, suggestion
 from contact.kernels.layout import Normal, NormalFamily, Tangential, TangentialFamily
 from contact.notebook import table
 
-#: The methods of the thesis, used when none is named.
+#: The default methods: those of the thesis.
 DEFAULT_NORMAL, DEFAULT_TANGENTIAL = "analyn", "fastrip"
 
 
@@ -20,19 +20,19 @@ class Method:
 
     Attributes
     ----------
-    name : what `contact.solve(normal=…, tangential=…)` is given
-    id : member of `Normal` or `Tangential` by which kernels know it
+    name : name for `contact.solve(normal=…, tangential=…)`
+    id : member of `Normal` or `Tangential` that identifies the method in kernels
     title, source : for documentation
-    non_elliptic : follows a non-elliptic patch or pressure
-    several_patches : finds or serves separate patches
+    non_elliptic : computes a non-elliptic patch or pressure
+    several_patches : handles several separate patches
     fields : returns traction, slip and stick over the patch (tangential) or pressure (normal)
     spin : takes spin into account
     lateral : takes lateral creepage into account (tangential)
-    saturates : the force never exceeds friction (tangential)
+    saturates : the force never exceeds friction times load (tangential)
     tabulated : reads the half space's table of creep forces or of effective creepages (tangential)
-    admissible : nowhere does the traction exceed friction times pressure (tangential)
-    interacting : every strip feels the pressure of all others (normal)
-    batched : a kernel over strips, which `contact.forces` and the FMUs offer too; else `contact.solve` alone
+    admissible : the traction nowhere exceeds friction times pressure (tangential)
+    interacting : every strip is loaded by the pressure of all other strips (normal)
+    batched : has a kernel over strips, which `contact.forces` and the FMUs use too; else it is only in `contact.solve`
     continuous : the load is a continuous function of the approach on every patch (normal)
     calibrated : takes its stiffness from the half space's linear theory on the patch itself (tangential)
     """
@@ -56,33 +56,33 @@ class Method:
 
     @property
     def abilities(self) -> tuple[str, ...]:
-        """What it can do, and others of its kind perhaps cannot."""
+        """Names of the abilities and limits in which methods of the same kind differ."""
         tangential = isinstance(self.id, Tangential)
-        said = {
+        stated = {
             "non-elliptic": self.non_elliptic,
             "several patches": self.several_patches,
             "spin": tangential and self.spin,
             "slip field": tangential and self.fields,
-            "longitudinal creepage alone": not self.lateral,
+            "longitudinal creepage only": not self.lateral,
             "no friction": not self.saturates,
             "interacting strips": self.interacting,
             "load may step": not self.continuous,
         }
-        return tuple(what for what, true in said.items() if true)
+        return tuple(what for what, true in stated.items() if true)
 
     @property
     def elementwise(self) -> bool:
-        """Whether it is the element-wise half space."""
+        """True for the element-wise half space."""
         return self.family in (NormalFamily.NONE, TangentialFamily.NONE)
 
     @property
     def kernel(self) -> str:
-        """Name of the batched method whose kernel serves it: its own, but for a method with coefficients of the patch."""
+        """Name of the batched method whose kernel is used: its own name, or "fastsim" for a calibrated method."""
         return "fastsim" if self.calibrated else self.name
 
     @property
     def family(self) -> NormalFamily | TangentialFamily:
-        """The kernel that solves it."""
+        """Family of methods that share one kernel."""
         by_approach = isinstance(self.id, Normal)
         return _FAMILIES.get(
             (type(self.id), self.id), NormalFamily.BY_APPROACH if by_approach else TangentialFamily.CREEP_FORCE
@@ -99,7 +99,7 @@ class Methods(NamedTuple):
         return f"Methods(normal: {', '.join(self.normal)}; tangential: {', '.join(self.tangential)})"
 
     def _repr_html_(self) -> str:
-        """Return a table of the methods with what each can do, for a notebook."""
+        """Return an HTML table of the methods and their abilities, for a notebook."""
         return "".join(
             table(
                 ("name", "method", "source", "can do"),
@@ -111,7 +111,7 @@ class Methods(NamedTuple):
 
     @property
     def batched(self) -> Methods:
-        """Those that `contact.forces` and the FMUs offer."""
+        """The methods that `contact.forces` and the FMUs offer."""
         return Methods(*(MappingProxyType({n: m for n, m in kind.items() if m.batched}) for kind in self))
 
 
@@ -360,15 +360,15 @@ def methods() -> Methods:
 
 
 def lookup(kind: str, name: str, *, batched: bool = False) -> Method:
-    """Return the method `name` of `kind` ("normal" or "tangential"), one of those `batched` if need be.
+    """Return the method `name` of `kind` ("normal" or "tangential"). With `batched`, only batched methods are allowed.
 
     Raises
     ------
     ContactError
-        For another name; it lists the allowed ones.
+        For any other name. The message lists the allowed names.
     """
     known: MappingProxyType[str, Method] = getattr(_METHODS.batched if batched else _METHODS, kind)
     if name not in known:
-        what = "offered here, but by contact.solve" if name in getattr(_METHODS, kind) else "a registered method"
+        what = "offered here, only by contact.solve" if name in getattr(_METHODS, kind) else "a registered method"
         raise ContactError(f"{kind} = {name!r} is not {what}{suggestion(name, known)}; allowed: {', '.join(known)}")
     return known[name]

@@ -1,4 +1,4 @@
-"""The undeformed gap between wheel and rail: the only thing that the normal problem knows of geometry."""
+"""The undeformed gap between wheel and rail, the only geometry that the normal problem needs."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from contact.kernels.memory import Samples
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
 from contact.notebook import Sketch
 
-#: Of a slope of the surface [-] and of its rolling [1/m]: steeper than any surface, a wheel of a millimetre.
+#: Largest slope of the surface [-], and largest rolling [1/m], which is that of a wheel with a radius of 1 mm.
 LARGEST_TILT, LARGEST_ROLLING = 1e3, 1e3
-#: Gap above its least value up to which a notebook shows it [mm].
+#: Notebooks show the gap up to this height above its minimum [mm].
 SKETCHED = 2.0
 
 
@@ -26,22 +26,23 @@ class Separation:
     y : array_like, shape (n,), n >= 3
         Lateral coordinate in the contact plane [m], strictly increasing.
     g : array_like, shape (n,)
-        Undeformed gap on the contact locus [m]; the approach is measured from g = 0.
+        Undeformed gap on the contact locus [m]. The approach is measured from g = 0.
     A : array_like, shape (n,) or float
-        Half curvature along the rolling direction [1/m], positive; cos(contact angle)/(2·rolling radius).
+        Half curvature along the rolling direction [1/m], positive: cos(contact angle)/(2·rolling radius).
     x_c : array_like, shape (n,) or float
-        Longitudinal position of the contact locus [m]; differs from 0 under yaw.
+        Longitudinal position of the contact locus [m]. It differs from 0 under yaw.
     tilt : array_like, shape (n,) or float
-        Slope dz/dy against the contact plane [-], within ±1e3, of the surface in which the bodies touch, z from wheel into
-        rail; for `contact.solve(conformal=True)` alone.
+        Slope dz/dy of the curved contact surface against the contact plane [-], within ±1e3. z points from the wheel into
+        the rail. Only `contact.solve(conformal=True)` uses it.
     rolling : float
-        Turn of the wheel about the y axis of the plane per metre rolled [1/m], within ±1e3, cos(contact angle)/rolling
-        radius; likewise.
+        Rotation of the wheel about the y axis of the plane per metre rolled [1/m], within ±1e3: cos(contact angle)/rolling
+        radius. Only `contact.solve(conformal=True)` uses it.
 
     Raises
     ------
     ContactError
-        Wrong shapes, not finite, y not increasing, A not positive, tilt or rolling outside their range.
+        For wrong shapes, values that are not finite, y not increasing, A not positive, or tilt or rolling outside their
+        range.
     """
 
     __slots__ = ("A", "g", "rolling", "samples", "tilt", "x_c", "y")
@@ -52,7 +53,7 @@ class Separation:
     x_c: NDArray[np.float64]
     tilt: NDArray[np.float64]
     rolling: float
-    samples: Samples  # the arrays as kernels take them
+    samples: Samples  # the arrays as kernels use them
 
     def __init__(
         self,
@@ -88,9 +89,9 @@ class Separation:
 
     @classmethod
     def hertzian(cls, A: float, B: float) -> Separation:
-        """Constant half curvatures [1/m]: z = A·x² + B·y², sampled out to a gap of 1 mm.
+        """Return the separation z = A·x² + B·y² with half curvatures `A`, `B` [1/m], sampled up to a gap of 1 mm.
 
-        The parabola is reproduced exactly between the samples, so any patch inside is resolved.
+        The interpolation between the samples reproduces the parabola exactly, so a patch of any size is resolved.
         """
         A = require_number("A", A, 0.0, open_minimum=True)
         B = require_number("B", B, 0.0, open_minimum=True)
@@ -99,7 +100,7 @@ class Separation:
         return cls(y, g, A)
 
     def with_gap(self, g: ArrayLike, A: ArrayLike) -> Separation:
-        """Return a separation with another gap [m] and half curvature [1/m] at the same `y`; the rest stays."""
+        """Return a copy with another gap `g` [m] and half curvature `A` [1/m] at the same `y`."""
         other = object.__new__(type(self))
         other.y, other.x_c, other.tilt, other.rolling = self.y, self.x_c, self.tilt, self.rolling
         other.g, other.A = _column("g", g, self.y.size), _column("A", A, self.y.size)
@@ -110,7 +111,7 @@ class Separation:
         return other
 
     def _repr_html_(self) -> str:
-        """Return a sketch of the gap near its least value, for a notebook."""
+        """Return HTML with a sketch of the gap near its minimum, for a notebook."""
         height = 1e3 * (self.g - self.g.min())
         near = np.flatnonzero(height <= max(SKETCHED, float(np.sort(height)[2])))
         first, last = max(int(near[0]) - 1, 0), min(int(near[-1]) + 2, height.size)
@@ -125,14 +126,14 @@ class Separation:
 
 
 def _require_positive(name: str, array: NDArray[np.float64]) -> None:
-    """Raise a ContactError that names the least value if it is not positive."""
+    """Raise a ContactError that names the smallest value if it is not positive."""
     if not (array > 0.0).all():
         i = int(np.argmin(array))
         raise ContactError(f"{name}[{i}] = {array[i]:g} is outside the allowed range ]0, inf[")
 
 
 def _column(name: str, values: ArrayLike, n: int | None) -> NDArray[np.float64]:
-    """Return a finite float64 copy of `values`, of length `n` (a scalar is repeated)."""
+    """Return a float64 copy of `values` with length `n`. A scalar is repeated. All values must be finite."""
     try:
         array = np.array(values, dtype=np.float64)
     except (TypeError, ValueError):

@@ -1,4 +1,4 @@
-"""The one record that every solver returns."""
+"""`Solution`, the record that every solver returns, and `Forces` for arrays of cases."""
 
 from __future__ import annotations
 
@@ -38,8 +38,9 @@ class Strips:
     p0 : peak pressure [Pa]
     aspect : a/b of the local ellipse [-]
     patch : label of the patch, 0, 1, …
-    longitudinal, lateral, spin, tilt : creepages of each strip [-], [-], [1/m], its rigid slip being (longitudinal - spin·y,
-        lateral + spin·x), and slope of the surface against the plane, where that is bent (`conformal`); None on a plane
+    longitudinal, lateral, spin : creepages of each strip [-], [-], [1/m]; None unless `conformal`. The rigid slip of a
+        strip is (longitudinal - spin·y, lateral + spin·x)
+    tilt : slope of the curved contact surface against the contact plane [-]; None unless `conformal`
     """
 
     y: Array
@@ -56,7 +57,7 @@ class Strips:
 
 
 class Prepared(NamedTuple):
-    """What a solver was made for and a solution says of itself."""
+    """Settings of a solver that its solutions record; `speed` in m/s."""
 
     normal: str
     tangential: str
@@ -69,25 +70,26 @@ class Prepared(NamedTuple):
 class Solution:
     """Solved contact of one wheel-rail pair in the frame of its separation.
 
-    Forces act on the wheel; x in the rolling direction, y lateral, z along the common normal. Two-dimensional fields have
-    shape (n_strips, n_elements), element 0 at the leading edge. With no contact they are empty and all numbers zero. Where
-    the tangential method gives forces alone, reading traction, slip or stick raises a ContactError (`has_fields`).
+    Forces act on the wheel. x points in the rolling direction, y is lateral, z points along the common normal. Fields have
+    shape (n_strips, n_elements); element 0 is at the leading edge. Without contact the fields are empty and all numbers
+    are zero. If the tangential method gives forces only, `has_fields` is false and reading traction, slip or stick raises
+    a ContactError.
 
-    Two solutions are equal if they are the same one. All arrays are read-only, and each owns exactly what it shows: an array
-    that is kept keeps nothing else. `dataclasses.replace` makes a changed solution; a solution can be copied, pickled and
-    taken apart by `dataclasses.asdict`. Where the tangential method gives forces only, `replace` and `asdict` raise the
-    ContactError of the missing fields.
+    Two solutions compare equal only if they are the same object. All arrays are read-only and own their memory, so keeping
+    one array does not keep others alive. Solutions can be copied and pickled, and changed by `dataclasses.replace`. If the
+    tangential method gives forces only, `replace` and `dataclasses.asdict` raise the ContactError of the missing fields.
 
     Attributes
     ----------
     Fx, Fy : tangential force on the wheel [N]
-    pressure_y : what of Fy is pressure, on a bent surface (`contact.kernels.conformal`), and no creep force [N]
+    pressure_y : part of Fy that comes from pressure on a curved surface and not from creepage [N]; see
+        `contact.kernels.conformal`
     Mz : spin moment ∫(x q_y - y q_x) dA about the separation's origin [N m]
     N : normal force [N]
     approach : rigid approach of the bodies measured from g = 0 [m]
-    max_pressure : [Pa]
-    area, slip_area : [m²]
-    power_per_metre : exact frictional energy per metre rolled, -∬ q·s dA ≥ 0 [N]
+    max_pressure : largest pressure [Pa]
+    area, slip_area : contact area and area of its slip zone [m²]
+    power_per_metre : frictional energy per metre rolled, -∬ q·s dA ≥ 0 [N]
     normal_stiffness : dN/d(approach) [N/m]
     length, width : extent of the patch along x and y [m]
     n_patches, iterations : int
@@ -135,9 +137,11 @@ class Solution:
     def of_kernel(
         cls, n: int, own: Workspace, numbers: tuple[Array, Array], creepage: Creepage, prepared: Prepared
     ) -> Solution:
-        """Copy what a kernel has left in a workspace for `n` strips; `numbers` are case and result as float64.
+        """Return a solution from the workspace that a kernel has filled for `n` strips.
 
-        The copy is taken apart when it is first read."""
+        `numbers` are the case and result records viewed as float64. The arrays are copied now; the attributes are made
+        from the copy when one of them is first read.
+        """
         solution = cls.__new__(cls)
         case, result = numbers
         arrays = own.strips[:, :n].copy(), own.fields[:, :n].copy(), own.space.memory.copy()
@@ -145,18 +149,18 @@ class Solution:
         return solution
 
     def __getattr__(self, name: str) -> Any:
-        """Take the kernel's arrays apart when the first attribute is read."""
+        """Make all attributes from the kernel's arrays when one of them is first read."""
         if "_left" not in self.__dict__:
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
         self.__dict__.update(_attributes(*self.__dict__.pop("_left")))
         return getattr(self, name)
 
     def __post_init__(self) -> None:
-        """Own the arrays."""
+        """Make every array read-only and the owner of its memory."""
         _own_all(self.__dict__)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return what a copy or a pickle holds; the damage is evaluated anew."""
+        """Return the attributes for a copy or a pickle. The cached damage is left out and evaluated again."""
         if "_left" in self.__dict__:
             self.__getattr__("status")
         return {name: value for name, value in self.__dict__.items() if name != "damage"}
@@ -174,7 +178,7 @@ class Solution:
         )
 
     def _repr_html_(self) -> str:
-        """Return the main numbers as a table, and a sketch of the patch and its pressure, for a notebook."""
+        """Return HTML for a notebook: the main numbers as a table, and a sketch of the patch and its pressure."""
         numbers = (
             ("status", self.status.name),
             ("N", f"{self.N:.6g} N"),
@@ -204,7 +208,7 @@ class Solution:
 
     @property
     def converged(self) -> bool:
-        """True unless the iteration stopped at its cap."""
+        """True unless the iteration stopped at its limit."""
         return self.status != Status.NOT_CONVERGED
 
     @property
@@ -214,22 +218,22 @@ class Solution:
 
     @property
     def utilisation(self) -> float:
-        """Utilised friction, creep force over normal force [-]; 0 without contact."""
+        """Utilised friction: creep force over normal force [-]; 0 without contact."""
         return math.hypot(self.Fx, self.Fy - self.pressure_y) / self.N if self.N > 0.0 else 0.0
 
     @cached_property
     def damage(self) -> Damage:
-        """Wear and fatigue indices with the default parameters; `contact.damage.evaluate` takes others."""
+        """Wear and fatigue indices with default parameters; call `contact.damage.evaluate` for other parameters."""
         from contact.damage import evaluate
 
         return evaluate(self)
 
     def pressure(self, x: ArrayLike, y: ArrayLike) -> Array:
-        """Evaluate the contact pressure [Pa] at points `x`, `y` [m] of the contact plane (broadcast); 0 outside.
+        """Return the contact pressure [Pa] at points `x`, `y` [m] of the contact plane; 0 outside the patch.
 
-        Across the strips a² and p0·a, both of which vanish at the edges of a patch, are interpolated by the parabola through
-        the nearest three of strips and edges (exact for an ellipse); along a strip the pressure is semi-elliptic, cut at the
-        material's limit.
+        `x` and `y` broadcast. Along a strip the pressure is semi-elliptic, limited to the material's `pressure_limit`.
+        Across the strips, a² and p0·a are interpolated by the parabola through the nearest three strips or edges. Both
+        vanish at the edges of a patch. The interpolation is exact for an ellipse.
         """
         x, y = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64))
         result = np.zeros(x.shape)
@@ -242,8 +246,11 @@ class Solution:
             a2 = np.maximum(_parabolic(knots, np.r_[0.0, a**2, 0.0], y[inside]), 0.0)
             load = np.maximum(_parabolic(knots, np.r_[0.0, p0 * a, 0.0], y[inside]), 0.0)
             square = a2 - (x[inside] - centre) ** 2
-            limit, load = self.material.pressure_limit, load * _uncut(load, a2, self.material.pressure_limit)
-            result[inside] += np.where(  # the ellipses of multi_hertz may overlap
+            limit, load = (
+                self.material.pressure_limit,
+                load * _elastic_over_limited(load, a2, self.material.pressure_limit),
+            )
+            result[inside] += np.where(  # a sum, because the ellipses of multi_hertz may overlap
                 square > 0.0,
                 np.minimum(load * np.sqrt(np.maximum(square, 0.0)) / np.where(a2 > 0.0, a2, 1.0), limit),
                 0.0,
@@ -253,7 +260,7 @@ class Solution:
 
 @dataclass(frozen=True, slots=True)
 class Forces:
-    """Results of one case, as numbers, or of many, as arrays of the input's broadcast shape. Units, signs as in `Solution`."""
+    """Results of arrays of cases. Each member is an array of the input's broadcast shape; units and signs as in `Solution`."""
 
     Fx: Numbers
     Fy: Numbers
@@ -269,7 +276,7 @@ class Forces:
 
 @dataclass(frozen=True, slots=True)
 class CaseForces(Forces):
-    """Results of one case: `Forces` whose members are numbers."""
+    """Results of one case: `Forces` with numbers instead of arrays."""
 
     Fx: float
     Fy: float
@@ -344,7 +351,7 @@ def _attributes(
 
 
 def _own_all(values: dict[str, Any]) -> None:
-    """Replace arrays, also those of strips and of tuples, by read-only ones that own their memory."""
+    """Replace all arrays, also those in strips and tuples, by read-only arrays that own their memory."""
     for name, value in values.items():
         if isinstance(value, np.ndarray):
             values[name] = _own(value)
@@ -355,7 +362,7 @@ def _own_all(values: dict[str, Any]) -> None:
 
 
 def _own(array: Any) -> Any:
-    """Return a read-only array that owns its memory: the array itself if it is one, else a copy."""
+    """Return a read-only array that owns its memory: `array` itself if it is one already, else a copy."""
     if not isinstance(array, np.ndarray) or (array.base is None and not array.flags.writeable):
         return array
     own = array.copy()
@@ -364,7 +371,7 @@ def _own(array: Any) -> Any:
 
 
 def _sketch(strips: Strips) -> str:
-    """Return an SVG of the strips, the darker the higher their peak pressure, over one of the peak pressure."""
+    """Return two SVGs: the strips, shaded by their peak pressure, and below them the peak pressure over y."""
     y, dy, x_c, a, p0 = (1e3 * value for value in (strips.y, strips.dy, strips.x_c, strips.a, 1e-9 * strips.p0))
     ends = float((y - 0.5 * dy).min()), float((y + 0.5 * dy).max())
     extent = float((x_c - a).min()), float((x_c + a).max())
@@ -380,10 +387,11 @@ def _sketch(strips: Strips) -> str:
     return f"{seen.svg()}<br/>{pressure.svg()}"
 
 
-def _uncut(load: Array, a2: Array, limit: float) -> Array | float:
-    """Elastic over actual load of strips that are cut at `limit`; `load` is peak times half length, a2 its square.
+def _elastic_over_limited(load: Array, a2: Array, limit: float) -> Array | float:
+    """Return the elastic load over the load of strips whose pressure is limited to `limit` [Pa].
 
-    Inverts `normal.press.kept` by interpolation, to 1e-5.
+    `load` is peak pressure times half length a of each strip [N/m], and `a2` is a² [m²]. The function inverts
+    `contact.kernels.normal.press.kept` by interpolation, with an error of 1e-5.
     """
     if limit == np.inf:
         return 1.0
@@ -394,7 +402,7 @@ def _uncut(load: Array, a2: Array, limit: float) -> Array | float:
 
 
 def _parabolic(knots: Array, values: Array, at: Array) -> Array:
-    """Parabola through the three knots nearest to each point of `at`."""
+    """Return, at each point of `at`, the parabola through the three nearest knots."""
     i = np.clip(np.searchsorted(knots, at) - 1, 0, knots.size - 2)
     closer = at - knots[i] > knots[i + 1] - at
     i = np.clip(i + closer, 1, knots.size - 2)

@@ -51,45 +51,45 @@ def solve(
     Parameters
     ----------
     separation : Separation or contact.halfspace.Gap
-        Undeformed gap; on a grid for the element-wise half space alone.
+        Undeformed gap. A `Gap` on a grid is only for the element-wise half space.
     creepage : Creepage
-        Relative rigid motion, wheel minus rail over speed.
+        Rigid velocity of the wheel relative to the rail, over the speed.
     load, approach : float
-        Exactly one of them: normal force [N] ≥ 0, or rigid approach [m] measured from g = 0 (negative: apart).
+        Normal force [N] ≥ 0, or rigid approach [m] measured from g = 0 (negative: apart). Give exactly one of them.
     friction : float or contact.friction.Friction
-        Coulomb's coefficient mu ≥ 0 [-], or a surface on which it falls with the sliding velocity.
+        Coulomb's coefficient mu ≥ 0 [-], or a friction law.
     material : Material
     speed : float
-        Rolling speed [m/s] > 0; sliding velocities and powers scale with it. Forces depend on it only if friction does.
+        Rolling speed [m/s] > 0. Sliding velocities and powers scale with it. Forces depend on it only if the friction does.
     normal, tangential : str
         Names from `contact.methods()`.
     n_strips, n_elements : int
-        Strips per patch, 4 to 1000, and elements per strip, 4 to 1000. With normal="halfspace" rows and columns of elements
-        over the undeformed overlap, of which contact takes about 0.7 each way.
+        Strips per patch, 4 to 1000, and elements per strip, 4 to 1000. With normal="halfspace" they are rows and columns
+        of elements over the undeformed overlap; the contact takes about 0.7 of it in each direction.
     spacing : float or (float, float)
-        Size (dx, dy) of the elements of the half space [m], instead of their number.
+        Size (dx, dy) of the half space's elements [m], instead of their number.
     conformal : bool
-        Let the contact angle vary over the patch by the separation's `tilt` and `rolling` (`contact.kernels.conformal`): slip
-        and the directions of pressure and traction follow the surface. Fx, Fy, Mz are then resultants in the plane's frame,
-        the lateral part of the pressure included; fields count along the surface.
+        Let the contact angle vary over the patch by the separation's `tilt` and `rolling` (`contact.kernels.conformal`).
+        Slip, pressure and traction then follow the curved surface. Fx, Fy, Mz are resultants in the frame of the plane
+        and include the lateral part of the pressure. Fields are measured along the surface.
     start : Solution
-        Solution of a neighbouring problem at the same resolution, from which an iterative normal method may start. It changes
-        the time that is taken, and the result within the method's tolerance.
+        Solution of a similar problem at the same resolution. An iterative normal method may start from it. This changes
+        the computing time, and the result only within the method's tolerance.
     progress : callable
-        Given step and residual of the half space's tangential iteration.
+        Called with step and residual of the half space's tangential iteration.
     throw : bool
-        Raise when the problem has no trustworthy answer (patch beyond the separation, not converged). With False the
-        `status` of the solution says so.
+        Raise an exception if the solution cannot be trusted (patch beyond the separation, not converged). If False, only
+        the `status` of the solution tells.
 
     Returns
     -------
     Solution
-        Forces act on the wheel. No contact is an answer: zero forces, ``Status.NO_CONTACT``.
+        Forces act on the wheel. Without contact all forces are zero and the status is ``Status.NO_CONTACT``.
 
     Raises
     ------
     ContactError
-        For input outside its range, and, with `throw`, for the status OUT_OF_RANGE or NOT_CONVERGED.
+        For input outside its range. With `throw`, also for the status OUT_OF_RANGE or NOT_CONVERGED.
     """
     if not isinstance(separation, Separation | Gap):
         raise ContactError(f"separation = {separation!r} is not a contact.Separation")
@@ -108,19 +108,21 @@ def solve(
     division = Division(n_strips, n_elements, _pair(spacing))
     if rolling.elementwise and (surface.slope, surface.slope_far) != (1.0, 1.0):
         raise ContactError(
-            f"friction.slope = {surface.slope:g}: tangential = {tangential!r} knows the half space alone, slope 1"
+            f"friction.slope = {surface.slope:g}: tangential = {tangential!r} is the half space itself; allowed: slope 1"
         )
     if conformal:
         require_conformal(rolling)
         if not isinstance(separation, Separation):
-            raise ContactError("conformal: a gap on a grid knows the contact plane alone; allowed: contact.Separation")
+            raise ContactError("conformal: a gap on a grid has only the contact plane; allowed: contact.Separation")
     if method.elementwise and material.pressure_limit < math.inf:
         raise ContactError(
             f"material.pressure_limit = {material.pressure_limit:g}: normal = {normal!r} is elastic; allowed: inf"
         )
     if method.elementwise:
         if not rolling.elementwise:
-            raise ContactError(f"tangential = {tangential!r} does not serve normal = {normal!r}; allowed: halfspace")
+            raise ContactError(
+                f"tangential = {tangential!r} does not work with normal = {normal!r}; allowed: halfspace"
+            )
         solution: Solution = solve_gap(
             separation,
             creepage,
@@ -136,13 +138,13 @@ def solve(
     elif not isinstance(separation, Separation):
         raise ContactError(f"normal = {normal!r} needs a contact.Separation; separation = {separation!r} is on a grid")
     else:
-        strips = _Strips(separation, creepage, load, approach, surface, material, speed, method.name)
-        stands_in = DEFAULT_TANGENTIAL if rolling.elementwise else rolling.kernel
-        solution = strips.solve(stands_in, n_strips, n_elements, start, conformal and not rolling.elementwise)
+        problem = _StripProblem(separation, creepage, load, approach, surface, material, speed, method.name)
+        kernel_name = DEFAULT_TANGENTIAL if rolling.elementwise else rolling.kernel
+        solution = problem.solve(kernel_name, n_strips, n_elements, start, conformal and not rolling.elementwise)
         if rolling.calibrated and solution.N > 0.0:
-            own = _patch_coefficients(strips, solution)
-            solution = strips.solve(stands_in, n_strips, n_elements, start, conformal, own)
-        if rolling.name != stands_in and not rolling.elementwise:
+            coefficients = _patch_coefficients(problem, solution)
+            solution = problem.solve(kernel_name, n_strips, n_elements, start, conformal, coefficients)
+        if rolling.name != kernel_name and not rolling.elementwise:
             solution = replace(solution, tangential=rolling.name)
         if rolling.elementwise:
             solution = solve_pressure(solution, separation if conformal else None, surface, division, progress)
@@ -152,7 +154,7 @@ def solve(
 
 
 def _pair(spacing: object) -> tuple[float, float] | None:
-    """(dx, dy) of the elements, or None."""
+    """Return the size (dx, dy) of the elements [m], or None."""
     if spacing is None:
         return None
     both = spacing if isinstance(spacing, tuple | list) else (spacing, spacing)
@@ -163,12 +165,12 @@ def _pair(spacing: object) -> tuple[float, float] | None:
 
 
 _Key = tuple[str, str, int, int, Material, bool, tuple[float, float, float] | None]
-#: The latest solvers of a thread, and how many there are.
+#: The solvers that a thread has used last, and how many of them are kept.
 _LATEST, _MOST = threading.local(), 4
 
 
 def _prepared(key: _Key, friction: Friction, speed: float) -> Solver:
-    """Return this thread's solver for methods, resolution, material, surface and, if given, the patch's own C11, C22, C23."""
+    """Return this thread's solver for the methods, resolution, material and C11, C22, C23 of `key`; make it if needed."""
     solvers: dict[_Key, Solver] = _LATEST.__dict__.setdefault("solvers", {})
     solver = solvers.pop(key, None)
     if solver is None:
@@ -191,8 +193,8 @@ def _prepared(key: _Key, friction: Friction, speed: float) -> Solver:
     return solver
 
 
-class _Strips(NamedTuple):
-    """One problem, to be solved on strips by different methods and resolutions."""
+class _StripProblem(NamedTuple):
+    """One contact problem, to be solved on strips by different methods and resolutions."""
 
     separation: Separation
     creepage: Creepage
@@ -212,7 +214,7 @@ class _Strips(NamedTuple):
         conformal: bool = False,
         coefficients: tuple[float, float, float] | None = None,
     ) -> Solution:
-        """Solve it, with the patch's own C11, C22, C23 if given."""
+        """Return the solution. `coefficients` are C11, C22, C23 to use instead of those of linear theory."""
         key = self.normal, tangential, n_strips, n_elements, self.material, conformal, coefficients
         solver = _prepared(key, self.friction, self.speed)
         if start is not None:
@@ -229,10 +231,13 @@ class _Strips(NamedTuple):
         )
 
 
-def _patch_coefficients(strips: _Strips, solution: Solution) -> tuple[float, float, float]:
-    """C11, C22, C23 of linear theory on the patch of a `solution`, solved again as coarsely as that theory."""
+def _patch_coefficients(problem: _StripProblem, solution: Solution) -> tuple[float, float, float]:
+    """Return C11, C22, C23 of linear theory on the patch of `solution`.
+
+    Linear theory is solved on coarse patches with n strips and extrapolated to n → ∞.
+    """
 
     def at(n: int) -> Array:
-        return linear.flexibilities(strips.solve(DEFAULT_TANGENTIAL, n, n).strips, solution.material, n)
+        return linear.flexibilities(problem.solve(DEFAULT_TANGENTIAL, n, n).strips, solution.material, n)
 
     return linear.coefficients(linear.extrapolated(at), solution.strips, solution.material)

@@ -1,4 +1,4 @@
-"""`contact.Solver`: methods, resolution and memory prepared once, for a model that asks at every time step."""
+"""`contact.Solver`: a solver whose methods, resolution and memory are prepared once, for use at every time step."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ from contact.solution import CaseForces, Prepared, Solution, Status
 
 #: Resolution at which forces are within 0.002 mu N of their limit.
 N_STRIPS, N_ELEMENTS = 30, 30
-#: Any separation: all of them have the same types.
+#: An arbitrary separation to compile for: all separations have the same types.
 _FLAT = Separation([0.0, 1.0, 2.0], [0.0, 0.0, 0.0], 1.0)
-#: Samples of a separation that a solver has room for, unless told otherwise.
+#: Default number of separation samples for which a solver allocates memory.
 N_SAMPLES = 101
 
 
@@ -39,48 +39,48 @@ def require_resolution(n_strips: object, n_elements: object) -> tuple[int, int]:
 
 
 def require_conformal(tangential: Method) -> None:
-    """Raise a ContactError for a tangential method that knows the contact plane alone."""
+    """Raise a ContactError if the tangential method gives forces only, because it then needs a plane contact."""
     if not tangential.fields:
-        raise ContactError(f"conformal: tangential = {tangential.name!r} knows the contact plane alone")
+        raise ContactError(f"conformal: tangential = {tangential.name!r} is only for a plane contact")
 
 
 _COMPILED: dict[tuple[type, type], Callable[..., int]] = {}
 
 
-def _kernel(own: Workspace, case: NDArray[np.void], result: NDArray[np.void]) -> Callable[..., int]:
-    """Return the machine code for the families of a workspace."""
-    families = type(own.families.normal), type(own.families.tangential)
+def _kernel(arrays: Workspace, case: NDArray[np.void], result: NDArray[np.void]) -> Callable[..., int]:
+    """Return the machine code for the method families of a workspace."""
+    families = type(arrays.families.normal), type(arrays.families.tangential)
     if families not in _COMPILED:
-        _COMPILED[families] = compiled_for(solve_case, _FLAT.samples, case, own, result)
+        _COMPILED[families] = compiled_for(solve_case, _FLAT.samples, case, arrays, result)
     return _COMPILED[families]
 
 
 class Solver:
-    """A prepared solver: it owns its memory and can be asked many times.
+    """A prepared solver that owns its memory and can be called many times.
 
-    One call costs the compiled kernel and a few microseconds. A solver is not to be shared between threads: each thread makes
-    its own. The answers are those of `contact.solve`.
+    A call costs the compiled kernel and a few microseconds. Do not share a solver between threads; make one for each
+    thread. The results equal those of `contact.solve`.
 
     Parameters
     ----------
     normal, tangential : str
-        Names from ``contact.methods().batched``; the element-wise half space is for `contact.solve`.
+        Names from ``contact.methods().batched``. The element-wise half space is only in `contact.solve`.
     n_strips, n_elements : int
         Strips per patch and elements per strip, each 4 to 1000.
     friction : float or contact.friction.Friction
-        Coulomb's coefficient mu ≥ 0 [-], or a surface on which it falls. A call may give another one.
+        Coulomb's coefficient mu ≥ 0 [-], or a friction law. A call may give another one.
     material : Material
     speed : float
         Rolling speed [m/s] > 0. A call may give another one.
     conformal : bool
         Let the contact angle vary over the patch, as in `contact.solve`.
     n_samples : int
-        Most samples of a separation. A larger separation makes room for itself, once.
+        Number of separation samples to allocate memory for. A larger separation causes one reallocation.
 
     Raises
     ------
     ContactError
-        For unknown methods and values outside their range.
+        For unknown methods or values outside their range.
 
     Examples
     --------
@@ -114,12 +114,12 @@ class Solver:
         self._member = {name: self._case[name] for name in self._case.dtype.names or ()}
         self._result = np.zeros(1, RESULT)
         self._status = self._result["status"]
-        self._numbers = self._case.view(np.float64), self._result.view(np.float64)  # quicker to copy than records
+        self._numbers = self._case.view(np.float64), self._result.view(np.float64)  # faster to copy than records
         self.set_surface(friction, speed)
         self._coefficients: NDArray[np.float64] | None = None
-        self._own: Workspace
-        self._lean: Workspace
-        self._make_room(int(require_number("n_samples", n_samples, 3)))
+        self._full: Workspace
+        self._forces_only: Workspace
+        self._allocate(int(require_number("n_samples", n_samples, 3)))
 
     def __repr__(self) -> str:
         return (
@@ -128,38 +128,39 @@ class Solver:
         )
 
     def set_surface(self, friction: float | Friction, speed: float) -> None:
-        """Set the friction [-] and the rolling speed [m/s] of the following calls that name no other."""
+        """Set the friction [-] and the rolling speed [m/s] for the following calls that do not give their own."""
         surface, velocity = as_friction(friction), require_number("speed", speed, 0.0, open_minimum=True)
         self._friction, self._speed = surface, velocity
         set_surface(self._case, self._friction, self._speed)
 
     def forget(self) -> None:
-        """Let the next call start from nothing, whatever it is asked."""
-        self._own.space.memory[:] = 0.0
+        """Discard the last solution, so that the next call is a cold start even with `warm`."""
+        self._full.space.memory[:] = 0.0
 
     def start_from(self, solution: Solution) -> None:
-        """Let the next warm call start from a solution of this resolution; one of another is not used."""
-        memory = self._own.space.memory
+        """Let the next warm call start from `solution`. It is ignored if its resolution is another one."""
+        memory = self._full.space.memory
         if solution.memory.size == memory.size:
             memory[:] = solution.memory
 
     def calibrate(self, table: NDArray[np.float64]) -> None:
-        """Use another table of creepage coefficients (`contact.kalker.constant_table`) than that of linear theory."""
+        """Use `table` of creepage coefficients (`contact.kalker.constant_table`) instead of that of linear theory."""
         self._coefficients = table
-        self._make_room(self._n_samples)
+        self._allocate(self._n_samples)
 
-    def _make_room(self, n_samples: int) -> None:
-        """Allocate a workspace for separations of so many samples."""
+    def _allocate(self, n_samples: int) -> None:
+        """Allocate the workspaces for separations of `n_samples` samples."""
         size = self.n_strips, self.n_elements, n_samples
         nu = self.material.poisson_ratio
-        self._own = workspace.allocate(self.normal, self.tangential, nu, size)
+        self._full = workspace.allocate(self.normal, self.tangential, nu, size)
         if self._coefficients is not None:
-            self._own = self._own._replace(tables=self._own.tables._replace(kalker=self._coefficients))
+            self._full = self._full._replace(tables=self._full.tables._replace(kalker=self._coefficients))
         self._n_samples = n_samples
-        self._kernel = _kernel(self._own, self._case, self._result)
-        # forces only: one row of fields serves all strips, unless forces are changed by what their fields change
+        self._kernel = _kernel(self._full, self._case, self._result)
+        # For forces only, all strips share one row of fields. A curved surface and a pressure limit compute the forces
+        # from the fields, so they need all rows.
         needed = self.conformal or self.material.pressure_limit < math.inf
-        self._lean = self._own._replace(fields=self._own.fields if needed else self._own.fields[:, :1].copy())
+        self._forces_only = self._full._replace(fields=self._full.fields if needed else self._full.fields[:, :1].copy())
 
     def solve(
         self,
@@ -180,30 +181,30 @@ class Solver:
         separation : Separation
         creepage : Creepage
         load, approach : float
-            Exactly one of them: normal force [N] ≥ 0, or rigid approach [m].
+            Normal force [N] ≥ 0, or rigid approach [m]. Give exactly one of them.
         friction, speed : optional
-            For this and the following calls; by default as before.
+            For this and the following calls. Default: unchanged.
         warm : bool
-            Start from the last solution. It changes the time that interacting strips take, and their answer within the
-            method's tolerance.
+            Start from the last solution. For interacting strips this changes the computing time, and the result within
+            the method's tolerance.
         throw : bool
             As in `contact.solve`.
 
         Returns
         -------
         Solution
-            A copy: later calls do not change it.
+            A copy; later calls do not change it.
 
         Raises
         ------
         ContactError
             As `contact.solve`.
         """
-        n = self._run(self._own, separation, creepage, load, approach, (friction, speed), warm)
+        n = self._run(self._full, separation, creepage, load, approach, (friction, speed), warm)
         prepared = Prepared(self.normal.name, self.tangential.name, self.material, self._speed)
         if throw:
             require_trustworthy(Status(self._status[0]), separation.y, load, approach)
-        return Solution.of_kernel(n, self._own, self._numbers, creepage, prepared)
+        return Solution.of_kernel(n, self._full, self._numbers, creepage, prepared)
 
     def forces(
         self,
@@ -216,15 +217,15 @@ class Solver:
         speed: float | None = None,
         warm: bool = False,
     ) -> CaseForces:
-        """Solve one contact for its forces only; parameters as in `solve`. Its `status` says whether it can be trusted."""
-        self._run(self._lean, separation, creepage, load, approach, (friction, speed), warm)
+        """Return the forces of one contact. Parameters as in `solve`; `status` tells whether they can be trusted."""
+        self._run(self._forces_only, separation, creepage, load, approach, (friction, speed), warm)
         Fx, Fy, Mz, N, approach, pmax, area, slip_area, power, *_ = self._result.item()
         slip_ratio = slip_area / area if area > 0.0 else 0.0
         return CaseForces(Fx, Fy, Mz, N, approach, pmax, area, slip_ratio, power, Status(self._status[0]))
 
     def _run(
         self,
-        own: Workspace,
+        arrays: Workspace,
         separation: Separation,
         creepage: Creepage,
         load: float | None,
@@ -249,16 +250,16 @@ class Solver:
         member["vx"][0], member["vy"][0], member["phi"][0] = creepage.longitudinal, creepage.lateral, creepage.spin
         member["rolling"][0] = separation.rolling
         if separation.y.size > self._n_samples:
-            lean = own is self._lean
-            self._make_room(separation.y.size)
-            own = self._lean if lean else self._own
+            forces_only = arrays is self._forces_only
+            self._allocate(separation.y.size)
+            arrays = self._forces_only if forces_only else self._full
         if not warm:
-            own.space.memory[0] = 0.0
-        return int(self._kernel(separation.samples, self._case, own, self._result))
+            arrays.space.memory[0] = 0.0
+        return int(self._kernel(separation.samples, self._case, arrays, self._result))
 
 
 def require_trustworthy(status: Status, y: NDArray[np.float64], load: float | None, approach: float | None) -> None:
-    """Raise a ContactError for a solution that is not to be trusted."""
+    """Raise a ContactError if `status` is OUT_OF_RANGE or NOT_CONVERGED."""
     if status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED):
         what, amount = ("load", load) if load is not None else ("approach", approach)
         raise ContactError(

@@ -1,12 +1,12 @@
-"""Flash temperature: what friction heats a surface up to while it crosses the patch (theory.md 8.5).
+"""Flash temperature: temperature rise of a surface by friction while it crosses the patch (theory.md 8.5).
 
-Heat flows into a body much slower than the body moves (great Péclet number), so each strip is on its own: half of the heat
--q·s enters each body, and a particle that entered at x = a has at x been heated by
+Heat flows into a body much more slowly than the body moves (large Péclet number). Strips therefore do not exchange heat.
+Half of the heat -q·s enters each body. A particle that entered the patch at x = a is hotter at x by
 
     ΔT(x) = 1/(2 β √(πV)) ∫_x^a -q·s/√(ξ - x) dξ,    β = √(λ ρ c),
 
-with the slip velocity s in m/s and the rolling speed V. Elliptic heat, mu p0 √(1 - x²/a²) |s|, has its greatest value,
-2.188 mu p0 |s| √a/(2 β √(πV)), at x = -.65 a.
+with the slip velocity s in m/s and the rolling speed V. For elliptic heat, mu p0 √(1 - x²/a²) |s|, the maximum is
+2.188 mu p0 |s| √a/(2 β √(πV)) at x = -.65 a.
 """
 
 from __future__ import annotations
@@ -24,17 +24,18 @@ Array = NDArray[np.float64]
 
 
 def heating(flux: Array, edges: Array, speed: float, thermal: Thermal) -> Array:
-    """Temperature rise [K] at the middle of each element of a strip.
+    """Return the temperature rise [K] at the centre of each element of a strip, shape (n,).
 
     Parameters
     ----------
     flux : ndarray, shape (n,)
-        Frictional power per area of each element q|s| [W/m²], from the leading edge on, constant over the element.
+        Frictional power per area q|s| [W/m²] of each element, starting at the leading edge. Constant over an element.
     edges : ndarray, shape (n + 1,)
-        Where elements begin and end [m], falling.
+        x of the element edges [m], decreasing.
     speed : float
         Rolling speed [m/s].
     thermal : Thermal
+        Thermal constants of the bodies.
     """
     middle = 0.5 * (edges[:-1] + edges[1:])
     roots = 2.0 * np.sqrt(np.maximum(edges[None, :] - middle[:, None], 0.0))  # ∫dξ/√(ξ - x) from x to each edge
@@ -43,26 +44,28 @@ def heating(flux: Array, edges: Array, speed: float, thermal: Thermal) -> Array:
 
 
 def flash_temperature(solution: Solution, thermal: Thermal | None = None) -> Array:
-    """Temperature rise of the surfaces over the patch [K], shape (n_strips, n_elements), above that of the bodies.
+    """Return the temperature rise of the surfaces over the patch [K], shape (n_strips, n_elements).
+
+    The rise is relative to the temperature of the bodies.
 
     Parameters
     ----------
     solution : Solution
         Slip velocities scale with its speed.
     thermal : Thermal
-        Constants; default steel.
+        Thermal constants; default steel.
 
     Raises
     ------
     ContactError
-        If the tangential method gives forces alone.
+        If the tangential method gives forces only.
     """
     if not solution.has_fields:
-        raise ContactError(f"solution.tangential = {solution.tangential!r} gives no slip, from which to take the heat")
+        raise ContactError(f"solution.tangential = {solution.tangential!r} gives no slip; the heat needs it")
     flux = -(solution.qx * solution.sx + solution.qy * solution.sy) * solution.speed
     n = flux.shape[1]
     grid, strips = np.cos(np.arange(n + 1) * math.pi / max(n, 1)), solution.strips
-    equal = getattr(solution, "grid", None) is not None  # elements of one width, also beside the patch
+    equal = getattr(solution, "grid", None) is not None  # GridSolution: elements of equal width, also outside the patch
     rise = np.empty_like(flux)
     for i, row in enumerate(flux):
         if equal:

@@ -1,4 +1,4 @@
-"""Allocation of the arrays that kernels read and write: one block of memory for each owner (`contact.kernels.memory`)."""
+"""Allocate the arrays that kernels read and write, one block of memory for each owner (`contact.kernels.memory`)."""
 
 from __future__ import annotations
 
@@ -22,31 +22,31 @@ Array = NDArray[np.float64]
 
 
 def _zeros(n: int) -> Array:
-    """Return n zeros that begin at a cache line."""
+    """Return n zeros, aligned to a cache line."""
     numbers = np.zeros(n + 7)
     first = -(numbers.ctypes.data // 8) % 8
     return numbers[first : first + n]
 
 
-class _Everywhere:
-    """A block that is as large as whoever lays arrays into it likes; only the end that comes out of it has a meaning."""
+class _UnboundedBlock:
+    """Stand-in for a block of memory of unlimited size, used to find the size that a layout needs."""
 
     shape = (0, 0, 0)
     size = 0
 
-    def __getitem__(self, where: object) -> _Everywhere:
+    def __getitem__(self, where: object) -> _UnboundedBlock:
         return self
 
-    def reshape(self, *shape: int) -> _Everywhere:
+    def reshape(self, *shape: int) -> _UnboundedBlock:
         return self
 
-    def view(self, dtype: np.dtype) -> _Everywhere:
+    def view(self, dtype: np.dtype) -> _UnboundedBlock:
         return self
 
 
 def _laid(lay: Callable[..., tuple[Any, ...]], *arguments: Any) -> Any:
-    """Call a function of `contact.kernels.memory` with a block of the size that it needs; return what it lays."""
-    size = lay(_Everywhere(), 0, *arguments)[-1]
+    """Return the arrays that `lay`, a function of `contact.kernels.memory`, places in a new block of the needed size."""
+    size = lay(_UnboundedBlock(), 0, *arguments)[-1]
     *arrays, _ = lay(_zeros(size), 0, *arguments)
     return arrays[0] if len(arrays) == 1 else tuple(arrays)
 
@@ -58,13 +58,15 @@ def _read_only(*arrays: Array) -> None:
 
 @functools.lru_cache(maxsize=64)
 def rule(n_strips: int, n_elements: int, interacting: bool) -> Rule:
-    """Return the (cached) rule of one resolution; its table of columns only for methods with `interacting` strips."""
+    """Return the cached rule of one resolution. Only methods with `interacting` strips get its table of columns."""
     made = _laid(memory.lay_rule, Size(n_strips, n_elements, 0, int(interacting), 0))
     quadrature.fill_fejer(*made.across)
     quadrature.fill_elements(made.elements)
     quadrature.fill_panel(made.cosines, made.cosine_logs)
     if made.columns.size > 1:
-        fill_descent(*strip_tables(), made.columns, made.descent)  # before the columns, which serve as scratch
+        fill_descent(
+            *strip_tables(), made.columns, made.descent
+        )  # first, because it uses the columns as scratch memory
         influence.fill_columns(made.cosine_logs, strip_tables()[0], made.columns)
     _read_only(*made.across, *made[1:])
     return made
@@ -72,7 +74,10 @@ def rule(n_strips: int, n_elements: int, interacting: bool) -> Rule:
 
 @functools.cache
 def strip_tables() -> tuple[Array, Array]:
-    """Return U on the centre line, shape (401, 2), and over (X, ln t), shape (203, 534); made once a process (0.2 s)."""
+    """Return U on the centre line, shape (401, 2), and over (X, ln t), shape (203, 534).
+
+    The tables are computed once per process, in 0.2 s.
+    """
     centre, plane = np.empty(influence.CENTRE), np.empty(influence.PLANE)
     influence.fill(centre, plane)
     _read_only(centre, plane)
@@ -81,9 +86,9 @@ def strip_tables() -> tuple[Array, Array]:
 
 @functools.lru_cache(maxsize=64)
 def tables(poisson_ratio: float, interacting: bool, tabulated: bool) -> Tables:
-    """Return the (cached) tables; influence of strips and the half space's forces only for methods that need them."""
+    """Return the cached tables. Only methods that need them get the influence of strips and the half space's forces."""
     no_influence, no_forces = (np.zeros((1, 2)), np.zeros((1, 1))), np.zeros((1, 1, 1, 1, 1))
-    _read_only(*no_influence, no_forces)  # as the tables are: one signature for numba
+    _read_only(*no_influence, no_forces)  # like the real tables, so that numba compiles one signature
     return Tables(
         kalker.table(poisson_ratio),
         *(strip_tables() if interacting else no_influence),
@@ -92,21 +97,24 @@ def tables(poisson_ratio: float, interacting: bool, tabulated: bool) -> Tables:
 
 
 def markers(normal: Method, tangential: Method) -> families.Families:
-    """Return the markers by which kernels for these methods are chosen."""
+    """Return the markers that select the kernels for these methods."""
     return families.Families(families.NORMAL[normal.family], families.TANGENTIAL[tangential.family])  # type: ignore[index]
 
 
 def allocate(
     normal: Method, tangential: Method, poisson_ratio: float, size: tuple[int, int, int], *, fields: bool = True
 ) -> Workspace:
-    """Allocate a workspace.
+    """Return a new workspace.
 
     Parameters
     ----------
+    normal, tangential : Method
+    poisson_ratio : float
+        Combined Poisson ratio [-].
     size : (n_strips, n_elements, n_samples)
-        Resolution, and the most samples of a separation.
+        Resolution, and the largest number of separation samples.
     fields : bool
-        Whether fields are wanted; else forces only.
+        Allocate the fields of all strips. If False, the workspace is for forces only.
     """
     full = Size(*size, int(normal.interacting), int(fields))
     strips, field_array = _laid(memory.lay_strips_and_fields, full)
@@ -122,7 +130,10 @@ def allocate(
 
 
 def search(wheel: Array, rail: Array, grid: Array, n_samples: int) -> Search:
-    """Allocate what a search needs with these curves, for separations at the positions `grid` or, if empty, anywhere."""
+    """Return the arrays of a contact search with these curves.
+
+    Separations are sampled at the positions `grid` [m] or, if it is empty, at positions that the search chooses.
+    """
     made: Search = _laid(memory.lay_search, wheel.shape[1], rail.shape[1], grid.size, n_samples)
     made.wheel[:], made.rail[:], made.grid[:] = wheel, rail, grid
     quadrature.fill_fejer(*made.across)
@@ -130,15 +141,15 @@ def search(wheel: Array, rail: Array, grid: Array, n_samples: int) -> Search:
 
 
 def ledger(wheel: Array, rail: Array, n_strips: int, n_bins: int, first: float, width: float) -> Ledger:
-    """Allocate a ledger with nothing in it, for patches of at most `n_strips` strips a part.
+    """Return an empty ledger for patches of at most `n_strips` strips each.
 
     Parameters
     ----------
     wheel, rail : ndarray
-        Rows y, z [m] of the profiles with which the pair was made.
-    n_bins : int
+        Rows y, z [m] of the pair's profiles.
+    n_strips, n_bins : int
     first, width : float
-        Arc length at which the first bin begins, and width of a bin [m].
+        Arc length of the start of the first bin, and width of a bin [m].
     """
     made: Ledger = _laid(memory.lay_ledger, wheel, rail, np.zeros((2, N_BIN_ROWS, n_bins)), n_strips)
     arc_length(made.wheel, made.wheel_arc)
@@ -148,13 +159,13 @@ def ledger(wheel: Array, rail: Array, n_strips: int, n_bins: int, first: float, 
 
 
 def closed_ledger() -> Ledger:
-    """Allocate a ledger without bins, in which nothing is entered."""
+    """Return a ledger without bins, which records nothing."""
     nothing = np.zeros((2, 0))
     return _laid(memory.lay_ledger, nothing, nothing, np.zeros((2, N_BIN_ROWS, 0)), 0)
 
 
-def bench(size: tuple[int, int, int], of_search: Search, own: Workspace, of_ledger: Ledger) -> Bench:
-    """Allocate the arrays of a pair around its search, its workspace and its ledger."""
+def bench(size: tuple[int, int, int], of_search: Search, arrays: Workspace, of_ledger: Ledger) -> Bench:
+    """Return the arrays of a wheel-rail pair, which include its search, its workspace and its ledger."""
     full = Size(*size, 0, 1)
-    kept = np.zeros(1 + memory.MAX_PATCHES * own.space.memory.size)
-    return _laid(memory.lay_bench, full, kept, of_search, own, of_ledger)
+    kept = np.zeros(1 + memory.MAX_PATCHES * arrays.space.memory.size)
+    return _laid(memory.lay_bench, full, kept, of_search, arrays, of_ledger)

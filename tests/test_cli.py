@@ -62,7 +62,7 @@ def test_a_law_without_fields_shows_what_it_has(tmp_path):
     assert "T-gamma" in table
     assert "Archard" not in table
     refused = call("patch", "--tangential", "polach", "--out", tmp_path / "patch.png", code=2)
-    assert "'polach' gives forces alone" in " ".join(refused.stderr.split())
+    assert "'polach' gives forces only" in " ".join(refused.stderr.split())
 
 
 def test_solve_on_rails_gives_the_numbers_of_the_geometry_and_the_solver():
@@ -121,9 +121,9 @@ def test_no_contact_draws_nothing_and_says_so(tmp_path):
         (("solve", "--curvatures", "0", "1"), "A = 0 is outside the allowed range ]0, inf["),
         (
             ("solve", "--curvatures", "1", "1", "--wheel", "s1002", "--y", "0"),
-            "--wheel, --y: --curvatures stands in place of wheel, rail and position",
+            "--wheel, --y: --curvatures replaces wheel, rail and position",
         ),
-        (("compare", "--curvatures", "1", "1", "--smoothing", "2e-6"), "--smoothing: --curvatures stands in place"),
+        (("compare", "--curvatures", "1", "1", "--smoothing", "2e-6"), "--smoothing: --curvatures replaces"),
         (("solve", "--normal", "magic"), "normal = 'magic' is not a registered method"),
         (("solve", "--wheel", "round"), "wheel = 'round' is no profile of the standards; they are S1002, 1/40"),
         (("solve", "--wheel", "S1003"), "wheel = 'S1003' is no profile of the standards, did you mean 'S1002'"),
@@ -134,7 +134,7 @@ def test_no_contact_draws_nothing_and_says_so(tmp_path):
             "the rail in the file 'some.prr' is taken as it lies",
         ),
         (("conicity", "--amplitude", "3"), "amplitudes = 3 is outside the allowed range [0.0001, 0.02]"),
-        (("conicity", "--left-radius", "0.4"), "of one sign on average"),
+        (("conicity", "--left-radius", "0.4"), "has the same sign"),
         (("geometry", "--gauge", "1435"), "gauge = 1435 is outside"),
         (("solve", "--load", "1", "--penetration", "1e-5"), "exclude each other"),
         (("solve", "--y", "1.0"), "pose.y = 1"),

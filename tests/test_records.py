@@ -164,7 +164,7 @@ def test_asdict_holds_every_field_and_those_of_strips_creepage_and_material(solu
     "way", [dataclasses.asdict, lambda s: dataclasses.replace(s, speed=1.0)], ids=["asdict", "replace"]
 )
 def test_asdict_and_replace_refuse_a_solution_without_fields_and_say_why(forces_only, way):
-    with pytest.raises(ContactError, match="there is no qx: tangential = 'polach' gives forces alone"):
+    with pytest.raises(ContactError, match="there is no qx: tangential = 'polach' gives forces only"):
         way(forces_only)
 
 

@@ -215,14 +215,14 @@ def test_arguments_of_another_type_are_named(arguments, message, way):
     ("arguments", "message"),
     [
         ({"normal": "analin"}, "normal = 'analin' is not a registered method, did you mean 'analyn'"),
-        ({"normal": "halfspace"}, "normal = 'halfspace' is not offered here, but by contact.solve"),
-        ({"tangential": "fastsim_knothe"}, "tangential = 'fastsim_knothe' is not offered here, but by contact.solve"),
+        ({"normal": "halfspace"}, "normal = 'halfspace' is not offered here, only by contact.solve"),
+        ({"tangential": "fastsim_knothe"}, "tangential = 'fastsim_knothe' is not offered here, only by contact.solve"),
         ({"n_strips": 3}, r"n_strips = 3 is not an integer in the allowed range \[4, 1000\]"),
         ({"n_elements": 1e2}, r"n_elements = 100.0 is not an integer in the allowed range \[4, 1000\]"),
         ({"n_samples": 2}, r"n_samples = 2 is outside the allowed range \[3, inf\["),
         ({"friction": "dry"}, "friction = 'dry' is not a number"),
         ({"speed": -1.0}, r"speed = -1 is outside the allowed range \]0, inf\["),
-        ({"tangential": "polach", "conformal": True}, "conformal: tangential = 'polach' knows the contact plane"),
+        ({"tangential": "polach", "conformal": True}, "conformal: tangential = 'polach' is only for a plane contact"),
     ],
 )
 def test_bad_preparation_is_named_with_its_range(arguments, message):

@@ -1,6 +1,6 @@
-"""Damage that adds up over a profile: a `Histogram` of a wheel or a rail, the worn profile, files.
+"""Damage accumulated over a profile: a `Histogram` of a wheel or a rail, the worn profile, and files.
 
-Nothing here is part of the solver: one patch and its solution come in, one histogram comes out.
+This package is not part of the solver. Its input are patches and their solutions.
 """
 
 from contact.accumulation.files import from_xarray, load, save, to_xarray

@@ -1,4 +1,4 @@
-"""Histograms as NetCDF files that explain themselves: units, provenance, the profile and the constants of the models."""
+"""Histograms as self-contained NetCDF files with units, provenance, the profile and the constants of the models."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ FORMAT = "wheelrail-contact damage histogram 1"
 
 
 def save(histogram: Histogram, path: str | PathLike[str]) -> None:
-    """Write a histogram as NetCDF (version 3, by xarray and scipy), every number to the last bit.
+    """Write a histogram as NetCDF (version 3, by xarray and scipy), without loss of precision.
 
     Raises
     ------
     ImportError
-        Without xarray.
+        If xarray is not installed.
     """
     to_xarray(histogram).to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
 
 
 def to_xarray(histogram: Histogram) -> Any:
-    """The histogram as an `xarray.Dataset`; the variables carry `units` and `long_name`."""
+    """Return the histogram as an `xarray.Dataset`. The variables have the attributes `units` and `long_name`."""
     profile, h = histogram.profile, histogram
     units = {name: what[0] for name, what in (SUMS | MAXIMA).items()}
     if profile.kind == "rail":
@@ -60,34 +60,34 @@ def to_xarray(histogram: Histogram) -> Any:
 
 
 def load(path: str | PathLike[str]) -> Histogram:
-    """Read what `save` has written.
+    """Return the histogram from a file that `save` has written.
 
     Raises
     ------
     ContactError
-        If it is a file of something else.
+        If the file contains something else.
     ImportError
-        Without xarray.
+        If xarray is not installed.
     OSError
-        If there is no such file.
+        If the file does not exist.
     """
     stored = _xarray().load_dataset(path, engine="scipy")
     if stored.attrs.get("format") != FORMAT:
-        raise ContactError(f"path = {str(path)!r} is no {FORMAT}")
+        raise ContactError(f"path = {str(path)!r} is not a {FORMAT}")
     return from_xarray(stored)
 
 
 def from_xarray(stored: Any) -> Histogram:
-    """The histogram that `to_xarray` has made this `xarray.Dataset` of.
+    """Return the histogram from an `xarray.Dataset` made by `to_xarray`.
 
     Raises
     ------
     ContactError
-        If it is one of something else.
+        If the dataset contains something else.
     """
     given = stored.attrs
     if given.get("format") != FORMAT:
-        raise ContactError(f"format = {given.get('format')!r}: the dataset is no {FORMAT}")
+        raise ContactError(f"format = {given.get('format')!r}: the dataset is not a {FORMAT}")
     constants = json.loads(given["parameters"])
     for name, model in _MODELS.items():
         constants[name] = model(**constants[name])

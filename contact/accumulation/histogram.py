@@ -1,4 +1,4 @@
-"""`Histogram`: wear and fatigue in bins over the arc length of a wheel's or a rail's own profile."""
+"""`Histogram`: wear and fatigue in bins over the arc length of the profile of a wheel or a rail."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ from contact.solution import Solution
 Array = NDArray[np.float64]
 Per = Literal["metre", "revolution", "pass"]
 
-#: Name → unit and meaning of what adds up, in the order of `contact.kernels.damage.deposit`. Volume and T-gamma are those of
-#: the bin, the rest are means over its width.
+#: Name → unit and meaning of the quantities that are summed, in the order of `contact.kernels.damage.deposit`. Volume and
+#: T-gamma are totals of the bin; the others are means over its width.
 SUMS = {
     "contact": ("m", "distance rolled in contact"),
     "wear": ("m", "depth worn off a wheel; of a rail depth times distance [m²]"),
@@ -35,28 +35,28 @@ SUMS = {
     "stress_exceedance": ("m", "distance rolled with a positive stress index somewhere along the strip"),
     "fatigue_exceedance": ("m", "distance rolled with a positive surface fatigue index of the patch"),
 }
-#: Name → unit and meaning of what is the greatest so far, 0 where there was no contact.
+#: Name → unit and meaning of the maxima so far, 0 where there was no contact.
 MAXIMA = {"energy_index_max": ("Pa", "greatest energy index")}
 
 _NAMES = (*SUMS, *MAXIMA)
-_OFF = 1e-4  # [m] from the profile at which a contact point cannot be meant to lie on it
+_OFF = 1e-4  # a contact point further from the profile [m] belongs to another profile
 
 
 class Histogram:
-    """Damage that has accumulated on one profile; `a + b` is that of both.
+    """Damage accumulated on one profile. `a + b` is the damage of both histograms.
 
-    Bins are of equal width along the profile, so that depth, taken along the profile's normal, times width is the area
-    lost. What a strip does is shared over the bins that it overlaps: nothing is lost, not even beyond the profile's ends,
-    which belongs to the outermost bins. Both sides of a wheelset are taken in the right-side convention, as profiles are.
+    Bins have equal width along the profile, and the depth is along the profile's normal. Depth times width is therefore the
+    area lost. The damage of a strip is shared among the bins that it overlaps. Damage beyond an end of the profile goes to
+    the outermost bin, so nothing is lost. Both sides of a wheelset use the right-side convention, like profiles.
 
     Parameters
     ----------
     profile : Profile
-        Of a wheel or a rail; the patches must have been found with it.
+        Profile of a wheel or a rail, with which the patches were found.
     width : float
-        Of a bin [m], 1e-5 ... 1e-2. Edges are multiples of it.
+        Width of a bin [m], 1e-5 ... 1e-2. The edges are multiples of it.
     radius : float
-        Nominal radius of the wheel [m]: a revolution is 2π·radius rolled.
+        Nominal radius of the wheel [m]. A revolution is a rolled distance of 2π·radius.
     parameters : DamageParameters, optional
         Constants of the damage models.
 
@@ -65,9 +65,9 @@ class Histogram:
     edges, centres : ndarray, shape (n + 1,) and (n,)
         Arc length [m] from the profile's point nearest to y = 0, positive to the field side.
     distance : float
-        Rolled so far [m].
+        Distance rolled so far [m].
     methods, materials : set of str, set of Material
-        What the solutions came from.
+        Methods and materials of the solutions.
 
     Raises
     ------
@@ -76,13 +76,13 @@ class Histogram:
 
     Notes
     -----
-    ``histogram[name]`` is a copy of one quantity over the bins; `per` divides the sums, `SUMS` and `MAXIMA` hold units and
+    ``histogram[name]`` is a copy of one quantity over the bins. `per` divides the sums. `SUMS` and `MAXIMA` hold units and
     meanings: ``contact`` [m], ``wear`` [m] (of a rail [m²]), ``volume`` [m³], ``T_gamma`` [N m], ``energy_index`` [Pa m],
     ``stress_exceedance`` and ``fatigue_exceedance`` [m], ``energy_index_max`` [Pa].
 
-    The depth of a wheel is spread over its circumference; a metre of a rail sees each axle once, so that its depth belongs
-    to a pass and its totals are those of one pass times the distance. Bins much narrower than the strips show these as
-    steps; patches that overlap (``multi_hertz``) count each.
+    The depth of a wheel is spread over its circumference. A cross-section of a rail is passed once by each axle. The depth
+    of a rail is therefore that of one pass, and its totals are those of one pass times the distance. Bins much narrower
+    than the strips show the strips as steps. Overlapping patches (``multi_hertz``) are all counted.
     """
 
     def __init__(
@@ -122,20 +122,20 @@ class Histogram:
     def add(
         self, patches: Patch | Sequence[Patch], solutions: Solution | Sequence[Solution], *, distance: float
     ) -> None:
-        """Let the wheel roll `distance` with these patches.
+        """Add the damage of rolling `distance` with these patches.
 
         Parameters
         ----------
-        patches, solutions : Patch and Solution, or as many of each
-            All patches of this wheel at one instant and what was solved for them; none when it does not touch.
+        patches, solutions : Patch and Solution, or sequences of equal length
+            All patches of this wheel at one instant and their solutions; empty if the wheel does not touch.
         distance : float
-            [m], not negative.
+            Rolled distance [m], not negative.
 
         Raises
         ------
         ContactError
-            A patch that does not lie on the profile, unequal numbers, a distance outside its range, and a solution of a
-            creep force law, which has neither wear nor indices. Nothing is added then.
+            For a patch that does not lie on the profile, unequal numbers, a distance outside its range, or a solution of a
+            method without fields, which has neither wear nor indices. Nothing is added in these cases.
         """
         distance = require_number("distance", distance, 0.0)
         patches = (patches,) if isinstance(patches, Patch) else tuple(patches)
@@ -154,7 +154,7 @@ class Histogram:
     def _deposit(self, patch: Patch, solution: Solution, distance: float, values: Array) -> None:
         if not solution.has_fields:
             raise ContactError(
-                f"tangential = {solution.tangential!r} gives forces alone; wear and indices need its fields"
+                f"tangential = {solution.tangential!r} gives forces only; wear and indices need its fields"
             )
         done = assess(solution, patch.rolling_radius, self.parameters)
         n = solution.strips.y.size
@@ -185,7 +185,7 @@ class Histogram:
         return both
 
     def scaled(self, times: float) -> Histogram:
-        """The histogram after `times` the distance under the same conditions: a share of a mileage.
+        """Return the histogram after `times` the distance under the same conditions.
 
         Raises
         ------
@@ -201,7 +201,7 @@ class Histogram:
     def restore(
         self, values: Mapping[str, Array], distance: float, methods: set[str], materials: set[Material]
     ) -> None:
-        """Replace what has accumulated: every quantity over the bins, and the attributes of these names."""
+        """Replace the accumulated damage: all quantities over the bins, the distance [m], methods and materials."""
         self._values = np.array([values[name] for name in _NAMES], dtype=np.float64)
         self.distance, self.methods, self.materials = distance, methods, materials
 
@@ -215,17 +215,17 @@ class Histogram:
                 raise ContactError(f"histograms of different {name} do not add up: {mine} and {others}")
 
     def per(self, unit: Per) -> dict[str, Array]:
-        """All sums per metre rolled, per revolution of the wheel, or per axle pass at a cross-section of the rail.
+        """Return all sums per metre rolled, per revolution of the wheel, or per axle pass of a rail's cross-section.
 
         Parameters
         ----------
         unit : {"metre", "revolution", "pass"}
-            For a rail "metre" and "pass" are the same numbers: the mean over the distance of what one pass does.
+            For a rail "metre" and "pass" give the same numbers: the mean damage of one pass over the distance.
 
         Raises
         ------
         ContactError
-            For another unit, a revolution of a rail, a pass of a wheel, and before anything has rolled.
+            For any other unit, "revolution" of a rail, "pass" of a wheel, or if nothing has rolled yet.
         """
         of_the_other = "pass" if self.profile.kind == "wheel" else "revolution"
         if unit not in get_args(Per) or unit == of_the_other:
@@ -238,18 +238,18 @@ class Histogram:
 
     @property
     def depth(self) -> Array:
-        """Depth worn off along the profile's normal [m]: of a wheel all of it, of a rail that of one axle pass (0 before)."""
+        """Depth worn off along the profile's normal [m]: the total of a wheel, that of one axle pass for a rail."""
         if self.profile.kind == "wheel" or self.distance <= 0.0:
             return self["wear"]
         return self.per("pass")["wear"]
 
     @property
     def volume(self) -> float:
-        """Volume worn off [m³]: from this wheel, or from the rail along the distance."""
+        """Volume worn off [m³], from the wheel or from the rail along the distance."""
         return float(self["volume"].sum())
 
     def _repr_html_(self) -> str:
-        """Return a sketch of the depth over the arc length, for a notebook."""
+        """Return HTML with a sketch of the depth over the arc length, for a notebook."""
         depth, edges = 1e6 * self.depth, 1e3 * self.edges
         worn = np.flatnonzero(depth)
         first, last = (max(int(worn[0]) - 2, 0), min(int(worn[-1]) + 3, depth.size)) if worn.size else (0, depth.size)

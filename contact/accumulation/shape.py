@@ -1,4 +1,4 @@
-"""The profile that wear leaves behind."""
+"""The profile after wear."""
 
 from __future__ import annotations
 
@@ -13,17 +13,21 @@ Array = NDArray[np.float64]
 
 
 def worn_profile(histogram: Histogram, times: float = 1.0, *, smoothing: float = 2e-3) -> Profile:
-    """The histogram's profile, moved along its normal into the body by `times` the smoothed wear depth.
+    """Return the histogram's profile, moved along its normal into the body by `times` the smoothed wear depth.
 
     Parameters
     ----------
     histogram : Histogram
     times : float
-        How often the accumulated depth is worn off, not negative: of a wheel, mileage over `histogram.distance`; of a rail,
-        the number of axle passes. Contact conditions are those of the run all the time.
+        Factor on the accumulated depth, not negative. For a wheel it is the mileage over `histogram.distance`, for a rail
+        the number of axle passes. The contact conditions are assumed constant.
     smoothing : float
-        Standard deviation of the Gaussian that the depth is smoothed with [m], from the bins' width to 0.05.
-        It keeps the area that is lost.
+        Standard deviation of the Gaussian that smooths the depth [m], from the bins' width to 0.05. It preserves the area
+        lost.
+
+    Returns
+    -------
+    Profile
 
     Raises
     ------
@@ -44,9 +48,9 @@ def worn_profile(histogram: Histogram, times: float = 1.0, *, smoothing: float =
 
 
 def _smoothed(depth: Array, histogram: Histogram, sigma: float) -> tuple[Array, Array]:
-    """Depth [m] and its slope along the arc at the points of the profile: a Gaussian for every bin.
+    """Return the depth [m] and its slope along the arc [-] at the points of the profile, as a sum of Gaussians of the bins.
 
-    With sigma not below the bins' width their sum ripples by 2 exp(-2 π²) = 5e-9 at most.
+    If sigma is not below the bins' width, the relative ripple of the sum is at most 2 exp(-2 π²) = 5e-9.
     """
     t = (histogram.arc[:, None] - histogram.centres) / sigma
     weight = histogram.width / (np.sqrt(2.0 * np.pi) * sigma) * np.exp(-0.5 * t * t)

@@ -1,4 +1,4 @@
-"""The command line `contact`. Only this package imports typer and rich."""
+"""The command line `contact`. Only this package of the library imports typer and rich."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Wheel-rail contact: patches, pressure, creep forces and damage.
 
 
 def main() -> None:
-    """Entry point: run the command that sys.argv names; exit code 0, 1 (something is missing) or 2 (bad input)."""
+    """Run the command in sys.argv. The exit code is 0, 1 (something is missing) or 2 (bad input)."""
     try:
         from contact.cli.app import run
     except ModuleNotFoundError as missing:

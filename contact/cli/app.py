@@ -1,4 +1,4 @@
-"""The commands: `solve`, `patch`, `curve`, `methods`, those of other modules and of plug-ins. All input is in SI units."""
+"""The commands `solve`, `patch`, `curve` and `methods`; those of other modules and plug-ins are added. Input in SI units."""
 
 from __future__ import annotations
 
@@ -167,8 +167,8 @@ def patch(
         touches,
         lambda drawn: drawn.position(
             [
-                drawn.Wheel(name, case.wheel, case.rail, [t.patch for t in own], [t.solution for t in own])
-                for name, own in sides.items()
+                drawn.Wheel(name, case.wheel, case.rail, [t.patch for t in one], [t.solution for t in one])
+                for name, one in sides.items()
             ],
             roll,
         ),
@@ -196,7 +196,7 @@ def curve(
     table: opt.Csv = None,
     plot: opt.Plot = None,
 ) -> None:
-    """Creep curves: force over one creepage, the others held at --creepage; several tangential methods side by side.
+    """Compute creep curves: force over one creepage, for one or several tangential methods. The others are in --creepage.
 
     Example:  contact curve --over lateral --tangential fastrip --tangential fastsim --plot curve.png
     """
@@ -240,16 +240,16 @@ def list_methods() -> None:
 def version(
     show: Annotated[bool, typer.Option("--version", help="print the version", is_eager=True)] = False,
 ) -> None:
-    """Nothing but the options that precede a command."""
+    """Handle the options that precede a command."""
     if show:
         typer.echo(contact.__version__)
         raise typer.Exit
 
 
 def run(arguments: Sequence[str]) -> None:
-    """Run the command; plug-ins are loaded unless a command of our own is named, so they cost nothing then."""
-    own = {command.name or command.callback.__name__ for command in app.registered_commands if command.callback}
-    if next((word for word in arguments if not word.startswith("-")), None) not in own:
+    """Run the command. Plug-ins are loaded only if the command is not one of this package, to save their import time."""
+    built_in = {command.name or command.callback.__name__ for command in app.registered_commands if command.callback}
+    if next((word for word in arguments if not word.startswith("-")), None) not in built_in:
         for problem_line in add_plugins(app):
             typer.echo(f"contact: {problem_line}", err=True)
     app(args=list(arguments), prog_name="contact")
@@ -285,7 +285,7 @@ def _title(case: Position) -> str:
 
 
 def _draw(path: Path, touches: Sequence[Touch], picture: Callable[[Any], Any]) -> None:
-    """Write what `picture` makes with `contact.plot`, if there is anything to be seen."""
+    """Write the figure that `picture` makes with `contact.plot`. Without contact, print a message instead."""
     if touches:
         write_picture(picture(drawing()), path)
     else:

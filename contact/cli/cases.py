@@ -1,7 +1,8 @@
-"""Cases to be compared: from a file, or from the options of `contact solve`, whose names the file uses too.
+"""Cases to compare, from a file or from the options of `contact solve`. The file uses the names of the options.
 
-TOML or JSON hold the cases under `case`, and above them what all have in common; CSV has one case a line under a line of names.
-Creepages and curvatures are lists, in CSV numbers with blanks between. What neither says is taken from the command line.
+TOML and JSON files have the cases under `case`, and common values above them. CSV files have a line of names and one line
+per case. Creepages and curvatures are lists, in CSV numbers separated by blanks. Values that the file does not contain are
+those of the command line.
 """
 
 from __future__ import annotations
@@ -30,12 +31,12 @@ _SIDES = {"left": ("left",), "right": ("right",), "both": ("left", "right")}
 
 
 def read(path: Path, defaults: Mapping[str, Any]) -> list[Case]:
-    """The cases of a file.
+    """Return the cases of a file. `defaults` are the values of the options.
 
     Raises
     ------
     ContactError
-        A file that cannot be read, holds no case, an unknown name or a value that is none.
+        If the file cannot be read, holds no case, or has an unknown name or an invalid value.
     """
     readers = {".toml": _toml, ".json": _json, ".csv": _csv}
     reader = readers.get(path.suffix.lower())
@@ -45,7 +46,7 @@ def read(path: Path, defaults: Mapping[str, Any]) -> list[Case]:
         common, cases = reader(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise ContactError(f"{path} cannot be read: {error.strerror}") from None
-    except ValueError as error:  # also what tomllib and json raise, and bytes that are no UTF-8
+    except ValueError as error:  # includes the errors of tomllib and json, and bytes that are not UTF-8
         raise ContactError(f"{path} cannot be read: {error}") from None
     if not cases:
         raise ContactError(f"{path} holds no case")
@@ -55,14 +56,14 @@ def read(path: Path, defaults: Mapping[str, Any]) -> list[Case]:
         if not isinstance(case, Mapping):
             raise ContactError(f"{where}: {case!r} is not a table of names and values")
         if "curvatures" in case and (idle := sorted(OF_A_POSITION.intersection(case))):
-            raise ContactError(f"{where}: {', '.join(idle)}: curvatures stand in place of wheel, rail and position")
+            raise ContactError(f"{where}: {', '.join(idle)}: curvatures replace wheel, rail and position")
         given = {name: _value(where, name, value) for name, value in (common | dict(case)).items()}
         found += cases_of({"name": f"case {k}", **defaults, **given})
     return found
 
 
 def cases_of(given: Mapping[str, Any]) -> list[Case]:
-    """One case a contact patch, from values under the names of the options; none without contact."""
+    """Return one case per contact patch, from values under the names of the options; none without contact."""
     creepage = None if given["creepage"] is None else Creepage(*given["creepage"])
     common = {"friction": given["friction"], "speed": given["speed"]}
     load, penetration, name = given["load"], given["penetration"], given.get("name", "")
@@ -123,7 +124,7 @@ def _split(content: Any) -> tuple[dict[str, Any], Sequence[Any]]:
 
 
 def _value(where: str, name: str, value: Any) -> Any:
-    """The value under a name of the file, checked for its kind; ranges are the solver's business."""
+    """Return the value of `name` with the right type, or raise a ContactError. The solver checks ranges later."""
     if name in _TEXTS:
         return str(value)
     if name in _NUMBERS:
@@ -137,8 +138,8 @@ def _value(where: str, name: str, value: Any) -> Any:
 
 
 def _number(name: str, value: Any) -> float:
-    """A number, or the text of one: CSV knows only text."""
+    """Return a number, also from its text, because CSV values are text."""
     if isinstance(value, str):
-        with suppress(ValueError):  # refused below, as it was written
+        with suppress(ValueError):  # require_number refuses the text below
             value = float(value)
     return require_number(name, value)

@@ -21,22 +21,23 @@ from contact.study.compare import REFERENCE_ELEMENTS
 COMPARED = "Comparison"
 File = Annotated[
     Path | None,
-    typer.Argument(help="cases in .toml, .json or .csv, under the names of the options", show_default=False),
+    typer.Argument(help="cases in .toml, .json or .csv, with the names of the options", show_default=False),
 ]
 Methods = Annotated[
     list[str] | None,
     typer.Option(
         "--method",
-        help="normal+tangential, like analyn+fastrip; repeat. Default: " + ", ".join(map(str, SELECTION)),
+        help="normal+tangential, like analyn+fastrip; may be repeated. Default: " + ", ".join(map(str, SELECTION)),
         rich_help_panel=COMPARED,
     ),
 ]
 All = Annotated[bool, typer.Option("--all", help="every normal with every tangential method", rich_help_panel=COMPARED)]
 Without = Annotated[
-    bool, typer.Option("--no-reference", help="leave the half space out, and the errors", rich_help_panel=COMPARED)
+    bool, typer.Option("--no-reference", help="without the half space and the errors", rich_help_panel=COMPARED)
 ]
 Resolution = Annotated[
-    int, typer.Option(help="strips, and elements a strip, of the methods", rich_help_panel=COMPARED, show_default=True)
+    int,
+    typer.Option(help="strips, and elements per strip, of the methods", rich_help_panel=COMPARED, show_default=True),
 ]
 Elements = Annotated[
     int, typer.Option(help="rows and columns of the half space over the overlap", rich_help_panel=COMPARED)
@@ -73,7 +74,7 @@ def compare(
     as_json: opt.Json = False,
     out: opt.Files = None,
 ) -> None:
-    """Solve the same contact with several methods: forces, patches, times, errors against the half space.
+    """Solve the same contact with several methods and compare forces, patches, times and errors against the half space.
 
     Examples:  contact compare --y 3e-3 --yaw 2e-3 --out page.html   ·   contact compare cases.toml --all --out table.csv
     """

@@ -23,15 +23,15 @@ app = typer.Typer(
 @app.command()
 @reported
 def build(
-    out: Annotated[Path, typer.Option(help="CSV file; what it holds already is not computed again")],
+    out: Annotated[Path, typer.Option(help="CSV file; rows that it already contains are not computed again")],
     elements: Annotated[
         int, typer.Option(min=10, max=400, help="rows and columns of the half space on the ellipse")
     ] = 60,
     processes: Annotated[int | None, typer.Option(min=1, help="processes", show_default="all cores")] = None,
 ) -> None:
-    """Compute the table with the half space: 4104 cases, some minutes. It goes on where it was interrupted.
+    """Compute the table with the half space: 4104 cases, some minutes. An interrupted run continues where it stopped.
 
-    Example:  contact table build --out creep_table.csv, to take the place of the package's contact/data/creep_table.csv
+    Example:  contact table build --out creep_table.csv, to replace the package's contact/data/creep_table.csv
     """
     with progress_bar() as bar:
         creep_table.build(out, elements, processes=processes, progress=bar)
@@ -44,9 +44,9 @@ def effective(
     out: Annotated[Path, typer.Option(help="CSV file")],
     forces: Annotated[Path, typer.Option(help="table of creep forces, from `contact table build`")] = table.FILE,
 ) -> None:
-    """Fit the effective creepages of `fastrip_mapped` to the table of creep forces: two minutes; needs scipy.
+    """Fit the effective creepages of `fastrip_mapped` to the table of creep forces. It takes two minutes and needs scipy.
 
-    Example:  contact table effective --out effective_creepage.csv, for contact/tangential/effective_creepage.csv
+    Example:  contact table effective --out effective_creepage.csv, to replace contact/data/effective_creepage.csv
     """
     with progress_bar() as bar:
         effective_creepage.build(out, forces, progress=bar)

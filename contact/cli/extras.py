@@ -1,10 +1,10 @@
-"""Which extras of the package are not installed, and what for."""
+"""Find the extras of the package that are not installed, and what needs them."""
 
 from __future__ import annotations
 
 from importlib.util import find_spec
 
-#: Extra → a module that comes with it, and what needs it.
+#: Extra → a module that it installs, and what needs it.
 EXTRAS = {
     "plot": ("matplotlib", "pictures: patch, demo, run, wear, --plot"),
     "xarray": ("xarray", "result files: run, wear"),
@@ -21,7 +21,7 @@ def missing() -> dict[str, str]:
 
 
 def note() -> str:
-    """Return a paragraph for the help that names the missing extras; empty if there is none."""
+    """Return a paragraph for the help that names the missing extras; empty if none is missing."""
     absent = missing()
     if not absent:
         return ""

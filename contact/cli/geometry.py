@@ -21,9 +21,9 @@ from contact.geometry import contact_points, equivalent_conicity, profile
 
 Array = NDArray[np.float64]
 
-_SHOWN = 21  # lines of a table of contact points; files hold all
+_SHOWN = 21  # lines of a printed table of contact points; files contain all lines
 _CURVE = 121  # amplitudes of a drawn curve
-#: Heading, column and factor of the printed table; files have the rolling radii too.
+#: Heading, column and factor of the printed table. Files also contain the rolling radii.
 _POINTS: Sequence[tuple[str, str, float]] = (
     ("y\nmm", "y", 1e3),
     ("Δr\nmm", "radius_difference", 1e3),
@@ -59,7 +59,7 @@ def geometry(
     table: opt.Csv = None,
     plot: opt.Plot = None,
 ) -> None:
-    """Contact points of rigid wheels on rails: rolling radii and contact angles over the lateral displacement.
+    """Compute contact points of rigid wheels on rails: rolling radii and contact angles over the lateral displacement.
 
     Example:  contact geometry --wheel 1/40 --rail UIC60 --inclination 0.05 --max 8e-3 --plot points.png
     """
@@ -101,7 +101,7 @@ def conicity(
     table: opt.Csv = None,
     plot: opt.Plot = None,
 ) -> None:
-    """Equivalent conicity over the amplitude by EN 15302, and Klingel's wavelength.
+    """Compute the equivalent conicity over the amplitude by EN 15302, and Klingel's wavelength.
 
     Example:  contact conicity --wheel s1002 --rail 60e2 --gauge 1.432 --plot conicity.png
     """
@@ -130,7 +130,7 @@ def conicity(
 
 @reported
 def list_profiles() -> None:
-    """List the profiles of the standards that --wheel and --rail know."""
+    """List the standard profiles for --wheel and --rail."""
     table = Table(header_style="bold")
     for heading in ("name", "kind", "also called"):
         table.add_column(heading)
@@ -153,7 +153,7 @@ def _pair(
     back_to_back: float,
     roll: bool,
 ) -> dict[str, Any]:
-    """The arguments of `contact_points` and `conicity`."""
+    """Return the arguments of `contact_points` and `conicity`."""
     return {
         "wheel": profile.load(wheel, "wheel", **reading),
         "rail": profile.load(rail, "rail", **reading),
@@ -175,7 +175,7 @@ def _title(pair: Mapping[str, Any]) -> str:
 
 
 def _rows(columns: Mapping[str, Array]) -> list[dict[str, Any]]:
-    """One line a row; what is infinite has an empty cell."""
+    """Return the rows of a table. Infinite values become None, an empty cell."""
     lines = zip(*(values.tolist() for values in columns.values()), strict=True)
     return [dict(zip(columns, (v if np.isfinite(v) else None for v in line), strict=True)) for line in lines]
 

@@ -20,7 +20,7 @@ Methods = Annotated[
     list[str] | None,
     typer.Option(
         "--method",
-        help="normal+tangential, like analyn+fastrip; repeat. Default: " + ", ".join(map(str, METHODS)),
+        help="normal+tangential, like analyn+fastrip; may be repeated. Default: " + ", ".join(map(str, METHODS)),
         rich_help_panel=COMPARED,
     ),
 ]
@@ -35,7 +35,7 @@ def manchester(
     as_json: opt.Json = False,
     out: opt.Files = None,
 ) -> None:
-    """The Manchester contact benchmark (A-2.2) beside the numbers of CONTACT.
+    """Compute the Manchester contact benchmark (A-2.2) and compare it with the results of CONTACT.
 
     Example:  contact manchester --method analyn+fastrip --method hertz+fastsim --out page.html
     """

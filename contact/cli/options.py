@@ -1,4 +1,4 @@
-"""The options of the commands: what typer reads off their signatures. Square brackets would be rich markup here."""
+"""The options of the commands, as annotations for typer. Square brackets in help texts would be rich markup."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from contact.material import STEEL, Material
 
 
 class Side(StrEnum):
-    """Which wheel."""
+    """The wheel to solve."""
 
     left = "left"
     right = "right"
@@ -25,7 +25,7 @@ class Side(StrEnum):
 
 
 class Motion(StrEnum):
-    """Which creepage a creep curve runs over."""
+    """The creepage on the axis of a creep curve."""
 
     longitudinal = "longitudinal"
     lateral = "lateral"
@@ -35,25 +35,25 @@ class Motion(StrEnum):
 PROFILES, POSITION, LOADING, METHOD, OUTPUT = "Profiles", "Wheelset position", "Loading", "Method", "Output"
 TRACK = "Track and wheelset"
 WheelName = Annotated[
-    str, typer.Option("--wheel", help="a name of `contact profiles` or a file", rich_help_panel=PROFILES)
+    str, typer.Option("--wheel", help="a name from `contact profiles`, or a file", rich_help_panel=PROFILES)
 ]
 RailName = Annotated[
-    str, typer.Option("--rail", help="a name of `contact profiles` or a file", rich_help_panel=PROFILES)
+    str, typer.Option("--rail", help="a name from `contact profiles`, or a file", rich_help_panel=PROFILES)
 ]
 Inclination = Annotated[
-    float | None, typer.Option(help="of a rail of EN 13674-1; default 0.025", rich_help_panel=PROFILES)
+    float | None, typer.Option(help="inclination of a rail of EN 13674-1; default 0.025", rich_help_panel=PROFILES)
 ]
 Unit = Annotated[str | None, typer.Option(help="unit of profile files: mm or m", rich_help_panel=PROFILES)]
 Drawn = Annotated[str | None, typer.Option(help="side shown by profile files: right or left", rich_help_panel=PROFILES)]
 Smoothing = Annotated[
     float | None,
-    typer.Option(help="noise in m that is smoothed out of profile files, like 2e-6", rich_help_panel=PROFILES),
+    typer.Option(help="noise of profile files in m, to be removed by smoothing, like 2e-6", rich_help_panel=PROFILES),
 ]
 Radius = Annotated[float, typer.Option(help="nominal rolling radius in m", rich_help_panel=PROFILES)]
 Sides = Annotated[Side, typer.Option(help="which wheel", rich_help_panel=POSITION)]
 Y = Annotated[float, typer.Option("--y", help="lateral displacement, to the right, in m", rich_help_panel=POSITION)]
-Roll = Annotated[float, typer.Option(help="positive lowers the right wheel, in rad", rich_help_panel=POSITION)]
-Yaw = Annotated[float, typer.Option(help="positive steers to the right, in rad", rich_help_panel=POSITION)]
+Roll = Annotated[float, typer.Option(help="roll in rad, positive lowers the right wheel", rich_help_panel=POSITION)]
+Yaw = Annotated[float, typer.Option(help="yaw in rad, positive steers to the right", rich_help_panel=POSITION)]
 Speed = Annotated[float, typer.Option(help="rolling speed in m/s", rich_help_panel=POSITION)]
 Load = Annotated[
     float | None,
@@ -70,8 +70,8 @@ Friction = Annotated[float, typer.Option(help="coefficient of friction", rich_he
 Falling = Annotated[
     tuple[str, float, float] | None,
     typer.Option(
-        help=f"friction falls from --friction at rest: law ({', '.join(LAWS[1:])}), coefficient in fast sliding, velocity "
-        "halfway in m/s",
+        help=f"law by which friction falls from --friction at rest ({', '.join(LAWS[1:])}), coefficient in fast sliding, "
+        "velocity in m/s at which it is halfway",
         metavar="LAW KINETIC HALF_SPEED",
         rich_help_panel=LOADING,
     ),
@@ -83,7 +83,7 @@ SlipVelocity = Annotated[
 GaugeFriction = Annotated[
     tuple[float, float, float] | None,
     typer.Option(
-        help="factor on friction on the gauge side of the rail, y in its profile (negative) below which that is, width of the "
+        help="friction on the gauge side of the rail: factor, y of its border in the profile (negative), width of the "
         "transition, both in m",
         metavar="FACTOR Y WIDTH",
         rich_help_panel=LOADING,
@@ -92,17 +92,18 @@ GaugeFriction = Annotated[
 Hot = Annotated[
     tuple[float, float, float] | None,
     typer.Option(
-        help="what heat leaves of friction, 0 to 1; temperature in K above which friction falls; over how many K",
+        help="factor on friction when hot, 0 to 1; temperature above which friction falls and range over which it falls, "
+        "in K",
         metavar="FACTOR FROM RANGE",
         rich_help_panel=LOADING,
     ),
 ]
 Background = Annotated[
-    float, typer.Option("--temperature", help="of wheel and rail, in K, for --hot", rich_help_panel=LOADING)
+    float, typer.Option("--temperature", help="temperature of wheel and rail in K, for --hot", rich_help_panel=LOADING)
 ]
 PressureLimit = Annotated[
     float,
-    typer.Option(help="pressure in Pa that is not exceeded, elastic-perfectly plastic", rich_help_panel=LOADING),
+    typer.Option(help="upper limit of the pressure in Pa, elastic-perfectly plastic", rich_help_panel=LOADING),
 ]
 Conformal = Annotated[
     bool,
@@ -112,7 +113,7 @@ Creep = Annotated[
     tuple[float, float, float] | None,
     typer.Option(
         "--creepage",
-        help="longitudinal, lateral and spin creepage (in 1/m); else they follow from the wheelset's rolling",
+        help="longitudinal, lateral and spin creepage (in 1/m); default those of the rolling wheelset",
         metavar="VX VY PHI",
         rich_help_panel=LOADING,
     ),
@@ -120,7 +121,7 @@ Creep = Annotated[
 Curvatures = Annotated[
     tuple[float, float] | None,
     typer.Option(
-        help="half curvatures along x and y in 1/m, in place of wheel, rail and position",
+        help="half curvatures along x and y in 1/m, instead of wheel, rail and position",
         metavar="A B",
         rich_help_panel=LOADING,
     ),
@@ -132,9 +133,10 @@ Tangentials = Annotated[
 ]
 Json = Annotated[bool, typer.Option("--json", help="print JSON instead of a table", rich_help_panel=OUTPUT)]
 Plot = Annotated[Path | None, typer.Option(help="write a picture: .png, .pdf or .svg", rich_help_panel=OUTPUT)]
-Over = Annotated[Motion, typer.Option(help="creepage that is varied", rich_help_panel=LOADING)]
+Over = Annotated[Motion, typer.Option(help="creepage to vary", rich_help_panel=LOADING)]
 Largest = Annotated[
-    float | None, typer.Option("--max", help="its last value; default 0.01, or 1 for spin", rich_help_panel=LOADING)
+    float | None,
+    typer.Option("--max", help="last value of that creepage; default 0.01, or 1 for spin", rich_help_panel=LOADING),
 ]
 Points = Annotated[int, typer.Option(min=2, max=10001, help="number of creepages", rich_help_panel=LOADING)]
 Ellipse = Annotated[
@@ -142,40 +144,47 @@ Ellipse = Annotated[
     typer.Option("--curvatures", help="half curvatures along x and y in 1/m", metavar="A B", rich_help_panel=LOADING),
 ]
 LeftWheel = Annotated[
-    str | None, typer.Option(help="of the left side, if it is another", rich_help_panel=PROFILES, show_default=False)
+    str | None, typer.Option(help="left wheel, if different", rich_help_panel=PROFILES, show_default=False)
 ]
 LeftRail = Annotated[
-    str | None, typer.Option(help="of the left side, if it is another", rich_help_panel=PROFILES, show_default=False)
+    str | None, typer.Option(help="left rail, if different", rich_help_panel=PROFILES, show_default=False)
 ]
 LeftRadius = Annotated[
-    float | None, typer.Option(help="of the left wheel in m, if it is another", rich_help_panel=PROFILES)
+    float | None, typer.Option(help="radius of the left wheel in m, if different", rich_help_panel=PROFILES)
 ]
 Gauge = Annotated[float, typer.Option(help="track gauge in m, 14 mm below the top of the rails", rich_help_panel=TRACK)]
 BackToBack = Annotated[float, typer.Option(help="distance of the backs of both flanges in m", rich_help_panel=TRACK)]
-Rolls = Annotated[bool, typer.Option("--roll", help="let the wheelset roll, against EN 15302", rich_help_panel=TRACK)]
+Rolls = Annotated[bool, typer.Option("--roll", help="let the wheelset roll, unlike EN 15302", rich_help_panel=TRACK)]
 Reach = Annotated[
     float, typer.Option("--max", help="largest lateral displacement in m", rich_help_panel=POSITION, min=1e-4, max=0.03)
 ]
-Step = Annotated[float, typer.Option(help="of the displacements in m", rich_help_panel=POSITION, min=1e-6)]
+Step = Annotated[float, typer.Option(help="step of the displacements in m", rich_help_panel=POSITION, min=1e-6)]
 Amplitudes = Annotated[
     list[float] | None,
-    typer.Option("--amplitude", help="in m; repeat. Default: 1 to 7 mm", rich_help_panel=POSITION, show_default=False),
+    typer.Option(
+        "--amplitude",
+        help="amplitude in m; may be repeated. Default: 1 to 7 mm",
+        rich_help_panel=POSITION,
+        show_default=False,
+    ),
 ]
-Out = Annotated[Path, typer.Option(help="the picture: .png, .pdf or .svg", rich_help_panel=OUTPUT)]
+Out = Annotated[Path, typer.Option(help="file of the picture: .png, .pdf or .svg", rich_help_panel=OUTPUT)]
 Csv = Annotated[Path | None, typer.Option("--csv", help="write the table to this file", rich_help_panel=OUTPUT)]
 Files = Annotated[
     list[Path] | None,
-    typer.Option("--out", help="write .html, .md, .json, .csv, .png, .pdf or .svg; repeat", rich_help_panel=OUTPUT),
+    typer.Option(
+        "--out", help="write .html, .md, .json, .csv, .png, .pdf or .svg; may be repeated", rich_help_panel=OUTPUT
+    ),
 ]
 
 
 def require_use(context: typer.Context) -> None:
-    """Refuse options of the running command that say nothing of two bodies given by --curvatures.
+    """Refuse options of the running command that do not apply together with --curvatures.
 
     Raises
     ------
     ContactError
-        If one of a wheel, a rail or their position is given beside --curvatures.
+        If a wheel, a rail or their position is given together with --curvatures.
     """
     if context.params["curvatures"] is None:
         return
@@ -183,7 +192,7 @@ def require_use(context: typer.Context) -> None:
     sources = {option.opts[0]: context.get_parameter_source(str(option.name)) for option in options}
     idle = [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
     if idle:
-        raise ContactError(f"{', '.join(idle)}: --curvatures stands in place of wheel, rail and position")
+        raise ContactError(f"{', '.join(idle)}: --curvatures replaces wheel, rail and position")
 
 
 def surface(
@@ -194,7 +203,7 @@ def surface(
     hot: tuple[float, float, float] | None = None,
     background: float = ROOM_TEMPERATURE,
 ) -> friction.Friction:
-    """The options of friction as `contact.solve` takes them."""
+    """Return the friction options as an argument of `contact.solve`."""
     law, kinetic, half_speed = falling or ("coulomb", static, 1.0)
     factor, border, width = gauge or (1.0, 0.0, 1.0)
     hot_factor, reference, over = hot or (1.0, background, 1.0)
@@ -215,12 +224,12 @@ def surface(
 
 
 def steel(pressure_limit: float) -> Material:
-    """STEEL with a limit of the pressure [Pa]."""
+    """Return STEEL with a pressure limit [Pa]."""
     return replace(STEEL, pressure_limit=pressure_limit)
 
 
 def reading(
     inclination: float | None, unit: str | None, drawn_side: str | None, smoothing: float | None
 ) -> dict[str, Any]:
-    """The options of profiles as `contact.geometry.profile.load` takes them."""
+    """Return the profile options as arguments of `contact.geometry.profile.load`."""
     return {"inclination": inclination, "unit": unit, "side": drawn_side, "smoothing": smoothing}

@@ -1,4 +1,4 @@
-"""Files that the commands write, and how a command ends early."""
+"""Writing of result files, and early exit of a command with a message."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Command = TypeVar("Command", bound=Callable[..., None])
 
 
 def reported(command: Command) -> Command:
-    """Let a command end with a message on stderr: exit code 2 when it gets bad input, 1 when an extra is missing."""
+    """Return the command with errors as messages on stderr: exit code 2 for bad input, 1 for a missing extra."""
 
     @functools.wraps(command)
     def wrapper(*args: Any, **kwargs: Any) -> None:
@@ -34,7 +34,7 @@ def reported(command: Command) -> Command:
 
 
 def drawing() -> Any:
-    """`contact.plot`, or the end of the program with the extra that is missing."""
+    """Return `contact.plot`. If matplotlib is missing, exit with a message that names the extra."""
     try:
         from contact import plot
     except ImportError as error:
@@ -43,7 +43,7 @@ def drawing() -> Any:
 
 
 def require_extra(extra: str) -> None:
-    """Go on if an extra is installed; else end the program with a line that names it."""
+    """Exit with a message if an extra is not installed."""
     if extra in missing():
         module, use = EXTRAS[extra]
         stop(f"{module} is missing ({use}): pip install 'wheelrail-contact[{extra}]'", 1)
@@ -60,13 +60,13 @@ def write_csv(rows: Sequence[dict[str, Any]], path: Path) -> None:
 
 
 def require_endings(paths: Sequence[Path]) -> None:
-    """Refuse, before minutes of work, a file that the results of a study cannot be written to."""
+    """Raise a ContactError if a study cannot be written to one of the paths. Call it before the computation."""
     for path in paths:
         require_ending(path, (".html", ".md", ".json", ".csv", *PICTURES))
 
 
 def write_all(found: Any, paths: Sequence[Path]) -> None:
-    """Write the results of a study to each of the files."""
+    """Write the results of a study to each of the paths."""
     for path in paths:
         try:
             found.write(path)

@@ -1,6 +1,6 @@
-"""Commands of other packages: entry points of the group `contact.commands`, each a function that typer can read.
+"""Commands of other packages: entry points of the group `contact.commands`, each a function for typer.
 
-`contact` must not import `models`, so `contact demo` comes to the command line this way.
+`contact` must not import `models`, so `contact demo` is added to the command line in this way.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ GROUP = "contact.commands"
 
 
 def add_plugins(app: typer.Typer, found: Iterable[EntryPoint] | None = None) -> list[str]:
-    """Register every command of the group with `app`; return one line for each that cannot be loaded."""
+    """Add every command of the group to `app`. Return a message for each command that cannot be loaded."""
     problems = []
     for point in sorted(entry_points(group=GROUP) if found is None else found, key=lambda p: p.name):
         try:

@@ -1,4 +1,4 @@
-"""From what the command line is given to solved contact patches."""
+"""Solve the contact patches that the options of the command line describe."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from contact.separation import Separation
 from contact.solution import Solution
 from contact.solve import solve
 
-STANDARD_LOAD = 80e3  # [N] when neither load nor penetration is given
-#: Options that a problem of two curvatures has no use for; speed and radius scale its damage.
+STANDARD_LOAD = 80e3  # load [N] if neither load nor penetration is given
+#: Options that do not apply to two given curvatures. Speed and radius do apply; its damage depends on them.
 OF_A_POSITION = frozenset(
     {"wheel", "rail", "inclination", "unit", "drawn_side", "smoothing", "side", "y", "roll", "yaw", "conformal"}
 )
@@ -33,13 +33,13 @@ class Touch:
 
     @property
     def name(self) -> str:
-        """What tables and pictures call it; patches are numbered from the field side to the flange."""
+        """Name in tables and pictures. Patches are numbered from the field side to the flange."""
         return f"{self.side} {self.number}" if self.side else "patch"
 
 
 @dataclass(frozen=True)
 class Position:
-    """A wheelset on its rails: profiles in the right-side convention, the sides asked for, pose and speed."""
+    """A wheelset on its rails: profiles in the right-side convention, sides to solve, pose, speed [m/s] and radius [m]."""
 
     wheel: Profile
     rail: Profile
@@ -50,7 +50,7 @@ class Position:
 
 
 def find_patches(case: Position, load: float | None, penetration: float | None) -> Iterator[tuple[str, int, Patch]]:
-    """Side, number and place of every patch of the wheels asked for; `load` [N] is the vertical load of each wheel."""
+    """Yield side, number and record of every patch of the wheels. `load` [N] is the vertical load of each wheel."""
     load = standard_load(load, penetration)
     for side in case.sides:
         found = wheelset.contacts(
@@ -68,14 +68,14 @@ def find_patches(case: Position, load: float | None, penetration: float | None) 
 
 
 def amount_of(patch: Patch) -> dict[str, Any]:
-    """The load of a patch where it was found from one, else its approach."""
+    """Return the load of a patch if it was found from one, else its approach, as an argument of `solve`."""
     return {"approach": patch.approach} if patch.load is None else {"load": patch.load}
 
 
 def solve_position(
     case: Position, load: float | None, penetration: float | None, creepage: Creepage | None, options: dict[str, Any]
 ) -> list[Touch]:
-    """Every patch of the wheels asked for; `load` [N] is the vertical load of each wheel."""
+    """Return every patch of the wheels, solved. `load` [N] is the vertical load of each wheel."""
     touches = []
     for side, number, patch in find_patches(case, load, penetration):
         mirror = -1.0 if side == "left" else 1.0
@@ -98,7 +98,7 @@ def solve_hertzian(
     creepage: Creepage | None,
     options: dict[str, Any],
 ) -> Touch:
-    """The patch of two constant half curvatures [1/m] under a normal load."""
+    """Return the solved patch of two constant half curvatures [1/m] under a normal load [N] or approach [m]."""
     load = standard_load(load, approach)
     separation = Separation.hertzian(*curvatures)
     return Touch(solve(separation, creepage or Creepage(), load=load, approach=approach, **options))
@@ -113,7 +113,10 @@ def sweep(
     tangential: Sequence[str],
     options: dict[str, Any],
 ) -> list[dict[str, Any]]:
-    """Forces of every tangential method with the creepage named `over` running through `values`, the others as `start`."""
+    """Return the forces of every tangential method for each of the `values` of the creepage named `over`.
+
+    The other creepages are those of `start`.
+    """
     rows = []
     for method in tangential:
         for value in values:
@@ -125,7 +128,7 @@ def sweep(
 
 
 def standard_load(load: float | None, penetration: float | None) -> float | None:
-    """The load [N], that of a standard wheel when neither is given."""
+    """Return the load [N]: `STANDARD_LOAD` if neither load nor penetration is given."""
     if load is not None and penetration is not None:
         raise ContactError(f"load = {load:g} and penetration = {penetration:g} exclude each other")
     return STANDARD_LOAD if load is None and penetration is None else load

@@ -1,4 +1,4 @@
-"""A progress bar on stderr, away from what a command prints."""
+"""A progress bar on stderr, separate from the output of a command."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 @contextmanager
 def progress_bar() -> Iterator[Callable[[float, str], None]]:
-    """Within this context a bar is shown; it is told the share that is done, 0 to 1, and what goes on."""
+    """Context manager that shows a progress bar. Its function takes the share done, 0 to 1, and a description."""
     columns = BarColumn(bar_width=24), TextColumn("{task.percentage:>3.0f} %"), TimeRemainingColumn()
     with Progress(
         *columns, TextColumn("{task.description}", markup=False), console=Console(stderr=True), transient=True

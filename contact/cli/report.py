@@ -22,8 +22,8 @@ PLACE: Sequence[tuple[str, str, Callable[[Patch], float]]] = (
     ("position z", "mm", lambda p: 1e3 * p.position[2]),
     ("rolling radius", "mm", lambda p: 1e3 * p.rolling_radius),
 )
-#: Shown where lobes pass from one plane to planes of their own: forces and damage count times it.
-SHARE: tuple[str, str, Callable[[Patch], float]] = ("share with which it counts", "-", lambda p: p.share)
+#: Shown if a patch has a share below 1 (`Patch.share`): its forces and damage are multiplied by it.
+SHARE: tuple[str, str, Callable[[Patch], float]] = ("share of the patch", "-", lambda p: p.share)
 CONTACT: Sequence[tuple[str, str, Callable[[Solution], float]]] = (
     ("longitudinal creepage", "‰", lambda s: 1e3 * s.creepage.longitudinal),
     ("lateral creepage", "‰", lambda s: 1e3 * s.creepage.lateral),
@@ -49,7 +49,7 @@ DAMAGE: Sequence[tuple[str, str, Callable[[Damage], float]]] = (
     ("Burstow", "1e-6/axle", lambda d: 1e6 * d.burstow),
     ("surface fatigue index", "-", lambda d: d.fatigue_index),
 )
-#: What needs traction and slip over the patch.
+#: Quantities that need traction and slip over the patch.
 LOCAL_DAMAGE: Sequence[tuple[str, str, Callable[[Damage], float]]] = (
     ("Archard volume", "mm³/km", lambda d: 1e12 * d.archard.volume),
     ("Archard depth", "µm/km", lambda d: 1e9 * d.archard.depth_max),
@@ -84,7 +84,7 @@ def show(touches: Sequence[Touch], title: str, wheel_radius: float, console: Con
 
 
 def data(touch: Touch, wheel_radius: float) -> dict[str, Any]:
-    """Everything but the fields, in SI units, under the names of the Python API; no local damage without fields."""
+    """Return all numbers of a patch in SI units, under the names of the Python API. Local damage needs fields."""
     s, damage = touch.solution, evaluate(touch.solution, wheel_radius)
     c = s.creepage
     content: dict[str, Any] = {}
@@ -115,7 +115,7 @@ def data(touch: Touch, wheel_radius: float) -> dict[str, Any]:
 
 
 def show_methods(methods: Methods, console: Console) -> None:
-    """Print the registry."""
+    """Print tables of the registered methods."""
     for kind, known in methods._asdict().items():
         table = Table(title=f"{kind} methods", title_justify="left", title_style="bold", header_style="bold")
         table.add_column("name", no_wrap=True)
@@ -129,7 +129,7 @@ def show_methods(methods: Methods, console: Console) -> None:
 def show_curve(
     values: Iterable[float], relative: Mapping[str, Sequence[float]], axis: str, force: str, console: Console
 ) -> None:
-    """Print creep curves, one column a method."""
+    """Print creep curves, one column for each method."""
     table = Table(title=f"{force} over {axis}", title_justify="left", title_style="bold", header_style="bold")
     for heading in (axis, *relative):
         table.add_column(heading, justify="right")

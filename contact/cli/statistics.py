@@ -18,14 +18,16 @@ from contact.study.statistics import statistics as compute
 Methods = Annotated[
     list[str] | None,
     typer.Option(
-        "--tangential", help="tangential method; repeat. Default: all with a fast kernel", rich_help_panel=opt.METHOD
+        "--tangential",
+        help="tangential method; may be repeated. Default: all with a fast kernel",
+        rich_help_panel=opt.METHOD,
     ),
 ]
 Cases = Annotated[int | None, typer.Option(min=1, help="a sample of the 3220 cases", show_default="all")]
 Elements = Annotated[int, typer.Option(help="rows and columns of the half space on the ellipse")]
-Resolution = Annotated[int, typer.Option(help="strips, and elements a strip, of the methods")]
+Resolution = Annotated[int, typer.Option(help="strips, and elements per strip, of the methods")]
 Stored = Annotated[
-    Path | None, typer.Option(help="keep the half space's forces in this file, and go on from there next time")
+    Path | None, typer.Option(help="keep the half space's forces in this file, and continue from there next time")
 ]
 Processes = Annotated[int | None, typer.Option(min=1, help="processes for the half space", show_default="all cores")]
 
@@ -41,9 +43,9 @@ def statistics(
     as_json: opt.Json = False,
     out: opt.Files = None,
 ) -> None:
-    """Errors of the tangential methods over 3220 cases on ellipses (Vollebregt, Iwnicki, Xie, Shackleton 2012).
+    """Compute errors of the tangential methods over 3220 cases on ellipses (Vollebregt, Iwnicki, Xie, Shackleton 2012).
 
-    Minutes for all cases. Examples:  contact statistics --cases 200   ·   contact statistics --stored ref.csv --out page.html
+    All cases take minutes. Examples:  contact statistics --cases 200   ·   contact statistics --stored ref.csv --out page.html
     """
     require_endings(out or [])
     with progress_bar() as bar:

@@ -1,4 +1,4 @@
-"""The tables of `contact.study` in the terminal."""
+"""Print the tables of `contact.study` in the terminal."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from contact.study.table import Table
 
 
 def show_study(found: Any, *, as_json: bool, out: Sequence[Path] | None, notes: Iterable[str] = ()) -> None:
-    """Print the tables of a study and its notes, or JSON, and write its files."""
+    """Print the tables and notes of a study, or its JSON, and write its files."""
     if as_json:
         typer.echo(found.json())
     else:
@@ -29,7 +29,7 @@ def show_study(found: Any, *, as_json: bool, out: Sequence[Path] | None, notes: 
 
 
 def show_tables(tables: Iterable[Table], console: Console) -> None:
-    """Print tables that fit 80 columns: a pair of methods takes two lines."""
+    """Print tables within 80 columns. A pair of methods takes two lines."""
     for table in tables:
         shown = RichTable(
             box=box.SIMPLE_HEAD,

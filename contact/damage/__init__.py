@@ -1,7 +1,7 @@
-"""Wear and rolling-contact fatigue from one solution (thesis chapter 6): one model a file, `evaluate` for all of them.
+"""Wear and rolling-contact fatigue of one solution (thesis chapter 6). `evaluate` computes all models.
 
-Constants carry the marks of their evidence: [T] thesis, [2+] two sources agree, [1] one source seen, [R] recalled only,
-[X] sources disagree.
+Marks of the constants' evidence: [T] thesis, [2+] two sources agree, [1] one source seen, [R] recalled only, [X] sources
+disagree.
 """
 
 from contact.damage.archard import ArchardMap, wear_coefficient

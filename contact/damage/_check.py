@@ -1,4 +1,4 @@
-"""What the thin public functions of the damage models share: checked arrays in, one kernel call per element."""
+"""Helpers of the damage models' public functions: check the arrays, and call a kernel for each element."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 
 def numbers(name: str, values: ArrayLike, minimum: float = -math.inf, *, open_minimum: bool = False) -> Array:
-    """Return `values` as a float64 array, every element checked by `contact.errors.require_number`."""
+    """Return `values` as a float64 array. Every element is checked as by `contact.errors.require_number`."""
     try:
         array = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):
@@ -31,7 +31,7 @@ def numbers(name: str, values: ArrayLike, minimum: float = -math.inf, *, open_mi
 
 
 def elementwise(kernel: Callable[..., float], *arrays: Array, constants: tuple[Array, ...] = ()) -> float | Array:
-    """Call a scalar kernel for every element of the broadcast `arrays`; scalars in give a float out."""
+    """Return the results of a scalar kernel for each element of the broadcast `arrays`; a float if all are scalars."""
     try:
         columns = np.broadcast_arrays(*arrays)
     except ValueError:

@@ -14,21 +14,21 @@ from contact.kernels.damage.archard import wear_coefficient_kernel
 
 @dataclass(frozen=True, slots=True)
 class ArchardMap:
-    """Wear coefficients over sliding velocity and pressure (constants.md 4).
+    """Wear coefficients k as a function of sliding velocity and pressure (constants.md 4).
 
-    The ranges of k are the thesis' [T]; the single values inside them, the thresholds and the seizure rule are recalled
-    [R] (Jendel 2002). They hold for dry steel; divide them by 2 to 10 for lubricated or wet contact (Enblom, [R]).
+    The ranges of k are those of the thesis [T]. The single values inside them, the thresholds and the seizure rule are
+    recalled [R] (Jendel 2002). They hold for dry steel; divide them by 2 to 10 for lubricated or wet contact (Enblom, [R]).
 
     Parameters
     ----------
     mild : float
-        k below `severe_from` [-]. 5e-4 of 1e-4 to 10e-4 [T].
+        k below `severe_from` [-]. 5e-4, from the range 1e-4 to 10e-4 [T].
     severe : float
-        k from `severe_from` to `severe_to`. 35e-4 of 30e-4 to 40e-4 [T].
+        k from `severe_from` to `severe_to` [-]. 35e-4, from the range 30e-4 to 40e-4 [T].
     mild_fast : float
-        k above `severe_to`. 5e-4 of 1e-4 to 10e-4 [T].
+        k above `severe_to` [-]. 5e-4, from the range 1e-4 to 10e-4 [T].
     seizure : float
-        k where the pressure exceeds `seizure_ratio` times the hardness. 350e-4 of 300e-4 to 400e-4 [T].
+        k if the pressure exceeds `seizure_ratio` times the hardness [-]. 350e-4, from the range 300e-4 to 400e-4 [T].
     severe_from, severe_to : float
         Sliding velocities 0.2 and 0.7 m/s [R].
     seizure_ratio : float
@@ -49,7 +49,7 @@ class ArchardMap:
         require_number("archard.severe_to", self.severe_to, self.severe_from)
 
     def constants(self) -> NDArray[np.float64]:
-        """Return what `wear_coefficient_kernel` is given."""
+        """Return the constants as the array for `wear_coefficient_kernel`."""
         return np.array(
             [
                 self.mild,
@@ -66,7 +66,7 @@ class ArchardMap:
 def wear_coefficient(
     velocity: ArrayLike, pressure: ArrayLike, hardness: ArrayLike, parameters: ArchardMap | None = None
 ) -> float | Array:
-    """Archard's wear coefficient k [-] from the KTH map.
+    """Return Archard's wear coefficient k [-] from the KTH map.
 
     Parameters
     ----------

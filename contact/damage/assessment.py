@@ -1,4 +1,4 @@
-"""`evaluate`: every damage index of one solution."""
+"""`evaluate`: all damage indices of one solution."""
 
 from __future__ import annotations
 
@@ -40,18 +40,21 @@ WEAR_LAWS: tuple[WearLaw, ...] = get_args(WearLaw)
 
 @dataclass(frozen=True, slots=True)
 class DamageParameters:
-    """Constants of all damage models; hardness and shear yield stress are those of the `Material`.
+    """Constants of all damage models. Hardness and shear yield stress are in `Material`.
 
     Parameters
     ----------
-    pearce_sherratt, burstow, usfd, archard : the constants of the models, each adjustable and with its source.
+    pearce_sherratt : PearceSherratt
+    burstow : Burstow
+    usfd : Usfd
+    archard : ArchardMap
+        Constants of the models, with their sources.
     with_spin : bool
-        Feed the laws that take T-gamma (Pearce-Sherratt, Burstow, USFD) with the variant that contains |Mz phi|.
-        Default False, thesis Eq. 6.1.
+        Use T-gamma with |Mz phi| in Pearce-Sherratt, Burstow and USFD. Default False, thesis Eq. 6.1.
     wear_law : {"archard", "usfd", "usfd_local", "pearce_sherratt"}
-        Which law `contact.accumulation` wears profiles by. "usfd" spreads the rate for the whole patch's T-gamma/A evenly over
-        its area, "usfd_local" takes the rate of each element's -q·s, "pearce_sherratt" spreads the area loss over the
-        patch's area.
+        Law for the wear of profiles in `contact.accumulation`. "usfd" takes the rate from T-gamma/A of the whole patch and
+        spreads it evenly over the area. "usfd_local" takes the rate from -q·s of each element. "pearce_sherratt" spreads
+        the area loss over the patch.
     """
 
     pearce_sherratt: PearceSherratt = field(default_factory=PearceSherratt)
@@ -66,7 +69,9 @@ class DamageParameters:
             raise ContactError(f"wear_law = {self.wear_law!r} is unknown; allowed: {', '.join(WEAR_LAWS)}")
 
     def record(self, material: Material, wheel_radius: float, speed: float) -> np.record:
-        """Return the record DAMAGE_PARAMETERS of `contact.kernels.layout`; lengths in m, speed in m/s.
+        """Return the constants as the record DAMAGE_PARAMETERS of `contact.kernels.layout`.
+
+        `wheel_radius` is in m, `speed` in m/s.
 
         Raises
         ------
@@ -93,14 +98,14 @@ class IndexField:
 
 @dataclass(frozen=True, slots=True)
 class ArchardWear:
-    """Sliding wear, spread over the circumference of the wheel.
+    """Archard's sliding wear, spread over the circumference of the wheel.
 
     Attributes
     ----------
-    depth : what each element takes off [m per m rolled], shape (n_strips, n_elements)
-    depth_per_strip : its sum along the rolling direction, the wear profile over the strips' y [m per m rolled]
+    depth : depth worn off by each element [m per m rolled], shape (n_strips, n_elements)
+    depth_per_strip : sum of `depth` along the rolling direction [m per m rolled], the wear profile over the strips' y
     depth_max : largest depth of a strip [m per m rolled]
-    volume : ∬ k p |s|/H dA = 2πr ∫ depth dy [m³ per m rolled]; on a bent surface dy along it
+    volume : ∬ k p |s|/H dA = 2πr ∫ depth dy [m³ per m rolled]; on a curved surface dy is along the surface
     wheel_radius : r [m]
     """
 
@@ -112,29 +117,29 @@ class ArchardWear:
 
     @property
     def depth_per_revolution(self) -> Array:
-        """Wear profile per revolution, also that of the rail per passage [m], shape (n_strips,)."""
+        """Depth worn off the wheel per revolution [m], shape (n_strips,). The rail loses the same depth per passage."""
         return 2.0 * np.pi * self.wheel_radius * self.depth_per_strip
 
 
 @only_with_fields("archard", "stress_index", "energy_index")
 @dataclass(frozen=True)
 class Damage:
-    """Damage indices of one solution; everything is zero without contact.
+    """Damage indices of one solution. All are zero without contact.
 
-    Rates count per metre rolled, that is per metre of the wheel's way; times 2πr they count per revolution. Where the
-    tangential method gives forces alone, reading what needs its fields (archard, stress_index, energy_index) raises a
-    ContactError (`has_fields`); the dissipation is then -(F·v + Mz phi).
+    Rates are per metre that the wheel rolls; multiplied by 2πr they are per revolution. If the tangential method gives
+    forces only, `has_fields` is false, and reading archard, stress_index or energy_index raises a ContactError. The
+    dissipation is then -(F·v + Mz phi).
 
     Attributes
     ----------
-    T_gamma, T_gamma_spin : |Fx vx| + |Fy vy| and the same + |Mz phi| [N = J/m]
-    dissipation : frictional energy -∬ q·s dA [N = J/m]; times the speed it is a power
-    pearce_sherratt : tread cross-section lost [m² per m rolled]; 1 mm²/km as published is 1e-9 m²/m
+    T_gamma, T_gamma_spin : |Fx vx| + |Fy vy|, and the same + |Mz phi| [N = J/m]
+    dissipation : frictional energy -∬ q·s dA [N = J/m]; multiplied by the speed it is a power
+    pearce_sherratt : tread cross-section lost [m² per m rolled]; the published unit 1 mm²/km is 1e-9 m²/m
     burstow : fraction of RCF life used by one axle pass [-]; may be negative (see `Burstow.clip_negative`)
     usfd : volume lost per contact area and metre rolled [m³/(m² m)]
     archard : ArchardWear
-    fatigue_index : FI_surf [-]; surface fatigue is predicted where positive
-    stress_index : SI = |q| - k [Pa]; fatigue where positive
+    fatigue_index : FI_surf [-]; a positive value predicts surface fatigue
+    stress_index : SI = |q| - k [Pa]; a positive value predicts fatigue
     energy_index : EI [Pa], positive for dissipation
     """
 
@@ -157,16 +162,21 @@ class Damage:
 
 
 def evaluate(solution: Solution, wheel_radius: float = 0.46, parameters: DamageParameters | None = None) -> Damage:
-    """Every damage index of a solution.
+    """Return all damage indices of a solution.
 
     Parameters
     ----------
     solution : Solution
-        Hardness and yield stress are those of its material, sliding velocities scale with its speed.
+        Hardness and yield stress are those of its material. Sliding velocities scale with its speed.
     wheel_radius : float
-        Rolling radius r [m] > 0: Pearce-Sherratt's diameter, and the circumference over which Archard's wear is spread.
+        Rolling radius r [m] > 0. It gives Pearce-Sherratt's diameter, and the circumference over which Archard's wear is
+        spread.
     parameters : DamageParameters
         Constants of the models.
+
+    Returns
+    -------
+    Damage
 
     Raises
     ------
@@ -197,7 +207,7 @@ def evaluate(solution: Solution, wheel_radius: float = 0.46, parameters: DamageP
 
 
 class Assessed(NamedTuple):
-    """The arrays of `damage_kernel` for one solution, before and after."""
+    """Input and output arrays of `damage_kernel` for one solution."""
 
     strips: Array
     fields: Array
@@ -207,7 +217,7 @@ class Assessed(NamedTuple):
 
 
 def assess(solution: Solution, wheel_radius: float = 0.46, parameters: DamageParameters | None = None) -> Assessed:
-    """As `evaluate`, in the kernels' arrays."""
+    """Return the results of `evaluate` as the kernel's arrays. Parameters as in `evaluate`."""
     strips, fields, case, result = _arrays(solution)
     damage, damage_fields = np.zeros(1, DAMAGE)[0], np.zeros((N_DAMAGE_FIELDS, *solution.p.shape))
     constants = (parameters or DamageParameters()).record(solution.material, wheel_radius, solution.speed)
@@ -216,15 +226,15 @@ def assess(solution: Solution, wheel_radius: float = 0.46, parameters: DamagePar
 
 
 def _arrays(solution: Solution) -> tuple[Array, Array, np.record, np.record]:
-    """Lay the record out as the kernels' arrays (rows that the damage kernel does not read stay zero)."""
+    """Return strips, fields, case and result of a solution as the kernel's arrays. Rows that it does not read are zero."""
     shape = solution.p.shape
     strips = np.zeros((N_STRIP_ROWS, shape[0]))
     strips[Strip.Y], strips[Strip.DY], strips[Strip.A] = solution.strips.y, solution.strips.dy, solution.strips.a
-    creepage, own = solution.creepage, solution.strips
-    strips[Strip.VX] = creepage.longitudinal if own.longitudinal is None else own.longitudinal
-    strips[Strip.VY] = creepage.lateral if own.lateral is None else own.lateral
-    strips[Strip.PHI] = creepage.spin if own.spin is None else own.spin
-    strips[Strip.TILT] = 0.0 if own.tilt is None else own.tilt
+    creepage, given = solution.creepage, solution.strips
+    strips[Strip.VX] = creepage.longitudinal if given.longitudinal is None else given.longitudinal
+    strips[Strip.VY] = creepage.lateral if given.lateral is None else given.lateral
+    strips[Strip.PHI] = creepage.spin if given.spin is None else given.spin
+    strips[Strip.TILT] = 0.0 if given.tilt is None else given.tilt
     fields = np.zeros((N_FIELD_ROWS, *shape))
     fields[Field.X], fields[Field.P] = solution.x, solution.p
     fields[Field.DX] = solution.dA / strips[Strip.DY][:, None]

@@ -1,4 +1,4 @@
-"""Rolling-contact-fatigue index of rails from T-gamma: Burstow's whole life rail model."""
+"""Rolling contact fatigue of rails from T-gamma: Burstow's whole life rail model."""
 
 from __future__ import annotations
 
@@ -19,16 +19,17 @@ class Burstow:
     Parameters
     ----------
     threshold : float
-        T-gamma where damage starts [N]. 15 [X]: recalled (Burstow 2004, 2009); 20 in Dutch work on R260Mn rail
+        T-gamma at which damage starts [N]. 15 [X]: recalled (Burstow 2004, 2009); 20 in Dutch work on R260Mn rail
         (U. Twente).
     peak_at : float
         T-gamma of the largest damage [N]. 65 [2+].
     zero_at : float
-        T-gamma where wear removes cracks as fast as they start [N]. 175 [2+].
+        T-gamma at which wear removes cracks as fast as they start [N]. 175 [2+].
     peak : float
         Largest damage per axle pass [-]. 10e-6 [2+].
     clip_negative : bool
-        [X] False (recalled): the falling branch goes on below zero, wear removes cracks. True (U. Twente): 0 there.
+        [X] False (recalled): the falling branch continues below zero, because wear removes cracks. True (U. Twente): the
+        damage is 0 there.
     """
 
     threshold: float = 15.0
@@ -44,13 +45,15 @@ class Burstow:
         require_number("burstow.peak", self.peak, 0.0)
 
     def constants(self) -> NDArray[np.float64]:
-        """Return what `burstow_kernel` is given."""
+        """Return the constants as the array for `burstow_kernel`."""
         floor = 0.0 if self.clip_negative else -np.inf
         return np.array([self.threshold, self.peak_at, self.zero_at, self.peak, floor])
 
 
 def burstow(T_gamma: ArrayLike, parameters: Burstow | None = None) -> float | Array:
-    """Fraction of the rail's life to crack initiation that one axle pass uses [-]; the sum 1 is a visible crack.
+    """Return the fraction of the rail's life to crack initiation that one axle pass uses [-].
+
+    A sum of 1 means a visible crack.
 
     Parameters
     ----------

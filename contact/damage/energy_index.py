@@ -1,4 +1,4 @@
-"""Energy index: T-gamma of every point of the patch (thesis Eq. 6.2; Dirks & Enblom)."""
+"""Energy index: T-gamma per area at each point of the patch (thesis Eq. 6.2; Dirks & Enblom)."""
 
 from __future__ import annotations
 
@@ -17,10 +17,11 @@ def energy_index(
     lateral: ArrayLike,
     spin: ArrayLike = 0.0,
 ) -> float | Array:
-    """EI = -(qx (vx - phi y) + qy (vy + phi x)), traction times rigid slip, energy per area and metre rolled [Pa].
+    """Return the energy index EI = -(qx (vx - phi y) + qy (vy + phi x)), energy per area and metre rolled [Pa].
 
-    Thesis Eq. 6.2 with the sign that makes dissipation positive for tractions on the wheel. The rigid slip counts, also
-    in the stick zone, so the index may be negative somewhere; its integral is -(Fx vx + Fy vy + Mz phi).
+    It is traction times rigid slip (thesis Eq. 6.2), with the sign that makes dissipation positive for tractions on the
+    wheel. The rigid slip is used also in the stick zone, so the index can be negative at some points. Its integral is
+    -(Fx vx + Fy vy + Mz phi).
 
     Parameters
     ----------

@@ -9,10 +9,10 @@ from contact.kernels.damage.fatigue_index import fatigue_index_kernel
 
 
 def fatigue_index(utilisation: ArrayLike, max_pressure: ArrayLike, shear_yield: ArrayLike = 300e6) -> float | Array:
-    """FI_surf = √(Fx² + Fy²)/N - k/p0 [-]; surface fatigue is predicted where it is positive.
+    """Return FI_surf = √(Fx² + Fy²)/N - k/p0 [-]. A positive value predicts surface fatigue.
 
-    Written with the peak pressure, the ordinate of the shakedown map, because a non-elliptic patch has no semi-axes; on
-    an ellipse it is the thesis' form with 2πabk/(3N).
+    The formula uses the peak pressure, the ordinate of the shakedown map, because a non-elliptic patch has no semi-axes. On
+    an ellipse it equals the thesis' form with 2πabk/(3N).
 
     Parameters
     ----------
@@ -21,8 +21,8 @@ def fatigue_index(utilisation: ArrayLike, max_pressure: ArrayLike, shear_yield: 
     max_pressure : array_like
         p0 [Pa], positive.
     shear_yield : array_like
-        k [Pa], positive. For R260 211 MPa at first plasticity, 288 at high plastic work [1] (Meyer et al. 2020); 300
-        is the order commonly used [R] (constants.md 5).
+        k [Pa], positive. For R260 it is 211 MPa at first plasticity and 288 MPa at high plastic work [1] (Meyer et al.
+        2020). About 300 MPa is commonly used [R] (constants.md 5).
 
     Raises
     ------

@@ -14,7 +14,7 @@ from contact.kernels.damage.pearce_sherratt import pearce_sherratt_kernel
 
 @dataclass(frozen=True, slots=True)
 class PearceSherratt:
-    """Constants of the published law, area loss in mm²/km for T-gamma in N and wheel diameter D in mm.
+    """Constants of the published law: area loss in mm²/km for T-gamma in N and wheel diameter D in mm.
 
     ======================  ==========================  =====
     T-gamma                 area loss                   mark
@@ -24,17 +24,17 @@ class PearceSherratt:
     above 200 N             (1.19 T-gamma - 154)/D      [R]
     ======================  ==========================  =====
 
-    [R]: recalled from Pearce & Sherratt 1991 (Wear 144, 343-351), no second source found (constants.md 1).
+    [R]: recalled from Pearce & Sherratt 1991 (Wear 144, 343-351); no second source was found (constants.md 1).
 
     Parameters
     ----------
     mild_slope, plateau, severe_slope, severe_offset : float
-        0.25, 25, 1.19, 154 above.
+        0.25, 25, 1.19, 154 in the table above.
     mild_limit, severe_limit : float
         Breakpoints 100 and 200 [N].
     jump : bool
-        True: as published, with a jump from 25 to 84 at 200 N. False: the severe branch starts where it meets the
-        plateau (150.4 N), which makes the law continuous and is no published variant.
+        True: as published, with a jump from 25 to 84 at 200 N. False: the severe branch starts where it meets the plateau,
+        at 150.4 N. The law is then continuous, but this variant is not published.
     """
 
     mild_slope: float = 0.25
@@ -51,7 +51,7 @@ class PearceSherratt:
         require_number("pearce_sherratt.severe_limit", self.severe_limit, self.mild_limit)
 
     def constants(self) -> NDArray[np.float64]:
-        """Return what `pearce_sherratt_kernel` is given."""
+        """Return the constants as the array for `pearce_sherratt_kernel`."""
         severe_from = self.severe_limit if self.jump else self.mild_limit
         floor = 0.0 if self.jump else self.plateau
         return np.array(
@@ -70,7 +70,9 @@ class PearceSherratt:
 def pearce_sherratt(
     T_gamma: ArrayLike, wheel_diameter: ArrayLike = 0.92, parameters: PearceSherratt | None = None
 ) -> float | Array:
-    """Cross-section area that the tread loses per metre rolled [m²/m]; 1 mm²/km of the publication = 1e-9 m²/m.
+    """Return the cross-section area that the tread loses per metre rolled [m²/m].
+
+    The published unit 1 mm²/km is 1e-9 m²/m.
 
     Parameters
     ----------

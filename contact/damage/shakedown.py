@@ -1,4 +1,4 @@
-"""Limits of shakedown, the lines of the shakedown map (Johnson)."""
+"""Shakedown limits, the curves of the shakedown map (Johnson)."""
 
 from __future__ import annotations
 
@@ -7,25 +7,27 @@ from numpy.typing import ArrayLike
 
 from contact.damage._check import Array, numbers
 
-#: Shakedown limit p0/k below the surface over the utilised friction: line contact, max |τxz| with free residual stresses. Own
-#: computation with McEwen's fields [V] (constants.md 5), in agreement with Johnson's 4.00 at no friction.
+#: Rows of utilised friction and shakedown limit p0/k below the surface, for a line contact: max |τxz| with free residual
+#: stresses. Computed by this project with McEwen's fields [V] (constants.md 5); it agrees with Johnson's 4.00 without
+#: friction.
 LINE = np.array(
     [
         *((0.0, 4.00), (0.05, 3.77), (0.1, 3.56), (0.15, 3.38), (0.2, 3.20), (0.25, 3.04), (0.3, 2.90), (0.35, 2.77)),
         (0.367, 2.72),
     ]
 )
-#: Half length over half width → p0/k below the surface without friction, orthogonal shear on y = 0 in Hertz's ellipse: own
-#: computation [V]. The line is 0; that of the circle is recalled as 4.7.
+#: Half length over half width → p0/k below the surface without friction, from the orthogonal shear on y = 0 in Hertz's
+#: ellipse, computed by this project [V]. The line contact has the ratio 0. For the circle 4.7 is recalled.
 ELLIPSE = {0.1: 4.01, 0.2: 4.04, 0.5: 4.22, 1.0: 4.68}
 
 
 def shakedown_limit(utilisation: ArrayLike) -> float | Array:
-    """Peak pressure over shear yield stress, p0/k, up to which a line contact shakes down [-].
+    """Return the largest peak pressure over shear yield stress, p0/k [-], for which a line contact shakes down.
 
-    The lesser of the limit below the surface (`LINE`) and that at the surface, 1/utilisation, where `fatigue_index` is zero;
-    they meet at 0.367. Patches that are not long across bear more below the surface: without friction a circle 4.68
-    instead of 4.00 (`ELLIPSE`); with friction no value was found, so the line is the safe side.
+    The result is the smaller of two limits: that below the surface (`LINE`), and that at the surface, 1/utilisation, where
+    `fatigue_index` is zero. They meet at 0.367. Patches that are not long in the lateral direction have a higher limit below
+    the surface. Without friction it is 4.68 for a circle instead of 4.00 (`ELLIPSE`). With friction no value was found; the
+    line contact is on the safe side.
 
     Parameters
     ----------

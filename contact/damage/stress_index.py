@@ -9,20 +9,24 @@ from contact.kernels.damage.stress_index import stress_index_kernel
 
 
 def stress_index(qx: ArrayLike, qy: ArrayLike, shear_yield: ArrayLike = 300e6) -> float | Array:
-    """SI = √(qx² + qy²) - k [Pa]; fatigue is predicted where it is positive.
+    """Return the stress index SI = √(qx² + qy²) - k [Pa]. A positive value predicts fatigue.
 
     Parameters
     ----------
     qx, qy : array_like
         Traction [Pa].
     shear_yield : array_like
-        k [Pa], positive; see `fatigue_index`. The limits and exponents of Dirks' crack-length model were not found
-        (constants.md 11), so the index itself is returned.
+        k [Pa], positive; see `fatigue_index`.
 
     Raises
     ------
     ContactError
         For values outside their range.
+
+    Notes
+    -----
+    The limits and exponents of Dirks' crack-length model were not found (constants.md 11), so the function returns the
+    index itself.
     """
     return elementwise(
         stress_index_kernel,

@@ -1,4 +1,4 @@
-"""T-gamma: force times creepage, the global energy measure (thesis Eq. 6.1)."""
+"""T-gamma: force times creepage, the energy measure of the whole contact (thesis Eq. 6.1)."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ def t_gamma(
     Mz: ArrayLike = 0.0,
     spin: ArrayLike = 0.0,
 ) -> float | Array:
-    """T-gamma = |Fx vx| + |Fy vy| (thesis Eq. 6.1), with `Mz` and `spin` also + |Mz phi|.
+    """Return T-gamma = |Fx vx| + |Fy vy| (+ |Mz phi| with `Mz` and `spin`), energy per metre rolled [N = J/m].
 
-    Energy per metre rolled [N = J/m]. With spin it is an upper bound of the dissipation -∬ q·s dA of the exact theory,
-    where the elastic part of the slip does no net work over a patch in steady rolling.
+    The source is thesis Eq. 6.1. With spin it is an upper bound of the dissipation -∬ q·s dA of the exact theory, in which
+    the elastic part of the slip does no net work over a patch in steady rolling.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Wear rate over T-gamma/A: the University of Sheffield's function (Lewis & Dwyer-Joyce 2004, Braghin et al. 2006)."""
+"""Wear rate from T-gamma/A: the University of Sheffield's function (Lewis & Dwyer-Joyce 2004, Braghin et al. 2006)."""
 
 from __future__ import annotations
 
@@ -17,23 +17,24 @@ SevereBranch = Literal["continuous", "proportional", "from_zero"]
 
 @dataclass(frozen=True, slots=True)
 class Usfd:
-    """Constants for R8T wheel on UIC60 900A rail: µg per metre rolled and mm² of contact, over I = T-gamma/A in N/mm².
+    """Constants for R8T wheel on UIC60 900A rail: wear rate in µg/(m mm²) as a function of I = T-gamma/A in N/mm².
 
-    Marks of constants.md 3; R+1: recalled, one public code agrees.
+    The marks are those of constants.md 3. [R+1]: recalled, one public code agrees.
 
     Parameters
     ----------
     mild_slope, mild_limit : float
         Rate 5.3 I below I = 10.4 N/mm² [R+1].
     plateau : float
-        55.0 up to `severe_limit` [R+1]; 55.12 makes the lower breakpoint exactly continuous.
+        Rate 55.0 up to `severe_limit` [R+1]. With 55.12 the rate is continuous at the lower breakpoint.
     severe_limit, severe_slope : float
         77.2 N/mm² and 61.9 [R+1].
     severe_branch : {"continuous", "proportional", "from_zero"}
-        Above 77.2 the sources disagree [X]: plateau + 61.9 (I - 77.2); 61.9 I; 61.9 I - 4778.7, which drops to 0 there.
-        "continuous" is inferred from 61.9·77.2 = 4778.7, not seen in print.
+        Rate above 77.2, for which the sources disagree [X]. "continuous": plateau + 61.9 (I - 77.2); inferred from
+        61.9·77.2 = 4778.7, not seen in print. "proportional": 61.9 I. "from_zero": 61.9 I - 4778.7, which drops to 0 at
+        77.2.
     density : float
-        Steel [kg/m³], 7850 [2+].
+        Density of steel [kg/m³], 7850 [2+].
     """
 
     mild_slope: float = 5.3
@@ -54,7 +55,7 @@ class Usfd:
             raise ContactError(f"usfd.severe_branch = {self.severe_branch!r} is unknown; allowed: {allowed}")
 
     def constants(self) -> NDArray[np.float64]:
-        """Return what `usfd_kernel` is given."""
+        """Return the constants as the array for `usfd_kernel`."""
         intercept = {
             "continuous": self.plateau - self.severe_slope * self.severe_limit,
             "proportional": 0.0,
@@ -74,10 +75,10 @@ class Usfd:
 
 
 def usfd(T_gamma: ArrayLike, area: ArrayLike, parameters: Usfd | None = None) -> float | Array:
-    """Volume that the wheel loses per contact area and metre rolled [m³/(m² m)], that is depth per metre rolled [m/m].
+    """Return the volume that the wheel loses per contact area and metre rolled [m³/(m² m)].
 
-    Times `density` it is the published mass rate (1 µg/(m mm²) = 1e-3 kg/(m m²)). The area is that of the contact
-    patch: the wheel loses `usfd·area` [m³] per metre rolled, spread over its circumference and the width of the patch.
+    Multiplied by `density` it is the published mass rate (1 µg/(m mm²) = 1e-3 kg/(m m²)). The area is that of the contact
+    patch. The wheel loses `usfd·area` [m³] per metre rolled, spread over its circumference and the width of the patch.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""From profiles and a wheelset pose to separations and creepages: `profile` and `wheelset`; rigid contact points, conicity."""
+"""Profiles (`profile`), contact search with separations and creepages (`wheelset`), rigid contact points and conicity."""
 
 from contact.geometry import profile, wheelset
 from contact.geometry.en15302 import Conicity, conicity, equivalent_conicity

@@ -1,9 +1,9 @@
-"""Equivalent conicity by the procedure of EN 15302: the cone that has the wavelength of the real profiles.
+"""Equivalent conicity by the procedure of EN 15302: the cone with the same wavelength as the real profiles.
 
-A wheelset that rolls without creepage moves like y'' = -Δr(y)/(e r0), with e the distance of the tape circles and r0 their
-radius. From the first integral S(y) = ∫ Δr dy, an oscillation of amplitude ŷ between y1 and y2 = y1 + 2 ŷ has the same S = C
-at both ends and the wavelength λ = 2 ∫ dy/ψ, ψ² = 2 (C - S)/(e r0). Klingel's formula of a cone then defines
-tan γe = (π/λ)² 2 e r0 (constants.md 12.1); e and r0 cancel: tan γe = π²/(∫ dy/√(C - S))².
+A wheelset that rolls without creepage moves like y'' = -Δr(y)/(e r0). Here e is the distance of the tape circles and r0
+their radius. The first integral is S(y) = ∫ Δr dy. An oscillation of amplitude ŷ between y1 and y2 = y1 + 2 ŷ has S = C at
+both ends and the wavelength λ = 2 ∫ dy/ψ with ψ² = 2 (C - S)/(e r0). Klingel's formula of a cone then defines
+tan γe = (π/λ)² 2 e r0 (constants.md 12.1). e and r0 cancel: tan γe = π²/(∫ dy/√(C - S))².
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ from contact.geometry.rigid import ContactPoints, contact_points
 
 Array = NDArray[np.float64]
 
-STEP = 2e-5  # [m] of the table of Δr
-BEYOND = 5e-3  # [m] of that table beyond the largest amplitude, on both sides
-_NODES = 2000  # of the integral
-_FLAT = 1e-14  # [m²] of C - S that is round-off: a conicity of some 1e-8
+STEP = 2e-5  # step of the table of Δr [m]
+BEYOND = 5e-3  # the table extends beyond the largest amplitude by this [m], on both sides
+_NODES = 2000  # nodes of the integral
+_FLAT = 1e-14  # C - S [m²] below this is round-off; it is a conicity of about 1e-8
 
 
 @dataclass(frozen=True)
@@ -35,11 +35,11 @@ class Conicity:
     amplitude : ndarray, shape (n,)
         Amplitudes of the wheelset's lateral oscillation [m].
     conicity : ndarray, shape (n,)
-        tan γe [-]. Negative where Δr drives the wheelset out of the middle, 0 where it has no oscillation of this amplitude.
+        tan γe [-]. Negative if Δr drives the wheelset away from the middle; 0 if no oscillation has this amplitude.
     centre : ndarray, shape (n,)
-        Middle between both ends of the oscillation [m], not zero for unequal wheels or rails.
+        Middle between both ends of the oscillation [m]. Not zero for unequal wheels or rails.
     points : ContactPoints
-        The contact points and Δr from which they are computed.
+        The contact points and Δr that were used.
     """
 
     amplitude: Array
@@ -48,7 +48,10 @@ class Conicity:
     points: ContactPoints
 
     def wavelength(self, base: float = 1.5, radius: float = 0.46) -> Array:
-        """Klingel's λ = 2π √(e r0/(2 tan γe)) [m] for a distance `base` of tape circles; infinite without conicity > 0."""
+        """Return Klingel's wavelength λ = 2π √(e r0/(2 tan γe)) [m]; infinite unless the conicity is positive.
+
+        `base` is the distance e of the tape circles [m], `radius` their radius r0 [m].
+        """
         require_number("base", base, 0.0, open_minimum=True)
         require_number("radius", radius, 0.0, open_minimum=True)
         with np.errstate(divide="ignore"):
@@ -58,24 +61,28 @@ class Conicity:
 def conicity(
     wheel: Profile, rail: Profile, amplitudes: ArrayLike | None = None, *, step: float = STEP, **options: Any
 ) -> Conicity:
-    """Equivalent conicity of wheels on rails, by default at the amplitudes 1, 2, … 7 mm.
+    """Return the equivalent conicity of wheels on rails.
 
     Parameters
     ----------
     wheel, rail : Profile
     amplitudes : array_like, shape (n,), optional
-        Amplitudes [m], 1e-4 to 0.02.
+        Amplitudes [m], 1e-4 to 0.02; default 1, 2, … 7 mm.
     step : float
-        Of the table of Δr [m], 1e-6 to 1e-4: between its values Δr is a straight line, and a jump a slope. The reference
-        tables of the edition of 2008 come out, to 0.002, with 0.1 mm; those of 2021 with the finer default.
+        Step of the table of Δr [m], 1e-6 to 1e-4. Between its values Δr is linear, so a jump becomes a slope. With 0.1 mm
+        the reference tables of the 2008 edition are reproduced to 0.002, with the finer default those of 2021.
     **options
         As for `contact.geometry.contact_points`: left_wheel, left_rail, nominal_radius, left_radius, gauge, flange_back,
-        gauge_point, roll (which EN 15302 leaves out).
+        gauge_point, roll (EN 15302 neglects the roll).
+
+    Returns
+    -------
+    Conicity
 
     Raises
     ------
     ContactError
-        As there; and an amplitude at which no position has equal drive to both sides within 5 mm of the track's centre.
+        As `contact_points`. Also if, for an amplitude, no centre of oscillation lies within 5 mm of the track's centre.
     """
     wanted = _amplitudes(np.arange(1, 8) * 1e-3 if amplitudes is None else amplitudes)
     n = int(np.ceil((wanted.max() + BEYOND) / require_number("step", step, 1e-6, 1e-4)))
@@ -83,12 +90,22 @@ def conicity(
 
 
 def equivalent_conicity(points: ContactPoints, amplitudes: ArrayLike) -> Conicity:
-    """The same from contact points that are known already, at equal steps of y.
+    """Return the equivalent conicity from known contact points at equal steps of y.
+
+    Parameters
+    ----------
+    points : ContactPoints
+    amplitudes : array_like, shape (n,)
+        Amplitudes [m], 1e-4 to 0.02.
+
+    Returns
+    -------
+    Conicity
 
     Raises
     ------
     ContactError
-        Steps that differ, amplitudes that reach beyond the points, and as `conicity`.
+        For unequal steps, amplitudes that reach beyond the points, and as `conicity`.
     """
     wanted = _amplitudes(amplitudes)
     steps = np.diff(points.y)
@@ -115,7 +132,7 @@ def _amplitudes(given: ArrayLike) -> Array:
 
 
 def _equivalent(y: Array, dr: Array, amplitude: float) -> tuple[float, float]:
-    """tan γe and the middle of the oscillation of this amplitude; Δr is a straight line between its values at equal steps."""
+    """Return tan γe [-] and the centre [m] of the oscillation of this amplitude. Δr is linear between the equal steps of y."""
     h = y[1] - y[0]
     integral = np.concatenate(([0.0], np.cumsum(0.5 * h * (dr[1:] + dr[:-1]))))
 
@@ -128,7 +145,7 @@ def _equivalent(y: Array, dr: Array, amplitude: float) -> tuple[float, float]:
         return S(centre + amplitude) - S(centre - amplitude)
 
     centre = _zero_nearest_the_middle(drive, y[(y >= y[0] + amplitude) & (y <= y[-1] - amplitude)], amplitude)
-    # y = centre + ŷ sin θ takes the singularities of 1/√(C - S) away; the midpoint rule avoids both ends
+    # y = centre + ŷ sin θ removes the singularities of 1/√(C - S); the midpoint rule avoids both ends
     theta = (np.arange(_NODES) + 0.5) * np.pi / _NODES - 0.5 * np.pi
     ends = centre + amplitude * np.array([-1.0, 1.0])
     well = S(ends).mean() - S(centre + amplitude * np.sin(theta))
@@ -140,15 +157,15 @@ def _equivalent(y: Array, dr: Array, amplitude: float) -> tuple[float, float]:
 
 
 def _zero_nearest_the_middle(drive: Any, candidates: Array, amplitude: float) -> float:
-    """Where the mean of Δr over the oscillation vanishes, the place nearest to the track's centre, by bisection."""
+    """Return the centre [m], nearest to the track's centre, at which the mean of Δr over the oscillation is zero."""
     values = drive(candidates)
-    found = np.flatnonzero((values[:-1] <= 0.0) & (values[1:] >= 0.0) | (values[:-1] >= 0.0) & (values[1:] <= 0.0))
-    if not found.size:
+    changes = np.flatnonzero((values[:-1] <= 0.0) & (values[1:] >= 0.0) | (values[:-1] >= 0.0) & (values[1:] <= 0.0))
+    if not changes.size:
         raise ContactError(
-            f"amplitudes = {amplitude:g}: Δr is of one sign on average wherever the wheelset is within "
+            f"amplitudes = {amplitude:g}: the mean of Δr has the same sign wherever the wheelset is within "
             f"[{candidates[0]:g}, {candidates[-1]:g}] m; are the gauge, the flange backs and both radii right?"
         )
-    k = found[np.argmin(np.abs(candidates[found] + candidates[found + 1]))]
+    k = changes[np.argmin(np.abs(candidates[changes] + candidates[changes + 1]))]
     ends = np.array([candidates[k], candidates[k + 1]])
     if values[k] == 0.0 or values[k + 1] == 0.0:
         return float(ends[0] if values[k] == 0.0 else ends[1])

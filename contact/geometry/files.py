@@ -1,17 +1,17 @@
 """Readers of profile files: Simpack, MiniProf and plain columns.
 
 =========  ==============  =====================================================================================
-suffix     kind            what the file says, and what is assumed
+suffix     kind            content of the file, and assumptions
 =========  ==============  =====================================================================================
-.prw .prr  wheel, rail     Simpack. The header's unit and its steps in the order of their numbers there: shift, rotate,
-                           bounds, mirror. The result is taken to be the right side with z down (`side` overrules).
-.whl .ban  wheel, rail     MiniProf, in millimetres. Whether z points up or down and where the flange or the gauge corner
-                           is, is seen from the shape; a wheel measured from the back of its flange is moved by 70 mm.
-others     `kind`          Two or more columns y, z separated by blanks, commas or semicolons, after any lines of text;
-                           `kind`, `unit` and `side` are needed. z up or down is seen from the shape.
+.prw .prr  wheel, rail     Simpack. The header gives the unit and the steps, applied in the order of their numbers: shift,
+                           rotate, bounds, mirror. The result is taken as the right side with z down, unless `side` is given.
+.whl .ban  wheel, rail     MiniProf, in millimetres. The direction of z and the side of the flange or gauge corner are
+                           found from the shape. A wheel measured from the back of its flange is moved by 70 mm.
+others     `kind`          Two or more columns y, z separated by blanks, commas or semicolons, after any lines of text.
+                           `kind`, `unit` and `side` are required. The direction of z is found from the shape.
 =========  ==============  =====================================================================================
 
-Points nearer than a micrometre to the one before are left out: a tangent between them would be noise.
+A point less than a micrometre from the previous one is dropped, because the tangent between them would be noise.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ from contact.geometry.smoothing import smoothed
 Points = NDArray[np.float64]  # shape (n, 2): y, z
 
 UNITS = {"m": 1.0, "mm": 1e-3}
-NEAREST = 1e-6  # [m]
-NARROWEST, WIDEST = 0.03, 0.2  # [m] of a wheel or a rail's head
-_FLANGE = 0.015  # [m] that a point must lie below the middle of a wheel to be a flange's tip
+NEAREST = 1e-6  # least distance of two points [m]
+NARROWEST, WIDEST = 0.03, 0.2  # range of the width of a wheel or a rail's head [m]
+_FLANGE = 0.015  # a flange's tip lies at least this far below the median of a wheel's points [m]
 _KINDS: dict[str, Kind] = {".prw": "wheel", ".prr": "rail", ".whl": "wheel", ".ban": "rail"}
-_FLANGE_BACK = 0.070  # [m] from the tape circle
+_FLANGE_BACK = 0.070  # distance from the tape circle [m]
 
 
 def read(
@@ -45,30 +45,38 @@ def read(
     side: Literal["right", "left"] | None = None,
     smoothing: float | None = None,
 ) -> Profile:
-    """Read a profile in the right-side convention of `contact.geometry.profile`.
+    """Read a profile and return it in the right-side convention of `contact.geometry.profile`.
 
     Parameters
     ----------
     path : path-like
         File; its suffix tells the format.
     kind : {"wheel", "rail"}, optional
-        Needed for plain columns; else it must agree with the suffix.
+        Required for plain columns; otherwise it must agree with the suffix.
     unit : {"m", "mm"}, optional
-        Unit of length; needed for plain columns, overrules the format's own otherwise.
+        Unit of length. Required for plain columns; otherwise it replaces the format's own unit.
     side : {"right", "left"}, optional
-        Which side the file shows, seen from behind with y to the right; a left one is mirrored. Needed for plain columns.
+        Side that the file shows, seen from behind with y to the right. A left side is mirrored. Required for plain columns.
     smoothing : float, optional
-        Noise of the measurement [m], root mean square, which a smoothing spline takes out (needs scipy); by default the curve
-        goes through every point. The contact depends on tangents and curvatures, which are far noisier than points: 2 µm of
-        noise on points of S1002 0.25 mm apart leave errors (root mean square) of 9.6 mrad and 62 1/m, and with
-        ``smoothing=2e-6`` 1.6 mrad and 3.9 1/m; with half of it 6.4 mrad and 36 1/m, with twice as much 3.6 mrad and 5.4 1/m
-        while the points are 3.5 µm off.
+        Noise of the measurement [m], root mean square, to be removed by a smoothing spline (needs scipy). By default the
+        curve goes through every point.
+
+    Returns
+    -------
+    Profile
 
     Raises
     ------
     ContactError
-        A file that cannot be read, holds no profile or contradicts `kind`; arguments that are missing or unknown; a profile
-        narrower than 30 mm or wider than 200 mm, as in a wrong unit; a wheel with its flange on the field side.
+        If the file cannot be read, holds no profile or contradicts `kind`; for missing or unknown arguments; for a profile
+        narrower than 30 mm or wider than 200 mm, as from a wrong unit; for a wheel with its flange on the field side.
+
+    Notes
+    -----
+    The contact depends on tangents and curvatures, which are far noisier than points. An example is S1002 with points
+    0.25 mm apart and 2 µm of noise. Without smoothing the root mean square errors are 9.6 mrad and 62 1/m. With
+    ``smoothing=2e-6`` they are 1.6 mrad and 3.9 1/m, with half of it 6.4 mrad and 36 1/m, with twice as much 3.6 mrad and
+    5.4 1/m; in the last case the points are 3.5 µm off.
     """
     path = Path(path)
     suffix = path.suffix.lower()
@@ -115,7 +123,7 @@ def read(
 
 
 def _plausible(points: Points, kind: Kind | None, path: Path) -> None:
-    """Refuse a profile that only a wrong unit or a wrong side explains."""
+    """Raise a ContactError for a profile with an implausible width or with the flange on the wrong side."""
     y, z = points.T
     width = y.max() - y.min()
     if not NARROWEST <= width <= WIDEST:
@@ -131,7 +139,7 @@ def _plausible(points: Points, kind: Kind | None, path: Path) -> None:
 
 
 def _simpack(lines: list[str], path: Path) -> tuple[Points, float]:
-    """Points after the header's steps, in the file's unit, and that unit in metres."""
+    """Return the points in the file's unit, after the steps of the header, and that unit in metres."""
     header: dict[str, float] = {}
     rows: list[list[float]] = []
     inside = False
@@ -148,7 +156,7 @@ def _simpack(lines: list[str], path: Path) -> tuple[Points, float]:
             try:
                 header[key.strip()] = float(value)
             except ValueError:
-                continue  # a text, as the comment or the name of the original file
+                continue  # a text value, like a comment or the name of the original file
     if not rows:
         raise ContactError(f"path = {str(path)!r} holds no points between point.begin and point.end")
     points = np.add(rows, (header.get("shift.y", 0.0), header.get("shift.z", 0.0)))
@@ -157,7 +165,7 @@ def _simpack(lines: list[str], path: Path) -> tuple[Points, float]:
     points = points @ np.array([[c, s], [-s, c]])
     for column, axis in enumerate("yz"):
         low, high = header.get(f"bound.{axis}.min", 1.0), header.get(f"bound.{axis}.max", 0.0)
-        if low < high:  # the other way round they are off
+        if low < high:  # otherwise the bounds are switched off
             points = points[(points[:, column] >= low) & (points[:, column] <= high)]
     for column, axis in enumerate("yz"):
         if header.get(f"mirror.{axis}", 0.0) == 1.0:
@@ -166,7 +174,7 @@ def _simpack(lines: list[str], path: Path) -> tuple[Points, float]:
 
 
 def _columns(lines: list[str], path: Path) -> Points:
-    """First two columns of the lines of numbers that follow lines of anything else."""
+    """Return the first two columns of the lines of numbers. Other lines may precede them."""
     rows: list[list[float]] = []
     for number, line in enumerate(lines, 1):
         text = line.split("#")[0].split("!")[0].strip()
@@ -177,7 +185,7 @@ def _columns(lines: list[str], path: Path) -> Points:
         except ContactError:
             if len(rows) > 1:
                 raise
-            rows.clear()  # still the header
+            rows.clear()  # the line belongs to the header
     if not rows:
         raise ContactError(f"path = {str(path)!r} holds no columns of numbers")
     return np.array(rows)
@@ -194,7 +202,7 @@ def _numbers(text: str, number: int, path: Path) -> list[float]:
 
 
 def _downwards(points: Points, kind: Kind) -> Points:
-    """Turn z down: a rail is highest inside, a wheel reaches lowest at its flange, far from the median of its tread."""
+    """Return the points with z down. A rail is highest inside. A wheel is lowest at its flange, far below the median."""
     z = points[:, 1]
     if kind == "rail":
         down = z[0] + z[-1] > 2.0 * np.median(z)
@@ -204,13 +212,13 @@ def _downwards(points: Points, kind: Kind) -> Points:
 
 
 def _tread(points: Points) -> slice:
-    """Leave out the outermost tenths, where chamfers and flange backs are."""
+    """Return the slice without the outermost tenths, which contain chamfers and flange backs."""
     n = len(points)
     return slice(n // 10, n - n // 10)
 
 
 def _outwards(points: Points, kind: Kind) -> Points:
-    """Turn y to the field side: the flange's tip, or the deeper side of a rail, belongs at its lower end."""
+    """Return the points with y to the field side. The flange's tip and the deeper side of a rail belong at low y."""
     y, z = points[np.argsort(points[:, 0])].T
     if kind == "wheel":
         low = y[np.argmax(z)] < 0.5 * (y[0] + y[-1])
@@ -220,7 +228,7 @@ def _outwards(points: Points, kind: Kind) -> Points:
 
 
 def _ordered(points: Points) -> Points:
-    """From the low-y end to the other, without points that nearly coincide with the one before."""
+    """Return the points from the end with low y to the other, without points that nearly coincide with the previous one."""
     if len(points) > 1 and points[0, 0] > points[-1, 0]:
         points = points[::-1]
     kept = [points[0]]

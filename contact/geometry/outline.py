@@ -1,7 +1,8 @@
 """Outlines of the standards: arcs, lines, polynomials and tables in millimetres, and their points with exact tangents.
 
-Right side, y to the field side, z down, as in `contact.geometry.profile`. An outline is a sequence of segments from the
-gauge or flange side to the field side; where two meet in a corner, a curve through the points rounds it within `SPACING`.
+Conventions as in `contact.geometry.profile`: right side, y to the field side, z down. An outline is a sequence of segments
+from the gauge or flange side to the field side. A curve through the points rounds a corner between two segments within
+`SPACING`.
 """
 
 from __future__ import annotations
@@ -24,15 +25,15 @@ class Segment(Protocol):
     """One piece of an outline."""
 
     def points(self) -> Points:
-        """Points at equal arcs of at most `SPACING`, both ends included."""
+        """Return points at equal arc lengths of at most `SPACING`, both ends included."""
 
     def moved(self, by: float) -> Self:
-        """The same piece, further to the field side by `by` [mm]."""
+        """Return this segment, moved to the field side by `by` [mm]."""
 
 
 @dataclass(frozen=True)
 class Arc:
-    """Circle from y0 to y1; a crest lies above its centre (z = cz − √…), a trough below it."""
+    """Arc of a circle from y0 to y1. A crest lies above the centre (z = cz − √…), a trough below it."""
 
     y0: float
     y1: float
@@ -51,18 +52,18 @@ class Arc:
         return replace(self, y0=self.y0 + by, y1=self.y1 + by, cy=self.cy + by)
 
     def between(self, y0: float, y1: float) -> Self:
-        """The part of it from y0 to y1."""
+        """Return the part from y0 to y1."""
         return replace(self, y0=y0, y1=y1)
 
 
 def trough(y0: float, y1: float, radius: float, cy: float, cz: float) -> Arc:
-    """An arc that hangs below its centre, as the tip of a flange."""
+    """Return an arc below its centre, like the tip of a flange."""
     return Arc(y0, y1, radius, cy, cz, crest=False)
 
 
 @dataclass(frozen=True)
 class Line:
-    """Straight from (y0, z0) to (y1, z1), y0 <= y1."""
+    """Straight line from (y0, z0) to (y1, z1), y0 <= y1."""
 
     y0: float
     z0: float
@@ -78,13 +79,13 @@ class Line:
         return replace(self, y0=self.y0 + by, y1=self.y1 + by)
 
     def between(self, y0: float, y1: float) -> Line:
-        """The part of it from y0 to y1."""
+        """Return the part from y0 to y1."""
         slope = (self.z1 - self.z0) / (self.y1 - self.y0)
         return sloped(y0, y1, self.z0 - slope * self.y0, slope)
 
 
 def sloped(y0: float, y1: float, constant: float, slope: float) -> Line:
-    """The straight z = constant + slope·y from y0 to y1."""
+    """Return the straight line z = constant + slope·y from y0 to y1."""
     return Line(y0, constant + slope * y0, y1, constant + slope * y1)
 
 
@@ -105,13 +106,13 @@ class Polynomial:
         return replace(self, y0=self.y0 + by, y1=self.y1 + by, shift=self.shift + by)
 
     def between(self, y0: float, y1: float) -> Self:
-        """The part of it from y0 to y1."""
+        """Return the part from y0 to y1."""
         return replace(self, y0=y0, y1=y1)
 
 
 @dataclass(frozen=True)
 class Table:
-    """z at equal steps of y from y0 to y1, with the cubic spline between."""
+    """z at equal steps of y from y0 to y1, with a cubic spline between them."""
 
     y0: float
     y1: float
@@ -126,7 +127,7 @@ class Table:
 
 
 def sample(segments: Iterable[Segment]) -> Points:
-    """y, z and the tangents' angles of an outline, in metres; a joint belongs to the segment on its field side."""
+    """Return y [m], z [m] and tangent angles [rad] of an outline. A joint has the tangent of the segment on its field side."""
     pieces = [segment.points() for segment in segments]
     ends = [slice(-1)] * (len(pieces) - 1) + [slice(None)]
     y, z, angle = (np.concatenate([p[row][end] for p, end in zip(pieces, ends, strict=True)]) for row in range(3))
@@ -134,13 +135,16 @@ def sample(segments: Iterable[Segment]) -> Points:
 
 
 def chain(radii: Sequence[float], widths: Sequence[float], flank: float) -> tuple[Segment, ...]:
-    """A rail's head, symmetric about y = 0 with its crown at z = 0: arcs that follow each other with common tangents.
+    """Return the outline of a rail's head: arcs with common tangents, symmetric about y = 0, with the crown at z = 0.
 
     Parameters
     ----------
-    radii : of the arcs from the crown outwards [mm].
-    widths : full widths [mm] at which each arc but the last gives way to the next.
-    flank : tangent dz/dy of the head's side, `math.inf` where that is upright.
+    radii : sequence of float
+        Radii of the arcs from the crown outwards [mm].
+    widths : sequence of float
+        Full widths [mm] at which each arc but the last is followed by the next.
+    flank : float
+        Slope dz/dy of the head's side; `math.inf` if it is vertical.
     """
     arcs, start, cy, cz = [], 0.0, 0.0, radii[0]
     for k, radius in enumerate(radii):
@@ -159,11 +163,11 @@ def chain(radii: Sequence[float], widths: Sequence[float], flank: float) -> tupl
     return (Line(-right.y1, right.z1, -right.y0, right.z0), *left, crown, *outer, right)
 
 
-_FLANK = 12.0  # [mm] of the head's side below the last arc
+_FLANK = 12.0  # length of the head's side below the last arc [mm]
 
 
 def spline_slopes(u: Array, f: Array) -> Array:
-    """First derivatives of the interpolating C² cubic spline at its knots; the end segments are parabolas."""
+    """Return the first derivatives of the interpolating C² cubic spline at its knots. The end segments are parabolas."""
     h, d = np.diff(u), np.diff(f) / np.diff(u)
     lower, upper = np.concatenate((h[1:], [1.0])), np.concatenate(([1.0], h[:-1]))
     middle = np.concatenate(([1.0], 2.0 * (h[1:] + h[:-1]), [1.0]))
@@ -179,7 +183,7 @@ def spline_slopes(u: Array, f: Array) -> Array:
 
 
 def _number(length: float) -> int:
-    """Of points on a segment of this length [mm]."""
+    """Return the number of points on a segment of this length [mm]."""
     return max(2, math.ceil(1e-3 * length / SPACING) + 1)
 
 

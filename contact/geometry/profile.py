@@ -1,8 +1,8 @@
 """Wheel and rail profiles: the record, the standard shapes and their sampling.
 
-Convention (the right wheel and the right rail, seen from behind): y to the field side, z down, in metres. A wheel has its
-tape circle at y = 0 with z = 0 and its flange at negative y; a rail has its gauge corner at negative y. The left side is
-the mirror image and uses the same record.
+Convention (right wheel and right rail, seen from behind): y to the field side, z down, in metres. A wheel has its tape
+circle at y = 0, z = 0 and its flange at negative y. A rail has its gauge corner at negative y. The left side is the mirror
+image and uses the same record.
 """
 
 from __future__ import annotations
@@ -38,14 +38,14 @@ class Profile:
     y, z : array_like, shape (n,), n >= 4
         Points from the gauge or flange side to the field side [m]; y to the field side, z down.
     angle : array_like, shape (n,), optional
-        Angle of the tangent, tan(angle) = dz/dy [rad]. Without it, the tangents of a cubic spline over the chord length.
+        Angle of the tangent, tan(angle) = dz/dy [rad]. Default: the tangents of a cubic spline over the chord length.
     name : str
-        What plots and messages call it.
+        Name in plots and messages.
 
     Raises
     ------
     ContactError
-        Wrong shapes, values that are not finite, fewer than four points, coincident neighbours.
+        For wrong shapes, values that are not finite, fewer than four points, or coincident neighbours.
     """
 
     kind: Kind
@@ -74,7 +74,7 @@ class Profile:
             object.__setattr__(self, name, array)
 
     def rotated(self, roll: float) -> Profile:
-        """The profile turned about the x axis through its origin by `roll` [rad], positive from y towards z."""
+        """Return the profile rotated about the x axis through its origin by `roll` [rad], positive from y towards z."""
         c, s = math.cos(require_number("roll", roll, -1.0, 1.0)), math.sin(roll)
         return Profile(self.kind, c * self.y - s * self.z, s * self.y + c * self.z, self.angle + roll, self.name)
 
@@ -95,15 +95,15 @@ def _points(name: str, values: object) -> Array:
 
 
 def _spline_angles(y: Array, z: Array, chord: Array) -> Array:
-    """Tangent angles of the C² cubic spline (y, z) over the chord length, with not-a-knot replaced by parabolic ends."""
+    """Return tangent angles [rad] of the C² cubic spline (y, z) over the chord length. The end segments are parabolas."""
     u = np.concatenate(([0.0], np.cumsum(chord)))
     return np.unwrap(np.arctan2(spline_slopes(u, z), spline_slopes(u, y)))
 
 
-#: Name → outline of the wheels and the rail of EN 15302, and of all rails before they are inclined.
+#: Name → outline of the wheels of EN 15302, and name of its rail.
 _WHEELS_15302 = {f"EN 15302 {letter}": outlined for letter, outlined in standard.WHEELS_15302.items()}
 _RAIL_A = "EN 15302 rail A"
-#: Other name → name.
+#: Alternative name → name.
 ALIASES = {alias: name for name, head in standard.RAILS.items() for alias in head.aliases} | {"rail A": _RAIL_A}
 ALIASES |= {f"wheel {letter}": f"EN 15302 {letter}" for letter in standard.WHEELS_15302}
 
@@ -111,7 +111,7 @@ STANDARD_INCLINATION, STANDARD_HEIGHT, STANDARD_THICKNESS = 1.0 / 40.0, 28e-3, 3
 
 
 def names(kind: Kind | None = None) -> tuple[str, ...]:
-    """Names of the profiles of the standards that `named` knows, of one kind or of both."""
+    """Return the names of the standard profiles for `named`, of one kind or of both."""
     wheels, rails = (*standard.TREADS, *_WHEELS_15302), (*standard.RAILS, _RAIL_A)
     return {"wheel": wheels, "rail": rails}.get(kind, wheels + rails)  # type: ignore[arg-type]
 
@@ -124,73 +124,79 @@ def named(
     flange_height: float | None = None,
     flange_thickness: float | None = None,
 ) -> Profile:
-    """The profile of that name in the standards.
+    """Return the standard profile with this name.
 
     Parameters
     ----------
     name : str
-        One of `names()`, or an old name (UIC60, UIC54, S54, S49, BS113A, SBB I); capitals, blanks and hyphens do not count,
-        and 1:40 is 1/40.
+        One of `names()`, or an old name (UIC60, UIC54, S54, S49, BS113A, SBB I). Case, blanks and hyphens are ignored, and
+        1:40 means 1/40.
     kind : {"wheel", "rail"}, optional
-        Refuse one of the other kind.
+        Accept only profiles of this kind.
     inclination : float, optional
-        Of a rail: tangent of the angle between its axis and the vertical, 0 ... 0.1; default 1:40. Not for rail A of
-        EN 15302, which the standard draws inclined 1:20.
+        For rails: tangent of the angle between the rail's axis and the vertical, 0 ... 0.1; default 1:40. Not for rail A of
+        EN 15302, which the standard draws with an inclination of 1:20.
     flange_height, flange_thickness : float, optional
-        Of a wheel of EN 13715 [m]: 0.028 ... 0.032, default 0.028, and 0.0285 ... 0.0325, default 0.0325 (EPS: only that).
+        For wheels of EN 13715 [m]: height 0.028 ... 0.032, default 0.028; thickness 0.0285 ... 0.0325, default 0.0325 (the
+        only one for EPS).
+
+    Returns
+    -------
+    Profile
 
     Raises
     ------
     ContactError
-        An unknown name, or an option that this profile does not have.
+        For an unknown name, or an option that this profile does not have.
 
     Notes
     -----
-    The origin of a rail is the crown's point on its axis, that of a wheel its tape circle. 60E1, S1002 and the wheels and
-    the rail of EN 15302 are seen in two sources each; all other numbers in one transcription of the standard
+    The origin of a rail is the crown's point on its axis; that of a wheel is its tape circle. 60E1, S1002 and the wheels
+    and the rail of EN 15302 were seen in two sources each, all other numbers in one transcription of the standard
     (`contact.geometry.standard`, constants.md 12.2 and 14).
     """
-    found = _known(name, kind)
+    known = _known(name, kind)
     given = {"inclination": inclination, "flange_height": flange_height, "flange_thickness": flange_thickness}
-    has = {"inclination"} if found in standard.RAILS else {"flange_height", "flange_thickness"}
+    has = {"inclination"} if known in standard.RAILS else {"flange_height", "flange_thickness"}
     for option, value in given.items():
-        if value is not None and (option not in has or found in (*_WHEELS_15302, _RAIL_A)):
-            raise ContactError(f"{option} = {value!r}: the profile {found} has no {option}")
-    if found in standard.RAILS:
-        return _inclined(found, STANDARD_INCLINATION if inclination is None else inclination)
-    if found in standard.TREADS:
+        if value is not None and (option not in has or known in (*_WHEELS_15302, _RAIL_A)):
+            raise ContactError(f"{option} = {value!r}: the profile {known} has no {option}")
+    if known in standard.RAILS:
+        return _inclined(known, STANDARD_INCLINATION if inclination is None else inclination)
+    if known in standard.TREADS:
         return _wheel(
-            found,
+            known,
             STANDARD_HEIGHT if flange_height is None else flange_height,
             STANDARD_THICKNESS if flange_thickness is None else flange_thickness,
         )
-    if found == _RAIL_A:
-        return _profile("rail", standard.RAIL_A, found)
-    return _profile("wheel", _WHEELS_15302[found], found)
+    if known == _RAIL_A:
+        return _profile("rail", standard.RAIL_A, known)
+    return _profile("wheel", _WHEELS_15302[known], known)
 
 
 def s1002(flange_height: float = STANDARD_HEIGHT, flange_thickness: float = STANDARD_THICKNESS) -> Profile:
-    """Wheel S1002 (EN 13715, UIC 510-2) from the flange's inner side to 60 mm, with a flange as for `named`.
+    """Return wheel S1002 (EN 13715, UIC 510-2) from the flange's inner side to y = 60 mm.
 
-    The flange tip is cut where its inner face becomes steeper than 70° (theory.md 9.1, sections A to H).
+    Flange height and thickness are as for `named`. The inner face of the flange is cut off where it becomes steeper than 70°
+    (theory.md 9.1, sections A to H).
     """
     return _wheel("S1002", flange_height, flange_thickness)
 
 
-#: Whose tangent points the head of `rail_60e1` has → its name.
+#: Source of the tangent points of `rail_60e1` → name of the rail.
 BREAKPOINTS = {"EN 13674": "60E1", "UIC 519": "60E1 UIC 519"}
 
 
 def rail_60e1(inclination: float = STANDARD_INCLINATION, breakpoints: str = "EN 13674") -> Profile:
-    """Rail 60E1 (UIC 60): arcs R300, R80, R13 and the head's flanks 1:20, turned towards the track by `inclination`.
+    """Return rail 60E1 (UIC 60): arcs R300, R80, R13 and flanks 1:20, inclined towards the track's centre.
 
     Parameters
     ----------
     inclination : float
         Tangent of the angle between the rail's axis and the vertical, 0 ... 0.1.
     breakpoints : {"EN 13674", "UIC 519"}
-        Where R300 meets R80 and R80 meets R13: the widths 20.456 and 52.053 mm of EN 13674-1, or the 10.5 and
-        25.988 mm on either side of the axis of the rail of EN 15302 and of the Manchester contact benchmark.
+        Positions where R300 meets R80 and R80 meets R13. "EN 13674": the full widths 20.456 and 52.053 mm of EN 13674-1.
+        "UIC 519": 10.5 and 25.988 mm on each side of the axis, as in EN 15302 and the Manchester contact benchmark.
 
     Notes
     -----
@@ -202,7 +208,7 @@ def rail_60e1(inclination: float = STANDARD_INCLINATION, breakpoints: str = "EN 
 
 
 def cone(conicity: float, half_width: float = 0.06) -> Profile:
-    """A wheel without a flange: a straight cone of the given `conicity` (0 ... 0.5) over tape circle ± `half_width` [m]."""
+    """Return a conical wheel without flange, with `conicity` 0 ... 0.5 [-], over the tape circle ± `half_width` [m]."""
     require_number("conicity", conicity, 0.0, 0.5)
     require_number("half_width", half_width, 1e-3, 0.2)
     w = 1e3 * half_width
@@ -210,7 +216,7 @@ def cone(conicity: float, half_width: float = 0.06) -> Profile:
 
 
 def rail_arc(radius: float, half_width: float = 0.03) -> Profile:
-    """A rail that is one circular arc of `radius` [m] with its crown at the origin, within ± `half_width` [m]."""
+    """Return a rail that is one circular arc of `radius` [m] with its crown at the origin, within ± `half_width` [m]."""
     require_number("radius", radius, 1e-3, 100.0)
     require_number("half_width", half_width, 1e-3, 0.99 * radius)
     r, w = 1e3 * radius, 1e3 * half_width
@@ -225,7 +231,7 @@ def read(
     side: Literal["right", "left"] | None = None,
     smoothing: float | None = None,
 ) -> Profile:
-    """Read a profile from a file; see `contact.geometry.files` for the formats, their conventions and `smoothing`."""
+    """Return the profile in a file. See `contact.geometry.files` for formats, conventions and `smoothing`."""
     from contact.geometry import files
 
     return files.read(path, kind=kind, unit=unit, side=side, smoothing=smoothing)
@@ -240,15 +246,15 @@ def load(
     side: Literal["right", "left"] | None = None,
     smoothing: float | None = None,
 ) -> Profile:
-    """The profile in the file of that name, or the profile of the standards: what command lines take.
+    """Return the profile in the file `name`, or the standard profile with this name.
 
-    A name with a point in it is that of a file, as `read` takes it with `unit`, `side` and `smoothing`, which say nothing of
-    a profile of the standards; that is `named`, with `inclination` when it is a rail.
+    A `name` with a point, or of an existing file, is a file for `read` with `unit`, `side` and `smoothing`. Any other `name`
+    is a standard profile for `named`, with `inclination` if it is a rail; the other options are ignored.
 
     Raises
     ------
     ContactError
-        As `read` and `named`; an inclination for a rail from a file, which is taken as it lies there.
+        As `read` and `named`. Also for an inclination of a rail from a file, which already has its inclination.
     """
     rail_inclination = inclination if kind == "rail" else None
     if "." not in name and not Path(name).is_file():
@@ -263,13 +269,13 @@ def _profile(kind: Kind, segments: Iterable[Segment], name: str) -> Profile:
 
 
 def _inclined(name: str, inclination: float) -> Profile:
-    """A rail of EN 13674-1, turned towards the track."""
+    """Return a rail of EN 13674-1, inclined towards the track's centre."""
     require_number("inclination", inclination, 0.0, 0.1)
     return _profile("rail", standard.RAILS[name].outline(), name).rotated(-math.atan(inclination))
 
 
 def _wheel(name: str, height: float, thickness: float) -> Profile:
-    """A wheel of EN 13715 with its flange's size in metres."""
+    """Return a wheel of EN 13715. Height and thickness of the flange are in metres."""
     tread = standard.TREADS[name]
     height = 1e3 * require_number("flange_height", height, 28e-3, 32e-3)
     thinnest, thickest = (round(1e-3 * bound, 6) for bound in tread.thickness)
@@ -278,17 +284,17 @@ def _wheel(name: str, height: float, thickness: float) -> Profile:
 
 
 def _known(name: str, kind: Kind | None) -> str:
-    """The name as `names` has it."""
+    """Return the name as in `names`. Raise a ContactError if it is unknown."""
     among = names(kind)
     keys = {_key(known): known for known in among}
     keys |= {_key(alias): known for alias, known in ALIASES.items() if known in among}
-    found = keys.get(_key(str(name)))
-    if found is None:
+    standard_name = keys.get(_key(str(name)))
+    if standard_name is None:
         close = suggestion(name, (*among, *ALIASES))
         raise ContactError(
             f"{kind or 'name'} = {name!r} is no profile of the standards{close}; they are {', '.join(among)}"
         )
-    return found
+    return standard_name
 
 
 def _key(name: str) -> str:

@@ -1,4 +1,4 @@
-"""What goes into and comes out of the contact search. Conventions: `contact.geometry.wheelset`."""
+"""Input and output records of the contact search. For the conventions see `contact.geometry.wheelset`."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from contact.creepage import Creepage
 from contact.errors import require_number
 from contact.separation import Separation
 
-#: Roll and yaw of a wheelset and roll of a rail [rad] up to which the search is made to work.
+#: Largest roll and yaw of a wheelset, and largest roll of a rail [rad], for which the search is designed.
 LARGEST_ANGLE, LARGEST_RAIL_ROLL = 0.1, 0.05
 
 
 @dataclass(frozen=True, slots=True)
 class Pose:
-    """Where the wheelset is: lateral and vertical displacement [m], roll and yaw [rad, within ±0.1]."""
+    """Position of the wheelset: lateral and vertical displacement [m], roll and yaw [rad, within ±0.1]."""
 
     y: float = 0.0
     z: float = 0.0
@@ -29,9 +29,9 @@ class Pose:
 
 @dataclass(frozen=True, slots=True)
 class Velocity:
-    """How the wheelset moves: forward > 0, y, z [m/s]; rates of roll, yaw and spin [rad/s].
+    """Velocity of the wheelset: forward > 0, y, z [m/s]; rates of roll, yaw and spin [rad/s].
 
-    Spin is the rotation about the axle; None rolls freely at the nominal radius, -forward/nominal_radius.
+    Spin is the rotation about the axle. None means free rolling at the nominal radius, -forward/nominal_radius.
     """
 
     forward: float = 1.0
@@ -51,7 +51,7 @@ class Velocity:
 
 @dataclass(frozen=True, slots=True)
 class Irregularity:
-    """Displacement of one rail from its place [m], its roll [rad, within ±0.05] and their rates, in track coordinates."""
+    """Displacement of one rail [m], its roll [rad, within ±0.05] and their rates [m/s, rad/s], in track coordinates."""
 
     y: float = 0.0
     z: float = 0.0
@@ -68,34 +68,37 @@ class Irregularity:
 
 @dataclass(frozen=True, slots=True)
 class Patch:
-    """One contact patch. Vectors are in track coordinates, signs are those of the actual side.
+    """One contact patch. Vectors are in track coordinates; signs are those of the actual side.
 
     Attributes
     ----------
     separation : Separation
-        Gap in the contact plane, y from the reference point; min g = 0.
+        Gap in the contact plane, y measured from the reference point; min g = 0.
     creepage : Creepage
-        Wheel minus rail at the wheel's point opposite the reference point, over the forward speed, in the contact frame.
+        Wheel minus rail over the forward speed, in the contact frame, at `wheel_position`.
     angle : float
-        Contact angle [rad]; the contact frame is the track frame turned by it about x.
+        Contact angle [rad]. The contact frame is the track frame turned by it about x.
     position : tuple of float
         Reference point (x, y, z) on the rail [m]: mean over the interpenetration of the undeformed profiles.
     wheel_position : tuple of float
-        The wheel's point (x, y, z) opposite it [m], deeper by the interpenetration there. Creepages are taken there, and the
-        forces on the wheel act there: only so their power on the motion is that of force times creepage.
+        Point (x, y, z) of the wheel opposite the reference point [m], deeper by the interpenetration there. The forces act
+        on the wheel at this point. With creepages and forces at the same point, the power of the forces on the motion is
+        force times creepage.
     on_rail, on_wheel : tuple of float
-        (y, z) of the reference point in rail and of its opposite in wheel profile coordinates (right-side convention) [m].
+        (y, z) of the reference point in the rail's and of the wheel's point in the wheel's profile coordinates (right-side
+        convention) [m].
     rolling_radius : float
         Distance of the wheel's point from the axle [m].
     approach : float
-        Depth of the interpenetration along the normal of the contact plane [m]: the approach that belongs to pose.z.
+        Depth of the interpenetration along the normal of the contact plane [m]: the approach that corresponds to pose.z.
     edges : tuple of float
-        Where the interpenetration begins and ends along the separation's y [m].
+        Start and end of the interpenetration along the separation's y [m].
     load : float or None
-        Normal force [N], when z was found from a load.
+        Normal force [N], if z was found from a load.
     share : float
-        With which the patch counts. 1, but while two lobes pass from one plane to planes of their own (`wheelset.Pair`): then
-        the list has their common patch and both of their own, and forces and wear are those of each times its share.
+        Weight of the patch [-], normally 1. In the transition of two lobes from a common plane to separate planes
+        (`wheelset.Pair`), the list contains the common patch and both separate patches. Forces and wear of each patch are
+        then multiplied by its share.
     """
 
     separation: Separation

@@ -1,7 +1,7 @@
 """Contact points of rigid wheels on rigid rails over the lateral displacement of the wheelset.
 
-Rolling radii and contact angles, their differences between both wheels, and where the profiles touch: what a linearised
-model of the running gear and the equivalent conicity are made from.
+The results are rolling radii, contact angles, their differences between both wheels, and the positions of contact on the
+profiles. Linearised vehicle models and the equivalent conicity are based on them.
 """
 
 from __future__ import annotations
@@ -17,23 +17,23 @@ from contact.geometry.wheelset import Pair, Pose
 
 Array = NDArray[np.float64]
 
-_DEPTH = 1e-9  # [m] at which a patch is a point: it is some micrometres wide
-_STEEPEST_ROLL = 0.1  # [rad] of a pose
-_BISECTIONS = 44  # of that range, down to 1e-14 rad
+_DEPTH = 1e-9  # penetration [m] at which a patch counts as a point: it is some micrometres wide
+_STEEPEST_ROLL = 0.1  # largest roll of a pose [rad]
+_BISECTIONS = 44  # bisections of the range of roll, down to 1e-14 rad
 
 
 @dataclass(frozen=True)
 class Touches:
-    """Where one wheel touches its rail, an array each over the displacements.
+    """Contact points of one wheel on its rail, as arrays over the lateral displacements.
 
     Attributes
     ----------
     on_wheel, on_rail : ndarray, shape (n,)
-        y of the contact point in the profiles' own right-side coordinates [m]: negative towards the flange.
+        y of the contact point in the profiles' right-side coordinates [m], negative towards the flange.
     radius : ndarray, shape (n,)
         Rolling radius [m].
     angle : ndarray, shape (n,)
-        Contact angle [rad], positive where the rail pushes the wheel to the track's centre, as on a tread and at the flange.
+        Contact angle [rad], positive if the rail pushes the wheel towards the track's centre, as on a tread and at a flange.
     """
 
     on_wheel: Array
@@ -44,7 +44,7 @@ class Touches:
 
 @dataclass(frozen=True)
 class ContactPoints:
-    """Contact points of a wheelset at the lateral displacements `y` [m], with the `roll` [rad] that it has there."""
+    """Contact points of a wheelset at the lateral displacements `y` [m] and the corresponding `roll` [rad]."""
 
     y: Array
     roll: Array
@@ -62,7 +62,7 @@ class ContactPoints:
         return self.right.angle - self.left.angle
 
     def columns(self) -> dict[str, Array]:
-        """All of it by name, in SI units, as a table has it."""
+        """Return all arrays by name, in SI units, as columns of a table."""
         sides = {
             f"{side}_{name}": values for side in ("right", "left") for name, values in vars(getattr(self, side)).items()
         }
@@ -84,25 +84,31 @@ def contact_points(
     gauge_point: float = 0.014,
     roll: bool = False,
 ) -> ContactPoints:
-    """Where rigid wheels touch rigid rails, without yaw.
+    """Return the contact points of rigid wheels on rigid rails, without yaw.
 
     Parameters
     ----------
     wheel, rail : Profile
-        Of the right side; and of the left one unless `left_wheel` or `left_rail` is another.
+        Profiles of the right side.
     y : array_like, shape (n,), optional
-        Lateral displacements of the wheelset to the right [m]; default -10 mm to 10 mm by 0.1 mm.
+        Lateral displacements of the wheelset to the right [m]; default -10 mm to 10 mm in steps of 0.1 mm.
+    left_wheel, left_rail : Profile, optional
+        Profiles of the left side; default those of the right side.
     nominal_radius, left_radius : float
-        Radius of the tape circles [m], and of the left one if it is another.
+        Radius of the tape circles [m]; `left_radius` is for a left wheel with another radius.
     gauge, flange_back, gauge_point : float
         As for `contact.geometry.wheelset.Pair` [m].
     roll : bool
-        Let the wheelset roll until both wheels touch; without it (EN 15302) each wheel is lowered onto its rail by itself.
+        Roll the wheelset until both wheels touch. If False (EN 15302), each wheel is lowered onto its rail separately.
+
+    Returns
+    -------
+    ContactPoints
 
     Raises
     ------
     ContactError
-        Bad arguments, and a displacement at which a wheel does not lie above its rail.
+        For invalid arguments, or a displacement at which a wheel does not lie above its rail.
     """
     try:
         shifts = np.atleast_1d(np.array(np.arange(-100, 101) * 1e-4 if y is None else y, dtype=np.float64))
@@ -111,7 +117,7 @@ def contact_points(
     if shifts.ndim != 1 or not shifts.size or not np.isfinite(shifts).all():
         raise ContactError(f"y of shape {shifts.shape}: at least one finite displacement [m] is needed")
     track = {"gauge": gauge, "flange_back": flange_back, "gauge_point": gauge_point}
-    track |= {"combine_distance": 0.0, "combine_angle": 0.0}  # of two points at once the deeper one counts
+    track |= {"combine_distance": 0.0, "combine_angle": 0.0}  # separate patches; `_touches` takes the deepest
     other = nominal_radius if left_radius is None else require_number("left_radius", left_radius, 0.05, 2.0)
     right = Pair(wheel, rail, side="right", nominal_radius=nominal_radius, **track)  # type: ignore[arg-type]
     left = Pair(left_wheel or wheel, left_rail or rail, side="left", nominal_radius=other, **track)  # type: ignore[arg-type]
@@ -130,7 +136,7 @@ def _touches(pair: Pair, poses: list[Pose]) -> Touches:
 
 
 def _level(right: Pair, left: Pair, y: float) -> float:
-    """The roll at which both wheels touch at one height of the wheelset; roll lowers the right wheel."""
+    """Return the roll [rad] at which both wheels touch at the same height. Positive roll lowers the right wheel."""
     low, high = -_STEEPEST_ROLL, _STEEPEST_ROLL
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)

@@ -1,4 +1,4 @@
-"""Smoothing of measured profiles: a cubic spline through a band around the points."""
+"""Smoothing of measured profiles by a cubic spline within a tolerance of the points."""
 
 from __future__ import annotations
 
@@ -11,27 +11,29 @@ Array = NDArray[np.float64]
 
 
 def smoothed(y: Array, z: Array, tolerance: float) -> tuple[Array, Array, Array]:
-    """Points and tangents of the smoothest cubic spline (y, z) over the chord length within `tolerance` of the points.
+    """Return points and tangents of the smoothest cubic spline within `tolerance` of the given points.
+
+    The spline is (y, z) over the chord length. It is Dierckx' smoothing spline (FITPACK): it has as few knots, and as small
+    jumps of the third derivative, as the tolerance allows.
 
     Parameters
     ----------
     y, z : ndarray, shape (n,), n >= 4
         Measured points [m].
     tolerance : float
-        Root mean square of the distances that the points may move [m], 0 ... 1e-3: the noise of the measurement. Dierckx'
-        spline (FITPACK) has as few knots, and as small jumps of its third derivative, as that allows.
+        Root mean square of the distances by which the points may move [m], 0 ... 1e-3. Use the noise of the measurement.
 
     Returns
     -------
     y, z, angle : ndarray, shape (n,)
-        The spline at the points' chord lengths [m] and the angle of its tangent [rad].
+        The spline at the points' chord lengths [m], and the angle of its tangent [rad].
 
     Raises
     ------
     ContactError
-        A tolerance outside its range.
+        If the tolerance is outside its range.
     ImportError
-        Without scipy.
+        If scipy is not installed.
     """
     require_number("smoothing", tolerance, 0.0, 1e-3)
     try:

@@ -1,9 +1,11 @@
-"""The outlines of the standards as data: rails of EN 13674-1, wheels of EN 13715, wheels and rail A of EN 15302.
+"""Outlines of the standards as data: rails of EN 13674-1, wheels of EN 13715, wheels and rail A of EN 15302.
 
-Millimetres; right side, y to the field side, z down. Sources and their marks (constants.md 12.2 and 14): 60E1, the tread and
-the flange of S1002, the EN 15302 wheels and rail and the two arcs of the EPS tread are seen in two sources or recomputed from
-reference tables; all other rails, 1/40 and the rest of EPS in one transcription of the standard only, and recomputed as far as
-their heads reach the catalogue's widths. All EN 13715 wheels end with the slope 1:15 (the standard leaves 6.7 to 15 %).
+Lengths are in millimetres; right side, y to the field side, z down.
+
+Sources (constants.md 12.2 and 14): 60E1, the tread and the flange of S1002, the EN 15302 wheels and rail, and the two arcs
+of the EPS tread were seen in two sources or recomputed from reference tables. All other rails, 1/40 and the rest of EPS
+were seen in only one transcription of the standard; their heads were checked against the widths of the catalogue. All EN
+13715 wheels end with the slope 1:15 (the standard allows 6.7 to 15 %).
 """
 
 from __future__ import annotations
@@ -18,7 +20,7 @@ Outline = tuple[Segment, ...]
 
 @dataclass(frozen=True)
 class Head:
-    """Arcs of a rail's head from the crown outwards, full widths of their tangent points, tangent of the flank, old names."""
+    """Head of a rail: radii of the arcs from the crown outwards [mm], full widths of their joints [mm], slope of the flank."""
 
     radii: tuple[float, ...]
     widths: tuple[float, ...]
@@ -56,8 +58,8 @@ RAIL_A: Outline = (
 )
 
 # ---------------------------------------------------------------------------------------------------------------------
-# Wheels of EN 13715 (UIC 510-2): a flange of variable height and thickness, and a tread. Of the tread, what lies between the
-# flange and 0.5 mm before the tape circle moves with the flange's thickness; a straight joins it to the tape circle.
+# Wheels of EN 13715 (UIC 510-2): a flange of variable height and thickness, and a tread. The part of the tread from the
+# flange to 0.5 mm before the tape circle moves with the flange's thickness. A straight line joins it to the tape circle.
 
 _S1002_ROOT = (
     *(-4.320221063e3, -1.038384026e3, -1.065501873e2, -6.051367875, -2.054332446e-1, -4.169739389e-3),
@@ -71,21 +73,21 @@ _EPS_ROOT = (  # every 0.5 mm
     *(6.867, 6.466, 6.108, 5.788, 5.507, 5.262, 5.044, 4.832, 4.624, 4.421),
     *(4.222, 4.028, 3.838, 3.652, 3.471, 3.295, 3.122, 2.954, 2.790),
 )
-_E1, _D1 = -38.426669071, -35.0  # where the straight of the flange ends, and its root's arc R13
+_E1, _D1 = -38.426669071, -35.0  # y of the end of the flange's straight line, and of the end of the root's arc R13
 _T1 = -0.5
 
 
 @dataclass(frozen=True)
 class Tread:
-    """Segments inside the one that holds the tape circle, that one, and those outside; as with the thickest flange."""
+    """Tread: segments on the flange side, the segment with the tape circle, segments on the field side (thickest flange)."""
 
     inner: Outline
     middle: Arc | Line | Polynomial
     outer: Outline
-    thickness: tuple[float, float] = (28.5, 32.5)  # [mm] that the table covers
+    thickness: tuple[float, float] = (28.5, 32.5)  # allowed range of the flange's thickness [mm]
 
     def outline(self, height: float, thickness: float) -> Outline:
-        """The wheel with a flange of this height and thickness [mm]."""
+        """Return the wheel with a flange of this height and thickness [mm]."""
         moved = thickness - _THICKEST
         inner = tuple(segment.moved(moved) for segment in self.inner)
         middle: Outline = (self.middle,)
@@ -98,15 +100,15 @@ class Tread:
 
 
 _LOWEST, _THICKEST = 28.0, 32.5
-_FLANGE_LINE = (-93.576667419, -2.747477419)  # constant and slope of the straight at 70°
+_FLANGE_LINE = (-93.576667419, -2.747477419)  # constant [mm] and slope of the straight line at 70°
 
 
 def flange(height: float, moved: float) -> Outline:
-    """From its inner side to the end of its straight, the active side moved by `moved` <= 0; cut where steeper than 70°.
+    """Return the flange from its inner side to the end of its straight line, with the active side moved by `moved` <= 0 [mm].
 
-    The centre of the outer arc R_F = 20 + 0.75 (h − 28) follows from its tangents to the straight and to the tip's R12; at the
-    heights 28, 30 and 32 that gives the coordinates which the standard tabulates. The tip of a thinner flange has an edge,
-    since the standard moves only its outer R12.
+    The inner side is cut off where it is steeper than 70°. The outer arc R_F = 20 + 0.75 (h − 28) is tangent to the straight
+    line and to the tip's R12, which determines its centre. At the heights 28, 30 and 32 the result has the coordinates
+    tabulated in the standard. The tip of a thinner flange has an edge, because the standard moves only its outer R12.
     """
     up = height - _LOWEST
     tip, outer = 16.0 + up, 20.0 + 0.75 * up
@@ -137,7 +139,7 @@ TREADS = {
         Polynomial(-26.0, 32.15796, _S1002_TREAD),
         (sloped(32.15796, 60.0, 1.364323640, -0.066666667),),
     ),
-    "1/40": Tread(  # the standard rounds to 0.001 mm what are points of the cone 1:40
+    "1/40": Tread(  # points of the cone 1:40, which the standard rounds to 0.001 mm
         (
             Arc(_E1, -32.696, 13.0, -26.210665, 16.446),
             Arc(-32.696, -15.64, 36.0, -14.74, 36.38),
@@ -145,7 +147,7 @@ TREADS = {
         sloped(-15.64, 35.0, 0.0, -0.025),
         (sloped(35.0, 60.0, 35.0 * (1.0 / 15.0 - 0.025), -1.0 / 15.0),),
     ),
-    "EPS": Tread(  # the table, in steps of 0.5 mm, meets R100 with a bend of 7° towards the rail, where no rail gets
+    "EPS": Tread(  # the table, in steps of 0.5 mm, meets R100 with a kink of 7°, at a place that no rail reaches
         (
             Arc(_E1, _D1, 13.0, -26.210665, 16.446),
             Table(_D1, -26.0, _EPS_ROOT),
@@ -161,11 +163,11 @@ TREADS = {
 }
 
 # ---------------------------------------------------------------------------------------------------------------------
-# Reference wheels of EN 15302:2021, appendix I.2 to I.6; their last 5 mm are a chamfer of 45°.
+# Reference wheels of EN 15302:2021, appendix I.2 to I.6. Their last 5 mm are a chamfer of 45°.
 
 
 def _flange_15302(z: tuple[float, float, float, float], joint: float, end: float) -> Outline:
-    """The common flange with the fourth decimals that each wheel has of its own."""
+    """Return the common flange. The fourth decimals differ from wheel to wheel."""
     return (
         trough(-69.0, -62.7647, 20.5, -49.5, z[0]),
         trough(-62.7647, -49.6625, 12.0, -55.0, z[1]),
@@ -194,7 +196,7 @@ WHEELS_15302: dict[str, Outline] = {
         sloped(30.0, 60.0, 0.75, -0.05),
         sloped(60.0, 65.0, 57.75, -1.0),
     ),
-    "C": (  # of the type EPS; new in the edition of 2021
+    "C": (  # EPS type; new in the edition of 2021
         trough(-69.0, -59.5, 10.0, -59.5, 20.00006),
         trough(-59.5, -43.8048, 18.0, -60.4941, 12.02753),
         sloped(-43.8048, -41.0534, 11.96051 - 2.47508685 * 41.05339, -2.47508685),

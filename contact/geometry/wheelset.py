@@ -1,14 +1,19 @@
-"""Every contact patch between one wheel of a wheelset and its rail.
+"""All contact patches between one wheel of a wheelset and its rail.
 
-Conventions (theory.md 9.4). Track frame: x forward, y to the right, z down, z = 0 on top of both rails. The wheelset's
-centre lies at (0, pose.y, pose.z - nominal_radius); at pose = 0 both tape circles touch the plane z = 0. Roll is about x,
-yaw about z, right-handed: positive yaw steers to the right, positive roll lowers the right wheel. Spin is the rotation about
-the axle, negative when rolling forward. The contact frame is the track frame turned about x by the contact angle; its z axis
-points from the wheel into the rail, so the angle on the right wheel's tread is negative and on the left wheel's positive.
-Creepages are wheel minus rail over the forward speed: steering by a yaw angle psi gives the lateral creepage -psi/cos(angle),
-a rolling radius r the longitudinal creepage 1 - r/r0, a contact angle the spin creepage sin(angle)/r0.
+The conventions are those of theory.md 9.4.
 
-The left side is computed as the mirror image of the right, so both agree to the last bit.
+Track frame: x forward, y to the right, z down, z = 0 on top of both rails. The wheelset's centre lies at
+(0, pose.y, pose.z - nominal_radius). At pose = 0 both tape circles touch the plane z = 0. Roll is about x and yaw about z,
+both right-handed: positive yaw steers to the right, positive roll lowers the right wheel. Spin is the rotation about the
+axle, negative when rolling forward.
+
+The contact frame is the track frame turned about x by the contact angle. Its z axis points from the wheel into the rail.
+The angle is therefore negative on the right wheel's tread and positive on the left wheel's tread.
+
+Creepages are wheel minus rail over the forward speed. A yaw angle psi gives the lateral creepage -psi/cos(angle), a rolling
+radius r the longitudinal creepage 1 - r/r0, and a contact angle the spin creepage sin(angle)/r0.
+
+The left side is computed as the mirror image of the right side, so both agree to the last bit.
 """
 
 from __future__ import annotations
@@ -37,16 +42,16 @@ Side = Literal["right", "left"]
 
 TAPE_FROM_FLANGE_BACK = 0.070  # [m] EN 13715: the tape circle lies 70 mm outside the back of the flange
 SAMPLES = 81
-MAX_PENETRATION = 2e-3  # [m] a wheel under 10 MN; more is a slip of units
+MAX_PENETRATION = 2e-3  # [m] that of a wheel under 10 MN; a larger value has a wrong unit
 
 
 class Pair:
-    """One wheel on one rail with everything prepared: what a model calls at each time step.
+    """One wheel on one rail, with all arrays prepared for use at every time step of a model.
 
     Parameters
     ----------
     wheel, rail : Profile
-        In the right-side convention, for either side.
+        Profiles in the right-side convention, for either side.
     side : {"right", "left"}
     nominal_radius : float
         Radius of the tape circle [m], 0.05 to 2.
@@ -57,29 +62,31 @@ class Pair:
     gauge_point : float
         Depth below the top of the rail at which the gauge is measured [m].
     combine_distance, combine_angle : float
-        Lobes of interpenetration whose edges are further apart than this [m], in a straight line, and whose angles differ by
-        more than this [rad] become separate patches with frames of their own; others share one plane. From 1 to 5/4 of
-        these limits the one passes into the other: there they are described in both ways, with shares (`Patch.share`).
+        Limits [m], [rad] for separate patches. Lobes of interpenetration become separate patches with their own frames if
+        the straight distance of their edges exceeds the first limit and their angles differ by more than the second.
+        Otherwise they share one plane. Between 1 and 5/4 of the limits is a smooth transition, in which the list contains
+        both descriptions, weighted by `Patch.share`.
     most_patches : int
-        Of separate patches, 1 to 4; further lobes share the plane of the last. While lobes pass the list is longer.
+        Largest number of separate patches, 1 to 4. Further lobes share the plane of the last one. In a transition the list
+        is longer.
     samples : int or array_like
-        Number of samples of each separation, 5 to 2001, spread over the interpenetration and a margin; or their
-        increasing positions in the contact plane [m], for a model whose separation lies on a fixed grid. There the gap
-        opens at 45° beyond the ends of the profiles and of the patch's own range.
+        Number of samples of each separation, 5 to 2001, spread over the interpenetration and a margin. Or the increasing
+        sample positions in the contact plane [m], for a model whose separation lies on a fixed grid. On such a grid the
+        gap opens at 45° beyond the ends of the profiles and of the patch's own range.
     material : Material
-        For a search under a load.
+        Material for a search under a load.
 
     Attributes
     ----------
     patches, separations : ndarray
-        What the last search found, in the rows of `contact.kernels.layout` (right side). Only one thread may search.
+        Result of the last search, in the rows of `contact.kernels.layout` (right side). Only one thread may search.
     space : contact.kernels.memory.Search
-        All arrays of the search, as kernels take them.
+        All arrays of the search, as kernels use them.
 
     Raises
     ------
     ContactError
-        Profiles of the wrong kind, constants outside their range, no point of the rail at the gauge point's depth.
+        For profiles of the wrong kind, constants outside their range, or a rail without a point at the gauge point's depth.
     """
 
     def __init__(
@@ -129,7 +136,10 @@ class Pair:
         penetration: float | None = None,
         irregularity: Irregularity | None = None,
     ) -> int:
-        """Fill `patches` and `separations` without making objects; returns the number of patches. Else like `contacts`."""
+        """Fill `patches` and `separations` and return the number of patches. Parameters and exceptions as in `contacts`.
+
+        No Python objects are made for the patches.
+        """
         mode, amount = self.prescribed(load, penetration)
         move(self.given(pose, velocity, irregularity), self.space.motion[0])
         n = settle(mode, amount, self.space)
@@ -145,12 +155,12 @@ class Pair:
         penetration: float | None = None,
         irregularity: Irregularity | None = None,
     ) -> tuple[Patch, ...]:
-        """Every patch, from the field side to the flange; see the function `contacts`."""
+        """Return all patches, from the field side to the flange. See the function `contacts`."""
         n = self.locate(pose, velocity, load=load, penetration=penetration, irregularity=irregularity)
         return tuple(self._patch(k, load is not None) for k in range(n))
 
     def touch(self, pose: Pose, irregularity: Irregularity | None = None) -> float:
-        """z [m] at which the rigid wheel just touches the rail, the other coordinates as in `pose`."""
+        """Return z [m] at which the rigid wheel just touches the rail. The other coordinates are those of `pose`."""
         s = self.space
         move(self.given(pose, None, irregularity), s.motion[0])
         overlap, z = first_touch(s.wheel, s.rail, s.motion[0], s.line, s.placed)
@@ -166,7 +176,7 @@ class Pair:
     def given(
         self, pose: Pose, velocity: Velocity | None = None, irregularity: Irregularity | None = None
     ) -> np.record:
-        """Return the motion as kernels take it, in the order of `contact.kernels.layout`; by default steady rolling."""
+        """Return the motion as the GIVEN record of `contact.kernels.layout`. The default velocity is steady rolling."""
         velocity, rail = velocity or _ROLLING, irregularity or _IDEAL
         for name, argument, kind in (
             ("pose", pose, Pose),
@@ -186,7 +196,7 @@ class Pair:
 
     @staticmethod
     def prescribed(load: float | None, penetration: float | None) -> tuple[int, float]:
-        """How z is to be found, as kernels take it: `mode` and `amount` of `settle`."""
+        """Return how z is prescribed: `mode` (a `Height`) and `amount` [N] or [m] of the kernel `settle`."""
         if load is not None and penetration is not None:
             raise ContactError(f"load = {load} and penetration = {penetration} exclude each other")
         if load is not None:
@@ -196,7 +206,7 @@ class Pair:
         return Height.GIVEN, 0.0
 
     def require_found(self, code: int, pose: Pose, load: float | None) -> None:
-        """Raise a ContactError if `code`, an answer of `settle`, is none."""
+        """Raise a ContactError if `code`, the result of `settle`, tells of a failure."""
         if code == NoAnswer.NO_OVERLAP:
             raise self._apart(pose)
         if code == NoAnswer.NOT_SETTLED:
@@ -249,22 +259,22 @@ def contacts(
     irregularity: Irregularity | None = None,
     **options: Any,
 ) -> tuple[Patch, ...]:
-    """Every contact patch of one wheel-rail pair; an empty tuple when the wheel does not touch.
+    """Return all contact patches of one wheel-rail pair.
 
-    A model that asks at every time step makes a `Pair` once and calls its method of the same name.
+    For use at every time step, make a `Pair` once and call its method of the same name.
 
     Parameters
     ----------
     wheel, rail : Profile
     pose : Pose
-        Of the wheelset in track coordinates; pose.z counts unless `load` or `penetration` is given.
+        Pose of the wheelset in track coordinates. pose.z is ignored if `load` or `penetration` is given.
     velocity : Velocity, optional
         Default: steady rolling at the nominal radius.
     load : float, optional
-        Vertical force of this wheel on its rail [N]: z is found so that the normal forces of all patches (ANALYN, without
-        friction) add up to it, sum of share N cos(angle) = load.
+        Vertical force of this wheel on its rail [N]. z is found so that the sum of share N cos(angle) over the patches
+        equals it, with normal forces N by ANALYN and without friction.
     penetration : float, optional
-        Depth below first touch [m], vertically.
+        Vertical depth below first touch [m].
     irregularity : Irregularity, optional
         Displacement of this rail.
     **options
@@ -274,13 +284,13 @@ def contacts(
     Returns
     -------
     tuple of Patch
-        From the field side to the flange.
+        The patches from the field side to the flange; empty if the wheel does not touch.
 
     Raises
     ------
     ContactError
-        For input outside its range, where the profiles do not lie above each other or far inside each other, and for a
-        load that no z carries.
+        For input outside its range, for profiles that do not overlap laterally or lie far inside each other, or if no z
+        gives the load.
     """
     pair = Pair(wheel, rail, **options)
     return pair.contacts(pose, velocity, load=load, penetration=penetration, irregularity=irregularity)
@@ -294,7 +304,7 @@ def _rows(profile: Profile) -> Array:
 
 
 def _facing(profile: Profile) -> Array:
-    """Rows y, z, dz/dy of the part that can touch."""
+    """Return rows y, z, dz/dy of the part of the profile that can touch."""
     rows = _rows(profile)
     low, high = facing(rows, profile.kind == "wheel")
     if low == high:
@@ -305,7 +315,7 @@ def _facing(profile: Profile) -> Array:
 
 
 def _rail_origin(rail: Profile, gauge: float, gauge_point: float) -> tuple[float, float]:
-    """(y, z) of the origin of the right rail's profile."""
+    """Return (y, z) [m] of the origin of the right rail's profile in track coordinates."""
     require_number("gauge_point", gauge_point, 0.0, open_minimum=True)
     y, z, deepest = rail_origin(_rows(rail), gauge, gauge_point)
     if deepest < gauge_point:
@@ -317,7 +327,7 @@ def _rail_origin(rail: Profile, gauge: float, gauge_point: float) -> tuple[float
 
 
 def _grid(samples: int | ArrayLike) -> tuple[Array, int]:
-    """Prescribed sample positions (or none) and the number of samples."""
+    """Return the prescribed sample positions [m], empty if there are none, and the number of samples."""
     if isinstance(samples, int | np.integer):
         require_number("samples", samples, 5, 2001)
         return np.empty(0), int(samples)

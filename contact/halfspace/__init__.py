@@ -1,4 +1,4 @@
-"""Kalker's complete theory element by element on a grid: the project's own reference (theory.md 6)."""
+"""Kalker's complete theory on a grid of elements: the reference solution of this project (theory.md 6)."""
 
 from contact.halfspace.gap import Gap
 from contact.halfspace.norm import Normal, norm

@@ -1,4 +1,4 @@
-"""Rows of elements on the surface in which the bodies touch, or in the contact plane."""
+"""Creepages and slope of rows of elements on a curved contact surface or in the contact plane."""
 
 from __future__ import annotations
 
@@ -16,7 +16,10 @@ Array = NDArray[np.float64]
 
 
 class Bent(NamedTuple):
-    """Creepages of rows, rigid slip (vx - phi·y, vy + phi·x) over V, and slope of the surface, each of shape (ny,)."""
+    """Creepages `vx`, `vy` [-], `phi` [1/m] and surface slope `tilt` [-] of each row, shape (ny,).
+
+    The rigid slip of a row is (vx - phi·y, vy + phi·x) V.
+    """
 
     vx: Array
     vy: Array
@@ -25,13 +28,13 @@ class Bent(NamedTuple):
 
     @classmethod
     def plane(cls, creepage: Creepage, y: Array) -> Bent:
-        """Rows of the contact plane at `y` [m]."""
+        """Return rows at `y` [m] in the contact plane."""
         ones = np.ones(y.size)
         return cls(creepage.longitudinal * ones, creepage.lateral * ones, creepage.spin * ones, 0.0 * ones)
 
     @classmethod
     def of(cls, separation: Separation, creepage: Creepage, y: Array) -> Bent:
-        """Rows at `y` [m] on the surface of a separation (`contact.kernels.conformal`)."""
+        """Return rows at `y` [m] on the curved surface of a separation (`contact.kernels.conformal`)."""
         case, strips = np.zeros(1, CASE)[0], np.zeros((N_STRIP_ROWS, y.size))
         case.vx, case.vy, case.phi = creepage.longitudinal, creepage.lateral, creepage.spin
         strips[Strip.Y] = y

@@ -30,12 +30,12 @@ class Gap:
     x, y : array_like, shape (nx,), (ny,)
         Centres of the elements along the rolling direction and across [m], increasing in equal steps; 2 to 2000 each.
     h : array_like, shape (ny, nx)
-        Undeformed distance [m]; the approach is measured from h = 0.
+        Undeformed distance [m]. The approach is measured from h = 0.
 
     Raises
     ------
     ContactError
-        Wrong shapes, not finite, steps that are not equal or not positive.
+        For wrong shapes, values that are not finite, or steps that are not equal or not positive.
     """
 
     __slots__ = ("dx", "dy", "h", "x", "y")
@@ -60,23 +60,23 @@ def _even(name: str, values: ArrayLike) -> tuple[Array, float]:
     if array.ndim != 1 or not 2 <= array.size <= MAX_SIDE:
         raise ContactError(f"{name} has shape {array.shape}; (n,) with n in [2, {MAX_SIDE}] is needed")
     step = float(array[-1] - array[0]) / (array.size - 1)
-    # also false for NaN
+    # the condition is also false for NaN
     if not (step > 0.0 and math.isfinite(step) and (np.abs(np.diff(array) - step) <= 1e-6 * step).all()):
         raise ContactError(f"{name} = {array[0]:g} … {array[-1]:g} does not increase in equal steps")
     return array, step
 
 
 class Division(NamedTuple):
-    """How a box is divided into elements: rows and columns, or the size (dx, dy) of an element [m]."""
+    """Division of a box into elements: by rows and columns, or by the size (dx, dy) of an element [m]."""
 
     rows: int
     columns: int
     spacing: tuple[float, float] | None = None
 
     def centres(self, box: tuple[float, float, float, float]) -> tuple[Array, Array]:
-        """x and y of the centres of the elements on the box x_low, x_high, y_low, y_high [m].
+        """Return x and y [m] of the centres of the elements on the box (x_low, x_high, y_low, y_high) [m].
 
-        Elements of given size lie at the same places for every box, their edges at multiples of it.
+        Elements of given size have their edges at multiples of the size, so they lie at the same places for every box.
         """
         back, front, low, high = box
         if self.spacing is None:
@@ -100,7 +100,7 @@ def _raster(low: float, high: float, step: float) -> Array:
 
 @kernel
 def _sample(y, g, m, at, out):
-    """The separation's interpolant of g (values and slopes m) at the increasing positions `at`."""
+    """Write to `out` the cubic interpolant of g (values g, slopes m) at the increasing positions `at`."""
     k = 0
     for i in range(at.size):
         k = locate(y, y.size, at[i], k)
@@ -109,7 +109,7 @@ def _sample(y, g, m, at, out):
 
 
 def _rows(separation: Separation, y: Array) -> tuple[Array, Array, Array]:
-    """g, A and x_c at the positions `y`."""
+    """Return g [m], A [1/m] and x_c [m] at the positions `y`."""
     m, g = np.empty(separation.y.size), np.empty(y.size)
     slopes(separation.y, separation.g, separation.y.size, m)
     _sample(separation.y, separation.g, m, y, g)
@@ -117,7 +117,7 @@ def _rows(separation: Separation, y: Array) -> tuple[Array, Array, Array]:
 
 
 def least(gap: Separation | Gap) -> float:
-    """Approach at which the bodies first touch [m]."""
+    """Return the approach at which the bodies first touch [m]."""
     if isinstance(gap, Gap):
         return float(gap.h.min())
     m = np.empty(gap.y.size)
@@ -126,7 +126,10 @@ def least(gap: Separation | Gap) -> float:
 
 
 def overlap(separation: Separation, approach: float) -> tuple[float, float, float, float] | None:
-    """Least box x_low, x_high, y_low, y_high [m] around the points where the gap is less than `approach`; None if none is."""
+    """Return the least box (x_low, x_high, y_low, y_high) [m] that contains all points with a gap less than `approach`.
+
+    Without such a point the result is None.
+    """
     m, edges = np.empty(separation.y.size), np.empty(2 * MAX_PATCHES)
     slopes(separation.y, separation.g, separation.y.size, m)
     count = find_patches(separation.y, separation.g, m, separation.y.size, approach, edges)
@@ -143,6 +146,6 @@ def overlap(separation: Separation, approach: float) -> tuple[float, float, floa
 
 
 def lay(separation: Separation, x: Array, y: Array) -> Gap:
-    """The gap of a separation at the centres of the elements."""
+    """Return the gap of a separation at the centres `x`, `y` of elements."""
     g, A, centre = _rows(separation, y)
     return Gap(x, y, g[:, None] + A[:, None] * (x - centre[:, None]) ** 2)

@@ -8,10 +8,10 @@ from contact.kernels.friction import heating, of_heat
 
 @kernel
 def heat_up(case, flux, dx, coefficients):
-    """Let the `coefficients`, shape (ny, nx) over increasing x, fall with the temperature by their own friction.
+    """Reduce the `coefficients` of friction, shape (ny, nx) over increasing x, by the flash temperature.
 
-    `flux` is p |s|/V [Pa], overwritten with the heat that is left; a row is heated from its leading edge, x = max, on, each
-    element by all ahead and by itself.
+    On entry `flux` is p |s|/V [Pa]; on return it is the heat with the reduced coefficients. Each row is marched from its
+    leading edge, x = max. An element is heated by itself and by all elements ahead of it.
     """
     ny, nx = coefficients.shape
     for i in range(ny):

@@ -1,4 +1,4 @@
-"""Displacement of a half space by elements of constant traction, and its convolution with fields on a grid by FFT.
+"""Displacement of a half space by elements of constant traction, and the convolution with fields on a grid by FFT.
 
 A unit traction on an element dx × dy displaces body 1 against body 2 at distance (X, Y) by (theory.md 6; Kalker 1990)
 
@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 
 
 def integrals(X: ArrayLike, Y: ArrayLike, dx: ArrayLike, dy: ArrayLike) -> tuple[Array, Array, Array]:
-    """I1, I2, I3 [m] at the distances (X, Y) from the centre of an element dx × dy; all arguments broadcast."""
+    """Return I1, I2, I3 [m] at the distances (X, Y) from the centre of an element dx × dy. All arguments broadcast."""
     I1, I2, I3 = (np.zeros(np.broadcast_shapes(*map(np.shape, (X, Y, dx, dy)))) for _ in range(3))
     for sign_x in (1, -1):
         for sign_y in (1, -1):
@@ -39,7 +39,7 @@ def integrals(X: ArrayLike, Y: ArrayLike, dx: ArrayLike, dy: ArrayLike) -> tuple
 def tangential(
     X: ArrayLike, Y: ArrayLike, dx: ArrayLike, dy: ArrayLike, material: Material
 ) -> tuple[Array, Array, Array]:
-    """C_xx, C_yy, C_xy [m/Pa] at the distances (X, Y) from elements dx × dy."""
+    """Return C_xx, C_yy, C_xy [m/Pa] at the distances (X, Y) from elements dx × dy."""
     I1, I2, I3 = integrals(X, Y, dx, dy)
     nu, scale = material.poisson_ratio, 1.0 / (math.pi * material.shear_modulus)
     common = (1.0 - nu) * (I1 + I2)
@@ -48,25 +48,25 @@ def tangential(
 
 @functools.lru_cache(maxsize=16)
 def _transfers(mx: int, my: int, ratio: float) -> tuple[Array, Array, Array]:
-    """Fourier transforms of I1, I2 and I3 for dx = 1, dy = `ratio` on the periodic grid (my, mx), both even.
+    """Return the Fourier transforms of I1, I2 and I3 for dx = 1, dy = `ratio` on the periodic grid (my, mx), both even.
 
-    All three are real: I1 and I2 are even, I3 is odd in X and in Y. Every distance is filled, also those that are never
-    read: with a notch there I1 + I2 would not be positive, and its inverse no preconditioner.
+    All three are real, because I1 and I2 are even and I3 is odd in X and in Y. All distances are filled, also those that
+    are never read. With zeros there, I1 + I2 would not be positive, and its inverse would not be a preconditioner.
     """
-    found = []
+    transfers = []
     quarter = integrals(np.arange(mx // 2 + 1), ratio * np.arange(my // 2 + 1)[:, None], 1.0, ratio)
     for values, sign in zip(quarter, (1.0, 1.0, -1.0), strict=True):
-        if sign < 0.0:  # odd: zero, exactly, on the axes and where the periodic images meet
+        if sign < 0.0:  # odd: exactly zero on the axes and where the periodic images meet
             values[[0, -1], :] = values[:, [0, -1]] = 0.0
         left = np.concatenate((values, sign * values[:, -2:0:-1]), axis=1)
         transfer = np.fft.rfft2(np.concatenate((left, sign * left[-2:0:-1]))).real.copy()
         transfer.setflags(write=False)
-        found.append(transfer)
-    return tuple(found)  # type: ignore[return-value]
+        transfers.append(transfer)
+    return tuple(transfers)  # type: ignore[return-value]
 
 
 def fast_length(n: int) -> int:
-    """Least even number of factors 2, 3 and 5 that is at least `n`."""
+    """Return the least even number >= `n` that has only the factors 2, 3 and 5."""
     n += n % 2
     while True:
         m = n
@@ -81,7 +81,7 @@ def fast_length(n: int) -> int:
 class Influence:
     """The half space under a grid of `shape` (ny, nx): displacement difference [m] from tractions [Pa].
 
-    Displacement is also exact one column beyond the grid, towards +x.
+    The displacement is also exact in one more column, at the +x side of the grid.
     """
 
     def __init__(self, shape: tuple[int, ...], dx: float, dy: float, material: Material) -> None:
@@ -96,23 +96,23 @@ class Influence:
         self._inverse = 1.0 / self.zz
         #: C_zz of an element on itself [m/Pa]
         self.own = 2.0 * scale * (1.0 - nu) * (dy / dx * math.asinh(dx / dy) + math.asinh(dy / dx))
-        #: What a transform is multiplied by to be read one column further on
+        #: Factor on a transform that shifts its field by one column, so that it is read at x + dx
         self.ahead = np.exp(2j * math.pi / self._padded[1] * np.arange(self._padded[1] // 2 + 1))
 
     def forward(self, field: Array) -> NDArray[np.complex128]:
-        """Transform fields (…, ny, nx) on the padded grid."""
+        """Return the transform of fields (…, ny, nx) on the padded grid."""
         return np.fft.rfft2(field, self._padded)
 
     def back(self, transform: NDArray[np.complex128]) -> Array:
-        """Transform back to the grid."""
+        """Return the inverse transform on the grid, shape (…, ny, nx)."""
         ny, nx = self.shape
         rows = np.fft.ifft(transform, axis=-2)[..., :ny, :]
         return np.fft.irfft(rows, self._padded[1], axis=-1)[..., :nx]
 
     def normal(self, p: Array) -> Array:
-        """Normal displacement [m], shape (ny, nx), from the pressure `p` [Pa]."""
+        """Return the normal displacement [m], shape (ny, nx), from the pressure `p` [Pa]."""
         return self.back(self.zz * self.forward(p))
 
     def normal_inverse(self, u: Array) -> Array:
-        """Pressure [Pa] of the periodic half space that has the displacement `u` [m]: a preconditioner."""
+        """Return the pressure [Pa] of the periodic half space that has the displacement `u` [m], as a preconditioner."""
         return self.back(self._inverse * self.forward(u))

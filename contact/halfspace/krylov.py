@@ -12,12 +12,12 @@ Array = NDArray[np.float64]
 
 
 def dot(a: Array, b: Array) -> float:
-    """Scalar product of two fields, in this thread: BLAS wakes all cores for a sum of ten thousand terms."""
+    """Return the scalar product of two fields. einsum runs in this thread; BLAS would use all cores for few terms."""
     return float(np.einsum("i,i->", a.ravel(), b.ravel()))
 
 
 def size(a: Array) -> float:
-    """Euclidean norm of a field."""
+    """Return the Euclidean norm of a field."""
     return math.sqrt(dot(a, a))
 
 
@@ -33,7 +33,7 @@ def gmres(
     Returns
     -------
     v, steps
-        The best solution that was found and the applications of `apply` that it took.
+        The best solution found, and the number of calls of `apply`.
     """
     start = size(rhs)
     if start == 0.0:

@@ -4,7 +4,8 @@ Elements of constant traction end at the edges of their strip. Their displacemen
 
     u(x) - u(x + dx) = -w dx,
 
-a dense linear system. Kalker's coefficients are these slopes on an ellipse; on any other patch they take their place.
+which is a dense linear system. Kalker's coefficients are these slopes on an ellipse. On any other patch the slopes replace
+his coefficients.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ _STATES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 def slopes(strips: Strips, material: Material, n_elements: int) -> Array:
-    """Forces per unit creepage at vanishing creepage.
+    """Return the forces per unit creepage at vanishing creepage.
 
     Parameters
     ----------
@@ -33,13 +34,13 @@ def slopes(strips: Strips, material: Material, n_elements: int) -> Array:
         The patch.
     material : Material
     n_elements : int
-        Elements along each strip; time grows with the cube of their number.
+        Elements along each strip. The computing time grows with the cube of their number.
 
     Returns
     -------
     ndarray, shape (3, 3)
-        Rows: longitudinal, lateral [-] and spin [1/m] creepage; columns: Fx, Fy [N], Mz [N m] on the wheel. Error of first
-        order in the size of strips and elements.
+        Rows: longitudinal [-], lateral [-] and spin [1/m] creepage. Columns: Fx [N], Fy [N], Mz [N m] on the wheel. The
+        error is of first order in the size of strips and elements.
     """
     unit = (np.arange(n_elements) + 0.5) * 2.0 / n_elements - 1.0
     x = (strips.x_c[:, None] + strips.a[:, None] * unit).ravel()
@@ -48,7 +49,7 @@ def slopes(strips: Strips, material: Material, n_elements: int) -> Array:
     here = influence.tangential(X, Y, dx, dy, material)
     ahead = influence.tangential(X + dx[:, None], Y, dx, dy, material)
     xx, yy, xy = (a - b for a, b in zip(here, ahead, strict=True))
-    # a creep that varies along x is met half-way between the two positions
+    # the creep of spin varies along x; it is taken half-way between the two positions
     w = np.array([np.r_[vx - phi * y, vy + phi * (x + dx / 2)] for vx, vy, phi in _STATES])
     q = np.linalg.solve(np.block([[xx, xy], [xy, yy]]), -(w * np.r_[dx, dx]).T)
     Qx, Qy = q[: x.size] * (dx * dy)[:, None], q[x.size :] * (dx * dy)[:, None]
@@ -56,10 +57,10 @@ def slopes(strips: Strips, material: Material, n_elements: int) -> Array:
 
 
 def flexibilities(strips: Strips, material: Material, n_elements: int) -> Array:
-    """L1, L2, L3 [m/Pa] with which FASTSIM's forces on this patch have the `slopes` Fx/ξ, Fy/η and Fy/φ.
+    """Return L1, L2, L3 [m/Pa] with which FASTSIM has the `slopes` Fx/ξ, Fy/η and Fy/φ on this patch.
 
-    Where all sticks, simplified theory gives ∑ 2a² dy/L1, ∑ 2a² dy/L2 and ∑ (2a² (x_c - X) + 2/3 a³) dy/L3, the last for spin
-    about the middle X of the first two.
+    In full adhesion, simplified theory has the slopes ∑ 2a² dy/L1, ∑ 2a² dy/L2 and ∑ (2a² (x_c - X) + 2/3 a³) dy/L3. The
+    last is for spin about X, the mean of x_c with the weights 2a² dy.
     """
     a, moment = strips.a, 2.0 * strips.a**2 * strips.dy
     slope = -slopes(strips, material, n_elements)
@@ -70,9 +71,9 @@ def flexibilities(strips: Strips, material: Material, n_elements: int) -> Array:
 
 
 def coefficients(flexibility: Array, strips: Strips, material: Material) -> tuple[float, float, float]:
-    """C11, C22, C23 that stand for L1, L2, L3, with the equivalent ellipse of each separate patch (`tangential.ellipses`).
+    """Return C11, C22, C23 that correspond to L1, L2, L3 on the equivalent ellipse of each patch (`tangential.ellipses`).
 
-    One set serves all patches, with which the slopes of the whole forces are those of the `flexibility`.
+    All patches share one set. With it the slopes of the total forces are those of the `flexibility`.
     """
     L1, L2, L3 = flexibility
     G = material.shear_modulus
@@ -80,20 +81,20 @@ def coefficients(flexibility: Array, strips: Strips, material: Material) -> tupl
     middle = strips.x_c @ moment / moment.sum()
     of_spin = (strips.x_c - middle) * moment + 2.0 / 3.0 * strips.a**3 * strips.dy
     patches, length, square_length = np.unique(strips.patch), 0.0, 0.0
-    for own in (strips.patch == k for k in patches):
-        a = float(strips.a[own].max())
-        b = 2.0 * float(strips.a[own] @ strips.dy[own]) / (math.pi * a)
+    for mask in (strips.patch == k for k in patches):
+        a = float(strips.a[mask].max())
+        b = 2.0 * float(strips.a[mask] @ strips.dy[mask]) / (math.pi * a)
         if patches.size == 1:
             length, square_length = a, a**2 / math.sqrt(a * b)
             break
-        length += moment[own].sum() / moment.sum() / a
-        square_length += of_spin[own].sum() / of_spin.sum() * math.sqrt(a * b) / a**2
+        length += moment[mask].sum() / moment.sum() / a
+        square_length += of_spin[mask].sum() / of_spin.sum() * math.sqrt(a * b) / a**2
     if patches.size > 1:
         length, square_length = 1.0 / length, 1.0 / square_length
     return 8.0 * length / (3.0 * G * L1), 8.0 * length / (3.0 * G * L2), math.pi * square_length / (4.0 * G * L3)
 
 
 def extrapolated(at: Callable[[int], Array], coarse: int = 12, fine: int = 18) -> Array:
-    """The limit of at(n) for many strips and elements n, whose error goes with 1/n."""
+    """Return the limit of at(n) for n → ∞ strips and elements. The error of at(n) is proportional to 1/n."""
     first, second = at(coarse), at(fine)
     return second + (second - first) * (coarse / (fine - coarse))

@@ -2,11 +2,11 @@
 
     minimise ½ pᵀCp + (h - delta)ᵀp  over p >= 0:   p >= 0,   e = h - delta + C p >= 0,   p e = 0
 
-Conjugate gradients on the elements in contact, with the set of these elements changed as soon as it is seen to be wrong (after
-Polonsky and Keer 1999; the preconditioner, the inverse of C on a periodic grid, after Vollebregt 2014, is recalled: 16
-instead of 46 iterations to 1e-6 on 124 × 68 elements). A grid of half the resolution, and so on, gives the start. Contact
-lies inside the undeformed overlap h < delta, since pressure only pushes the surfaces apart: several patches need nothing
-special.
+The method is conjugate gradients on the elements in contact. The set of these elements is corrected in every iteration
+(Polonsky and Keer 1999). The preconditioner is the inverse of C on a periodic grid (Vollebregt 2014, recalled); it reduces
+46 iterations to 16 for 1e-6 on 124 × 68 elements. The start comes from a grid of half the resolution, recursively.
+Pressure only pushes the surfaces apart, so contact lies inside the undeformed overlap h < delta. Several patches need no
+special treatment.
 """
 
 from __future__ import annotations
@@ -24,16 +24,16 @@ from contact.material import Material
 
 Array = NDArray[np.float64]
 
-#: Caps: iterations of one solution at given approach, and steps of the approach at given load.
+#: Limits: iterations at given approach, and steps of the approach at given load.
 MAX_ITERATIONS, MAX_STEPS = 300, 30
-#: Coarser grids are used down to this number of elements along either side.
+#: Coarser grids have at least this number of elements along each side.
 _LEAST_SIDE = 20
-#: Share of the approach above the least gap up to which the start without a coarser grid takes elements to be in contact: in
-#: Hertz contact at 1/(1 + alpha) along x and 1/(1 + beta) along y, .5 on a circle.
+#: Without a coarser grid, the start takes the elements up to this share of the overlap as in contact. In Hertz contact the
+#: edge is at 1/(1 + alpha) along x and 1/(1 + beta) along y, on a circle at .5.
 _LIKELY = 0.7
-#: Last change of the stiffness, over it, elementwise; that of the sum is its square.
+#: Relative change of the elements' stiffness at which its iteration stops. The relative error of the sum is its square.
 _STIFFNESS_TOLERANCE = 3e-2
-#: Rows and columns that the computation sees beyond the contact of the coarser grid.
+#: Rows and columns that are added on each side of the contact found on the coarser grid.
 _MARGIN = 2
 
 
@@ -47,7 +47,7 @@ class Normal:
     approach : [m], measured from h = 0
     stiffness : dN/d(approach) [N/m]
     iterations : of conjugate gradients on the given grid
-    converged : False where the iteration stopped at its cap
+    converged : False if the iteration stopped at its limit
     """
 
     p: Array
@@ -78,11 +78,15 @@ def norm(
         Size of an element [m].
     material : Material
     load, approach : float
-        Exactly one of them: [N] or [m].
+        Normal force [N] or rigid approach [m]. Give exactly one of them.
     tolerance : float
-        Last change of the pressure over the pressure (Euclidean norms).
+        Stop when the change of the pressure over the pressure (Euclidean norms) is below this.
     start : ndarray, shape (ny, nx)
-        Pressure from which to start [Pa]; by default that of a coarser grid.
+        Pressure to start from [Pa]; default that of a coarser grid.
+
+    Returns
+    -------
+    Normal
     """
     scale = 1.0 / (dx * dy)
     if load is not None:
@@ -107,7 +111,7 @@ def _at_load(
     tolerance: float,
     start: Array | None,
 ) -> Normal:
-    """Newton's iteration for the approach at which the pressures sum to `total`; N(approach) is convex."""
+    """Find the approach at which the pressures sum to `total` [Pa], by Newton's iteration. N(approach) is convex."""
     least = float(gap.min())
     if start is not None and start.any():
         p = start * (total / start.sum())
@@ -123,7 +127,7 @@ def _at_load(
         p, n, solved = _in_window(gap - approach, dx, dy, material, p, tolerance)
         iterations += n
         rates = _stiffness(p, dx, dy, material)
-        if not rates.any():  # all was pulled off a start that lay too high
+        if not rates.any():  # no contact is left: the approach was too small
             approach = least + 2.0 * (approach - least)
             continue
         change = (total - p.sum()) / rates.sum()
@@ -138,7 +142,11 @@ def _at_load(
 
 
 def _rough_overlap(h: Array, dx: float, dy: float, material: Material, total: float) -> float:
-    """Overlap at which springs of the stiffness of a half space under the overlap's area carry the load: a start."""
+    """Return an estimate of the overlap [m] under the load, as a start.
+
+    It is the overlap at which independent springs carry the load. Their stiffness is that of a half space under the
+    overlap's area.
+    """
     low, high = 0.0, float(h.max())
     for _ in range(30):
         middle = 0.5 * (low + high)
@@ -150,37 +158,39 @@ def _rough_overlap(h: Array, dx: float, dy: float, material: Material, total: fl
 
 
 def _halved(gap: Array) -> Array:
-    """Means of two by two elements; a last odd row or column counts double."""
+    """Return the means of two by two elements. A last odd row or column counts twice."""
     ny, nx = gap.shape
     even = np.pad(gap, ((0, ny % 2), (0, nx % 2)), mode="edge")
     return 0.25 * (even[::2, ::2] + even[1::2, ::2] + even[::2, 1::2] + even[1::2, 1::2])
 
 
 def _doubled(p: Array, shape: tuple[int, ...]) -> Array:
-    """Pressure of the halved grid on the full one."""
+    """Return the pressure of the halved grid on the full grid."""
     return p.repeat(2, axis=0).repeat(2, axis=1)[: shape[0], : shape[1]]
 
 
 def _from_coarser(gap: Array, dx: float, dy: float, material: Material, approach: float) -> Array:
-    """Pressure to start from: that of half the resolution."""
+    """Return the pressure to start from [Pa], computed at half the resolution."""
     halved = _halved(gap) if min(gap.shape) >= 2 * _LEAST_SIDE else gap
     if halved is gap or approach <= halved.min():
         least = gap.min()
         level = least + _LIKELY * (approach - least)
-        return np.sqrt(np.maximum(level - gap, 0.0)) * material.contact_modulus  # any multiple of a shape like Hertz'
+        return (
+            np.sqrt(np.maximum(level - gap, 0.0)) * material.contact_modulus
+        )  # Hertz' shape; its scale does not matter
     start = _from_coarser(halved, 2.0 * dx, 2.0 * dy, material, approach)
     p, _, _ = _in_window(halved - approach, 2.0 * dx, 2.0 * dy, material, start, 1e-2)
     return _doubled(p, gap.shape)
 
 
 def _window(inside: NDArray[np.bool_]) -> tuple[slice, slice]:
-    """Rows and columns that hold the elements `inside`, and `_MARGIN` more."""
-    found = []
+    """Return the slices of rows and columns that hold the elements `inside`, with a margin of `_MARGIN`."""
+    slices = []
     for axis in (1, 0):
         where = np.flatnonzero(inside.any(axis=axis))
         first = max(int(where[0]) - _MARGIN, 0)
-        found.append(slice(first, min(int(where[-1]) + 1 + _MARGIN, inside.shape[1 - axis])))
-    return found[0], found[1]
+        slices.append(slice(first, min(int(where[-1]) + 1 + _MARGIN, inside.shape[1 - axis])))
+    return slices[0], slices[1]
 
 
 def _in_window(
@@ -191,7 +201,11 @@ def _in_window(
     start: Array,
     tolerance: float,
 ) -> tuple[Array, int, bool]:
-    """Solve for gap minus approach `h` on the elements around `start`; extend them while elements outside would overlap."""
+    """Solve for gap minus approach `h` on a window around the contact of `start`.
+
+    The window is extended as long as elements outside it overlap. Return the pressure, the iterations and whether the
+    iteration has converged.
+    """
     overlap = h < 0.0
     inside = (start > 0.0) & overlap
     if not inside.any():
@@ -215,15 +229,15 @@ def _in_window(
 
 
 def _conjugate_gradients(h: Array, influence: Influence, p: Array, tolerance: float) -> tuple[Array, int, bool]:
-    """Pressure that closes `h` (negative: overlap), from `p` >= 0."""
+    """Return the pressure for gap minus approach `h`, the iterations, and whether they converged. `p` >= 0 is the start."""
     touching = p > 0.0 if p.any() else h < 0.0
     e = influence.normal(p)
     work = dot(p, e)
-    best = max(-dot(h, p) / work, 0.0) if work > 0.0 else 1.0  # the multiple of the start that has the least energy
+    best = max(-dot(h, p) / work, 0.0) if work > 0.0 else 1.0  # the multiple of the start with the least energy
     p, e = best * p, best * e + h
     residual = e * touching
     direction, old = np.zeros_like(p), np.zeros_like(p)
-    square = 0.0  # makes the first direction that of steepest descent
+    square = 0.0  # the first direction is then that of steepest descent
     for iteration in range(1, MAX_ITERATIONS + 1):
         square = _steer(residual, influence.normal_inverse(residual), touching, square, direction, old)
         moved = influence.normal(direction)
@@ -240,9 +254,9 @@ def _conjugate_gradients(h: Array, influence: Influence, p: Array, tolerance: fl
 
 @kernel
 def _steer(residual, z, touching, before, direction, old):
-    """Set the next direction from the preconditioned residual `z`; return residual·z on the elements in contact.
+    """Set the next direction from the preconditioned residual `z`. Return residual·z over the elements in contact.
 
-    Polak and Ribière's rule, which forgets the old direction where the set in contact has changed; as well with before <= 0.
+    The rule is that of Polak and Ribière. It restarts by itself after a change of the contact set, and if before <= 0.
     """
     square, back = 0.0, 0.0
     for i in range(z.shape[0]):
@@ -260,10 +274,11 @@ def _steer(residual, z, touching, before, direction, old):
 
 @kernel
 def _advance(p, e, residual, direction, moved, touching, own):
-    """Step along the direction to the least energy; what is then pulled leaves the contact, what overlaps enters it.
+    """Step along the direction to the least energy, and correct the set of elements in contact.
 
-    Return the change of the pressure over the pressure (Euclidean norms) and how many elements have left and entered. If
-    none has, gap and residual follow; else they are to be computed anew.
+    Elements with tension leave the contact; elements that overlap enter it. Return the change of the pressure over the
+    pressure (Euclidean norms), and how many elements have left and entered. If none has, gap and residual are updated;
+    else the caller has to recompute them.
     """
     curvature, along, length, size, pulled, entered = 0.0, 0.0, 0.0, 0.0, 0, 0
     for i in range(p.shape[0]):
@@ -291,7 +306,7 @@ def _advance(p, e, residual, direction, moved, touching, own):
 
 
 def _stiffness(p: Array, dx: float, dy: float, material: Material) -> Array:
-    """dp/d(approach) [Pa/m] on the elements in contact: C r = 1 there."""
+    """Return r = dp/d(approach) [Pa/m] on the elements in contact, from C r = 1 there."""
     touching = p > 0.0
     rates = np.zeros_like(p)
     if not touching.any():
@@ -299,7 +314,7 @@ def _stiffness(p: Array, dx: float, dy: float, material: Material) -> Array:
     window = _window(touching)
     inside = touching[window]
     influence = Influence(inside.shape, dx, dy, material)
-    # the same iteration, every element held in contact
+    # conjugate gradients as above, with a fixed set of elements in contact
     r, residual, direction, square = np.zeros(inside.shape), inside.astype(np.float64), np.zeros(inside.shape), 1.0
     for _ in range(MAX_ITERATIONS):
         z = influence.normal_inverse(residual) * inside

@@ -1,4 +1,4 @@
-"""A solution on a grid of equal elements: the rows are its strips."""
+"""A solution on a grid of equal elements, whose rows are the strips."""
 
 from __future__ import annotations
 
@@ -20,21 +20,22 @@ Array = NDArray[np.float64]
 class GridSolution(Solution):
     """`Solution` of the element-wise half space.
 
-    The strips are the rows of elements with contact, their peak the largest pressure of an element; fields span the columns
-    with contact, the pressure being zero outside the patch. `grid` holds x, y and p of all rows.
+    The strips are the rows of elements with contact. The peak pressure of a strip is the largest of its elements. Fields
+    span the columns with contact; the pressure is zero outside the patch. `grid` holds x [m], y [m] and p [Pa] of the
+    rectangle of elements around the contact.
     """
 
     grid: tuple[Array, Array, Array] = field(repr=False)
 
     def pressure(self, x: ArrayLike, y: ArrayLike) -> Array:
-        """Evaluate the contact pressure [Pa] at points `x`, `y` [m]; 0 outside. Between elements p² is bilinear."""
+        """Return the contact pressure [Pa] at points `x`, `y` [m]; 0 outside. p² is bilinear between the elements."""
         x, y = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64))
-        own_x, own_y, p = self.grid
+        grid_x, grid_y, p = self.grid
         if p.size == 0:
             return np.zeros(x.shape)
         square = np.pad(p**2, 1)
-        u = (x - own_x[0]) / (own_x[1] - own_x[0]) + 1.0
-        v = (y - own_y[0]) / (own_y[1] - own_y[0]) + 1.0
+        u = (x - grid_x[0]) / (grid_x[1] - grid_x[0]) + 1.0
+        v = (y - grid_y[0]) / (grid_y[1] - grid_y[0]) + 1.0
         inside = (u >= 0) & (u < square.shape[1] - 1) & (v >= 0) & (v < square.shape[0] - 1)
         u, v = np.where(inside, u, 0.0), np.where(inside, v, 0.0)
         j, i = u.astype(np.int64), v.astype(np.int64)
@@ -62,7 +63,10 @@ def assemble(
     normal: str,
     tangential: str,
 ) -> GridSolution:
-    """Make the record from fields (ny, nx) over increasing `x`, `y`; `own` are creepages and slope of each row."""
+    """Return the solution from fields of shape (ny, nx) over increasing `x`, `y` [m].
+
+    `own` are the creepages and the slope of each row.
+    """
     touching = p > 0.0
     rows, columns = np.flatnonzero(touching.any(axis=1)), np.flatnonzero(touching.any(axis=0))
     dx, dy = float(x[1] - x[0]), float(y[1] - y[0])

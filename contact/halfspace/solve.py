@@ -1,4 +1,4 @@
-"""From a separation or a gap to a solution on a grid: NORM, or the pressure of another method, and TANG."""
+"""Solve the contact on a grid: NORM or the pressure of another method, then TANG."""
 
 from __future__ import annotations
 
@@ -27,11 +27,12 @@ from contact.solution import Solution, Status
 
 Array = NDArray[np.float64]
 
-#: Elements on which the approach under a load is estimated, and the cap of that estimate.
+#: Elements on which the approach under a load is estimated, and the largest number of steps of that estimate.
 _COARSE, _MAX_STEPS = Division(20, 20), 40
-#: Steps of friction that follows local slip velocity or temperature: cap, share of each change taken over, when to stop.
+#: Iteration of friction that depends on local slip velocity or temperature: largest number of steps, relaxation factor,
+#: tolerance over mu.
 _MAX_FALLS, _FALL_SHARE, _FALL_TOLERANCE = 60, 0.5, 1e-3
-#: The grid reaches as far as the overlap at this multiple of the estimated approach.
+#: The grid covers the overlap at this multiple of the estimated approach.
 _ROOM = 1.02
 
 
@@ -48,7 +49,7 @@ def solve_gap(
     conformal: bool,
     progress: Callable[[int, float], None] | None,
 ) -> GridSolution:
-    """NORM and TANG; arguments as in `contact.solve`."""
+    """Return the solution by NORM and TANG. Arguments as in `contact.solve`."""
     grid = gap if isinstance(gap, Gap) else _grid_of(gap, load, approach, material, division)
     if grid is None:
         x = y = np.arange(2.0)
@@ -86,9 +87,9 @@ def solve_pressure(
     division: Division,
     progress: Callable[[int, float], None] | None,
 ) -> Solution:
-    """TANG on the pressure of another solution, whose N, approach and normal stiffness are kept.
+    """Return the solution by TANG on the pressure of `first`. Its N, approach and normal stiffness are kept.
 
-    `bent` is the separation on whose surface the bodies touch, where that is not its plane.
+    `bent` is the separation whose curved surface is the contact surface; None for the plane.
     """
     if first.N <= 0.0:
         return replace(first, tangential="halfspace")
@@ -133,11 +134,12 @@ def _roll(
     speed: float,
     progress: Callable[[int, float], None] | None,
 ) -> tuple[Tangential, float]:
-    """TANG with a law of friction; the solution and the coefficient that nowhere is exceeded.
+    """Return the solution by TANG with a friction law, and the largest coefficient of friction [-].
 
-    Where it follows the local slip velocity or the temperature, each step solves with the coefficients of the slip before,
-    from stick on; of what a law wants only a share is taken over, as several solutions and oscillation between them are
-    possible. The temperature along the rows is that by the friction that it leaves (`heat`), for a given slip.
+    If friction depends on the local slip velocity or the temperature, TANG is solved repeatedly, each time with the
+    coefficients from the previous slip. The first solution has the full coefficient. Only a share of each change is applied,
+    because several solutions and oscillation between them are possible. For a given slip, the temperature is that of the
+    reduced friction (`heat`).
     """
     surface = np.zeros(1, CASE)
     set_surface(surface, friction, speed)
@@ -155,7 +157,7 @@ def _roll(
         slip, wanted = np.hypot(rolling.sx, rolling.sy), np.full(p.shape, mu)
         if local:
             wanted = np.minimum(friction.coefficient(speed * slip), mu)
-        if friction.velocity == "greatest":  # particles come from the leading edge, x = max
+        if friction.velocity == "greatest":  # particles enter at the leading edge, x = max
             wanted = np.minimum.accumulate(wanted[:, ::-1], axis=1)[:, ::-1]
         if hot:
             heat_up(case, factor * p * slip, x[1] - x[0], wanted)
@@ -168,7 +170,7 @@ def _roll(
 
 
 def _status(gap: Separation | Gap, p: Array, y: Array, converged: bool) -> Status:
-    """OK, unless there is no contact, it reaches the end of the data, or an iteration stopped at its cap."""
+    """Return NO_CONTACT, OUT_OF_RANGE if contact reaches the end of the data, NOT_CONVERGED or OK."""
     touching = p > 0.0
     if not touching.any():
         return Status.NO_CONTACT
@@ -189,7 +191,7 @@ def _grid_of(
     material: Material,
     division: Division,
 ) -> Gap | None:
-    """The gap on elements over the undeformed overlap, inside which all contact lies; None without overlap."""
+    """Return the gap on elements over the undeformed overlap, which contains the contact; None without overlap."""
     if approach is None:
         assert load is not None
         if load <= 0.0:
@@ -205,7 +207,7 @@ def _grid_of(
 
 
 def _estimate(separation: Separation, touch: float, load: float, material: Material) -> float:
-    """Approach beyond `touch` under a load, on a coarse grid that moves with the overlap: Newton's iteration."""
+    """Return the approach beyond `touch` [m] under a load, by Newton's iteration on a coarse grid over the overlap."""
     depth = 1e-3 * float(np.ptp(separation.y))
     for _ in range(_MAX_STEPS):
         box = overlap(separation, touch + depth)
@@ -217,7 +219,7 @@ def _estimate(separation: Separation, touch: float, load: float, material: Mater
         N = float(found.p.sum()) * grid.dx * grid.dy
         if abs(N / load - 1.0) < 1e-5:
             break
-        # a power law through load and stiffness: N ~ depth^(k depth/N), 3/2 in Hertz contact
+        # power law with the load and stiffness found: N ~ depth^(k depth/N); the exponent is 3/2 in Hertz contact
         power = max(found.stiffness * depth / N, 0.5) if N > 0.0 else 1.5
         depth *= min(max((load / max(N, 1e-3 * load)) ** (1.0 / power), 0.1), 10.0)
     return depth

@@ -2,16 +2,17 @@
 
     s = w + [C q(x) - C q(x + dx)]/dx,    |q| <= mu p,    s = 0 where |q| < mu p,    q = -mu p s/|s| where s != 0
 
-is a variational inequality whose operator, C(x) - C(x + dx), is positive definite but not symmetric: its solution is unique,
-but sweeps of Gauss-Seidel diverge. Here Newton's iteration (semi-smooth; active sets of stick and slip) solves it, in 5 to
-10 steps from q = 0. Each step is a linear system, solved by GMRES with the products by FFT. The preconditioner uses that C
-alone is symmetric and that in stick the difference is undone by a sum from the leading edge; it takes about 10 steps of
-GMRES on any grid. Should Newton's iteration stall, transient rolling over ever longer distances L leads to the steady state,
+is a variational inequality. Its operator, C(x) - C(x + dx), is positive definite but not symmetric. The solution is
+therefore unique, but Gauss-Seidel sweeps diverge. Here a semi-smooth Newton iteration with active sets of stick and slip
+solves it, in 5 to 10 steps from q = 0. Each step is a linear system, solved by GMRES with the products by FFT. The
+preconditioner uses two facts: C by itself is symmetric, and in the stick zone a sum from the leading edge inverts the
+difference. About 10 GMRES steps are needed on any grid. If Newton's iteration stalls, transient rolling over increasing
+distances L leads to the steady state,
 
     s = w + [C q(x) - C q(x + dx)]/dx + C (q - q_before)/L.
 
-The rigid slip w of spin varies along x. It is taken at x + dx·`OFFSET`: the difference of displacements belongs to x + dx/2,
-the traction to x; both are of first order with opposite errors (theory.md 6).
+The rigid slip w of spin varies along x. It is taken at x + dx·`OFFSET`. The difference of displacements belongs to
+x + dx/2 and the traction to x. Both choices have errors of first order with opposite signs (theory.md 6).
 """
 
 from __future__ import annotations
@@ -32,13 +33,14 @@ from contact.material import Material
 
 Array = NDArray[np.float64]
 
-#: Where in an element the rigid slip is taken, in elements ahead of the centre: as CONTACT does.
+#: Position of the rigid slip ahead of the element's centre, over dx. The value is that of CONTACT.
 OFFSET = 1.0 / 6.0
-#: Caps: steps of Newton's iteration and of GMRES in each, and transient distances.
+#: Limits: Newton steps, GMRES steps in each of them, and transient distances.
 MAX_NEWTON, MAX_KRYLOV, MAX_DISTANCES = 25, 80, 12
-#: Accuracy of Newton's steps: smaller ones gain less than they cost.
+#: Relative accuracy of the linear systems. A smaller value costs more than it saves.
 _INEXACT = 1e-2
-#: rho over the diagonal of the operator. With 1 an element that slips the wrong way is turned round instead of stuck.
+#: rho over the diagonal of the operator. With 1, an element that slips in the wrong direction would reverse its slip
+#: instead of sticking.
 _STIFFER = 3.0
 
 
@@ -51,10 +53,10 @@ class Tangential:
     qx, qy : traction on the wheel [Pa]
     sx, sy : slip velocity, wheel minus rail, over V [-]
     stick : True in the adhesion area
-    iterations : Newton's steps
-    products : products with the half space, a measure of the work
-    residual : of q = projection of q - s/rho, over mu p (Euclidean norms)
-    converged : False where the iteration stopped at its cap
+    iterations : number of Newton steps
+    products : number of products with the half space's matrix, a measure of the work
+    residual : residual of q = projection of q - s/rho, over mu p (Euclidean norms)
+    converged : False if the iteration stopped at its limit
     """
 
     qx: Array
@@ -90,18 +92,22 @@ def tang(
     x, y : ndarray, shape (nx,), (ny,)
         Centres of the elements [m], evenly spaced, increasing.
     creepage : Creepage or Bent
-        Wheel minus rail over V at the origin, or of each row.
+        Wheel minus rail over V, at the origin or of each row.
     friction : float or ndarray, shape (ny, nx)
-        mu [-].
+        Coefficient of friction mu [-].
     material : Material
     offset : float
-        Where in the element the rigid slip is taken, see the module.
+        Position of the rigid slip in the element, see the module.
     tolerance : float
-        Bound of the residual.
+        Upper bound of the residual.
     start : (qx, qy)
-        Traction to start from [Pa]; default none.
+        Traction to start from [Pa]; default 0.
     progress : callable
-        Given the number of Newton's step and the residual.
+        Called with the number of the Newton step and the residual.
+
+    Returns
+    -------
+    Tangential
     """
     whole = np.zeros((5, *p.shape))
     touching = p > 0.0
@@ -130,7 +136,7 @@ def tang(
 
 
 def _rigid_slip(x: Array, y: Array, rows: Bent, ahead: float) -> Array:
-    """Rigid slip over V, shape (2, ny, nx)."""
+    """Return the rigid slip over V, shape (2, ny, nx)."""
     w = np.empty((2, y.size, x.size))
     w[0] = (rows.vx - rows.phi * y)[:, None]
     w[1] = rows.vy[:, None] + rows.phi[:, None] * (x + ahead)
@@ -138,7 +144,7 @@ def _rigid_slip(x: Array, y: Array, rows: Bent, ahead: float) -> Array:
 
 
 class _Rolling:
-    """One problem on the smallest grid that holds its contact, and the state of its solution."""
+    """One tangential problem on the smallest grid that contains the contact, and the state of its solution."""
 
     def __init__(
         self,
@@ -163,7 +169,7 @@ class _Rolling:
         self._scale = math.sqrt(float(np.einsum("ij,ij->", bound, bound)))
 
     def _fade(self, per_metre: float) -> None:
-        """Make the operator that of steady rolling (0), or transient over the distance 1/`per_metre`."""
+        """Set the operator for steady rolling (`per_metre` = 0) or transient rolling over the distance 1/`per_metre` [m]."""
         h, dx = self._influence, self.dx
         difference = (1.0 - h.ahead) / dx + per_metre
         self._transfer = h.xx * difference, h.yy * difference, h.xy * difference
@@ -172,21 +178,21 @@ class _Rolling:
         self._share = 1.0 / (1.0 + dx * per_metre)
 
     def _times(self, transfer: tuple[Array, Array, Array], q: Array) -> Array:
-        """The half space with the transfer functions xx, yy, xy on a field (2, ny, nx)."""
+        """Return the product of the transfer functions (xx, yy, xy) with a field of shape (2, ny, nx)."""
         self.products += 1
         x, y = self._influence.forward(q)
         xx, yy, xy = transfer
         return self._influence.back(np.stack((xx * x + xy * y, xy * x + yy * y)))
 
     def slip(self, q: Array, w: Array) -> Array:
-        """Slip over V from the rigid slip `w`."""
+        """Return the slip over V for the traction `q` and the rigid slip `w`."""
         return w + self._times(self._transfer, q)
 
     def steady(self, q: Array) -> tuple[Array, float]:
-        """Traction and residual of steady rolling, from the traction `q`."""
-        found, residual = self._newton(q, self.w)
+        """Return traction and residual of steady rolling. `q` is the start."""
+        traction, residual = self._newton(q, self.w)
         if residual <= self.tolerance:
-            return found, residual
+            return traction, residual
         h = self._influence
         length = 0.25 * self.bound.shape[1] * self.dx
         for _ in range(MAX_DISTANCES):
@@ -198,7 +204,7 @@ class _Rolling:
         return self._newton(q, self.w)
 
     def _newton(self, q: Array, w: Array) -> tuple[Array, float]:
-        """Newton's iteration from `q`; the last iterate and its residual."""
+        """Return the last iterate of Newton's iteration from `q`, and its residual."""
         rho = _STIFFER * self._own
         for step in range(MAX_NEWTON + 1):
             square = zones.linearise(q, self.slip(q, w), self.bound, rho, self.zone, self._step, self._stiffness)
@@ -216,13 +222,13 @@ class _Rolling:
         return q, residual
 
     def _apply(self, v: Array) -> Array:
-        """The matrix of Newton's step on a change `v` that is already restricted."""
+        """Return the product of the Newton step's matrix with a restricted change `v`."""
         moved = self._times(self._transfer, v)
         zones.restrict(moved, self.zone, self._tangent)
         return moved + self._stiffness * v
 
     def _precondition(self, v: Array) -> Array:
-        """An approximate solution of Newton's step with the right hand side `v`."""
+        """Return an approximate solution of the Newton step with the right hand side `v`."""
         u = self._times(self._inverse, np.where(self.zone == zones.STICK, v, 0.0))
         change = np.empty_like(v)
         zones.accumulate(v, u, self.zone, self._stiffness, self._own, self.dx, self._share, change)

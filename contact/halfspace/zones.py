@@ -1,21 +1,21 @@
-"""Stick and slip element by element: what Newton's iteration for TANG needs of Coulomb's law, over fields (2, ny, nx)."""
+"""Coulomb's law for the Newton iteration of TANG: stick and slip of each element, for fields of shape (2, ny, nx)."""
 
 import math
 
 from contact._jit import kernel
 
-#: zone[...]: what an element does
+#: Values of the array `zone`
 OUTSIDE, STICK, SLIP = 0.0, 1.0, 2.0
 
 
 @kernel
 def linearise(q, s, bound, rho, zone, step, stiffness):
-    """Set up Newton's step for q = projection of q - s/rho on the disc of radius `bound`; return the squared residual.
+    """Set up the Newton step for q = projection of q - s/rho on the disc of radius `bound`. Return the squared residual.
 
-    With z = q - s/rho: an element sticks where |z| <= bound; the step shall bring s there to zero. Elsewhere it slips against
-    n = -z/|z|: `correction` brings q onto the circle, and the rest of the step, along `tangent`, turns it so that the slip
-    has no part along the tangent; `stiffness` = rho (|z|/bound - 1) is slip over bound at the solution. `step` (3, 2, ny, nx)
-    holds tangent, correction and the right-hand side.
+    Let z = q - s/rho. An element with |z| <= bound sticks, and the step has to make its s zero. All others slip, against
+    the direction z/|z|: `correction` moves q onto the circle, and the rest of the step, along `tangent`, turns q until the
+    slip has no component along the tangent. `stiffness` = rho (|z|/bound - 1) is slip over bound at the solution. `step`,
+    shape (3, 2, ny, nx), holds tangent, correction and right-hand side.
     """
     tangent, correction, rhs = step[0], step[1], step[2]
     total = 0.0
@@ -49,7 +49,7 @@ def linearise(q, s, bound, rho, zone, step, stiffness):
 
 @kernel
 def restrict(v, zone, tangent):
-    """Keep of `v` what may change: all of it in stick, its part along the tangent in slip, nothing outside."""
+    """Restrict `v` in place: unchanged in stick, its component along `tangent` in slip, zero outside."""
     for i in range(zone.shape[0]):
         for j in range(zone.shape[1]):
             if zone[i, j] == SLIP:
@@ -62,9 +62,10 @@ def restrict(v, zone, tangent):
 
 @kernel
 def accumulate(v, u, zone, stiffness, own, dx, share, out):
-    """Precondition `v`: sum of the changes `u` from the leading edge in stick, the element's own flexibility in slip.
+    """Precondition `v` into `out`: in stick the sum of `u` from the leading edge, in slip `v` over a flexibility.
 
-    `share` of the sum remains from one element to the next (1 in steady rolling).
+    The flexibility is that of the element itself (`own`) plus `stiffness`. From one element to the next the sum is
+    multiplied by `share` (1 in steady rolling).
     """
     nx = zone.shape[1]
     for i in range(zone.shape[0]):
@@ -82,7 +83,7 @@ def accumulate(v, u, zone, stiffness, own, dx, share, out):
 
 @kernel
 def admit(q, zone, bound):
-    """Bring the traction of slipping elements back onto the circle."""
+    """Scale the traction of slipping elements back onto the circle |q| = bound."""
     for i in range(bound.shape[0]):
         for j in range(bound.shape[1]):
             if zone[i, j] == SLIP:
@@ -94,7 +95,7 @@ def admit(q, zone, bound):
 
 @kernel
 def settle(q, s, zone, bound):
-    """Make the last iterate admissible: |q| <= bound, slip against q and nowhere else."""
+    """Make the last iterate admissible: |q| <= bound, slip opposite to q, and no slip outside the slip zone."""
     for i in range(bound.shape[0]):
         for j in range(bound.shape[1]):
             g = bound[i, j]

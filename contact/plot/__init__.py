@@ -1,7 +1,7 @@
-"""Pictures of solutions, in the manner of the thesis' figures. Only this package imports matplotlib.
+"""Figures of solutions in the style of the thesis. Only this package of the library imports matplotlib.
 
-No function touches pyplot's global state: each returns a `matplotlib.figure.Figure` (``figure.savefig("patch.png")``) or
-draws on what it is given.
+The functions do not use pyplot's global state. Each returns a `matplotlib.figure.Figure` (``figure.savefig("patch.png")``)
+or draws on the axes or figure that it is given.
 """
 
 try:

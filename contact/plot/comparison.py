@@ -1,4 +1,4 @@
-"""Solutions of one problem by several methods, side by side: pressure above, traction with stick and slip below."""
+"""Solutions of one problem by several methods: pressure in the upper row, traction with stick and slip in the lower."""
 
 from __future__ import annotations
 
@@ -15,32 +15,36 @@ from contact.plot.patches import Scale, arrows, heading, window, zones
 from contact.plot.style import DPI, FAINT, colour_map, nice, style
 from contact.solution import Solution
 
-#: Most inches along a side that a picture may have: beyond, it is too large for its readers.
+#: Largest side of a picture [inch]; programs cannot show larger ones.
 _LARGEST = 400.0
-#: Inches for colour bars and labels beside a row of panels, between them, and for titles and labels above and below.
+#: Space [inch] for colour bars and labels beside a row of panels, between panels, and for titles and labels.
 _BESIDE, _GAP, _ABOVE = 1.6, 0.15, 2.4
 
 
 def comparison(
     groups: Sequence[tuple[str, Sequence[Solution]]], *, reference: bool = True, columns: int = 6, panel: float = 3.6
 ) -> Figure:
-    """Draw solutions side by side, one group below the other; within a group all panels have the same scales.
+    """Draw solutions side by side, one group below the other. All panels of a group have the same scales.
 
     Parameters
     ----------
     groups : sequence of (str, sequence of Solution)
-        Title of a problem, and its solutions by several methods, which name their panels.
+        Title of each problem, and its solutions by several methods. The methods are the titles of the panels.
     reference : bool
-        The first solution of each group is the one that the others are compared with: its outline is drawn, dotted, in all.
+        Take the first solution of each group as the reference: draw its outline as a dotted line in all panels.
     columns : int
-        Most panels in a row, at least 1.
+        Largest number of panels in a row, at least 1.
     panel : float
         Longer side of a panel [inch].
+
+    Returns
+    -------
+    Figure
 
     Raises
     ------
     ContactError
-        No group, a group without solution, more than a picture holds.
+        If there is no group, a group has no solution, or the picture would be too large.
     """
     if not groups or not all(solutions for _, solutions in groups):
         raise ContactError("groups is empty or holds an empty one; at least one solution is needed")
@@ -55,8 +59,8 @@ def comparison(
             for first in range(0, len(solutions), columns)
         ]
     width = max(scale.figure_size(columns, panel)[0] for *_, scale in rows)
-    own = (width - _BESIDE) / columns - _GAP
-    heights = [2.0 * min(own * scale.half_x / scale.half_y, panel) + _ABOVE for *_, scale in rows]
+    panel_width = (width - _BESIDE) / columns - _GAP
+    heights = [2.0 * min(panel_width * scale.half_x / scale.half_y, panel) + _ABOVE for *_, scale in rows]
     if sum(heights) > _LARGEST:
         raise ContactError(f"{len(rows)} rows of panels are more than a picture holds; compare fewer methods or cases")
     with style():
@@ -70,7 +74,7 @@ def comparison(
 def _row(
     figure: FigureBase, title: str, solutions: Sequence[Solution], true: Solution | None, scale: Scale, columns: int
 ) -> None:
-    """One row of panels, two axes each."""
+    """Draw one row of panels with two axes each."""
     grid = figure.subplots(2, columns, squeeze=False, sharex=True, sharey=True)
     if title:
         figure.suptitle(title, x=0.01, ha="left", fontsize=11.0, weight="bold")
@@ -99,11 +103,11 @@ def _pressure(ax: Axes, s: Solution, scale: Scale) -> ScalarMappable:
 
 
 def _traction(ax: Axes, s: Solution, scale: Scale) -> ScalarMappable:
-    """Size of the traction, arrows, stick and slip; of a method without them its forces alone."""
+    """Draw magnitude and arrows of the traction, stick and slip. A method without fields gets only its forces."""
     limits = 0.0, nice(max(scale.traction, 1.0) * 1e-6)
     numbers = f"$F_x$ = {s.Fx * 1e-3:.3g} kN,  $F_y$ = {s.Fy * 1e-3:.3g} kN".replace("-", "−")
     known = s.has_fields
-    share = f"slip {100.0 * s.slip_ratio:.0f} %" if known else "forces alone"
+    share = f"slip {100.0 * s.slip_ratio:.0f} %" if known else "forces only"
     ax.set_title(f"{numbers}\n{share}", loc="left", fontsize=8.0)
     values = np.hypot(s.qx, s.qy) * 1e-6 if known else np.zeros(s.p.shape)
     colours = window(ax, s, values, colour_map("YlOrRd", 0.7), limits, scale)

@@ -33,21 +33,27 @@ def curve(
         Abscissa.
     curves : mapping of str to array_like, shape (n,)
         Ordinates by name.
+    xlabel, ylabel : str
+        Labels of the axes.
     limit : float, optional
-        Friction limit, a dashed line on each side of zero where there are curves.
+        Friction limit, drawn as a dashed line on each side of zero that has curves.
     ax : matplotlib Axes, optional
-        Draw there; default a new figure.
+        Axes to draw on; default those of a new figure.
+
+    Returns
+    -------
+    Figure
 
     Raises
     ------
     ContactError
-        A curve that is not as long as the abscissa.
+        If a curve is not as long as the abscissa.
     """
     abscissa = np.asarray(creepage, dtype=np.float64)
     with style():
         if ax is None:
             ax = Figure(figsize=(5.6, 3.6), dpi=DPI, layout="constrained").subplots()
-        sides = set()  # of zero on which there are curves
+        sides = set()  # signs of the ordinates
         for k, ((name, values), colour) in enumerate(zip(curves.items(), colours(len(curves)), strict=True)):
             ordinate = _ordinate(name, values, abscissa)
             ax.plot(abscissa, ordinate, color=colour, lw=1.6, ls="-" if k < len(LINES) else "-.", label=name)
@@ -65,18 +71,26 @@ def curve(
 def time_histories(
     time: ArrayLike, panels: Mapping[str, Lines], *, xlabel: str = "time [s]", title: str = ""
 ) -> Figure:
-    """Draw time histories, one panel above the other over a common abscissa.
+    """Draw time histories in panels, one below the other, over a common abscissa.
 
     Parameters
     ----------
     time : array_like, shape (n,)
+        Abscissa.
     panels : mapping of str to mapping of str to array_like
-        Label of the ordinate with its unit → name of the line → values, shape (n,). Lines of one name have one colour.
+        Label of the ordinate with its unit → name of the line → values, shape (n,). Lines of the same name have the same
+        colour.
+    xlabel, title : str
+        Label of the abscissa and title of the figure.
+
+    Returns
+    -------
+    Figure
 
     Raises
     ------
     ContactError
-        No panel, or a line that is not as long as the abscissa.
+        If there is no panel, or a line is not as long as the abscissa.
     """
     if not panels:
         raise ContactError("panels is empty; at least one is needed")
@@ -103,7 +117,7 @@ def time_histories(
 
 
 def _ordinate(name: str, values: ArrayLike, abscissa: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return `values` as an array as long as the abscissa."""
+    """Return `values` as an array. Raise a ContactError if it is not as long as the abscissa."""
     ordinate = np.asarray(values, dtype=np.float64)
     if ordinate.shape != abscissa.shape:
         raise ContactError(

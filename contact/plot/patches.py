@@ -1,4 +1,4 @@
-"""Contact patches seen from above: the rolling direction x points up, y to the right; millimetres and MPa."""
+"""Contact patches seen from above, in millimetres and MPa. The rolling direction x points up, y to the right."""
 
 from __future__ import annotations
 
@@ -31,28 +31,29 @@ def patch(
 ) -> FigureBase:
     """Draw contact patches: pressure with stick/slip boundary and traction arrows, and below them the energy index.
 
-    All patches share one length scale, one scale per colour and one scale of arrows.
+    All patches share the scales of lengths, colours and arrows.
 
     Parameters
     ----------
     solution : Solution or sequence of Solution
-        One column each.
+        Each solution is drawn in a column.
     titles : str or sequence of str
-        One a column.
+        Titles of the columns.
     ax : matplotlib Axes, optional
-        Draw the pressure of one solution there and nothing else.
+        Draw only the pressure of one solution on these axes.
     figure : matplotlib Figure or SubFigure, optional
-        Draw into this empty figure; default a new one whose size fits.
+        Draw into this empty figure; default a new figure of suitable size.
 
     Returns
     -------
     Figure
-        That of `ax`, `figure` or the new one.
+        The figure of `ax`, `figure`, or the new figure.
 
     Raises
     ------
     ContactError
-        No solution, a number of titles that is not that of the solutions, or `ax` with several solutions.
+        If there is no solution, the number of titles differs from that of the solutions, or `ax` is given with several
+        solutions.
     """
     solutions = [solution] if isinstance(solution, Solution) else list(solution)
     titles = [titles] if isinstance(titles, str) else list(titles)
@@ -88,14 +89,14 @@ def patch(
 
 
 class Scale:
-    """What the panels of one figure have in common; `together` shows the same place in all."""
+    """Common scales of the panels of one figure. With `together`, all panels show the same region."""
 
     def __init__(self, solutions: Sequence[Solution], together: bool = False) -> None:
         touching = [s for s in solutions if s.p.size]
         meshes = [PatchMesh(s, k) for s in touching for k in range(s.n_patches)]
         self.pressure = 0.0, nice(max((s.max_pressure for s in touching), default=1e6) * 1e-6)
         self.traction = max((float(np.hypot(s.qx, s.qy).max()) for s in touching if s.has_fields), default=0.0)
-        # a window that holds every solution with a margin, half its size [mm]
+        # half the size [mm] of a window that contains every solution with a margin
         boxes = np.array([box(s) for s in (touching if together and touching else solutions)])
         if together:
             boxes = np.stack([boxes[:, 0::2].min(axis=0), boxes[:, 1::2].max(axis=0)]).T.reshape(1, 4)
@@ -109,20 +110,20 @@ class Scale:
         self.spacing = max(min(0.17 * window, 0.25 * narrowest), 0.06 * window)
 
     def figure_size(self, n: int, panel: float = 3.6) -> tuple[float, float]:
-        """Width and height [inch] for n columns of panels whose longer side is at most `panel`."""
+        """Return width and height [inch] for n columns of panels whose longer side is at most `panel` [inch]."""
         inch = min(0.5 * panel / max(self.half_y, self.half_x), 5.5 / (n * self.half_y), 0.25)  # per mm
         width, height = max(2.0 * self.half_y * inch, 2.2), max(2.0 * self.half_x * inch, 1.6)
         return max(n * (width + 0.15) + 1.6, 4.6), 2.0 * height + 1.75
 
     def caption(self, n: int) -> str:
-        """What lines and arrows mean, in two lines below a single column."""
+        """Return the meaning of lines and arrows, in two lines for a single column."""
         longest = f"longest arrow: traction on the wheel {self.traction * 1e-6:.4g} MPa"
         separator = "\n" if n == 1 else "  ·  "
         return separator.join((longest if self.traction else "no traction", "dashed: boundary of stick and slip"))
 
 
 class EnergyScale(Scale):
-    """And the limits of the energy index."""
+    """Scales with the limits of the energy index."""
 
     def __init__(self, solutions: Sequence[Solution]) -> None:
         super().__init__(solutions)
@@ -135,7 +136,7 @@ class EnergyScale(Scale):
 
 
 def _pressure(ax: Axes, solution: Solution, title: str, scale: Scale) -> ScalarMappable:
-    """Pressure and tractions of one solution; returns what the colour bar needs."""
+    """Draw pressure and tractions of one solution. Return the colours for the colour bar."""
     numbers = "no contact"
     if solution.p.size:
         numbers = (
@@ -149,16 +150,16 @@ def _pressure(ax: Axes, solution: Solution, title: str, scale: Scale) -> ScalarM
 
 
 def heading(ax: Axes, title: str, numbers: str) -> None:
-    """A bold title, and below it two lines of numbers."""
+    """Write a bold title, and below it two lines of numbers."""
     ax.set_title(numbers, loc="left", fontsize=8.0, linespacing=1.35)
     ax.annotate(title, (0.0, 1.0), (0.0, 32.0), xycoords="axes fraction", textcoords="offset points", weight="bold")
 
 
 def arrows(ax: Axes, solution: Solution, scale: Scale) -> None:
-    """Tractions on the wheel on a square raster."""
+    """Draw the tractions on the wheel as arrows on a square raster."""
     for k in range(solution.n_patches):
         y, x, qy, qx = PatchMesh(solution, k).arrows(scale.spacing)
-        seen = np.hypot(qx, qy) > 0.1 * scale.traction  # shorter ones would be dots
+        seen = np.hypot(qx, qy) > 0.1 * scale.traction  # shorter arrows would be dots
         if seen.any():
             ax.quiver(
                 *(row[seen] for row in (y, x, qy, qx)),
@@ -177,7 +178,7 @@ def arrows(ax: Axes, solution: Solution, scale: Scale) -> None:
 
 
 def _energy(ax: Axes, solution: Solution, scale: EnergyScale) -> ScalarMappable:
-    """Energy index of one solution and the names of its zones; returns what the colour bar needs."""
+    """Draw the energy index of one solution and the names of its zones. Return the colours for the colour bar."""
     values = evaluate(solution).energy_index.field * scale.energy_factor
     colours = window(ax, solution, values, colour_map("YlOrRd", 0.85, *scale.energy), scale.energy, scale)
     zones(ax, solution, scale)
@@ -185,7 +186,7 @@ def _energy(ax: Axes, solution: Solution, scale: EnergyScale) -> ScalarMappable:
 
 
 def zones(ax: Axes, solution: Solution, scale: Scale) -> None:
-    """The names of the zones of stick and slip."""
+    """Write the names of the zones of stick and slip."""
     halo = [patheffects.withStroke(linewidth=2.5, foreground="white", alpha=0.8)]
     for k in range(solution.n_patches):
         for name, place in PatchMesh(solution, k).labels(least_room=0.04 * scale.half_y).items():
@@ -195,7 +196,7 @@ def zones(ax: Axes, solution: Solution, scale: Scale) -> None:
 def window(
     ax: Axes, solution: Solution, values: Array, colours: Colormap, limits: tuple[float, float], scale: Scale
 ) -> ScalarMappable:
-    """A field, the outline and the stick/slip boundary of every patch in the common window."""
+    """Draw a field, the outline and the stick/slip boundary of every patch. Return the colours for the colour bar."""
     norm = Normalize(*limits)
     for k in range(solution.n_patches):
         mesh = PatchMesh(solution, k)
@@ -224,7 +225,7 @@ def window(
 
 
 def box(solution: Solution) -> tuple[float, float, float, float]:
-    """Lowest and highest y, lowest and highest x of all patches [mm]; ±5 mm without contact."""
+    """Return the lowest and highest y, then the lowest and highest x of all patches [mm]; ±5 mm without contact."""
     if not solution.p.size:
         return -5.0, 5.0, -5.0, 5.0
     meshes = [PatchMesh(solution, k) for k in range(solution.n_patches)]

@@ -1,4 +1,4 @@
-"""A wheelset on its rails: where the wheels touch, and the contact patches there."""
+"""Figure of a wheelset on its rails with its contact points and contact patches."""
 
 from __future__ import annotations
 
@@ -42,22 +42,26 @@ class Wheel:
 
 
 def position(wheels: Sequence[Wheel], roll: float = 0.0) -> Figure:
-    """Draw wheels on rails as seen from behind, and below them every contact patch as `patch` does.
+    """Draw wheels on rails, seen from behind, and below them all contact patches as by `patch`.
 
-    Normal forces on the wheel are drawn to one scale; profiles are shifted onto their first contact point, so they show the
-    place to a tenth of a millimetre and not the approach.
+    All normal forces on the wheels have the same scale. Each profile is shifted onto its first contact point. The positions
+    are therefore accurate to a tenth of a millimetre, and the approach is not visible.
 
     Parameters
     ----------
     wheels : sequence of Wheel
-        From left to right.
+        Wheels from left to right.
     roll : float
-        Roll of the wheelset [rad], which turns the wheels' profiles.
+        Roll of the wheelset [rad], by which the wheels' profiles are rotated.
+
+    Returns
+    -------
+    Figure
 
     Raises
     ------
     ContactError
-        No wheel, or no wheel that touches.
+        If there is no wheel, or no wheel touches its rail.
     """
     solutions = [s for w in wheels for s in w.solutions]
     if not solutions:
@@ -83,7 +87,7 @@ def position(wheels: Sequence[Wheel], roll: float = 0.0) -> Figure:
 
 
 def _section(ax: Axes, wheel: Wheel, roll: float, strongest: float) -> None:
-    """Both profiles in track coordinates around the railhead, contact points and normal forces."""
+    """Draw both profiles in track coordinates around the railhead, contact points and normal forces."""
     mirror = 1.0 if wheel.side == "right" else -1.0
     ax.set(title=f"{wheel.side} wheel, from behind", xlabel="y [mm]", aspect="equal")
     if not wheel.patches:
@@ -122,5 +126,5 @@ def _section(ax: Axes, wheel: Wheel, roll: float, strongest: float) -> None:
 def _placed(
     profile: Profile, point: tuple[float, float], place: tuple[float, float, float], mirror: float
 ) -> tuple[Array, Array]:
-    """Outline (y, z) in track coordinates [mm] of a right-side profile whose `point` lies at `place`."""
+    """Return the outline (y, z) in track coordinates [mm] of a right-side profile whose `point` lies at `place`."""
     return MM * (place[1] + mirror * (profile.y - point[0])), MM * (place[2] + profile.z - point[1])

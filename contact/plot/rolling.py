@@ -1,4 +1,4 @@
-"""Rigid contact points of a wheelset and its equivalent conicity."""
+"""Figures of rigid contact points and of the equivalent conicity."""
 
 from __future__ import annotations
 
@@ -16,25 +16,29 @@ if TYPE_CHECKING:
     from contact.geometry.profile import Profile
     from contact.geometry.rigid import ContactPoints
 
-_LIFT = 12.0  # [mm] of the wheel above the rail, so that the lines between their contact points are seen
-_JOINED = 0.5e-3  # [m] of displacement from one such line to the next
-_LABEL = 3.0  # [mm] that a label is wide
+_LIFT = 12.0  # height of the wheel above the rail [mm], so that lines between contact points are visible
+_JOINED = 0.5e-3  # displacement from one such line to the next [m]
+_LABEL = 3.0  # width of a label [mm]
 
 
 def contact_points(points: ContactPoints, wheel: Profile, rail: Profile) -> Figure:
-    """Draw where the right wheel and its rail touch, Δr, and the contact angles over the lateral displacement.
+    """Draw the contact points of the right wheel and rail, and Δr and contact angles over the lateral displacement.
 
     Parameters
     ----------
     points : contact.geometry.rigid.ContactPoints
-        At least two displacements.
+        Contact points at two or more displacements.
     wheel, rail : Profile
-        Of the right side.
+        Profiles of the right side.
+
+    Returns
+    -------
+    Figure
 
     Raises
     ------
     ContactError
-        Fewer displacements.
+        If there are fewer than two displacements.
     """
     _require_several(points)
     with style():
@@ -54,21 +58,25 @@ def contact_points(points: ContactPoints, wheel: Profile, rail: Profile) -> Figu
 
 
 def conicity(curve: Conicity, marked: Conicity | None = None, title: str = "") -> Figure:
-    """Draw the equivalent conicity over the amplitude, and Δr from which it comes.
+    """Draw the equivalent conicity over the amplitude, and Δr over the lateral displacement.
 
     Parameters
     ----------
     curve : contact.geometry.en15302.Conicity
-        Drawn as a line.
+        Conicity to draw as a line.
     marked : contact.geometry.en15302.Conicity, optional
-        Drawn as dots with their values.
+        Conicity to draw as dots with their values.
     title : str
-        Of the whole.
+        Title of the figure.
+
+    Returns
+    -------
+    Figure
 
     Raises
     ------
     ContactError
-        Fewer than two displacements.
+        If there are fewer than two displacements.
     """
     _require_several(curve.points)
     with style():
@@ -109,7 +117,7 @@ def _difference(ax: Axes, points: ContactPoints) -> None:
 
 
 def _joined(ax: Axes, points: ContactPoints, wheel: Profile, rail: Profile) -> None:
-    """The wheel at y = 0, lifted above its rail, and lines between the points that touch."""
+    """Draw the wheel at y = 0, lifted above its rail, and lines between the contact points."""
     middle = int(np.argmin(np.abs(points.y)))
     offset = MM * (points.right.on_rail[middle] - points.right.on_wheel[middle] - points.y[middle])
     tape, crown = MM * np.interp(0.0, wheel.y, wheel.z), MM * rail.z.min()

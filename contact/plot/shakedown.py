@@ -1,4 +1,4 @@
-"""The shakedown map with the working points of a run."""
+"""Figure of the shakedown map with the working points of runs."""
 
 from __future__ import annotations
 
@@ -12,27 +12,31 @@ from contact.errors import ContactError
 from contact.plot.style import DPI, FAINT, INK, colours, style
 from contact.solution import Solution
 
-_WIDEST = 0.6  # utilisation that the map shows at least
+_WIDEST = 0.6  # least upper end of the utilisation axis
 
 
 def shakedown(runs: Mapping[str, Sequence[Solution]], title: str = "") -> Figure:
-    """Draw the shakedown map: peak pressure over shear yield stress against utilised friction, and solved contacts on it.
+    """Draw the shakedown map, p0/k over utilised friction, with solved contacts as points.
 
-    Above 1/utilisation the surface flows (surface fatigue index positive, thesis Eq. 6.6); below it, but above the other
-    line, material under the surface of a line contact does (`contact.damage.shakedown_limit`). A mark on the left is the
-    limit of a circle without friction.
+    Above the line 1/utilisation the surface flows (positive surface fatigue index, thesis Eq. 6.6). Below it, but above the
+    other line, the material under the surface of a line contact flows (`contact.damage.shakedown_limit`). The mark on the
+    left is the limit of a circle without friction.
 
     Parameters
     ----------
     runs : mapping of str to sequence of Solution
-        By name. Those without contact are left out; each has the shear yield stress of its material.
+        Solutions by name. Those without contact are left out. The shear yield stress k is that of each solution's material.
     title : str
-        Of the whole.
+        Title of the figure.
+
+    Returns
+    -------
+    Figure
 
     Raises
     ------
     ContactError
-        If nothing touches.
+        If no solution has contact.
     """
     points = {
         name: np.array([(s.utilisation, s.max_pressure / s.material.shear_yield) for s in run if s.N > 0.0])

@@ -1,4 +1,4 @@
-"""Colours, type and scales that all pictures share."""
+"""Colours, fonts and scales of all figures."""
 
 from __future__ import annotations
 
@@ -36,19 +36,19 @@ _STYLE: Any = {
 
 
 def style() -> AbstractContextManager[None]:
-    """Within this context new axes get the project's style; the user's settings stay as they are."""
+    """Return a context manager in which new axes have the project's style. The user's settings are not changed."""
     return mpl.rc_context(_STYLE)
 
 
 def colours(n: int) -> list[str]:
-    """n line colours, repeated when there are more lines than colours."""
+    """Return n line colours. They repeat if there are more lines than colours."""
     return [LINES[i % len(LINES)] for i in range(n)]
 
 
 def colour_map(name: str, to: float, low: float = 0.0, high: float = 1.0) -> Colormap:
-    """White at zero to the part `to` of a sequential map at `high`, so that dark arrows stay readable on all of it.
+    """Return a colour map that is white at zero and ends at the share `to` of the sequential map `name` at `high`.
 
-    From zero down to `low` it runs from white into violet.
+    Dark arrows are readable on all its colours. From zero down to `low` it goes from white to violet.
     """
     positive = [(0.0, "white"), *((s, mpl.colormaps[name](0.1 + (to - 0.1) * s)) for s in np.linspace(0.1, 1.0, 12))]
     stops = [((s * high - low) / (high - low), colour) for s, colour in positive]
@@ -58,7 +58,7 @@ def colour_map(name: str, to: float, low: float = 0.0, high: float = 1.0) -> Col
 
 
 def nice(top: float) -> float:
-    """Upper end of a scale: the next of 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten, for `top` > 0."""
+    """Return the upper end of a scale for `top` > 0: the next of 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of 10."""
     power = 10.0 ** np.floor(np.log10(top))
     steps = np.array([1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0])
     return float(power * steps[np.searchsorted(steps, top / power * (1.0 - 1e-9))])

@@ -1,4 +1,4 @@
-"""Wear over a profile: stacked histograms, and the profile before and after."""
+"""Figures of wear over a profile: stacked histograms, and the profile before and after wear."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _UM = 1e6
-_THOUSAND = 1e3  # metres or axle passes
+_THOUSAND = 1e3  # metres, or axle passes
 _FATIGUE = (
     ("fatigue_exceedance", 1.0, "FI_surf > 0 [-]"),
     ("stress_exceedance", 1.0, "SI > 0 [-]"),
@@ -29,22 +29,25 @@ _FATIGUE = (
 
 
 def wear(histograms: Mapping[str, Histogram], title: str = "") -> Figure:
-    """Draw wear depths of one profile upon each other, and the profile below them.
+    """Draw stacked wear depths of one profile, and the profile below them.
 
-    Of a wheel the shares of each histogram in a kilometre of all the distance are drawn, of a rail those in a thousand axle
-    passes.
+    The depths are per kilometre of the total distance for a wheel, and per thousand axle passes for a rail.
 
     Parameters
     ----------
     histograms : mapping of str to contact.accumulation.Histogram
-        By name, over one profile.
+        Histograms over one profile, by name.
     title : str
-        Of the whole.
+        Title of the figure.
+
+    Returns
+    -------
+    Figure
 
     Raises
     ------
     ContactError
-        No histogram, nothing rolled, or histograms over different profiles.
+        If there is no histogram, nothing has rolled, or the histograms are over different profiles.
     """
     total = _merged(histograms)
     edges = MM * np.interp(total.edges, total.arc, total.profile.y)
@@ -61,22 +64,26 @@ def wear(histograms: Mapping[str, Histogram], title: str = "") -> Figure:
 
 
 def fatigue(histograms: Mapping[str, Histogram], title: str = "") -> Figure:
-    """Draw what tells of rolling contact fatigue over one profile, upon each other, and the profile below.
+    """Draw stacked indicators of rolling contact fatigue over one profile, and the profile below them.
 
-    From above: the part of all the distance that is rolled with a positive surface fatigue index of the patch, that with a
+    From top to bottom: the share of the distance with a positive surface fatigue index of the patch, the share with a
     positive stress index somewhere along the strip, and the mean energy index.
 
     Parameters
     ----------
     histograms : mapping of str to contact.accumulation.Histogram
-        By name, over one profile.
+        Histograms over one profile, by name.
     title : str
-        Of the whole.
+        Title of the figure.
+
+    Returns
+    -------
+    Figure
 
     Raises
     ------
     ContactError
-        No histogram, nothing rolled, or histograms over different profiles.
+        If there is no histogram, nothing has rolled, or the histograms are over different profiles.
     """
     total = _merged(histograms)
     edges = MM * np.interp(total.edges, total.arc, total.profile.y)
@@ -94,21 +101,25 @@ def fatigue(histograms: Mapping[str, Histogram], title: str = "") -> Figure:
 
 
 def shares(profile: Profile, depths: Mapping[str, ArrayLike], title: str = "") -> Figure:
-    """Draw depths worn off at the points of a profile upon each other, and the profile below them.
+    """Draw stacked wear depths at the points of a profile, and the profile below them.
 
     Parameters
     ----------
     profile : Profile
-        Of n points.
+        Profile with n points.
     depths : mapping of str to array_like, shape (n,)
-        Depth [m] by name of what has worn it off.
+        Depth worn off [m], by name of its cause.
     title : str
-        Of the whole.
+        Title of the figure.
+
+    Returns
+    -------
+    Figure
 
     Raises
     ------
     ContactError
-        No depths, or not one for each point.
+        If there are no depths, or an array does not have a value for each point.
     """
     if not depths:
         raise ContactError("depths is empty; at least one is needed")
@@ -134,22 +145,25 @@ def shares(profile: Profile, depths: Mapping[str, ArrayLike], title: str = "") -
 
 
 def worn_profile(before: Profile, after: Profile, *, magnified: float = 1.0, title: str = "") -> Figure:
-    """Draw a profile before and after it has worn, and the depth taken off along its normal.
+    """Draw a profile before and after wear, and the depth worn off along its normal.
 
     Parameters
     ----------
     before, after : Profile
-        With as many points, one for one as `contact.accumulation.worn_profile` gives them; say in `title` how the
-        depth was smoothed.
+        Profiles with corresponding points, as from `contact.accumulation.worn_profile`.
     magnified : float
-        By how much the drawn displacement is larger than it is, positive. The depth below is drawn as it is.
+        Magnification of the wear in the upper panel, positive. The depth in the lower panel is not magnified.
     title : str
-        Of the whole.
+        Title of the figure. It should tell how the depth was smoothed.
+
+    Returns
+    -------
+    Figure
 
     Raises
     ------
     ContactError
-        Profiles of different kinds or numbers of points.
+        For profiles of different kinds or numbers of points.
     """
     require_number("magnified", magnified, 0.0, open_minimum=True)
     if before.kind != after.kind or before.y.size != after.y.size:
@@ -174,7 +188,7 @@ def worn_profile(before: Profile, after: Profile, *, magnified: float = 1.0, tit
 
 
 def _merged(histograms: Mapping[str, Histogram]) -> Histogram:
-    """All of them together, which refuses what does not belong together."""
+    """Return the sum of the histograms. Raise a ContactError if they do not add up or nothing has rolled."""
     if not histograms:
         raise ContactError("histograms is empty; at least one is needed")
     total, *others = histograms.values()
@@ -186,7 +200,7 @@ def _merged(histograms: Mapping[str, Histogram]) -> Histogram:
 
 
 def _stack(ax: Axes, histograms: Mapping[str, Histogram], quantity: str, scale: float, edges: Array) -> None:
-    """Draw one quantity of the histograms upon each other."""
+    """Draw one quantity of the histograms, stacked."""
     base = np.zeros(edges.size - 1)
     for (name, histogram), colour in zip(histograms.items(), colours(len(histograms)), strict=True):
         top = base + scale * histogram[quantity]

@@ -1,6 +1,7 @@
-"""Methods side by side: on single cases, on thousands, and on the benchmarks of the literature. No kernel imports this.
+"""Comparison of methods: on single cases, on thousands of cases, and on benchmarks of the literature.
 
-`contact.study.statistics` and `contact.study.manchester` are imported by those who want them: they take their time.
+No kernel imports this package. Import `contact.study.statistics` and `contact.study.manchester` explicitly, because their
+import takes time.
 """
 
 from contact.study.case import Case

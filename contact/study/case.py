@@ -1,4 +1,4 @@
-"""One contact problem with a name: what the comparisons are made on."""
+"""One named contact problem for comparisons."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ from contact.separation import Separation
 
 @dataclass(frozen=True)
 class Case:
-    """A contact problem as `contact.solve` takes it, without the methods.
+    """A contact problem: the arguments of `contact.solve` without methods and resolution.
 
     Parameters
     ----------
     separation : Separation
     creepage : Creepage
     load, approach : float
-        Exactly one of them: normal force [N] or rigid approach [m].
+        Normal force [N] or rigid approach [m]. Give exactly one of them.
     friction, material, speed :
         As in `contact.solve`.
     name : str
-        What tables and pictures call it; cases without one are numbered.
+        Name in tables and pictures. Cases without a name are numbered.
 
     Raises
     ------
     ContactError
-        Something else than a separation and a creepage; both or neither of load and approach.
+        If `separation` or `creepage` has the wrong type, or if not exactly one of load and approach is given.
     """
 
     separation: Separation
@@ -53,6 +53,6 @@ class Case:
 
     @property
     def arguments(self) -> dict[str, Any]:
-        """What `contact.solve` is given besides the methods and the resolution."""
+        """Arguments of `contact.solve` without methods and resolution."""
         names = ("separation", "creepage", "load", "approach", "friction", "material", "speed")
         return {name: getattr(self, name) for name in names}

@@ -1,4 +1,4 @@
-"""`contact.compare`: methods side by side on the same problems."""
+"""`contact.compare`: several methods on the same problems."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from contact.study.errors import errors_against
 from contact.study.pairs import REFERENCE, SELECTION, Pair, pairs_of
 from contact.study.row import Row
 
-#: Rows and columns of the reference: creep forces within 0.002 mu N of those on a much finer grid, at 0.1 s a case.
+#: Rows and columns of the reference. Creep forces are within 0.002 mu N of those on a much finer grid; a case takes 0.1 s.
 REFERENCE_ELEMENTS = 80
-#: A solve is repeated until it has taken this long in all, and this often at most.
+#: For its timing, a solution is repeated until the total is this long [s], at most this often.
 _TIMED, _REPEATS = 0.03, 50
-#: Share of the area below which there is no stick: slip is summed over the elements.
+#: A stick area below this share of the area is round-off of the sum of the slip area.
 _ROUND_OFF = 1e-12
 
 Progress = Callable[[float, str], None]
@@ -41,34 +41,34 @@ def compare(
     reference_elements: int = REFERENCE_ELEMENTS,
     progress: Progress | None = None,
 ) -> Comparison:
-    """Solve the same problems with several methods, and measure each against the element-wise half space.
+    """Solve the same problems with several methods and return their errors against the element-wise half space.
 
     Parameters
     ----------
     cases : Case or sequence of Case
     methods : str, or iterable of str or (str, str)
-        Pairs of a normal and a tangential method: ``"analyn+fastrip"`` or ``("analyn", "fastrip")``; ``"all"`` for every
-        pair. Default: `contact.study.SELECTION`.
+        Pairs of a normal and a tangential method, like ``"analyn+fastrip"`` or ``("analyn", "fastrip")``. ``"all"`` means
+        every pair. Default: `contact.study.SELECTION`.
     reference : bool
-        Solve with ``halfspace+halfspace`` too and give the errors against it.
+        Also solve with ``halfspace+halfspace``, and compute the errors against it.
     n_strips, n_elements : int
         Resolution of the methods, as in `contact.solve`.
     reference_elements : int
-        Rows and columns of the half space over the undeformed overlap, 4 to 1000, of which contact takes about 0.7 each way;
-        also of its tangential part on the pressure of another method.
+        Rows and columns of the half space over the undeformed overlap, 4 to 1000; the contact takes about 0.7 of it in each
+        direction. They are also used for its tangential part on the pressure of another method.
     progress : callable
-        Given the share that is done, 0 to 1, and what is being solved.
+        Called with the share done, 0 to 1, and the name of the present case and pair.
 
     Returns
     -------
     Comparison
-        One row a case and pair, the reference first, with every solution; exports and pictures.
+        One row per case and pair, the reference first, with all solutions.
 
     Raises
     ------
     ContactError
-        No case or no pair, two cases of one name, input that `contact.solve` refuses. A case that a method cannot solve is
-        an answer: the row's status says so.
+        If there is no case or no pair, two cases have the same name, or `contact.solve` refuses the input. If a method
+        cannot solve a case, only the status of its row tells.
     """
     listed = _named([cases] if isinstance(cases, Case) else list(cases))
     pairs = pairs_of(methods)
@@ -102,9 +102,9 @@ def compare(
 def timed(
     case: Case, pair: Pair, division: tuple[int, int], progress: Callable[[int, float], None] | None = None
 ) -> tuple[Solution, float]:
-    """Solution and the least time [s] of a warm `contact.solve`, fields included."""
+    """Return the solution and the least time [s] of `contact.solve`, fields included, without compilation."""
     options: dict[str, Any] = {"normal": pair.normal, "tangential": pair.tangential, "throw": False}
-    # kernels are compiled or loaded
+    # compile or load the kernels first
     solve(Separation.hertzian(1.0, 1.0), Creepage(1e-3), load=1e4, **options, n_strips=8, n_elements=8)
     options |= dict(zip(("n_strips", "n_elements"), division, strict=True))
     least, spent, repeats = math.inf, 0.0, 0
@@ -137,18 +137,18 @@ def _row(case: Case, pair: Pair, s: Solution, seconds: float, true: Solution | N
 
 
 def _named(cases: list[Case]) -> tuple[Case, ...]:
-    """The cases, those without a name numbered."""
+    """Return the cases. Those without a name are numbered."""
     if not cases or not all(isinstance(case, Case) for case in cases):
-        raise ContactError("cases holds something else than contact.Case, or nothing")
+        raise ContactError("cases is empty or holds an object that is not a contact.Case")
     named = tuple(case if case.name else replace(case, name=f"case {k}") for k, case in enumerate(cases, 1))
     for k, case in enumerate(named):
         if case.name in [other.name for other in named[:k]]:
-            raise ContactError(f"cases: two are called {case.name!r}")
+            raise ContactError(f"cases: two have the name {case.name!r}")
     return named
 
 
 def _inner(progress: Progress | None, share: float, what: str) -> Callable[[int, float], None] | None:
-    """Tell `progress` of the start of a solve, and return what the half space tells of its steps."""
+    """Report the start of a solution to `progress`. Return the callback for the steps of the half space."""
     if progress is None:
         return None
     progress(share, what)

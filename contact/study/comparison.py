@@ -1,4 +1,4 @@
-"""What `contact.compare` returns, and the files that it is written to."""
+"""`Comparison`, the result of `contact.compare`, with its tables, pictures and files."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from contact.study.table import Table, tables_of
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: Pairs up to which a picture shows every one.
+#: Largest number of pairs of which a picture shows all.
 MOST_PANELS = 24
 
 
@@ -30,11 +30,11 @@ class Comparison(Report):
     ----------
     cases : tuple of Case
     pairs : tuple of Pair
-        The reference first, where there is one.
+        The pairs of methods; the reference is the first, if there is one.
     rows : tuple of Row
-        Case by case, in the order of `pairs`.
+        Results case by case, in the order of `pairs`.
     solutions : tuple of Solution
-        Those of the rows.
+        Solutions of the rows.
     """
 
     cases: tuple[Case, ...]
@@ -47,11 +47,11 @@ class Comparison(Report):
 
     @property
     def has_reference(self) -> bool:
-        """Whether errors against the half space were asked for."""
+        """True if the comparison has errors against the half space."""
         return self.pairs[0] == REFERENCE
 
     def by_case(self) -> Sequence[tuple[Case, Sequence[Row], Sequence[Solution]]]:
-        """Each case with its rows and solutions."""
+        """Return each case with its rows and solutions."""
         n = len(self.pairs)
         return [
             (case, self.rows[k * n : (k + 1) * n], self.solutions[k * n : (k + 1) * n])
@@ -60,20 +60,23 @@ class Comparison(Report):
 
     @property
     def drawn(self) -> tuple[int, ...]:
-        """Places of the pairs that pictures show: all, or of many those with which a method with fields comes first."""
+        """Indices of the pairs in pictures: all, or of more than `MOST_PANELS` those in which a method occurs first.
+
+        Pairs without fields are left out in the second case.
+        """
         if len(self.pairs) <= MOST_PANELS:
             return tuple(range(len(self.pairs)))
         seen: set[tuple[str, str]] = set()
         chosen = []
         for k, (pair, solution) in enumerate(zip(self.pairs, self.solutions, strict=False)):
-            own = {("normal", pair.normal), ("tangential", pair.tangential)}
-            if solution.has_fields and not own <= seen:
+            both = {("normal", pair.normal), ("tangential", pair.tangential)}
+            if solution.has_fields and not both <= seen:
                 chosen.append(k)
-                seen |= own
+                seen |= both
         return tuple(chosen)
 
     def figure(self, columns: int = 6) -> Figure:
-        """Patches, pressures, stick and slip, one scale a case (`contact.plot.comparison`), of the pairs in `drawn`."""
+        """Return the picture of patches, pressures, stick and slip of the pairs in `drawn` (`contact.plot.comparison`)."""
         from contact.plot import comparison
 
         return comparison(
@@ -83,7 +86,7 @@ class Comparison(Report):
         )
 
     def json(self) -> str:
-        """Everything but the fields, in SI units, under the names of the Python API."""
+        """Return all results without fields as JSON, in SI units, under the names of the Python API."""
         from contact import __version__
 
         cases = [
@@ -99,14 +102,14 @@ class Comparison(Report):
         return json.dumps({"version": __version__, "cases": cases}, indent=2)
 
     def csv(self) -> str:
-        """One line a row, SI units."""
+        """Return CSV with one line per row, in SI units."""
         return csv_of([row.flat() for row in self.rows])
 
     title: ClassVar[str] = "Contact models side by side"
 
     @property
     def about(self) -> list[str]:
-        """What a reader of the tables needs to know."""
+        """Paragraphs of explanation for the tables."""
         from contact import __version__
 
         found = [
@@ -115,24 +118,24 @@ class Comparison(Report):
         ]
         if self.has_reference:
             found.append(
-                "Errors are against the element-wise half space (Kalker's complete theory): those of the force over µN, of the "
-                "moment over µN√(area/π), all others relative; the pressure field's in the L2 norm. In pictures its patch is "
-                "dotted."
+                "Errors are against the element-wise half space (Kalker's complete theory). The error of the force is over µN, "
+                "that of the moment over µN√(area/π); all others are relative, for the pressure field in the L2 norm. In "
+                "pictures the half space's patch is dotted."
             )
         return found
 
     def tables(self) -> list[Table]:
-        """Results of every case, and its errors where there is a reference."""
+        """Return the tables of results of each case, and of errors if there is a reference."""
         return [table for case, rows, _ in self.by_case() for table in tables_of(case, rows, self.has_reference)]
 
     def parts(self) -> Iterable[str]:
-        """Tables and picture of every case."""
+        """Return tables and picture of each case in HTML."""
         from contact.study.page import cases_of
 
         return cases_of(self)
 
     def to_xarray(self) -> Any:
-        """The rows as an `xarray.Dataset` over case and pair; NaN where there is no value. Needs xarray."""
+        """Return the rows as an `xarray.Dataset` over case and pair, with NaN if there is no value. It needs xarray."""
         try:
             import xarray
         except ImportError:

@@ -1,4 +1,4 @@
-"""Build the table of `contact.kernels.tangential.table` with the half space, on all cores; an interrupted run goes on."""
+"""Build the table of `contact.kernels.tangential.table` with the half space, on all cores. Interrupted runs continue."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from contact.material import Material
 from contact.solve import solve
 from contact.study.ellipse import ellipse
 
-#: Of the ellipses; results are over mu N and mu N c.
+#: Conditions of the computation: material, load [N], friction [-] and √(ab) [m]. The results are divided by mu N or mu N c.
 MATERIAL, LOAD, FRICTION, C = Material(82e9, table.NU), 82e3, 0.3, 6e-3
-#: r in place of infinity: deep in full slip.
+#: Value of r that replaces infinity, far into full slip.
 _FAR = 1e3
 
 
@@ -30,21 +30,21 @@ def build(
     processes: int | None = None,
     progress: Callable[[float, str], None] | None = None,
 ) -> None:
-    """Compute the table's rows that `path` does not hold yet and add them to it.
+    """Compute the rows of the table that are missing in `path`, and add them to it.
 
-    Each value is one solution of TANG on Hertz's pressure with `elements` rows and columns on the ellipse.
+    Each node is one solution of TANG on Hertz's pressure, with `elements` rows and columns on the ellipse.
 
     Raises
     ------
     ContactError
-        A file that holds something else, or cannot be written.
+        If the file contains something else or cannot be written.
     """
     todo = table.rows()
     heading = _heading(elements)
     try:
         known = path.read_text(encoding="utf-8") if path.exists() else ""
         if known and not known.startswith(heading):
-            raise ContactError(f"{path} holds something else than the beginning of this table")
+            raise ContactError(f"{path} does not contain the beginning of this table")
         lines = known[len(heading) :].split("\n")[:-1] if known else []
         path.write_text(heading + "".join(line + "\n" for line in lines), encoding="utf-8")
         jobs = [(*row, elements) for row in todo[len(lines) :]]
@@ -59,7 +59,7 @@ def build(
 
 
 def _solved(jobs: list[tuple[int, int, int, int]], processes: int | None) -> Iterator[str]:
-    """Lines of the jobs in their order."""
+    """Yield the lines of the jobs in their order."""
     count = min(processes or cores(), len(jobs))
     if count <= 1:
         yield from map(_row, jobs)
@@ -79,13 +79,16 @@ def _heading(elements: int) -> str:
 
 
 def creepage(log_aspect: float, alpha: float, beta: float, rho: float) -> Creepage:
-    """Creepages of a node on the ellipse of the calculation."""
+    """Return the creepages of a node on the ellipse of the computation."""
     direction = math.cos(beta) * math.cos(alpha), math.cos(beta) * math.sin(alpha), math.sin(beta)
     return Creepage(*(size * share for size, share in zip(sizes(log_aspect, rho), direction, strict=True)))
 
 
 def sizes(log_aspect: float, rho: float) -> tuple[float, float, float]:
-    """Longitudinal and lateral creepage and spin that are as large as all creepages of a node together."""
+    """Return the sizes of longitudinal [-], lateral [-] and spin [1/m] creepage at `rho`.
+
+    Each of them by itself has the dimensionless size of all creepages of a node together.
+    """
     c11, c22, c23, _ = kalker.coefficients(kalker.table(table.NU), log_aspect)
     r = table.R0 * rho / (1.0 - rho) if rho < 1.0 else _FAR
     unit = r * FRICTION * LOAD / (MATERIAL.shear_modulus * C**2)
@@ -93,7 +96,7 @@ def sizes(log_aspect: float, rho: float) -> tuple[float, float, float]:
 
 
 def _row(job: tuple[int, int, int, int]) -> str:
-    """One line of the file; runs in a process of its own."""
+    """Return one line of the file. Runs in a separate process."""
     i, j, k, elements = job
     log_aspect, alpha, beta, rho = table.nodes()
     separation = ellipse(math.exp(log_aspect[i]), C, LOAD, MATERIAL)
@@ -116,6 +119,6 @@ def _row(job: tuple[int, int, int, int]) -> str:
 
 
 def short(number: float) -> str:
-    """Four decimals, without the zero before the point."""
+    """Return a number with four decimals, without the zero before the point."""
     text = f"{round(number, 4) + 0.0:.4f}"
     return text.replace("0.", ".", 1) if abs(number) < 0.99995 else text

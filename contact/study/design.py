@@ -1,12 +1,12 @@
 """The 3220 cases of Vollebregt, Iwnicki, Xie and Shackleton, Vehicle System Dynamics 50 (2012) 1-17.
 
-Five ellipses (a = 4, 6, 9, 12, 20 mm, a/b = 0.2 … 5), four spins, seven directions and twenty-three sizes of the creepage, as
-they stand in the test bank of CONTACT 25.1 (test_table_mx11; Apache-2.0), from where theory.md 10 has them:
+The cases have five ellipses (a = 4, 6, 9, 12, 20 mm, a/b = 0.2 … 5), four spins, seven directions and twenty-three sizes of
+the creepage. The numbers are those of the test bank of CONTACT 25.1 (test_table_mx11; Apache-2.0), as in theory.md 10:
 
     N = 82 kN,  G = 82 GPa,  nu = 0.28,  mu = 0.3,  c = √(ab),
     longitudinal + i lateral = m mu c/rho exp(i angle),   spin = chi mu/rho.
 
-The cases without creepage and with it along each direction are counted as the source counts them.
+As in the source, the case without creepage (m = 0) is counted once for each direction.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from contact.material import Material
 Array = NDArray[np.float64]
 
 LOAD, FRICTION, MATERIAL = 82e3, 0.3, Material(shear_modulus=82e9, poisson_ratio=0.28)
-#: a, b [m] and rho [m], the length by which creepages are made dimensionless.
+#: a [m], b [m] and rho [m], the length that makes creepages dimensionless.
 ELLIPSES = tuple(
     (1e-3 * a, 1e-3 * b, 1e-3 * rho)
     for a, b, rho in ((4, 20, 1772), (6, 12, 2075), (9, 9, 2700), (12, 6, 2075), (20, 4, 1772))
@@ -58,12 +58,12 @@ SIZES = (
 
 @dataclass(frozen=True, slots=True)
 class Design:
-    """Cases; all arrays have shape (n,).
+    """The cases. All arrays have shape (n,).
 
     Attributes
     ----------
-    number : place in the list of 3220
-    ellipse : place in `ELLIPSES`
+    number : index in the list of 3220
+    ellipse : index in `ELLIPSES`
     chi, angle, size : spin, direction [degrees] and size of the creepage, dimensionless
     longitudinal, lateral, spin : creepages [-], [-], [1/m]
     c : √(ab) [m]
@@ -80,7 +80,7 @@ class Design:
     c: Array
 
     def classes(self) -> Mapping[str, Mapping[str, NDArray[np.bool_]]]:
-        """Which cases belong to each class, by what the classes are made of."""
+        """Return kind of classes → name of a class → mask of its cases."""
         return {
             "all": {"all": np.ones(self.number.size, dtype=bool)},
             "ellipse": {f"a/b = {a / b:g}": self.ellipse == k for k, (a, b, _) in enumerate(ELLIPSES)},
@@ -94,7 +94,7 @@ class Design:
 
 
 def design(cases: int | None = None) -> Design:
-    """All 3220 cases, or as many of them, taken at random but always the same, in the order of the list."""
+    """Return all 3220 cases, or a random sample of `cases` of them. The sample is always the same, in the list's order."""
     total = len(ELLIPSES) * len(SPINS) * len(ANGLES) * len(SIZES)
     number = np.arange(total)
     if cases is not None and cases < total:

@@ -1,4 +1,4 @@
-"""Compute the table of effective creepages from that of creep forces (`contact.kernels.tangential.effective`)."""
+"""Compute the table of effective creepages from the table of creep forces (`contact.kernels.tangential.effective`)."""
 
 from __future__ import annotations
 
@@ -25,34 +25,34 @@ from contact.study.ellipse import ellipse
 
 Array = NDArray[np.float64]
 
-#: What counts beside force over mu N and moment over mu N c: the share of slip and, in each sweep, how far changes are from
-#: what is expected, nothing at first and the mean of the neighbouring nodes then. It keeps small and smooth what the forces
-#: leave open. Chosen on 300 random ellipses (`benchmarks/creep_table.py`) and 400 states of new and worn profiles by our half
-#: space.
+#: Weights in the fit, relative to the errors of force over mu N and moment over mu N c. SLIP: share of slip. STIFF, for each
+#: sweep: difference of the changes from expected values, which are 0 in the first sweep and then the mean of the
+#: neighbouring nodes. It keeps changes small and smooth that the forces do not determine. The weights were chosen on 300
+#: random ellipses (`benchmarks/creep_table.py`) and 400 states of new and worn profiles, solved by our half space.
 SLIP, STIFF = 0.01, (0.01, 0.02, 0.02, 0.02)
-#: Strips and elements: the march's own error is below .001 of mu N.
+#: Strips and elements. The error of the march itself is below .001 of mu N.
 _RESOLUTION = 40
 
 
 def build(path: Path, forces: Path = table.FILE, *, progress: Callable[[float, str], None] | None = None) -> None:
-    """Fit the march to the table of creep forces, node by node, and write the changes to `path`; needs scipy.
+    """Fit the march to the table of creep forces, node by node, and write the changes to `path`. It needs scipy.
 
     Raises
     ------
     ContactError
-        A file that cannot be written, or `forces` no table of creep forces.
+        If the file cannot be written, or `forces` is not a table of creep forces.
     """
     true = table.numbers(forces)
     changes = np.zeros_like(true)
     ellipses = [OneEllipse(float(u)) for u in table.nodes()[0]]
     for sweep, stiff in enumerate(STIFF):
-        expected = neighbours(changes)  # at first nothing
+        expected = neighbours(changes)  # 0 in the first sweep
         for n, (i, j, k) in enumerate(table.rows()):
-            own = slice(None) if k in (0, table.N_BETA - 1) else j
-            for l in range(1, table.N_RHO - 1):  # nothing at vanishing creepage and in full slip
+            alphas = slice(None) if k in (0, table.N_BETA - 1) else j
+            for l in range(1, table.N_RHO - 1):  # no change at vanishing creepage and in full slip
                 at = i, j, k, l
                 change = ellipses[i].fitted((j, k, l), true[at], changes[at], expected[at], stiff)
-                changes[i, own, k, l] = change * _allowed(j, k)
+                changes[i, alphas, k, l] = change * _allowed(j, k)
             if progress is not None:
                 progress((sweep + n / len(table.rows())) / len(STIFF), f"sweep {sweep + 1} of {len(STIFF)}")
     lines = [",".join(creep_table.short(v) for v in changes[i, j, k, 1:].ravel()) for i, j, k in table.rows()]
@@ -69,14 +69,14 @@ def build(path: Path, forces: Path = table.FILE, *, progress: Callable[[float, s
 
 
 def _allowed(j: int, k: int) -> tuple[float, float, float, float]:
-    """1 for each of the four numbers, 0 for changes of a creepage that symmetry rules out at a node."""
+    """Return a factor for each of the four numbers: 0 for a change that symmetry excludes at this node, else 1."""
     spin_alone, sideways = k in (0, table.N_BETA - 1), j == table.N_ALPHA - 1
     straight = j == 0 and 2 * k == table.N_BETA - 1
     return float(not (spin_alone or sideways)), float(not straight), float(not straight), 1.0
 
 
 def neighbours(changes: Array) -> Array:
-    """Mean over the four coordinates of the two neighbours of each node."""
+    """Return the mean of the eight neighbours of each node, two along each of the four coordinates."""
     around, inside = table.with_margins(changes), (slice(1, -1),) * 4
     total = np.zeros_like(changes)
     for axis, side in itertools.product(range(4), (slice(0, -2), slice(2, None))):
@@ -85,7 +85,7 @@ def neighbours(changes: Array) -> Array:
 
 
 class OneEllipse:
-    """The march on one ellipse of the table, with any change."""
+    """The march on one ellipse of the table, with given creepages and exponent."""
 
     def __init__(self, log_aspect: float) -> None:
         load, material = creep_table.LOAD, creep_table.MATERIAL
@@ -104,7 +104,7 @@ class OneEllipse:
         self.case, self.own, self.strips, self.area = case[0], own, own.strips.copy(), float(self.result.area)
 
     def forces(self, creepage: Array, exponent: float) -> Array:
-        """Fx, Fy over mu N, Mz over mu N c and the share of slip of the march, without what the table says."""
+        """Return Fx/(mu N), Fy/(mu N), Mz/(mu N c) and the share of slip of the march, without the table's changes."""
         strips, result = self.own.strips, self.result
         strips[:] = self.strips
         strips[Strip.VX : Strip.PHI + 1, : self.n] = creepage[:, None]
@@ -119,7 +119,10 @@ class OneEllipse:
         )
 
     def fitted(self, at: tuple[int, int, int], true: Array, start: Array, expected: Array, stiff: float) -> Array:
-        """The change with which the march has the forces `true` at a node, as near to `expected` as they let it."""
+        """Return the change with which the march has the forces `true` at a node, by least squares.
+
+        `start` is the first guess. `stiff` is the weight of the difference from `expected`.
+        """
         try:
             from scipy.optimize import least_squares
         except ImportError as missing:
@@ -132,7 +135,7 @@ class OneEllipse:
         sizes = np.array(creep_table.sizes(self.log_aspect, rho[l]))
         weights = np.array([1.0, 1.0, 1.0, SLIP])
 
-        def misfit(shifted: Array) -> Array:  # by 1, for steps in proportion
+        def misfit(shifted: Array) -> Array:  # shifted by 1, so that relative steps have the right size
             change = shifted - 1.0
             found = self.forces(creepage + sizes * change[:3], change[3])
             return np.concatenate([weights * (found - true), stiff * (change - expected)])

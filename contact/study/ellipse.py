@@ -1,4 +1,4 @@
-"""Separations whose Hertz ellipse is given."""
+"""Separations with a given Hertz ellipse."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from contact.separation import Separation
 
 
 def ellipse(aspect: float, c: float, load: float, material: Material = STEEL) -> Separation:
-    """Separation whose Hertz ellipse under `load` [N] has the semi-axis ratio a/b = `aspect` and √(ab) = `c` [m].
+    """Return the separation whose Hertz ellipse under `load` [N] has a/b = `aspect` and √(ab) = `c` [m].
 
-    Made for a/b from 1e-2 to 1e2; the ratio of curvatures is found by bisection.
+    It is for a/b from 1e-2 to 1e2. The ratio of curvatures is found by bisection.
     """
     low, high = -12.0, 12.0  # ln(B/A): a/b increases with it
     for _ in range(100):

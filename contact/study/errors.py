@@ -1,4 +1,4 @@
-"""How far a solution is from the reference, defined as in docs/accuracy.md."""
+"""Errors of a solution against the reference, as defined in docs/accuracy.md."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from contact.solution import Solution
 
 @dataclass(frozen=True, slots=True)
 class Errors:
-    """Errors of one solution against another.
+    """Errors of one solution against another [-].
 
     Attributes
     ----------
-    force : |F/(mu N) - F_ref/(mu N_ref)|, each force over its own mu N [-]
-    moment : the same of Mz over mu N √(area_ref/π) [-]
-    N, approach (from first touch), max_pressure, area : relative to the reference [-], signed
-    pressure : ‖p - p_ref‖/‖p_ref‖ over the elements of the reference [-]
+    force : |F/(mu N) - F_ref/(mu N_ref)|; each force is divided by mu times its own N
+    moment : |Mz/(mu N) - Mz_ref/(mu N_ref)|/√(area_ref/π)
+    N, approach, max_pressure, area : signed errors relative to the reference; the approach is measured from first touch
+    pressure : ‖p - p_ref‖/‖p_ref‖ over the elements of the reference
     """
 
     force: float
@@ -33,19 +33,19 @@ class Errors:
 
 
 def errors_against(true: Solution, s: Solution, touch: float = 0.0) -> Errors | None:
-    """Errors of `s` against the reference `true`; None where one of them has no contact.
+    """Return the errors of `s` against the reference `true`; None if one of them has no contact.
 
-    `touch` is the approach at which the bodies first touch, from which approaches are counted here.
+    `touch` is the approach at which the bodies first touch [m]. The error of the approach is relative to it.
     """
     if not (true.N > 0.0 and s.N > 0.0):
         return None
     mu = true.friction
-    own, full = ((mu * x.N if mu > 0.0 else math.inf) for x in (s, true))  # without friction there is no force
+    limit, true_limit = ((mu * x.N if mu > 0.0 else math.inf) for x in (s, true))  # inf: no force without friction
     arm = math.sqrt(true.area / math.pi)
     p = s.pressure(true.x, true.y)
     return Errors(
-        force=math.hypot(s.Fx / own - true.Fx / full, s.Fy / own - true.Fy / full),
-        moment=abs(s.Mz / own - true.Mz / full) / arm,
+        force=math.hypot(s.Fx / limit - true.Fx / true_limit, s.Fy / limit - true.Fy / true_limit),
+        moment=abs(s.Mz / limit - true.Mz / true_limit) / arm,
         N=s.N / true.N - 1.0,
         approach=(s.approach - touch) / (true.approach - touch) - 1.0,
         max_pressure=s.max_pressure / true.max_pressure - 1.0,
@@ -55,6 +55,6 @@ def errors_against(true: Solution, s: Solution, touch: float = 0.0) -> Errors | 
 
 
 def mean_p95_max(values: ArrayLike) -> tuple[float, float, float]:
-    """Mean, 95th percentile and maximum of the absolute values."""
+    """Return mean, 95th percentile and maximum of the absolute values."""
     size = np.abs(np.asarray(values, dtype=np.float64))
     return float(size.mean()), float(np.percentile(size, 95)), float(size.max())

@@ -1,4 +1,4 @@
-"""Files that comparisons are written to: what the ending of the name says."""
+"""Write the results of studies to files. The ending of the name selects the format."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ PICTURES = (".png", ".pdf", ".svg")
 
 
 def csv_of(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Rows with one set of names as CSV; None is an empty cell."""
+    """Return rows with the same names as CSV. None is an empty cell."""
     text = io.StringIO()
     writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
     writer.writeheader()
@@ -23,7 +23,7 @@ def csv_of(rows: Sequence[Mapping[str, Any]]) -> str:
 
 
 def require_ending(path: str | Path, endings: Sequence[str]) -> str:
-    """Return the ending of the path in lower case, one of `endings`, or raise a ContactError."""
+    """Return the ending of the path in lower case. Raise a ContactError if it is not one of `endings`."""
     ending = Path(path).suffix.lower()
     if ending not in endings:
         raise ContactError(f"{path} cannot be written: a file ends in one of {', '.join(endings)}")
@@ -31,12 +31,12 @@ def require_ending(path: str | Path, endings: Sequence[str]) -> str:
 
 
 def write(path: str | Path, texts: Mapping[str, Callable[[], str]], figure: Callable[[], Any] | None = None) -> None:
-    """Write the text that the function for the path's ending makes, or the figure as a picture.
+    """Write to `path` the text for its ending, from the function in `texts`, or the figure as a picture.
 
     Raises
     ------
     ContactError
-        Another ending, or a file that cannot be written.
+        For any other ending, or if the file cannot be written.
     """
     ending = require_ending(path, [*texts, *(PICTURES if figure else ())])
     try:

@@ -1,7 +1,7 @@
-"""The Manchester contact benchmark beside CONTACT's numbers (case A-2.2 of Shackleton and Iwnicki 2008).
+"""The Manchester contact benchmark, compared with CONTACT (case A-2.2 of Shackleton and Iwnicki 2008).
 
-A wheelset with S1002 wheels on UIC 60 rails is displaced and yawed by 2.4 mrad a millimetre; its roll and pitch rate are given
-and each wheel carries 10 kN, friction included. What CONTACT finds there stands in manchester.csv, with its provenance.
+A wheelset with S1002 wheels on UIC 60 rails is displaced and yawed by 2.4 mrad per millimetre. Its roll and pitch rate are
+given. Each wheel carries 10 kN, including friction. CONTACT's results are in manchester.csv, with their provenance.
 """
 
 from __future__ import annotations
@@ -36,28 +36,28 @@ if TYPE_CHECKING:
 
 LOAD, SPEED, FRICTION = 10e3, 2.0, 0.3
 METHODS = (*SELECTION, Pair("kpec", "fastsim"))
-#: Steps of Newton's iteration for the height of the wheelset, and the share of the load that may be missing.
+#: Largest number of Newton steps for the height of the wheelset, and their relative tolerance of the load.
 _MAX_STEPS, _TOLERANCE = 20, 1e-5
 NOTES = (
-    "CONTACT's elements are 0.2 mm wide: at 7 and 10 mm its patch has four rows of them, so its peak is less certain there.",
-    "CONTACT's KPEC has 443 MPa at 0 mm, 31 % above its own half space; ours, which meets it at 0.5 and 5 mm, does not. Why is "
-    "not known.",
-    "Longitudinal creepage is small at 0 and 0.5 mm, and ours is that of the wheel's surface: it differs from CONTACT's by up "
-    "to the penetration over the radius, 4e-5, and the forces with it.",
+    "CONTACT's elements are 0.2 mm wide. At 7 and 10 mm its patch has only four rows of them, so its peak is less certain.",
+    "CONTACT's KPEC has 443 MPa at 0 mm, 31 % above its own half space. Our KPEC agrees with it at 0.5 and 5 mm, but not at "
+    "0 mm. The reason is not known.",
+    "At 0 and 0.5 mm the longitudinal creepage is small. Ours is that of the wheel's surface. It differs from CONTACT's by up "
+    "to the penetration over the radius, 4e-5, and the forces differ accordingly.",
 )
 
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A position of the benchmark and CONTACT's results: SI units, creepages and forces those of the wheel.
+    """A position of the benchmark and CONTACT's results, in SI units. Forces act on the wheel; creepages are wheel minus rail.
 
     Attributes
     ----------
-    y, yaw, roll, pitch, side : pose of the wheelset [m], [rad], [rad], its pitch rate [rad/s], and the wheel
+    y, yaw, roll, pitch, side : pose of the wheelset [m], [rad], [rad], its pitch rate [rad/s], and the side of the wheel
     angle : contact angle [rad]
     longitudinal, lateral, spin : creepages over the mean of V and the wheel's circumferential speed [-], [-], [1/m]
-    N, Fx, Fy, approach, max_pressure : half space
-    kpec, analyn : approach and peak pressure by CONTACT's own fast methods, or None
+    N, Fx, Fy, approach, max_pressure : results of CONTACT's half space
+    kpec, analyn : approach [m] and peak pressure [Pa] by CONTACT's fast methods, or None
     """
 
     y: float
@@ -79,26 +79,26 @@ class Place:
 
     @property
     def name(self) -> str:
-        """What tables call it."""
+        """Name in tables."""
         return f"{1e3 * self.y:g} mm {self.side}"
 
 
 @cache
 def places() -> tuple[Place, ...]:
-    """The positions for which CONTACT's results are at hand."""
+    """Return the positions for which results of CONTACT are available."""
     text = resources.files("contact.study").joinpath("manchester.csv").read_text(encoding="utf-8")
     found = []
     for row in csv.DictReader(line for line in text.splitlines() if not line.startswith("#")):
-        own = {name: float(value) for name, value in row.items() if name != "side" and value}
+        given = {name: float(value) for name, value in row.items() if name != "side" and value}
         fast = [
-            (1e-3 * own[f"approach_{method}"], 1e6 * own[f"pmax_{method}"]) if f"pmax_{method}" in own else None
+            (1e-3 * given[f"approach_{method}"], 1e6 * given[f"pmax_{method}"]) if f"pmax_{method}" in given else None
             for method in ("kpec", "analyn")
         ]
         found.append(
             Place(
-                1e-3 * own["y"], own["yaw"], own["roll"], own["pitch"], row["side"], own["angle"],
-                -own["xi"], -own["eta"], -1e3 * own["phi"], own["N"], -own["Fx"], -own["Fy"],
-                1e-3 * own["approach"], 1e6 * own["pmax"], *fast,
+                1e-3 * given["y"], given["yaw"], given["roll"], given["pitch"], row["side"], given["angle"],
+                -given["xi"], -given["eta"], -1e3 * given["phi"], given["N"], -given["Fx"], -given["Fy"],
+                1e-3 * given["approach"], 1e6 * given["pmax"], *fast,
             )
         )  # fmt: skip
     return tuple(found)
@@ -106,18 +106,18 @@ def places() -> tuple[Place, ...]:
 
 @dataclass(frozen=True)
 class Manchester(Report):
-    """Our results at the places of the benchmark.
+    """Our results at the positions of the benchmark.
 
     Attributes
     ----------
     places : tuple of Place
-        With CONTACT's results.
+        Positions with CONTACT's results.
     patches : tuple of Patch
-        Ours, at the height where our half space carries the load.
+        Our patches, at the height at which our half space carries the load.
     comparison : Comparison
-        One case a place, at the normal force that our half space has there.
+        One case per position, with the normal force of our half space.
     fast : dict
-        Solutions by KPEC and ANALYN at that force, by method, in the order of the places.
+        Method → solutions by KPEC and ANALYN with that force, in the order of the positions.
     """
 
     places: tuple[Place, ...]
@@ -126,7 +126,7 @@ class Manchester(Report):
     fast: dict[str, tuple[Solution, ...]]
 
     def tables(self) -> list[Table]:
-        """Our half space beside CONTACT; every method against CONTACT; KPEC and ANALYN beside CONTACT's own."""
+        """Return tables of our half space and CONTACT, all methods against CONTACT, and KPEC and ANALYN of both programs."""
         headings = (
             ("", ""), ("angle", "mrad"), ("N", "N"), ("Fx", "N"), ("Fy", "N"), ("approach", "µm"), ("peak", "MPa"),
         )  # fmt: skip
@@ -157,15 +157,15 @@ class Manchester(Report):
         return tables
 
     def _by_place(self, k: int) -> list[tuple[Place, Row]]:
-        """Every place with the row of pair k."""
+        """Return each position with the row of pair k."""
         return [(place, rows[k]) for place, (_, rows, _) in zip(self.places, self.comparison.by_case(), strict=True)]
 
     def figure(self) -> Figure:
-        """Patches by every method, place by place."""
+        """Return the picture of the patches of all methods at each position."""
         return self.comparison.figure()
 
     def csv(self) -> str:
-        """One line a place and pair; CONTACT's numbers under names that end in _contact."""
+        """Return CSV with one line per position and pair. CONTACT's numbers have names that end in _contact."""
         names = ("angle", "N", "Fx", "Fy", "approach", "max_pressure")
         lines = []
         for (_, rows, _), place, patch in zip(self.comparison.by_case(), self.places, self.patches, strict=True):
@@ -174,7 +174,7 @@ class Manchester(Report):
         return csv_of(lines)
 
     def json(self) -> str:
-        """The comparison, and CONTACT's results with it."""
+        """Return the comparison and CONTACT's results as JSON."""
         content = json.loads(self.comparison.json())
         for case, place, patch in zip(content["cases"], self.places, self.patches, strict=True):
             case |= {"angle": patch.angle, "contact": asdict(place)}
@@ -184,19 +184,19 @@ class Manchester(Report):
 
     @property
     def about(self) -> list[str]:
-        """What a reader of the tables needs to know."""
+        """Paragraphs of explanation for the tables."""
         from contact import __version__
 
         return [
-            f"wheelrail-contact {__version__} beside CONTACT (Apache-2.0; 25.1, rev 2707, and the examples of rev 2447). "
-            "S1002 on UIC 60 1:40: a wheelset on straight track, displaced and yawed by 2.4 mrad a millimetre, 10 kN on each "
-            "wheel. Forces act on the wheel. The height of the wheel is the one at which our half space carries the load; all "
-            "methods have its normal force.",
+            f"wheelrail-contact {__version__} compared with CONTACT (Apache-2.0; 25.1, rev 2707, and the examples of rev "
+            "2447). S1002 on UIC 60 1:40: a wheelset on straight track, displaced and yawed by 2.4 mrad per millimetre, 10 kN "
+            "on each wheel. Forces act on the wheel. At the height used, our half space carries the load. All methods have its "
+            "normal force.",
             *NOTES,
         ]
 
     def parts(self) -> Iterable[str]:
-        """Tables, and the comparison of every place."""
+        """Yield the tables and the comparison of each position in HTML."""
         from contact.study.page import html_of
 
         yield from map(html_of, self.tables())
@@ -212,7 +212,7 @@ def manchester(
     reference_elements: int = REFERENCE_ELEMENTS,
     progress: Progress | None = None,
 ) -> Manchester:
-    """Compute the benchmark: our half space finds the height of the wheel, every method solves the patch there.
+    """Compute the benchmark. Our half space finds the height of the wheel; then all methods solve the patch there.
 
     Parameters
     ----------
@@ -221,10 +221,14 @@ def manchester(
     at : sequence of Place
         Some of `places`; default all.
 
+    Returns
+    -------
+    Manchester
+
     Raises
     ------
     ContactError
-        As `contact.compare` does; no place.
+        As `contact.compare`, and if `at` is empty.
     """
     chosen = places() if at is None else tuple(at)
     if not chosen:
@@ -252,7 +256,7 @@ def manchester(
 
 
 def _settled(place: Place, elements: int) -> tuple[Patch, float]:
-    """The patch at the height where the half space carries the load, and its normal force."""
+    """Return the patch at the height at which the half space carries the load, and its normal force [N]."""
     wheel, rail = profile.s1002(), profile.rail_60e1(1 / 40, breakpoints="UIC 519")
     both = WheelOnRail(wheel, rail, side=place.side)  # type: ignore[arg-type]
     motion = Velocity(forward=SPEED, spin=place.pitch)
@@ -275,8 +279,8 @@ def _settled(place: Place, elements: int) -> tuple[Patch, float]:
 
 
 def _force_error(place: Place, row: Row) -> float:
-    own, full = FRICTION * row.N, FRICTION * place.N
-    return math.hypot(row.Fx / own - place.Fx / full, row.Fy / own - place.Fy / full)
+    limit, true_limit = FRICTION * row.N, FRICTION * place.N
+    return math.hypot(row.Fx / limit - place.Fx / true_limit, row.Fy / limit - place.Fy / true_limit)
 
 
 _ERRORS: Sequence[tuple[str, Callable[[Place, Row], float]]] = (

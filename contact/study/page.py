@@ -1,4 +1,4 @@
-"""Pages by themselves: tables and embedded pictures in one HTML file, readable on a desktop and on a telephone."""
+"""Self-contained HTML pages with tables and embedded pictures, for desktops and telephones."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ img { max-width: 100%; height: auto; }
 
 
 def page(title: str, body: Iterable[str]) -> str:
-    """A whole HTML document."""
+    """Return a complete HTML document."""
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
@@ -45,7 +45,7 @@ def page(title: str, body: Iterable[str]) -> str:
 
 
 def html_of(table: Table) -> str:
-    """A table that scrolls by itself where it is too wide."""
+    """Return a table in HTML. It scrolls horizontally if it is too wide."""
     head = "".join(f"<th>{escape(name)}<small>{escape(unit)}</small></th>" for name, unit in table.headings)
     lines = "".join(
         f"<tr><td>{_two_lines(first)}</td>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>\n"
@@ -58,13 +58,13 @@ def html_of(table: Table) -> str:
 
 
 def _two_lines(name: str) -> str:
-    """Names of a pair, on two lines where there is little room."""
+    """Return the names of a pair in HTML. On narrow screens they take two lines."""
     first, plus, second = name.partition(" + ")
     return f"<span>{escape(first)}</span>" + (f" <span>+ {escape(second)}</span>" if plus else "")
 
 
 def picture(wide: Figure, narrow: Figure, text: str) -> str:
-    """The picture of a desktop or the one of a telephone, embedded."""
+    """Return an embedded picture in HTML: `wide` for desktops, `narrow` for telephones. `text` describes it."""
     return (
         f'<picture><source media="(max-width: 700px)" srcset="{_data(narrow)}">'
         f'<img src="{_data(wide)}" alt="{escape(text)}"></picture>'
@@ -81,17 +81,17 @@ def _data(figure: Figure) -> str:
 
 
 def document(title: str, about: Iterable[str], parts: Iterable[str]) -> str:
-    """A page with a title, paragraphs and parts in HTML."""
+    """Return an HTML page with a title, paragraphs of text and parts in HTML."""
     return page(title, [f"<h1>{escape(title)}</h1>", *map(faint, about), *parts])
 
 
 def faint(text: str) -> str:
-    """A paragraph of explanation."""
+    """Return a paragraph of explanation in HTML."""
     return f'<p class="faint">{escape(text)}</p>'
 
 
 def cases_of(c: Comparison) -> Iterator[str]:
-    """Heading, tables and picture of every case."""
+    """Yield heading, tables and picture of each case in HTML."""
     from contact.plot import comparison
 
     for case, rows, solutions in c.by_case():

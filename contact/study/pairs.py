@@ -19,9 +19,9 @@ class Pair(NamedTuple):
         return "+".join(self)
 
 
-#: Kalker's complete theory on a grid: what all others are measured against.
+#: Kalker's complete theory on a grid, the reference of all errors.
 REFERENCE = Pair("halfspace", "halfspace")
-#: From what multibody codes do to what this project offers.
+#: Default pairs, from those of multibody codes to those of this project.
 SELECTION = (
     Pair("hertz", "fastsim"),
     Pair("kik_piotrowski", "fastsim"),
@@ -32,24 +32,26 @@ SELECTION = (
 
 
 def serves(pair: Pair) -> bool:
-    """Whether `contact.solve` takes the pair: a normal method on a grid leaves no strips to the others."""
+    """Return whether `contact.solve` accepts the pair. A normal method on a grid has no strips for other methods."""
     return not lookup("normal", pair.normal).elementwise or pair == REFERENCE
 
 
 def every_pair() -> tuple[Pair, ...]:
-    """Every registered normal with every registered tangential method that serves it."""
+    """Return all pairs of registered methods that `contact.solve` accepts."""
     known = methods()
     both = (Pair(normal, tangential) for normal in known.normal for tangential in known.tangential)
     return tuple(pair for pair in both if serves(pair))
 
 
 def pairs_of(names: str | Iterable[str | tuple[str, str]]) -> tuple[Pair, ...]:
-    """Pairs from ``"analyn+fastrip"`` or ``("analyn", "fastrip")``, each once; ``"all"`` stands for all of them.
+    """Return the pairs from names like ``"analyn+fastrip"`` or ``("analyn", "fastrip")``, each once.
+
+    ``"all"`` means all pairs.
 
     Raises
     ------
     ContactError
-        For what is no pair, an unknown method, or methods that do not go together.
+        For a name that is not a pair, an unknown method, or methods that cannot be combined.
     """
     if isinstance(names, str):
         names = [names]
@@ -63,6 +65,6 @@ def pairs_of(names: str | Iterable[str | tuple[str, str]]) -> tuple[Pair, ...]:
             raise ContactError(f"methods: {name!r} is not a normal and a tangential method, like 'analyn+fastrip'")
         pair = Pair(*(lookup(kind, part).name for kind, part in zip(("normal", "tangential"), parts, strict=True)))
         if not serves(pair):
-            raise ContactError(f"methods: {pair} does not go together; with normal halfspace tangential is halfspace")
+            raise ContactError(f"methods: {pair} cannot be combined; normal halfspace needs tangential halfspace")
         found[pair] = None
     return tuple(found)

@@ -1,4 +1,4 @@
-"""Forces of the 3220 cases by the half space, on all cores, kept in a file from which an interrupted run goes on."""
+"""Forces of the 3220 cases by the half space, computed on all cores. A file lets an interrupted run continue."""
 
 from __future__ import annotations
 
@@ -34,23 +34,35 @@ def reference_forces(
     processes: int | None = None,
     progress: Callable[[float, str], None] | None = None,
 ) -> Array:
-    """Fx, Fy over mu N and Mz over mu N c, shape (n, 3): TANG on Hertz's pressure, `elements` rows and columns on the patch.
+    """Return Fx/(mu N), Fy/(mu N) and Mz/(mu N c), shape (n, 3), by TANG on Hertz's pressure.
 
-    What `stored` holds is not computed again, what is computed is added to it at once. More than one process starts fresh
-    interpreters, so a script that calls this needs the usual ``if __name__ == "__main__"``.
+    Parameters
+    ----------
+    d : Design
+    elements : int
+        Rows and columns of elements on the patch.
+    stored : Path, optional
+        File of results. Cases in it are not computed again; new results are added to it at once.
+    processes : int, optional
+        Number of processes; default all cores. More than one start new interpreters, so the calling script needs
+        ``if __name__ == "__main__"``.
+    progress : callable, optional
+        Called with the share done, 0 to 1, and a description.
 
     Raises
     ------
     ContactError
-        A file that belongs to another resolution or is no such file.
+        If the file has another resolution or is no such file.
     """
     heading = f"# number,Fx/muN,Fy/muN,Mz/muNc by the half space with {elements} x {elements} elements on the ellipse"
     known = {} if stored is None else _read(stored, heading)
     todo = [k for k in range(d.number.size) if int(d.number[k]) not in known]
     chunks = [todo[i : i + _CHUNK] for i in range(0, len(todo), _CHUNK)]
-    jobs = [[(int(d.ellipse[k]), d.longitudinal[k], d.lateral[k], d.spin[k], elements) for k in own] for own in chunks]
-    for n, (own, found) in enumerate(zip(chunks, _solved(jobs, processes), strict=True), 1):
-        rows = dict(zip((int(d.number[k]) for k in own), found, strict=True))
+    jobs = [
+        [(int(d.ellipse[k]), d.longitudinal[k], d.lateral[k], d.spin[k], elements) for k in chunk] for chunk in chunks
+    ]
+    for n, (chunk, found) in enumerate(zip(chunks, _solved(jobs, processes), strict=True), 1):
+        rows = dict(zip((int(d.number[k]) for k in chunk), found, strict=True))
         known |= rows
         if stored is not None:
             _add(stored, heading, rows)
@@ -60,7 +72,7 @@ def reference_forces(
 
 
 def _solved(jobs: list[list[tuple[Any, ...]]], processes: int | None) -> Iterator[list[Forces]]:
-    """Results of the jobs in their order."""
+    """Yield the results of the jobs in their order."""
     count = min(processes or cores(), len(jobs))
     if count <= 1:
         yield from map(_solve, jobs)
@@ -70,7 +82,7 @@ def _solved(jobs: list[list[tuple[Any, ...]]], processes: int | None) -> Iterato
 
 
 def _solve(cases: list[tuple[Any, ...]]) -> list[Forces]:
-    """Forces of some cases; runs in a process of its own."""
+    """Return the forces of some cases. Runs in a separate process."""
     found = []
     for k, longitudinal, lateral, spin, elements in cases:
         s = solve(
@@ -92,13 +104,13 @@ def _solve(cases: list[tuple[Any, ...]]) -> list[Forces]:
 
 @cache
 def separation_of(k: int) -> Separation:
-    """Separation whose patch under the load is ellipse `k`."""
+    """Return the separation whose patch under the load is ellipse `k`."""
     a, b, _ = ELLIPSES[k]
     return ellipse(a / b, math.sqrt(a * b), LOAD, MATERIAL)
 
 
 def _read(path: Path, heading: str) -> dict[int, Forces]:
-    """What an earlier run left; a line that it had no time to finish is left out."""
+    """Return the results of an earlier run, by number. An incomplete last line is ignored."""
     try:
         lines = path.read_text(encoding="utf-8").split("\n")
     except FileNotFoundError:
@@ -120,7 +132,7 @@ def _read(path: Path, heading: str) -> dict[int, Forces]:
 def _add(path: Path, heading: str, rows: dict[int, Forces]) -> None:
     text = "".join(f"{number},{Fx:.9g},{Fy:.9g},{Mz:.9g}\n" for number, (Fx, Fy, Mz) in rows.items())
     try:
-        if path.exists() and not path.read_bytes().endswith(b"\n"):  # an earlier run was stopped within a line
+        if path.exists() and not path.read_bytes().endswith(b"\n"):  # an earlier run was interrupted within a line
             path.write_text(path.read_text(encoding="utf-8").rpartition("\n")[0] + "\n", encoding="utf-8")
         with path.open("a", encoding="utf-8") as file:
             file.write(text if file.tell() else f"{heading}\n{text}")

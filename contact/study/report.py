@@ -1,4 +1,4 @@
-"""What the results of a study have in common: tables, a picture, and the files that they are written to."""
+"""Base class of the results of studies: tables, a picture, and files."""
 
 from __future__ import annotations
 
@@ -15,52 +15,54 @@ if TYPE_CHECKING:
 
 
 class Report(ABC):
-    """Results that can be shown as text, as a picture and as a page."""
+    """Results of a study, which can be shown as text, as a picture and as a page."""
 
     title: ClassVar[str]
 
     @property
     @abstractmethod
     def about(self) -> Sequence[str]:
-        """Paragraphs: what a reader of the tables needs to know."""
+        """Paragraphs of explanation for the tables."""
 
     @abstractmethod
     def tables(self) -> list[Table]:
-        """What a terminal shows."""
+        """Return the tables for a terminal."""
 
     @abstractmethod
     def figure(self) -> Figure:
-        """The picture."""
+        """Return the picture."""
 
     @abstractmethod
     def parts(self) -> Iterable[str]:
-        """What a page shows below the paragraphs, in HTML."""
+        """Return the parts of a page below the paragraphs, in HTML."""
 
     @abstractmethod
     def csv(self) -> str:
-        """Every number, one line a result, SI units."""
+        """Return all numbers as CSV, one line per result, in SI units."""
 
     @abstractmethod
     def json(self) -> str:
-        """Everything but fields, in SI units, under the names of the Python API."""
+        """Return all results without fields as JSON, in SI units, under the names of the Python API."""
 
     def markdown(self) -> str:
-        """The tables in Markdown."""
+        """Return the tables in Markdown."""
         return "\n\n".join([f"# {self.title}", *self.about, *(table.markdown() for table in self.tables())]) + "\n"
 
     def html(self) -> str:
-        """A page by itself: nothing outside is needed."""
+        """Return a self-contained HTML page."""
         from contact.study.page import document
 
         return document(self.title, self.about, self.parts())
 
     def write(self, path: str | Path) -> None:
-        """Write numbers (.json, .csv), tables (.md), the picture (.png, .pdf, .svg) or a page (.html), as the name says.
+        """Write numbers (.json, .csv), tables (.md), the picture (.png, .pdf, .svg) or a page (.html).
+
+        The ending of `path` selects which of them.
 
         Raises
         ------
         ContactError
-            Another ending, or a file that cannot be written.
+            For any other ending, or if the file cannot be written.
         """
         texts = {".html": self.html, ".md": self.markdown, ".json": self.json, ".csv": self.csv}
         write(path, texts, self.figure)

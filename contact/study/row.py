@@ -10,7 +10,7 @@ from contact.study.errors import Errors
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One case by one pair of methods; SI units, forces on the wheel.
+    """Results of one case by one pair of methods, in SI units. Forces act on the wheel.
 
     Attributes
     ----------
@@ -18,11 +18,11 @@ class Row:
     N, Fx, Fy, Mz, approach, max_pressure, area : float
         As in `Solution`.
     adhesion_area : float or None
-        [m²]; None where the tangential method gives forces alone.
+        [m²]; None if the tangential method gives forces only.
     time : float
         Least wall time of a warm `contact.solve` [s].
     errors : Errors or None
-        Against the reference; None for the reference itself, without one, or without contact.
+        Errors against the reference. None for the reference itself, without a reference, or without contact.
     """
 
     case: str
@@ -41,7 +41,7 @@ class Row:
     errors: Errors | None
 
     def flat(self) -> dict[str, Any]:
-        """One level of names, `error_force` and so on; None where there is no value."""
+        """Return a dictionary without nesting, with `error_force` and so on; None if there is no value."""
         content = asdict(self)
         errors = content.pop("errors") or {}
         names = Errors.__dataclass_fields__

@@ -28,17 +28,19 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
-#: Rows and columns of the half space on the ellipse: forces within 0.004 mu N of those on a grid of 120, 0.001 in the mean.
+#: Rows and columns of the half space on the ellipse. Forces differ from those with 120 by 0.004 mu N at most, 0.001 on
+#: average.
 ELEMENTS = 60
-#: Largest error in the picture [% of mu N]: methods without friction or without spin would hide the others.
+#: Largest error in the picture [% of mu N]. Larger errors, of methods without friction or spin, would hide the others.
 _TOP = 30.0
 
 
 @dataclass(frozen=True, slots=True)
 class Spread:
-    """Errors of one method over the class `name` of one kind of classes: mean, 95th percentile and maximum.
+    """Errors of one method over one class of cases: mean, 95th percentile and maximum [-].
 
-    Force errors are |F - F_ref|/(mu N), moment errors |Mz - Mz_ref|/(mu N c).
+    `classes` is the kind of classification, `name` the class. Force errors are |F - F_ref|/(mu N), moment errors
+    |Mz - Mz_ref|/(mu N c).
     """
 
     method: str
@@ -61,9 +63,9 @@ class Statistics(Report):
     ----------
     design : Design
     elements : rows and columns of the half space
-    reference : Fx, Fy over mu N and Mz over mu N c, shape (n, 3)
-    forces : the same of each method
-    times : time a case of each method in `contact.forces`, one thread [s]
+    reference : Fx/(mu N), Fy/(mu N) and Mz/(mu N c) of the half space, shape (n, 3)
+    forces : the same for each method
+    times : time per case of each method in `contact.forces`, with one thread [s]
     """
 
     design: Design
@@ -73,25 +75,25 @@ class Statistics(Report):
     times: Mapping[str, float]
 
     def errors(self, method: str) -> tuple[Array, Array]:
-        """Errors of force and moment of every case."""
+        """Return the errors of force and moment of all cases [-], shape (n,) each."""
         d = self.forces[method] - self.reference
         return np.hypot(d[:, 0], d[:, 1]), np.abs(d[:, 2])
 
     def spreads(self) -> list[Spread]:
-        """Of every method over every class that has a case."""
+        """Return the errors of each method over each class that has cases."""
         found = []
         for method in self.forces:
             force, moment = self.errors(method)
             found += [
-                Spread(method, kind, name, int(own.sum()), *mean_p95_max(force[own]), *mean_p95_max(moment[own]))
+                Spread(method, kind, name, int(mask.sum()), *mean_p95_max(force[mask]), *mean_p95_max(moment[mask]))
                 for kind, classes in self.design.classes().items()
-                for name, own in classes.items()
-                if own.any()
+                for name, mask in classes.items()
+                if mask.any()
             ]
         return found
 
     def tables(self) -> list[Table]:
-        """All cases, and mean errors of the force by class."""
+        """Return tables of the errors over all cases, and of mean force errors by class."""
         spreads = self.spreads()
         headings = [(f"{kind} {what}", "%") for kind in ("force", "moment") for what in ("mean", "95 %", "max")]
         columns = "force_mean", "force_p95", "force_max", "moment_mean", "moment_p95", "moment_max"
@@ -103,14 +105,14 @@ class Statistics(Report):
         caption = f"Errors over {self.design.number.size} cases: force of µN, moment of µN√(ab)"
         tables = [Table(caption, [("method", ""), *headings, ("time", "µs")], rows)]
         for kind in ("ellipse", "spin", "creepage"):
-            own = [s for s in spreads if s.classes == kind]
-            headings = list(dict.fromkeys((s.name, f"{s.cases} cases") for s in own))
-            rows = [[m, *(_percent(s.force_mean) for s in own if s.method == m)] for m in self.forces]
+            of_kind = [s for s in spreads if s.classes == kind]
+            headings = list(dict.fromkeys((s.name, f"{s.cases} cases") for s in of_kind))
+            rows = [[m, *(_percent(s.force_mean) for s in of_kind if s.method == m)] for m in self.forces]
             tables.append(Table(f"Mean error of the force by {kind}, % of µN", [("method", ""), *headings], rows))
         return tables
 
     def figure(self) -> Figure:
-        """Error of the force that a share of the cases does not exceed, one line a method."""
+        """Return the picture of the force error that a share of the cases does not exceed, one line per method."""
         from matplotlib.figure import Figure
 
         from contact.plot import curve
@@ -128,7 +130,7 @@ class Statistics(Report):
         return figure
 
     def csv(self) -> str:
-        """One line a case: creepages, forces by the half space and by every method."""
+        """Return CSV with one line per case: creepages, forces by the half space and by each method."""
         d = self.design
         columns: dict[str, Any] = {
             name: getattr(d, name)
@@ -139,7 +141,7 @@ class Statistics(Report):
         return csv_of([{name: v[i].item() for name, v in columns.items()} for i in range(d.number.size)])
 
     def json(self) -> str:
-        """Errors by method and class, and times."""
+        """Return errors by method and class, and times, as JSON."""
         from contact import __version__
 
         content = {
@@ -155,17 +157,17 @@ class Statistics(Report):
 
     @property
     def about(self) -> list[str]:
-        """What a reader of the tables needs to know."""
+        """Paragraphs of explanation for the tables."""
         from contact import __version__
 
         return [
             f"wheelrail-contact {__version__}. Cases of Vollebregt, Iwnicki, Xie and Shackleton (2012): five ellipses, spin "
             "chi, size m and direction of the creepage. Errors are against our half space with "
-            f"{self.elements} × {self.elements} elements on the ellipse; times are those of a case in one thread."
+            f"{self.elements} × {self.elements} elements on the ellipse; times are per case in one thread."
         ]
 
     def parts(self) -> Iterable[str]:
-        """Tables and the picture."""
+        """Yield the tables and the picture in HTML."""
         from contact.study.page import html_of, picture
 
         yield from map(html_of, self.tables())
@@ -191,22 +193,27 @@ def statistics(
     tangential : sequence of str
         Names of tangential methods; default all that `contact.forces` offers.
     cases : int
-        As many of the cases, always the same ones; default all.
+        Number of cases, a fixed random sample; default all.
     elements : int
         Rows and columns of the half space on the ellipse, 4 to 1000.
     n_strips, n_elements : int
         Resolution of the methods.
     stored : path
-        File in which the results of the half space are kept: an interrupted run goes on from there.
+        File for the results of the half space, from which an interrupted run continues.
     processes : int
-        For the half space; default all cores. More than one need ``if __name__ == "__main__"`` in the calling script.
+        Number of processes for the half space; default all cores. More than one need ``if __name__ == "__main__"`` in the
+        calling script.
     progress : callable
-        Given the share that is done, 0 to 1, and what is being solved.
+        Called with the share done, 0 to 1, and a description.
+
+    Returns
+    -------
+    Statistics
 
     Raises
     ------
     ContactError
-        Unknown method, numbers outside their range, a file that cannot be used.
+        For an unknown method, numbers outside their range, or a file that cannot be used.
     """
     names = list(methods().batched.tangential) if tangential is None else list(dict.fromkeys(tangential))
     if not names:
@@ -228,15 +235,15 @@ def statistics(
 
 
 def _by_method(d: Design, name: str, n_strips: int, n_elements: int) -> tuple[Array, float]:
-    """Dimensionless forces of one method, and the time a case in one thread."""
+    """Return the dimensionless forces of one method, shape (n, 3), and the time per case in one thread [s]."""
     scale, result, spent = FRICTION * LOAD, np.empty((d.number.size, 3)), 0.0
     for k in np.unique(d.ellipse):
-        own = d.ellipse == k
+        mask = d.ellipse == k
 
-        def call(own: NDArray[np.bool_], k: int = int(k)) -> Any:
+        def call(chosen: NDArray[np.bool_], k: int = int(k)) -> Any:
             return forces(
                 separation_of(k),
-                (d.longitudinal[own], d.lateral[own], d.spin[own]),
+                (d.longitudinal[chosen], d.lateral[chosen], d.spin[chosen]),
                 load=LOAD,
                 friction=FRICTION,
                 material=MATERIAL,
@@ -247,12 +254,12 @@ def _by_method(d: Design, name: str, n_strips: int, n_elements: int) -> tuple[Ar
                 threads=1,
             )
 
-        call(np.flatnonzero(own)[:1])  # type: ignore[arg-type]  # kernels are compiled or loaded
+        call(np.flatnonzero(mask)[:1])  # type: ignore[arg-type]  # compile or load the kernels first
         start = perf_counter()
-        many = call(own)
+        many = call(mask)
         spent += perf_counter() - start
-        c = d.c[own]
-        result[own] = np.stack([many.Fx / scale, many.Fy / scale, many.Mz / (scale * c)], axis=1)
+        c = d.c[mask]
+        result[mask] = np.stack([many.Fx / scale, many.Fy / scale, many.Mz / (scale * c)], axis=1)
     return result, spent / d.number.size
 
 

@@ -1,4 +1,4 @@
-"""Tables as text in cells, for the terminal and for pages alike."""
+"""Tables with text cells, for the terminal and for pages."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from contact.study.row import Row
 
 
 def number(value: float | None) -> str:
-    """Four significant digits, without exponent where a reader can do without; nothing for None."""
+    """Return a number with four significant digits, without exponent in [1e-3, 1e5[; "" for None."""
     if value is None:
         return ""
     if value == 0.0 or 1e-3 <= abs(value) < 1e5:
@@ -21,33 +21,33 @@ def number(value: float | None) -> str:
 
 
 def percent(value: float | None) -> str:
-    """Two decimals below ten, one above."""
+    """Return a percentage with two decimals below ten, one decimal above; "" for None."""
     if value is None:
         return ""
     return f"{value:.2f}" if abs(value) < 10.0 else f"{value:.1f}"
 
 
 def brief(value: float | None) -> str:
-    """Two significant digits of a time."""
+    """Return a time with two significant digits; "" for None."""
     return "" if value is None else f"{value:.2g}" if value < 99.5 else f"{value:.0f}"
 
 
 class Table(NamedTuple):
-    """What a terminal or a page shows: caption, headings with units, rows; the first cell names a row."""
+    """A table: caption, headings with units, and rows. The first cell of a row is its name."""
 
     caption: str
     headings: Sequence[tuple[str, str]]
     rows: Sequence[Sequence[str]]
 
     def markdown(self) -> str:
-        """The table in Markdown, its caption as a heading."""
+        """Return the table in Markdown. The caption is a heading."""
         head = [f"{name} [{unit}]" if unit else name or " " for name, unit in self.headings]
         marks = ["---", *["---:"] * (len(head) - 1)]
         return "\n".join([f"## {self.caption}", "", *(f"| {' | '.join(line)} |" for line in (head, marks, *self.rows))])
 
 
 class Column(NamedTuple):
-    """Heading, unit, and what stands below it; None is an empty cell."""
+    """A column: heading, unit, and functions for the value of a row and its text. None is an empty cell."""
 
     heading: str
     unit: str
@@ -55,7 +55,7 @@ class Column(NamedTuple):
     text: Callable[[float | None], str] = number
 
     def cell(self, row: Row) -> str:
-        """What stands in the row."""
+        """Return the text of the cell in a row."""
         return self.text(self.value(row))
 
 
@@ -91,18 +91,18 @@ _ERRORS = (
 
 
 def values_of(case: Case) -> Sequence[Column]:
-    """Columns of the results, the approach or the normal force before, whichever was sought."""
+    """Return the columns of the results. The first is the approach or the normal force, whichever is not given."""
     return (_APPROACH if case.approach is None else _LOAD, *_VALUES)
 
 
 def errors_of(case: Case) -> Sequence[Column]:
-    """Columns of the errors against the half space."""
+    """Return the columns of the errors against the half space."""
     sought = ("approach", "approach") if case.approach is None else ("normal force", "N")
     return (*_ERRORS, Column(sought[0], "%", _error(sought[1]), percent))
 
 
 def title_of(case: Case) -> str:
-    """Name and conditions of a case in a line."""
+    """Return name and conditions of a case in one line."""
     c = case.creepage
     given = f"N = {case.load * 1e-3:g} kN" if case.load is not None else f"approach {1e6 * (case.approach or 0.0):g} µm"
     return (
@@ -112,7 +112,7 @@ def title_of(case: Case) -> str:
 
 
 def tables_of(case: Case, rows: Sequence[Row], has_reference: bool) -> list[Table]:
-    """Results of a case, and the errors where there is a reference."""
+    """Return the table of results of a case, and that of errors if there is a reference."""
     result = [_table(title_of(case), values_of(case), rows)]
     if has_reference:
         caption = f"{case.name}: errors against the half space, force over µN, moment over µN√(area/π)"
@@ -121,7 +121,7 @@ def tables_of(case: Case, rows: Sequence[Row], has_reference: bool) -> list[Tabl
 
 
 def _table(caption: str, columns: Sequence[Column], rows: Sequence[Row]) -> Table:
-    """Status is a column where it is other than solved."""
+    """Return a table. It has a column for the status if a row has another status than OK or SATURATED."""
     cells = [[f"{row.normal} + {row.tangential}", *(column.cell(row) for column in columns)] for row in rows]
     headings = [("method", ""), *((column.heading, column.unit) for column in columns)]
     if any(row.status not in ("OK", "SATURATED") for row in rows):

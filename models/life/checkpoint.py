@@ -1,4 +1,4 @@
-"""Arrays that survive a kill: written to a file beside, which then takes the name in one move."""
+"""Checkpoints that survive a kill: arrays are written to a second file, which then replaces the first in one operation."""
 
 from __future__ import annotations
 
@@ -17,10 +17,13 @@ _FINGERPRINT = "fingerprint"
 
 
 def write(path: Path, fingerprint: str, arrays: Mapping[str, NDArray]) -> None:
-    """Put `arrays` in the place of what is in `path`, all of them or none."""
+    """Replace the content of `path` by `arrays`, completely or not at all."""
     path.parent.mkdir(parents=True, exist_ok=True)
     beside = path.with_name(f"{path.name}.{os.getpid()}.part")
-    stored: dict[str, Any] = {_FINGERPRINT: np.array(fingerprint), **arrays}  # savez has a keyword that is no array
+    stored: dict[str, Any] = {
+        _FINGERPRINT: np.array(fingerprint),
+        **arrays,
+    }  # Any, because savez has a bool keyword too
     with open(beside, "wb") as file:
         np.savez(file, **stored)
         file.flush()
@@ -29,12 +32,12 @@ def write(path: Path, fingerprint: str, arrays: Mapping[str, NDArray]) -> None:
 
 
 def read(path: Path, fingerprint: str) -> dict[str, NDArray] | None:
-    """The arrays, or None when there is no such file.
+    """Return the arrays, or None if there is no such file.
 
     Raises
     ------
     ContactError
-        If the file is no checkpoint, or that of another run: other input, profiles or version of this package.
+        If the file is not a checkpoint, or belongs to a run with other input, profiles or version of this package.
     """
     if not path.exists():
         return None
@@ -43,7 +46,7 @@ def read(path: Path, fingerprint: str) -> dict[str, NDArray] | None:
             arrays = {name: stored[name] for name in stored.files}
         found = str(arrays.pop(_FINGERPRINT))
     except (OSError, ValueError, KeyError, zipfile.BadZipFile) as error:
-        raise ContactError(f"{path} is no checkpoint: {error}; --fresh starts anew") from None
+        raise ContactError(f"{path} is not a checkpoint: {error}; --fresh ignores it") from None
     if found != fingerprint:
-        raise ContactError(f"{path} is the checkpoint of another run; --fresh starts anew, --out takes another folder")
+        raise ContactError(f"{path} is the checkpoint of another run; --fresh ignores it, --out sets another folder")
     return arrays

@@ -1,4 +1,4 @@
-"""`contact run` and `contact wear`: from a file to result and report, over interruptions."""
+"""`contact run` and `contact wear`: compute result and report from a file. Interrupted commands can continue."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from models.life.run import Run
 from models.life.scale import Workers
 from models.life.wear import Life
 
-_STEPS = 100  # between two looks at the clock
+_STEPS = 100  # steps between two readings of the clock
 
 Declared = Annotated[Path, typer.Argument(help="TOML file.", show_default=False)]
 Out = Annotated[Path | None, typer.Option(help="Folder for the results; default out/ and the file's name.")]
-Fresh = Annotated[bool, typer.Option("--fresh", help="Start anew, whatever checkpoint there is.")]
+Fresh = Annotated[bool, typer.Option("--fresh", help="Start from the beginning and ignore a checkpoint.")]
 
 
 @reported
@@ -30,9 +30,9 @@ def run(
     fresh: Fresh = False,
     every: Annotated[float, typer.Option(help="Seconds between two checkpoints.")] = 15.0,
 ) -> None:
-    """Run a scenario: a wheelset over a track, its time series, the damage of wheels and rails, a report.
+    """Run a scenario: a wheelset over a track, with time series, damage of wheels and rails, and a report.
 
-    Interrupted, it goes on from its last checkpoint when it is called again, to the same result bit for bit.
+    If the command is interrupted, call it again: it continues from the last checkpoint, with the same result bit for bit.
     """
     drawing()
     require_extra("xarray")
@@ -43,12 +43,15 @@ def run(
 
 
 def complete(started: Run, path: Path, fresh: bool, every: float) -> None:
-    """Go on from the checkpoint, if there is one, to the end; a progress bar is shown."""
+    """Complete a run, from its checkpoint if there is one, with a progress bar.
+
+    Checkpoints are written to `path` every `every` seconds. `fresh` ignores an existing checkpoint.
+    """
     fingerprint = started.scenario.fingerprint
     saved = None if fresh else checkpoint.read(path, fingerprint)
     if saved is not None:
         started.restore(saved)
-        typer.echo(f"goes on at {started.distance:.1f} m from {path}", err=True)
+        typer.echo(f"continues at {started.distance:.1f} m from {path}", err=True)
     looked = time.monotonic()
     with progress_bar() as bar:
         try:
@@ -61,8 +64,8 @@ def complete(started: Run, path: Path, fresh: bool, every: float) -> None:
                     checkpoint.write(path, fingerprint, started.save())
                     looked = time.monotonic()
         except KeyboardInterrupt:
-            # between two steps or within one: the checkpoint on disk is whole either way, and nothing is lost but seconds
-            stop(f"interrupted at {started.distance:.1f} m; the same command goes on from {path}", 130)
+            # The checkpoint on disk is complete, also if a step was interrupted. Only the last seconds are lost.
+            stop(f"interrupted at {started.distance:.1f} m; the same command continues from {path}", 130)
 
 
 @reported
@@ -70,12 +73,13 @@ def wear(
     file: Declared,
     out: Out = None,
     fresh: Fresh = False,
-    workers: Annotated[int, typer.Option(help="Processes of this machine; more than one takes dask.")] = 1,
+    workers: Annotated[int, typer.Option(help="Processes of this machine; more than one need dask.")] = 1,
     scheduler: Annotated[str | None, typer.Option(help="Address of a dask scheduler, tcp://host:8786.")] = None,
 ) -> None:
-    """Wear a wheel over a mileage: a set of scenarios is run, the profile changes, the set is run on it again.
+    """Compute the wear of a wheel over a mileage: run a set of scenarios, change the profile, and repeat.
 
-    Interrupted, it goes on from the last whole step when it is called again. The result does not depend on the workers.
+    If the command is interrupted, call it again: it continues from the last complete step. The result does not depend on the
+    number of workers.
     """
     drawing()
     require_extra("xarray")
@@ -85,7 +89,7 @@ def wear(
     saved = None if fresh else checkpoint.read(path, fingerprint)
     if saved is not None:
         life.restore(saved)
-        typer.echo(f"goes on at {1e-3 * life.mileage:.0f} km from {path}", err=True)
+        typer.echo(f"continues at {1e-3 * life.mileage:.0f} km from {path}", err=True)
     try:
         with Workers(workers, scheduler) as pool, progress_bar() as bar:
             while not life.ended:
@@ -94,7 +98,7 @@ def wear(
     except ImportError as missing:
         stop(str(missing), 1)
     except KeyboardInterrupt:
-        stop(f"interrupted at {1e-3 * life.mileage:.0f} km; the same command goes on from {path}", 130)
+        stop(f"interrupted at {1e-3 * life.mileage:.0f} km; the same command continues from {path}", 130)
     from models.life import wear_report
 
     _write(folder, lambda: wear_report.dataset(life), lambda: wear_report.page_of(life))
@@ -102,13 +106,13 @@ def wear(
 
 
 def _wear_on(life: Life, pool: Workers, bar: Callable[[float, str], None]) -> None:
-    """One step; the bar knows the mileage and how many runs of the step are done."""
+    """Compute one wear step. The bar shows the mileage and the number of runs done in this step."""
     done, mileage = life.mileage / life.plan.declared.mileage, 1e-3 * life.mileage
     life.step(pool, lambda k, n: bar(done, f"{mileage:.0f} km, run {k} of {n}"))
 
 
 def _finish(finished: Run, folder: Path) -> None:
-    """Result and report in the folder; the checkpoint is no longer needed."""
+    """Write result and report to the folder, and delete the checkpoint."""
     from models.life import report, result
 
     _write(folder, lambda: result.dataset(finished), lambda: report.page_of(finished))
@@ -116,7 +120,7 @@ def _finish(finished: Run, folder: Path) -> None:
 
 
 def _write(folder: Path, dataset: Callable[[], Any], page: Callable[[], str]) -> None:
-    """result.nc and report.html."""
+    """Write result.nc and report.html to the folder."""
     from models.life.result import write
 
     folder.mkdir(parents=True, exist_ok=True)

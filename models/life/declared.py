@@ -1,4 +1,4 @@
-"""What a TOML file declares, as dataclasses: unknown keys, missing ones and wrong types are refused by name."""
+"""Convert TOML files to dataclasses. Messages name unknown keys, missing keys and wrong types."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ Kind = TypeVar("Kind")
 
 
 def read_table(path: str | PathLike[str]) -> dict[str, Any]:
-    """The tables of a TOML file.
+    """Return the tables of a TOML file.
 
     Raises
     ------
     ContactError
-        A file that cannot be read or is no TOML; the message has line and column.
+        If the file cannot be read or is not TOML. The message has line and column.
     """
     try:
         with open(path, "rb") as file:
@@ -27,25 +27,25 @@ def read_table(path: str | PathLike[str]) -> dict[str, Any]:
     except OSError as error:
         raise ContactError(f"path = {str(path)!r}: {error.strerror}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ContactError(f"{path} is no TOML: {error}") from None
+        raise ContactError(f"{path} is not TOML: {error}") from None
 
 
 def build(kind: type[Kind], table: object, where: str) -> Kind:
-    """An object of the dataclass `kind` from a table.
+    """Return an object of the dataclass `kind` from a table.
 
     Parameters
     ----------
     kind : type
         A dataclass whose fields are numbers, texts, dataclasses, tuples of these, or unions of them.
     table : dict
-        As `tomllib` reads it.
+        Table from `tomllib`.
     where : str
-        What messages call the table.
+        Name of the table in messages.
 
     Raises
     ------
     ContactError
-        For an unknown, a missing or an ill-typed key, and for values that `kind` refuses; the message says where.
+        For unknown or missing keys, wrong types, and values that `kind` refuses. The message names the place.
     """
     if not isinstance(table, dict):
         raise ContactError(f"{where} = {table!r} is not a table")
@@ -66,7 +66,9 @@ def build(kind: type[Kind], table: object, where: str) -> Kind:
 
 def _convert(hint: Any, value: object, where: str) -> Any:
     options = get_args(hint) if get_origin(hint) in (Union, types.UnionType) else (hint,)
-    options = tuple(str if get_origin(option) is Literal else option for option in options)  # the dataclass says which
+    options = tuple(
+        str if get_origin(option) is Literal else option for option in options
+    )  # the dataclass checks values
     for option in options:
         if isinstance(option, type) and is_dataclass(option) and isinstance(value, dict):
             return build(option, value, where)

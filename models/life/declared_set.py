@@ -1,4 +1,4 @@
-"""A set of scenarios and how long their mix is to wear a wheel, read from one TOML file."""
+"""A set of scenarios for a wear run over a mileage, read from one TOML file."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from models.life.scenario import Scenario
 
 @dataclass(frozen=True, kw_only=True)
 class Share:
-    """One scenario of the set: its file, relative to that of the set, and its weight, the part of the mileage, > 0."""
+    """One scenario of the set: its file, relative to the set's file, and its weight > 0, its share of the mileage."""
 
     file: str
     weight: float
@@ -31,13 +31,13 @@ class Share:
 
 @dataclass(frozen=True, kw_only=True)
 class Steps:
-    """How far the profile may go before the vehicle runs on it again.
+    """Limits of a wear step, after which the scenarios run again on the changed profile.
 
     Parameters
     ----------
-    distance : at most, of one step [m], 1e3 to 1e9
-    depth : at most, of the smoothed wear of one step where it is deepest [m], 1e-7 to 1e-3
-    smoothing : standard deviation of the Gaussian that the depth of a step is smoothed with [m], 5e-4 to 0.02
+    distance : largest distance of one step [m], 1e3 to 1e9
+    depth : largest smoothed wear depth of one step [m], 1e-7 to 1e-3
+    smoothing : standard deviation of the Gaussian that smooths the depth of a step [m], 5e-4 to 0.02
     """
 
     distance: float = 1e7
@@ -50,23 +50,23 @@ class Steps:
         require_number("smoothing", self.smoothing, 5e-4, 0.02)
 
     def length(self, rate: float, left: float) -> float:
-        """Mileage of a step [m] at a smoothed wear `rate` [m/m], `left` [m] before the end."""
+        """Return the mileage of a step [m] for a smoothed wear `rate` [m/m] and the remaining mileage `left` [m]."""
         allowed = min(self.distance, left)
         return min(allowed, self.depth / rate) if rate * allowed > self.depth else allowed
 
 
 @dataclass(frozen=True, kw_only=True)
 class Declaration:
-    """A set as its file declares it.
+    """A set as declared in its file.
 
     Parameters
     ----------
-    name : for titles
-    mileage : at which the wheel is done [m], positive
-    scenarios : at least one
+    name : name for titles
+    mileage : mileage at which the wear run ends [m], positive
+    scenarios : scenarios with their weights, at least one
     steps : see `Steps`
-    limits : at which the wheel is done as well, see `models.life.flange`
-    amplitudes : at which the equivalent conicity is told [m]
+    limits : dimensions of the flange at which the wear run ends too, see `models.life.flange`
+    amplitudes : amplitudes of the equivalent conicity in the results [m]
     """
 
     name: str
@@ -97,29 +97,29 @@ class ScenarioSet:
 
     @property
     def wheel(self) -> Profile:
-        """Unworn."""
+        """The unworn wheel."""
         return self.scenarios[0].wheel
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """Parts of the mileage, together 1."""
+        """Shares of the mileage, with the sum 1."""
         given = [share.weight for share in self.declared.scenarios]
         return tuple(weight / sum(given) for weight in given)
 
     @property
     def fingerprint(self) -> str:
-        """The same for sets that have the same result."""
+        """Hash of the input. Sets with the same fingerprint have the same result."""
         parts = (version("wheelrail-contact"), repr(self.declared), *(each.fingerprint for each in self.scenarios))
         return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:32]
 
 
 def read(path: str | PathLike[str]) -> ScenarioSet:
-    """The set in a TOML file, with the scenarios in theirs.
+    """Return the set in a TOML file, with the scenarios of the files that it names.
 
     Raises
     ------
     ContactError
-        As `scenario.read`, and for scenarios whose wheels are not one.
+        As `scenario.read`, and if the scenarios differ in wheel, radius, bins or damage parameters.
     """
     path = Path(path)
     declared = build(Declaration, read_table(path), path.name)

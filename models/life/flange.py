@@ -1,4 +1,4 @@
-"""Height, thickness and qR of a flange, and the limits in service."""
+"""Height, thickness and qR of a flange, and their limits in service."""
 
 from __future__ import annotations
 
@@ -10,19 +10,22 @@ from contact.errors import ContactError, require_number
 from contact.geometry.profile import Profile
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 
-_BELOW_TREAD = 10e-3  # [m] below the tread at the tape circle, where the thickness is measured
-_ABOVE_TIP = 2e-3  # [m] above the flange's tip, the other end of qR
+_BELOW_TREAD = 10e-3  # the thickness is measured this far below the tread at the tape circle [m]
+_ABOVE_TIP = 2e-3  # the other end of qR lies this far above the flange's tip [m]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Flange:
-    """Sizes of a flange [m], or limits of them.
+    """Dimensions of a flange [m], or their limits.
 
     Parameters
     ----------
-    height : Sh, from the tread at the tape circle down to the tip; greatest in service
-    thickness : Sd, from the back to the face 10 mm below the tread; least
-    qR : from there to the face 2 mm above the tip, horizontally; least
+    height : float
+        Sh, from the tread at the tape circle down to the tip. The limit is the largest height in service.
+    thickness : float
+        Sd, from the back to the face 10 mm below the tread. The limit is the least thickness.
+    qR : float
+        Horizontal distance from the face 10 mm below the tread to the face 2 mm above the tip. The limit is the least qR.
     """
 
     height: float = 36e-3
@@ -35,17 +38,20 @@ class Flange:
 
     @classmethod
     def limits(cls) -> Flange:
-        """36, 22 and 6.5 mm for wheels above 840 mm of diameter (EN 15313, recalled, not verified; constants.md 12.4)."""
+        """Return the limits 36, 22 and 6.5 mm of wheels with diameters above 840 mm.
+
+        The source is EN 15313, recalled, not verified (constants.md 12.4).
+        """
         return cls()
 
     @classmethod
     def measured(cls, wheel: Profile) -> Flange:
-        """Of a wheel's profile, whose flange back lies 70 mm beside the tape circle.
+        """Return the dimensions of a wheel profile. The flange back is taken at 70 mm from the tape circle.
 
         Raises
         ------
         ContactError
-            When the profile has no flange with a tip 10 mm below the tread.
+            If the flange's tip is not more than 12 mm below the tread.
         """
         tread = float(np.interp(0.0, wheel.y, wheel.z))
         tip = int(np.argmax(np.where(wheel.y < 0.0, wheel.z, -np.inf)))
@@ -58,7 +64,7 @@ class Flange:
         return cls(height=height, thickness=here + TAPE_FROM_FLANGE_BACK, qR=here - there)
 
     def exceeded(self, limits: Flange) -> str:
-        """Which of the limits is reached, with both numbers; nothing when none is."""
+        """Return the limits that are reached, with dimension and limit, as text; "" if none is reached."""
         reached = [
             f"{name} {1e3 * own:.2f} mm (limit {1e3 * limit:.2f} mm)"
             for name, own, limit, beyond in (

@@ -1,4 +1,4 @@
-"""Damage of a run: both wheels and rails, each patch in its own plane, laid down on the profiles."""
+"""Damage of a run on the profiles of both wheels and rails, with a separate contact plane for each patch."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from models.wheelset.ports import SIDES
 Array = NDArray[np.float64]
 
 BODIES = ("wheel", "rail")
-#: Of the patches of one side at one instant [N], [N], [Pa], [-].
+#: Results for the patches of one side at one instant: [N], [N], [Pa], [-].
 REPORT = ("T_gamma", "dissipation", "max_pressure", "patches")
 _NAMES = (*SUMS, *MAXIMA)
 
 
 class Harvest:
-    """Histograms of both wheels and both rails.
+    """Histograms of damage of both wheels and both rails.
 
-    The coupled run knows one plane for each wheel; here tread and flange have planes of their own, under the vertical load of
-    the run.
+    The coupled run has one contact plane for each wheel. Here tread and flange have separate planes, under the vertical load
+    of the run.
 
     Attributes
     ----------
@@ -70,11 +70,23 @@ class Harvest:
         self.energy = np.zeros(len(SIDES))
 
     def add(self, pose: Pose, velocity: Velocity, speed: float, loads: Array, distance: float) -> Array:
-        """Let both wheels roll `distance` [m] in this pose relative to the track, under vertical `loads` [N].
+        """Add the damage of rolling `distance` [m] in this pose relative to the track.
+
+        Parameters
+        ----------
+        pose, velocity : Pose, Velocity
+            Pose and velocity of the wheelset relative to the track.
+        speed : float
+            Speed of the wheelset [m/s].
+        loads : ndarray, shape (2,)
+            Vertical load of each wheel [N].
+        distance : float
+            Rolled distance [m].
 
         Returns
         -------
         ndarray, shape (2, len(REPORT))
+            Results of each side, in the order of `REPORT`.
         """
         found = np.zeros((len(SIDES), len(REPORT)))
         for i, side in enumerate(SIDES):
@@ -103,7 +115,7 @@ class Harvest:
         return found
 
     def save(self) -> dict[str, Array]:
-        """Everything that has accumulated, as arrays."""
+        """Return the accumulated damage as arrays."""
         saved = {"harvest.energy": self.energy.copy()}
         for (side, body), h in self.histograms.items():
             saved[f"harvest.{side}.{body}"] = np.stack([h[name] for name in _NAMES])
@@ -112,7 +124,7 @@ class Harvest:
         return saved
 
     def restore(self, saved: Mapping[str, Array]) -> None:
-        """Return to what `save` gave."""
+        """Restore the arrays of `save`."""
         self.energy[:] = saved["harvest.energy"]
         for (side, body), h in self.histograms.items():
             values = dict(zip(_NAMES, saved[f"harvest.{side}.{body}"], strict=True))

@@ -1,4 +1,4 @@
-"""The contact of one wheel in the one plane that the wheelset's model gives it: `DirectContact` for its forces only."""
+"""The contact of one wheel in a single plane, as the wheelset's model defines it: `DirectContact` for forces only."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 
 class PlaneContact:
-    """The solver for problems in the order of `models.wheelset.ports.PROBLEM`; no call starts from another one."""
+    """Solver for problems in the order of `models.wheelset.ports.PROBLEM`. Each call is a cold start."""
 
     def __init__(self, p: WheelsetParameters, friction: Friction, methods: Methods) -> None:
         self._solver = Solver(
@@ -33,7 +33,7 @@ class PlaneContact:
         self._flat = Separation(y, np.zeros(ports.POINTS), 1.0)
 
     def solve(self, problem: Array, speed: float) -> CaseForces:
-        """Return the forces on the wheel and what else `contact.Forces` names."""
+        """Return forces on the wheel and the other members of `contact.Forces` for one problem at `speed` [m/s]."""
         separation = self._flat.with_gap(problem[ports.GAP], problem[ports.CURVATURE])
         creepage = Creepage(*problem[ports.CREEPAGE].tolist())
         return self._solver.forces(separation, creepage, load=float(problem[ports.LOAD]), speed=speed)

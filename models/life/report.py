@@ -1,4 +1,4 @@
-"""The page of a run: what was run, what happened, what it did to the profiles."""
+"""The HTML page of a run: scenario, time series, and damage of the profiles."""
 
 from __future__ import annotations
 
@@ -25,20 +25,20 @@ _WIDE, _NARROW = 9.0, 4.6  # [inch]
 
 
 def page_of(run: Run) -> str:
-    """One HTML file that needs nothing else."""
+    """Return the run as a self-contained HTML page."""
     scenario, d = run.scenario, run.scenario.declared
     about = [
-        f"{d.length:g} m, of which the first {d.recording.settling:g} m leave no damage; wheel {scenario.wheel.name}, rail "
+        f"{d.length:g} m; damage of the first {d.recording.settling:g} m is not counted. Wheel {scenario.wheel.name}, rail "
         f"{scenario.rail.name}; {d.methods.normal} + {d.methods.tangential}; wheelset {d.wheelset.set!r}.",
-        "Forces act on the wheel, y is to the right. Damage is that of patches with a contact plane each, under the vertical "
-        "loads of the coupled run. The track's alignment alone is irregular: gauge, cross-level and vertical irregularities, "
-        "and the vehicle above the wheelset, are not modelled.",
+        "Forces act on the wheel, y is to the right. The damage is computed with a separate contact plane for each patch, "
+        "under the vertical loads of the coupled run. Only the track's alignment is irregular. Gauge, cross-level and "
+        "vertical irregularities, and the vehicle above the wheelset, are not modelled.",
     ]
     return document(scenario.name, about, _parts(run))
 
 
 def illustrated(draw: Callable[[], Figure], text: str) -> str:
-    """A picture for wide and for narrow pages."""
+    """Return a picture in HTML, in one size for wide and one for narrow pages. `text` describes it."""
     return picture(_resized(draw(), _WIDE), _resized(draw(), _NARROW), text)
 
 
@@ -54,13 +54,13 @@ def _parts(run: Run) -> Iterator[str]:
         yield f"<h2>{heading}</h2>"
         yield illustrated(partial(plot.time_histories, run.series["distance"], panels, xlabel="distance [m]"), heading)
     for body in BODIES:
-        own: dict[str, Histogram] = {side: run.harvest.histograms[side, body] for side in SIDES}
-        if not all(h.distance > 0.0 for h in own.values()):
+        both: dict[str, Histogram] = {side: run.harvest.histograms[side, body] for side in SIDES}
+        if not all(h.distance > 0.0 for h in both.values()):
             continue
         yield f"<h2>Damage of the {body}s</h2>"
-        yield html_of(_damage(own))
+        yield html_of(_damage(both))
         yield illustrated(
-            partial(plot.wear, own, f"wear of both {body}s: the share of each in their mean"),
+            partial(plot.wear, both, f"wear of both {body}s: the share of each in their mean"),
             f"Wear over the profile of the {body}s",
         )
     yield "<h2>Energy</h2>"
@@ -113,9 +113,9 @@ def _summary(run: Run) -> Table:
     return Table("The run in numbers", [("", ""), ("", "")], rows)
 
 
-def _damage(own: dict[str, Histogram]) -> Table:
+def _damage(both: dict[str, Histogram]) -> Table:
     rows = []
-    for side, h in own.items():
+    for side, h in both.items():
         rolled = h.distance
         rows.append(
             (
@@ -127,7 +127,7 @@ def _damage(own: dict[str, Histogram]) -> Table:
                 number(100.0 * h["fatigue_exceedance"].max() / rolled),
             )
         )
-    deepest = "nm/km" if next(iter(own.values())).profile.kind == "wheel" else "µm/10⁶ passes"
+    deepest = "nm/km" if next(iter(both.values())).profile.kind == "wheel" else "µm/10⁶ passes"
     return Table(
         "Per kilometre rolled",
         [
@@ -135,8 +135,8 @@ def _damage(own: dict[str, Histogram]) -> Table:
             ("worn", "mm³/km"),
             ("deepest", deepest),
             ("mean T-gamma", "N"),
-            ("stress index > 0", "% of the way"),
-            ("surface fatigue > 0", "% of the way"),
+            ("stress index > 0", "% of the distance"),
+            ("surface fatigue > 0", "% of the distance"),
         ],
         rows,
     )
@@ -152,17 +152,17 @@ def _energy(run: Run) -> Table:
 
 
 def _told(value: object) -> str:
-    """What was declared; what is as by default is not told."""
+    """Return a declared value as text. Members with their default value are left out."""
     if isinstance(value, tuple):
         return "; ".join(map(_told, value)) or "none"
     if not is_dataclass(value):
         return str(value)
     told = [
-        f"{entry.name} {_told(own)}"
+        f"{entry.name} {_told(member)}"
         for entry in fields(value)
-        if (own := getattr(value, entry.name)) != _default(entry)
+        if (member := getattr(value, entry.name)) != _default(entry)
     ]
-    return ", ".join(told) or "as by default"
+    return ", ".join(told) or "default"
 
 
 def _default(entry: Field[Any]) -> object:

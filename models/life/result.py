@@ -1,4 +1,4 @@
-"""The result of a run as one xarray dataset: time series, damage on both wheels and rails, energies, provenance."""
+"""The result of a run as an xarray dataset: time series, damage of both wheels and rails, energies and provenance."""
 
 from __future__ import annotations
 
@@ -17,10 +17,11 @@ FORMAT = "wheelrail-contact run 1"
 
 
 def dataset(run: Run) -> Any:
-    """Time series over `distance`; the histogram of each side and body with its names behind ``right_wheel_`` and so on.
+    """Return the result as an `xarray.Dataset`: time series over `distance`, and histograms of damage.
 
-    Nothing in it depends on when or where the run took place: the same scenario gives the same bytes. Attributes: the
-    scenario, and energies under ``balance_…`` (`models.life.run.BALANCE`).
+    The names of the histograms have prefixes like ``right_wheel_``. The attributes contain the scenario, and energies with
+    the prefix ``balance_`` (`models.life.run.BALANCE`). The same scenario gives the same bytes at any time and on any
+    machine.
     """
     import xarray
 
@@ -48,21 +49,22 @@ def dataset(run: Run) -> Any:
 
 
 def histogram(stored: Any, side: str, body: str) -> Histogram:
-    """One histogram out of a result.
+    """Return one histogram of a result.
 
     Parameters
     ----------
     stored : xarray.Dataset
-        What `dataset` gave, or its file read again.
-    side, body : "right" or "left", "wheel" or "rail"
+        Dataset from `dataset`, or read from its file.
+    side : {"right", "left"}
+    body : {"wheel", "rail"}
 
     Raises
     ------
     ContactError
-        If `stored` is something else.
+        If `stored` is not the result of a run.
     """
     if stored.attrs.get("format") != FORMAT:
-        raise ContactError(f"format = {stored.attrs.get('format')!r}: the dataset is no {FORMAT}")
+        raise ContactError(f"format = {stored.attrs.get('format')!r}: the dataset is not a {FORMAT}")
     prefix = _prefix(side, body)
     own = stored[[name for name in stored.variables if str(name).startswith(prefix)]]
     names = {name: str(name).removeprefix(prefix) for name in [*own.variables, *own.dims]}
@@ -72,7 +74,7 @@ def histogram(stored: Any, side: str, body: str) -> Histogram:
 
 
 def write(whole: Any, path: str | PathLike[str]) -> None:
-    """As NetCDF, version 3."""
+    """Write a dataset as NetCDF, version 3."""
     whole.to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
 
 

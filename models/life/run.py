@@ -22,7 +22,7 @@ from models.wheelset.ports import CREEPAGE, LOAD, SIDES
 
 Array = NDArray[np.float64]
 
-#: Column of the time series → unit and meaning. Lateral positions and angles are relative to the ideal track.
+#: Column of the time series → unit and meaning. Lateral positions and angles are relative to the track without irregularities.
 TRACK = {
     "distance": ("m", "distance run"),
     "time": ("s", "time"),
@@ -49,7 +49,7 @@ WHEEL = {
     "patches": ("1", "number of patches"),
 }
 COLUMNS = {**TRACK, **{f"{side}_{name}": what for side in SIDES for name, what in WHEEL.items()}}
-#: Energies of a run [J], steps whose solutions are not to be trusted.
+#: Energies of a run [J], and the number of contacts without a trustworthy solution.
 BALANCE = {
     "drive": "delivered by what keeps the speed and by the loads of the surroundings",
     "damper": "spent in the suspension",
@@ -65,7 +65,7 @@ BALANCE = {
 
 
 class Book(IntEnum):
-    """Entries of the books of a run; the last two are those of the second step."""
+    """Entries of the energy balance of a run. The last two are values of the second step."""
 
     DISSIPATED = 0
     ALIGNMENT = 1
@@ -77,10 +77,10 @@ class Book(IntEnum):
 
 
 class Run:
-    """A scenario under way.
+    """A run of a scenario.
 
-    Coupled by Gauss-Seidel as in `models.wheelset.master`. `save` and `restore` are bit for bit: a run that goes on from a
-    saved one ends as the uninterrupted one does.
+    The coupling is Gauss-Seidel as in `models.wheelset.master`. `save` and `restore` are exact: a restored run has the same
+    result as an uninterrupted one, bit for bit.
 
     Attributes
     ----------
@@ -88,9 +88,9 @@ class Run:
     harvest : Harvest
         Damage so far.
     steps : int
-        Done so far.
+        Number of steps so far.
     distance : float
-        Run so far [m].
+        Distance so far [m].
     """
 
     def __init__(self, scenario: Scenario) -> None:
@@ -101,27 +101,27 @@ class Run:
         self._contacts = [PlaneContact(self._p, scenario.friction, scenario.declared.methods) for _ in SIDES]
         self.harvest = Harvest(scenario)
         self.steps, self.distance = 0, 0.0
-        self._sampled = scenario.declared.recording.settling  # up to where damage is counted [m]
+        self._sampled = scenario.declared.recording.settling  # distance of the last sample of damage [m]
         self._books, self._power = np.zeros(7), 0.0
         self._rows: list[Array] = []
 
     @property
     def done(self) -> bool:
-        """Whether the whole length has been run."""
+        """True if the whole length has been run."""
         return self.distance >= self.scenario.declared.length
 
     @property
     def share(self) -> float:
-        """Part of the length that has been run."""
+        """Share of the length that has been run, 0 to 1."""
         return min(self.distance / self.scenario.declared.length, 1.0)
 
     def advance(self) -> None:
-        """One step of the coupled system.
+        """Compute one step of the coupled system.
 
         Raises
         ------
         ContactError
-            When a wheel leaves its rail; the message says where.
+            If a wheel leaves its rail. The message contains the place.
         """
         s, model = self.distance, self._model
         speed, place = self.scenario.speed(s), self._line.at(s)
@@ -143,7 +143,7 @@ class Run:
         self.distance += speed * self._h
 
     def _book(self, problems: list[Array], answers: list[CaseForces], speed: float, slope: float) -> None:
-        """Energies by the trapezoidal rule; they count from the second step, before it the approach is an assumed one."""
+        """Add the energies of a step by the trapezoidal rule, from the second step. The first one has an assumed approach."""
         books, power, elastic, lateral = self._books, 0.0, 0.0, 0.0
         for side, problem, a in zip(SIDES, problems, answers, strict=True):
             angle = self._model.frame(side)[dynamics.Frame.ANGLE]
@@ -159,7 +159,7 @@ class Run:
         self._power, books[Book.ELASTIC] = power, elastic
 
     def _sample(self, place: Place, problems: list[Array], answers: list[CaseForces], speed: float) -> None:
-        """Damage of the way since the last sample, and a row of the time series."""
+        """Add the damage of the distance since the last sample, and a row of the time series."""
         s, model = self.distance, self._model
         distance, self._sampled = s - self._sampled, s
         y, yaw, y_rate, yaw_rate, spin, _, roll = model.motion().tolist()
@@ -196,7 +196,7 @@ class Run:
 
     @property
     def balance(self) -> dict[str, float]:
-        """Energies of the whole run, as in `BALANCE`."""
+        """Energies of the whole run [J], with the names of `BALANCE`."""
         interface, drive, damper, _ = self._model.energy().tolist()
         dissipated, alignment, elastic, counted, untrusted, interface_first, elastic_first = self._books.tolist()
         left, stored = interface - interface_first, elastic - elastic_first
@@ -204,7 +204,7 @@ class Run:
         return dict(zip(BALANCE, (*values, counted, float(self.harvest.energy.sum()), untrusted), strict=True))
 
     def save(self) -> dict[str, Array]:
-        """All of the run as arrays."""
+        """Return the whole state of the run as arrays."""
         return {
             "model": np.frombuffer(self._model.save()),
             "progress": np.array([self.steps, self.distance, self._sampled, self._power, self._h]),
@@ -214,7 +214,7 @@ class Run:
         }
 
     def restore(self, saved: Mapping[str, Array]) -> None:
-        """Go on from a `save` of the same scenario."""
+        """Restore the state from `save` of the same scenario."""
         self._model.restore(saved["model"].tobytes())
         steps, self.distance, self._sampled, self._power, self._h = saved["progress"].tolist()
         self.steps = int(steps)
@@ -224,6 +224,6 @@ class Run:
 
 
 def _track_forces(frames: Array, Fy: Array, normal: Array) -> tuple[Array, Array]:
-    """Lateral force of the rails on the wheels and vertical force of the wheels on the rails, both wheels [N]."""
+    """Return lateral forces of the rails on the wheels and vertical forces of the wheels on the rails [N], shape (2,) each."""
     sine, cosine = np.sin(frames[:, dynamics.Frame.ANGLE]), np.cos(frames[:, dynamics.Frame.ANGLE])
     return Fy * cosine + normal * sine, normal * cosine - Fy * sine

@@ -1,4 +1,4 @@
-"""Independent runs, here or on a cluster: `dask.distributed` where it is asked for, one after the other otherwise."""
+"""Independent runs: one after the other in this process, or on several processes or a cluster by `dask.distributed`."""
 
 from __future__ import annotations
 
@@ -12,29 +12,29 @@ from contact.errors import ContactError, require_number
 Item = TypeVar("Item")
 Answer = TypeVar("Answer")
 
-_DEATHS = 5  # of workers over one task, after which it is held to be the killer
+_DEATHS = 5  # a task is given up after this number of workers have died with it
 
 
 class Workers:
-    """Where runs are done; a context manager.
+    """Workers for independent runs, as a context manager.
 
-    A task is a pure function of its item, so that the answers do not depend on how many workers there are, on their order or on
-    their deaths: what a dead worker had in hand is done again by another one.
+    A task is a pure function of its item. The results therefore do not depend on the number of workers or their order. If a
+    worker dies, another worker repeats its task.
 
     Parameters
     ----------
     count : int
-        Processes of this machine, 1 to 512; 1 stays in this process and needs no dask.
+        Number of processes of this machine, 1 to 512. With 1 the tasks run in this process, without dask.
     scheduler : str, optional
-        Address of a `dask.distributed` scheduler, as ``tcp://host:8786``, whose workers are taken instead. They need this
+        Address of a `dask.distributed` scheduler, like ``tcp://host:8786``, whose workers are used instead. They need this
         package.
 
     Raises
     ------
     ContactError
-        A number outside its range.
+        If the number is outside its range.
     ImportError
-        Without the extra `scale`, when dask is asked for.
+        If dask is needed and the extra `scale` is not installed.
     """
 
     def __init__(self, count: int = 1, scheduler: str | None = None) -> None:
@@ -73,7 +73,7 @@ class Workers:
         items: Sequence[Item],
         watch: Callable[[int, int], None] = lambda done, total: None,
     ) -> list[Answer]:
-        """Answers in the order of the items; `watch` is told how many are done, and of how many."""
+        """Return the results in the order of the items. `watch` is called with the number done and the total number."""
         if self._client is None:
             answers = []
             for k, item in enumerate(items):

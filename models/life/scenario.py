@@ -1,4 +1,4 @@
-"""A scenario: everything that a run depends on, read from one TOML file."""
+"""A scenario: all input of a run, read from one TOML file."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from models.life.vehicle import Vehicle
 from models.wheelset.parameters import WheelsetParameters
 
 _CREEP_COEFFICIENT = (
-    12e6  # [N] a little above the longitudinal one of the default wheel under 54.5 kN (docs/coupling.md)
+    12e6  # [N] a little above the longitudinal coefficient of the default wheel under 54.5 kN (docs/coupling.md)
 )
 _SHARE_OF_STABLE = 0.7
 _LONGEST_STEP = 1e-3  # [s]
@@ -31,7 +31,7 @@ _LONGEST_STEP = 1e-3  # [s]
 
 @dataclass(frozen=True, kw_only=True)
 class Profiles:
-    """Names of the standards, or files, of the right side; a file's path is relative to that of the scenario."""
+    """Profiles of the right side: standard names, or files with paths relative to the scenario's file."""
 
     wheel: str = "S1002"
     rail: str = "60E1"
@@ -40,7 +40,7 @@ class Profiles:
     smoothing: float | None = None
 
     def load(self, folder: Path) -> tuple[Profile, Profile]:
-        """Wheel and rail."""
+        """Return wheel and rail. Paths of files are relative to `folder`."""
         given: dict[str, Any] = {"unit": self.unit, "smoothing": self.smoothing, "inclination": self.inclination}
         wheel, rail = (str(folder / name) if (folder / name).is_file() else name for name in (self.wheel, self.rail))
         return profile.load(wheel, "wheel", **given), profile.load(rail, "rail", **given)
@@ -48,7 +48,7 @@ class Profiles:
 
 @dataclass(frozen=True, kw_only=True)
 class Methods:
-    """Contact methods by name, their resolution, and the pressure at which steel flows [Pa] (`contact.Material`)."""
+    """Contact methods, their resolution, and the pressure limit of the material [Pa] (`contact.Material`)."""
 
     normal: str = DEFAULT_NORMAL
     tangential: str = DEFAULT_TANGENTIAL
@@ -60,24 +60,24 @@ class Methods:
         _ = self.material
         lookup("normal", self.normal, batched=True)
         if not lookup("tangential", self.tangential, batched=True).fields:
-            raise ContactError(f"tangential = {self.tangential!r} gives forces alone; damage needs traction and slip")
+            raise ContactError(f"tangential = {self.tangential!r} gives forces only; damage needs traction and slip")
         require_resolution(self.strips, self.elements)
 
     @property
     def material(self) -> Material:
-        """Steel, elastic up to the limit."""
+        """Steel with the pressure limit."""
         return STEEL if self.pressure_limit is None else replace(STEEL, pressure_limit=self.pressure_limit)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Recording:
-    """How finely a run is followed.
+    """Resolution of a run and its results.
 
     Parameters
     ----------
-    settling : distance at the start that leaves no damage, along which the irregularities grow from nothing [m]
+    settling : distance at the start without damage, over which the irregularities grow from zero [m]
     spacing : distance between two samples of damage and time series [m], 0.01 to 10
-    step : of the coupled system [s], 1e-5 to 5e-3; by default 0.7 of what is stable, at most 1 ms (docs/coupling.md)
+    step : step of the coupled system [s], 1e-5 to 5e-3; default 0.7 of the stable step, at most 1 ms (docs/coupling.md)
     bins : width of the bins of damage along the profiles [m], 1e-4 to 5e-3
     """
 
@@ -96,15 +96,15 @@ class Recording:
 
 @dataclass(frozen=True, kw_only=True)
 class Declaration:
-    """A scenario as its file declares it, SI units throughout.
+    """A scenario as declared in its file, in SI units.
 
     Parameters
     ----------
-    name : of the run, for titles
+    name : name of the run, for titles
     length : distance to run [m], longer than recording.settling
-    speed : one number, 1 to 150 [m/s], or places and values
-    seed : of the random irregularities, not negative
-    track, wheelset, friction, profiles, methods, damage, recording : tables of their own
+    speed : a number [m/s], 1 to 150, or a `Speed`
+    seed : seed of the random irregularities, not negative
+    track, wheelset, friction, profiles, methods, damage, recording : separate tables
     """
 
     name: str
@@ -127,21 +127,21 @@ class Declaration:
         factor = as_friction(self.friction).gauge_factor
         if factor != 1.0:
             raise ContactError(
-                f"friction.gauge_factor = {factor:g}: a run knows one friction over the profile; allowed: 1"
+                f"friction.gauge_factor = {factor:g}: a run has the same friction over the profile; allowed: 1"
             )
 
 
 @dataclass(frozen=True)
 class Scenario:
-    """A declaration with its profiles: what `Run` runs.
+    """A declaration with its profiles, the input of `Run`.
 
     Attributes
     ----------
     declared : Declaration
     wheel, rail : Profile
-        Of the right side; the left side is the mirror image.
+        Profiles of the right side. The left side is the mirror image.
     draw : tuple of int
-        Beside the seed, which of all realisations of the irregularities this is: the mileage step of a wear run.
+        Number of the realisation of the irregularities, in addition to the seed. In a wear run it is the mileage step.
     """
 
     declared: Declaration
@@ -154,13 +154,13 @@ class Scenario:
         return self.declared.name
 
     def speed(self, s: float) -> float:
-        """Speed [m/s] at the distance `s` [m]."""
+        """Return the speed [m/s] at the distance `s` [m]."""
         given = self.declared.speed
         return given(s) if isinstance(given, Speed) else given
 
     @property
     def parameters(self) -> WheelsetParameters:
-        """Of the wheelset at the start."""
+        """Parameters of the wheelset at the start."""
         return self.declared.wheelset.parameters(self.wheel, self.rail, self.speed(0.0))
 
     @property
@@ -169,7 +169,7 @@ class Scenario:
 
     @property
     def step(self) -> float:
-        """Of the coupled system [s]: what is declared, or a share of what the axle's spin bears, I_s V/(f r²)."""
+        """Step of the coupled system [s]: the declared step, or a share of the stable step of the spin, I_s V/(f r²)."""
         given = self.declared.recording.step
         if given is not None:
             return given
@@ -179,17 +179,17 @@ class Scenario:
         return min(_LONGEST_STEP, _SHARE_OF_STABLE * stable * min(1.0, (109.1e3 / p.axle_load) ** (2.0 / 3.0)))
 
     def line(self) -> Line:
-        """The track with its irregularities."""
+        """Return the track with its irregularities."""
         d = self.declared
         return Line(d.track, (d.seed, *self.draw), d.recording.settling)
 
     def worn(self, wheel: Profile, draw: int) -> Scenario:
-        """The same with another wheel and other irregularities of the same spectrum."""
+        """Return this scenario with another wheel and another realisation of the irregularities."""
         return replace(self, wheel=wheel, draw=(draw,))
 
     @property
     def fingerprint(self) -> str:
-        """The same for runs that have the same result."""
+        """Hash of the input. Runs with the same fingerprint have the same result."""
         digest = hashlib.sha256(f"{version('wheelrail-contact')} {self.declared!r} {self.draw!r}".encode())
         for shape in (self.wheel, self.rail):
             for row in (shape.y, shape.z, shape.angle):
@@ -198,19 +198,19 @@ class Scenario:
 
 
 def read(path: str | PathLike[str]) -> Scenario:
-    """The scenario in a TOML file.
+    """Return the scenario in a TOML file.
 
     Raises
     ------
     ContactError
-        What is not TOML, unknown or missing keys, values of the wrong type or outside their range: the message names file,
-        key, value and what is allowed.
+        If the file is not TOML, has unknown or missing keys, or values of the wrong type or outside their range. The message
+        names file, key, value and allowed values.
     """
     return from_table(read_table(path), Path(path))
 
 
 def from_table(table: dict[str, Any], path: Path) -> Scenario:
-    """The scenario that the tables of the file `path` declare."""
+    """Return the scenario from the tables of the file `path`."""
     declared = build(Declaration, table, path.name)
     try:
         wheel, rail = declared.profiles.load(path.parent)

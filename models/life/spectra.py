@@ -15,13 +15,13 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Spectrum:
-    """One-sided S(Ω) = A Ωc²/((Ω² + Ωr²)(Ω² + Ωc²)) of the alignment [m²/(rad/m)], Ω in rad/m.
+    """One-sided spectrum of the alignment, S(Ω) = A Ωc²/((Ω² + Ωr²)(Ω² + Ωc²)) [m²/(rad/m)], Ω in rad/m.
 
     Parameters
     ----------
     roughness : A [m rad]
     corner, knee : Ωc and Ωr [rad/m], 0 ≤ Ωr < Ωc
-    source : where the numbers come from
+    source : source of the numbers
     """
 
     roughness: float
@@ -30,18 +30,18 @@ class Spectrum:
     source: str
 
     def density(self, wavenumber: Array) -> Array:
-        """S [m²/(rad/m)] at wavenumbers Ω > 0 [rad/m]."""
+        """Return S [m²/(rad/m)] at wavenumbers Ω > 0 [rad/m]."""
         square = wavenumber * wavenumber
         return self.roughness * self.corner**2 / ((square + self.knee**2) * (square + self.corner**2))
 
     def variance(self, low: Array, high: Array) -> Array:
-        """∫ S dΩ from `low` to `high` [m²], in closed form by partial fractions."""
+        """Return ∫ S dΩ from `low` to `high` [m²], in closed form by partial fractions."""
         share = self.corner**2 / (self.corner**2 - self.knee**2)
         return self.roughness * share * (_inverse(low, high, self.knee) - _inverse(low, high, self.corner))
 
 
 def _inverse(low: Array, high: Array, at: float) -> Array:
-    """∫ dΩ/(Ω² + at²)."""
+    """Return ∫ dΩ/(Ω² + at²) from `low` to `high`."""
     if at == 0.0:
         return 1.0 / low - 1.0 / high
     return np.arctan2((high - low) * at, at * at + low * high) / at
@@ -67,13 +67,13 @@ class Irregularities:
     Parameters
     ----------
     spectrum : str
-        One of `SPECTRA`.
+        Name in `SPECTRA`.
     shortest, longest : float
         Band of wavelengths [m], 0.5 to 500.
     scale : float
         Factor on all amplitudes [-], 0 to 10.
     waves : int
-        Harmonics, 10 to 5000.
+        Number of harmonics, 10 to 5000.
 
     Raises
     ------
@@ -99,10 +99,10 @@ class Irregularities:
         require_number("waves", self.waves, 10, 5000)
 
     def realise(self, seed: tuple[int, ...]) -> Realisation:
-        """Waves of random phase, one in each part of the band; the same seed gives the same bits.
+        """Return a realisation: one wave of random phase in each part of the band. The same seed gives the same bits.
 
-        Each carries the variance of its part, so that the sum of theirs is the integral over the band to round-off. The parts
-        are equal in log Ω and the wave lies anywhere in its own, so that nothing repeats over a run.
+        The parts are equal in log Ω. Each wave has the variance of its part, so the total variance is the integral over the
+        band to round-off. The wavenumber of a wave is random within its part, so the realisation is not periodic.
         """
         edges = 2.0 * math.pi / np.geomspace(self.longest, self.shortest, self.waves + 1)
         random = np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed)))
@@ -114,14 +114,14 @@ class Irregularities:
 
 @dataclass(frozen=True, eq=False)
 class Realisation:
-    """Σ a cos(Ω s + φ)."""
+    """Lateral irregularity Σ a cos(Ω s + φ) [m]."""
 
     amplitude: Array
     wavenumber: Array
     phase: Array
 
     def at(self, s: float) -> tuple[float, float]:
-        """Lateral position [m] and slope [-] at the distance `s` [m]."""
+        """Return lateral position [m] and slope [-] at the distance `s` [m]."""
         angle = self.wavenumber * s + self.phase
         lateral = float((self.amplitude * np.cos(angle)).sum())
         return lateral, -float((self.amplitude * self.wavenumber * np.sin(angle)).sum())

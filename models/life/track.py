@@ -1,4 +1,4 @@
-"""A track over its length: curves with transitions and cant, random alignment."""
+"""A track over its length: curves with transitions and cant, and random alignment."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ import numpy as np
 from contact.errors import ContactError, require_number
 from models.life.spectra import Irregularities, Realisation
 
-RAIL_DISTANCE = 1.5  # [m] of the rails' centres, over which cant is measured
+RAIL_DISTANCE = 1.5  # distance of the rails' centres, over which cant is measured [m]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Curve:
-    """Transition, circle, transition; curvature and cant grow along the transitions in proportion to the distance.
+    """A curve: transition, circle, transition. Curvature and cant are linear in the distance along the transitions.
 
     Parameters
     ----------
-    start : where the first transition begins [m]
-    radius : of the circle [m], 100 to 100000
-    length, transition : of the circle, of each transition [m]; a transition has 1 m at least
-    cant : height of the outer rail above the inner [m], 0 to 0.2
+    start : start of the first transition [m]
+    radius : radius of the circle [m], 100 to 100000
+    length, transition : length of the circle and of each transition [m]; a transition has at least 1 m
+    cant : height of the outer rail above the inner rail [m], 0 to 0.2
     direction : "right" or "left"
     """
 
@@ -46,18 +46,18 @@ class Curve:
 
     @property
     def end(self) -> float:
-        """Where the last transition ends [m]."""
+        """End of the last transition [m]."""
         return self.start + self.length + 2.0 * self.transition
 
     def share(self, s: float) -> float:
-        """Part of curvature and cant that is reached at `s` [m], negative for a curve to the left."""
+        """Return the share of curvature and cant at `s` [m], 0 to 1; negative for a curve to the left."""
         share = min(s - self.start, self.end - s) / self.transition
         return math.copysign(min(max(share, 0.0), 1.0), 1.0 if self.direction == "right" else -1.0)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Track:
-    """Straight but for its `curves`, which must not overlap; `alignment` is random, or none."""
+    """A track that is straight outside its `curves`, which must not overlap. `alignment` is random, or None."""
 
     curves: tuple[Curve, ...] = ()
     alignment: Irregularities | None = None
@@ -67,29 +67,29 @@ class Track:
         for before, after in itertools.pairwise(ordered):
             if after.start < before.end:
                 raise ContactError(
-                    f"curves: the one that starts at {after.start:g} m begins before {before.end:g} m, where the one "
-                    f"before it ends"
+                    f"curves: the curve that starts at {after.start:g} m overlaps the previous curve, which ends at "
+                    f"{before.end:g} m"
                 )
 
 
 class Place(NamedTuple):
-    """What the track is like below the wheelset."""
+    """The track at the position of the wheelset."""
 
     curvature: float  # [1/m], positive to the right
-    cant: float  # angle [rad], positive where the left rail is higher
-    lateral: float  # of the centre line [m]
-    slope: float
+    cant: float  # angle [rad], positive if the left rail is higher
+    lateral: float  # lateral position of the centre line [m]
+    slope: float  # slope of the centre line [-]
 
 
 class Line:
-    """A track as it is run on: with its irregularities drawn, which grow from nothing over the first `settling` metres."""
+    """A track with a realisation of its irregularities. They grow from zero over the first `settling` metres."""
 
     def __init__(self, track: Track, seed: tuple[int, ...], settling: float) -> None:
         self._curves, self._settling = track.curves, settling
         self._alignment: Realisation | None = track.alignment.realise(seed) if track.alignment else None
 
     def at(self, s: float) -> Place:
-        """The track at the distance `s` [m]."""
+        """Return the track at the distance `s` [m]."""
         curvature = cant = lateral = slope = 0.0
         for curve in self._curves:
             share = curve.share(s)
@@ -103,7 +103,7 @@ class Line:
 
 
 def _grown(s: float, over: float) -> tuple[float, float]:
-    """A smooth step from 0 to 1 over `over` metres, and its slope."""
+    """Return a smooth step from 0 to 1 over `over` metres, and its slope [1/m]."""
     if over <= 0.0 or s >= over:
         return 1.0, 0.0
     t = max(s / over, 0.0)
@@ -112,12 +112,12 @@ def _grown(s: float, over: float) -> tuple[float, float]:
 
 @dataclass(frozen=True, kw_only=True)
 class Speed:
-    """Speed over the distance, straight between the places.
+    """Speed over the distance, interpolated linearly.
 
     Parameters
     ----------
-    at : places [m], increasing
-    values : speed there [m/s], 1 to 150; before the first and behind the last place it is constant
+    at : distances [m], increasing
+    values : speeds at these distances [m/s], 1 to 150; constant before the first and after the last
     """
 
     at: tuple[float, ...]
@@ -126,7 +126,7 @@ class Speed:
     def __post_init__(self) -> None:
         if len(self.at) != len(self.values) or not self.at:
             raise ContactError(
-                f"at has {len(self.at)} places and values {len(self.values)} speeds; equally many needed"
+                f"at has {len(self.at)} distances and values {len(self.values)} speeds; equally many are needed"
             )
         for k, place in enumerate(self.at):
             require_number(f"at[{k}]", place, self.at[k - 1] if k else -math.inf, open_minimum=k > 0)

@@ -1,4 +1,4 @@
-"""Named sets of wheelset parameters, and what a curve does to a wheelset beside its curvature."""
+"""Named sets of wheelset parameters, and the loads of a curve on a wheelset."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ GRAVITY = 9.81  # [m/s²]
 _MANCHESTER_HEIGHT = 0.98
 #: Name → parameters that differ from those of `WheelsetParameters`.
 SETS: dict[str, dict[str, float]] = {
-    # one soft wheelset by itself
+    # a single wheelset with a soft suspension
     "single": {"centre_of_gravity": _MANCHESTER_HEIGHT, "semi_wheelbase": 0.0},
     # Manchester vehicle 1 (constants.md 13.4): two axle boxes with kx 31.391, ky 3.884 MN/m, cx 15, cy 2 kN s/m, 2.0 m apart
     "manchester": {
@@ -36,17 +36,17 @@ SETS: dict[str, dict[str, float]] = {
 
 @dataclass(frozen=True, kw_only=True)
 class Vehicle:
-    """A wheelset held by a frame that follows the track: a named set, and what differs from it.
+    """A wheelset suspended in a frame that follows the track. Parameters that are not given are those of a named set.
 
     Parameters
     ----------
     set : str
         "single", or "manchester": the wheelset of the Manchester benchmark's vehicle 1 with its primary suspension.
     semi_wheelbase : float
-        Distance of the axle ahead of the bogie's centre [m], -5 to 5: by semi_wheelbase times curvature the frame, which
-        lies along the tangent at its centre, is yawed to the outside relative to the track at the axle. 0 is radial.
+        Distance of the axle ahead of the bogie's centre [m], -5 to 5. The frame lies along the track's tangent at its
+        centre. Relative to the track at the axle it is yawed to the outside by semi_wheelbase times curvature. 0 is radial.
     centre_of_gravity : float
-        Height above the axle at which the unbalanced lateral acceleration of all the axle load acts [m], 0 to 3.
+        Height above the axle at which the unbalanced lateral acceleration of the whole axle load acts [m], 0 to 3.
     lateral, yaw, … :
         As in `models.wheelset.parameters.WheelsetParameters`.
     """
@@ -77,16 +77,19 @@ class Vehicle:
         WheelsetParameters(**self._given())
 
     def value(self, name: str) -> float:
-        """What was given, or what the set says."""
+        """Return the given value of a parameter, or the value of the set."""
         given = getattr(self, name)
         return SETS[self.set][name] if given is None else given
 
     def parameters(self, wheel: Profile, rail: Profile, speed: float) -> WheelsetParameters:
-        """Of the wheelset on these profiles."""
+        """Return the parameters of the wheelset on these profiles, at `speed` [m/s]."""
         return WheelsetParameters(wheel=wheel, rail=rail, speed=speed, **self._given())
 
     def loads(self, p: WheelsetParameters, speed: float, curvature: float, cant: float) -> dict[str, float]:
-        """Loads of the surroundings in a curve, for `WheelsetModel.set_running` (models/wheelset/readme.md, Curves)."""
+        """Return the external loads in a curve, for `WheelsetModel.set_running` (models/wheelset/readme.md, Curves).
+
+        `speed` is in m/s, `curvature` in 1/m, `cant` in rad. The loads are in N and N m.
+        """
         unbalanced = p.axle_load * (cant - speed * speed * curvature / GRAVITY)
         return {
             "lateral_load": unbalanced,
@@ -95,7 +98,7 @@ class Vehicle:
         }
 
     def _given(self) -> dict[str, Any]:
-        """Members of `WheelsetParameters`, by name."""
+        """Return the members of `WheelsetParameters` that the set or the user gives, by name."""
         own = ("set", "semi_wheelbase", "centre_of_gravity")
         given = {entry.name: getattr(self, entry.name) for entry in fields(self) if entry.name not in own}
         of_the_set = {name: value for name, value in SETS[self.set].items() if name not in own}

@@ -1,4 +1,4 @@
-"""Wear over a mileage: the vehicle runs, the profile changes, the vehicle runs on it again."""
+"""Wear over a mileage: run the scenarios, change the profile, and repeat."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ from models.wheelset.ports import SIDES
 
 Array = NDArray[np.float64]
 
-DENSITY = 7850.0  # of steel [kg/m³]
-#: Column of the steps → unit and meaning. Sizes and conicity are those at the end of a step, 0 for the unworn wheel.
+DENSITY = 7850.0  # density of steel [kg/m³]
+#: Column of the steps → unit and meaning. Flange dimensions are those at the end of a step. The first row is the unworn wheel.
 COLUMNS = {
     "mileage": ("m", "mileage at the end of the step"),
     "deepest": ("m", "greatest smoothed depth worn off in the step"),
@@ -41,7 +41,7 @@ COLUMNS = {
 
 
 def harvest(scenario: Scenario) -> dict[str, Array]:
-    """Run a scenario to its end; its damage as `Harvest.save` gives it, and how many contacts are not to be trusted."""
+    """Run a scenario. Return its damage as from `Harvest.save`, and the number of contacts without trustworthy solution."""
     run = Run(scenario)
     while not run.done:
         run.advance()
@@ -49,18 +49,18 @@ def harvest(scenario: Scenario) -> dict[str, Array]:
 
 
 class Life:
-    """A wheel that wears under a set of scenarios.
+    """Wear of a wheel under a set of scenarios.
 
-    Both wheels of the wheelset wear alike, by the mean of what the runs do to them: as many curves to the right as to the
-    left. The rails stay as they are. Each step draws its own irregularities.
+    Both wheels of the wheelset have the same wear, the mean over both wheels of the runs. This corresponds to as many curves
+    to the right as to the left. The rails do not wear. Each step has its own realisation of the irregularities.
 
     Attributes
     ----------
     plan : ScenarioSet
     wheels : list of Profile
-        Unworn, and at the end of each step.
+        The unworn wheel, and the wheel at the end of each step.
     rows : list of ndarray
-        One for each profile, in the order of `COLUMNS`.
+        One row for each of the wheels, in the order of `COLUMNS`.
     shares : ndarray, shape (scenarios, points)
         Smoothed depth that each scenario has worn off at each point of the profile [m].
     conicities : list of ndarray
@@ -76,12 +76,12 @@ class Life:
 
     @property
     def wheel(self) -> Profile:
-        """As it is now."""
+        """The present wheel."""
         return self.wheels[-1]
 
     @property
     def mileage(self) -> float:
-        """So far [m]."""
+        """Mileage so far [m]."""
         return float(self.rows[-1][0])
 
     def __getitem__(self, column: str) -> Array:
@@ -89,19 +89,25 @@ class Life:
 
     @property
     def ended(self) -> str:
-        """Why it is over: the mileage or a limit; nothing as long as it is not."""
+        """Reason for the end of the wear run: "mileage" or a limit; "" while it has not ended."""
         limit = Flange.measured(self.wheel).exceeded(self.plan.declared.limits)
         if limit:
             return limit
         return "mileage" if self.mileage >= self.plan.declared.mileage else ""
 
     def step(self, workers: Workers, watch: Callable[[int, int], None] = lambda done, total: None) -> None:
-        """Run all scenarios on the present wheel, and wear it as far as the rule of the steps allows.
+        """Run all scenarios on the present wheel, and wear it up to the limits of a step (`Steps`).
+
+        Parameters
+        ----------
+        workers : Workers
+        watch : callable
+            Called with the number of runs done and the total number.
 
         Raises
         ------
         ContactError
-            When a run fails, as `Run.advance`, or wears nothing off.
+            If a run fails, as `Run.advance`, or if there is no wear.
         """
         number = len(self.wheels) - 1
         scenarios = [each.worn(self.wheel, number) for each in self.plan.scenarios]
@@ -114,7 +120,7 @@ class Life:
         total = reduce(add, per_metre)
         rate = float(_depth(self.wheel, worn_profile(total, smoothing=smoothing)).max())
         if rate <= 0.0:
-            raise ContactError(f"{self.plan.name}: step {number + 1} wears nothing off")
+            raise ContactError(f"{self.plan.name}: step {number + 1} has no wear")
         length = self.plan.declared.steps.length(rate, self.plan.declared.mileage - self.mileage)
         worn = worn_profile(total, length, smoothing=smoothing)
         wheel = Profile("wheel", worn.y, worn.z, worn.angle, self.plan.wheel.name)
@@ -135,7 +141,7 @@ class Life:
 
     @staticmethod
     def _share(each: Harvest, weight: float) -> Histogram:
-        """A scenario's part of a metre of the mix, mean of both wheels."""
+        """Return a scenario's share of the damage per metre of the mix, as the mean of both wheels."""
         both = reduce(add, (each.histograms[side, "wheel"] for side in SIDES))
         return both.scaled(weight / both.distance)
 
@@ -164,7 +170,7 @@ class Life:
         return found.conicity
 
     def save(self) -> dict[str, Array]:
-        """All of it as arrays."""
+        """Return the whole state as arrays."""
         return {
             "rows": np.array(self.rows),
             "wheels": np.array([(w.y, w.z, w.angle) for w in self.wheels]),
@@ -173,7 +179,7 @@ class Life:
         }
 
     def restore(self, saved: Mapping[str, Array]) -> None:
-        """Go on from a `save` of the same set."""
+        """Restore the state from `save` of the same set."""
         name = self.plan.wheel.name
         self.rows, self.conicities = list(saved["rows"]), list(saved["conicities"])
         self.wheels = [self.plan.wheel, *(Profile("wheel", y, z, angle, name) for y, z, angle in saved["wheels"][1:])]
@@ -181,16 +187,16 @@ class Life:
 
 
 def _rolled(each: Harvest) -> float:
-    """Distance of both wheels together [m]."""
+    """Return the sum of the distances of both wheels [m]."""
     return float(sum(each.histograms[side, "wheel"].distance for side in SIDES))
 
 
 def _depth(before: Profile, after: Profile) -> Array:
-    """How far each point has moved [m]."""
+    """Return the displacement of each point [m]."""
     return np.hypot(after.y - before.y, after.z - before.z)
 
 
 def _area_between(before: Profile, after: Profile) -> float:
-    """Area of the polygon between two profiles whose ends lie on each other, or nearly so [m²], by the shoelace formula."""
+    """Return the area between two profiles [m²] by the shoelace formula. Their ends must coincide, at least nearly."""
     y, z = (np.concatenate((a, b[::-1])) for a, b in ((before.y, after.y), (before.z, after.z)))
     return abs(0.5 * float(np.dot(y, np.roll(z, -1)) - np.dot(z, np.roll(y, -1))))

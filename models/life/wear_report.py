@@ -1,4 +1,4 @@
-"""The result of a wear run: an xarray dataset of its steps, and a page."""
+"""The result of a wear run as an xarray dataset of its steps and as an HTML page."""
 
 from __future__ import annotations
 
@@ -17,11 +17,14 @@ from models.life.wear import COLUMNS, DENSITY, Life
 
 FORMAT = "wheelrail-contact wear run 1"
 _KM = 1e-3
-_MOST_ROWS = 12  # of the table of steps
+_MOST_ROWS = 12  # largest number of rows in the table of steps
 
 
 def dataset(life: Life) -> Any:
-    """Sizes, balances and conicity over `mileage`, and the profile at each of them; only the input decides what is in it."""
+    """Return an `xarray.Dataset` of dimensions, balances, conicity and profiles over `mileage`.
+
+    The content depends only on the input.
+    """
     import xarray
 
     variables: dict[str, Any] = {
@@ -63,13 +66,13 @@ def dataset(life: Life) -> Any:
 
 
 def page_of(life: Life) -> str:
-    """One HTML file that needs nothing else."""
+    """Return the wear run as a self-contained HTML page."""
     steps = life.plan.declared.steps
     about = [
         f"{life.mileage * _KM:.0f} km in {len(life.wheels) - 1} steps, ended by: {life.ended or 'nothing yet'}. "
-        f"A step wears off {1e6 * steps.depth:g} µm at most, its depth is smoothed over {1e3 * steps.smoothing:g} mm.",
-        "Both wheels wear alike, by the mean of what the runs do to them; the rails stay as they are. Archard's law with the "
-        "map of KTH for dry steel: amounts are those of its constants (docs/theory.md), shapes are less so.",
+        f"A step wears off at most {1e6 * steps.depth:g} µm; its depth is smoothed over {1e3 * steps.smoothing:g} mm.",
+        "Both wheels have the same wear, the mean over both wheels of the runs. The rails do not wear. The law is Archard's "
+        "with the KTH map for dry steel. The amount of wear depends on its constants (docs/theory.md), the shape less so.",
     ]
     return document(life.plan.name, about, _parts(life))
 
@@ -84,7 +87,7 @@ def _parts(life: Life) -> Iterator[str]:
         lambda: plot.worn_profile(before, after, magnified=magnified, title=f"after {life.mileage * _KM:.0f} km"),
         "The wheel before and after",
     )
-    depths = {share.file: own for share, own in zip(life.plan.declared.scenarios, life.shares, strict=True)}
+    depths = {share.file: depth for share, depth in zip(life.plan.declared.scenarios, life.shares, strict=True)}
     yield "<h2>What the scenarios have worn off</h2>"
     yield illustrated(lambda: plot.shares(before, depths), "Depth worn off over the profile, stacked")
     km = life["mileage"] * _KM

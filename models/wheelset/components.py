@@ -1,4 +1,4 @@
-"""What the master couples: components with named ports, here the ones that call the models directly."""
+"""Components with named ports for the master. Those of this module call the models directly."""
 
 from __future__ import annotations
 
@@ -18,26 +18,26 @@ Array = NDArray[np.float64]
 
 
 class Component(Protocol):
-    """A simulator with a clock. The ports and the names behind them are those of `models.wheelset.ports`."""
+    """A simulator with named ports. The ports and the names of their variables are those of `models.wheelset.ports`."""
 
     def read(self, port: str) -> Array:
-        """Values of an output port."""
+        """Return the values of an output port."""
 
     def write(self, port: str, values: ArrayLike) -> None:
-        """Set an input port; the values are held until they are set again."""
+        """Set an input port. The values are held until they are set again."""
 
     def step(self, time: float, h: float) -> None:
         """Advance from `time` to `time + h` [s]."""
 
     def save(self) -> Any:
-        """All of the state, for `restore` of the same component."""
+        """Return the whole state, for `restore` of the same component."""
 
     def restore(self, state: Any) -> None:
-        """Return to a saved state; what follows is repeated bit by bit."""
+        """Restore a saved state. The following results are repeated bit by bit."""
 
 
 class SolveOptions(TypedDict, total=False):
-    """Keywords of `contact.solve` that stay the same through a run."""
+    """Keywords of `contact.solve` that are constant during a run."""
 
     material: Material
     normal: str
@@ -49,16 +49,16 @@ class SolveOptions(TypedDict, total=False):
 
 
 class DirectContact:
-    """`contact.solve` as a component: what the FMU `WheelRailContact` does, without FMI.
+    """`contact.solve` as a component: the FMU `WheelRailContact` without FMI.
 
     Parameters
     ----------
     parameters : WheelsetParameters
-        Of the wheelset that it belongs to: speed, and where the separation is sampled.
+        Parameters of its wheelset, for the speed and the samples of the separation.
     friction : float
         Coefficient of friction [-].
     **options
-        Those of `SolveOptions`.
+        Keywords of `SolveOptions`.
     """
 
     def __init__(self, parameters: WheelsetParameters, friction: float = 0.3, **options: Unpack[SolveOptions]) -> None:
@@ -85,7 +85,7 @@ class DirectContact:
 
     @property
     def solution(self) -> contact.Solution:
-        """That of the last step, or a ContactError before the first one."""
+        """Solution of the last step. Before the first step it raises a ContactError."""
         if self._solution is None:
             raise ContactError("the contact has not been solved yet")
         return self._solution
@@ -106,14 +106,16 @@ class DirectContact:
 
 
 class LinearContact:
-    """Creep forces proportional to the creepages, the same both ways; no spin, no limit: the law of the linear theory.
+    """Creep forces proportional to the creepages, as in the linear theory.
+
+    Both directions have the same coefficient. Spin and the friction limit are neglected.
 
     Parameters
     ----------
     creep_coefficient : float
         f [N], force = -f·creepage.
     approach : float
-        What is reported as approach [m].
+        Constant approach that the component returns [m].
     """
 
     def __init__(self, creep_coefficient: float, approach: float = 6e-5) -> None:
@@ -124,7 +126,7 @@ class LinearContact:
         self._creepage = np.array(values, dtype=np.float64)[CREEPAGE]
 
     def step(self, time: float, h: float) -> None:
-        """Nothing: there is no memory."""
+        """Do nothing, because the component has no state."""
 
     def read(self, port: str) -> Array:
         if port == "reaction":
@@ -168,5 +170,5 @@ class DirectWheelset:
 def direct(
     parameters: WheelsetParameters, friction: float = 0.3, **options: Unpack[SolveOptions]
 ) -> tuple[DirectWheelset, list[DirectContact]]:
-    """The wheelset and its right and left contact, ready for `master.run`."""
+    """Return the wheelset and its right and left contact for `master.run`."""
     return DirectWheelset(WheelsetModel(parameters)), [DirectContact(parameters, friction, **options) for _ in SIDES]

@@ -1,4 +1,4 @@
-"""`contact demo`: a wheelset runs on S1002 wheels and 60E1 rails through FMUs, and leaves pictures of its contacts."""
+"""`contact demo`: simulate a wheelset with S1002 wheels on 60E1 rails by FMUs, and write pictures of its contacts."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ from models.wheelset.stability import critical_speed
 Array = NDArray[np.float64]
 
 FMUS = ("Wheelset", "WheelRailContact", "WheelRailContact")
-PICTURE: SolveOptions = {"n_strips": 60, "n_elements": 60}  # finer than the run: the pictures show single elements
+PICTURE: SolveOptions = {"n_strips": 60, "n_elements": 60}  # finer than the run, because pictures show single elements
 
 
 @dataclass(frozen=True)
 class Moment:
-    """A communication point that is worth a picture."""
+    """A communication point to be shown in a picture."""
 
     name: str
     title: str
@@ -61,7 +61,7 @@ def demo(
         parameters = WheelsetParameters(speed=speed, lateral=lateral)
         with ExitStack() as stack:
             wheelset, contacts = direct(parameters, friction) if python else _fmus(stack, fmus, parameters, friction)
-            chosen = cast(Scheme, scheme)  # `master.run` refuses any other word
+            chosen = cast(Scheme, scheme)  # `master.run` refuses other values
             history, durations = _run(console, wheelset, contacts, parameters, step, seconds, chosen)
         out.mkdir(parents=True, exist_ok=True)
         history.write_csv(out / "wheelset.csv")
@@ -81,7 +81,7 @@ def demo(
 def _fmus(
     stack: ExitStack, folder: Path, parameters: WheelsetParameters, friction: float
 ) -> tuple[Component, Sequence[Component]]:
-    """The three FMUs, initialised; `stack` frees them."""
+    """Return the three FMUs, initialised. `stack` frees them."""
     try:
         from models.wheelset.fmu import FmuComponent
     except ImportError as missing:
@@ -116,7 +116,7 @@ def _run(
     seconds: float,
     scheme: Scheme,
 ) -> tuple[History, Array]:
-    """The run, and how long each step took [s]; the first one with the start of whatever the components need."""
+    """Return the run and the time of each step [s]. The time of the first step includes the start of the components."""
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console) as progress:
         task = progress.add_task(f"wheelset at {parameters.speed:g} m/s, steps", total=None)
@@ -135,7 +135,7 @@ def _run(
 
 
 def moments(history: History) -> list[Moment]:
-    """The first passage of the centre, and the steepest contact of the right wheel."""
+    """Return the first passage through the centre, and the steepest contact of the right wheel."""
     y = history["lateral"]
     passage = int(np.argmax(np.diff(np.sign(y)) != 0.0)) if (np.diff(np.sign(y)) != 0.0).any() else 0
     steepest = int(np.argmin(history["right.contact.angle"]))
@@ -146,7 +146,7 @@ def moments(history: History) -> list[Moment]:
 
 
 def _solutions(history: History, index: int, parameters: WheelsetParameters, friction: float) -> list[Solution]:
-    """Both contacts at a communication point, solved again with the elements of a picture."""
+    """Return both contacts at a communication point, solved again with the resolution of a picture."""
     solutions = []
     for problem in history.problems[index]:
         contact = DirectContact(parameters, friction, **PICTURE)
@@ -157,7 +157,7 @@ def _solutions(history: History, index: int, parameters: WheelsetParameters, fri
 
 
 def _picture(plot: Any, history: History, moment: Moment, parameters: WheelsetParameters, friction: float) -> Any:
-    """Both wheels on their rails from behind, and both patches from above."""
+    """Return a figure of both wheels on their rails, seen from behind, and both patches, seen from above."""
     p, k = parameters, moment.index
     y, yaw, z, roll = (float(history[name][k]) for name in ("lateral", "yaw", "vertical", "roll"))
     wheels = []

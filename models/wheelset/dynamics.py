@@ -1,8 +1,8 @@
-"""Kernels of the wheelset dynamics; the equation numbers are those of readme.md.
+"""Kernels of the wheelset dynamics. The equation numbers are those of readme.md.
 
-A contact frame is a row (x, y, z, angle): origin relative to the wheelset's centre in track axes [m] and contact angle
-[rad]; row 0 is the right wheel, row 1 the left. Its forces on the wheel are a row (Fx, Fy, Mz) in contact axes [N, N,
-N m].
+A contact frame is a row (x, y, z, angle): its origin relative to the wheelset's centre in track axes [m], and the contact
+angle [rad]. Its forces on the wheel are a row (Fx, Fy, Mz) in contact axes [N, N, N m]. Row 0 is the right wheel, row 1 the
+left wheel.
 """
 
 from __future__ import annotations
@@ -31,14 +31,14 @@ class Force(IntEnum):
 
 
 class Side(IntEnum):
-    """Rows of what there is two of."""
+    """Row of each side in arrays over both wheels."""
 
     RIGHT = 0
     LEFT = 1
 
 
 class State(IntEnum):
-    """State of a wheelset [m, rad, m/s, rad/s, rad/s]; the spin is positive when rolling forward."""
+    """State of a wheelset [m, rad, m/s, rad/s, rad/s]. The spin is positive when rolling forward."""
 
     LATERAL = 0
     YAW = 1
@@ -48,7 +48,7 @@ class State(IntEnum):
 
 
 class Constant(IntEnum):
-    """Constants of a wheelset and of what it runs on."""
+    """Constants of a wheelset and its track."""
 
     MASS = 0
     YAW_INERTIA = 1
@@ -61,17 +61,17 @@ class Constant(IntEnum):
     SPEED = 8
     RADIUS = 9  # nominal rolling radius [m]
     CURVATURE = 10  # of the track, positive to the right [1/m]
-    LATERAL_LOAD = 11  # of the surroundings on the wheelset [N]
+    LATERAL_LOAD = 11  # external load on the wheelset [N]
     ROLL_LOAD = 12  # [N m]
     YAW_LOAD = 13
 
 
 class Energy(IntEnum):
-    """Energies since start [J]."""
+    """Energies since the start [J]."""
 
-    INTERFACE = 0  # left through the contacts
-    DRIVE = 1  # delivered by the drive
-    DAMPER = 2  # spent in the suspension
+    INTERFACE = 0  # energy that left the wheelset through the contacts
+    DRIVE = 1  # energy from the drive
+    DAMPER = 2  # energy dissipated in the suspension
 
 
 N_STATE, N_CONSTANTS, N_ENERGY = len(State), len(Constant), len(Energy)
@@ -79,22 +79,23 @@ N_STATE, N_CONSTANTS, N_ENERGY = len(State), len(Constant), len(Energy)
 
 @kernel
 def arm(frame):
-    """Roll moment per unit of -N about the centre, y cos δ + z sin δ [m] (5)."""
+    """Return the roll moment about the centre per unit of -N, y cos δ + z sin δ [m] (5)."""
     return frame[Frame.Y] * math.cos(frame[Frame.ANGLE]) + frame[Frame.Z] * math.sin(frame[Frame.ANGLE])
 
 
 @kernel
 def locus(frame, axle):
-    """x of the contact origin [m]: where on the wheel's circle the normal has no x component, l_x a/(l_y cos δ + l_z sin δ).
+    """Return x of the contact origin [m], l_x a/(l_y cos δ + l_z sin δ).
 
-    There the spin moves the wheel along the rail's surface only (theory.md 9.4, the contact locus under yaw).
+    At this point of the wheel's circle the normal has no x component. The spin then moves the wheel only along the rail's
+    surface (theory.md 9.4, the contact locus under yaw).
     """
     return axle[0] * arm(frame) / (axle[1] * math.cos(frame[Frame.ANGLE]) + axle[2] * math.sin(frame[Frame.ANGLE]))
 
 
 @kernel
 def normal_loads(frames, forces, axle_load, roll_load, loads):
-    """Solve vertical and roll equilibrium (4, 5) for loads[side] [N]; a wheel that would pull is unloaded instead."""
+    """Solve vertical and roll equilibrium (4, 5) for loads[side] [N]. A negative load is replaced by 0."""
     vertical, roll = axle_load, roll_load
     for side in range(2):
         sine, cosine = math.sin(frames[side, Frame.ANGLE]), math.cos(frames[side, Frame.ANGLE])
@@ -106,14 +107,17 @@ def normal_loads(frames, forces, axle_load, roll_load, loads):
     loads[Side.RIGHT] = (vertical * a_l - c_l * roll) / determinant
     loads[Side.LEFT] = (c_r * roll - a_r * vertical) / determinant
     for side in range(2):
-        if loads[side] < 0.0:  # the other wheel then carries the axle alone; roll equilibrium is lost
+        if loads[side] < 0.0:  # the other wheel then carries the whole axle; roll equilibrium is not satisfied
             loads[side] = 0.0
             loads[1 - side] = max(vertical / math.cos(frames[1 - side, Frame.ANGLE]), 0.0)
 
 
 @kernel
 def follow(frames, state):
-    """Vertical velocity [m/s] and roll rate [rad/s] that keep both wheels on the rails (6): the transpose of (4, 5)."""
+    """Return the vertical velocity [m/s] and roll rate [rad/s] that keep both wheels on the rails.
+
+    The equations (6) are the transpose of (4, 5).
+    """
     sliding_r, sliding_l = _into_surface(frames[Side.RIGHT], state), _into_surface(frames[Side.LEFT], state)
     c_r, c_l = math.cos(frames[Side.RIGHT, Frame.ANGLE]), math.cos(frames[Side.LEFT, Frame.ANGLE])
     a_r, a_l = arm(frames[Side.RIGHT]), arm(frames[Side.LEFT])
@@ -123,13 +127,13 @@ def follow(frames, state):
 
 @kernel
 def _into_surface(frame, state):
-    """Velocity out of the rail's surface of a contact origin that moves with y and yaw alone [m/s]."""
+    """Return the velocity normal to the rail's surface [m/s] of a contact origin that moves only with y and yaw."""
     return math.sin(frame[Frame.ANGLE]) * (state[State.LATERAL_VELOCITY] + state[State.YAW_RATE] * frame[Frame.X])
 
 
 @kernel
 def creepages(frame, state, axle, z_rate, roll_rate, speed, out):
-    """Creepages of the rigid motion at one contact origin, wheel minus rail: out = (ξ, η [-], spin [1/m]) (7)."""
+    """Write the creepages at one contact origin, wheel minus rail: out = (ξ [-], η [-], spin [1/m]) (7)."""
     sine, cosine = math.sin(frame[Frame.ANGLE]), math.cos(frame[Frame.ANGLE])
     omega_x = roll_rate - state[State.SPIN] * axle[0]
     omega_y = -state[State.SPIN] * axle[1]
@@ -144,8 +148,11 @@ def creepages(frame, state, axle, z_rate, roll_rate, speed, out):
 
 @kernel
 def resultants(frames, forces, loads, axle, out):
-    """Generalised forces of both contacts: out = (lateral [N], yaw, spin [N m], longitudinal [N],
-    roll [N m]) (2, 3). The last is the roll load, reversed, while both wheels carry (5)."""
+    """Write the generalised forces of both contacts to `out` (2, 3).
+
+    out = (lateral [N], yaw [N m], spin [N m], longitudinal [N], roll [N m]). While both wheels carry load, the last is the
+    negative roll load (5).
+    """
     out[:] = 0.0
     for side in range(2):
         x, y, z = frames[side, Frame.X], frames[side, Frame.Y], frames[side, Frame.Z]
@@ -165,12 +172,12 @@ def resultants(frames, forces, loads, axle, out):
 
 @kernel
 def _kicked(velocity, mass, force, damping, h):
-    """Velocity after `h` under constant force and linear damping, and its mean over `h`; exact (8)."""
+    """Return the exact velocity after `h` [s] under constant force and linear damping, and its mean over `h` (8)."""
     rate = damping * h / mass
     if rate > 1e-3:
         phi1 = -math.expm1(-rate) / rate
         phi2 = (1.0 - phi1) / rate
-    else:  # the same by series, free of 0/0; the next term is below round-off of phi1
+    else:  # series of the same functions, without 0/0; the next term is below round-off of phi1
         phi1 = 1.0 - rate / 2.0 * (1.0 - rate / 3.0 * (1.0 - rate / 4.0 * (1.0 - rate / 5.0)))
         phi2 = 0.5 * (1.0 - rate / 3.0 * (1.0 - rate / 4.0 * (1.0 - rate / 5.0)))
     gain = h * (force - damping * velocity) / mass
@@ -179,13 +186,13 @@ def _kicked(velocity, mass, force, damping, h):
 
 @kernel
 def along_track(Q, constants, lateral):
-    """Force of the contacts along the track's centre line [N]: what moves with V is Q_x (1 - κ y) + κ Q_ψ (11)."""
+    """Return the force of the contacts along the track's centre line [N], which moves with V: Q_x (1 - κ y) + κ Q_ψ (11)."""
     return Q[3] * (1.0 - constants[Constant.CURVATURE] * lateral) + Q[1] * constants[Constant.CURVATURE]
 
 
 @kernel
 def kick(state, constants, Q, h, energy):
-    """Advance the velocities by `h` [s] with positions and contact forces `Q` held; book the work done."""
+    """Advance the velocities by `h` [s] with constant positions and contact forces `Q`, and add the work to `energy`."""
     lateral, yaw = state[State.LATERAL], state[State.YAW]
     load_y, load_psi = constants[Constant.LATERAL_LOAD], constants[Constant.YAW_LOAD]
     spring_y = load_y - constants[Constant.LATERAL_STIFFNESS] * lateral

@@ -15,15 +15,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError
 
-_DISCARD = 2  # the statuses of FMI from here on: Discard, Error, Fatal
+_DISCARD = 2  # FMI status Discard; higher values are Error and Fatal
 
 
 class FmuComponent:
-    """FMI 2.0 co-simulation FMU with the ports of `models.wheelset.ports`; a context manager that frees it.
+    """FMI 2.0 co-simulation FMU with the ports of `models.wheelset.ports`. As a context manager it frees the FMU.
 
     Parameters
     ----------
     path : path
+        Path of the FMU.
     ports : mapping
         Name of a port → names of its variables.
     start : mapping
@@ -32,7 +33,7 @@ class FmuComponent:
     Raises
     ------
     ContactError
-        What the FMU refuses, with the message that it logs; also from every method.
+        If the FMU refuses a call, with the message in its log. All methods may raise it.
     """
 
     def __init__(
@@ -72,7 +73,7 @@ class FmuComponent:
         references = self._references[port]
         if port not in self._mixed:
             return np.array(self._fmu.getReal(references))
-        # a status among numbers: variable by variable
+        # the port contains an integer status, so read variable by variable
         values = [self._get(kind, r) for kind, r in zip(self._types[port], references, strict=True)]
         return np.array(values, dtype=np.float64)
 
@@ -104,7 +105,7 @@ class FmuComponent:
         return (self._fmu.getReal if kind == "Real" else self._fmu.getInteger)([reference])[0]
 
     def _call(self, function: Callable[..., Any], *arguments: object) -> None:
-        """Call and raise what the FMU objects to; pythonfmu answers OK to some calls that the FMU logs as refused."""
+        """Call a function and raise the FMU's error messages. pythonfmu returns OK for some calls that the FMU refuses."""
         self._objections.clear()
         try:
             function(*arguments)

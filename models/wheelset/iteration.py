@@ -1,4 +1,4 @@
-"""Fixed points of a map that may only be evaluated: what an iterated coupling has to find in each step."""
+"""Fixed points of a map without derivatives, as an iterated coupling needs them in each step."""
 
 from __future__ import annotations
 
@@ -9,35 +9,37 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_FIRST_MOVE = 0.3  # of the change: on a steep map a full move ends where the slope is another one
+_FIRST_MOVE = 0.3  # share of the first change that is applied, because a steep map may be nonlinear over a full change
 
 
 def fixed_point(
     function: Callable[[Array], Array], start: Array, scale: Array, tolerance: float, most: int
 ) -> tuple[Array, int]:
-    """Solve x = function(x) by Anderson's acceleration, which needs no contraction.
+    """Solve x = function(x) by Anderson's acceleration, which does not need a contraction.
 
-    From the values seen so far a linear map is fitted, and its fixed point is tried next; on a linear map of rank r it
-    is found in r + 1 evaluations, however steep the map is. The plain iteration diverges where a slope exceeds one.
-    (D. G. Anderson, J. ACM 12, 1965; in partitioned simulation known as interface quasi-Newton, IQN-ILS.)
+    A linear map is fitted to the values so far, and its fixed point is evaluated next. A linear map of rank r is solved in
+    r + 1 evaluations, however steep it is. The plain iteration diverges if a slope exceeds one. (D. G. Anderson, J. ACM 12,
+    1965; in partitioned simulation known as interface quasi-Newton, IQN-ILS.)
 
     Parameters
     ----------
     function : callable
+        The map, from and to arrays of shape (n,).
     start : ndarray, shape (n,)
+        First point.
     scale : ndarray, shape (n,)
-        Unit of each number, positive.
+        Positive scale of each number.
     tolerance : float
-        Largest change by `function`, in units of `scale`, at which x counts as found.
+        Stop if no number changes by more than this, in units of `scale`.
     most : int
-        Evaluations at most.
+        Largest number of evaluations.
 
     Returns
     -------
     x : ndarray, shape (n,)
         The value of `function` at the last point.
     evaluations : int
-        `most` + 1 if it was not found.
+        Number of evaluations; `most` + 1 if the iteration did not converge.
     """
     x = start / scale
     points: list[Array] = []

@@ -1,4 +1,4 @@
-"""Linear theory of one wheelset on conical wheels (theory.md 9.4): what the coupled system is held against."""
+"""Linear theory of one wheelset with conical wheels (theory.md 9.4), the reference for the coupled system."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, slots=True)
 class LinearWheelset:
-    """Wheelset on cones with one creep coefficient; without spin creepage and gravitational stiffness.
+    """Wheelset with conical wheels and one creep coefficient, without spin creepage and gravitational stiffness.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ class LinearWheelset:
 
     @property
     def critical_speed(self) -> float:
-        """Speed [m/s] above which the central position is unstable (Routh–Hurwitz); inf if there is none.
+        """Speed [m/s] above which the central position is unstable (Routh–Hurwitz); inf if there is no such speed.
 
         V_c² = 4 f² b0² ω² / [m I ω⁴ - (m k_psi + I k_y) ω² + k_y k_psi + 4 f² λ b0/r0]
         with the frequency ω² = (k_psi + b0² k_y)/(m b0² + I) at the limit.
@@ -62,7 +62,7 @@ class LinearWheelset:
         return 2.0 * f * b0 * math.sqrt(w2 / denominator) if denominator > 0.0 else math.inf
 
     def matrix(self, speed: float) -> NDArray[np.float64]:
-        """State matrix, shape (4, 4), of (y, psi, dy/dt, dpsi/dt) at `speed` [m/s]."""
+        """Return the state matrix, shape (4, 4), of (y, psi, dy/dt, dpsi/dt) at `speed` [m/s]."""
         f, b0 = self.creep_coefficient, self.half_base
         A = np.zeros((4, 4))
         A[0, 2] = A[1, 3] = 1.0

@@ -1,16 +1,17 @@
-"""Example master: one wheelset coupled with a contact at each wheel, whatever the components are made of.
+"""Example master: one wheelset coupled with a contact at each wheel, by FMUs or by Python objects.
 
-Over one communication step the creep forces are held. What is exchanged when is the scheme:
+The creep forces are constant during a communication step. The schemes differ in when data is exchanged:
 
-* ``jacobi``: all run at the same time with the answers to the step before. First order; needs the shortest steps.
-* ``gauss_seidel``: the contacts are solved for the creepages of now, the wheelset then runs with these forces. First
+* ``jacobi``: all components run at the same time with the results of the previous step. First order; it needs the shortest
+  steps.
+* ``gauss_seidel``: the contacts are solved for the present creepages, then the wheelset runs with these forces. First
   order; stable at twice the step of ``jacobi``.
-* ``iterated``: the wheelset runs with the mean of the forces now and at the end of the step (trapezoidal rule). They are
-  found by repeating the step from the saved state until they agree with the creepages that they lead to. Second order,
-  until what answers a step late anyway (the load to the lateral force, the height to the approach) shows; no limit of
-  stability, at some evaluations more per step.
+* ``iterated``: the wheelset runs with the mean of the forces at the start and at the end of the step (trapezoidal rule).
+  The step is repeated from the saved state until the forces agree with the resulting creepages. Second order, except that
+  the load follows the lateral force, and the height the approach, one step later. It has no stability limit and needs
+  some more evaluations per step.
 
-docs/coupling.md has the largest stable steps, measured.
+docs/coupling.md has measured values of the largest stable steps.
 """
 
 from __future__ import annotations
@@ -32,11 +33,11 @@ from models.wheelset.ports import CREEPAGE, ENERGY, FRAME, LOAD, MOTION, PROBLEM
 Array = NDArray[np.float64]
 Scheme = Literal["gauss_seidel", "jacobi", "iterated"]
 
-#: When the iterated scheme is content: forces agree to this share of the normal load, or have been exchanged so often.
+#: Tolerance of the iterated scheme, over the normal load, and its largest number of iterations.
 TOLERANCE, MOST_ROUNDS = 1e-5, 20
 _APPROACH_SCALE = 1e-4  # [m]
-_MOMENT_ARM = 5e-3  # [m] half length of a patch
-_LEAST_LOAD = 1e3  # [N] forces of a wheel that hardly touches need no better agreement than of one with this load
+_MOMENT_ARM = 5e-3  # half length of a patch [m]
+_LEAST_LOAD = 1e3  # least load [N] in the tolerance, for a wheel that hardly touches
 
 _EXCHANGED = (*PROBLEM[CREEPAGE], PROBLEM[LOAD], *REACTION, *REPORT, *FRAME)
 COLUMNS = ("time", *MOTION, *ENERGY, *(f"{side}.{name}" for side in SIDES for name in _EXCHANGED))
@@ -44,17 +45,18 @@ COLUMNS = ("time", *MOTION, *ENERGY, *(f"{side}.{name}" for side in SIDES for na
 
 @dataclass(frozen=True, eq=False)
 class History:
-    """What was exchanged at each communication point, the motion at that time beside the forces it gave rise to.
+    """Exchanged data at each communication point: the motion, and the forces that result from it.
 
     Attributes
     ----------
     values : ndarray, shape (n, len(COLUMNS))
+        The columns `COLUMNS`.
     problems : ndarray, shape (n, 2, len(PROBLEM))
-        What each contact was given.
+        Inputs of each contact.
     rounds : ndarray, shape (n,)
-        How often the forces of the step were computed: 1 but for the iterated scheme; above MOST_ROUNDS: without agreement.
+        Number of iterations of each step; 1 unless the scheme is iterated. A value above MOST_ROUNDS means no convergence.
     speed, step : float
-        [m/s], [s].
+        Speed [m/s] and communication step [s].
     """
 
     values: Array
@@ -68,31 +70,32 @@ class History:
 
     @property
     def distance(self) -> Array:
-        """Distance run [m]."""
+        """Distance travelled [m]."""
         return self.speed * self["time"]
 
     @property
     def creep_power(self) -> Array:
-        """Power of the creep forces on the creepages, both wheels, positive when dissipated [W]."""
+        """Power of the creep forces on the creepages of both wheels [W], positive if dissipated."""
         pairs = zip(PROBLEM[CREEPAGE], REACTION, strict=False)
         return -self.speed * np.sum([self[f"{s}.{c}"] * self[f"{s}.{f}"] for c, f in pairs for s in SIDES], axis=0)
 
     @property
     def friction_power(self) -> Array:
-        """Frictional power that the contacts report from their slip fields [W]."""
+        """Frictional power of both contacts from their slip fields [W]."""
         return np.sum([self[f"{side}.power.friction"] for side in SIDES], axis=0)
 
     @property
     def elastic_energy(self) -> Array:
-        """Energy stored in both contacts [J]: 2/5 of load times approach, exact for Hertz."""
+        """Elastic energy of both contacts [J]: 2/5 of load times approach, exact for Hertz contact."""
         return 0.4 * np.sum([self[f"{side}.load.normal_force"] * self[f"{side}.approach"] for side in SIDES], axis=0)
 
     @property
     def power_residual(self) -> Array:
-        """Energy [J] that left the wheelset and was neither dissipated by creep nor stored in the contacts.
+        """Error of the coupling's energy balance [J].
 
-        What the coupling has lost or invented. Dissipation is integrated by the trapezoidal rule. It counts from the second
-        communication point: before it the wheels stand on an assumed approach.
+        It is the energy that left the wheelset and was neither dissipated by creep nor stored in the contacts. Dissipation
+        is integrated by the trapezoidal rule. The balance starts at the second communication point, because the first one
+        uses an assumed approach.
         """
         power = self.creep_power
         dissipated = np.concatenate(([0.0], np.cumsum(power[1:] + power[:-1]) * (0.5 * self.step)))
@@ -100,7 +103,7 @@ class History:
         return residual - residual[min(1, residual.size - 1)]
 
     def write_csv(self, path: str | PathLike[str], columns: Sequence[str] = COLUMNS, every: int = 1) -> None:
-        """Write every `every`-th communication point, with a header of names."""
+        """Write every `every`-th communication point as CSV, with a header of names."""
         with open(path, "w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file)
             writer.writerow(columns)
@@ -125,18 +128,22 @@ def run(
     Parameters
     ----------
     wheelset : Component
-        Freshly initialised.
+        Initialised wheelset.
     contacts : two Components
-        Right and left.
+        Right and left contact.
     speed : float
-        The wheelset's speed [m/s]; the power balance needs it.
+        Speed of the wheelset [m/s], for the power balance.
     step, duration : float
         Communication step and end time [s].
     scheme : {"gauss_seidel", "jacobi", "iterated"}
     irregularity : callable, optional
         Time [s] → lateral position [m] and slope [-] of the track's centre line.
     watch : callable, optional
-        Called after each step with the number of steps done and of all; for a progress bar.
+        Called after each step with the number of steps done and the total number, for a progress bar.
+
+    Returns
+    -------
+    History
 
     Raises
     ------
@@ -159,7 +166,7 @@ def run(
         reactions = _solve(pairs, problems, time, h)
         values[k], given[k] = _row(time, wheelset, pairs, problems, reactions), problems
         if scheme == "jacobi":
-            # the first step runs with what FMUs exchange before it, in initialisation
+            # the first step uses its own results, which FMUs exchange during initialisation
             reactions, answers = answers or reactions, reactions
         elif scheme == "iterated":
             reactions, rounds[k] = _mean_over_step(wheelset, pairs, problems, reactions, time, h)
@@ -190,14 +197,14 @@ def _mean_over_step(
     time: float,
     h: float,
 ) -> tuple[list[Array], int]:
-    """Mean of the reactions now and at the end of the step that runs with it, and the rounds that it took.
+    """Return the mean of the reactions at the start and at the end of the step, and the number of iterations.
 
-    Everybody is left as found.
+    The end of the step is computed with the same mean. The states of all components are restored.
     """
     now = np.array(reactions)
 
     def answer(end: Array) -> Array:
-        """Reactions to where the wheelset comes with the mean of those now and an assumed `end`."""
+        """Return the reactions at the end of the step if the wheelset runs with the mean of `now` and `end`."""
         start = wheelset.save()
         _advance(wheelset, list(0.5 * (now + end.reshape(now.shape))), time, h)
         reached = [wheelset.read(f"{side}.problem") for side in SIDES]
@@ -221,7 +228,7 @@ def _row(
     problems: Sequence[Array],
     reactions: Sequence[Array],
 ) -> Array:
-    """One line of the history."""
+    """Return one line of the history."""
     row: list[ArrayLike] = [[time], wheelset.read("motion"), wheelset.read("energy")]
     for (side, contact), problem, reaction in zip(pairs, problems, reactions, strict=True):
         row += [problem[CREEPAGE], [problem[LOAD]], reaction, contact.read("report"), wheelset.read(f"{side}.frame")]

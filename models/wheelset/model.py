@@ -1,4 +1,4 @@
-"""The wheelset as a simulator: forces in, geometry, creepages and loads out (readme.md)."""
+"""The wheelset as a simulator: inputs are forces, outputs are geometry, creepages and loads (readme.md)."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ Array = NDArray[np.float64]
 
 
 class WheelsetModel:
-    """One wheelset whose contact forces come from outside.
+    """One wheelset with contact forces as inputs.
 
-    Between two calls of `step` the model is at one instant and all outputs belong to it. `side` is "right" or "left".
+    All outputs belong to the instant after the last `step`. `side` is "right" or "left".
 
     Parameters
     ----------
@@ -29,12 +29,12 @@ class WheelsetModel:
     Raises
     ------
     ContactError
-        When the wheels do not find their rails at the initial position.
+        If the wheels have no contact with the rails at the initial position.
     """
 
     def __init__(self, parameters: WheelsetParameters | None = None) -> None:
         self.parameters = p = parameters or WheelsetParameters()
-        # Everything that the model remembers lies in one vector, so that saving it is copying it.
+        # All of the model's state lies in one vector, so saving the state is copying this vector.
         sizes = [math.prod(shape) for shape in motion.REMEMBERED.values()]
         self._memory = np.zeros(sum(sizes))
         parts = np.split(self._memory, np.cumsum(sizes)[:-1])
@@ -70,14 +70,17 @@ class WheelsetModel:
     # inputs
 
     def set_forces(self, side: str, Fx: float, Fy: float, Mz: float, approach: float) -> None:
-        """Forces [N] and moment [N m] of a contact on the wheel, in its contact frame, and its approach [m]; held."""
+        """Set forces [N] and moment [N m] of a contact on the wheel, in its contact frame, and its approach [m].
+
+        They are held until they are set again.
+        """
         i = SIDES.index(side)
         forces = [require_number(f"{side}.{name}", v) for name, v in zip(("Fx", "Fy", "Mz"), (Fx, Fy, Mz), strict=True)]
         self._wheelset.approach[i] = require_number(f"{side}.approach", approach)
         self._wheelset.forces[i] = forces
 
     def set_irregularity(self, lateral: float, slope: float) -> None:
-        """Lateral position [m] of the track's centre line below the wheelset, and its slope dy/dx [-]."""
+        """Set the lateral position [m] of the track's centre line below the wheelset, and its slope dy/dx [-]."""
         self._wheelset.irregularity[:] = (
             require_number("irregularity.lateral", lateral),
             require_number("irregularity.slope", slope),
@@ -92,10 +95,10 @@ class WheelsetModel:
         roll_load: float = 0.0,
         yaw_load: float = 0.0,
     ) -> None:
-        """Speed [m/s], curvature of the track, positive to the right [1/m], and loads of the surroundings on the wheelset.
+        """Set speed [m/s], curvature of the track [1/m], positive to the right, and external loads on the wheelset.
 
         The loads are a force to the right through the wheelset's centre [N] and moments about x and z [N m] (readme, Curves).
-        All are held until they are set again; `save` leaves them out.
+        All values are held until they are set again. `save` does not include them.
         """
         c = self._wheelset.constants
         c[dynamics.Constant.SPEED] = require_number("speed", speed, 0.0, open_minimum=True)
@@ -112,20 +115,20 @@ class WheelsetModel:
         Raises
         ------
         ContactError
-            `h` not positive, or a wheel left its rail; the model is then where it was.
+            If `h` is not positive or a wheel leaves its rail. The state is then unchanged.
         """
         require_number("h", h, 0.0, open_minimum=True)
         before = self._memory.copy()
         self._require(motion.step(self._wheelset, h, self.parameters.substeps), before)
 
     def rates(self) -> Array:
-        """Time derivatives of (lateral, yaw, lateral_velocity, yaw_rate, spin) under the forces set last."""
+        """Return the time derivatives of (lateral, yaw, lateral_velocity, yaw_rate, spin) under the present forces."""
         motion.balance(self._wheelset)
         motion.change(self._wheelset)
         return self._wheelset.rates.copy()
 
     def _require(self, failure: int, before: Array) -> None:
-        """Return to the memory `before` and say why, if there is a failure."""
+        """If there is a failure, restore the state `before` and raise a ContactError with the reason."""
         if failure:
             y, yaw = self._wheelset.state[:2] - self._wheelset.irregularity
             self._memory[:] = before
@@ -134,36 +137,36 @@ class WheelsetModel:
     # outputs
 
     def problem(self, side: str) -> Array:
-        """What the contact of one side has to solve, in the order of `ports.PROBLEM`."""
+        """Return the inputs of the contact of one side, in the order of `ports.PROBLEM`."""
         return self._wheelset.problems[SIDES.index(side)].copy()
 
     def frame(self, side: str) -> Array:
-        """Contact origin x, y, z [m] relative to the wheelset's centre, and contact angle [rad]."""
+        """Return the contact origin x, y, z [m] relative to the wheelset's centre, and the contact angle [rad]."""
         return self._wheelset.frames[SIDES.index(side)].copy()
 
     def motion(self) -> Array:
-        """In the order of `ports.MOTION`."""
+        """Return the motion in the order of `ports.MOTION`."""
         return np.concatenate((self._wheelset.state, self._wheelset.height))
 
     def energy(self) -> Array:
-        """In the order of `ports.ENERGY`."""
+        """Return the energies [J] in the order of `ports.ENERGY`."""
         return np.append(self._wheelset.energy, self.mechanical_energy)
 
     def change(self) -> Array:
-        """In the order of `ports.CHANGE`, as it was reported last."""
+        """Return the rates of the last report in the order of `ports.CHANGE`."""
         return np.concatenate((self._wheelset.rates[dynamics.State.LATERAL_VELOCITY :], self._wheelset.powers))
 
     @property
     def mechanical_energy(self) -> float:
-        """Kinetic energy (without that of V), of the springs, and of the weight [J] (10)."""
+        """Kinetic energy without that of V, energy of the springs, and potential energy of the weight [J] (10)."""
         return motion.mechanical_energy(self._wheelset)
 
     def save(self) -> bytes:
-        """All of the state, held inputs included."""
+        """Return the whole state, including held inputs."""
         return self._memory.tobytes()
 
     def restore(self, state: bytes) -> None:
-        """Return to a state of `save`; what follows is repeated bit by bit."""
+        """Restore a state from `save`. The following results are repeated bit by bit."""
         saved = np.frombuffer(state)
         if saved.size != self._memory.size:
             raise ContactError(f"state has {len(state)} bytes; {self._memory.nbytes} are needed")
@@ -171,7 +174,7 @@ class WheelsetModel:
 
 
 def _constants(p: WheelsetParameters) -> Array:
-    """As the kernels of `dynamics` want them."""
+    """Return the constants as the array for the kernels of `dynamics`."""
     constants = np.zeros(dynamics.N_CONSTANTS)
     for index, value in (
         (dynamics.Constant.MASS, p.mass),

@@ -1,6 +1,6 @@
-"""Kernels of the wheelset as a whole: start, step, rates. Forces come in, geometry, creepages and loads go out (readme.md).
+"""Kernels of the whole wheelset: start, step and rates. Inputs are forces, outputs geometry, creepages and loads (readme.md).
 
-Those that may fail return MET or one of `MESSAGES`; what they have changed by then is for the caller to put back.
+Kernels that can fail return MET or a key of `MESSAGES`. After a failure the caller has to restore the state.
 """
 
 from __future__ import annotations
@@ -31,22 +31,23 @@ MESSAGES = {
     TURNED: f"the wheelset is rolled or yawed by more than {LARGEST_ANGLE:g} rad",
 }
 
-#: Least approach that a contact frame is laid out for [m]; an unloaded wheel still has a place where it would touch.
+#: Least approach for the contact frames [m], so that an unloaded wheel has a contact frame too.
 LEAST_APPROACH = 5e-6
-_ROLL_RANGE = 0.1  # [rad] lifts a wheel by 75 mm
-_ROLL_TOLERANCE = 1e-13  # [m] difference of the two wheels' heights
+_ROLL_RANGE = 0.1  # half range of the search for the roll [rad]; it lifts a wheel by 75 mm
+_ROLL_TOLERANCE = 1e-13  # tolerance of the difference of the two wheels' heights [m]
 _CREEPAGE = 2 * POINTS
 
 
 class Wheelset(NamedTuple):
-    """All arrays of one wheelset. `constants` are set by the owner, as are curves, sizes and samples of both searches.
+    """All arrays of one wheelset.
 
-    What is remembered from one step to the next lies in `state` … `powers`.
+    The owner sets `constants`, and curves, sizes and samples of both searches. `state` to `powers` carry over from one step
+    to the next.
     """
 
     constants: Array  # as in `dynamics`
     state: Array
-    energy: Array  # since start [J]
+    energy: Array  # since the start [J]
     height: Array  # vertical [m], roll [rad]
     irregularity: Array  # of the centre line: lateral [m], slope [-]
     forces: Array  # of the contacts on the wheels, shape (2, 3)
@@ -55,15 +56,15 @@ class Wheelset(NamedTuple):
     axle: Array  # direction to the right
     loads: Array  # [N], shape (2,)
     resultants: Array
-    problems: Array  # what the contacts have to solve, in the order of `ports.PROBLEM`, shape (2, LOAD + 1)
-    rates: Array  # time derivatives of `state`, reported last
-    powers: Array  # time derivatives of `energy` [W], likewise
+    problems: Array  # inputs of the contacts in the order of `ports.PROBLEM`, shape (2, LOAD + 1)
+    rates: Array  # time derivatives of `state` at the last report
+    powers: Array  # time derivatives of `energy` [W] at the last report
     given: Array  # of one wheel: pose, velocity, irregularity
     right: Search
     left: Search
 
 
-#: Shapes of what is remembered, in this order.
+#: Shapes of the arrays that carry over from one step to the next, in the order of the saved state.
 REMEMBERED = {
     "state": (N_STATE,),
     "energy": (dynamics.N_ENERGY,),
@@ -83,7 +84,7 @@ REMEMBERED = {
 
 @kernel
 def begin(w: Wheelset, lateral: float, yaw: float, lateral_velocity: float, yaw_rate: float, approach: float) -> int:
-    """Put the wheelset onto the rails, without forces, and let it roll with V over the mean of both rolling radii."""
+    """Put the wheelset onto the rails without forces. Its spin is V over the mean of both rolling radii."""
     w.energy[:] = 0.0
     w.height[:] = 0.0
     w.irregularity[:] = 0.0
@@ -106,7 +107,7 @@ def begin(w: Wheelset, lateral: float, yaw: float, lateral_velocity: float, yaw_
 
 @kernel
 def step(w: Wheelset, h: float, substeps: int) -> int:
-    """Advance by h [s] with the forces held."""
+    """Advance by h [s] with constant forces."""
     balance(w)
     for _ in range(substeps):
         failure = _advance(w, h / substeps)
@@ -118,7 +119,7 @@ def step(w: Wheelset, h: float, substeps: int) -> int:
 
 @kernel
 def observe(w: Wheelset) -> int:
-    """Everything at the present state, forces, approaches and irregularity; nothing that was remembered counts."""
+    """Compute all outputs from the present state, forces, approaches and irregularity, without any other memory."""
     w.height[:] = 0.0
     w.frames[:] = 0.0
     failure = meet_rails(w)
@@ -150,7 +151,7 @@ def _advance(w: Wheelset, dt: float) -> int:
 
 @kernel
 def meet_rails(w: Wheelset) -> int:
-    """Roll, height and contact frames at the present position."""
+    """Compute roll, height and contact frames at the present position."""
     y, yaw = w.state[State.LATERAL] - w.irregularity[0], w.state[State.YAW] - w.irregularity[1]
     failure = _settle(w, y, yaw)
     if failure:
@@ -166,7 +167,7 @@ def meet_rails(w: Wheelset) -> int:
 
 @kernel
 def _lay_frame(w: Wheelset, search: Search, side: int, y: float, z: float, roll: float, yaw: float) -> bool:
-    """Contact frame and separation of one side; False without contact."""
+    """Compute contact frame and separation of one side. Return False without contact."""
     _pose(w, search, y, z, roll, yaw)
     if locate(search) <= 0:
         return False
@@ -186,7 +187,7 @@ def _lay_frame(w: Wheelset, search: Search, side: int, y: float, z: float, roll:
 def _pose(w: Wheelset, search: Search, y: float, z: float, roll: float, yaw: float) -> None:
     given = w.given[0]
     given.y, given.z, given.roll, given.yaw = y, z, roll, yaw
-    given.vx, given.spin = 1.0, -1.0 / w.constants[Constant.RADIUS]  # only creepages need it, which are computed here
+    given.vx, given.spin = 1.0, -1.0 / w.constants[Constant.RADIUS]  # arbitrary: `report` computes the creepages
     move(given, search.motion[0])
 
 
@@ -198,10 +199,10 @@ def _touch(w: Wheelset, search: Search, y: float, roll: float, yaw: float) -> tu
 
 @kernel
 def _settle(w: Wheelset, y: float, yaw: float) -> int:
-    """Roll [rad] at which both wheels sink into their rails by the approach at one height, and that height [m] (1).
+    """Find the height [m] and roll [rad] at which both wheels penetrate their rails by the approach (1).
 
-    The difference of heights falls with roll while tan δ < 2 b0/r0 (73°), so a secant is kept in a bracket. It starts
-    from the last roll and half base.
+    The difference of the wheels' heights decreases with roll while tan δ < 2 b0/r0 (73°). The method is a secant iteration
+    within a bracket. It starts from the last roll and half base.
     """
     roll, half_base = w.height[1], abs(w.frames[Side.RIGHT, Frame.Y])
     low, high = roll - _ROLL_RANGE, roll + _ROLL_RANGE
@@ -237,14 +238,14 @@ def _settle(w: Wheelset, y: float, yaw: float) -> int:
 
 @kernel
 def balance(w: Wheelset) -> None:
-    """Normal loads and generalised forces of the present frames and held creep forces, and what follows from them."""
+    """Compute normal loads and generalised forces from the present frames and the held creep forces."""
     dynamics.normal_loads(w.frames, w.forces, w.constants[Constant.AXLE_LOAD], w.constants[Constant.ROLL_LOAD], w.loads)
     dynamics.resultants(w.frames, w.forces, w.loads, w.axle, w.resultants)
 
 
 @kernel
 def report(w: Wheelset) -> None:
-    """Creepages and loads of the present motion; rates and powers."""
+    """Compute creepages, loads, rates and powers of the present motion."""
     speed, state, relative = w.constants[Constant.SPEED], w.state, w.rates[:N_STATE]
     for i in range(N_STATE):
         relative[i] = state[i]
@@ -274,7 +275,7 @@ def report(w: Wheelset) -> None:
 
 @kernel
 def change(w: Wheelset) -> None:
-    """Time derivatives of the state under the present generalised forces (2, 3)."""
+    """Compute the time derivatives of the state under the present generalised forces (2, 3)."""
     c, Q, state, rates = w.constants, w.resultants, w.state, w.rates
     y, yaw, v, yaw_rate = state[State.LATERAL], state[State.YAW], state[State.LATERAL_VELOCITY], state[State.YAW_RATE]
     rates[State.LATERAL], rates[State.YAW] = v, yaw_rate
@@ -290,7 +291,7 @@ def change(w: Wheelset) -> None:
 
 @kernel
 def mechanical_energy(w: Wheelset) -> float:
-    """Kinetic energy (without that of V), of the springs, and of the weight [J] (10)."""
+    """Return kinetic energy without that of V, energy of the springs, and potential energy of the weight [J] (10)."""
     c, s = w.constants, w.state
     kinetic = (
         c[Constant.MASS] * s[State.LATERAL_VELOCITY] ** 2

@@ -1,4 +1,4 @@
-"""What may be chosen about the wheelset and its track."""
+"""Parameters of the wheelset and its track."""
 
 from __future__ import annotations
 
@@ -14,35 +14,35 @@ _FREE = ("lateral", "yaw", "lateral_velocity", "yaw_rate", "window_start")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WheelsetParameters:
-    """Constants of the wheelset, SI units throughout.
+    """Constants of the wheelset, in SI units.
 
-    Masses and axle load are those of the Manchester benchmark's passenger vehicle (constants.md 13.4); the suspension is
-    softer than its bogie's primary, so that a single wheelset becomes unstable at an ordinary speed.
+    Masses and axle load are those of the Manchester benchmark's passenger vehicle (constants.md 13.4). The suspension is
+    softer than the primary suspension of its bogie, so that a single wheelset becomes unstable at an ordinary speed.
 
     Parameters
     ----------
     speed : float
         Constant forward speed V [m/s].
     mass, yaw_inertia, spin_inertia : float
-        [kg], about z and about the axle [kg m²].
+        Mass [kg], moments of inertia about z and about the axle [kg m²].
     axle_load : float
         Vertical force that both rails carry together [N].
     lateral_stiffness, yaw_stiffness, lateral_damping, yaw_damping : float
         Primary suspension between the wheelset's centre and a frame on the ideal centre line
         [N/m], [N m/rad], [N s/m], [N m s/rad].
     lateral, yaw, lateral_velocity, yaw_rate : float
-        Initial motion [m], [rad], [m/s], [rad/s]; the spin starts with V over the mean of both rolling radii.
+        Initial motion [m], [rad], [m/s], [rad/s]. The initial spin is V over the mean of both rolling radii.
     wheel, rail : Profile
-        Of the right side; the left side is the mirror image.
+        Profiles of the right side. The left side is the mirror image.
     radius, gauge, gauge_point, flange_back : float
-        Nominal rolling radius, track gauge, depth below the top of the rail at which it is measured, distance of the
-        backs of the flanges [m].
+        Nominal rolling radius, track gauge, depth below the top of the rail at which the gauge is measured, distance of
+        the backs of the flanges [m].
     window_start, window_step : float
         First sample of a separation and distance of samples [m]: `geometry.y0` and `geometry.dy` of the contact's FMU.
     approach : float
-        Approach of wheel and rail [m] that is assumed until the contacts report theirs.
+        Approach of wheel and rail [m] that is assumed until the contacts return theirs.
     substeps : int
-        Steps of integration within a communication step.
+        Integration steps in a communication step.
 
     Raises
     ------

@@ -1,6 +1,7 @@
-"""What is exchanged between the wheelset and a wheel-rail contact, in which order and under which FMU names.
+"""Data exchanged between the wheelset and a wheel-rail contact: order and FMU names.
 
-The wheelset's outputs of one side carry the names of the contact's inputs behind the side, and the other way round.
+The wheelset's outputs of one side have the names of the contact's inputs after the prefix "right." or "left.". Its inputs
+have the names of the contact's outputs after the same prefix.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from contact.geometry.wheelset import Side
 
 #: Sides in the order of every array.
 SIDES: tuple[Side, Side] = ("right", "left")
-#: Samples of the separation, a build option of `WheelRailContact`.
+#: Number of samples of the separation, a build option of `WheelRailContact`.
 POINTS = 41
 
 #: Inputs of a contact: gap [m], half curvature [1/m], creepages [-], [-], [rad/m], normal force [N].
@@ -32,9 +33,9 @@ REPORT = ("power.friction", "pressure.max", "slip.ratio", "status", "damage.T_ga
 
 #: Motion of the wheelset: m, rad, m/s, rad/s, rad/s, m, rad.
 MOTION = ("lateral", "yaw", "lateral_velocity", "yaw_rate", "spin", "vertical", "roll")
-#: Energies of the wheelset since start [J].
+#: Energies of the wheelset since the start [J].
 ENERGY = ("energy.interface", "energy.drive", "energy.damper", "energy.mechanical")
-#: Rates of motion and energies that are not motion themselves: m/s², rad/s², rad/s², W, W, W.
+#: Accelerations and powers: m/s², rad/s², rad/s², W, W, W.
 CHANGE = (
     *("lateral_acceleration", "yaw_acceleration", "spin_acceleration"),
     *("power.interface", "power.drive", "power.damper"),

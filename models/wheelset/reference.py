@@ -1,6 +1,6 @@
-"""The reference run beside the model: python -m models.wheelset.reference writes reference.csv anew.
+"""The reference run of the model: ``python -m models.wheelset.reference`` writes reference.csv again.
 
-A linear creep law stands for the contacts, so the numbers are those of the wheelset and of the geometry alone.
+The contacts are a linear creep law, so the results depend only on the wheelset and the geometry.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ COLUMNS = (
 
 
 def simulate(wheelset: Component | None = None) -> History:
-    """The run of `reference.csv`, of a `wheelset` that starts at LATERAL with SPEED, or of the model itself."""
+    """Return the run of `reference.csv`. `wheelset` must start at LATERAL with SPEED; default the Python model."""
     if wheelset is None:
         wheelset = DirectWheelset(WheelsetModel(WheelsetParameters(speed=SPEED, lateral=LATERAL)))
     contacts = [LinearContact(CREEP_COEFFICIENT) for _ in SIDES]

@@ -1,7 +1,7 @@
-"""Linear stability of the coupled system as it is: the equations of motion differentiated numerically.
+"""Linear stability of the coupled system, by numerical differentiation of its equations of motion.
 
-Unlike `linear.py` this holds for any profiles, with Kalker's coefficients of the true patches, spin creepage and
-gravitational stiffness. By symmetry the spin of the axle stays out of the lateral motion.
+Unlike `linear.py` this is valid for any profiles. It includes Kalker's coefficients of the true patches, spin creepage and
+gravitational stiffness. By symmetry the spin of the axle does not couple with the lateral motion.
 """
 
 from __future__ import annotations
@@ -20,20 +20,21 @@ from models.wheelset.parameters import WheelsetParameters
 from models.wheelset.ports import SIDES
 
 _MOTION = ("lateral", "yaw", "lateral_velocity", "yaw_rate")
-_ROUNDS = 4  # exchanges of load and lateral force until they agree to many digits
+_ROUNDS = 4  # exchanges of load and lateral force; they then agree to many digits
 
 
 def state_matrix(parameters: WheelsetParameters, friction: float = 0.3, amplitude: float = 1e-4) -> NDArray[np.float64]:
-    """State matrix, shape (4, 4), of (lateral, yaw, lateral_velocity, yaw_rate) about the centre of the track.
+    """Return the state matrix, shape (4, 4), of (lateral, yaw, lateral_velocity, yaw_rate) about the track's centre.
 
     Parameters
     ----------
     parameters : WheelsetParameters
-        Its initial motion is not used.
+        Constants. The initial motion is not used.
     friction : float
         Coefficient of friction [-].
     amplitude : float
-        Lateral displacement of the central difference [m]; the others follow from a kinematic motion of that size.
+        Lateral displacement of the central difference [m]. The other displacements are those of a kinematic motion with
+        this amplitude.
     """
     p = parameters
     contacts = [DirectContact(p, friction) for _ in SIDES]
@@ -60,7 +61,7 @@ def _rates(p: WheelsetParameters, contacts: Sequence[Component], name: str, valu
 
 
 def growth(parameters: WheelsetParameters, friction: float = 0.3, amplitude: float = 1e-4) -> float:
-    """Largest real part of the eigenvalues [1/s]; negative: a small motion decays."""
+    """Return the largest real part of the eigenvalues [1/s]. If it is negative, a small motion decays."""
     return float(np.linalg.eigvals(state_matrix(parameters, friction, amplitude)).real.max())
 
 
@@ -71,7 +72,10 @@ def critical_speed(
     bounds: tuple[float, float] = (2.0, 150.0),
     tolerance: float = 0.01,
 ) -> float:
-    """Speed [m/s] within `bounds` at which `growth` changes sign, by bisection to `tolerance`; nan if it does not."""
+    """Return the speed [m/s] within `bounds` at which `growth` becomes positive, by bisection to `tolerance`.
+
+    The result is nan if `growth` is positive at the lower bound or not positive at the upper bound.
+    """
     low, high = bounds
 
     def unstable(speed: float) -> bool:

@@ -137,7 +137,7 @@ def test_contact_points_are_mirror_images():
         ({"amplitudes": []}, "at least one"),
         ({"step": 1.0}, "step = 1 is outside"),
         ({"gauge": "wide"}, "gauge = 'wide' is not a number"),
-        ({"left_radius": 0.44}, "of one sign on average"),
+        ({"left_radius": 0.44}, "has the same sign"),
         ({"left_wheel": ARC}, "is not a profile of a wheel"),
     ],
 )

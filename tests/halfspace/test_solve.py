@@ -98,7 +98,7 @@ def test_two_distant_lobes_share_the_load():
 
 
 @pytest.mark.parametrize(("given", "message"), [
-    ({"normal": "halfspace", "tangential": "fastrip"}, "does not serve normal = 'halfspace'"),
+    ({"normal": "halfspace", "tangential": "fastrip"}, "does not work with normal = 'halfspace'"),
     (BOTH | {"spacing": 0.0}, "spacing = 0 is outside"),
     (BOTH | {"spacing": (1e-3, 1e-3, 1e-3)}, "pair of numbers"),
     (BOTH | {"spacing": 1e-9}, "elements along a side"),

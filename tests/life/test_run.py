@@ -71,7 +71,7 @@ def test_checkpoint_of_another_run_is_refused(curved, tmp_path):
     with pytest.raises(ContactError, match="checkpoint of another run"):
         checkpoint.read(path, scenario().fingerprint)
     path.write_bytes(path.read_bytes()[:1000])
-    with pytest.raises(ContactError, match="no checkpoint"):
+    with pytest.raises(ContactError, match="not a checkpoint"):
         checkpoint.read(path, curved.scenario.fingerprint)
 
 
@@ -154,7 +154,7 @@ def test_result_keeps_series_and_histograms(curved, tmp_path):
         found = result.histogram(stored, side, body)
         assert (found["wear"] == h["wear"]).all()
         assert found.profile.kind == body
-    with pytest.raises(ContactError, match="is no wheelrail-contact run"):
+    with pytest.raises(ContactError, match="is not a wheelrail-contact run"):
         result.histogram(xarray.Dataset(), "right", "wheel")
 
 

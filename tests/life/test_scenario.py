@@ -51,11 +51,11 @@ def written(folder: Path, text: str) -> Path:
         ),
         (LEAST + "[wheelset]\nmass = 0.0", r"case.toml.wheelset: mass = 0 is outside the allowed range \]0, inf\["),
         (LEAST + "[profiles]\nwheel = 'S1003'", r"case.toml.profiles: wheel = 'S1003' is no profile"),
-        (LEAST + "[methods]\ntangential = 'polach'", r"case.toml.methods: tangential = 'polach' gives forces alone"),
+        (LEAST + "[methods]\ntangential = 'polach'", r"case.toml.methods: tangential = 'polach' gives forces only"),
         (LEAST + "[methods]\npressure_limit = -1.0", r"case.toml.methods: .*pressure_limit = -1 is outside"),
         (
             LEAST + "[friction]\nstatic = 0.3\ngauge_factor = 0.5",
-            r"friction.gauge_factor = 0.5: a run knows one .*allowed: 1",
+            r"friction.gauge_factor = 0.5: a run has the same .*allowed: 1",
         ),
         (
             LEAST + "[damage]\nwear_law = 'reye'",
@@ -68,7 +68,7 @@ def written(folder: Path, text: str) -> Path:
             LEAST + "[recording]\nstep = 0.1",
             r"case.toml.recording: step = 0.1 is outside the allowed range \[1e-05, 0.005\]",
         ),
-        (LEAST + "seed = one\n", r"case.toml is no TOML: .*line 4"),
+        (LEAST + "seed = one\n", r"case.toml is not TOML: .*line 4"),
         (LEAST.replace("20.0", "{ at = [0.0, 0.0], values = [20.0, 10.0] }"), r"at\[1\] = 0 is outside .*\]0, inf\["),
     ],
 )
@@ -125,7 +125,7 @@ def test_curve_has_transitions_circle_and_cant():
 
 
 def test_overlapping_curves_are_refused():
-    with pytest.raises(ContactError, match="starts at 100 m begins before 140 m"):
+    with pytest.raises(ContactError, match="starts at 100 m overlaps the previous curve, which ends at 140 m"):
         Track(curves=tuple(Curve(start=start, radius=500.0, length=40.0) for start in (0.0, 100.0)))
 
 

@@ -72,7 +72,7 @@ def test_forces_alone_have_no_stick_area():
     assert found.rows[1].adhesion_area > 0.0
     assert next(csv.DictReader(io.StringIO(found.csv())))["adhesion_area"] == ""
     titles = [ax.get_title(loc="left") for ax in found.figure().subfigs[0].axes]
-    assert sum("forces alone" in title for title in titles) == 1
+    assert sum("forces only" in title for title in titles) == 1
 
 
 def test_pairs_go_by_name():
@@ -90,11 +90,11 @@ def test_pairs_go_by_name():
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        (lambda: contact.compare([]), "cases holds something else than contact.Case, or nothing"),
-        (lambda: contact.compare([problem(), problem()]), "two are called 'ellipse'"),
+        (lambda: contact.compare([]), "cases is empty or holds an object that is not a contact.Case"),
+        (lambda: contact.compare([problem(), problem()]), "two have the name 'ellipse'"),
         (lambda: contact.compare(problem(), "magic+fastrip"), "normal = 'magic'"),
         (lambda: contact.compare(problem(), "analyn"), "'analyn' is not a normal and a tangential method"),
-        (lambda: contact.compare(problem(), "halfspace+fastrip"), "halfspace+fastrip does not go together"),
+        (lambda: contact.compare(problem(), "halfspace+fastrip"), "halfspace+fastrip cannot be combined"),
         (lambda: contact.compare(problem(), [], reference=False), "methods is empty"),
         (lambda: contact.compare(problem(), reference_elements=2), "reference_elements = 2"),
         (lambda: contact.compare(problem(friction=-1.0)), "friction = -1"),

@@ -94,7 +94,7 @@ def test_no_contact_has_nothing_to_compare():
         (
             "cases.json",
             '[{"curvatures": [1, 1], "wheel": "s1002"}]',
-            "case 1: wheel: curvatures stand in place of wheel",
+            "case 1: wheel: curvatures replace wheel",
         ),
         ("cases.json", '[{"side": "top"}]', "side = 'top' is none of left, right, both"),
         ("cases.csv", "load,y\n3", "more or fewer cells than names"),

@@ -257,7 +257,7 @@ def test_what_a_law_without_fields_leaves_out_is_an_error_that_says_so(law, elli
     sol = solve(ellipse, 1e-3, 5e-4, 0.1, tangential=law)
     assert not sol.has_fields
     for name in ("qx", "qy", "sx", "sy", "stick"):
-        with pytest.raises(contact.ContactError, match=f"there is no {name}: tangential = '{law}' gives forces alone"):
+        with pytest.raises(contact.ContactError, match=f"there is no {name}: tangential = '{law}' gives forces only"):
             getattr(sol, name)
     damage = sol.damage
     for name in ("archard", "stress_index", "energy_index"):
