@@ -195,7 +195,7 @@ def test_files(tmp_path, capsys, changed, found):
     assert f"{'no' if not found else len(lint.check_file(path))} finding(s)" in capsys.readouterr().out
 
 
-def test_a_file_without_description_is_said_to_be_one(tmp_path):
+def test_a_file_without_a_description_is_reported(tmp_path):
     with ZipFile(tmp_path / "empty.fmu", "w"):
         pass
-    assert lint.check_file(tmp_path / "empty.fmu") == ["There is a modelDescription.xml: not here"]
+    assert lint.check_file(tmp_path / "empty.fmu") == ["There is a modelDescription.xml: it is missing"]
