@@ -100,5 +100,5 @@ def test_fields_are_documented(table):
 def test_fields_of_two_shapes_are_refused():
     rows = [parameter("n", "Count", integer=True, start=3, minimum=1)]
     fields = [output("a", "One", shape=("n",)), output("b", "Other", shape=(2, "n"))]
-    with pytest.raises(ValueError, match="one shape"):
+    with pytest.raises(ValueError, match="fields must have the same shape"):
         Table("T", "Test", rows, 1e-3, fields)

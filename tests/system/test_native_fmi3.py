@@ -319,7 +319,7 @@ def test_a_step_says_that_it_was_done_to_its_end(fmu):
 def test_resolution_is_set_in_configuration_mode_alone(open_native_fmi3):
     fmu = open_native_fmi3()
     refused(lambda: fmu.update({"resolution.n_strips": 12}), ERROR)
-    assert fmu.log == [(ERROR, "fmi3SetUInt64: structural parameters, and these alone, are set in configuration mode")]
+    assert fmu.log == [(ERROR, "fmi3SetUInt64: only structural parameters are set, and only in configuration mode")]
     fmu.configure(n_strips=12, n_elements=20)
     fmu.initialize().step()
     assert fmu["field.pressure"].shape == (4, 12, 20)
@@ -341,7 +341,7 @@ def test_the_number_of_values_must_be_that_of_the_array(fmu):
     for call in (lambda: fmu.fmu.setFloat64(reference, [0.0] * 40), lambda: fmu.fmu.getFloat64(reference, nValues=42)):
         fmu.log.clear()
         refused(call, ERROR)
-        assert "values are given where the variables have 41" in fmu.log[0][1]
+        assert "values are given, but the variables have 41" in fmu.log[0][1]
     refused(lambda: fmu.fmu.getFloat64([reference[0] + 1]), ERROR)  # within the array: a variable of FMI 2.0 alone
 
 

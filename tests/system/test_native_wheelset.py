@@ -286,7 +286,7 @@ def test_a_wrong_number_of_states_is_an_error(exchanged):
     for call in ("setContinuousStates", "getContinuousStates", "getDerivatives", "getNominalsOfContinuousStates"):
         array, n = numbers([0.0] * (len(STATES) + 1))
         refused(lambda call=call, array=array, n=n: getattr(exchanged.fmu, call)(array, n), ERROR)
-        assert f"there are {len(STATES)}, {len(STATES) + 1} were asked for" in exchanged.log[-1][1]
+        assert f"there are {len(STATES)}, but {len(STATES) + 1} were requested" in exchanged.log[-1][1]
 
 
 def test_a_state_that_is_no_number_is_discarded_by_name(exchanged):
