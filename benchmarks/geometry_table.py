@@ -3,9 +3,9 @@
     python benchmarks/geometry_table.py [wheel_rail.csv]
 
 Geometry is compared at CONTACT's height of the wheelset. Pressure and penetration are compared at the same vertical load,
-80 kN; ours are ANALYN's. Creepages are wheel minus rail over the forward speed, so CONTACT's numbers are converted: their sign is
-changed, and they are multiplied by its mean rolling speed over the forward speed. CONTACT's longitudinal creepage refers to the
-wheel's plane of first contact, ours to the wheel's surface opposite the reference point. They differ by design.
+80 kN; ours are ANALYN's. Creepages are wheel minus rail over the forward speed. CONTACT's numbers are converted to this: their
+sign is changed, and they are multiplied by its mean rolling speed over the forward speed. CONTACT's longitudinal creepage refers
+to the wheel's plane of first contact, ours to the wheel's surface opposite the reference point. They differ by design.
 """
 
 import sys

@@ -69,7 +69,7 @@ def main() -> None:
             errors.setdefault((worn, method), []).append(row)
             if method == "strip_halfspace" and (abs(row[0]) > 0.004 or row[2] > 0.06):
                 print(
-                    f"case {k}: {load:.0f} N, errors: N {row[0]:+.4f}, pmax {row[1]:+.4f}, L2 {row[2]:.4f}; {sol.n_patches} patches"
+                    f"case {k}: {load:.0f} N, dN {row[0]:+.4f}, dpmax {row[1]:+.4f}, L2 {row[2]:.4f}, {sol.n_patches} patches"
                 )
     print("| profiles | method | N, mean / max | max pressure, mean / max | pressure L2, mean / max | not converged |")
     print("| --- | --- | --- | --- | --- | --- |")

@@ -120,7 +120,7 @@ def test_a_pair_gives_the_forces_of_its_patches_on_either_side(y):
     assert forces[0] == forces[1]
 
 
-def test_the_forces_of_many_cases_are_those_of_each():
+def test_a_batch_equals_separate_solutions():
     """Separations with and without a tilt, in one batch and by `contact.solve`, bit for bit; the plane stays the default."""
     separations = [bent(0.05 + 20.0 * Y), bent(0.0), bent(-0.1, rolling=0.5)]
     creepage = ([1e-3, 2e-3, 0.0], -1e-3, 0.3)
@@ -191,7 +191,7 @@ def test_surfaces_beyond_their_range_are_refused(options):
         bent(**options)
 
 
-def test_methods_of_the_plane_alone_are_refused():
+def test_methods_without_conformal_contact_are_refused():
     for call in (contact.solve, contact.forces):
         with pytest.raises(contact.ContactError, match="knows the contact plane alone"):
             call(bent(0.1), CREEPAGE, load=8e4, conformal=True, tangential="polach")

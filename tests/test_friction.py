@@ -120,7 +120,7 @@ def test_bad_values_are_refused_by_name(options, message):
     assert str(error.value).startswith(message)
 
 
-def test_the_reference_knows_no_slope():
+def test_the_half_space_refuses_a_slope():
     with pytest.raises(contact.ContactError, match=r"friction.slope = 0.5: tangential = 'halfspace'"):
         solve((1e-3, 0.0, 0.0), friction=Friction(0.3, slope=0.5), normal="halfspace", tangential="halfspace")
 
@@ -222,7 +222,7 @@ def test_forces_are_continuous_in_the_creepage_where_local_friction_falls_steepl
         assert np.abs(np.diff(Fx)).max() < 4e-3
 
 
-def test_methods_that_give_forces_alone_take_the_global_velocity():
+def test_methods_with_forces_only_use_the_global_velocity():
     one, other = (
         solve((1e-2, 0.0, 0.0), tangential="polach", friction=Friction.polach(velocity=v)) for v in ("local", "global")
     )
@@ -268,7 +268,7 @@ def test_a_border_far_away_leaves_one_coefficient(tangential):
         np.testing.assert_allclose((one.Fx, one.Fy, one.Mz), (other.Fx, other.Fy, other.Mz), rtol=1e-12)
 
 
-def test_forces_and_local_laws_know_the_sides_too():
+def test_batches_and_local_laws_apply_the_gauge_factor():
     friction = sided(kinetic=0.2, law="linear", half_speed=0.1, velocity="local")
     one = solve((1e-3, 5e-4, 0.3), friction=friction)
     many = contact.forces(SEPARATION, (1e-3, 5e-4, 0.3), load=8e4, friction=friction)

@@ -41,7 +41,7 @@ def law(friction, rise):
 
 @pytest.mark.parametrize("velocity", ["global", "local", "greatest"])
 @pytest.mark.parametrize("tangential", FIELDS)
-def test_what_is_never_reached_changes_no_bit(tangential, velocity):
+def test_a_reference_temperature_that_is_never_reached_changes_no_bit(tangential, velocity):
     cold = Friction.polach(velocity=velocity)
     for creepage in CREEPAGES:
         one = solve(creepage, cold, tangential=tangential)
@@ -112,7 +112,7 @@ def test_heat_is_the_frictional_power(tangential):
 
 
 @pytest.mark.parametrize("tangential", FIELDS)
-def test_the_hotter_the_less_force_down_to_what_heat_leaves(tangential):
+def test_force_falls_with_temperature_to_the_hot_friction(tangential):
     """Over the bodies' temperature: monotone, continuous where the hottest place reaches the reference, both limits."""
     unreached, hottest, until = Friction(0.3), Friction(0.3 * 0.4), replace(HOT, reference_temperature=1600.0)
     for creepage in ((0.05, 0.0, 0.0), (0.0, 0.02, 0.2)):
@@ -131,7 +131,7 @@ def test_the_hotter_the_less_force_down_to_what_heat_leaves(tangential):
 
 
 @pytest.mark.parametrize("tangential", FIELDS)
-def test_it_keeps_the_symmetries(tangential):
+def test_hot_friction_keeps_the_symmetries(tangential):
     for xi, eta, phi in CREEPAGES:
         one, negative, mirrored = (
             solve(c, tangential=tangential) for c in ((xi, eta, phi), (-xi, -eta, -phi), (xi, -eta, -phi))
@@ -164,7 +164,7 @@ def test_warm_bodies_have_less_friction_everywhere(tangential):
             np.testing.assert_allclose(forces(one), forces(other), rtol=1e-5, atol=1e-6)
 
 
-def test_a_pair_knows_it_and_the_forces_of_many_cases_too():
+def test_pairs_and_batches_apply_hot_friction():
     pair = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40)))
     cold, hot = (pair.solve(Pose(y=3e-3, yaw=2e-2), load=8e4, friction=f).force for f in (0.3, HOT))
     assert np.hypot(hot[0], hot[1]) < 0.97 * np.hypot(cold[0], cold[1])

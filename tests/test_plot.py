@@ -123,7 +123,7 @@ def test_pictures_are_written_and_not_blank(tmp_path, solution, apart, two_patch
     assert plot.patch(apart).axes[0].get_title(loc="left") == "no contact"
 
 
-def test_given_axes_get_the_pressure_alone(solution):
+def test_given_axes_show_only_the_pressure(solution):
     figure = mpl.figure.Figure()
     ax = figure.subplots()
     assert plot.patch(solution, ax=ax) is figure

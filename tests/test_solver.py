@@ -72,7 +72,7 @@ def assert_same_bits(found, expected):
 
 
 @pytest.mark.parametrize(("normal", "tangential"), PAIRS)
-def test_answers_are_those_of_solve_bit_for_bit_whatever_was_asked_before(normal, tangential):
+def test_results_equal_solve_bit_for_bit_after_any_other_calls(normal, tangential):
     solver = prepared(normal, tangential, friction=0.35, speed=30.0)
     for separation, creepage, amount in CALLS:
         methods = {"normal": normal, "tangential": tangential, **SMALL}
@@ -81,7 +81,7 @@ def test_answers_are_those_of_solve_bit_for_bit_whatever_was_asked_before(normal
 
 
 @pytest.mark.parametrize(("normal", "tangential"), PAIRS)
-def test_forces_only_are_those_of_solve_bit_for_bit(normal, tangential):
+def test_forces_only_equals_solve_bit_for_bit(normal, tangential):
     solver = prepared(normal, tangential)
     for separation, creepage, amount in CALLS:
         full = solver.solve(separation, creepage, throw=False, **amount)
@@ -108,7 +108,7 @@ def test_material_and_friction_are_those_of_solve():
     assert_same_bits(solver.solve(ELLIPSE, CALLS[0][1], load=60e3), expected)
 
 
-def test_friction_and_speed_of_a_call_hold_for_the_following_ones():
+def test_friction_and_speed_of_a_call_stay_for_later_calls():
     solver, (separation, creepage, amount) = prepared(), CALLS[4]
     falling = Friction.polach()
     first = solver.solve(separation, creepage, friction=falling, speed=10.0, **amount)
@@ -230,7 +230,7 @@ def test_bad_preparation_is_named_with_its_range(arguments, message):
         prepared(**arguments)
 
 
-def test_forces_that_cannot_be_trusted_say_so_by_their_status():
+def test_the_status_of_forces_reports_unreliable_results():
     solver = prepared()
     assert solver.forces(ELLIPSE, CALLS[0][1], load=1e9).status == contact.Status.OUT_OF_RANGE
     assert solver.solve(ELLIPSE, CALLS[0][1], load=1e9, throw=False).status == contact.Status.OUT_OF_RANGE
@@ -264,5 +264,5 @@ def test_two_solvers_do_not_share_memory():
     assert_same_bits(one.solve(ELLIPSE, CALLS[0][1], load=60e3), first)
 
 
-def test_a_solver_says_what_it_was_made_for():
+def test_the_repr_of_a_solver_shows_its_settings():
     assert repr(prepared(friction=0.4)) == "Solver(analyn + fastrip, 10 strips x 10 elements, friction 0.4)"

@@ -67,7 +67,7 @@ def test_tests_import_no_benchmark():
     assert found(("tests",), lambda name: name.split(".")[0] == "benchmarks") == []
 
 
-def test_benchmarks_and_reference_know_nothing_of_tests():
+def test_benchmarks_and_reference_do_not_import_tests():
     assert found(("benchmarks", "reference"), lambda name: name.split(".")[0] == "tests") == []
     assert found(("reference",), lambda name: name.split(".")[0] == "benchmarks") == []
     read = [

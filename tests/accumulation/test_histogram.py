@@ -135,7 +135,7 @@ def test_on_a_plane_and_an_arc_the_coordinates_are_exact():
         assert 0.5 * (ends[0] + ends[1]) == pytest.approx(on[0], abs=2.1e-5)
 
 
-def test_a_strip_is_shared_by_overlap_and_what_lies_beyond_stays_in_the_outer_bins():
+def test_a_strip_is_divided_among_bins_by_overlap_and_the_outer_bins_take_the_rest():
     """Bins 0.7 wide from 2.1 on; strips given in widths from there."""
     width, start, distance, dy = 0.7, 3.0, 2.0, 0.1
     edges = width * (start + np.array([[0.5, 1.2, -2.0, 2.5], [2.5, 1.4, -1.0, 4.5]]))
@@ -173,7 +173,7 @@ def test_exceedance_counts_the_distance_with_a_positive_index(contacts):
     assert weak["stress_exceedance"].sum() < weak["contact"].sum()
 
 
-def test_views_divide_by_what_has_rolled(contacts):
+def test_views_divide_by_the_rolled_distance(contacts):
     wheel, rail = (run(p, contacts, radius=0.5) for p in (WHEEL, RAIL))
     np.testing.assert_allclose(wheel.per("metre")["wear"] * 30.0, wheel["wear"], rtol=1e-15)
     turns = wheel.distance / (2.0 * np.pi * 0.5)

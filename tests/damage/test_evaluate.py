@@ -142,7 +142,7 @@ def test_global_laws_take_t_gamma_with_or_without_spin(solution):
     assert spin.usfd > plain.usfd
 
 
-def test_wheel_radius_enters_pearce_sherratt_and_the_archard_depth_alone(solution):
+def test_wheel_radius_affects_only_pearce_sherratt_and_the_archard_depth(solution):
     small, large = damage.evaluate(solution, 0.3), damage.evaluate(solution, 0.6)
     assert small.pearce_sherratt == pytest.approx(2.0 * large.pearce_sherratt, rel=1e-12)
     assert small.archard.depth_max == pytest.approx(2.0 * large.archard.depth_max, rel=1e-12)

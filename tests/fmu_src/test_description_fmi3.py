@@ -78,7 +78,7 @@ def test_outputs_depend_on_inputs_and_initial_values_on_parameters_too(table, xm
     assert any(set(u.get("dependencies").split()) & parameters for u in xml.findall("ModelStructure/InitialUnknown"))
 
 
-def test_a_derivative_says_of_what():
+def test_a_derivative_refers_to_its_state():
     rows = [signal("f", "Force", start=0.0), output("x", "Place"), output("v", "Velocity", derivative_of="x")]
     xml = ElementTree.fromstring(model_description(Table("T", "Test", rows, 1e-3), INTERFACES_3, ""))
     assert {v.get("name"): v.get("derivative") for v in xml.find("ModelVariables")}["v"] == "1"

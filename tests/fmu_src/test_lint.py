@@ -184,7 +184,7 @@ FILES = {
         ({"resources/a.txt": b"", "resources/A.txt": b""}, [lint.names_are_portable]),
     ],
 )
-def test_files(tmp_path, capsys, changed, found):
+def test_file_rules_find_each_fault(tmp_path, capsys, changed, found):
     path = tmp_path / "M.fmu"
     with ZipFile(path, "w") as archive:
         for name, content in (FILES | changed).items():

@@ -93,7 +93,7 @@ def test_cones_the_wrong_way_round_have_negative_conicity_and_no_wavelength():
     assert np.isinf(found.wavelength()).all()
 
 
-def test_cylinders_have_none():
+def test_cylinders_have_no_conicity():
     found = conicity(profile.cone(0.0), ARC, [1e-3, 4e-3], **ON_ARC)
     np.testing.assert_array_equal(found.conicity, 0.0)
 

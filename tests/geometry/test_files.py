@@ -120,7 +120,7 @@ def test_plain_columns_either_side_either_way_up(tmp_path, shape, side, sign, up
         ("a.prw", "0 0", {"kind": "rail"}, "is a file of a wheel"),
     ],
 )
-def test_files_that_hold_no_profile_say_why(tmp_path, name, text, arguments, message):
+def test_files_without_a_profile_raise_an_error_with_the_reason(tmp_path, name, text, arguments, message):
     path = tmp_path / name
     if text is not None:
         path.write_text(text)
@@ -136,14 +136,14 @@ def test_files_that_hold_no_profile_say_why(tmp_path, name, text, arguments, mes
         (RAIL, 1e3, "m", r"is 73\.\d+ m wide"),
     ],
 )
-def test_wrong_unit_is_seen_from_the_width(tmp_path, shape, per_metre, unit, message):
+def test_a_wrong_unit_is_detected_by_the_width(tmp_path, shape, per_metre, unit, message):
     path = tmp_path / f"{shape.kind}.txt"
     path.write_text(table(per_metre * shape.y, per_metre * shape.z))
     with pytest.raises(ContactError, match=message):
         profile.read(path, kind=shape.kind, unit=unit, side="right")
 
 
-def test_wrong_unit_of_a_simpack_header_is_seen_and_cured_by_the_option(tmp_path):
+def test_a_wrong_unit_in_a_simpack_header_is_detected_and_corrected_by_the_option(tmp_path):
     path = tmp_path / "wheel.prw"
     points = table(1e3 * WHEEL.y, 1e3 * WHEEL.z)
     path.write_text(SIMPACK.format(type=1, shift=0, rotate=0, mirror=0, per_metre=1.0, points=points))
@@ -153,7 +153,7 @@ def test_wrong_unit_of_a_simpack_header_is_seen_and_cured_by_the_option(tmp_path
 
 
 @pytest.mark.parametrize("up", [1.0, -1.0])
-def test_flange_on_the_field_side_is_seen_and_cured_by_the_option(tmp_path, up):
+def test_a_flange_on_the_field_side_is_detected_and_corrected_by_the_option(tmp_path, up):
     path = tmp_path / "wheel.txt"
     path.write_text(table(-WHEEL.y, up * WHEEL.z))
     with pytest.raises(ContactError, match=r"flange lies on the field side, at y = 0\.05.*set side"):

@@ -82,7 +82,7 @@ def test_forces_do_not_jump_as_one_plane_becomes_two(height, distance):
     assert change.max() < 5e3
 
 
-def test_the_vertical_load_is_that_of_all_patches_with_their_shares():
+def test_the_vertical_load_is_the_sum_of_the_shares_of_all_patches():
     pair = Pair(profile.s1002(), profile.rail_60e1(1 / 20, breakpoints="UIC 519"))
     patches = pair.contacts(Pose(y=6.365e-3), load=80e3)
     assert len(patches) == 3

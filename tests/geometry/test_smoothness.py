@@ -39,7 +39,7 @@ def test_every_output_is_continuous_over_sixteen_millimetres(rail, yaw, how):
     assert np.median(change[:, 0]) < 2e-3
 
 
-def test_patches_of_their_own_are_born_without_moving_the_others():
+def test_a_new_patch_does_not_move_the_others():
     pair = Pair(WHEEL, RAILS["1:20"])
     y = np.arange(6.2e-3, 6.5e-3, 1e-6)
     counts, last, births = [], None, 0
@@ -53,7 +53,7 @@ def test_patches_of_their_own_are_born_without_moving_the_others():
     assert births <= 5  # in and out of it: they do not flicker
 
 
-def test_a_nascent_patch_carries_nothing():
+def test_a_patch_that_just_appears_carries_no_load():
     pair = Pair(WHEEL, RAILS["1:40"])
     for depth in (1e-6, 1e-8, 1e-10):
         (patch,) = pair.contacts(Pose(y=1e-3), penetration=depth)

@@ -116,7 +116,7 @@ def test_rail_a_is_the_60e1_of_uic_519_inclined_1_to_20():
         ("Rail A", "EN 15302 rail A"),
     ],
 )
-def test_old_and_carelessly_written_names_are_known(given, name):
+def test_old_names_and_other_spellings_are_accepted(given, name):
     assert profile.named(given).name == name
 
 

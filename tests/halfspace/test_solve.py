@@ -73,7 +73,7 @@ def test_resolution_does_not_ripple(ellipse):
 
 @pytest.mark.parametrize("given", [{"load": 0.0}, {"approach": 0.0}, {"approach": -1e-3}])
 @pytest.mark.parametrize("normal", ["halfspace", "analyn"])
-def test_no_contact_is_an_answer(ellipse, given, normal):
+def test_no_contact_is_a_valid_result(ellipse, given, normal):
     sol = contact.solve(ellipse, contact.Creepage(1e-3, 1e-3, 1.0), normal=normal, tangential="halfspace", **given)
     assert sol.status is contact.Status.NO_CONTACT
     assert (sol.Fx, sol.Fy, sol.Mz, sol.N, sol.area, sol.max_pressure, sol.slip_ratio) == (0,) * 7

@@ -117,7 +117,7 @@ def test_energy_leaves_through_the_contacts(curved):
     assert balance["untrusted"] == 0.0
 
 
-def test_energy_of_the_wheelset_is_booked_completely(curved):
+def test_energy_balance_of_the_wheelset_is_complete(curved):
     """Mechanical energy changes by what the drive gives and what leaves through contacts and dampers (readme 10)."""
     interface, drive, damper, mechanical = curved._model.energy()
     start = Run(curved.scenario)._model.energy()[3]
@@ -158,7 +158,7 @@ def test_result_keeps_series_and_histograms(curved, tmp_path):
         result.histogram(xarray.Dataset(), "right", "wheel")
 
 
-def test_leaving_the_rails_is_said_with_the_place():
+def test_leaving_the_rails_is_reported_with_the_position():
     sharp = Track(curves=(Curve(start=0.0, radius=100.0, length=200.0, transition=5.0),))
     away = scenario(track=sharp, speed=60.0, length=200.0)
     with pytest.raises(ContactError, match=r"short at \d+\.\d\d m, 60 m/s: "):

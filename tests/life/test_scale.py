@@ -24,7 +24,7 @@ def deadly(item: tuple[str, int]) -> int:
     return number * number
 
 
-def test_here_is_one_after_the_other():
+def test_without_workers_items_are_done_in_order():
     seen = []
     with Workers() as pool:
         assert pool.map(abs, [-3, 2, -1], lambda done, total: seen.append((done, total))) == [3, 2, 1]

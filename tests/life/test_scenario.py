@@ -72,7 +72,7 @@ def written(folder: Path, text: str) -> Path:
         (LEAST.replace("20.0", "{ at = [0.0, 0.0], values = [20.0, 10.0] }"), r"at\[1\] = 0 is outside .*\]0, inf\["),
     ],
 )
-def test_what_is_wrong_is_said_with_key_value_and_range(tmp_path, text, message):
+def test_errors_name_key_value_and_range(tmp_path, text, message):
     with pytest.raises(ContactError, match=message):
         scenario.read(written(tmp_path, text))
 

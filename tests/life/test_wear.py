@@ -68,7 +68,7 @@ def test_unworn_flange_has_the_sizes_of_the_standard(height, thickness, qR):
         (Flange(height=30e-3, thickness=21e-3, qR=6e-3), "flange thickness 21.00 mm .*, qR 6.00 mm"),
     ],
 )
-def test_limits_are_told_by_name(size, said):
+def test_exceeded_limits_are_named(size, said):
     assert re.match(said, size.exceeded(Flange.limits()))
     assert Flange(height=30e-3, thickness=30e-3, qR=9e-3).exceeded(Flange.limits()) == ""
 
@@ -141,7 +141,7 @@ def test_limit_ends_the_wear(plan):
         (SET.replace("curve.toml", "none.toml"), r"none.toml'?: No such file"),
     ],
 )
-def test_what_is_wrong_with_a_set_is_said(plan, text, message):
+def test_errors_in_a_set_are_named(plan, text, message):
     plan.write_text(text, encoding="utf-8")
     with pytest.raises(ContactError, match=message):
         declared_set.read(plan)
@@ -155,7 +155,7 @@ def test_scenarios_must_share_the_wheel(plan):
         declared_set.read(plan)
 
 
-def test_example_set_is_one():
+def test_the_example_set_is_valid():
     found = declared_set.read(EXAMPLES / "wear_set.toml")
     assert sum(found.weights) == pytest.approx(1.0)
     assert found.wheel.name == "S1002"

@@ -28,7 +28,7 @@ def test_result_is_measured_in_the_units_given():
     assert n == m
 
 
-def test_map_without_a_fixed_point_is_given_up():
+def test_iteration_stops_for_a_map_without_a_fixed_point():
     x, evaluations = fixed_point(lambda x: np.where(x > 0.0, -1.0, 1.0), np.zeros(4), UNIT, 1e-9, 7)
     assert evaluations == 8
     assert np.isfinite(x).all()

@@ -134,7 +134,7 @@ def test_integrator_converges_with_second_order_to_the_exact_motion():
 @pytest.mark.parametrize(
     "loads", [{}, {"CURVATURE": 2e-3, "LATERAL_LOAD": -8e3, "YAW_LOAD": 900.0}], ids=["straight", "curve"]
 )
-def test_energy_is_booked_completely(loads):
+def test_energy_balance_is_complete(loads):
     """What the bodies hold changes by what left through the contacts, what the drive gave and what the dampers took."""
     c, Q = constants(**loads), np.array([900.0, -400.0, 15.0, -700.0])
     start = np.array([0.005, -0.004, 0.0, 0.1, V / R0])

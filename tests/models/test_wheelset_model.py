@@ -149,7 +149,7 @@ def test_wheelset_on_the_rolling_line_of_a_curve_has_no_longitudinal_creepage():
         assert after[2] - before[2] == pytest.approx(curvature, rel=0.01)
 
 
-def test_power_is_booked_completely_in_a_curve():
+def test_power_balance_is_complete_in_a_curve():
     """Readme (9, 10): forces times creepages leave, the drive gives; only κ x of the contact points is left out."""
     model = WheelsetModel(WheelsetParameters(lateral=-5e-3, yaw=-2e-3, lateral_velocity=0.05, yaw_rate=0.1))
     model.set_running(28.0, curvature=1.0 / 600.0, lateral_load=-5e3, roll_load=-4e3, yaw_load=800.0)
@@ -215,7 +215,7 @@ def test_model_reproduces_its_reference():
         assert history[column][:: reference.EVERY] == pytest.approx(values, abs=1e-6 * scale), column
 
 
-def test_bad_step_says_so_and_changes_nothing():
+def test_a_bad_step_raises_an_error_and_changes_nothing():
     model = WheelsetModel()
     before = model.save()
     with pytest.raises(ContactError, match=r"h = -0\.001 is outside the allowed range \]0"):
@@ -225,7 +225,7 @@ def test_bad_step_says_so_and_changes_nothing():
     assert model.save() == before
 
 
-def test_wheelset_off_the_track_says_so_and_changes_nothing():
+def test_a_wheelset_off_the_track_raises_an_error_and_changes_nothing():
     model = WheelsetModel(WheelsetParameters(lateral_velocity=100.0))
     before = model.save()
     with pytest.raises(ContactError, match="y"):

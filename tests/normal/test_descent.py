@@ -24,7 +24,7 @@ def test_elimination_solves_both_sides(m):
 
 
 @pytest.mark.parametrize("n", [FEWEST, 16, MOST])
-def test_jacobians_are_their_own_mirror_images(n):
+def test_jacobians_are_mirror_symmetric(n):
     layers = workspace.rule(n, 10, True).descent
     assert len(layers) == N_LAYERS
     assert np.isfinite(layers).all()
@@ -32,7 +32,7 @@ def test_jacobians_are_their_own_mirror_images(n):
 
 
 @pytest.mark.parametrize("n", [FEWEST - 1, MOST + 1])
-def test_few_and_many_strips_do_without_jacobians(n):
+def test_too_few_and_too_many_strips_have_no_jacobians(n):
     assert workspace.rule(n, 10, True).descent.size == 1
 
 

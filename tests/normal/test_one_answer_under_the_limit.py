@@ -45,7 +45,7 @@ def test_the_fields_add_up_to_the_resultants_and_to_the_power(tangential, share)
 
 
 @pytest.mark.parametrize("tangential", WITH_FIELDS)
-def test_forces_alone_are_the_same(tangential):
+def test_the_batch_gives_the_same_forces(tangential):
     creepage = contact.Creepage(1e-3, 5e-4, 0.2)
     sol = solved(creepage, 0.6, tangential)
     material = dataclasses.replace(contact.STEEL, pressure_limit=0.6 * PEAK)

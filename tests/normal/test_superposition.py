@@ -59,7 +59,7 @@ def loads(sol):
     return sorted((float(own[sol.strips.patch == k].sum()) / LOAD for k in range(sol.n_patches)), reverse=True)
 
 
-def test_the_methods_of_one_patch_are_known():
+def test_the_list_of_one_patch_methods_is_complete():
     assert {name for name, method in NORMAL.items() if not method.several_patches} == SINGLE
     assert set(FELT) < set(NORMAL) - SINGLE
 

@@ -173,7 +173,7 @@ def test_the_equivalent_ellipse_keeps_the_load_of_the_contacts():
     assert one.patch_edges.mean() == pytest.approx(np.average(several.strips.y, weights=weights), abs=1e-9)
 
 
-def test_a_second_contact_feels_the_gutter_of_the_first():
+def test_a_second_contact_is_unloaded_by_the_gutter_of_the_first():
     """Two equal lobes 12 mm apart: the second is pressed less, by what the first lowers the surface there."""
     alone = contact.hertz(1.0, 2.0, approach=9e-5)
     sol = contact.solve(two_lobes(0.0), NO_CREEP, approach=9e-5, normal="multi_hertz")

@@ -66,7 +66,7 @@ def test_left_side_is_the_mirror_image():
     np.testing.assert_array_equal(left, right)
 
 
-def test_bins_add_up_to_the_totals_also_where_they_end_before_the_contact():
+def test_bins_add_up_to_the_totals_even_if_the_contact_lies_outside():
     """Four bins about the tread; what lies beyond belongs to the outer ones."""
     few, many = pair(ledger=ledger(4, -2e-3)), pair(ledger=ledger())
     T_gamma = volume = 0.0
@@ -80,7 +80,7 @@ def test_bins_add_up_to_the_totals_also_where_they_end_before_the_contact():
             assert body[Bin.VOLUME].sum() == pytest.approx(volume, rel=1e-12)
 
 
-def test_growth_is_linear_and_nothing_grows_where_nothing_rolls_or_touches():
+def test_growth_is_linear_and_zero_without_rolling_or_contact():
     run = pair(ledger=ledger())
     once = rolled(run).copy()
     for _ in range(4):
@@ -95,7 +95,7 @@ def test_growth_is_linear_and_nothing_grows_where_nothing_rolls_or_touches():
         run.solve(Pose(), VELOCITY, load=60e3, distance=-1.0)
 
 
-def test_laws_that_give_forces_alone_leave_t_gamma_and_fatigue():
+def test_laws_with_forces_only_accumulate_t_gamma_and_fatigue():
     bins = rolled(pair(ledger=ledger(), tangential="polach"))
     assert bins[:, Bin.T_GAMMA].sum() > 0.0
     assert not bins[:, [Bin.WEAR, Bin.VOLUME, Bin.ENERGY_INDEX, Bin.STRESS_EXCEEDANCE]].any()

@@ -55,7 +55,7 @@ def turned(angle: float) -> np.ndarray:
 
 @pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("load", [None, 80e3])
-def test_is_search_and_solution_of_every_patch_put_together(right, worn, seed, load):
+def test_equals_search_and_separate_solution_of_every_patch(right, worn, seed, load):
     pair = worn if seed % 2 else right
     pose, velocity, rail = random_motion(seed)
     if seed == 1:
@@ -138,7 +138,7 @@ def test_power_of_the_wrench_is_that_of_the_creepages(right, worn, seed):
 
 
 @pytest.mark.parametrize("y", [-6e-3, 0.0, 3e-3, 6.4e-3])
-def test_the_motion_loses_what_friction_dissipates(right, y):
+def test_the_power_lost_by_the_motion_is_the_frictional_dissipation(right, y):
     """In steady rolling -(Fx ξ + Fy η + Mz φ) is the frictional energy per metre, within the discretisation of FaStrip."""
     s = right.solve(Pose(y=y, yaw=3e-3), load=80e3)
     lost = -sum(c.Fx * c.creepage.longitudinal + c.Fy * c.creepage.lateral + c.Mz * c.creepage.spin for c in s.contacts)
@@ -176,7 +176,7 @@ def test_a_displaced_rail_is_a_wheelset_displaced_the_other_way(right, how):
     assert b.z == pytest.approx(a.z - 0.2e-3, abs=1e-12)
 
 
-def test_lift_off_is_an_answer(right):
+def test_lift_off_is_a_valid_result(right):
     for s in (right.solve(Pose(z=-1e-3)), right.solve(Pose(y=1e-3), load=0.0)):
         assert s.status is Status.NO_CONTACT
         assert not s.force.any()
@@ -185,7 +185,7 @@ def test_lift_off_is_an_answer(right):
         assert s.slip_ratio == s.power_per_metre == s.area == 0.0
 
 
-def test_interacting_strips_go_on_from_the_last_call_unless_a_patch_came_or_went():
+def test_interacting_strips_start_from_the_last_call_unless_the_patches_changed():
     pair = make(rail=WORN, normal="strip_halfspace")
     pair.solve(Pose(y=3e-3), load=80e3)
     warm = pair.solve(Pose(y=3.1e-3), load=80e3)
@@ -201,7 +201,7 @@ def test_interacting_strips_go_on_from_the_last_call_unless_a_patch_came_or_went
 
 
 @pytest.mark.parametrize("normal", METHODS.normal)
-def test_what_was_left_in_the_scratch_arrays_does_not_matter(normal):
+def test_results_do_not_depend_on_old_content_of_scratch_arrays(normal):
     """`memory` is all that goes from one call to the next: an FMU state is no more than that."""
     pair = make(normal=normal)
     own, search = pair.bench.own, pair.bench.search
@@ -223,7 +223,7 @@ def test_what_was_left_in_the_scratch_arrays_does_not_matter(normal):
         np.testing.assert_array_equal(answers[1:], answers[:1] * 2)
 
 
-def test_no_more_than_so_many_patches_get_frames_of_their_own():
+def test_the_number_of_patches_with_their_own_frame_is_limited():
     single = WheelRailPair(Pair(WHEEL, WORN, most_patches=1)).solve(Pose(y=6.385e-3), load=80e3)
     assert len(single.contacts) == 1
 

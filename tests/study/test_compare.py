@@ -53,7 +53,7 @@ def test_a_gap_that_starts_elsewhere_changes_no_error():
     assert abs(errors[0]) > 0.02
 
 
-def test_no_contact_is_an_answer(small):
+def test_no_contact_is_a_valid_result(small):
     for row in small.rows[3:]:
         assert (row.status, row.N, row.area, row.adhesion_area, row.errors) == ("NO_CONTACT", 0.0, 0.0, 0.0, None)
 
@@ -75,7 +75,7 @@ def test_forces_alone_have_no_stick_area():
     assert sum("forces alone" in title for title in titles) == 1
 
 
-def test_pairs_go_by_name():
+def test_pairs_of_methods_are_selected_by_name():
     assert pairs_of("analyn+fastrip") == pairs_of([("analyn", "fastrip")]) == (("analyn", "fastrip"),)
     assert pairs_of(["hertz+fastsim", "all"]) == (
         ("hertz", "fastsim"),
@@ -190,7 +190,7 @@ def test_stick_and_slip_are_named_inside_the_patch_of_a_half_space(small):
         assert abs(x) < half
 
 
-def test_of_many_pairs_every_method_with_fields_is_drawn_once(monkeypatch):
+def test_with_many_pairs_every_method_with_fields_is_drawn_once(monkeypatch):
     monkeypatch.setattr(comparison, "MOST_PANELS", 3)
     methods = ("hertz+polach", "hertz+fastsim", "analyn+fastsim", "hertz+fastrip", "analyn+fastrip")
     found = contact.compare(problem(), methods, reference=False)

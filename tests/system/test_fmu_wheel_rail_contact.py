@@ -158,7 +158,7 @@ def test_lift_off_is_a_valid_result(fmu):
     assert not fmu.log
 
 
-def test_connectors_that_start_at_zero_are_no_contact_without_a_load_and_a_flat_one_with_it(fmu):
+def test_connectors_at_zero_give_no_contact_without_load_and_a_flat_contact_with_load(fmu):
     """What a master gives that knows no start values; curvature 0 is then no error."""
     good = {name: fmu[name] for name in PROBLEM}
     fmu.step()
@@ -227,7 +227,7 @@ def test_a_bad_parameter_is_discarded_by_name(open_fmu, name, value, allowed):
     assert all(math.isfinite(v) for v in fmu.all("output").values())
 
 
-def test_a_step_that_is_none_is_discarded(fmu):
+def test_an_invalid_step_is_discarded(fmu):
     assert "communicationStepSize = 0 is outside" in discarded(fmu, 0.0, 0.0)
     assert "communicationStepSize = -0.001 is outside" in discarded(fmu, 0.0, -1e-3)
     assert "end of the step = 1.001 is outside" in discarded(fmu, 1.0, 1e-3)

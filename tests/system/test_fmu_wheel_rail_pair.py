@@ -261,7 +261,7 @@ def test_bins_are_part_of_the_state_and_a_discarded_step_leaves_them(open_pair):
     assert not everything(fmu.initialize()).any()
 
 
-def test_what_is_off_stays_zero(fmu):
+def test_bins_stay_zero_when_nothing_accumulates(fmu):
     fmu.step()
     assert not everything(fmu).any()
     assert fmu["total.T_gamma"] > 0.0

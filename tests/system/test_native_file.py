@@ -37,7 +37,7 @@ def test_what_is_linked_in_is_listed_with_its_licence(native_folder):
         assert words in texts[name], name
 
 
-def test_the_windows_library_needs_windows_alone(native_folder):
+def test_the_windows_library_needs_only_windows(native_folder):
     content = (native_folder / "binaries" / "win64" / f"{NAME}.dll").read_bytes()
     needed = {name.decode().lower() for name in re.findall(rb"[\w-]+\.dll", content, re.IGNORECASE)} - {
         f"{NAME}.dll".lower()
@@ -60,7 +60,7 @@ def functions(native_folder) -> set[str]:
     return set(re.findall(r" [A-TV-Z] (\w+)", symbols))
 
 
-def test_the_library_needs_the_c_library_alone(native_folder):
+def test_the_library_needs_only_the_c_library(native_folder):
     """Of others it asks for libm; what it offers are FMI's functions."""
     library = native_folder / "binaries" / "linux64" / f"{NAME}.so"
     symbols = subprocess.run(["nm", "-D", library], check=True, capture_output=True, text=True).stdout
@@ -75,7 +75,7 @@ def test_the_library_needs_the_c_library_alone(native_folder):
     assert set(re.findall(r"NEEDED.*\[(.+)\]", dynamic)) <= {"libc.so.6", "libm.so.6"}
 
 
-def test_the_library_for_macos_needs_its_c_library_alone(native_folder):
+def test_the_library_for_macos_needs_only_its_c_library(native_folder):
     """It is looked at, since nothing here can run it."""
     library = lief.parse(native_folder / "binaries" / "darwin64" / f"{NAME}.dylib")
     own, system = f"@rpath/{NAME}.dylib", "/usr/lib/libSystem.B.dylib"

@@ -278,7 +278,7 @@ def test_fields_have_directional_derivatives(open_native_fmi3, known):
     np.testing.assert_allclose(slopes, wanted, atol=2e-4 * np.max(np.abs(wanted)))
 
 
-def test_a_seed_of_an_array_goes_along_all_its_elements(fmu):
+def test_a_seed_of_an_array_applies_to_all_its_elements(fmu):
     """A gap that is wider everywhere is an approach that is less."""
     single = [derivative(fmu, ["approach"], ["geometry.g"], np.eye(41)[i].tolist())[0] for i in range(41)]
     (together,) = derivative(fmu, ["approach"], ["geometry.g"], [1.0] * 41)
@@ -316,7 +316,7 @@ def test_a_step_says_that_it_was_done_to_its_end(fmu):
     assert fmu["time"] == 0.25
 
 
-def test_resolution_is_set_in_configuration_mode_alone(open_native_fmi3):
+def test_resolution_is_set_only_in_configuration_mode(open_native_fmi3):
     fmu = open_native_fmi3()
     refused(lambda: fmu.update({"resolution.n_strips": 12}), ERROR)
     assert fmu.log == [(ERROR, "fmi3SetUInt64: only structural parameters are set, and only in configuration mode")]

@@ -74,7 +74,7 @@ def test_a_bad_parameter_is_discarded_by_name_before_the_first_step(open_native)
     fmu.step()
 
 
-def test_a_step_that_is_none_is_an_error_and_changes_nothing(fmu):
+def test_an_invalid_step_is_an_error_and_changes_nothing(fmu):
     for time, h, text in (
         (0.0, 0.0, "= 0 is outside"),
         (0.0, math.nan, "= nan is outside"),
@@ -119,7 +119,7 @@ def test_lift_off_is_a_valid_result(fmu):
     assert not any(value for name, value in outputs.items() if name not in ("status", "approach"))
 
 
-def test_connectors_that_start_at_zero_are_no_contact_without_a_load_and_a_flat_one_with_it(fmu):
+def test_connectors_at_zero_give_no_contact_without_load_and_a_flat_contact_with_load(fmu):
     """What a master gives that knows no start values; curvature 0 is then no error."""
     good = {name: fmu[name] for name in PROBLEM}
     fmu.step()

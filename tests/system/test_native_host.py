@@ -73,7 +73,7 @@ def test_cycles_and_steps_leave_memory_as_it_was(hosts, name):
     hosts("linux64", name)("soak", *((10_000, 1_000_000) if every else (300, 10_000)))
 
 
-def test_two_fmus_in_one_process_do_not_meet(hosts, host, tmp_path):
+def test_two_fmus_in_one_process_do_not_share_symbols(hosts, host, tmp_path):
     """Their symbols have the same names; loaded by RTLD_LOCAL each has its own. One FMU is also two, with other guids."""
     twin = tmp_path / "twin.so"
     guid = "{" + "0" * 36 + "}"
@@ -85,7 +85,7 @@ def test_two_fmus_in_one_process_do_not_meet(hosts, host, tmp_path):
         together("two_libraries", 0, other.library, other.guid)
 
 
-def test_the_wrapper_does_nothing_undefined(host, tmp_path):
+def test_the_wrapper_has_no_undefined_behaviour(host, tmp_path):
     """Compiled such that what C leaves undefined ends the program."""
     model = component(POINTS)
     source.write(model, host.guid, tmp_path)

@@ -97,7 +97,7 @@ def test_fmpy_gives_the_answer_of_a_jacobi_master_that_starts_from_nothing(syste
     assert by_fmpy(system, 2e-4) == pytest.approx(jacobi(2e-4, from_nothing=True), rel=1e-9, abs=1e-12)
 
 
-def test_what_such_a_start_costs_vanishes_with_the_step():
+def test_the_error_of_a_start_from_zero_vanishes_with_the_step():
     """Within the error of the scheme, which is of first order too: half of it at half the step."""
     coarse, fine = (
         np.abs(jacobi(h, from_nothing=True) - jacobi(h))[int(STEPS * share) - 1]

@@ -53,7 +53,7 @@ def test_linear_theory_on_an_ellipse(hertzian):
     np.testing.assert_allclose([x.Fy, x.Mz, y.Fx, spin.Fx], 0.0, atol=1e-6)
 
 
-def test_linear_theory_knows_no_friction(hertzian):
+def test_linear_theory_does_not_depend_on_friction(hertzian):
     sol = solve(hertzian, 0.05)
     assert abs(sol.Fx) > 10 * MU * N
     assert not contact.methods().tangential["linear"].saturates
@@ -110,7 +110,7 @@ def test_carter_has_kalkers_slope_on_a_wide_ellipse():
     assert slope == pytest.approx(kalker.coefficients(kalker.table(NU), math.log(a / b))[0], rel=0.02)
 
 
-def test_carter_takes_longitudinal_creepage_alone(ellipse):
+def test_carter_uses_only_longitudinal_creepage(ellipse):
     only = solve(ellipse, 1e-3, tangential="carter")
     with_all = solve(ellipse, 1e-3, 2e-3, 0.3, tangential="carter")
     assert (with_all.Fx, with_all.Fy, with_all.Mz) == pytest.approx((only.Fx, 0.0, 0.0), abs=1e-9)
@@ -190,7 +190,7 @@ def polach_by_the_book(vx, vy, phi, a, b, C, limit, k_A=1.0, k_S=1.0):
 
 
 @pytest.mark.parametrize("reduced", [(1.0, 1.0), (1.0, 0.4), (0.3, 0.1)])
-def test_polach_is_his_formula(reduced):
+def test_polach_equals_his_formula(reduced):
     rng = np.random.default_rng(3)
     C, inside = kalker.coefficients(kalker.table(NU), math.log(1.5)), 0
     for creepage in rng.normal(0.0, (1e-3, 1e-3, 0.3), (200, 3)):

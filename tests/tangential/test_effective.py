@@ -41,7 +41,7 @@ def test_at_its_nodes_the_march_has_the_half_spaces_force_and_moment(i, j, k, l)
 
 
 @pytest.mark.slow
-def test_cases_that_the_table_has_not_seen():
+def test_errors_on_cases_between_the_nodes_are_small():
     """300 random ellipses by our half space; without effective creepages .0081 / .0261 / .0927, moment .0075."""
     errors = unseen.errors(*reference.unseen_ellipses(), "fastrip_mapped")
     assert errors["force"].mean() < 0.0021
@@ -98,7 +98,7 @@ def test_separate_patches_have_effective_creepages_of_their_own():
     np.testing.assert_allclose(both.Mz, Mz, rtol=1e-3)
 
 
-def test_the_fit_finds_what_the_file_has():
+def test_the_fit_reproduces_the_file():
     changes = table.numbers(table.EFFECTIVE_FILE)
     expected = effective.neighbours(changes)
     for at in ((4, 2, 8, 4), (2, 3, 4, 5)):
@@ -110,7 +110,7 @@ def test_the_fit_finds_what_the_file_has():
 
 
 @pytest.mark.parametrize("at", [(4, 2, 3, 6), (6, 2, 3, 6)])
-def test_slip_counts_the_creepages_as_given(at):
+def test_dissipation_is_the_work_on_the_given_creepages(at):
     """What friction dissipates is the work of the forces on these, though the effective ones differ by a good part of it."""
     a_over_b, creepage = node(*at)
     found = contact.solve(
@@ -126,7 +126,7 @@ def test_slip_counts_the_creepages_as_given(at):
 
 
 @pytest.mark.parametrize("path", [table.FILE, table.EFFECTIVE_FILE])
-def test_the_files_have_nothing_that_symmetry_rules_out(path):
+def test_the_files_obey_the_symmetries(path):
     values = table.numbers(path)
     assert (values[:, -1, :, :, 0] == 0.0).all()
     assert (values[:, :, [0, -1], :, 0] == 0.0).all()

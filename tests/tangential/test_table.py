@@ -82,7 +82,7 @@ def test_forces_and_their_slopes_are_continuous():
         assert roughness[1] < 0.3 * roughness[0]
 
 
-def test_full_slip_is_the_end():
+def test_large_creepage_gives_full_slip():
     c11, c22, *_ = kalker.coefficients(kalker.table(NU), 0.1)
     found = lookup(0.1, 3e3 * c11, 4e3 * c22, 0.0)
     np.testing.assert_allclose(found, (-0.6, -0.8, 0.0, 1.0), atol=0.01)
@@ -90,7 +90,7 @@ def test_full_slip_is_the_end():
 
 
 @pytest.mark.slow
-def test_cases_that_the_table_has_not_seen():
+def test_errors_on_cases_between_the_nodes_are_small():
     """Half space on the same number of elements (`reference`): what interpolation costs."""
     cases, true = reference.unseen_ellipses()
     errors = unseen.errors(cases, true)
