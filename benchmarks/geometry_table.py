@@ -4,7 +4,7 @@
 
 Geometry is compared at CONTACT's height of the wheelset. Pressure and penetration are compared at the same vertical load,
 80 kN; ours are ANALYN's. Creepages are wheel minus rail over the forward speed. CONTACT's numbers are converted to this: their
-sign is changed, and they are multiplied by its mean rolling speed over the forward speed. CONTACT's longitudinal creepage refers
+sign changes, and they are multiplied by its mean rolling speed over the forward speed. CONTACT's longitudinal creepage refers
 to the wheel's plane of first contact, ours to the wheel's surface opposite the reference point. They differ by design.
 """
 

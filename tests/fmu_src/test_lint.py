@@ -1,4 +1,4 @@
-"""Our own rules for FMUs: each finds what it is for, and finds nothing else in a description without faults."""
+"""Our own rules for FMUs: each rule finds its fault, and a description without faults passes."""
 
 import re
 from zipfile import ZipFile
@@ -36,7 +36,7 @@ DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
   </ModelStructure>
 </fmiModelDescription>
 """
-FAULTS = [  # rule, what is replaced by what
+FAULTS = [  # rule, replaced text, new text
     (lint.elements_in_order, r"(<Unit.*)(<TypeDef.*</TypeDefinitions>)", r"\2\1"),
     (lint.names_are_structured, 'name="n"', 'name="n-1"'),
     (lint.names_are_structured, 'name="n"', 'name="n[1"'),
@@ -131,7 +131,7 @@ FAULTS_3 = [
 
 
 def rules(findings):
-    """Which rules the findings are of."""
+    """Return the rules to which the findings belong."""
     return [rule for rule in (*lint.RULES, *lint.FILE_RULES) if any(f.startswith(rule.__doc__) for f in findings)]
 
 

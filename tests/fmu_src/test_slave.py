@@ -1,4 +1,4 @@
-"""The slave that a table drives, called as pythonfmu calls it, with a model of one line."""
+"""The table-driven slave, called as pythonfmu calls it, with a model of one line."""
 
 import math
 import sys
@@ -163,7 +163,7 @@ def test_a_variable_that_cannot_be_read_is_refused_by_name(slave):
     ]
 
 
-def test_a_state_may_have_another_start_value():
+def test_a_state_can_be_set_before_initialisation():
     slave = Quotient()
     slave.set_integer([STEPS], [5])
     slave.enter_initialization_mode()
@@ -231,6 +231,6 @@ def test_another_version_of_the_package_is_refused_at_instantiation():
 
 
 def test_instances_leave_the_module_path_as_it_was(monkeypatch):
-    monkeypatch.setattr(sys, "path", ["/nowhere", *sys.path])  # what pythonfmu does before it instantiates
+    monkeypatch.setattr(sys, "path", ["/nowhere", *sys.path])  # as pythonfmu does before it instantiates
     Quotient()
     assert "/nowhere" not in sys.path

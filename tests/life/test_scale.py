@@ -1,4 +1,4 @@
-"""Runs on several workers: the order, the number and the death of workers change nothing."""
+"""Runs on several workers: results do not depend on their number, their order or a crash of a worker."""
 
 import os
 import signal
@@ -15,7 +15,7 @@ from tests.life.short_set import written
 
 
 def deadly(item: tuple[str, int]) -> int:
-    """Kills its worker the first time; then the square."""
+    """Kill the worker on the first call with number 2. Otherwise return the square."""
     folder, number = item
     mark = Path(folder) / "killed"
     if number == 2 and not mark.exists():

@@ -9,7 +9,7 @@ UNIT = np.ones(4)
 
 
 def test_steep_linear_map_is_solved_in_as_many_evaluations_as_it_has_directions():
-    """Slopes up to -40; one evaluation to start, one for each direction, one that confirms."""
+    """The slopes are up to -40. The solution takes one initial evaluation, one for each direction and one to confirm."""
     rng = np.random.default_rng(4)
     frame = np.linalg.qr(rng.normal(size=(4, 4)))[0]
     slope, shift = frame @ np.diag([-40.0, -12.0, 0.0, 0.0]) @ frame.T, rng.normal(size=4)

@@ -45,7 +45,7 @@ def test_the_cut_pressure_carries_the_load_and_stays_below_the_limit(normal, sha
 
 @pytest.mark.parametrize("share", [0.95, 0.6, 0.2])
 def test_the_cut_ellipsoid_is_that_of_hertz_at_a_higher_load(share):
-    """The cut leaves 3c/2 - c³/2 of the load of a semi-ellipsoid, c = p_c/p0, and p0 ~ load^(1/3): with strips to 1e-3."""
+    """The limit leaves 3c/2 - c³/2 of a semi-ellipsoid's load, c = p_c/p0, and p0 ~ load^(1/3). Strips agree to 1e-3."""
     elastic = contact.solve(SEPARATION, CREEPAGE, load=8e4, normal="hertz")
     low, high = 1.0, 1e6
     for _ in range(200):

@@ -1,4 +1,4 @@
-"""`WheelRailPair` against its parts, mechanics and symmetry."""
+"""`WheelRailPair` compared with its parts, mechanics and symmetry."""
 
 import math
 
@@ -15,7 +15,7 @@ from contact.pair import WheelRailPair
 METHODS = contact.methods().batched
 R0 = 0.460
 WHEEL, RAIL = profile.s1002(), profile.rail_60e1()
-#: Its gauge corner clears the flange root: tread and flange touch at once, at places far apart, around y = 6.37 mm.
+#: The gauge corner clears the flange root, so tread and flange touch at the same time, far apart, around y = 6.37 mm.
 WORN = profile.rail_60e1(1 / 20, breakpoints="UIC 519")
 
 
@@ -39,7 +39,7 @@ def worn():
 
 
 def random_motion(seed: int) -> tuple[Pose, Velocity, Irregularity]:
-    """From field side contact to flange contact, all rates at work."""
+    """Return a random motion, from field side contact to flange contact, with all rates."""
     rng = np.random.default_rng(seed)
     pose = Pose(rng.uniform(-8e-3, 8e-3), rng.uniform(0.0, 4e-4), *rng.uniform(-0.02, 0.02, 2))
     V = rng.uniform(5.0, 60.0)
@@ -48,7 +48,7 @@ def random_motion(seed: int) -> tuple[Pose, Velocity, Irregularity]:
 
 
 def turned(angle: float) -> np.ndarray:
-    """Axes of the contact frame in track coordinates, as columns."""
+    """Return the axes of the contact frame in track coordinates, as columns."""
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
 
@@ -103,7 +103,7 @@ def test_moment_is_that_of_the_contacts_wrenches_about_the_centre(worn, seed):
 
 
 def test_pressure_of_a_curved_rail_is_centred_off_the_reference_point(right):
-    """The moment Mx is the first moment of the pressure, here against the fields of the solution."""
+    """The moment Mx is the first moment of the pressure, here compared with the fields of the solution."""
     pose = Pose(y=2e-3, yaw=0.01)
     s = right.solve(pose, load=80e3)
     (patch,) = right.pair.contacts(pose, load=80e3)
@@ -117,7 +117,7 @@ def test_pressure_of_a_curved_rail_is_centred_off_the_reference_point(right):
 
 @pytest.mark.parametrize("seed", range(10))
 def test_power_of_the_wrench_is_that_of_the_creepages(right, worn, seed):
-    """F·v + M·Omega of the wheelset is V(Fx ξ + Fy η + Mz φ) and what the pressure does; the rail is at rest."""
+    """F·v + M·Omega of the wheelset is V(Fx ξ + Fy η + Mz φ) plus the power of the pressure. The rail is at rest."""
     pair = worn if seed % 2 else right
     pose, velocity, _ = random_motion(seed)
     s = pair.solve(pose, velocity, load=80e3)
@@ -202,7 +202,7 @@ def test_interacting_strips_start_from_the_last_call_unless_the_patches_changed(
 
 @pytest.mark.parametrize("normal", METHODS.normal)
 def test_results_do_not_depend_on_old_content_of_scratch_arrays(normal):
-    """`memory` is all that goes from one call to the next: an FMU state is no more than that."""
+    """Only `memory` passes from one call to the next, so it is the whole FMU state."""
     pair = make(normal=normal)
     own, search = pair.bench.own, pair.bench.search
     scratch = [

@@ -1,4 +1,4 @@
-"""`contact.compare`: what the rows hold, which methods go together, what the files hold."""
+"""`contact.compare`: content of the rows, compatible methods, content of the files."""
 
 import csv
 import io
@@ -37,7 +37,7 @@ def test_errors_are_measured_against_the_half_space(small):
     assert e.moment == pytest.approx(abs(analyn.Mz - true.Mz) / mu_n / math.sqrt(true.area / math.pi), rel=1e-6)
     assert e.max_pressure == pytest.approx(analyn.max_pressure / true.max_pressure - 1.0)
     assert e.approach == pytest.approx(analyn.approach / true.approach - 1.0)
-    # ANALYN is exact on an ellipse, so its pressure differs by the grid's error alone
+    # ANALYN is exact on an ellipse, so its pressure differs only by the grid error
     assert 0.0 < e.pressure < 0.05
     assert abs(e.N) < 1e-9
 
