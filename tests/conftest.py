@@ -8,7 +8,7 @@ import contact
 # Helpers whose assertions get the detailed messages of tests.
 pytest.register_assert_rewrite("tests.command_line", "tests.post_conditions")
 
-# Use the same examples in every run, so that a failure is caused by the tested change. --hypothesis-profile=search tries others.
+# Use the same examples in every run, so that failures come from the tested change. --hypothesis-profile=search tries others.
 settings.register_profile("repeatable", derandomize=True)
 settings.register_profile("search", print_blob=True)
 if settings.get_current_profile_name() == "default":

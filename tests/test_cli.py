@@ -1,4 +1,4 @@
-"""The command line: the same numbers as the Python API, clear refusals, pictures, plug-ins."""
+"""Command line: the same numbers as the Python API, clear error messages, pictures, plug-ins."""
 
 import csv
 import json
@@ -53,7 +53,7 @@ def test_the_options_of_friction_are_those_of_the_python_api():
 
 
 def test_a_law_without_fields_shows_its_forces(tmp_path):
-    """Neither wear depth nor an index over the patch, and no picture of it: refused by name."""
+    """There is no wear depth and no index over the patch, and a picture of it is refused by name."""
     words = ("--curvatures", 1.1, 0.8, "--creepage", 1e-3, 0.0, 0.1, "--tangential", "polach")
     answer = json.loads(call("solve", *words, "--json").stdout)["patches"][0]
     assert answer["Fx"] < 0.0 < answer["damage"]["T_gamma"]

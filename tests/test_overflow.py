@@ -1,4 +1,4 @@
-"""Gaps so large that numbers overflow: an answer, or a status that says there is none; never inf or NaN with OK."""
+"""Gaps so large that numbers overflow give a finite result or a failure status, never inf or NaN with OK."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Pictures: what is drawn lies where the solution says, scales are common, nothing global is touched."""
+"""Pictures: they show the solution at the right places, with common scales and without global side effects."""
 
 import subprocess
 import sys
@@ -40,7 +40,7 @@ def two_patches():
 
 
 def colour_limits(ax):
-    """Of the field on these axes."""
+    """Return the colour limits of the field on these axes."""
     return next(part.get_clim() for part in ax.collections if isinstance(part, mpl.collections.QuadMesh))
 
 

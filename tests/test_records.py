@@ -1,4 +1,4 @@
-"""Records: how they are written, shown in a notebook, copied, pickled, replaced; what their arrays own."""
+"""Records: repr, display in a notebook, copy, pickle, replace, and ownership of their arrays."""
 
 import copy
 import dataclasses
@@ -29,7 +29,7 @@ COPIES = {
 
 @pytest.fixture(params=PAIRS)
 def solution(request, ellipse):
-    """A new solution, of which nothing has been read."""
+    """Return a new solution whose attributes have not been read."""
     return contact.solve(ellipse, CREEPAGE, load=60e3, **PAIRS[request.param])
 
 
@@ -39,7 +39,7 @@ def forces_only(ellipse):
 
 
 def arrays(solution):
-    """Every array of a solution, those of its strips and of its grid too, by name."""
+    """Return every array of a solution by name, including those of its strips and grid."""
     found = {}
     for each in dataclasses.fields(solution):
         value = getattr(solution, each.name)
@@ -52,7 +52,7 @@ def arrays(solution):
 
 
 def assert_same(a, b):
-    """Two solutions agree in all that they say, to the last bit."""
+    """Assert that two solutions are equal in every field, bit for bit."""
     mine, others = arrays(a), arrays(b)
     assert mine.keys() == others.keys()
     for name, array in mine.items():
@@ -64,7 +64,7 @@ def assert_same(a, b):
 
 
 def parsed(html):
-    """The elements of a piece of HTML, which must be well-formed and refer to nothing outside."""
+    """Return the elements of HTML, which must be well-formed and without external references."""
     for foreign in ("<script", "<img", "<link", "href", "url(", "@import"):
         assert foreign not in html
     return list(ElementTree.fromstring(f"<div>{html}</div>").iter())
@@ -77,7 +77,7 @@ def words(html):
 
 
 def drawn(html):
-    """Corners of every polygon, in pixels."""
+    """Return the corners of every polygon, in pixels."""
     return [
         np.array([point.split(",") for point in element.get("points").split()], dtype=np.float64)
         for element in parsed(html)
@@ -198,7 +198,7 @@ def test_a_notebook_shows_the_outline_of_the_patch_in_equal_scales(solution):
     wide, tall = np.ptp(outline, axis=0)
     strips = solution.strips
     assert wide / tall == pytest.approx(np.ptp(strips.y) / (2.0 * strips.a.max()), rel=0.02)
-    assert np.ptp(pressure[:, 1]) == pytest.approx(70.0, abs=0.2)  # the greatest pressure fills the height
+    assert np.ptp(pressure[:, 1]) == pytest.approx(70.0, abs=0.2)  # the greatest pressure takes the full height
 
 
 def test_a_notebook_shows_forces_only_and_no_contact(forces_only, ellipse):
@@ -287,7 +287,7 @@ def test_text_is_escaped():
 
 
 def test_lines_and_text_take_the_colour_of_the_page(ellipse):
-    """Light or dark: nothing is drawn black or white."""
+    """Nothing is drawn black or white, so light and dark pages both work."""
     for element in parsed(ellipse._repr_html_()):
         for name in ("fill", "stroke"):
             assert element.get(name) in (None, "none", "currentColor", notebook.COLOUR)

@@ -1,4 +1,4 @@
-"""`contact.Solver` beside `contact.solve`: the same bits, whatever was asked before."""
+"""`contact.Solver` gives the same bits as `contact.solve` after any earlier calls."""
 
 import dataclasses
 
@@ -9,7 +9,7 @@ import contact
 from contact.errors import ContactError
 from contact.friction import Friction
 
-#: Iterative and not, one march each, forces only.
+#: Iterative and direct methods, one of each march, and one with forces only.
 PAIRS = [
     ("analyn", "fastrip"),
     ("analyn", "polach"),
@@ -18,13 +18,13 @@ PAIRS = [
     ("kik_piotrowski", "table"),
 ]
 SMALL = {"n_strips": 10, "n_elements": 10}
-#: All but `memory`, of which a warm start reads only what the patches of the solution have filled.
+#: All arrays except `memory`, of which a warm start reads only the part that the patches of the solution have filled.
 ARRAYS = ("x", "y", "p", "dA", "patch_edges")
 WITH_FIELDS = ("qx", "qy", "sx", "sy", "stick")
 
 
 def wheel(depth=0.0):
-    """A gap with two summits: an ellipse beside a shallower one, `depth` [m] lower than the first."""
+    """Return a gap with two lobes: an ellipse and a flatter one, which is `depth` [m] lower than the first."""
     y = np.linspace(-0.02, 0.02, 81)
     return contact.Separation(y, np.minimum(2.0 * (y + 0.004) ** 2, 3.0 * (y - 0.008) ** 2 + depth), 1.1)
 
@@ -35,7 +35,7 @@ CALLS = [
     (wheel(2e-5), contact.Creepage(-2e-3, 1e-3, 0.0), {"load": 90e3}),
     (ELLIPSE, contact.Creepage(), {"approach": 5e-5}),
     (ELLIPSE, contact.Creepage(0.0, 0.0, 1.0), {"approach": -1e-5}),  # apart
-    (wheel(), contact.Creepage(0.05, 0.0, 0.0), {"load": 20e3}),  # slips as a whole
+    (wheel(), contact.Creepage(0.05, 0.0, 0.0), {"load": 20e3}),  # full slip
     (ELLIPSE, contact.Creepage(1e-3, -5e-4, 0.2), {"load": 60e3}),  # the first one again
 ]
 
@@ -45,7 +45,7 @@ def prepared(normal="analyn", tangential="fastrip", **others):
 
 
 def numbers(solution):
-    """Every plain number of a solution."""
+    """Return every plain number of a solution."""
     found = {
         each.name: getattr(solution, each.name)
         for each in dataclasses.fields(solution)
@@ -55,7 +55,7 @@ def numbers(solution):
 
 
 def arrays(solution):
-    """Every array of a solution."""
+    """Return every array of a solution."""
     names = ARRAYS + (WITH_FIELDS if solution.has_fields else ())
     found = {name: getattr(solution, name) for name in names}
     strips = {f"strips.{name}": getattr(solution.strips, name) for name in solution.strips.__slots__}
@@ -68,7 +68,7 @@ def assert_same_bits(found, expected):
         np.testing.assert_array_equal(arrays(found)[name], array, err_msg=name, strict=True)
 
 
-# The answers of contact.solve
+# Results of contact.solve
 
 
 @pytest.mark.parametrize(("normal", "tangential"), PAIRS)

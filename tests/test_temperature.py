@@ -41,7 +41,7 @@ def test_constant_heat_rises_with_the_square_root_of_the_way():
     "options", [{"tangential": "fastrip"}, {"tangential": "fastrip_mapped"}, {"normal": "halfspace"}]
 )
 def test_a_sliding_patch_is_as_hot_as_its_hottest_strip_by_the_closed_form(options):
-    """Creepage far beyond saturation: the rigid slip alone heats."""
+    """Creepage is far above saturation, so only the rigid slip heats."""
     if "normal" in options:
         options |= {"tangential": "halfspace", "spacing": 0.25e-3}
     xi, V = 0.3, 10.0

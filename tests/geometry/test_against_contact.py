@@ -36,8 +36,8 @@ def deviations(rows, name, scale, own):
     return np.array([own(patch) - scale * float(row[name]) for row, patch, _ in rows])
 
 
-# CONTACT prints z to 0.1 µm, angles to 1e-4 rad, other numbers to four digits. The row 1:20 at dy = 6 mm (two flat lobes) is the
-# most sensitive to this rounding.
+# CONTACT prints z to 0.1 µm, angles to 1e-4 rad, other numbers to four digits. The row 1:20 at dy = 6 mm (two flat lobes) is
+# the most sensitive to this rounding.
 @pytest.mark.parametrize(
     ("claim", "name", "scale", "own", "typical", "worst"),
     [

@@ -1,7 +1,7 @@
 """Two equal lobes far apart under 2 N have the approach, pressure, area and forces of one lobe under N.
 
-If lobes interact in a method, they do so by the far field of the load: a half space moves by N/(π E* d) at distance d, which is a
-share f of the approach δ. To first order in f the equations of each method give:
+If lobes interact in a method, they do so by the far field of the load: a half space moves by N/(π E* d) at distance d, which is
+a share f of the approach δ. To first order in f the equations of each method give:
 
 * Interacting strips add this to the approach, δ (1 + f), and keep pressure and area.
 * Virtual penetration equates the displacement at the deepest point, δ^-½ + f δ^-½, with an approach that also sets the size of

@@ -23,7 +23,7 @@ def three():
 def test_signs_and_units_are_ours():
     right = next(place for place in places() if place.name == "5 mm right")
     assert (right.y, right.yaw, right.angle) == (5e-3, 12e-3, -0.2905)
-    # the wheel steers to the right: lateral creepage to the left, force to the right; the load is 10 kN with friction
+    # the wheel steers to the right: lateral creepage to the left, force to the right; the 10 kN include friction
     assert right.lateral == pytest.approx(-right.yaw / math.cos(right.angle), rel=5e-3)
     assert right.Fy > 0.0
     assert right.N * math.cos(right.angle) - right.Fy * math.sin(right.angle) == pytest.approx(10e3, rel=1e-4)

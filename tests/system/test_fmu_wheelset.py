@@ -1,4 +1,4 @@
-"""The FMU `Wheelset` as a whole, through the C interface of FMI."""
+"""The FMU `Wheelset` through the C interface of FMI."""
 
 import math
 
@@ -170,7 +170,7 @@ def test_reset_returns_to_the_start(fmu):
 
 
 def test_two_fmus_that_share_code_run_in_one_process(fmu, open_fmu):
-    """One step of a wheelset and its right contact."""
+    """Do one step of a wheelset and its right contact."""
     contact = open_fmu("WheelRailContact").initialize()
     contact.update({name: fmu[f"right.{name}"] for name in PROBLEM})
     contact.step()
