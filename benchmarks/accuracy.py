@@ -105,7 +105,7 @@ cases of the same kind were held back to judge the result; they are not in the r
 Errors over μN, moments over μN√(ab).
 
 {a}
-`fastrip` differs from the published FaStrip in the points that the docstring of `contact/tangential/fastrip.py` lists with
+`fastrip` differs from the published FaStrip in the points that the docstring of `contact/kernels/tangential/fastrip.py` lists with
 their measured effects.
 
 ## Traction fields on ellipses ({n_b} cases)
