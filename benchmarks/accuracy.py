@@ -105,8 +105,8 @@ cases of the same kind were held back to judge the result; they are not in the r
 Errors over μN, moments over μN√(ab).
 
 {a}
-`fastrip` differs from the published FaStrip in the points that the docstring of `contact/kernels/tangential/fastrip.py` lists with
-their measured effects.
+`fastrip` differs from the published FaStrip in some points. The docstring of `contact/kernels/tangential/fastrip.py` lists them
+with their measured effects.
 
 ## Traction fields on ellipses ({n_b} cases)
 
