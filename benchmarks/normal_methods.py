@@ -44,8 +44,8 @@ As in a simulation with a prescribed wheel load.
 | `semi_winkler` | Hertz's for A = B; area within 7 % for a/b from 0.2 to 6.5 | Hertz's |
 
 The docstrings in `contact/kernels/normal` give equations and sources, and say what was recalled rather than read. All methods
-pass strips with semi-elliptic pressure to the tangential methods. `winkler` and `semi_winkler` have another pressure along x. It is
-replaced by the semi-ellipse of the same length and load, whose peak is 0.85 of Winkler's parabola (L2 difference 16 %).
+pass strips with semi-elliptic pressure to the tangential methods. `winkler` and `semi_winkler` have another pressure along x.
+It is replaced by the semi-ellipse of the same length and load, whose peak is 0.85 of Winkler's parabola (L2 difference 16 %).
 
 The load of `kpec`, `multi_hertz`, `pascal_sauvage` and, by 0.8 %, `kik_piotrowski_2008` jumps where zones or ellipses appear
 and disappear (`contact.methods()`: `continuous`). They are meant for comparison, not for time integration.
