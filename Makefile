@@ -1,4 +1,4 @@
-# Every target sets up what it needs: `make demo` and `make test` work alone and first on a fresh machine.
+# Every target installs what it needs, so `make demo` or `make test` can be the first command on a fresh machine.
 PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
@@ -13,12 +13,12 @@ help:            ## list the targets
 
 $(READY): pyproject.toml
 	@echo "Setting up $(VENV) (some minutes the first time) ..."
-	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "Python 3.11 or newer is needed; name one with PYTHON=..."; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "Python 3.11 or newer is needed; give its name with PYTHON=..."; exit 1; }
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --editable '.[dev]'
 	@touch $@
 
-demo: $(READY)   ## build the FMUs, run the coupled wheelset, leave pictures and a CSV in out/
+demo: $(READY)   ## build the FMUs, run the coupled wheelset, write pictures and a CSV to out/
 	$(BIN)/python build_fmu.py --packaging python
 	$(BIN)/contact demo --out out
 
@@ -29,10 +29,10 @@ fmu: $(READY)    ## build the FMUs into dist/
 test: $(READY)   ## run the tests
 	$(BIN)/python -m pytest -n 2 --dist worksteal
 
-check: $(READY)  ## run the quick tests: a minute, if the kernels are compiled
+check: $(READY)  ## run the quick tests (a minute once the kernels are compiled)
 	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow"
 
-soak: $(READY)   ## 10 000 instances and a million steps of every native FMU: memory stays as it is (some minutes)
+soak: $(READY)   ## check that memory does not grow over 10 000 instances and a million steps of every native FMU (minutes)
 	SOAK=1 $(BIN)/python -m pytest tests/system/test_native_host.py -k leave_memory
 
 lint: $(READY)   ## ruff, mypy, import-linter
@@ -41,7 +41,7 @@ lint: $(READY)   ## ruff, mypy, import-linter
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 
-accuracy: $(READY) ## the accuracy tables, beside CONTACT's, into docs/accuracy.md
+accuracy: $(READY) ## write the accuracy tables, with CONTACT's own methods for comparison, to docs/
 	PYTHONPATH=. $(BIN)/python benchmarks/accuracy.py --write docs/accuracy.md
 	PYTHONPATH=. $(BIN)/python benchmarks/normal_methods.py --write docs/normal_methods.md
 	PYTHONPATH=. $(BIN)/python benchmarks/unseen_patches.py --cases 60
@@ -49,14 +49,14 @@ accuracy: $(READY) ## the accuracy tables, beside CONTACT's, into docs/accuracy.
 	$(BIN)/contact manchester --out docs/manchester.md
 	$(BIN)/contact statistics --out docs/statistics.md
 
-smoothness: $(READY) ## sweeps: jumps, noise and resolution, into docs/smoothness.md; random cases
+smoothness: $(READY) ## write jumps, noise and resolution of sweeps to docs/smoothness.md; try random cases
 	PYTHONPATH=. $(BIN)/python benchmarks/smoothness.py --write docs/smoothness.md
 	PYTHONPATH=. $(BIN)/python benchmarks/robustness.py --cases 10000
 
-coupling: $(READY) ## the largest stable steps of the coupling schemes, into docs/coupling.md
+coupling: $(READY) ## write the largest stable steps of the coupling schemes to docs/coupling.md
 	PYTHONPATH=. $(BIN)/python benchmarks/coupling.py --write docs/coupling.md
 
-bench: $(READY)  ## the speed table
+bench: $(READY)  ## print the speed tables
 	PYTHONPATH=. $(BIN)/python benchmarks/speed.py
 	PYTHONPATH=. $(BIN)/python benchmarks/fmu_speed.py
 
@@ -64,16 +64,16 @@ $(READY_FOR_DOCS): $(READY)
 	$(BIN)/python -m pip install --quiet --editable '.[docs]'
 	@touch $@
 
-docs: $(READY_FOR_DOCS) ## the documentation as a site, into build/docs/html; figures are computed (warnings are errors)
+docs: $(READY_FOR_DOCS) ## build the documentation site in build/docs/html; warnings are errors
 	$(BIN)/python -m sphinx -W --keep-going -q -b html docs build/docs/html
 	@echo "build/docs/html/index.html"
 
-pictures: $(READY) ## the pictures of the README
+pictures: $(READY) ## make the pictures of the README
 	$(BIN)/python docs/pictures/make.py
 
-format: $(READY) ## put the code in shape
+format: $(READY) ## format the code
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
-clean:           ## remove what was made
+clean:           ## remove generated files
 	rm -rf dist out build .pytest_cache .mypy_cache .ruff_cache *.egg-info

@@ -3,7 +3,7 @@
 try:
     from fmu_src.build import main
 except ModuleNotFoundError as error:
-    raise SystemExit(f"{error}: install what building needs with  pip install '.[fmu,native]'") from None
+    raise SystemExit(f"{error}: install the build requirements with  pip install '.[fmu,native]'") from None
 
 if __name__ == "__main__":
     main()

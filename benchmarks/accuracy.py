@@ -25,7 +25,7 @@ def triple(values: Any, digits: int = 4) -> str:
 
 
 def report() -> str:
-    """All tables as Markdown."""
+    """Return all tables as Markdown."""
     tangential = list(contact.methods().batched.tangential)
     published = {
         "fastsim_1flx_par": "CONTACT: FASTSIM, 1 flexibility",
@@ -95,18 +95,18 @@ def normal_row(e: dict[str, np.ndarray]) -> list[str]:
 
 TEXT = """# Accuracy
 
-Truth is the full half-space solution of CONTACT 25.1 (rev 2707, Apache-2.0); its own grid error is 0.001 (mean) and 0.003
-(max) of μN on ellipses, and 0.005 % in N, 0.02 % in pressure, 0.5 % in area on the patches. CONTACT's own fast methods stand
-beside ours. Written by `make accuracy`, which recomputes every figure of ours; 40 strips × 40 elements. Cases of the same kind
-that are not in the repository were held back to judge the result.
+The reference is the full half-space solution of CONTACT 25.1 (rev 2707, Apache-2.0). Its own grid error is 0.001 (mean) and
+0.003 (max) of μN on ellipses, and 0.005 % in N, 0.02 % in pressure and 0.5 % in area on the patches. CONTACT's own fast methods
+are shown for comparison. `make accuracy` writes this page and recomputes all our numbers, with 40 strips × 40 elements. Further
+cases of the same kind were held back to judge the result; they are not in the repository.
 
 ## Creep forces on ellipses ({n_a} cases, a/b from 0.2 to 5)
 
 Errors over μN, moments over μN√(ab).
 
 {a}
-`fastrip` differs from the published FaStrip in the points that the docstring of `contact/tangential/fastrip.py` lists with
-their measured effects.
+`fastrip` differs from the published FaStrip in some points. The docstring of `contact/kernels/tangential/fastrip.py` lists them
+with their measured effects.
 
 ## Traction fields on ellipses ({n_b} cases)
 
@@ -118,7 +118,7 @@ their measured effects.
 Mean absolute errors.
 
 {d_normal}
-Forces and moments in 7 states of creepage each, forces over their own μN, moments over μN√(area/π).
+Forces and moments in 7 creepage states for each patch. Forces are divided by their own μN, moments by μN√(area/π).
 
 {d_force}
 Slopes at vanishing creepage against our own boundary elements in full adhesion (`benchmarks/linear_slopes.py`, which meets
@@ -129,7 +129,7 @@ Kalker's table on ellipses within 0.5 %).
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--write", type=Path, help="also write the report to this file")
+    parser.add_argument("--write", type=Path, help="write the report also to this file")
     arguments = parser.parse_args()
     text = report()
     print(text)

@@ -1,10 +1,10 @@
-"""What the varying contact angle changes on a pair that has worn into each other.
+"""Effect of the varying contact angle on a worn pair of profiles.
 
     python benchmarks/conformity.py [--depth 1e-3] [--new]
 
-S1002 and 60E1 (1:40) wear each other, step by step, over a fixed mix of lateral positions and yaw angles, by Archard's law with
-the map of KTH, until each has lost `--depth` at its deepest place. Then a sweep over lateral positions, every patch once in its
-plane and once conformal (`contact.kernels.conformal`); `--new` sweeps the unworn pair instead.
+S1002 and 60E1 (1:40) wear in steps by Archard's law with the map of KTH, over a fixed mix of lateral positions and yaw angles,
+until each has lost `--depth` at its deepest point. A sweep over lateral positions then solves every patch twice: in its plane
+and conformal (`contact.kernels.conformal`). `--new` sweeps the unworn pair instead.
 """
 
 from __future__ import annotations
@@ -24,40 +24,40 @@ from contact.geometry.records import Patch
 from contact.geometry.wheelset import Pair, Pose, Velocity
 
 LOAD, FRICTION, SPEED = 80e3, 0.3, 20.0
-#: Lateral positions [m], mean and spread: straight running, and curving on the root of the flange; yaw [rad] per metre of them.
+#: Mean and spread [m] of the lateral positions on straight track and in curves (flange root); yaw [rad] per metre of position.
 MIX = ((0.0, 2.0e-3), (5.5e-3, 1.0e-3))
 YAW = 1.0
-#: Deepest wear of a step, and the width it is smoothed over [m].
+#: Greatest wear depth in a step and smoothing width [m].
 STEP, SMOOTHING = 5e-5, 2e-3
 SWEEP = np.array([-2.0, 0.0, 2.0, 4.0, 5.0, 5.5, 6.0, 6.5, 7.0, 7.5]) * 1e-3
 
 
 def mix() -> Iterator[tuple[float, float]]:
-    """Lateral positions [m], and how often they are run."""
+    """Yield (lateral position [m], weight)."""
     for mean, spread in MIX:
         for t in np.linspace(-2.0, 2.0, 17).tolist():
             yield mean + spread * t, math.exp(-0.5 * t * t)
 
 
 def patches(pair: Pair, y: float) -> list[Patch]:
-    """The right wheel's patches under the load."""
+    """Return the patches of the right wheel under the load."""
     return list(pair.contacts(Pose(y=y, yaw=YAW * y), Velocity(SPEED), load=LOAD))
 
 
 def solve(patch: Patch, conformal: bool, n_strips: int = 30) -> contact.Solution:
-    """ANALYN and FaStrip."""
+    """Solve a patch with ANALYN and FaStrip."""
     options = {"friction": FRICTION, "speed": SPEED, "n_strips": n_strips, "throw": False}
     return contact.solve(patch.separation, patch.creepage, load=patch.load, conformal=conformal, **options)
 
 
 def lost(body: Histogram) -> float:
-    """Greatest smoothed depth [m]."""
+    """Return the greatest smoothed wear depth [m]."""
     after = worn_profile(body, smoothing=SMOOTHING)
     return float(np.hypot(after.y - body.profile.y, after.z - body.profile.z).max())
 
 
 def wear(wheel: Profile, rail: Profile, depth: float) -> tuple[Profile, Profile]:
-    """Both after so much wear, planes for the patches."""
+    """Return both profiles after `depth` [m] of wear, with each patch solved in its plane."""
     for _ in range(round(depth / STEP)):
         pair, bodies = Pair(wheel, rail), (Histogram(wheel), Histogram(rail))
         for y, weight in mix():
@@ -70,7 +70,10 @@ def wear(wheel: Profile, rail: Profile, depth: float) -> tuple[Profile, Profile]
 
 
 def row(pair: Pair, y: float) -> str:
-    """Of the patches: angle, variation of it within, load; of all, plane → conformal: forces on the wheel, wear."""
+    """Return a row of the table.
+
+    For each patch: angle, variation of the angle, load. For all patches, plane → conformal: forces on the wheel, wear.
+    """
     found = patches(pair, y)
     sums, deepest = np.zeros((2, 4)), np.zeros(2)
     told = []

@@ -1,8 +1,8 @@
-"""Largest stable communication step of the coupled wheelset by scheme and speed, and what each scheme costs and loses.
+"""Largest stable communication step of the coupled wheelset by scheme and speed, with cost and errors of each scheme.
 
     python benchmarks/coupling.py [--write docs/coupling.md]
 
-How a step is found to be stable is said in `reference.stability`.
+`reference.stability` defines when a step is stable.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from models.wheelset.parameters import WheelsetParameters
 from reference.stability import EXPLICIT, LONGEST, coupled, measured, modes
 
 SPEEDS = (1.0, 2.0, 5.0, 10.0, 20.0, 40.0)
-HUNTING = 28.0  # [m/s] speed of the runs that are compared
+HUNTING = 28.0  # [m/s] speed of the compared runs
 
 
 def milliseconds(h: float) -> str:
@@ -46,12 +46,12 @@ def limits(spins: bool, schemes: Iterable[str]) -> list[list[str]]:
 
 @functools.cache
 def finest() -> master.History:
-    """The run that the others are compared with."""
+    """Return the reference run with the smallest step."""
     return coupled(WheelsetParameters(speed=HUNTING, lateral=5e-3), 1.25e-4, 1.0, "iterated")
 
 
 def losses(h: float, scheme: str) -> list[str]:
-    """Error of the motion, power residual and cost of a second of hunting."""
+    """Return error of the motion, power residual and cost of one second of hunting."""
     p = WheelsetParameters(speed=HUNTING, lateral=5e-3)
     history, fine = coupled(p, h, 1.0, scheme), finest()
     every = round(h / fine.step)
@@ -63,7 +63,7 @@ def losses(h: float, scheme: str) -> list[str]:
 
 
 def ratio(scheme: str) -> float:
-    """Measured over estimated limit of the spin, mean over the speeds."""
+    """Return the mean ratio of measured to estimated limit of the spin over all speeds."""
     spins = [(v, modes(WheelsetParameters(speed=v))[2]) for v in SPEEDS]
     return float(np.mean([measured(v, scheme)[0] * m.damping / (EXPLICIT[scheme] * m.mass) for v, m in spins]))
 
@@ -85,52 +85,52 @@ def report() -> str:
     )
     return f"""# Coupling
 
-Largest communication step with which the wheelset of `models/wheelset` (S1002 on 60E1) and its two contacts stay
-stable, in milliseconds, measured by bisection on growth, and the power that the coupling loses. Written by
-`benchmarks/coupling.py` (`make coupling`); the schemes are those of `models/wheelset/master.py`.
+This page shows the largest communication step in milliseconds at which the wheelset of `models/wheelset` (S1002 on 60E1) and
+its two contacts are stable, measured by bisection on growth, and the energy that the coupling loses. It is written by
+`benchmarks/coupling.py` (`make coupling`). The schemes are those of `models/wheelset/master.py`.
 
 ## Estimate
 
 A creep force that is held over a step h while it damps a mass m, m dv/dt = -c v with c = 2 f/V, gives v' = (1 - z) v
-by Gauss–Seidel and v'' = v' - z v by Jacobi, z = c h/m: they grow for z > 2 and z > 1. The iterated scheme (trapezoidal
+by Gauss–Seidel and v'' = v' - z v by Jacobi, with z = c h/m. They grow for z > 2 and z > 1. The iterated scheme (trapezoidal
 rule) gives v' = (1 - z/2)/(1 + z/2) v, which never grows.
 
-Three motions of a wheelset are damped that way, each with a mass of its own as seen at the contacts: lateral motion with
+Three motions of a wheelset are damped this way, each with its own effective mass at the contacts: lateral motion with
 m = {lateral.mass:.0f} kg, yaw with I/b² = {yaw.mass:.0f} kg, the axle's spin with I_s/r² = {spin.mass:.0f} kg. The slopes of
 the contact at 54.5 kN are f22 = {f22:.1f} MN (lateral) and f11 = {f11:.1f} MN (longitudinal).
 
 ## Measured
 
 {every}
-Bold: measured, with the motion that grows first; beside it the estimate of each motion.
+Bold: measured, with the motion that grows first. The other columns are the estimates for each motion.
 
-* **The spin decides.** An estimate by the lateral motion alone is {longer:.1f} times too long for an axle that turns
+* **The spin decides.** An estimate from the lateral motion alone is {longer:.1f} times too long for an axle that turns
   freely (with 1600 kg and f = 8 MN it gives 1 ms by Jacobi and 2 ms by Gauss–Seidel at 10 m/s).
 * The measured limit is {ratio("jacobi"):.2f} (Jacobi) and {ratio("gauss_seidel"):.2f} (Gauss–Seidel) of the estimate by the
-  spin, at all speeds. Growth counts from a factor of two over the run, bisection stops at 1 %.
-* The iterated scheme has no limit of stability. What ends it is the search for the forces (1 mm off the centre): where
-  the answer to a small change of force saturates within a step, {master.MOST_ROUNDS} rounds do not agree. Larger amplitudes
-  end it earlier; in single steps, in flange impacts above all, it happens at any: `History.rounds` shows it.
+  spin, at all speeds. A run counts as growing from a factor of two on, and bisection stops at 1 %.
+* The iterated scheme has no stability limit. Its limit is the search for the forces (1 mm off the centre): if the response to
+  a small change of force saturates within a step, {master.MOST_ROUNDS} rounds do not converge. Larger amplitudes lower this
+  limit. In single steps, especially in flange impacts, it happens at any step size; `History.rounds` shows it.
 
 With the spin held (I_s → ∞) lateral motion and yaw decide. The creep forces couple them, and they grow together a few
-per cent off the estimates:
+per cent from the estimates:
 
 {table(header("lateral", "yaw"), limits(False, EXPLICIT))}
-## What a second of hunting loses
+## Losses in one second of hunting
 
 {HUNTING:g} m/s, 5 mm at the start. Error: largest difference of the lateral displacement from the iterated scheme at
 0.125 ms. Residual: largest energy that left the wheelset and was neither dissipated by creep nor stored in the contacts,
-in per cent of the energy dissipated. Evaluations: solutions of each contact per step.
+in per cent of the dissipated energy. Evaluations: solutions of each contact per step.
 
 {table(["scheme", "h, ms", "error, mm", "residual, %", "evaluations"], [losses(h, s) for s, h in runs])}
-The residual of the iterated scheme does not vanish with the step: what is left is the energy in non-Hertzian contacts,
-which is not quite 2/5 of load times approach.
+The residual of the iterated scheme does not vanish with the step. It comes from the energy stored in non-Hertzian contacts,
+which differs slightly from 2/5 of load times approach.
 """
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--write", type=Path, help="also write the report to this file")
+    parser.add_argument("--write", type=Path, help="write the report also to this file")
     arguments = parser.parse_args()
     text = report()
     print(text)

@@ -1,9 +1,9 @@
-"""Interpolation error of the table of creep forces: random cases that it has not seen, solved by the half space.
+"""Interpolation error of the table of creep forces on random cases, against the half space.
 
     python benchmarks/creep_table.py [--cases 300] [--write reference/creep_table_unseen.csv]
 
-a/b is log-uniform within the table, the direction in the table's coordinates uniform on the sphere, the size r log-uniform from
-.05 to 20.
+The ratio a/b is log-uniform within the table. The direction in the table's coordinates is uniform on the sphere. The size r is
+log-uniform from .05 to 20.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from contact import force_table as table
 from contact import kalker
 from reference.unseen import LOAD, MATERIAL, MU, C, errors, solve
 
-#: Of the half space.
+#: Elements of the half space across each axis.
 ELEMENTS = 60
 
 
 def random_case(rng: np.random.Generator) -> tuple[float, float, float, float]:
-    """a/b and creepages [-], [-], [1/m]."""
+    """Return a/b and the creepages [-], [-], [1/m]."""
     log_aspect = rng.uniform(-table.LOG_ASPECT_MAX, table.LOG_ASPECT_MAX)
     c11, c22, c23, _ = kalker.coefficients(kalker.table(table.NU), log_aspect)
     x, y, z = rng.normal(size=3)
@@ -37,7 +37,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--cases", type=int, default=300)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--write", type=Path, help="also write cases and the half space's results to this file")
+    parser.add_argument("--write", type=Path, help="write cases and the results of the half space also to this file")
     arguments = parser.parse_args()
     rng = np.random.default_rng(arguments.seed)
     cases = np.array([random_case(rng) for _ in range(arguments.cases)])

@@ -1,4 +1,4 @@
-"""How long the native WheelRailContact takes, called from C, beside its kernel alone: part of `make bench`."""
+"""Time of the native WheelRailContact called from C, compared with its bare kernel (part of `make bench`)."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def main() -> None:
     print("| native WheelRailContact from C, default methods | measured | bar |\n| --- | --- | --- |")
     for what, measured in found.items():
         print(f"| {what} | {measured} | {BARS.get(what, '')} |")
-    print(f"| fmi2DoStep beyond its kernel | {overhead:.2f} us | 1 us |")
+    print(f"| fmi2DoStep minus its kernel | {overhead:.2f} us | 1 us |")
 
 
 BARS = {"set 90 inputs": "1 us", "load to first step": "20 000 us", "8 contacts at 1 kHz": "5 times real time"}

@@ -2,10 +2,10 @@
 
     python benchmarks/geometry_table.py [wheel_rail.csv]
 
-Geometry is compared at CONTACT's height of the wheelset; the pressure, and the penetration beside it, at equal vertical load,
-80 kN, where ours are ANALYN's. Creepages are wheel minus rail over the forward speed: CONTACT's numbers have changed sign and
-are freed of its mean rolling speed. Its longitudinal creepage is that of the wheel's plane of first contact, ours that of the
-wheel's surface opposite the reference point: they differ by design.
+Geometry is compared at CONTACT's height of the wheelset. Pressure and penetration are compared at the same vertical load,
+80 kN; ours are ANALYN's. Creepages are wheel minus rail over the forward speed. CONTACT's numbers are converted to this: their
+sign changes, and they are multiplied by its mean rolling speed over the forward speed. CONTACT's longitudinal creepage refers
+to the wheel's plane of first contact, ours to the wheel's surface opposite the reference point. They differ by design.
 """
 
 import sys
@@ -22,7 +22,7 @@ NOMINAL_RADIUS = 0.460
 
 
 def pairs() -> dict[tuple[str, str], wheelset.Pair]:
-    """The profiles of the benchmark: the rail inclined 1:40, and that rail turned by another 0.025 rad."""
+    """Return the profiles of the benchmark: the rail inclined 1:40, and that rail turned by another 0.025 rad."""
     wheel = profile.s1002()
     rail = profile.rail_60e1(1 / 40, breakpoints="UIC 519")
     rails = {"1:40": rail, "1:20": rail.rotated(-0.025)}
@@ -31,7 +31,7 @@ def pairs() -> dict[tuple[str, str], wheelset.Pair]:
 
 
 def main(rows: reference.Rows) -> None:
-    """Print the table and the largest and mean deviations."""
+    """Print the table and the mean and largest deviations."""
     table = pairs()
     print(
         "              position y [mm]      angle [rad]      spin [1/km]   xi [1e-3]     at CONTACT's z:     under 80 kN:"

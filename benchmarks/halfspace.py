@@ -1,9 +1,9 @@
-"""The element-wise half space against CONTACT on CONTACT's own grids, and what it costs: docs/halfspace.md.
+"""Accuracy of the element-wise half space against CONTACT on CONTACT's own grids, and its run time: docs/halfspace.md.
 
     python benchmarks/halfspace.py [--write docs/halfspace.md]
 
-Times are those of the process, the least of several runs in one thread; CONTACT's were measured on the machine where the
-reference numbers were computed (issue 5).
+Times are process times, the least of several runs in one thread. CONTACT's times were measured on the machine that computed the
+reference numbers (issue 5).
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ from contact.halfspace import Tangential, norm, tang
 from contact.study.ellipse import ellipse
 
 MU, STEEL = reference.MU, reference.STEEL
-#: CONTACT's grid on ellipses: elements across each axis, and all.
+#: CONTACT's grid on ellipses: elements across each axis of the ellipse, and across the whole grid.
 ACROSS, ALL = 62, 66
 
 
 def on_grid(aspect: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """x, y and gap of set A on CONTACT's grid."""
+    """Return x, y and gap of set A on CONTACT's grid."""
     separation = ellipse(aspect, 5e-3, reference.N_ELLIPSE)
     s = (np.arange(ALL) - 0.5 * (ALL - 1)) * 2.0 / ACROSS
     x, y = 5e-3 * math.sqrt(aspect) * s, 5e-3 / math.sqrt(aspect) * s
@@ -38,7 +38,7 @@ def on_grid(aspect: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def patch(case: dict[str, Any], h: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """x, y and gap of a case of set D on elements of `h` [m]; CONTACT's grid for 0.2 mm."""
+    """Return x, y and gap of a case of set D on elements of `h` [m]. For 0.2 mm this is CONTACT's grid."""
     separation = reference.separation_of(case)
     if math.isclose(h, 0.2e-3):
         x, y = (np.arange(v[0], v[-1] + 0.3, 0.2) * 1e-3 for v in (case["x_p"], case["y_p"]))
@@ -52,13 +52,13 @@ def patch(case: dict[str, Any], h: float) -> tuple[np.ndarray, np.ndarray, np.nd
 
 
 def resultants(x: np.ndarray, y: np.ndarray, p: np.ndarray, found: Tangential, c: float) -> np.ndarray:
-    """Fx, Fy over mu N, Mz over mu N c."""
+    """Return Fx and Fy over mu N, Mz over mu N c."""
     moment = (x * found.qy).sum() - (y[:, None] * found.qx).sum()
     return np.array([found.qx.sum(), found.qy.sum(), moment / c]) / (MU * p.sum())
 
 
 def least(task: Callable[[], Any], runs: int = 9) -> float:
-    """Least time of the process in milliseconds."""
+    """Return the least process time [ms]."""
     times = []
     for _ in range(runs):
         start = time.process_time()
@@ -68,7 +68,7 @@ def least(task: Callable[[], Any], runs: int = 9) -> float:
 
 
 def on_ellipses(offset: float) -> tuple[np.ndarray, int, int]:
-    """Errors of Fx, Fy, Mz on set A, most steps of Newton, number not converged."""
+    """Return the errors of Fx, Fy, Mz on set A, the largest number of Newton steps and the count of failures."""
     pressures: dict[float, tuple[np.ndarray, ...]] = {}
     errors, steps, failed = [], 0, 0
     for row in reference.ellipses():
@@ -84,7 +84,7 @@ def on_ellipses(offset: float) -> tuple[np.ndarray, int, int]:
 
 
 def on_patches(h: float) -> tuple[dict[str, np.ndarray], list[list[str]]]:
-    """Errors against CONTACT at 0.2 mm on set D, and rows of times."""
+    """Return the errors on set D against CONTACT at 0.2 mm, and rows of times."""
     errors: dict[str, list[float]] = {"N": [], "pmax": [], "L2": [], "force": [], "moment": []}
     rows = []
     for case in reference.patches():
@@ -120,7 +120,7 @@ def on_patches(h: float) -> tuple[dict[str, np.ndarray], list[list[str]]]:
 
 
 def convergence() -> list[list[str]]:
-    """Error of the force on ellipses against the limit, over the number of elements across and the place of the rigid slip."""
+    """Return rows of the force error on ellipses against the limit, by number of elements and place of the rigid slip."""
     cases = {
         "longitudinal, a/b = 1": (1.0, (1e-3, 0.0, 0.0)),
         "spin, a/b = 1": (1.0, (0.0, 0.0, 0.6)),
@@ -193,32 +193,33 @@ Written by `benchmarks/halfspace.py`. Reference: CONTACT 25.1 (rev 2707, Apache-
 
 ## Ellipses ({n_a} cases, 66 × 66 elements)
 
-Differences over μN, and over μN√(ab). At most {steps} steps of Newton's iteration; {failed} cases not converged.
+Differences of forces over μN and of moments over μN√(ab). At most {steps} Newton steps; {failed} cases not converged.
 
 {a}
 ## Real patches (S1002 on UIC60, the same approach, 7 states of creepage each)
 
-CONTACT's grid is that of 0.2 mm; the column of 0.5 mm shows the error of a coarse grid.
+CONTACT's grid has 0.2 mm. The column for 0.5 mm shows the error of a coarse grid.
 
 {d}
 ## Time
 
-One thread, the least of several runs, on a machine that others used too. CONTACT on a 68 × 124 grid: normal 13.5 ms, normal
-and tangential 2.1 s; on 28 × 50: 2 ms and 47 ms.
+Least of several runs in one thread, on a shared machine. CONTACT on a 68 × 124 grid: normal 13.5 ms, normal and tangential
+2.1 s; on a 28 × 50 grid: 2 ms and 47 ms.
 
 {fine}
 {coarse}
 ## Order of convergence
 
-Error of the force over μN against the limit of vanishing elements; pressure after Hertz, n × n elements on the ellipse. It is
-of first order. Under spin it depends on where in the element the rigid slip is taken; the default is x + dx/6, CONTACT's.
+Error of the force over μN against the limit of vanishing elements, with Hertz's pressure and n × n elements on the ellipse. It
+is of first order. Under spin it depends on the point of the element at which the rigid slip is taken. The default is
+x + dx/6, as in CONTACT.
 
 {order}"""
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--write", type=Path, help="also write the report to this file")
+    parser.add_argument("--write", type=Path, help="write the report also to this file")
     arguments = parser.parse_args()
     text = report()
     print(text)

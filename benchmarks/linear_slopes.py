@@ -1,10 +1,10 @@
-"""Slopes of forces and moment at vanishing creepage on the real patches, by boundary elements in full adhesion.
+"""Slopes of forces and moment at vanishing creepage on the real patches, computed by boundary elements in full adhesion.
 
     python benchmarks/linear_slopes.py        # writes reference/linear_slopes.json; some minutes
 
-Kalker's linear theory on the patch of `strip_halfspace`: every particle sticks, so the displacement of constant-traction
-elements follows the rigid creep, u(x) - u(x + dx) = -w dx (theory.md 6). `check` holds the same computation on ellipses against
-Kalker's table.
+This is Kalker's linear theory on the patch of `strip_halfspace`. Every particle sticks, so the displacement of
+constant-traction elements follows the rigid creep, u(x) - u(x + dx) = -w dx (theory.md 6). `check` compares the same
+computation on ellipses with Kalker's table.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ Array = np.ndarray
 
 
 def extrapolated(solve: Callable[[int], contact.Solution]) -> Array:
-    """The slopes, rows creepages and columns forces, from 16 and 24 strips and elements."""
+    """Return the slopes (rows: creepages, columns: forces), extrapolated from 16 and 24 strips and elements."""
 
     def at(n: int) -> Array:
         sol = solve(n)
@@ -36,7 +36,7 @@ def extrapolated(solve: Callable[[int], contact.Solution]) -> Array:
 
 
 def kalker_error(aspect: float) -> dict[str, float]:
-    """Relative deviation of C11, C22, C23, C33 of this computation from the published table, on an ellipse."""
+    """Return the relative deviation of C11, C22, C23, C33 from the published table on an ellipse."""
     c, separation = 5e-3, ellipse(aspect, 5e-3, 5e4)
     s = extrapolated(lambda n: contact.solve(separation, contact.Creepage(), load=5e4, n_strips=n))
     G = reference.STEEL.shear_modulus
@@ -46,7 +46,7 @@ def kalker_error(aspect: float) -> dict[str, float]:
 
 
 def digits(values: Array, n: int = 5) -> list[float]:
-    """Numbers rounded to n significant digits."""
+    """Return numbers rounded to n significant digits."""
     return [float(f"{v:.{n}g}") for v in values]
 
 

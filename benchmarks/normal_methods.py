@@ -1,4 +1,4 @@
-"""Every normal method against CONTACT's half-space solution on real patches: docs/normal_methods.md.
+"""Accuracy of every normal method against CONTACT's half-space solution on real patches: docs/normal_methods.md.
 
 python benchmarks/normal_methods.py [--write docs/normal_methods.md]
 """
@@ -15,22 +15,23 @@ import reference
 from benchmarks.tables import table
 from reference import accuracy
 
-TEXT = """# Normal methods side by side
+TEXT = """# Comparison of normal methods
 
-Written by `make accuracy` (`benchmarks/normal_methods.py`). Truth is CONTACT 25.1's half-space solution of {n} patches of S1002
-on UIC60 (reference/patches.json). Figures are mean (worst) absolute errors in per cent; L2 is ‖p − p_ref‖/‖p_ref‖.
+Written by `make accuracy` (`benchmarks/normal_methods.py`). The reference is the half-space solution of CONTACT 25.1 for {n}
+patches of S1002 on UIC60 (reference/patches.json). Numbers are mean (worst) absolute errors in per cent. L2 is
+‖p − p_ref‖/‖p_ref‖.
 
 ## The same approach
 
-What a simulation with a prescribed height of the wheelset meets.
+As in a simulation with a prescribed height of the wheelset.
 
 {approach}
 ## The same load
 
-What a simulation with a prescribed wheel load meets.
+As in a simulation with a prescribed wheel load.
 
 {load}
-## Hertz's case, and what each method promises there
+## Elliptic contact: patch and load of each method
 
 | method | patch on an ellipse A, B | load on it |
 | --- | --- | --- |
@@ -42,16 +43,16 @@ What a simulation with a prescribed wheel load meets.
 | `winkler` | a = √(δ/A), b = √(δ/B) | Hertz's |
 | `semi_winkler` | Hertz's for A = B; area within 7 % for a/b from 0.2 to 6.5 | Hertz's |
 
-Equations, sources and what is recalled rather than read stand in the docstrings of `contact/normal`. All methods hand strips
-with semi-elliptic pressure to the tangential ones. `winkler` and `semi_winkler` have another pressure along x; theirs is the
-semi-ellipse of the same length and load, whose peak is 0.85 of Winkler's parabola (L2 difference 16 %).
+The docstrings in `contact/kernels/normal` give equations and sources, and say what was recalled rather than read. All methods
+pass strips with semi-elliptic pressure to the tangential methods. `winkler` and `semi_winkler` have another pressure along x.
+It is replaced by the semi-ellipse of the same length and load, whose peak is 0.85 of Winkler's parabola (L2 difference 16 %).
 
-The load of `kpec`, `multi_hertz`, `pascal_sauvage` and, by 0.8 %, `kik_piotrowski_2008` steps where zones or ellipses come and
-go (`contact.methods()`: `continuous`): they are here for comparison, not for time integration.
+The load of `kpec`, `multi_hertz`, `pascal_sauvage` and, by 0.8 %, `kik_piotrowski_2008` jumps where zones or ellipses appear
+and disappear (`contact.methods()`: `continuous`). They are meant for comparison, not for time integration.
 
-## KPEC is CONTACT's
+## KPEC compared with CONTACT's KPEC
 
-Ours and CONTACT's own, each against CONTACT's half space at the same approach, in per cent.
+Errors of ours / CONTACT's KPEC against CONTACT's half space at the same approach, in per cent.
 
 {kpec}"""
 
@@ -64,7 +65,7 @@ def row(method: str, by_load: bool) -> list[str]:
 
 
 def report() -> str:
-    """The page as Markdown."""
+    """Return the page as Markdown."""
     normal = list(contact.methods().batched.normal)
     approach, load = ([row(m, by_load) for m in normal] for by_load in (False, True))
     heading = ["max pressure", "area", "pressure L2"]
@@ -83,7 +84,7 @@ def report() -> str:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--write", type=Path, help="also write the report to this file")
+    parser.add_argument("--write", type=Path, help="write the report also to this file")
     arguments = parser.parse_args()
     text = report()
     print(text)

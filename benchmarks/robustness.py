@@ -1,9 +1,9 @@
-"""Random but physical contact cases through every pair of methods: statuses and post-conditions.
+"""Solve random but physical contact cases with every pair of methods and report statuses and post-conditions.
 
     python benchmarks/robustness.py [--cases 100000] [--seed 1]
 
-Every case goes through `contact.forces`; one in fifty again through `contact.solve`, which also returns fields and iterations.
-No case may raise, return NaN, or break a post-condition; the tables show how near the worst case came.
+Every case is solved with `contact.forces`, one in fifty again with `contact.solve`, which also returns fields and iterations.
+No case may raise, return NaN or violate a post-condition. The tables show the margins of the worst case.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from reference import random_cases
 
 
 def report(cases: int, seed: int) -> str:
-    """Tables of statuses and worst margins as Markdown."""
+    """Return tables of statuses and worst margins as Markdown."""
     pairs = random_cases.method_pairs()
     share = -(-cases // len(pairs))
     results = {p: random_cases.run(*p, share, seed + k, share // 50) for k, p in enumerate(pairs)}

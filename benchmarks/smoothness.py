@@ -1,9 +1,9 @@
-"""Smoothness of the solver: sweeps in small steps and doubled resolution, the tables of docs/smoothness.md.
+"""Smoothness of the solver: sweeps in small steps, and doubled resolution (tables of docs/smoothness.md).
 
     python benchmarks/smoothness.py [--write docs/smoothness.md]
 
-S1002 on 60E1 at 1:40, the right wheel without roll and yaw. A jump is the largest difference of two neighbours; the noise of a
-sweep is the size of its second differences. Approach, pressure and area count relative to themselves, forces over mu N,
+The case is S1002 on 60E1 at 1:40, the right wheel without roll and yaw. The jump of a sweep is its largest difference between
+neighbours. Its noise is the size of the second differences. Approach, pressure and area are relative, forces are over mu N,
 moments over mu N sqrt(area/pi).
 """
 
@@ -32,7 +32,7 @@ Curves = dict[str, Array]
 
 @functools.cache
 def pairs() -> dict[str, wheelset.Pair]:
-    """One plane for the whole side, and the rule that splits tread and flange."""
+    """Return the pair with one plane for the whole side, and the pair whose rule separates tread and flange."""
     wheel, rail = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
     one = wheelset.Pair(wheel, rail, combine_distance=1.0, combine_angle=math.pi)
     return {"one plane": one, "default patches": wheelset.Pair(wheel, rail)}
@@ -40,13 +40,16 @@ def pairs() -> dict[str, wheelset.Pair]:
 
 @functools.cache
 def located(rule: str, low: float = -8.0, high: float = 8.0, step: float = 0.01) -> tuple[Array, list]:
-    """Lateral positions [mm] and the patches found there under 80 kN of vertical load."""
+    """Return lateral positions [mm] and the patches there under a vertical load of 80 kN."""
     y = np.linspace(low, high, round((high - low) / step) + 1)
     return y, [pairs()[rule].contacts(wheelset.Pose(y=1e-3 * float(at)), load=LOAD) for at in y]
 
 
 def lateral(rule: str, patches: list, normal: str, tangential: str, creepage: str, load: float | None) -> Curves:
-    """Results over the positions; a vertical load is shared out by the patches' own loads, forces add up by their shares."""
+    """Return the results over the positions.
+
+    A vertical load is divided between the patches in proportion to their own loads. Forces add up by these shares.
+    """
     flat = [patch for at in patches for patch in at]
     owner = np.repeat(np.arange(len(patches)), [len(at) for at in patches])
     if creepage == "fixed":
@@ -67,7 +70,7 @@ def lateral(rule: str, patches: list, normal: str, tangential: str, creepage: st
 
 
 def relative(values: Curves) -> Curves:
-    """Logarithms of the normal results, forces over mu N, moments over mu N sqrt(area/pi)."""
+    """Return the logarithms of the normal results, forces over mu N, moments over mu N sqrt(area/pi)."""
     scale = MU * values["N"]
     out = {name: np.log(values[name]) for name in NORMAL}
     out |= {name: values[name] / scale for name in ("Fx", "Fy")}
@@ -75,7 +78,7 @@ def relative(values: Curves) -> Curves:
 
 
 def row(title: str, name: str, at: Array, curve: Array, unit: str) -> list[str]:
-    """Largest jump, its place, and median, 95 % and largest second difference."""
+    """Return a table row: largest jump, its place, and median, 95 % and largest second difference."""
     jump, second = np.abs(np.diff(curve)), np.abs(np.diff(curve, 2))
     k = int(jump.argmax())
     noise = " / ".join(f"{v:.1e}" for v in (np.median(second), np.percentile(second, 95), second.max()))
@@ -86,7 +89,7 @@ HEADER = ["methods", "result", "largest jump", "at", "second differences, median
 
 
 def lateral_tables() -> str:
-    """The wheelset moves sideways in steps of 0.01 mm."""
+    """Return the tables of lateral sweeps in steps of 0.01 mm."""
     text = []
     for rule in pairs():
         y, patches = located(rule)
@@ -109,7 +112,7 @@ def lateral_tables() -> str:
 
 
 def zoom_table() -> str:
-    """Is the largest jump a jump? Where the curve is continuous, a tenth of the step leaves a tenth of it."""
+    """Return the table of the largest jumps under refinement. If the curve is continuous, a jump shrinks with the step."""
     rows = []
     for normal, tangential in PAIRS:
         y, patches = located("one plane")
@@ -128,14 +131,14 @@ def zoom_table() -> str:
 
 @functools.cache
 def separations() -> dict[str, contact.Separation]:
-    """An ellipse and four real patches: tread, two points of contact, gauge corner, flange."""
+    """Return an ellipse and four real patches: tread, two-point contact, gauge corner, flange."""
     one = pairs()["one plane"]
     real = {f"y = {y} mm": one.contacts(wheelset.Pose(y=1e-3 * y), load=LOAD)[0].separation for y in (0, 3, 6.2, 6.75)}
     return {"ellipse": contact.Separation.hertzian(1.0, 2.0), **real}
 
 
 def sweeps(separation: contact.Separation) -> dict[str, tuple[str, Array, tuple, Array | float]]:
-    """Unit, abscissa, creepages and load of each sweep."""
+    """Return name → (unit, abscissa, creepages, load) of each sweep."""
     decades = 10 ** np.linspace(-8, 0, 1601)
     spin = np.linspace(-5, 5, 2001)
     through = np.linspace(-2e-4, 2e-4, 801)
@@ -152,7 +155,7 @@ def sweeps(separation: contact.Separation) -> dict[str, tuple[str, Array, tuple,
 
 
 def unit_spin(separation: contact.Separation, side: float) -> tuple[str, Array, tuple, float]:
-    """Spin through |psi| = 1 of the loaded strip, where the published FaStrip ends."""
+    """Return a sweep of the spin through |psi| = 1 of the loaded strip, where the published FaStrip ends."""
     sol = contact.solve(separation, contact.Creepage(), load=LOAD, n_strips=31)
     k = int(sol.strips.p0.argmax())
     aspect, a = sol.strips.aspect[k], sol.strips.a[k]
@@ -163,7 +166,7 @@ def unit_spin(separation: contact.Separation, side: float) -> tuple[str, Array, 
 
 
 def sweep_tables() -> str:
-    """One sweep a table row: the worst of the separations."""
+    """Return the table of sweeps. Each row is one sweep with the worst of the separations."""
     rows = []
     for normal, tangential in PAIRS:
         worst: dict[str, tuple] = {}
@@ -188,7 +191,7 @@ def sweep_tables() -> str:
 
 
 def resolution_changes(normal: str, tangential: str) -> Array:
-    """Changes of (Fx, Fy) over mu N as strips, elements and both are doubled; shape (3, cases).
+    """Return the changes of (Fx, Fy) over mu N if strips, elements or both are doubled, shape (3, cases).
 
     Cases: ellipses of a/b 0.2 to 5 and patches every 0.5 mm of lateral displacement, in 16 states each.
     """
@@ -208,7 +211,7 @@ def resolution_changes(normal: str, tangential: str) -> Array:
 
 
 def resolution_table() -> str:
-    """Strips and elements doubled."""
+    """Return the table of doubled strips and elements."""
     rows = []
     for normal, tangential in PAIRS:
         for what, change in zip(("strips", "elements", "both"), resolution_changes(normal, tangential), strict=True):
@@ -218,7 +221,7 @@ def resolution_table() -> str:
 
 
 def report() -> str:
-    """All tables as Markdown."""
+    """Return all tables as Markdown."""
     return TEXT.format(
         lateral=lateral_tables(), zoom=zoom_table(), sweeps=sweep_tables(), resolution=resolution_table()
     )
@@ -226,9 +229,9 @@ def report() -> str:
 
 TEXT = """# Smoothness
 
-S1002 on 60E1 (1:40), right wheel, μ = 0.3, default resolution. Jumps are the largest differences of two neighbouring
-positions, the noise is the size of second differences. Approach, pressure and area relative to themselves, forces over μN,
-moments over μN√(area/π). Written by `benchmarks/smoothness.py`.
+S1002 on 60E1 (1:40), right wheel, μ = 0.3, default resolution. Jumps are the largest differences between neighbouring
+positions. Noise is the size of the second differences. Approach, pressure and area are relative, forces are over μN, moments
+over μN√(area/π). Written by `benchmarks/smoothness.py`.
 
 ## Lateral displacement −8 to +8 mm in steps of 0.01 mm
 
@@ -237,7 +240,7 @@ vertically.
 {lateral}
 ### Jumps under refinement
 
-The largest jump of each result, in finer steps: where it shrinks with the step the curve is steep, not broken.
+The largest jump of each result in finer steps. If it shrinks with the step, the curve is steep but continuous.
 
 {zoom}
 ## Load, creepage and spin
@@ -247,14 +250,14 @@ Worst of an ellipse and four real patches.
 {sweeps}
 ## Resolution
 
-Change of the force over μN from the default resolution to twice the number, ellipses and real patches in 16 states each.
+Change of the force over μN from the default to the doubled resolution, on ellipses and real patches in 16 states each.
 
 {resolution}"""
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--write", type=Path, help="also write the report to this file")
+    parser.add_argument("--write", type=Path, help="write the report also to this file")
     arguments = parser.parse_args()
     text = report()
     print(text)

@@ -1,4 +1,4 @@
-"""Run the speed benchmarks and print them as a table beside CONTACT's: `make bench`."""
+"""Run the speed benchmarks and print them as a table, with CONTACT's times for comparison (`make bench`)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Speed of kernels and of the public functions; run by `make bench`, never by `make test`."""
+"""Speed of the kernels and the public functions. `make bench` runs these tests, `make test` does not."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ CASES = 64
 
 
 def cases_of(n, normal, tangential):
-    """`n` load-prescribed cases with constant friction, and a place for each result."""
+    """Return `n` cases with prescribed load and constant friction, and memory for their results."""
     made = cases(n, normal, tangential, contact.STEEL)
     set_surface(made, Friction(0.3), 20.0)
     made["load_kind"], made["amount"] = LoadKind.LOAD, 8e4
@@ -39,7 +39,7 @@ def cases_of(n, normal, tangential):
 
 
 def kernel_loop(normal: str, tangential: str, n_strips: int, n_elements: int, *, fields: bool):
-    """The kernel's own loop over CASES load-prescribed cases on the patch c40_dy+0: Python hardly counts."""
+    """Return a call of the kernel's loop over CASES load-prescribed cases on patch c40_dy+0, with little Python overhead."""
     methods = METHODS.normal[normal], METHODS.tangential[tangential]
     own = workspace.allocate(*methods, 0.28, (n_strips, n_elements, SEPARATION.y.size), fields=fields)
     bounds, which = np.array([0, SEPARATION.y.size]), np.zeros(CASES, dtype=np.int64)
@@ -64,7 +64,7 @@ def test_kernel(benchmark, normal, tangential, n_strips, n_elements, fields):
 @pytest.mark.parametrize("warm", [False, True], ids=["cold", "warm"])
 @pytest.mark.parametrize("n_strips", [20, 30, 40])
 def test_strip_halfspace_kernel(benchmark, n_strips, warm):
-    """Warm: the separation moves to and fro by 0.02 mm from call to call, as between the time steps of a vehicle model."""
+    """Warm: the separation moves back and forth by 0.02 mm between calls, as between the time steps of a vehicle model."""
     y = SEPARATION.y
     shifts = 2e-5 * np.concatenate((np.arange(26), np.arange(24, 0, -1)))
     gap = CubicSpline(y, SEPARATION.g)

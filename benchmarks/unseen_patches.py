@@ -1,10 +1,10 @@
-"""Normal methods on patches that nothing here was tuned on, against our own element-wise half space.
+"""Accuracy of normal methods on patches that were not used for tuning, against our own element-wise half space.
 
     python benchmarks/unseen_patches.py [--cases 40] [--seed 1]
 
-Random poses of S1002 on 60E1 (1:20 and 1:40), loads of 2 to 200 kN, half of them with three random cosines (3 to 20 µm, 8 to
-25 mm) on the gap, as worn profiles have. Reference: `contact.halfspace.norm` at the approach of the strip half space on a
-grid of width/100; its own error is about 0.3 % in the peak.
+The cases are random poses of S1002 on 60E1 (1:20 and 1:40) with loads of 2 to 200 kN. Half of them have three random cosines
+(3 to 20 µm, 8 to 25 mm) on the gap, as worn profiles have. The reference is `contact.halfspace.norm` at the approach of the
+strip half space on a grid of width/100. Its own error is about 0.3 % in the peak.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from contact.halfspace import norm
 
 
 def case(rng: np.random.Generator, worn: bool) -> tuple[contact.Separation, float]:
-    """A random separation and load."""
+    """Return a random separation and load [N]."""
     inclination = rng.choice([1 / 40, 1 / 20])
     load = math.exp(rng.uniform(math.log(2e3), math.log(200e3)))
     pair = wheelset.Pair(profile.s1002(), profile.rail_60e1(inclination=inclination), samples=241, combine_distance=1.0)
@@ -51,7 +51,7 @@ def main() -> None:
         dy, dx = 1.2 * (high - low) / n, 1.3 * start.length / n
         y = 0.5 * (low + high) + (np.arange(n) - 0.5 * (n - 1)) * dy
         x = (np.arange(n) - 0.5 * (n - 1)) * dx
-        g = CubicSpline(separation.y, separation.g)(y)  # as the methods see it between samples
+        g = CubicSpline(separation.y, separation.g)(y)  # the interpolation of the methods between samples
         A = np.interp(y, separation.y, separation.A)
         p = norm(g[:, None] + A[:, None] * x**2, dx, dy, contact.STEEL, approach=start.approach).p
         N = p.sum() * dx * dy
@@ -69,7 +69,7 @@ def main() -> None:
             errors.setdefault((worn, method), []).append(row)
             if method == "strip_halfspace" and (abs(row[0]) > 0.004 or row[2] > 0.06):
                 print(
-                    f"case {k}: {load:.0f} N, N {row[0]:+.4f}, pmax {row[1]:+.4f}, L2 {row[2]:.4f}, {sol.n_patches} patches"
+                    f"case {k}: {load:.0f} N, dN {row[0]:+.4f}, dpmax {row[1]:+.4f}, L2 {row[2]:.4f}, {sol.n_patches} patches"
                 )
     print("| profiles | method | N, mean / max | max pressure, mean / max | pressure L2, mean / max | not converged |")
     print("| --- | --- | --- | --- | --- | --- |")

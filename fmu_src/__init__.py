@@ -1,1 +1,1 @@
-"""From solver to FMU: tables of variables, descriptions made from them, and the packagings."""
+"""FMUs of the solver: tables of variables, model descriptions made from them, and two packagings."""

@@ -18,20 +18,22 @@ from models.wheelset import ports
 
 
 def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
-    """Build what the command line asks for, and say so; `words` stand in place of those of the process, `name` of its name."""
+    """Build the FMUs that the command line asks for. `words` and `name` replace the process's arguments and program name."""
     parser = argparse.ArgumentParser(prog=name, description="Build the FMUs of wheelrail-contact.")
     parser.add_argument(
         "--packaging",
         choices=["python", "native", "all"],
         default="all",
-        help="for hosts with Python, into FOLDER; without Python, into FOLDER/native (default: all)",
+        help="python: for hosts with Python, into FOLDER; native: for any host, into FOLDER/native (default: all)",
     )
-    parser.add_argument("--out", type=Path, default=Path("dist"), metavar="FOLDER", help="where to (default: dist)")
+    parser.add_argument(
+        "--out", type=Path, default=Path("dist"), metavar="FOLDER", help="output folder (default: dist)"
+    )
     parser.add_argument(
         "--points",
         type=int,
         default=ports.POINTS,
-        help=f"samples of the separation of WheelRailContact, at least 3 (default: {ports.POINTS}, what Wheelset gives)",
+        help=f"samples of the separation of WheelRailContact, at least 3 (default: {ports.POINTS}, as many as Wheelset gives)",
     )
     profiles.add_options(parser)
     parser.add_argument("--describe", action="store_true", help="print the variables as Markdown and build nothing")
@@ -57,7 +59,10 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
 
 
 def build_native(chosen: Sequence[Model], folder: Path) -> None:
-    """Build FMUs that need no Python, telling how far it has come: kernels of all at once, the rest side by side."""
+    """Build FMUs that need no Python and print the progress.
+
+    One process compiles the kernels of all models. The models are then linked in parallel.
+    """
     try:
         from fmu_src.native import packaging as native
     except ModuleNotFoundError as error:
@@ -81,7 +86,7 @@ def build_native(chosen: Sequence[Model], folder: Path) -> None:
 
 
 def build_system(folder: Path) -> None:
-    """Build the coupled wheelset of the FMUs in a folder, or say why it cannot be."""
+    """Build the coupled wheelset from the FMUs in a folder, or print why this is not possible."""
     if obstacle := ssp.obstacle(folder):
         print(f"{ssp.NAME}, a system of these: not made, {obstacle}")
     else:

@@ -1,7 +1,6 @@
-"""The FMUs that this project makes.
+"""The FMUs that this project builds.
 
-What belongs to one of them is in modules of the same name: its table in `tables`, its slave in `python`, its component in
-`native`.
+Each FMU has modules of the same name: its table in `tables`, its slave in `python` and its component in `native`.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ from fmu_src.variables import Table
 
 @dataclass(frozen=True)
 class Model:
-    """An FMU: the name of its modules, what its table, slave and component are made with, its files in resources/."""
+    """An FMU: name of its modules, options of its table, slave and component, and its files in resources/."""
 
     name: str
     options: Mapping[str, float]
@@ -27,19 +26,19 @@ class Model:
 
     @property
     def table(self) -> Table:
-        """Its variables."""
+        """Variable table of the FMU."""
         return self.module("tables").table(**self.options)
 
     def module(self, part: str) -> Any:
-        """Its module in "tables", "python" or "native"."""
+        """Return the FMU's module in the package `part`: "tables", "python" or "native"."""
         return import_module(f"fmu_src.{part}.{self.name}")
 
 
 def models(points: int, given: Mapping[Kind, Profile] | None = None) -> tuple[Model, ...]:
-    """All FMUs, the contact for separations of `points` samples, the pair with the profiles that are `given`.
+    """Return all FMUs: the contact with `points` samples of the separation, the pair with the `given` profiles.
 
-    By default that is S1002 on 60E1, which is turned by 1:40; another rail is taken as it is. The separations of the
-    wheelset have `ports.POINTS`.
+    The default profiles are S1002 and 60E1. The default rail is inclined by 1:40; a given rail is not turned. The separations
+    of the wheelset always have `ports.POINTS` samples.
     """
     both: dict[Kind, Profile] = {"wheel": profile.s1002(), "rail": profile.rail_60e1(0.0), **(given or {})}
     inclination = 0.0 if given and "rail" in given else 1.0 / 40.0

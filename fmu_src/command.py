@@ -12,7 +12,7 @@ from contact.cli.output import stop
 
 
 class Packaging(StrEnum):
-    """What a host needs."""
+    """Whether the FMU is for hosts with Python, for any host (native), or both."""
 
     python = "python"
     native = "native"
@@ -20,14 +20,14 @@ class Packaging(StrEnum):
 
 
 class Unit(StrEnum):
-    """Of a profile file."""
+    """Unit of a profile file."""
 
     m = "m"
     mm = "mm"
 
 
 class Side(StrEnum):
-    """That a profile file shows."""
+    """Side of the track that a profile file shows."""
 
     right = "right"
     left = "left"
@@ -39,22 +39,22 @@ PROFILE = "a name of `contact profiles`, or a file"
 def fmu(
     packaging: Annotated[
         Packaging,
-        typer.Option(help="For hosts with Python, into the folder; without Python, into its folder native."),
+        typer.Option(help="python: for hosts with Python; native: for any host, into the subfolder native."),
     ] = Packaging.all,
     out: Annotated[Path, typer.Option(help="Folder for the FMUs.")] = Path("dist"),
     points: Annotated[
         int | None,
-        typer.Option(help="Samples of the separation of WheelRailContact; by default as many as Wheelset gives."),
+        typer.Option(help="Samples of the separation of WheelRailContact. Default: as many as Wheelset gives."),
     ] = None,
     wheel: Annotated[str | None, typer.Option(help=f"Profile of the wheel: {PROFILE}.")] = None,
     rail: Annotated[str | None, typer.Option(help=f"Profile of the rail: {PROFILE}.")] = None,
     unit: Annotated[Unit | None, typer.Option(help="Unit of the profile files, for plain columns.")] = None,
     side: Annotated[Side | None, typer.Option(help="Side that the files show, for plain columns.")] = None,
     smoothing: Annotated[
-        float | None, typer.Option(help="Noise in m that is smoothed out of the files, like 2e-6.")
+        float | None, typer.Option(help="Measurement noise in m to smooth out of the files, for example 2e-6.")
     ] = None,
     describe: Annotated[
-        bool, typer.Option("--describe", help="Print the variables as Markdown, build nothing.")
+        bool, typer.Option("--describe", help="Print the variables as Markdown and build nothing.")
     ] = False,
 ) -> None:
     """Build the FMUs: Wheelset, WheelRailContact and WheelRailPair.

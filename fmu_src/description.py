@@ -1,7 +1,7 @@
-"""modelDescription.xml (FMI 2.0), made from a table of variables.
+"""modelDescription.xml of FMI 2.0, made from a table of variables.
 
-The order of everything is that of the table, numbers are written so that they read back exactly, and nothing depends on
-the time or place of the build: the same table gives the same bytes, and the guid is their hash.
+The order is that of the table, and numbers are written so that they read back exactly. Nothing depends on the time or place
+of the build, so the same table gives the same bytes. The guid is their hash.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from fmu_src.units import BASE_UNITS, UNITS
 from fmu_src.variables import Causality, Kind, Scalar, Table, Variable
 
 LOG_CATEGORIES = {
-    "logStatusWarning": "A result to be used with care",
-    "logStatusDiscard": "A step that was not done: a value is outside its range",
+    "logStatusWarning": "A result that should be used with care",
+    "logStatusDiscard": "A step that was not done because a value is outside its range",
     "logStatusError": "A call that is not allowed, or a defect of the FMU",
 }
-#: What every description says of where the FMU comes from; not when it was built, so that it can be built again.
+#: Origin of the FMU. The build date is left out so that a second build gives the same file.
 ORIGIN = {
     "author": "the wheelrail-contact authors",
     "version": __version__,
@@ -36,7 +36,7 @@ Interfaces = Mapping[str, Mapping[str, str]]
 
 
 def model_description(table: Table, interfaces: Interfaces, code: bytes = b"") -> tuple[str, str]:
-    """Return (guid, XML) of the FMU with this table that offers these interfaces; the guid tells `code` apart too."""
+    """Return (guid, XML) of an FMU with this table and these interfaces. The guid also depends on `code`."""
     root = _root(table, interfaces)
     guid = f"{{{UUID(bytes=hashlib.sha256(tostring(root) + code).digest()[:16])}}}"
     root.set("guid", guid)
@@ -45,7 +45,7 @@ def model_description(table: Table, interfaces: Interfaces, code: bytes = b"") -
 
 
 def number(value: float) -> str:
-    """Write a number such that it reads back exactly."""
+    """Return a number as text that reads back exactly."""
     return repr(value)
 
 
@@ -76,7 +76,7 @@ def _root(table: Table, interfaces: Interfaces) -> Element:
 
 
 def units(root: Element, used: Collection[str | tuple[str, ...]]) -> None:
-    """Add the definitions of these units; they are the same in every version of FMI."""
+    """Add the definitions of these units, which are the same in FMI 2.0 and 3.0."""
     definitions = SubElement(root, "UnitDefinitions")
     for name, exponents in UNITS.items():
         if name in used:
@@ -87,7 +87,7 @@ def units(root: Element, used: Collection[str | tuple[str, ...]]) -> None:
 
 
 def experiment(root: Element, table: Table) -> None:
-    """Add the categories of log messages and the default experiment, which are the same in every version too."""
+    """Add the log categories and the default experiment, which are the same in FMI 2.0 and 3.0."""
     categories = SubElement(root, "LogCategories")
     for name, description in LOG_CATEGORIES.items():
         SubElement(categories, "Category", name=name, description=description)
@@ -138,16 +138,17 @@ def _type_attributes(scalar: Scalar) -> Iterator[tuple[str, str]]:
 
 
 def _derivatives(variables: Element, table: Table) -> None:
-    """Say of which variable a variable is the derivative."""
+    """Add the attribute `derivative`, the index of the state, to each derivative."""
     for state, derivative in zip(table.states, table.derivatives, strict=True):
         (reference,), (of,) = table.references(derivative.name), table.references(state.name)
         variables[reference][0].set("derivative", str(of + 1))
 
 
 def _structure(root: Element, table: Table, follows: bool) -> None:
-    """Outputs depend on inputs and states, their initial values on parameters and inputs.
+    """Add ModelStructure. Outputs depend on inputs and states, their initial values on parameters and inputs.
 
-    Where outputs do not follow inputs at once, as those of a model with states in co-simulation, they depend on none.
+    If outputs do not follow inputs at once (`follows` is false), they depend on nothing. An example is a model with states in
+    co-simulation.
     """
     structure = SubElement(root, "ModelStructure")
     outputs = [row for row in table.rows if row.causality is Causality.OUTPUT]
@@ -166,7 +167,7 @@ def _structure(root: Element, table: Table, follows: bool) -> None:
 
 
 def _unknown(parent: Element, table: Table, row: Variable, knowns: list[Variable]) -> None:
-    """One element for each scalar of `row`; FMI counts variables from 1."""
+    """Add one element for each scalar of `row`. FMI counts variables from 1."""
     dependencies = " ".join(str(reference + 1) for known in knowns for reference in table.references(known.name))
     for reference in table.references(row.name):
         SubElement(parent, "Unknown", index=str(reference + 1), dependencies=dependencies)

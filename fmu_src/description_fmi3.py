@@ -1,4 +1,4 @@
-"""modelDescription.xml of FMI 3.0, made from a table of variables: arrays are one variable, fields are there too."""
+"""modelDescription.xml of FMI 3.0, made from a table of variables. Each array is one variable, and fields are included."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _TYPES = {Kind.REAL: "Float64", Kind.INTEGER: "Int64", Kind.BOOLEAN: "Boolean", 
 
 
 def model_description(table: Table, interfaces: Interfaces, token: str) -> str:
-    """Return the XML of the FMU with this table that offers these interfaces; `token` is what its binary expects."""
+    """Return the XML of an FMU with this table and these interfaces. `token` is the instantiation token of its binary."""
     root = Element(
         "fmiModelDescription",
         {
@@ -37,7 +37,10 @@ def model_description(table: Table, interfaces: Interfaces, token: str) -> str:
 
 
 def value_references(table: Table) -> dict[str, int]:
-    """Value reference of every variable: of an array that of its first scalar in FMI 2.0; fields and time come last."""
+    """Return the value reference of every variable by name.
+
+    An array has the value reference that its first scalar has in FMI 2.0. Fields and time come last.
+    """
     references = {row.name: table.span[row.name].start for row in table.rows}
     for name in (*(field.name for field in table.fields), "time"):
         references[name] = len(table.scalars) + len(references) - len(table.rows)
@@ -90,7 +93,7 @@ def _variables(root: Element, table: Table) -> None:
 
 
 def _attributes(row: Variable, scalars: list[Scalar]) -> Iterator[tuple[str, str]]:
-    """What a type has of its own; `scalars` are those of the row, none if it is a field."""
+    """Yield the attributes that depend on the type. `scalars` are those of the row, empty for a field."""
     if row.enumeration is not None:
         yield "declaredType", row.enumeration.name
     if row.kind is Kind.REAL and isinstance(row.unit, str):  # the elements of an array have one unit or none
@@ -109,7 +112,7 @@ def _attributes(row: Variable, scalars: list[Scalar]) -> Iterator[tuple[str, str
 
 
 def _structure(root: Element, table: Table) -> None:
-    """Outputs depend on inputs and states, their initial values on parameters and inputs."""
+    """Add ModelStructure. Outputs depend on inputs and states, their initial values on parameters and inputs."""
     structure = SubElement(root, "ModelStructure")
     rows, references = (*table.rows, *table.fields), value_references(table)
     outputs = [row for row in rows if row.causality is Causality.OUTPUT]

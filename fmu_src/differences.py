@@ -1,13 +1,14 @@
-"""How far creepages are moved for difference quotients; both packagings take them with these steps."""
+"""Steps of the creepages for difference quotients. Both packagings use them."""
 
 import math
 
 
 def creepage_steps(mu: float, N: float, G: float, area: float) -> tuple[float, float, float]:
-    """Steps of a thousandth of the creepages and the spin at which linear theory reaches mu N: mu N/(G a b C).
+    """Return the steps of longitudinal [-], lateral [-] and spin creepage [1/m] for difference quotients.
 
-    C is about 4, so with a b = area/π about mu N/(G area); spin counts by the size of the patch. Without contact or
-    friction any step is right, the forces are zero.
+    A step is a thousandth of the creepage at which linear theory reaches mu N, that is mu N/(G a b C). C is about 4, so with
+    a b = area/π this is about mu N/(G area). The step of the spin is this divided by the size of the patch. Without
+    contact or friction the forces are zero and any step is right.
     """
     if mu * N == 0.0 or area == 0.0:
         return 1e-6, 1e-6, 1e-3

@@ -1,4 +1,4 @@
-"""The variables of an FMU as a Markdown table, for readers."""
+"""Variables of an FMU as a Markdown table."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from fmu_src.variables import Kind, Table, Variable
 
 
 def markdown(table: Table) -> str:
-    """Return a section with one line for each row and field of `table`."""
+    """Return a Markdown section with one line for each row and field of `table`."""
     lines = [
         f"## {table.name}",
         "",

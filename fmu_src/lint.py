@@ -1,7 +1,8 @@
-"""Rules for FMUs that the validators we know do not check: ``python -m fmu_src.lint FILE.fmu …``
+"""Check FMUs for rules that common validators do not check: ``python -m fmu_src.lint FILE.fmu …``
 
-Those for descriptions are of FMI 2.0.5, and of FMI 3.0 where it has them too; clauses are those of the former.
-Each rule is a function from the root of a modelDescription.xml to findings; its docstring is the rule.
+The rules for descriptions are those of FMI 2.0.5, also applied to FMI 3.0 where it has them. Clause numbers refer to FMI 2.0.5.
+Each rule is a function that takes the root of a modelDescription.xml and yields findings. Its docstring states the rule and is
+printed before each finding.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ _NAME = re.compile(
     rf"{_IDENTIFIER}(?:\.{_IDENTIFIER})*|der\({_IDENTIFIER}(?:\.{_IDENTIFIER})*(?:,[1-9]\d*)?\)", re.ASCII
 )
 _BASE_UNITS = {"kg", "m", "s", "A", "K", "mol", "cd", "rad"}
-#: causality → what variability it may have (2.2.7)
+#: Causality → allowed variability (2.2.7).
 _VARIABILITY = {
     "parameter": {"fixed", "tunable"},
     "structuralParameter": {"fixed", "tunable"},
@@ -45,12 +46,12 @@ _VARIABILITY = {
     "independent": {"continuous"},
 }
 _CONTINUOUS = {"Real", "Float64", "Float32"}
-_SECTIONS = {  # of ModelStructure: where FMI 2.0 and FMI 3.0 have their elements
+_SECTIONS = {  # sections of ModelStructure → paths of their elements in FMI 2.0 and FMI 3.0
     "Outputs": ("Outputs/Unknown", "Output"),
     "Derivatives": ("Derivatives/Unknown", "ContinuousStateDerivative"),
     "InitialUnknowns": ("InitialUnknowns/Unknown", "InitialUnknown"),
 }
-#: platform of FMI 2.0 or 3.0 → how its libraries end
+#: Platform of FMI 2.0 or 3.0 → ending of its libraries.
 _LIBRARIES = {
     **{"linux64": ".so", "win64": ".dll", "darwin64": ".dylib"},
     **{"x86_64-linux": ".so", "x86_64-windows": ".dll", "x86_64-darwin": ".dylib", "aarch64-darwin": ".dylib"},
@@ -58,7 +59,7 @@ _LIBRARIES = {
 
 
 def check(description: str) -> list[str]:
-    """Return what is wrong with the text of a modelDescription.xml, for versions other than 2.0 and 3.0 nothing."""
+    """Return the findings in the text of a modelDescription.xml. Versions other than 2.0 and 3.0 are not checked."""
     root = ElementTree.fromstring(description)
     if root.get("fmiVersion") not in ("2.0", "3.0"):
         return []
@@ -66,18 +67,18 @@ def check(description: str) -> list[str]:
 
 
 def check_file(path: Path) -> list[str]:
-    """Return what is wrong with an FMU file."""
+    """Return the findings in an FMU file."""
     with ZipFile(path) as archive:
         files = {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
     if "modelDescription.xml" not in files:
-        return ["There is a modelDescription.xml: not here"]
+        return ["There is a modelDescription.xml: it is missing"]
     text = files.pop("modelDescription.xml").decode()
     return check(text) + [
         f"{rule.__doc__} {f}" for rule in FILE_RULES for f in rule(ElementTree.fromstring(text), files)
     ]
 
 
-# ---------------------------------------------------------------- what a description says
+# ---------------------------------------------------------------- reading a description
 
 
 def _variables(root: Element) -> list[Element]:
@@ -89,7 +90,7 @@ def _is_3(root: Element) -> bool:
 
 
 def _numbered(root: Element) -> dict[int, Element]:
-    """Variables by what dependencies and derivatives call them: in FMI 2.0 their index, in FMI 3.0 their value reference."""
+    """Return the variables by index (FMI 2.0) or value reference (FMI 3.0), as dependencies and derivatives refer to them."""
     variables = _variables(root)
     return (
         {int(v.get("valueReference", -1)): v for v in variables} if _is_3(root) else dict(enumerate(variables, start=1))
@@ -105,25 +106,25 @@ def _causality(variable: Element) -> str:
 
 
 def _variability(variable: Element) -> str:
-    """What it says, or the default: in FMI 2.0 also that of an Integer, where it is not allowed."""
+    """Return the declared variability or the default, in FMI 2.0 "continuous" even for an Integer (then not allowed)."""
     discrete = variable.tag != "ScalarVariable" and variable.tag not in _CONTINUOUS
     return variable.get("variability", "discrete" if discrete else "continuous")
 
 
 def _initial(variable: Element) -> str | None:
-    """What it says, or the default (2.2.7)."""
+    """Return the declared `initial` or the default (2.2.7)."""
     exact = _causality(variable) in ("parameter", "structuralParameter") or _variability(variable) == "constant"
     none = _causality(variable) in ("input", "independent")
     return variable.get("initial") or ("exact" if exact else None if none else "calculated")
 
 
 def _type(variable: Element) -> Element:
-    """The element that has start, unit and range: in FMI 3.0 the variable itself."""
+    """Return the element that has start, unit and range. In FMI 3.0 it is the variable itself."""
     return next(e for e in variable if e.tag != "Annotations") if variable.tag == "ScalarVariable" else variable
 
 
 def _of_type(root: Element, variable: Element, attribute: str) -> str | None:
-    """An attribute of the variable's type, or of the type that this one is declared as."""
+    """Return an attribute of the variable's type element, or else of its declared type."""
     kind = _type(variable)
     declared = root.find(
         f"TypeDefinitions/{{}}[@name='{kind.get('declaredType')}']{{}}".format(
@@ -134,7 +135,7 @@ def _of_type(root: Element, variable: Element, attribute: str) -> str | None:
 
 
 def _unknowns(root: Element, section: str) -> list[tuple[int, Element]]:
-    """What a section of ModelStructure lists, by number."""
+    """Return (number, element) of each unknown in a section of ModelStructure."""
     key = "valueReference" if _is_3(root) else "index"
     return [(int(u.get(key, 0)), u) for u in root.findall(f"ModelStructure/{_SECTIONS[section][_is_3(root)]}")]
 
@@ -163,14 +164,14 @@ def names_are_structured(root: Element) -> Iterator[str]:
     for variable in _variables(root):
         name = variable.get("name", "")
         if root.get("variableNamingConvention") == "structured" and not _NAME.fullmatch(name):
-            yield f"{name!r} does not"
+            yield f"{name!r} does not follow it"
         if name in seen:
-            yield f"{name!r} comes twice"
+            yield f"{name!r} occurs twice"
         seen.add(name)
 
 
 def arrays_are_whole(root: Element) -> Iterator[str]:
-    """Arrays count from one without holes, row by row:"""
+    """Array indices start at one and are complete, row by row:"""
     arrays: dict[str, list[tuple[int, ...]]] = {}
     for variable in _variables(root):
         name = variable.get("name", "")
@@ -185,7 +186,7 @@ def arrays_are_whole(root: Element) -> Iterator[str]:
 
 
 def dimensions_fit(root: Element) -> Iterator[str]:
-    """Dimensions of arrays are structural parameters or numbers, and there is a start for every element, or one for all:"""
+    """Dimensions of arrays are structural parameters or numbers, and there is one start for each element or one for all:"""
     structural = {n: v for n, v in _numbered(root).items() if _causality(v) == "structuralParameter"}
     for variable in _variables(root):
         sizes = []
@@ -202,12 +203,12 @@ def dimensions_fit(root: Element) -> Iterator[str]:
 
 
 def references_are_unique(root: Element) -> Iterator[str]:
-    """Value references are not shared:"""
+    """Value references are unique:"""
     seen: dict[str | None, str | None] = {}
     for variable in _variables(root):
         reference = variable.get("valueReference")
         if reference in seen:
-            yield f"{reference} is that of {seen[reference]} and {variable.get('name')}"
+            yield f"{seen[reference]} and {variable.get('name')} share {reference}"
         seen[reference] = variable.get("name")
 
 
@@ -222,7 +223,7 @@ def variability_fits(root: Element) -> Iterator[str]:
 
 
 def starts_are_given(root: Element) -> Iterator[str]:
-    """A start is given where something is set before the start, and nowhere else:"""
+    """A start value is given where a variable is set before the start, and nowhere else:"""
     for variable in _variables(root):
         if _causality(variable) in ("input", "independent") and variable.get("initial"):
             yield f"{variable.get('name')} is an {_causality(variable)} and has an initial"
@@ -248,14 +249,14 @@ def numbers_are_within_range(root: Element) -> Iterator[str]:
 
 
 def units_are_defined(root: Element) -> Iterator[str]:
-    """Every Real has a unit (an array in FMI 3.0 may have several), defined by integer exponents of SI base units:"""
+    """Every Real has a unit, defined by integer exponents of SI base units (an array in FMI 3.0 may have several units):"""
     defined = {unit.get("name"): unit.find("BaseUnit") for unit in root.findall("UnitDefinitions/Unit")}
     for name, base in defined.items():
         exponents = {
             k: v for k, v in (base.attrib if base is not None else {"": ""}).items() if k not in ("factor", "offset")
         }
         if not set(exponents) <= _BASE_UNITS or not all(re.fullmatch(r"-?\d+", e) for e in exponents.values()):
-            yield f"{name} is not"
+            yield f"{name} is not defined so"
     for variable in _variables(root):
         unit = _of_type(root, variable, "unit")
         mixed = unit is None and variable.find("Dimension") is not None
@@ -264,7 +265,7 @@ def units_are_defined(root: Element) -> Iterator[str]:
 
 
 def types_are_declared(root: Element) -> Iterator[str]:
-    """Declared types exist, for that kind of variable, and an enumeration's start is one of its items:"""
+    """Declared types exist and fit the kind of the variable, and the start of an enumeration is one of its items:"""
     types = {d.get("name"): d if _is_3(root) else d[0] for d in root.findall("TypeDefinitions/*")}
     for variable in _variables(root):
         kind, name = _type(variable), variable.get("name")
@@ -273,7 +274,7 @@ def types_are_declared(root: Element) -> Iterator[str]:
             if kind.tag == "Enumeration" or kind.get("declaredType"):
                 yield f"{name}: {kind.get('declaredType')}"
         elif declared.tag.removesuffix("Type") != kind.tag:
-            yield f"{name} is of kind {kind.tag}, {kind.get('declaredType')} of kind {declared.tag}"
+            yield f"{name} is a {kind.tag}, its type {kind.get('declaredType')} is a {declared.tag}"
         elif kind.get("start") and declared.findall("Item"):
             values = [item.get("value") for item in declared.findall("Item")]
             if kind.get("start") not in values or len(set(values)) < len(values):
@@ -281,7 +282,7 @@ def types_are_declared(root: Element) -> Iterator[str]:
 
 
 def structure_is_complete(root: Element) -> Iterator[str]:
-    """ModelStructure lists all outputs, derivatives and initial unknowns, in FMI 2.0 these by index:"""
+    """ModelStructure lists all outputs, derivatives and initial unknowns (in FMI 2.0 in the order of their indices):"""
     variables, ordered = _numbered(root), sorted if _is_3(root) else list
     states = _states(root)
     derivatives = [i for i, v in variables.items() if _type(v).get("derivative")]
@@ -303,11 +304,11 @@ def structure_is_complete(root: Element) -> Iterator[str]:
             or _type(variables[state]).tag not in _CONTINUOUS
             or _variability(variables[state]) != "continuous"
         ):
-            yield f"variable {state} is no continuous Real, but has a derivative"
+            yield f"variable {state} has a derivative but is not a continuous Real"
 
 
 def dependencies_are_known(root: Element) -> Iterator[str]:
-    """Dependencies name knowns, each once:"""
+    """Dependencies are knowns, each listed once:"""
     variables = _numbered(root)
     inputs = {i for i, v in variables.items() if _causality(v) in ("input", "independent")}
     exact = {i for i, v in variables.items() if _initial(v) == "exact"}
@@ -322,11 +323,11 @@ def dependencies_are_known(root: Element) -> Iterator[str]:
             if not set(found) <= knowns or len(set(found)) < len(found):
                 yield f"{section} {number} depends on {unknown.get('dependencies')}"
             if kinds is not None and len(kinds.split()) != len(found):
-                yield f"{section} {number} has {len(kinds.split())} kinds of {len(found)} dependencies"
+                yield f"{section} {number} has {len(kinds.split())} kinds for {len(found)} dependencies"
 
 
 def capabilities_are_consistent(root: Element) -> Iterator[str]:
-    """An interface is offered by an identifier of C, and capabilities include what they need:"""
+    """There is an interface, its identifier is valid in C, and a state that can be serialised can also be got and set:"""
     if not _interfaces(root):
         yield "no interface"
     for interface in _interfaces(root):
@@ -367,7 +368,7 @@ RULES = (
 
 
 def libraries_are_named(root: Element, files: dict[str, bytes]) -> Iterator[str]:
-    """There is a library for some platform, by the name of every interface:"""
+    """At least one platform has a library, and each platform has one for every interface:"""
     platforms = {name.split("/")[1] for name in files if name.startswith("binaries/")}
     for platform in platforms or {"any platform"}:
         for interface in _interfaces(root):
@@ -377,7 +378,7 @@ def libraries_are_named(root: Element, files: dict[str, bytes]) -> Iterator[str]
 
 
 def guid_is_the_same(root: Element, files: dict[str, bytes]) -> Iterator[str]:
-    """The guid is also in every library, or in the script if there is one:"""
+    """The guid is contained in every library, or in the script if there is one:"""
     guid = (root.get("guid", "") or root.get("instantiationToken", "")).encode()
     scripts = {name for name in files if re.fullmatch(r"resources/[^/]+\.py", name)}
     for name in scripts or {name for name in files if name.startswith("binaries/")}:
@@ -386,25 +387,25 @@ def guid_is_the_same(root: Element, files: dict[str, bytes]) -> Iterator[str]:
 
 
 def licences_are_enclosed(root: Element, files: dict[str, bytes]) -> Iterator[str]:
-    """The licences are enclosed:"""
+    """The licences are included:"""
     if not any(name.startswith("documentation/licenses/") and content.strip() for name, content in files.items()):
         yield "documentation/licenses is empty"
 
 
 def names_are_portable(root: Element, files: dict[str, bytes]) -> Iterator[str]:
-    """File names are portable, and differ in more than capitals:"""
+    """File names are portable and differ in more than upper and lower case:"""
     for name in files:
         if not re.fullmatch(r"[\w.-]+(/[\w.-]+)*", name, re.ASCII) or ".." in name.split("/"):
             yield name
     if len({name.lower() for name in files}) < len(files):
-        yield "they do not"
+        yield "some differ only in upper and lower case"
 
 
 FILE_RULES = (libraries_are_named, guid_is_the_same, licences_are_enclosed, names_are_portable)
 
 
 def main(paths: Iterable[str]) -> int:
-    """Print what is wrong with each file; return whether there was anything."""
+    """Print the findings of each file. Return 1 if there were any, else 0."""
     wrong = 0
     for path in paths:
         findings = check_file(Path(path))

@@ -1,4 +1,4 @@
-"""Where this package lies, in a checkout or installed, and so where its licence is and where compiled kernels are kept."""
+"""Locate this package, in a checkout or installed, its licence and the folder of its compiled kernels."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import contact
 from contact._jit import cache_directory
 
 _ROOT = Path(__file__).parents[1]
-#: The repository's folder; None for an installed package.
+#: Folder of the repository, or None for an installed package.
 CHECKOUT = _ROOT if (_ROOT / "build_fmu.py").is_file() and (_ROOT / "LICENSE").is_file() else None
 
 
@@ -21,7 +21,7 @@ def objects() -> Path:
 
 
 def licence() -> str:
-    """Return the licence's text."""
+    """Return the text of the licence."""
     if CHECKOUT:
         return (CHECKOUT / "LICENSE").read_text(encoding="utf-8")
     text = distribution("wheelrail-contact").read_text("licenses/LICENSE")

@@ -1,10 +1,11 @@
-"""Profiles as resources of an FMU: points with their tangents, which both packagings read when they are instantiated.
+"""Profiles as resources of an FMU. Both packagings read their points and tangents when an instance is made.
 
-`python -m fmu_src.profiles FMU [--wheel NAME|FILE] [--rail NAME|FILE] [--smoothing M]` exchanges them in a finished FMU,
-without a compiler.
+`python -m fmu_src.profiles FMU [--wheel NAME|FILE] [--rail NAME|FILE] [--smoothing M]` replaces the profiles in a finished
+FMU. This needs no compiler.
 
-A resource is: 8 bytes that tell a wheel from a rail, a checksum of all that follows (FNV-1a, 64 bits), the number n of
-points (64 bits), then n doubles each of y, z [m] and the angle of the tangent [rad]; all little-endian.
+A resource is little-endian and holds, in this order: 8 bytes that identify a wheel or a rail, a checksum of everything that
+follows (FNV-1a, 64 bits), the number n of points (64 bits), then n doubles of y [m], of z [m] and of the angle of the tangent
+[rad].
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ _RESOURCES: dict[Kind, str] = {"wheel": WHEEL, "rail": RAIL}
 
 
 def pack(given: Profile) -> bytes:
-    """The resource of a profile.
+    """Return the resource of a profile.
 
     Raises
     ------
@@ -36,29 +37,31 @@ def pack(given: Profile) -> bytes:
         If the profile cannot touch another one.
     """
     other: Profile = profile.rail_60e1() if given.kind == "wheel" else profile.s1002()
-    Pair(*((given, other) if given.kind == "wheel" else (other, given)), gauge_point=1e-6)  # whatever the gauge point
+    Pair(
+        *((given, other) if given.kind == "wheel" else (other, given)), gauge_point=1e-6
+    )  # raises if they cannot touch
     content = struct.pack("<q", given.y.size) + np.stack((given.y, given.z, given.angle)).astype("<f8").tobytes()
     return MAGIC[given.kind] + struct.pack("<Q", _checksum(content)) + content
 
 
 def unpack(resource: bytes, name: str) -> Profile:
-    """The profile of a resource.
+    """Return the profile of a resource.
 
     Raises
     ------
     ContactError
-        If it is none.
+        If the bytes are not a profile.
     """
     kinds = [kind for kind, magic in MAGIC.items() if resource.startswith(magic)]
     content = resource[16:]
     if not kinds or len(content) < 8 or struct.unpack("<Q", resource[8:16]) != (_checksum(content),):
-        raise ContactError(f"resource {name} holds no profile: it is damaged, or not made by fmu_src.profiles")
+        raise ContactError(f"resource {name} is not a profile: it is damaged or was not made by fmu_src.profiles")
     y, z, angle = np.frombuffer(content[8:], "<f8").reshape(3, -1)
     return Profile(kinds[0], y, z, angle, name)
 
 
 def read(folder: Path, kind: Kind) -> Profile:
-    """The wheel or rail profile in a folder of resources, or a ContactError."""
+    """Return the wheel or rail profile in a folder of resources. Raise ContactError if it cannot be read."""
     path = folder / _RESOURCES[kind]
     try:
         found = unpack(path.read_bytes(), path.name)
@@ -70,22 +73,22 @@ def read(folder: Path, kind: Kind) -> Profile:
 
 
 def resources(wheel: Profile, rail: Profile) -> dict[str, bytes]:
-    """Name → content of the resources of a pair."""
+    """Return name → content of the resources of a pair."""
     return {WHEEL: pack(wheel), RAIL: pack(rail)}
 
 
 def exchange(fmu: Path, profiles: dict[Kind, Profile]) -> None:
-    """Put other profiles into an FMU file."""
+    """Replace profiles in an FMU file."""
     new = {f"resources/{_RESOURCES[kind]}": pack(given) for kind, given in profiles.items()}
     with zipfile.ZipFile(fmu) as content:
         files = [(name, content.read(name)) for name in content.namelist()]
     if missing := new.keys() - {name for name, _ in files}:
-        raise ContactError(f"{fmu} has no {', '.join(sorted(missing))}: it is no FMU WheelRailPair")
+        raise ContactError(f"{fmu} has no {', '.join(sorted(missing))}: it is not a WheelRailPair FMU")
     archive.write(fmu, [(name, new.get(name, old)) for name, old in files])
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    """Options by which a command line names profiles, for `chosen`."""
+    """Add the command line options that name profiles. `chosen` reads them."""
     for kind in MAGIC:
         parser.add_argument(
             f"--{kind}",
@@ -98,12 +101,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--smoothing",
         type=float,
         metavar="M",
-        help="noise in m that is smoothed out of the files, like 2e-6 (needs scipy)",
+        help="measurement noise in m to smooth out of the files, for example 2e-6 (needs scipy)",
     )
 
 
 def chosen(arguments: argparse.Namespace) -> dict[Kind, Profile]:
-    """The profiles that a command line names."""
+    """Return the profiles that the command line names."""
     return {
         kind: profile.load(name, kind, unit=arguments.unit, side=arguments.side, smoothing=arguments.smoothing)
         for kind in MAGIC
@@ -119,8 +122,8 @@ def _checksum(content: bytes) -> int:
 
 
 def main() -> None:
-    """Exchange what the command line names."""
-    parser = argparse.ArgumentParser(description="Exchange the profiles of a finished FMU WheelRailPair.")
+    """Replace the profiles that the command line names."""
+    parser = argparse.ArgumentParser(description="Replace the profiles in a finished WheelRailPair FMU.")
     parser.add_argument("fmu", type=Path)
     add_options(parser)
     arguments = parser.parse_args()

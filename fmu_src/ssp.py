@@ -1,11 +1,11 @@
-"""A system of FMUs as one file (System Structure and Parameterization 1.0): the wheelset on its two contacts.
+"""Build the coupled wheelset as one file (System Structure and Parameterization 1.0): the wheelset and its two contacts.
 
-The structure is made from the tables of the FMUs, so connectors, units and FMUs cannot disagree. Parameters are bound in the
-structure itself. The only thing that is not of the standard is the step size, in an annotation that libcosim reads.
+The structure is made from the tables of the FMUs, so connectors and units always agree with the FMUs. Parameters are bound in
+the structure itself. Only the step size is not part of the standard: it is in an annotation that libcosim reads.
 
-A master of an SSP is Jacobi, as a rule: everybody steps with the values that were exchanged before the step. What the first
-step runs with differs. libcosim exchanges outputs in initialisation, until inputs have followed. fmpy starts every connector
-at 0: the contacts then see no load, which is no contact, and the wheelset runs without creep forces for two steps.
+Most masters of an SSP use the Jacobi scheme: every FMU steps with the values that were exchanged before the step. They differ
+in the first step. libcosim exchanges outputs during initialisation until the inputs have followed. fmpy starts every connector
+at 0. The contacts then see no load, so there is no contact, and the wheelset runs without creep forces for two steps.
 """
 
 from __future__ import annotations
@@ -27,19 +27,20 @@ from models.wheelset.parameters import WheelsetParameters
 from models.wheelset.ports import ENERGY, MOTION, POINTS, PROBLEM, REACTION, REPORT, SIDES
 
 NAME = "coupled"
-STEP, STOP = 1e-4, 1.0  # [s]; at 28 m/s Jacobi is stable up to 0.67 ms (docs/coupling.md)
+STEP, STOP = 1e-4, 1.0  # [s]; at 28 m/s the Jacobi scheme is stable up to 0.67 ms (docs/coupling.md)
 
 _NAMESPACES = {
     "xmlns:ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription",
     "xmlns:ssc": "http://ssp-standard.org/SSP1/SystemStructureCommon",
     "xmlns:ssv": "http://ssp-standard.org/SSP1/SystemStructureParameterValues",
-    "xmlns:osp": "http://opensimulationplatform.com/SSP/OSPAnnotations",  # declared below, libcosim takes it for an algorithm
+    # declared here, since libcosim takes a declaration further down for an algorithm
+    "xmlns:osp": "http://opensimulationplatform.com/SSP/OSPAnnotations",
 }
 
 
 @dataclass(frozen=True)
 class Component:
-    """An FMU of the system, what it is called there, and what is set of it."""
+    """An FMU of the system: its name there and its parameter values."""
 
     name: str
     table: Table
@@ -50,7 +51,7 @@ Connection = tuple[str, str, str, str]  # from element, connector, to element, c
 
 
 def wheelset_on_rails(parameters: WheelsetParameters) -> tuple[list[Component], list[Connection]]:
-    """The wheelset, its two contacts, and what they tell each other."""
+    """Return the wheelset with its two contacts, and the connections between them."""
     p = parameters
     contact = {"speed": p.speed, "wheel.radius": p.radius}
     components = [
@@ -67,7 +68,10 @@ def wheelset_on_rails(parameters: WheelsetParameters) -> tuple[list[Component], 
 
 
 def obstacle(folder: Path) -> str:
-    """What keeps the FMUs in `folder` from being this system, or "": the contact needs the samples that the wheelset gives."""
+    """Return the reason why the FMUs in `folder` cannot form this system, or "" if they can.
+
+    The contact must take as many samples as the wheelset gives.
+    """
     components, _ = wheelset_on_rails(WheelsetParameters())
     for table in (c.table for c in components):
         path = folder / f"{table.name}.fmu"
@@ -83,12 +87,12 @@ def _inputs(fmu: Path) -> set[str]:
 
 
 def build(folder: Path, parameters: WheelsetParameters | None = None) -> Path:
-    """Write `folder`/coupled.ssp of the FMUs that lie in `folder`, and return its path.
+    """Write `folder`/coupled.ssp from the FMUs in `folder` and return its path.
 
     Parameters
     ----------
     parameters : WheelsetParameters, optional
-        Of the wheelset; profiles are those of the FMU.
+        Parameters of the wheelset. The profiles are those of the FMU.
     """
     components, connections = wheelset_on_rails(parameters or WheelsetParameters())
     files = {f"resources/{c.table.name}.fmu": (folder / f"{c.table.name}.fmu").read_bytes() for c in components}
@@ -97,7 +101,7 @@ def build(folder: Path, parameters: WheelsetParameters | None = None) -> Path:
 
 
 def structure(components: list[Component], connections: list[Connection]) -> str:
-    """SystemStructure.ssd."""
+    """Return the text of SystemStructure.ssd."""
     root = Element("ssd:SystemStructureDescription", {**_NAMESPACES, "version": "1.0", "name": NAME})
     system = SubElement(root, "ssd:System", name=NAME)
     _parameters(system, components)
@@ -130,12 +134,12 @@ def _parameters(system: Element, components: Iterable[Component]) -> None:
 
 
 def _unit(component: Component, name: str) -> str:
-    """Unit of a scalar row."""
+    """Return the unit of a scalar row."""
     return component.table.scalars[component.table.span[name].start].unit
 
 
 def _component(elements: Element, component: Component, connections: Iterable[Connection]) -> set[str]:
-    """Add the element of a component, and return the units of its connectors."""
+    """Add the element of a component and return the units of its connectors."""
     shown = {end for a, output, b, input_ in connections for end in ((a, output), (b, input_))}
     shown |= {(component.name, name) for name in itertools.chain(MOTION, ENERGY, REPORT)}
     attributes = {"type": "application/x-fmu-sharedlibrary", "implementation": "CoSimulation"}

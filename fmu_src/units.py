@@ -1,4 +1,4 @@
-"""Units of the FMUs as exponents of SI base units."""
+"""Units of the FMUs, as exponents of SI base units."""
 
 BASE_UNITS = ("kg", "m", "s", "rad", "K")
 

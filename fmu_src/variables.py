@@ -1,9 +1,9 @@
-"""What one row of an FMU's variable table says, and the table itself.
+"""Variable table of an FMU and its rows.
 
-A table is the single source of an FMU's interface: modelDescription.xml of every packaging, the documentation, the
-value references and the checks of its inputs all come from it. A row may be an array; it is declared once and becomes
-scalars named after FMI's structured convention, `name[1]` … `name[n]`, `name[1,1]` … row by row. A row `patch[].area` is
-an element of an array of structures: `patch[1].area` …
+The table is the single source of an FMU's interface: modelDescription.xml of every packaging, the documentation, the value
+references and the checks of its inputs are all made from it. A row may be an array. It is declared once and becomes scalars
+with names of FMI's structured convention: `name[1]` … `name[n]`, or `name[1,1]` … row by row. A row `patch[].area` is a
+member of an array of structures: `patch[1].area` …
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from contact.errors import require_number
 
 
 class Causality(StrEnum):
-    """Who writes a variable, and when; the values are FMI's words."""
+    """Causality of a variable: who writes it, and when. The values are FMI's words."""
 
     PARAMETER = "parameter"
     INPUT = "input"
@@ -27,7 +27,7 @@ class Causality(StrEnum):
 
 
 class Kind(StrEnum):
-    """FMI's type of a variable; the values are the names of the XML elements in FMI 2.0."""
+    """Type of a variable. The values are the names of the XML elements in FMI 2.0."""
 
     REAL = "Real"
     INTEGER = "Integer"
@@ -43,16 +43,16 @@ class Enumeration:
     items: tuple[tuple[str, str], ...]
 
     def number(self, item: str) -> int:
-        """Value of the item named `item`."""
+        """Return the value of the item named `item`."""
         return [name for name, _ in self.items].index(item) + 1
 
     def item(self, number: int) -> str:
-        """Name of the item with value `number`."""
+        """Return the name of the item with value `number`."""
         return self.items[number - 1][0]
 
 
 class Limits(TypedDict, total=False):
-    """What rows of a kind have in common; the meaning of each is at `Variable`."""
+    """Range and nominal of a row, explained at `Variable`. Rows of one kind may share them."""
 
     minimum: float
     maximum: float
@@ -61,7 +61,7 @@ class Limits(TypedDict, total=False):
 
 
 class Attributes(Limits, total=False):
-    """What a row may say besides its name, description and causality."""
+    """Optional attributes of a row, explained at `Variable`."""
 
     unit: str | tuple[str, ...]
     start: float | str | tuple[float, ...] | None
@@ -82,24 +82,24 @@ class Variable:
     name, description : str
     causality : Causality
     unit : str or tuple of str
-        Key of `units.UNITS`, or one key an element; of a Real only, a Real always has one ("1" without dimension).
+        Key of `units.UNITS`, or one key for each element. Every Real has a unit ("1" if dimensionless), other types have none.
     start : number, str, or tuple of numbers
-        Required of parameters and inputs. An output with a start is set exactly before initialisation (a state), one
-        without is calculated. For an enumeration the name of the item.
+        Start value, for an enumeration the name of the item. Parameters and inputs need one. An output with a start is exact
+        before initialisation (a state); an output without a start is calculated.
     minimum, maximum : float
-        The allowed range; with `open_minimum` the minimum itself is not allowed (XML cannot say that, the FMU does).
+        Allowed range. With `open_minimum` the minimum itself is not allowed. The XML cannot express this, so the FMU checks it.
     nominal : float, optional
-        Magnitude of a Real, where it is far from 1.
+        Typical magnitude of a Real, if it is far from 1.
     enumeration : Enumeration, optional
         Makes the variable an Enumeration.
     integer, boolean : bool
         Makes the variable an Integer or a Boolean.
     shape : tuple of int or str
-        Empty for a scalar. In a field names of Integer parameters too: the resolution that the user chooses.
+        Empty for a scalar. For a field it may contain names of Integer parameters, the resolution that the user chooses.
     depends : tuple of str, optional
-        Rows (parameters, inputs and continuous states) that an output is a function of; None means all of them.
+        Rows (parameters, inputs and continuous states) on which an output depends. None means all of them.
     derivative_of : str, optional
-        Row of which this output is the derivative by time: in model exchange that one is a continuous state.
+        Row whose time derivative this output is. In model exchange that row is a continuous state.
     """
 
     name: str
@@ -120,7 +120,7 @@ class Variable:
 
     @property
     def kind(self) -> Kind:
-        """FMI's type."""
+        """Type of the variable in FMI."""
         if self.enumeration is not None:
             return Kind.ENUMERATION
         if self.boolean:
@@ -129,34 +129,34 @@ class Variable:
 
     @property
     def variability(self) -> str:
-        """FMI's variability: parameters are fixed, reals continuous, the rest discrete."""
+        """Variability in FMI: parameters are fixed, reals continuous, the rest discrete."""
         if self.causality is Causality.PARAMETER:
             return "fixed"
         return "continuous" if self.kind is Kind.REAL else "discrete"
 
     @property
     def initial(self) -> str | None:
-        """FMI's `initial`; an input has none."""
+        """Attribute `initial` in FMI. An input has none."""
         if self.causality is Causality.INPUT:
             return None
         return "calculated" if self.start is None else "exact"
 
     @property
     def size(self) -> int:
-        """Number of scalars; a field has no fixed one."""
+        """Number of scalars. A field has no fixed number."""
         return math.prod(self._counts)
 
     @property
     def _counts(self) -> tuple[int, ...]:
-        """The shape of what has a fixed one."""
+        """Shape of a row that is not a field."""
         return tuple(int(n) for n in self.shape)
 
     def element(self, index: str) -> str:
-        """Name with an index in brackets, or with none."""
+        """Return the name with `index` in brackets, or without brackets if it is empty."""
         return self.name.replace("[]", index) if "[]" in self.name else self.name + index
 
     def scalars(self) -> Iterator[Scalar]:
-        """The scalars of the row, first index slowest."""
+        """Yield the scalars of the row, with the first index slowest."""
         for i, index in enumerate(product(*(range(1, n + 1) for n in self._counts))):
             suffix = f"[{','.join(map(str, index))}]" if index else ""
             start = self.start[i] if isinstance(self.start, tuple) else self.start
@@ -188,13 +188,13 @@ class Scalar:
 
     @property
     def first(self) -> float | int:
-        """Value before anything is computed."""
+        """Value before the first computation."""
         if self.start is not None:
             return self.start
         return 0.0 if self.row.kind is Kind.REAL else int(self.minimum)
 
     def check(self, value: float) -> None:
-        """Raise ContactError with name, value and range when `value` is not allowed."""
+        """Raise ContactError with name, value and range if `value` is not allowed."""
         require_number(self.name, value, self.minimum, self.maximum, open_minimum=self.row.open_minimum)
 
 
@@ -202,23 +202,23 @@ class Scalar:
 class Table:
     """Interface of one FMU. The value reference of a scalar is its position in `scalars`.
 
-    Rows are the interface in FMI 2.0. In FMI 3.0 an array is one variable, with the value reference of its first scalar;
-    `fields` are outputs that only arrays can be, all of one shape, which names the parameters that are structural there;
-    their value references follow the scalars', and that of time follows theirs.
+    The rows are the interface in FMI 2.0. In FMI 3.0 an array is one variable, with the value reference of its first scalar.
+    `fields` are outputs only in FMI 3.0. All fields have the same shape, and the parameters that it names are structural
+    parameters in FMI 3.0. The value references of the fields follow those of the scalars, and that of time comes last.
     """
 
     name: str
     description: str
     rows: Sequence[Variable]
-    step_size: float  # of the default experiment [s]
+    step_size: float  # step size of the default experiment [s]
     fields: Sequence[Variable] = ()
     row: dict[str, Variable] = field(init=False)
-    span: dict[str, slice] = field(init=False)  # name of a row → where its scalars are
+    span: dict[str, slice] = field(init=False)  # name of a row → positions of its scalars
     scalars: tuple[Scalar, ...] = field(init=False)
 
     def __post_init__(self) -> None:
         if len({row.shape for row in self.fields}) > 1:
-            raise ValueError(f"{self.name}: fields have one shape")
+            raise ValueError(f"{self.name}: all fields must have the same shape")
         scalars: list[Scalar] = []
         span: dict[str, slice] = {}
         for row in self.rows:
@@ -230,7 +230,7 @@ class Table:
 
     @property
     def derivatives(self) -> list[Variable]:
-        """Derivatives of the continuous states, in the states' order."""
+        """Derivatives of the continuous states, in the order of the states."""
         return [row for row in self.rows if row.derivative_of is not None]
 
     @property
@@ -240,35 +240,35 @@ class Table:
 
     @property
     def structural(self) -> frozenset[str]:
-        """Parameters that fields have their shape from."""
+        """Names of the parameters that determine the shape of the fields."""
         return frozenset(n for row in self.fields for n in row.shape if isinstance(n, str))
 
     def references(self, name: str) -> range:
-        """Value references of the row named `name`."""
+        """Return the value references of the row named `name`."""
         where = self.span[name]
         return range(where.start, where.stop)
 
     def knowns(self, output: Variable) -> list[Variable]:
-        """Parameters, inputs and continuous states that `output` is a function of."""
+        """Return the parameters, inputs and continuous states on which `output` depends."""
         known = [row for row in self.rows if row.causality is not Causality.OUTPUT or row in self.states]
         return [row for row in known if output.depends is None or row.name in output.depends]
 
 
 def identifier(name: str) -> str:
-    """Name of a row where dots and brackets are not allowed."""
+    """Return the name of a row as an identifier, without dots and brackets."""
     return name.replace("[]", "").replace(".", "_")
 
 
 def parameter(name: str, description: str, **attributes: Unpack[Attributes]) -> Variable:
-    """A fixed parameter."""
+    """Return a fixed parameter."""
     return Variable(name=name, description=description, causality=Causality.PARAMETER, **attributes)
 
 
 def signal(name: str, description: str, **attributes: Unpack[Attributes]) -> Variable:
-    """An input."""
+    """Return an input."""
     return Variable(name=name, description=description, causality=Causality.INPUT, **attributes)
 
 
 def output(name: str, description: str, **attributes: Unpack[Attributes]) -> Variable:
-    """An output."""
+    """Return an output."""
     return Variable(name=name, description=description, causality=Causality.OUTPUT, **attributes)

@@ -1,6 +1,6 @@
-"""Reference numbers that tests, benchmarks and documentation compare with; README.md says where each comes from.
+"""Reference numbers for tests, benchmarks and documentation. README.md names the source of each file.
 
-Files are read once, lines that begin with # are comments.
+Each file is read once. Lines that begin with # are comments.
 """
 
 from __future__ import annotations
@@ -16,16 +16,16 @@ import numpy as np
 import contact
 
 FOLDER = Path(__file__).parent
-#: What the sets of CONTACT were computed with.
+#: Material and friction with which the sets of CONTACT were computed.
 STEEL = contact.Material(82e9, 0.28)
 MU = 0.3
-N_ELLIPSE = 52359.88  # [N] of the ellipses
+N_ELLIPSE = 52359.88  # [N] normal force on the ellipses
 
 Rows = list[dict[str, str]]
 
 
 def rows(name: str | Path) -> Rows:
-    """Rows of a table with a header, by the name of the file in this folder, or another's whole path."""
+    """Return the rows of a table with a header. `name` is a file in this folder or a full path."""
     return list(csv.DictReader(_lines(name)))
 
 
@@ -39,53 +39,57 @@ def _cases(name: str) -> list[dict[str, Any]]:
 
 @cache
 def ellipses() -> list[dict[str, Any]]:
-    """Set A: creepages and forces on ellipses."""
+    """Return set A: creepages and forces on ellipses."""
     return [{k: v if k == "curve" else float(v) for k, v in row.items()} for row in rows("ellipses.csv")]
 
 
 @cache
 def fields() -> list[dict[str, Any]]:
-    """Set B: traction fields."""
+    """Return set B: traction fields."""
     return _cases("fields.json")
 
 
 @cache
 def patches() -> list[dict[str, Any]]:
-    """Set D: real patches of S1002 on UIC60."""
+    """Return set D: real patches of S1002 on UIC60."""
     return _cases("patches.json")
 
 
 def separation_of(case: dict[str, Any]) -> contact.Separation:
-    """The separation of a case of set D."""
+    """Return the separation of a case of set D."""
     return contact.Separation(*(np.array(case[k]) * s for k, s in (("y", 1e-3), ("g", 1e-3), ("A", 1e3))))
 
 
 @cache
 def linear_slopes() -> list[dict[str, Any]]:
-    """Slopes at vanishing creepage on the patches of set D, in their order: slopes[creepage][force]."""
+    """Return the slopes at vanishing creepage, slopes[creepage][force], on the patches of set D in their order."""
     return _cases("linear_slopes.json")
 
 
 @cache
 def unseen_ellipses() -> tuple[np.ndarray, np.ndarray]:
-    """Random a/b and creepages (n, 4); Fx, Fy over mu N, Mz over mu N c and the share of slip (n, 4) by our half space."""
+    """Return random ellipses with the results of our half space.
+
+    The first array (n, 4) is a/b and three creepages. The second (n, 4) is Fx and Fy over mu N, Mz over mu N c and the share of
+    slip.
+    """
     table = np.array([[float(v) for v in row.values()] for row in rows("creep_table_unseen.csv")])
     return table[:, :4], table[:, 4:]
 
 
 @cache
 def wheel_rail() -> Rows:
-    """S1002 on UIC 60, one patch a row."""
+    """Return the patches of S1002 on UIC 60, one for each row."""
     return rows("wheel_rail.csv")
 
 
 @cache
 def conicities() -> Rows:
-    """Equivalent conicities of EN 15302, both editions."""
+    """Return the equivalent conicities of EN 15302, both editions."""
     return rows("en15302.csv")
 
 
 @cache
 def frictional_energies() -> list[tuple[str, tuple[float, ...]]]:
-    """Names, and xi, eta, phi [1/mm], Fx, Fy [N], Mz [N mm] and the energy per metre [N] on ellipses."""
+    """Return name and (xi, eta, phi [1/mm], Fx, Fy [N], Mz [N mm], energy per metre [N]) of cases on ellipses."""
     return [(name, tuple(map(float, values))) for name, *values in csv.reader(_lines("frictional_energy.csv"))]

@@ -1,7 +1,7 @@
-"""Errors of the fast methods against the reference numbers: `make accuracy` writes them down, and the tests hold them.
+"""Errors of the fast methods against the reference numbers. `make accuracy` writes them, and tests limit them.
 
-Errors are defined as in the tables of docs/accuracy.md: forces over mu N, moments over mu N sqrt(ab) on ellipses and
-mu N sqrt(area/pi) on other patches, each method's force over its own mu N.
+Errors are defined as in the tables of docs/accuracy.md. Forces are divided by mu N with each method's own N. Moments are
+divided by mu N sqrt(ab) on ellipses and by mu N sqrt(area/pi) on other patches.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ RESOLUTION = {"n_strips": 40, "n_elements": 40}
 
 @functools.cache
 def errors_on_ellipses(method: str, published: bool = False) -> dict[str, np.ndarray]:
-    """Errors of a tangential method on set A; `published` takes CONTACT's own column of that name."""
+    """Return the errors of a tangential method on set A. With `published` they are those of CONTACT's column of that name."""
     rows = ellipses()
     if published:
         ours = np.array([[row[f"{k}_{method}"] for k in ("fx", "fy", "mz", "adh")] for row in rows])
@@ -45,10 +45,10 @@ def errors_on_ellipses(method: str, published: bool = False) -> dict[str, np.nda
 
 @functools.cache
 def errors_on_fields(method: str) -> dict[str, float]:
-    """Relative L2 error of the traction of each case of set B."""
+    """Return the relative L2 error of the traction for each case of set B."""
     result = {}
     for case in fields():
-        # the Kalker-normalised cases (G = 1, a = 1) load a body to half its modulus: linear elasticity lets us take 1e-3 of it
+        # Kalker's normalised cases (G = 1, a = 1) load a body to half its modulus. Elasticity is linear, so 1e-3 is used.
         share = 1.0 if case["G"] > 10 else 1e-3
         mm, unit = 1e-3, 1e6
         N, material = case["N"] * share, contact.Material(case["G"] * unit, case["nu"])
@@ -67,7 +67,7 @@ def errors_on_fields(method: str) -> dict[str, float]:
 
 
 def evaluate(sol: contact.Solution, field: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """A traction field on a grid (y, x): linear between strips and, on the unit strip, between elements."""
+    """Return a traction field on a grid (y, x), linear between strips and between elements of the unit strip."""
     a = np.interp(y, sol.strips.y, sol.strips.a**2, left=0, right=0)
     low, high = sol.patch_edges[0]
     a_edge = np.where((y > low) & (y < high), np.sqrt(np.maximum(a, 1e-30)), 0.0)
@@ -85,7 +85,7 @@ def evaluate(sol: contact.Solution, field: np.ndarray, x: np.ndarray, y: np.ndar
 
 
 def errors_of_pressure(sol: contact.Solution, case: dict[str, Any]) -> tuple[float, float, float, float]:
-    """Relative errors of N, pmax and area, and the pressure's L2, of a patch of set D."""
+    """Return the relative errors of N, pmax and area, and the L2 error of the pressure, for a patch of set D."""
     true, full = case["contact"], np.array(case["p"])
     ours = sol.pressure(np.array(case["x_p"])[None, :] * 1e-3, np.array(case["y_p"])[:, None] * 1e-3) / 1e6
     return (
@@ -98,7 +98,10 @@ def errors_of_pressure(sol: contact.Solution, case: dict[str, Any]) -> tuple[flo
 
 @functools.cache
 def errors_of_normal(normal: str, by_load: bool = False) -> dict[str, np.ndarray]:
-    """Errors per patch of set D at the approach, or at the load, of CONTACT's solution; with it the approach."""
+    """Return the errors for each patch of set D: N, pmax, area, pressure L2 and approach.
+
+    The patches are solved at CONTACT's approach, or with `by_load` at its load.
+    """
     rows = []
     for case in patches():
         given = {"load": case["contact"]["N"]} if by_load else {"approach": case["delta"] * 1e-3}
@@ -111,7 +114,7 @@ def errors_of_normal(normal: str, by_load: bool = False) -> dict[str, np.ndarray
 
 @functools.cache
 def errors_on_patches(normal: str, tangential: str) -> dict[str, np.ndarray]:
-    """Errors on set D at the prescribed approach: N, pmax, area, pressure L2 per patch; force and moment per state."""
+    """Return the errors on set D at the prescribed approach: N, pmax, area, pressure L2 by patch, force, moment by state."""
     normal_errors, force, moment = [], [], []
     for case in patches():
         separation, true = separation_of(case), case["contact"]
@@ -133,7 +136,7 @@ def errors_on_patches(normal: str, tangential: str) -> dict[str, np.ndarray]:
 
 @functools.cache
 def errors_of_slopes(normal: str, tangential: str) -> np.ndarray:
-    """Relative errors, shape (patches, 4), of Fx/ξ, Fy/η, Fy/φ, Mz/φ at vanishing creepage (`linear_slopes.py`)."""
+    """Return relative errors (patches, 4) of Fx/ξ, Fy/η, Fy/φ, Mz/φ at vanishing creepage (benchmarks/linear_slopes.py)."""
     tiny, errors = 1e-8, []
     for case, true in zip(patches(), linear_slopes(), strict=True):
         assert case["name"] == true["name"]
@@ -149,7 +152,7 @@ def errors_of_slopes(normal: str, tangential: str) -> np.ndarray:
 
 
 def published_on_patches(name: str) -> dict[str, np.ndarray]:
-    """CONTACT's own fast methods on set D."""
+    """Return the errors of CONTACT's own fast methods on set D."""
     force, moment, N, pmax, area = [], [], [], [], []
     for case in patches():
         fast, true = case["fast"][name], case["contact"]

@@ -1,11 +1,11 @@
-"""Condense the CONTACT computations that `make accuracy` and the tests compare with.
+"""Reduce CONTACT's results to the reference files of `make accuracy` and the tests.
 
     python reference/extract.py DIRECTORY
 
 DIRECTORY holds sets A_hertz_creep, B_hertz_fields and D_nonhertz_gap, computed with CONTACT 25.1 (rev 2707, Apache-2.0,
-github eve70a/CONTACT). Written are text files of five significant digits: the whole of set A with CONTACT's own fast methods
-beside its half-space solution; of the traction fields of set B every third element each way; of set D the gaps, the forces
-and every second element of the pressure each way.
+github eve70a/CONTACT). The text files have five significant digits. They contain all of set A, with CONTACT's own fast methods
+and its half-space solution; every third element in both directions of the traction fields of set B; the gaps, the forces and
+every second element in both directions of the pressure of set D.
 """
 
 import csv
@@ -29,7 +29,7 @@ PAIRS = ("contactN_fastsim", "contactN_fastripmod", "kpec_fastsim", "analyn_fast
 
 
 def digits(values: object, n: int = 5) -> list:
-    """Nested lists of numbers with n significant digits; whole numbers as integers."""
+    """Return nested lists of numbers with n significant digits, whole numbers as integers."""
     if np.ndim(values) > 0:
         return [digits(v, n) for v in np.asarray(values)]
     number = float(f"{float(values):.{n}g}")

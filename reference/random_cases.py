@@ -1,6 +1,7 @@
-"""Random but physical contact cases, and the worst margins of the post-conditions when methods solve them.
+"""Random but physical contact cases, and the worst margins of the post-conditions over them.
 
-Every case goes through `contact.forces`; some again through `contact.solve`, which also returns fields and iterations.
+Every case is solved with `contact.forces`. Some are solved again with `contact.solve`, which also returns fields and
+iterations.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import contact
 from contact.geometry import profile, wheelset
 from contact.kernels.normal import analyn, by_approach, strip_halfspace
 
-#: Most iterations that a normal method may take.
+#: Limit of the iterations of each normal method.
 CAPS = dict.fromkeys(contact.methods().batched.normal, by_approach.MAX_ITERATIONS) | {
     "analyn": analyn._MAX_ITERATIONS,
     "hertz": 1,
@@ -27,19 +28,19 @@ Rng = np.random.Generator
 
 @functools.cache
 def pair() -> wheelset.Pair:
-    """S1002 on 60E1, the right side."""
+    """Return S1002 on 60E1, right side."""
     return wheelset.Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40))
 
 
 def from_pose(rng: Rng) -> contact.Separation:
-    """A patch of S1002 on 60E1 at a random pose, flange contact and yaw included."""
+    """Return a patch of S1002 on 60E1 at a random pose, including flange contact and yaw."""
     pose = wheelset.Pose(y=rng.uniform(-8e-3, 8e-3), roll=rng.uniform(-5e-3, 5e-3), yaw=rng.uniform(-15e-3, 15e-3))
     patches = pair().contacts(pose, load=10 ** rng.uniform(4, 5.3))
     return patches[rng.integers(len(patches))].separation
 
 
 def worn(rng: Rng) -> contact.Separation:
-    """A patch of new profiles with wear on top: waves of 6 to 40 mm and up to 30 µm, the shorter the shallower."""
+    """Return a patch of new profiles with wear: waves of 6 to 40 mm length and up to 30 µm depth, shorter ones shallower."""
     new = from_pose(rng)
     g = new.g.copy()
     for _ in range(3):
@@ -49,19 +50,19 @@ def worn(rng: Rng) -> contact.Separation:
 
 
 def _support(rng: Rng, half: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Lateral positions, half curvature along x and contact locus of an artificial separation."""
+    """Return lateral positions, half curvature along x and contact locus of an artificial separation."""
     y = np.linspace(-half, half, int(rng.integers(41, 301)))
     A = 10 ** rng.uniform(-0.5, 0.5) * (1 + rng.uniform(-0.3, 0.3) * y / half)
     return y, A, rng.uniform(-0.05, 0.05) * y
 
 
 def ellipse(rng: Rng) -> contact.Separation:
-    """Constant curvatures, a/b from about 0.1 to 10."""
+    """Return a separation of constant curvatures, a/b from about 0.1 to 10."""
     return contact.Separation.hertzian(10 ** rng.uniform(-0.5, 0.5), 10 ** rng.uniform(-1.3, 2))
 
 
 def near_conformal(rng: Rng) -> contact.Separation:
-    """Radii that differ by a little within a width, and steeply beyond."""
+    """Return a gap whose curvature is small within a width and large outside."""
     y, A, x_c = _support(rng, 25e-3)
     width = rng.uniform(3e-3, 15e-3)
     B = 10 ** rng.uniform(-2, -0.5)
@@ -69,7 +70,7 @@ def near_conformal(rng: Rng) -> contact.Separation:
 
 
 def nearly_flat(rng: Rng) -> contact.Separation:
-    """A punch: less than a micrometre of gap over millimetres, then a corner."""
+    """Return a punch: a gap below one micrometre over some millimetres, then a corner."""
     y, A, x_c = _support(rng, 20e-3)
     width = rng.uniform(1e-3, 10e-3)
     B = 10 ** rng.uniform(-5, -2)
@@ -77,7 +78,7 @@ def nearly_flat(rng: Rng) -> contact.Separation:
 
 
 def two_lobed(rng: Rng) -> contact.Separation:
-    """Two parabolas side by side with a ridge between, sharp or rounded."""
+    """Return two parabolas side by side with a sharp or rounded ridge between them."""
     y, A, x_c = _support(rng, 30e-3)
     spacing, depth = rng.uniform(4e-3, 30e-3), 10 ** rng.uniform(-7, -4)
     one, other = (10 ** rng.uniform(-0.5, 1.5) * (y - s * spacing / 2) ** 2 for s in (-1, 1))
@@ -88,7 +89,7 @@ def two_lobed(rng: Rng) -> contact.Separation:
 
 
 def asymmetric(rng: Rng) -> contact.Separation:
-    """Curvature that jumps at the point of contact, or near it, and grows on one side."""
+    """Return a curvature that jumps at or near the point of contact and grows on one side."""
     y, A, x_c = _support(rng, 20e-3)
     left, right = 10 ** rng.uniform(-1, 2, 2)
     g = np.where(y < 0, left, right) * y**2 + 10 ** rng.uniform(1, 3) * np.maximum(y - rng.uniform(0, 8e-3), 0) ** 3
@@ -96,7 +97,7 @@ def asymmetric(rng: Rng) -> contact.Separation:
 
 
 def noisy(rng: Rng) -> contact.Separation:
-    """A measured profile: any of the others with noise of 2 µm on every sample."""
+    """Return one of the other separations with measurement noise of 2 µm on every sample."""
     clean = KINDS[list(KINDS)[rng.integers(len(KINDS) - 1)]](rng)
     return contact.Separation(clean.y, clean.g + rng.normal(0, 2e-6, clean.y.size), clean.A, clean.x_c)
 
@@ -114,14 +115,14 @@ KINDS = {
 
 
 def creepages(rng: Rng, n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Longitudinal and lateral 1e-8 to 1, spin 1e-6 to 5 /m, both signs, one in ten exactly 0."""
+    """Return n longitudinal, lateral and spin creepages: 1e-8 to 1, spin 1e-6 to 5 /m, both signs, one in ten exactly 0."""
     sign = rng.choice([-1.0, 0.0, 1.0], (3, n), p=[0.45, 0.1, 0.45])
     low, high = np.array([-8, -8, -6])[:, None], np.array([0, 0, math.log10(5)])[:, None]
     return tuple(sign * 10 ** rng.uniform(low, high, (3, n)))
 
 
 def run(normal: str, tangential: str, n: int, seed: int, solved: int) -> dict[str, Any]:
-    """Solve n random cases, `solved` of them again by `contact.solve`; return counts of statuses and the worst margins."""
+    """Solve n random cases, `solved` of them again by `contact.solve`. Return counts of statuses and the worst margins."""
     rng = np.random.default_rng(seed)
     kinds = list(itertools.islice(itertools.cycle(KINDS), max(len(KINDS), n // 20)))
     separations = [KINDS[kind](rng) for kind in kinds]
@@ -198,7 +199,7 @@ def run(normal: str, tangential: str, n: int, seed: int, solved: int) -> dict[st
 
 
 def method_pairs() -> list[tuple[str, str]]:
-    """Every normal method with FaStrip, every tangential one with each of three normal methods: not all pairs, for time."""
+    """Return pairs of methods: every normal one with FaStrip, every tangential one with three normal ones (to save time)."""
     known = contact.methods().batched
     first = ((normal, "fastrip") for normal in known.normal)
     second = itertools.product(("analyn", "hertz", "strip_halfspace"), known.tangential)

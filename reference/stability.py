@@ -1,8 +1,8 @@
-"""Largest stable communication step of the coupled wheelset, measured, and the motions that decide it.
+"""Measure the largest stable communication step of the coupled wheelset, and find the motion that limits it.
 
-A run starts a little off the centre. It is unstable if the sixth differences of the velocities, which show what alternates from
-step to step and hide the slow motion, have grown after 90 steps; of the iterated scheme, if forces agree in less than nine
-steps of ten. The largest stable step is found by bisection.
+A run starts slightly off the centre. It is unstable if the sixth differences of the velocities have grown after 90 steps. Sixth
+differences show what alternates from step to step and hide the slow motion. The iterated scheme is unstable if the forces agree
+in less than nine of ten steps. Bisection finds the largest stable step.
 """
 
 from __future__ import annotations
@@ -21,15 +21,22 @@ from models.wheelset.model import WheelsetModel
 from models.wheelset.parameters import WheelsetParameters
 from models.wheelset.ports import CREEPAGE
 
-EXPLICIT = {"jacobi": 1.0, "gauss_seidel": 2.0}  # the largest stable z = c h/m of  m dv/dt = -c v  with the force held
-OFFSET = {"jacobi": 1e-5, "gauss_seidel": 1e-5, "iterated": 1e-3}  # [m] what grows needs room below saturation
+EXPLICIT = {
+    "jacobi": 1.0,
+    "gauss_seidel": 2.0,
+}  # largest stable z = c h/m of  m dv/dt = -c v  with the force held over a step
+OFFSET = {
+    "jacobi": 1e-5,
+    "gauss_seidel": 1e-5,
+    "iterated": 1e-3,
+}  # [m] initial offset: growth needs room below saturation
 STEPS, ORDER, EARLY, LATE = 90, 6, 5, 20
-LONGEST = 20e-3  # [s] no longer steps are tried: the motion itself would not be resolved
-HELD = 1e9  # [kg m²] an axle whose spin cannot change
+LONGEST = 20e-3  # [s] limit of the steps, since longer ones do not resolve the motion itself
+HELD = 1e9  # [kg m²] inertia of an axle whose spin cannot change
 
 
 class Mode(NamedTuple):
-    """A motion that the creep forces damp: m dv/dt = -c v."""
+    """A motion that is damped by the creep forces: m dv/dt = -c v."""
 
     name: str
     mass: float
@@ -37,7 +44,7 @@ class Mode(NamedTuple):
 
 
 def modes(p: WheelsetParameters) -> list[Mode]:
-    """Lateral motion, yaw and spin with the slopes f of the contact at rest: c = 2 f/V, masses seen at the contact."""
+    """Return lateral motion, yaw and spin with c = 2 f/V, slopes f of the contact at rest and masses at the contact."""
     wheelset, contact = DirectWheelset(WheelsetModel(replace(p, lateral=0.0))), DirectContact(p)
     f11, f22 = (slope(contact, wheelset.read("right.problem"), axis) for axis in range(2))
     _, base, radius, _ = wheelset.read("right.frame")
@@ -49,7 +56,7 @@ def modes(p: WheelsetParameters) -> list[Mode]:
 
 
 def slope(contact: DirectContact, problem: np.ndarray, axis: int, creepage: float = 1e-6) -> float:
-    """Slope f [N] of the longitudinal (0) or lateral (1) creep force at a problem's own creepages."""
+    """Return the slope f [N] of the longitudinal (0) or lateral (1) creep force at the creepages of the problem."""
     forces = []
     for sign in (1.0, -1.0):
         moved = problem.copy()
@@ -66,7 +73,7 @@ def coupled(p: WheelsetParameters, h: float, duration: float, scheme: str) -> ma
 
 
 def alternation(history: master.History) -> np.ndarray:
-    """Differences of lateral, yaw and spin velocity at the contacts [m/s], shape (3, n - ORDER)."""
+    """Return differences of lateral, yaw and spin velocity at the contacts [m/s], shape (3, n - ORDER)."""
     velocities = (history["lateral_velocity"], 0.75 * history["yaw_rate"], 0.46 * history["spin"])
     return np.abs(np.diff(velocities, ORDER, axis=1))
 
@@ -74,7 +81,7 @@ def alternation(history: master.History) -> np.ndarray:
 def stable(p: WheelsetParameters, h: float, scheme: str) -> bool:
     try:
         history = coupled(replace(p, lateral=OFFSET[scheme]), h, STEPS * h, scheme)
-    except ContactError:  # off the rails
+    except ContactError:  # the wheelset has left the rails
         return False
     if scheme == "iterated":
         return bool((history.rounds <= master.MOST_ROUNDS).mean() >= 0.9)
@@ -83,10 +90,13 @@ def stable(p: WheelsetParameters, h: float, scheme: str) -> bool:
 
 
 def largest(test: Callable[[float], bool], start: float, tolerance: float = 0.01) -> float:
-    """Largest h up to LONGEST that passes, by doubling from `start`, which must pass, and bisection; inf if all pass."""
+    """Return the largest h up to LONGEST that passes, inf if all pass, by doubling from `start` and bisection.
+
+    `start` must pass.
+    """
     low, high = start, 1.3 * start
     if not test(low):
-        raise ValueError(f"h = {low:g} s fails already")
+        raise ValueError(f"the start h = {low:g} s does not pass")
     while test(high):
         if high >= LONGEST:
             return np.inf
@@ -99,7 +109,7 @@ def largest(test: Callable[[float], bool], start: float, tolerance: float = 0.01
 
 @functools.cache
 def measured(speed: float, scheme: str, spins: bool = True) -> tuple[float, str]:
-    """Largest stable step [s], and the motion that grows above it."""
+    """Return the largest stable step [s] and the motion that grows above it."""
     p = WheelsetParameters(speed=speed) if spins else WheelsetParameters(speed=speed, spin_inertia=HELD)
     limit = min(m.mass / m.damping for m in modes(p))
     h = largest(lambda h: stable(p, h, scheme), 0.5 * limit)

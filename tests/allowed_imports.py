@@ -1,10 +1,10 @@
-"""A contract for import-linter: the modules of a package import what is listed and nothing else."""
+"""Contract for import-linter: the modules of a package import only what is listed."""
 
 from importlinter import Contract, ContractCheck, fields, output
 
 
 class AllowedContract(Contract):
-    """`source` may import itself and `allowed`, packages with all that is in them. What is not listed is forbidden."""
+    """`source` may import itself and the packages in `allowed` with their submodules. Everything else is forbidden."""
 
     source = fields.StringField()
     allowed = fields.ListField(subfield=fields.StringField())
@@ -24,4 +24,4 @@ class AllowedContract(Contract):
 
     def render_broken_contract(self, check):
         for source, module in check.metadata["wrong"]:
-            output.print_error(f"{source} imports {module}, which is not among: {', '.join(self.allowed)}")
+            output.print_error(f"{source} imports {module}, which is not in the list: {', '.join(self.allowed)}")

@@ -1,14 +1,14 @@
-"""Shared cases: one wheel-rail-like ellipse and what surrounds it."""
+"""Shared fixtures and settings of the tests."""
 
 import pytest
 from hypothesis import settings
 
 import contact
 
-# Helpers whose assertions are to say as much as those of tests.
+# Helpers whose assertions get the detailed messages of tests.
 pytest.register_assert_rewrite("tests.command_line", "tests.post_conditions")
 
-# The same examples every time: what a run finds is due to the change that it tests. --hypothesis-profile=search looks farther.
+# Use the same examples in every run, so that failures come from the tested change. --hypothesis-profile=search tries others.
 settings.register_profile("repeatable", derandomize=True)
 settings.register_profile("search", print_blob=True)
 if settings.get_current_profile_name() == "default":
@@ -17,17 +17,17 @@ if settings.get_current_profile_name() == "default":
 
 @pytest.fixture(scope="session")
 def ellipse() -> contact.Separation:
-    """Wheel radius 0.5 m on a rail head of 0.25 m: A = 1 1/m, B = 2 1/m."""
+    """Return an elliptic separation: wheel radius 0.5 m on a rail head of 0.25 m, A = 1 1/m, B = 2 1/m."""
     return contact.Separation.hertzian(1.0, 2.0)
 
 
-#: Folders whose tests are all slow: whole FMUs, and runs of a train over a line.
+#: Folders in which every test is slow: whole FMUs, and runs over a line.
 SLOW = {"system", "life"}
 
 
-@pytest.hookimpl(tryfirst=True)  # before -m is looked at
+@pytest.hookimpl(tryfirst=True)  # before pytest evaluates -m
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark slow folders. Tests of native FMUs come first: a worker builds these while the other compiles, and none waits."""
+    """Mark slow folders. Tests of native FMUs run first, so that one worker builds these while the other compiles."""
     for item in items:
         if item.path.parent.name in SLOW:
             item.add_marker("slow")

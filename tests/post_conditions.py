@@ -1,4 +1,4 @@
-"""What holds for every solution."""
+"""Conditions that hold for every solution."""
 
 import math
 
@@ -12,7 +12,7 @@ LIMIT = 1 + 1e-9
 
 
 def assert_post_conditions(sol: contact.Solution) -> None:
-    """style.md 12: |F| ≤ μN, p ≥ 0, ∫p dA = N, |q| ≤ μp, dissipation ≥ 0, nothing but finite numbers."""
+    """Assert |F| ≤ μN, p ≥ 0, ∫p dA = N, |q| ≤ μp, dissipation ≥ 0 and finite numbers."""
     method = contact.methods().tangential[sol.tangential]
     for name in FIELDS if method.fields else ("x", "y", "p", "dA"):
         assert np.isfinite(getattr(sol, name)).all(), name

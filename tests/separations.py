@@ -1,4 +1,4 @@
-"""Separations that several tests solve: one of each kind of patch."""
+"""Separations for several tests, one for each kind of patch."""
 
 import numpy as np
 
@@ -8,14 +8,14 @@ from reference import random_cases
 
 
 def two_lobes(depth: float, spacing: float = 12e-3) -> contact.Separation:
-    """Two parabolas side by side, the second `depth` higher, with a ridge between."""
+    """Return two parabolas side by side with a ridge between them. The second is `depth` [m] higher."""
     y = np.linspace(-25e-3, 25e-3, 501)
     g = np.minimum(2.0 * (y + spacing / 2) ** 2, depth + 2.0 * (y - spacing / 2) ** 2)
     return contact.Separation(y, g, 1.0)
 
 
 def real_patch(y, yaw=0.0):
-    """S1002 on 60E1, the right side."""
+    """Return the first patch of S1002 on 60E1, right side."""
     return random_cases.pair().contacts(wheelset.Pose(y=y, yaw=yaw), load=8e4)[0].separation
 
 
@@ -24,7 +24,7 @@ def yawed():
     return contact.Separation(y, 1.5 * y**2 + 40.0 * np.maximum(y, 0.0) ** 3, 1.1, x_c=0.04 * y)
 
 
-#: Separation and load; a method without `non_elliptic` answers on all of them too, as if they were elliptic.
+#: Separation and load [N]. A method without `non_elliptic` also solves all of them, as if they were elliptic.
 KINDS = {
     "a/b = 0.2": (contact.Separation.hertzian(3.0, 0.3), 8e4),
     "a/b = 1": (contact.Separation.hertzian(1.0, 1.0), 8e4),

@@ -1,6 +1,6 @@
-"""The accuracy of docs/accuracy.md is held: no figure may become more than 10 % worse than reached.
+"""Regression tests of the accuracy in docs/accuracy.md: no number may become more than 10 % worse than reached.
 
-Bars of issue "The solver" in brackets; the reached values stand in docs/accuracy.md.
+Comments give the bars of issue "The solver". The reached values are in docs/accuracy.md.
 """
 
 import numpy as np
@@ -36,7 +36,7 @@ def test_creep_forces_on_ellipses(method, force, moment, adhesion):
 
 
 def by_spin(method):
-    """Force errors on ellipses without and with spin."""
+    """Return the force errors on ellipses without and with spin."""
     spin = np.array([row["phi"] != 0.0 for row in reference.ellipses()])
     errors = accuracy.errors_on_ellipses(method)["force"]
     return errors[~spin], errors[spin]
@@ -99,7 +99,7 @@ def test_slopes_at_vanishing_creepage_on_real_patches():
 
 
 def test_reference_is_the_one_described():
-    """CONTACT's own columns give accuracy.md's figures: the extraction is right."""
+    """CONTACT's own columns give the numbers of accuracy.md, so the extraction is right."""
     mean = {m: accuracy.errors_on_ellipses(m, True)["force"].mean() for m in ("fastrip_orig", "fastrip_modf")}
     np.testing.assert_allclose([mean["fastrip_orig"], mean["fastrip_modf"]], (0.0169, 0.0179), atol=1e-4)
     kpec, own = (accuracy.published_on_patches(n) for n in ("kpec_fastsim", "analyn_fastsim"))

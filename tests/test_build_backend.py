@@ -1,4 +1,4 @@
-"""The build backend: what a wheel is built of, without building one (`.ci/try_wheel` builds it)."""
+"""Build backend: the sources of a wheel, without building one (`.ci/try_wheel` does)."""
 
 import importlib.util
 import os

@@ -1,4 +1,4 @@
-"""`contact.cite` beside CITATION.cff."""
+"""`contact.cite` agrees with CITATION.cff."""
 
 import re
 from pathlib import Path
@@ -9,12 +9,12 @@ CITATION = (Path(__file__).parents[1] / "CITATION.cff").read_text(encoding="utf-
 
 
 def cited(name):
-    """Every value of a key of the file, without quotation marks."""
+    """Return every value of a key of the file, without quotation marks."""
     return [value.strip('"') for value in re.findall(rf"^\s*{name}: (.+)$", CITATION, re.MULTILINE)]
 
 
 def entry(kind):
-    """The fields of an entry of the BibTeX text."""
+    """Return the fields of an entry of the BibTeX text."""
     (body,) = re.findall(rf"^@{kind}\{{\w+,\n(.*?)^\}}", contact.cite(), re.MULTILINE | re.DOTALL)
     return dict(re.findall(r"^  (\w+)\s*= \{(.*)\},$", body, re.MULTILINE))
 

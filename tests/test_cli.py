@@ -1,4 +1,4 @@
-"""The command line: the same numbers as the Python API, clear refusals, pictures, plug-ins."""
+"""Command line: the same numbers as the Python API, clear error messages, pictures, plug-ins."""
 
 import csv
 import json
@@ -52,8 +52,8 @@ def test_the_options_of_friction_are_those_of_the_python_api():
     assert (answer["Fx"], answer["Mz"]) == (s.Fx, s.Mz)
 
 
-def test_a_law_without_fields_shows_what_it_has(tmp_path):
-    """Neither wear depth nor an index over the patch, and no picture of it: refused by name."""
+def test_a_law_without_fields_shows_its_forces(tmp_path):
+    """There is no wear depth and no index over the patch, and a picture of it is refused by name."""
     words = ("--curvatures", 1.1, 0.8, "--creepage", 1e-3, 0.0, 0.1, "--tangential", "polach")
     answer = json.loads(call("solve", *words, "--json").stdout)["patches"][0]
     assert answer["Fx"] < 0.0 < answer["damage"]["T_gamma"]
@@ -100,7 +100,7 @@ def test_both_wheels_are_shown_side_by_side():
     assert "right 1" in output
 
 
-def test_no_contact_is_an_answer():
+def test_no_contact_is_a_valid_result():
     assert "no contact" in call("solve", "--penetration", 0.0).output
     answer = json.loads(call("solve", "--curvatures", 1.0, 1.0, "--penetration", -1e-5, "--json").stdout)
     assert answer["patches"][0]["status"] == "NO_CONTACT"
@@ -227,7 +227,7 @@ def test_conicity_gives_the_numbers_of_the_python_api(tmp_path):
     assert answer["conicity"] == pytest.approx([found.conicity[2]], rel=1e-4)
 
 
-def test_conicity_of_none_has_no_wavelength_in_its_files(tmp_path):
+def test_files_have_no_wavelength_without_conicity(tmp_path):
     path = tmp_path / "conicity.csv"
     words = ("--wheel", "wheel I", "--rail", "rail A", "--gauge", 1.4351645, "--amplitude", 1e-3)
     assert json.loads(call("conicity", *words, "--json", "--csv", path).stdout)["wavelength"] == [None]
@@ -292,7 +292,7 @@ def test_plug_in_becomes_a_command(tmp_path, monkeypatch):
     assert result.output == "hello rail\n"
 
 
-def test_plug_in_that_cannot_be_loaded_is_named_and_harms_nothing():
+def test_a_broken_plug_in_is_named_and_does_not_stop_other_commands():
     app = typer.Typer()
     app.command("one")(lambda: None)
     app.command("two")(lambda: None)

@@ -1,4 +1,4 @@
-"""Contact angle that varies over the patch (theory.md 8.6)."""
+"""Contact angle varying over the patch (theory.md 8.6)."""
 
 import math
 
@@ -120,8 +120,8 @@ def test_a_pair_gives_the_forces_of_its_patches_on_either_side(y):
     assert forces[0] == forces[1]
 
 
-def test_the_forces_of_many_cases_are_those_of_each():
-    """Separations with and without a tilt, in one batch and by `contact.solve`, bit for bit; the plane stays the default."""
+def test_a_batch_equals_separate_solutions():
+    """Separations with and without tilt agree bit for bit in a batch and in `contact.solve`. The plane stays the default."""
     separations = [bent(0.05 + 20.0 * Y), bent(0.0), bent(-0.1, rolling=0.5)]
     creepage = ([1e-3, 2e-3, 0.0], -1e-3, 0.3)
     many = contact.forces(separations, creepage, load=8e4, conformal=True)
@@ -153,7 +153,7 @@ def test_the_half_space_pushes_sideways_and_bears_the_longer_surface(options):
 
 
 def test_strips_follow_the_half_space_in_what_the_bent_surface_changes():
-    """The flange root, Δ over 29°: the change from the plane to the surface, mapped FaStrip and TANG on the same pressure."""
+    """At the flange root (Δ over 29°) mapped FaStrip and TANG on the same pressure change alike from plane to surface."""
     wheel, rail = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
     (patch,) = wheelset.contacts(wheel, rail, Pose(y=6.5e-3, yaw=5e-3), load=8e4)
     for creepage in (patch.creepage, contact.Creepage(1e-4, 2e-4, 0.0), contact.Creepage(0.0, 0.0, 0.3)):
@@ -191,7 +191,7 @@ def test_surfaces_beyond_their_range_are_refused(options):
         bent(**options)
 
 
-def test_methods_of_the_plane_alone_are_refused():
+def test_methods_without_conformal_contact_are_refused():
     for call in (contact.solve, contact.forces):
         with pytest.raises(contact.ContactError, match="is only for a plane contact"):
             call(bent(0.1), CREEPAGE, load=8e4, conformal=True, tangential="polach")

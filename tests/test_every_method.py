@@ -1,6 +1,6 @@
-"""Every registered pair of methods on every kind of patch that it claims to support, with the post-conditions of style.md 12.
+"""Every registered pair of methods on every kind of patch that it supports, with all post-conditions.
 
-Methods are read from the registry: a new one is tested as soon as it is registered.
+Methods are read from the registry, so a new method is tested as soon as it is registered.
 """
 
 import math

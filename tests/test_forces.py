@@ -33,7 +33,7 @@ def test_answer_does_not_depend_on_the_number_of_threads(ellipse):
         np.testing.assert_array_equal(getattr(one, name), getattr(two, name), err_msg=name)
 
 
-def test_scalars_give_scalars_and_no_contact_is_an_answer(ellipse):
+def test_scalars_give_scalars_and_no_contact_is_a_valid_result(ellipse):
     none = contact.forces(ellipse, contact.Creepage(1e-3), load=0.0)
     assert none.Fx.shape == ()
     assert none.status == contact.Status.NO_CONTACT

@@ -79,7 +79,7 @@ def test_the_slope_scales_the_linear_range_and_leaves_saturation(tangential):
 
 
 def test_spiryagins_factor_falls_from_k0_to_its_limit():
-    """k = k0 (α + (1 - α)/(1 + β eps)), where eps of longitudinal creepage is π/4 k0 of the linear force over mu N."""
+    """k = k0 (α + (1 - α)/(1 + β eps)), where eps for longitudinal creepage is π/4 k0 times the linear force over mu N."""
     published = Friction(0.36, slope=0.54, slope_far=0.02, slope_rate=0.64)
 
     for xi in (1e-9, 1e-4, 1e-3, 1e-2, 1.0):
@@ -120,7 +120,7 @@ def test_bad_values_are_refused_by_name(options, message):
     assert str(error.value).startswith(message)
 
 
-def test_the_reference_knows_no_slope():
+def test_the_half_space_refuses_a_slope():
     with pytest.raises(contact.ContactError, match=r"friction.slope = 0.5: tangential = 'halfspace'"):
         solve((1e-3, 0.0, 0.0), friction=Friction(0.3, slope=0.5), normal="halfspace", tangential="halfspace")
 
@@ -156,7 +156,7 @@ def test_local_friction_that_does_not_fall_is_coulombs_bit_for_bit(law, tangenti
 @pytest.mark.parametrize("velocity", LOCAL)
 @pytest.mark.parametrize("tangential", [*FIELDS, "halfspace"])
 def test_full_sliding_has_the_coefficient_of_the_rigid_slip(tangential, velocity):
-    """Far beyond saturation the elastic part of the slip vanishes: F = μ(V √(ξ² + η²)) N, as with the global velocity."""
+    """Far above saturation the elastic slip vanishes: F = μ(V √(ξ² + η²)) N, as with the global velocity."""
     options = {"normal": "halfspace", "spacing": 1e-3} if tangential == "halfspace" else {}
     one = solve(
         (0.3, 0.4, 0.0), tangential=tangential, friction=Friction.polach(velocity=velocity), speed=2.0, **options
@@ -177,7 +177,9 @@ def test_every_element_has_the_coefficient_of_its_slip_and_sticks_up_to_the_stat
             assert (q <= 0.5 * p * (1.0 + 1e-12)).all()
             own = friction.coefficient(20.0 * np.hypot(sol.sx, sol.sy)) * p
             slips = ~sol.stick & (p > 0.0)
-            slips[:, 1:] &= ~sol.stick[:, :-1]  # where slip begins within an element, a part of it keeps the static one
+            slips[:, 1:] &= ~sol.stick[
+                :, :-1
+            ]  # where slip begins within an element, part of it keeps the static coefficient
             if velocity == "local":
                 np.testing.assert_allclose(q[slips], own[slips], rtol=1e-2 if tangential == "halfspace" else 1e-9)
             else:
@@ -214,7 +216,7 @@ def test_local_friction_keeps_the_symmetries(tangential, velocity):
 
 @pytest.mark.parametrize("tangential", FIELDS)
 def test_forces_are_continuous_in_the_creepage_where_local_friction_falls_steeply(tangential):
-    """Steps of 1e-5 in creepage; the largest change of force stays near the mean one, with memory too."""
+    """In steps of 1e-5 in creepage the largest change of force stays near the mean one, also with memory."""
     xi = np.arange(1, 1200) * 1e-5
     for velocity in LOCAL:
         friction = Friction(0.5, 0.1, 0.02, "exponential", velocity=velocity)
@@ -222,7 +224,7 @@ def test_forces_are_continuous_in_the_creepage_where_local_friction_falls_steepl
         assert np.abs(np.diff(Fx)).max() < 4e-3
 
 
-def test_methods_that_give_forces_alone_take_the_global_velocity():
+def test_methods_with_forces_only_use_the_global_velocity():
     one, other = (
         solve((1e-2, 0.0, 0.0), tangential="polach", friction=Friction.polach(velocity=v)) for v in ("local", "global")
     )
@@ -247,12 +249,12 @@ def test_the_factor_over_the_profile_is_smooth_between_its_two_values():
 
 @pytest.mark.parametrize("tangential", [*TANGENTIAL, "halfspace"])
 def test_full_slip_has_the_friction_of_each_place(tangential):
-    """F = ∫ mu(y) p dA, for the law that saturates."""
+    """F = ∫ mu(y) p dA for laws that saturate."""
     options = {"normal": "halfspace", "spacing": 0.5e-3} if tangential == "halfspace" else {}
     sol = solve((0.3, 0.0, 0.0), tangential=tangential, friction=sided(), **options)
     expected = 0.4 * (sided().factor(sol.y) * sol.p * sol.dA).sum()
     if contact.methods().tangential[tangential].saturates:
-        # parabolas have another share of the load on each strip
+        # the parabolic bound has another share of the load on each strip
         admissible = contact.methods().tangential[tangential].admissible
         assert -sol.Fx == pytest.approx(expected, rel=2e-3 if admissible else 3e-2)
     if contact.methods().tangential[tangential].admissible and tangential in FIELDS:
@@ -268,7 +270,7 @@ def test_a_border_far_away_leaves_one_coefficient(tangential):
         np.testing.assert_allclose((one.Fx, one.Fy, one.Mz), (other.Fx, other.Fy, other.Mz), rtol=1e-12)
 
 
-def test_forces_and_local_laws_know_the_sides_too():
+def test_batches_and_local_laws_apply_the_gauge_factor():
     friction = sided(kinetic=0.2, law="linear", half_speed=0.1, velocity="local")
     one = solve((1e-3, 5e-4, 0.3), friction=friction)
     many = contact.forces(SEPARATION, (1e-3, 5e-4, 0.3), load=8e4, friction=friction)
@@ -278,7 +280,7 @@ def test_forces_and_local_laws_know_the_sides_too():
 
 @pytest.mark.parametrize("y", [0.0, 5.5e-3])
 def test_the_border_of_a_pair_lies_in_the_rails_profile_on_either_side(y):
-    """Left and right are mirror images, and each patch has the forces of `contact.solve` on the friction placed on it."""
+    """Left and right are mirror images, and each patch has the forces of `contact.solve` with its local friction."""
     wheel, rail = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
     friction = Friction(0.4, gauge_factor=0.25, border=-8e-3, border_width=2e-2)
     forces = []

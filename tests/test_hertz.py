@@ -1,4 +1,4 @@
-"""Exact Hertz contact against handbook tables and closed forms."""
+"""Exact Hertz contact compared with handbook tables and closed forms."""
 
 import math
 

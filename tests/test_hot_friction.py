@@ -1,4 +1,4 @@
-"""Friction that falls with the temperature (theory.md 8.5; CONTACT's law 6)."""
+"""Friction that falls with temperature (theory.md 8.5; CONTACT's law 6)."""
 
 import math
 from dataclasses import replace
@@ -20,7 +20,7 @@ FIELDS = [name for name, method in METHODS.items() if method.fields]
 HALF_SPACE = {"normal": "halfspace", "tangential": "halfspace", "spacing": 0.5e-3}
 #: Partial slip, full slip, stick after slip, spin.
 CREEPAGES = [(1e-3, 5e-4, 0.3), (2e-2, 5e-3, 0.0), (0.0, 2e-3, -0.9), (1e-4, 0.0, 4.0)]
-#: As steep as CONTACT's examples (constants.md 8): .30 falls by .18 over 400 K.
+#: The same slope as in CONTACT's examples (constants.md 8): .30 falls by .18 over 400 K.
 HOT = Friction(0.3, hot_factor=0.4, temperature_range=400.0)
 
 
@@ -33,7 +33,7 @@ def forces(solution):
 
 
 def law(friction, rise):
-    """Coefficient at a rise of temperature above the bodies' [K]."""
+    """Return the coefficient at a rise [K] above the temperature of the bodies."""
     over = friction.background_temperature + rise - friction.reference_temperature
     share = np.clip(over / friction.temperature_range, 0.0, 1.0)
     return friction.static * (1.0 - (1.0 - friction.hot_factor) * share)
@@ -41,7 +41,7 @@ def law(friction, rise):
 
 @pytest.mark.parametrize("velocity", ["global", "local", "greatest"])
 @pytest.mark.parametrize("tangential", FIELDS)
-def test_what_is_never_reached_changes_no_bit(tangential, velocity):
+def test_a_reference_temperature_that_is_never_reached_changes_no_bit(tangential, velocity):
     cold = Friction.polach(velocity=velocity)
     for creepage in CREEPAGES:
         one = solve(creepage, cold, tangential=tangential)
@@ -54,7 +54,7 @@ def test_what_is_never_reached_changes_no_bit(tangential, velocity):
 
 @pytest.mark.parametrize("options", [{"tangential": "fastrip"}, {"tangential": "fastrip_mapped"}, HALF_SPACE])
 def test_in_fast_sliding_every_element_has_the_coefficient_of_its_own_temperature(options):
-    """The temperature, evaluated from the traction that is found, gives that traction; what is hottest has the lowest."""
+    """The temperature computed from the traction gives this traction again. The hottest element has the lowest."""
     sol = solve((0.05, 0.02, 0.0), **options)
     rise = flash_temperature(sol)
     assert rise.max() > 250.0
@@ -65,9 +65,9 @@ def test_in_fast_sliding_every_element_has_the_coefficient_of_its_own_temperatur
 
 
 def test_little_heat_lowers_the_force_by_the_closed_form_of_elliptic_heat():
-    """To first order mu N - F = ∫ p mu' ΔT dA with the flash temperature of mu p: of unchanged, elliptic heat.
+    """To first order mu N - F = ∫ p mu' ΔT dA with the flash temperature of mu p, that is of unchanged elliptic heat.
 
-    ∫∫ √(1-s²)√(1-t²)/√(t-s) dt ds = 1.43 is the strip's number, by Gauss-Chebyshev quadrature of 2000 points here.
+    For a strip ∫∫ √(1-s²)√(1-t²)/√(t-s) dt ds = 1.43, here by Gauss-Chebyshev quadrature with 2000 points.
     """
     n = 2000
     angle = (np.arange(n) + 0.5) * math.pi / n
@@ -92,7 +92,7 @@ def test_little_heat_lowers_the_force_by_the_closed_form_of_elliptic_heat():
 
 @pytest.mark.parametrize("creepage", [(0.1, 0.0, 0.0), (0.04, 0.03, 0.0), (0.05, 0.0, 2.0)])
 def test_gross_sliding_agrees_with_the_half_space(creepage):
-    """Of the fall from mu N, between 20 and 60 % here, the strips find within 2 %."""
+    """The strips agree within 2 % of the fall from mu N, which is 20 to 60 % here."""
     full = solve(creepage, **HALF_SPACE)
     fall = 0.3 * full.N - math.hypot(full.Fx, full.Fy)
     for tangential in ("fastrip", "fastrip_mapped"):
@@ -112,8 +112,8 @@ def test_heat_is_the_frictional_power(tangential):
 
 
 @pytest.mark.parametrize("tangential", FIELDS)
-def test_the_hotter_the_less_force_down_to_what_heat_leaves(tangential):
-    """Over the bodies' temperature: monotone, continuous where the hottest place reaches the reference, both limits."""
+def test_force_falls_with_temperature_to_the_hot_friction(tangential):
+    """Over the temperature of the bodies it is monotone, continuous where heating begins to act, and has both limits."""
     unreached, hottest, until = Friction(0.3), Friction(0.3 * 0.4), replace(HOT, reference_temperature=1600.0)
     for creepage in ((0.05, 0.0, 0.0), (0.0, 0.02, 0.2)):
         cold = np.hypot(*forces(solve(creepage, unreached, tangential=tangential))[:2])
@@ -131,7 +131,7 @@ def test_the_hotter_the_less_force_down_to_what_heat_leaves(tangential):
 
 
 @pytest.mark.parametrize("tangential", FIELDS)
-def test_it_keeps_the_symmetries(tangential):
+def test_hot_friction_keeps_the_symmetries(tangential):
     for xi, eta, phi in CREEPAGES:
         one, negative, mirrored = (
             solve(c, tangential=tangential) for c in ((xi, eta, phi), (-xi, -eta, -phi), (xi, -eta, -phi))
@@ -145,7 +145,7 @@ def test_it_keeps_the_symmetries(tangential):
 @pytest.mark.parametrize("velocity", ["global", "local", "greatest"])
 @pytest.mark.parametrize("tangential", FIELDS)
 def test_forces_are_continuous_in_the_creepage(tangential, velocity):
-    """Friction that all but vanishes over 20 K, with and without a fall over the slip velocity."""
+    """Friction almost vanishes over 20 K, with and without a fall with slip velocity."""
     xi = np.arange(1, 1200) * 1e-5
     friction = Friction(0.5, 0.3, 0.1, "exponential", velocity=velocity, hot_factor=0.1, temperature_range=20.0)
     Fx = contact.forces(SEPARATION, (xi, 1e-3, 0.2), load=8e4, friction=friction, tangential=tangential).Fx / 4e4
@@ -154,17 +154,17 @@ def test_forces_are_continuous_in_the_creepage(tangential, velocity):
 
 @pytest.mark.parametrize("tangential", [*METHODS, "halfspace"])
 def test_warm_bodies_have_less_friction_everywhere(tangential):
-    """Bodies beyond the range: the hot coefficient, in stick too and for laws that give forces alone."""
+    """Bodies above the range have the hot coefficient, also in stick and for laws that give only forces."""
     options = HALF_SPACE if tangential == "halfspace" else {"tangential": tangential}
     for background, coefficient in ((2000.0, 0.12), (293.15 + 200.0, 0.21)):
         bodies = replace(HOT, background_temperature=background)
         for creepage in CREEPAGES[:2]:
-            one = solve(creepage, bodies, speed=1e-12, **options)  # no heat of its own
+            one = solve(creepage, bodies, speed=1e-12, **options)  # no frictional heating
             other = solve(creepage, Friction(coefficient), speed=1e-12, **options)
             np.testing.assert_allclose(forces(one), forces(other), rtol=1e-5, atol=1e-6)
 
 
-def test_a_pair_knows_it_and_the_forces_of_many_cases_too():
+def test_pairs_and_batches_apply_hot_friction():
     pair = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40)))
     cold, hot = (pair.solve(Pose(y=3e-3, yaw=2e-2), load=8e4, friction=f).force for f in (0.3, HOT))
     assert np.hypot(hot[0], hot[1]) < 0.97 * np.hypot(cold[0], cold[1])

@@ -1,4 +1,4 @@
-"""The cache of compiled kernels is keyed by their content."""
+"""The cache of compiled kernels depends on their content."""
 
 import json
 import os
@@ -25,13 +25,13 @@ print(json.dumps([str(_jit.cache_directory(_jit._KERNELS)), sum(stats.cache_miss
 
 @pytest.fixture
 def checkout(tmp_path):
-    """A copy of the package, which may be changed, and its own cache."""
+    """Return a copy of the package that a test may change."""
     shutil.copytree(PACKAGE, tmp_path / "one" / "contact", ignore=shutil.ignore_patterns("__pycache__"))
     return tmp_path / "one"
 
 
 def run(checkout, cache):
-    """Use one kernel in a new process; return its cache directory and how many kernels were compiled for it."""
+    """Use one kernel in a new process. Return its cache directory and the number of kernels compiled for it."""
     environment = {**os.environ, "PYTHONPATH": str(checkout), "NUMBA_CACHE_DIR": str(cache)}
     done = subprocess.run(
         [sys.executable, "-c", CHILD], capture_output=True, text=True, env=environment, cwd=checkout, check=True
@@ -46,7 +46,7 @@ def test_only_a_changed_kernel_compiles_anew(checkout, tmp_path):
     assert misses > 0
     outside = checkout / "contact" / "errors.py"
     outside.write_text(outside.read_text() + "\n# another comment\n")
-    for path in checkout.rglob("*.py"):  # as a switch of branches does
+    for path in checkout.rglob("*.py"):  # as when switching branches
         os.utime(path)
     assert run(checkout, cache) == (first, 0)
     other = tmp_path / "two"
@@ -64,7 +64,7 @@ def test_stale_caches_are_removed(tmp_path):
     for i, name in enumerate(names):
         (tmp_path / name).mkdir()
         os.utime(tmp_path / name, (2e9 + i, 2e9 + i))
-    os.utime(tmp_path / names[-1], (0.0, 0.0))  # the latest name, not used for decades
+    os.utime(tmp_path / names[-1], (0.0, 0.0))  # the newest name, but not used for a long time
     (tmp_path / "of another program").mkdir()
     _jit._remove_stale(tmp_path)
     left = {path.name for path in tmp_path.iterdir()}

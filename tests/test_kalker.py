@@ -1,4 +1,4 @@
-"""Kalker's coefficients: the published table, its smooth continuation, and boundary-element values beyond it."""
+"""Kalker's coefficients: published table, smooth continuation, and boundary-element values outside the table."""
 
 import math
 
@@ -11,7 +11,7 @@ from contact import kalker
 
 @pytest.mark.parametrize(("ratio", "nu", "row"), [
     (0.1, 0.25, (3.31, 2.52, 0.473, 8.28)),
-    (0.8, 0.25, (3.91, 3.41, 1.25, 1.37)),  # C23 is 1.15 in a copy inside USETAB's generator: a misprint (theory.md 1.2)
+    (0.8, 0.25, (3.91, 3.41, 1.25, 1.37)),  # C23 is 1.15 in a copy in USETAB's generator, which is a misprint (theory.md 1.2)
     (1.0, 0.0, (3.40, 3.40, 1.33, 1.21)),
     (1.0, 0.25, (4.12, 3.67, 1.47, 1.19)),
     (1 / 0.3, 0.5, (7.34, 7.51, 5.01, 0.446)),

@@ -1,4 +1,4 @@
-"""Pictures: what is drawn lies where the solution says, scales are common, nothing global is touched."""
+"""Pictures: they show the solution at the right places, with common scales and without global side effects."""
 
 import subprocess
 import sys
@@ -40,7 +40,7 @@ def two_patches():
 
 
 def colour_limits(ax):
-    """Of the field on these axes."""
+    """Return the colour limits of the field on these axes."""
     return next(part.get_clim() for part in ax.collections if isinstance(part, mpl.collections.QuadMesh))
 
 
@@ -123,7 +123,7 @@ def test_pictures_are_written_and_not_blank(tmp_path, solution, apart, two_patch
     assert plot.patch(apart).axes[0].get_title(loc="left") == "no contact"
 
 
-def test_given_axes_get_the_pressure_alone(solution):
+def test_given_axes_show_only_the_pressure(solution):
     figure = mpl.figure.Figure()
     ax = figure.subplots()
     assert plot.patch(solution, ax=ax) is figure

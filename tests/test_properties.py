@@ -1,4 +1,4 @@
-"""What must hold for every method and every separation, drawn by hypothesis (issue "Smoothness and robustness")."""
+"""Properties of every method for any separation, with cases from hypothesis (issue "Smoothness and robustness")."""
 
 import math
 
@@ -13,7 +13,7 @@ from reference import random_cases
 from tests.post_conditions import assert_post_conditions
 
 NORMAL, METHODS = list(contact.methods().batched.normal), contact.methods().batched.tangential
-TANGENTIAL = [name for name, method in METHODS.items() if method.saturates]  # tolerances are parts of mu N
+TANGENTIAL = [name for name, method in METHODS.items() if method.saturates]  # tolerances are relative to mu N
 MU = 0.3
 few = settings(max_examples=40, deadline=None)
 normals, tangentials = st.sampled_from(NORMAL), st.sampled_from(TANGENTIAL)
@@ -27,7 +27,7 @@ creepages = st.builds(
 
 @st.composite
 def separations(draw, kinds=tuple(random_cases.KINDS)):
-    """Real, worn, near-conformal, nearly flat, two-lobed, asymmetric and noisy separations."""
+    """Draw real, worn, near-conformal, nearly flat, two-lobed, asymmetric and noisy separations."""
     kind = draw(st.sampled_from(kinds))
     return random_cases.KINDS[kind](np.random.default_rng(draw(st.integers(0, 10_000))))
 
@@ -45,7 +45,7 @@ def force(sol):
 @few
 @given(separations(), creepages, loads, normals, tangentials)
 def test_post_conditions_on_any_separation(separation, creepage, load, normal, tangential):
-    """|F| ≤ μN, |q| ≤ μp, dissipation ≥ 0, Σ p dA = N, also where the iteration stops at its cap."""
+    """|F| ≤ μN, |q| ≤ μp, dissipation ≥ 0, Σ p dA = N, also if the iteration stops at its limit."""
     sol = solve(separation, creepage, load=load, normal=normal, tangential=tangential)
     assert abs(sol.N / load - 1.0) < 1e-12
     assert sol.iterations <= random_cases.CAPS[normal]
@@ -72,7 +72,10 @@ def test_opposite_creepages_give_opposite_forces(separation, creepage, load, nor
 @few
 @given(st.data(), creepages, st.floats(1e3, 2e5), tangentials)
 def test_the_mirror_image_has_the_mirrored_forces(normal, kinds, accuracy, data, creepage, load, tangential):
-    """theory.md 2.6: y → −y turns Fy and Mz. Of more than four patches the last ones are merged, from the left."""
+    """theory.md 2.6: y → −y changes the sign of Fy and Mz.
+
+    More than four patches are excluded, since the last ones from the left are merged.
+    """
     separation = data.draw(separations(kinds=kinds))
     mirrored = contact.Separation(-separation.y[::-1], separation.g[::-1], separation.A[::-1], separation.x_c[::-1])
     xi, eta, phi = creepage
@@ -96,7 +99,7 @@ def test_the_mirror_image_of_an_ellipse_is_exact(ratio, creepage, load, normal, 
 @few
 @given(st.floats(2.4, 3.5), creepages, st.floats(0.0, 2.0), normals, tangentials)
 def test_millimetres_and_newtons_give_the_same_forces(ratio, creepage, load, normal, tangential):
-    """ANALYN's two fixed lengths do not show: a parabola does not feel the base of B, nor B > 0.2 /mm the floor."""
+    """ANALYN's two fixed lengths have no effect: the base of B not on a parabola, the floor not for B > 0.2 /mm."""
     si = contact.Separation.hertzian(300.0, 10.0**ratio)
     mm = contact.Separation(si.y * 1e3, si.g * 1e3, si.A * 1e-3)
     xi, eta, phi = creepage
@@ -128,7 +131,7 @@ def test_load_rises_with_the_approach(normal, kinds, least_step, data, depth, sh
 @few
 @given(separations(), loads, tangentials, st.tuples(*[st.floats(-1, 1)] * 3))
 def test_forces_are_continuous_at_zero_creepage(separation, load, tangential, direction):
-    """Halving a tiny creepage halves the force: no step, and no dead band."""
+    """Halving a tiny creepage halves the force, so there is no jump and no dead band."""
     tiny = tuple(1e-9 * d for d in direction)
     whole = force(solve(separation, tiny, load=load, tangential=tangential))
     half = force(solve(separation, tuple(0.5 * t for t in tiny), load=load, tangential=tangential))
@@ -139,7 +142,7 @@ def test_forces_are_continuous_at_zero_creepage(separation, load, tangential, di
 @few
 @given(separations(kinds=("pose", "worn", "ellipse")), st.floats(-5, 5), st.floats(-3e-3, 3e-3), st.floats(-3e-3, 3e-3))
 def test_mapped_forces_are_continuous_in_spin(separation, spin, xi, eta):
-    """Wherever strips pass |psi| = 1; the published FaStrip jumps there (`fastrip`: tests/tangential)."""
+    """This holds where strips pass |psi| = 1. The published FaStrip jumps there (`fastrip`: tests/tangential)."""
     options = {"load": 8e4, "tangential": "fastrip_mapped"}
     one = force(solve(separation, (xi, eta, spin), **options))
     other = force(solve(separation, (xi, eta, spin + 1e-6), **options))

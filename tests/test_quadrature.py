@@ -1,4 +1,4 @@
-"""Where strips and elements lie."""
+"""Positions and weights of strips and elements."""
 
 import math
 
@@ -12,7 +12,7 @@ from contact.kernels.layout import Element
 
 @pytest.mark.parametrize("n", [1, 2, 3, 4, 7, 40, 41, 1000])
 def test_points_on_the_circle_are_those_of_libm(n):
-    """To a digit of libm's, whose angle is rounded; exact where an axis is met, and mirrored to the last digit."""
+    """They agree with libm to one digit, since its angle is rounded. They are exact on the axes and exactly symmetric."""
     for k in range(0, 2 * n + 1):
         cosine, sine = quadrature.on_circle(k, n)
         angle = math.pi * k / n

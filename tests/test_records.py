@@ -1,4 +1,4 @@
-"""Records: how they are written, shown in a notebook, copied, pickled, replaced; what their arrays own."""
+"""Records: repr, display in a notebook, copy, pickle, replace, and ownership of their arrays."""
 
 import copy
 import dataclasses
@@ -29,7 +29,7 @@ COPIES = {
 
 @pytest.fixture(params=PAIRS)
 def solution(request, ellipse):
-    """A new solution, of which nothing has been read."""
+    """Return a new solution whose attributes have not been read."""
     return contact.solve(ellipse, CREEPAGE, load=60e3, **PAIRS[request.param])
 
 
@@ -39,7 +39,7 @@ def forces_only(ellipse):
 
 
 def arrays(solution):
-    """Every array of a solution, those of its strips and of its grid too, by name."""
+    """Return every array of a solution by name, including those of its strips and grid."""
     found = {}
     for each in dataclasses.fields(solution):
         value = getattr(solution, each.name)
@@ -52,7 +52,7 @@ def arrays(solution):
 
 
 def assert_same(a, b):
-    """Two solutions agree in all that they say, to the last bit."""
+    """Assert that two solutions are equal in every field, bit for bit."""
     mine, others = arrays(a), arrays(b)
     assert mine.keys() == others.keys()
     for name, array in mine.items():
@@ -64,7 +64,7 @@ def assert_same(a, b):
 
 
 def parsed(html):
-    """The elements of a piece of HTML, which must be well-formed and refer to nothing outside."""
+    """Return the elements of HTML, which must be well-formed and without external references."""
     for foreign in ("<script", "<img", "<link", "href", "url(", "@import"):
         assert foreign not in html
     return list(ElementTree.fromstring(f"<div>{html}</div>").iter())
@@ -77,7 +77,7 @@ def words(html):
 
 
 def drawn(html):
-    """Corners of every polygon, in pixels."""
+    """Return the corners of every polygon, in pixels."""
     return [
         np.array([point.split(",") for point in element.get("points").split()], dtype=np.float64)
         for element in parsed(html)
@@ -88,7 +88,7 @@ def drawn(html):
 # Solution
 
 
-def test_arrays_of_a_solution_are_read_only_and_own_just_what_they_show(solution):
+def test_arrays_of_a_solution_are_read_only_and_own_only_their_data(solution):
     for name, array in arrays(solution).items():
         assert array.base is None, name
         assert array.flags.owndata, name
@@ -97,7 +97,7 @@ def test_arrays_of_a_solution_are_read_only_and_own_just_what_they_show(solution
             array[...] = 0
 
 
-def test_a_solution_that_was_not_read_keeps_no_workspace(ellipse):
+def test_an_unread_solution_keeps_no_workspace(ellipse):
     solver = contact.Solver(n_strips=8, n_elements=8, n_samples=100_000)
     solution = solver.solve(ellipse, CREEPAGE, load=60e3)
     assert len(pickle.dumps(solution)) < 100_000
@@ -107,7 +107,7 @@ def test_a_solution_that_was_not_read_keeps_no_workspace(ellipse):
 
 @pytest.mark.parametrize("read", [True, False], ids=["read", "not read"])
 @pytest.mark.parametrize("way", COPIES)
-def test_a_copy_says_the_same_and_its_arrays_are_read_only(solution, way, read):
+def test_a_copy_is_equal_and_its_arrays_are_read_only(solution, way, read):
     if read:
         assert solution.damage is not None
     other = COPIES[way](solution)
@@ -128,7 +128,7 @@ def test_a_copy_of_forces_only_has_the_forces_and_no_fields(forces_only, way):
         _ = other.qx
 
 
-def test_replace_changes_what_it_is_told_and_nothing_else(solution):
+def test_replace_changes_only_the_given_fields(solution):
     other = dataclasses.replace(solution, speed=33.0)
     assert (other.speed, solution.speed) == (33.0, 20.0)
     assert type(other) is type(solution)
@@ -198,7 +198,7 @@ def test_a_notebook_shows_the_outline_of_the_patch_in_equal_scales(solution):
     wide, tall = np.ptp(outline, axis=0)
     strips = solution.strips
     assert wide / tall == pytest.approx(np.ptp(strips.y) / (2.0 * strips.a.max()), rel=0.02)
-    assert np.ptp(pressure[:, 1]) == pytest.approx(70.0, abs=0.2)  # the greatest pressure fills the height
+    assert np.ptp(pressure[:, 1]) == pytest.approx(70.0, abs=0.2)  # the greatest pressure takes the full height
 
 
 def test_a_notebook_shows_forces_only_and_no_contact(forces_only, ellipse):
@@ -211,7 +211,7 @@ def test_a_notebook_shows_forces_only_and_no_contact(forces_only, ellipse):
 # The others
 
 
-def test_methods_are_written_by_name_and_shown_with_what_they_can_do():
+def test_methods_have_a_repr_by_name_and_are_shown_with_their_capabilities():
     known = contact.methods()
     assert repr(known).startswith("Methods(normal: analyn, hertz, ")
     assert len(repr(known)) < 600
@@ -244,11 +244,11 @@ def test_any_separation_can_be_sketched(g):
         Friction(0.4, hot_factor=0.2, thermal=Thermal(conductivity=40.0)),
     ],
 )
-def test_friction_is_written_so_that_it_can_be_read_again(friction):
+def test_the_repr_of_friction_can_be_evaluated(friction):
     assert eval(repr(friction), {"Friction": Friction, "Thermal": Thermal}) == friction
 
 
-def test_friction_says_only_what_differs_from_a_constant_coefficient():
+def test_the_repr_of_friction_shows_only_changes_from_a_constant_coefficient():
     assert repr(Friction(0.3)) == "Friction(0.3)"
     assert repr(Friction(0.3, border=-0.01)) == "Friction(0.3, border=-0.01)"
     rows = [
@@ -259,7 +259,7 @@ def test_friction_says_only_what_differs_from_a_constant_coefficient():
     assert rows == [["friction", "value", "unit"], ["static", "0.3", "-"], ["border", "-0.01", "m"]]
 
 
-def test_histogram_is_sketched_where_there_is_wear():
+def test_a_histogram_with_wear_is_sketched():
     histogram = Histogram(profile.s1002())
     assert repr(histogram).startswith("Histogram(")
     assert drawn(histogram._repr_html_())
@@ -287,7 +287,7 @@ def test_text_is_escaped():
 
 
 def test_lines_and_text_take_the_colour_of_the_page(ellipse):
-    """Light or dark: nothing is drawn black or white."""
+    """Nothing is drawn black or white, so light and dark pages both work."""
     for element in parsed(ellipse._repr_html_()):
         for name in ("fill", "stroke"):
             assert element.get(name) in (None, "none", "currentColor", notebook.COLOUR)

@@ -1,4 +1,4 @@
-"""Hundreds of random but physical cases through every pair of methods; benchmarks/robustness.py runs 10⁵."""
+"""Hundreds of random but physical cases for every pair of methods. benchmarks/robustness.py runs 10⁵."""
 
 import pytest
 
@@ -21,7 +21,7 @@ def test_random_physical_cases_are_solved(normal, tangential):
     assert found["slip"] <= 1e-3, "0 ≤ slip ratio ≤ 1"
     if method.admissible:
         assert found["bound"] <= 1e-9, "|q| ≤ μp"
-    # strips on punches and on roughness of 2 µm: 1.2 % of many cases, and none of these on real patches
+    # strips on punches and on roughness of 2 µm fail in 1.2 % of many cases, never on real patches
     assert statuses[contact.Status.NOT_CONVERGED] <= (9 if normal == "strip_halfspace" else 0)
     assert found["not converged"]["pose"] == found["not converged"]["worn"] == found["not converged"]["ellipse"] == 0
     assert statuses[contact.Status.OUT_OF_RANGE] <= 16

@@ -43,7 +43,7 @@ def test_solution_has_the_fields_of_the_contract(ellipse):
 
 @pytest.mark.parametrize("arguments", [{"load": 0.0}, {"approach": 0.0}, {"approach": -1e-3}])
 @pytest.mark.parametrize("normal", NORMAL)
-def test_no_contact_is_an_answer(ellipse, arguments, normal):
+def test_no_contact_is_a_valid_result(ellipse, arguments, normal):
     sol = contact.solve(ellipse, contact.Creepage(1e-3, 1e-3, 1.0), normal=normal, **arguments)
     assert sol.status is contact.Status.NO_CONTACT
     assert (sol.Fx, sol.Fy, sol.Mz, sol.N, sol.area, sol.max_pressure, sol.slip_ratio) == (0,) * 7
@@ -52,20 +52,20 @@ def test_no_contact_is_an_answer(ellipse, arguments, normal):
 
 
 def test_lengths_scale_as_the_equations_say(ellipse):
-    """Twice the length at the same pressure: N·4, F·4, Mz·8 for curvatures and spin halved."""
+    """Twice the length at the same pressure gives N·4, F·4, Mz·8 for half the curvatures and half the spin."""
     one = contact.solve(ellipse, contact.Creepage(1e-3, 2e-3, 0.5), load=5e4)
     two = contact.solve(
         contact.Separation(2 * ellipse.y, 2 * ellipse.g, ellipse.A / 2), contact.Creepage(1e-3, 2e-3, 0.25), load=2e5
     )
-    # B's base has a fixed physical width, which a parabola does not feel
+    # the base of B has a fixed physical width, which has no effect on a parabola
     np.testing.assert_allclose((two.Fx, two.Fy, two.Mz), np.array([4, 4, 8]) * (one.Fx, one.Fy, one.Mz), rtol=1e-8)
 
 
 @pytest.mark.parametrize("tangential", [n for n, m in contact.methods().batched.tangential.items() if m.saturates])
 def test_resolution_does_not_ripple(tangential, ellipse):
-    """Twice the strips and elements change forces by less than 0.05 % of mu N at the defaults with FaStrip (others: 0.5 %).
+    """Doubling strips and elements changes forces by less than 0.05 % of mu N at the defaults with FaStrip (others: 0.5 %).
 
-    In strip theory a strip's force jumps as it comes to slip, by a part of its share of the load.
+    In strip theory the force of a strip jumps when it begins to slip, by a part of its share of the load.
     """
     limit = {"fastrip": 0.0005, "strip_theory": 0.01}.get(tangential, 0.005)
     for creep in [(1e-3, 0, 0), (0, 1e-3, 0.3), (5e-4, -8e-4, 0.8), (2e-3, 1e-3, -0.5)]:

@@ -1,4 +1,4 @@
-"""`contact.Solver` beside `contact.solve`: the same bits, whatever was asked before."""
+"""`contact.Solver` gives the same bits as `contact.solve` after any earlier calls."""
 
 import dataclasses
 
@@ -9,7 +9,7 @@ import contact
 from contact.errors import ContactError
 from contact.friction import Friction
 
-#: Iterative and not, one march each, forces only.
+#: Iterative and direct methods, one of each march, and one with forces only.
 PAIRS = [
     ("analyn", "fastrip"),
     ("analyn", "polach"),
@@ -18,13 +18,13 @@ PAIRS = [
     ("kik_piotrowski", "table"),
 ]
 SMALL = {"n_strips": 10, "n_elements": 10}
-#: All but `memory`, of which a warm start reads only what the patches of the solution have filled.
+#: All arrays except `memory`, of which a warm start reads only the part that the patches of the solution have filled.
 ARRAYS = ("x", "y", "p", "dA", "patch_edges")
 WITH_FIELDS = ("qx", "qy", "sx", "sy", "stick")
 
 
 def wheel(depth=0.0):
-    """A gap with two summits: an ellipse beside a shallower one, `depth` [m] lower than the first."""
+    """Return a gap with two lobes: an ellipse and a flatter one, which is `depth` [m] lower than the first."""
     y = np.linspace(-0.02, 0.02, 81)
     return contact.Separation(y, np.minimum(2.0 * (y + 0.004) ** 2, 3.0 * (y - 0.008) ** 2 + depth), 1.1)
 
@@ -35,7 +35,7 @@ CALLS = [
     (wheel(2e-5), contact.Creepage(-2e-3, 1e-3, 0.0), {"load": 90e3}),
     (ELLIPSE, contact.Creepage(), {"approach": 5e-5}),
     (ELLIPSE, contact.Creepage(0.0, 0.0, 1.0), {"approach": -1e-5}),  # apart
-    (wheel(), contact.Creepage(0.05, 0.0, 0.0), {"load": 20e3}),  # slips as a whole
+    (wheel(), contact.Creepage(0.05, 0.0, 0.0), {"load": 20e3}),  # full slip
     (ELLIPSE, contact.Creepage(1e-3, -5e-4, 0.2), {"load": 60e3}),  # the first one again
 ]
 
@@ -45,7 +45,7 @@ def prepared(normal="analyn", tangential="fastrip", **others):
 
 
 def numbers(solution):
-    """Every plain number of a solution."""
+    """Return every plain number of a solution."""
     found = {
         each.name: getattr(solution, each.name)
         for each in dataclasses.fields(solution)
@@ -55,7 +55,7 @@ def numbers(solution):
 
 
 def arrays(solution):
-    """Every array of a solution."""
+    """Return every array of a solution."""
     names = ARRAYS + (WITH_FIELDS if solution.has_fields else ())
     found = {name: getattr(solution, name) for name in names}
     strips = {f"strips.{name}": getattr(solution.strips, name) for name in solution.strips.__slots__}
@@ -68,11 +68,11 @@ def assert_same_bits(found, expected):
         np.testing.assert_array_equal(arrays(found)[name], array, err_msg=name, strict=True)
 
 
-# The answers of contact.solve
+# Results of contact.solve
 
 
 @pytest.mark.parametrize(("normal", "tangential"), PAIRS)
-def test_answers_are_those_of_solve_bit_for_bit_whatever_was_asked_before(normal, tangential):
+def test_results_equal_solve_bit_for_bit_after_any_other_calls(normal, tangential):
     solver = prepared(normal, tangential, friction=0.35, speed=30.0)
     for separation, creepage, amount in CALLS:
         methods = {"normal": normal, "tangential": tangential, **SMALL}
@@ -81,7 +81,7 @@ def test_answers_are_those_of_solve_bit_for_bit_whatever_was_asked_before(normal
 
 
 @pytest.mark.parametrize(("normal", "tangential"), PAIRS)
-def test_forces_only_are_those_of_solve_bit_for_bit(normal, tangential):
+def test_forces_only_equals_solve_bit_for_bit(normal, tangential):
     solver = prepared(normal, tangential)
     for separation, creepage, amount in CALLS:
         full = solver.solve(separation, creepage, throw=False, **amount)
@@ -108,7 +108,7 @@ def test_material_and_friction_are_those_of_solve():
     assert_same_bits(solver.solve(ELLIPSE, CALLS[0][1], load=60e3), expected)
 
 
-def test_friction_and_speed_of_a_call_hold_for_the_following_ones():
+def test_friction_and_speed_of_a_call_stay_for_later_calls():
     solver, (separation, creepage, amount) = prepared(), CALLS[4]
     falling = Friction.polach()
     first = solver.solve(separation, creepage, friction=falling, speed=10.0, **amount)
@@ -230,7 +230,7 @@ def test_bad_preparation_is_named_with_its_range(arguments, message):
         prepared(**arguments)
 
 
-def test_forces_that_cannot_be_trusted_say_so_by_their_status():
+def test_the_status_of_forces_reports_unreliable_results():
     solver = prepared()
     assert solver.forces(ELLIPSE, CALLS[0][1], load=1e9).status == contact.Status.OUT_OF_RANGE
     assert solver.solve(ELLIPSE, CALLS[0][1], load=1e9, throw=False).status == contact.Status.OUT_OF_RANGE
@@ -264,5 +264,5 @@ def test_two_solvers_do_not_share_memory():
     assert_same_bits(one.solve(ELLIPSE, CALLS[0][1], load=60e3), first)
 
 
-def test_a_solver_says_what_it_was_made_for():
+def test_the_repr_of_a_solver_shows_its_settings():
     assert repr(prepared(friction=0.4)) == "Solver(analyn + fastrip, 10 strips x 10 elements, friction 0.4)"

@@ -1,4 +1,4 @@
-"""Who may import whom: read from the sources of all imports, those inside functions included."""
+"""Allowed imports, checked in the sources, including imports inside functions."""
 
 import ast
 from collections.abc import Iterator
@@ -8,9 +8,9 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 FOLDERS = ("contact", "fmu_src", "models", "reference", "tests", "benchmarks", "examples", "docs")
-#: Files that may import a module of `contact` whose name begins with an underscore, and what from it.
+#: Files that may import a private module of `contact` (leading underscore) → names that they may import.
 PRIVATE = {
-    "fmu_src/place.py": {"contact._jit.cache_directory"},  # where what is compiled is kept
+    "fmu_src/place.py": {"contact._jit.cache_directory"},  # folder of compiled kernels
     "models/wheelset/dynamics.py": {"contact._jit.kernel"},
     "models/wheelset/motion.py": {"contact._jit.kernel"},
     "tests/test_jit.py": {"contact._jit"},  # the test of that module
@@ -22,7 +22,7 @@ def sources(*folders: str) -> list[Path]:
 
 
 def imports(path: Path) -> Iterator[str]:
-    """Whole names of what a file imports, `a.b.c` for `from a.b import c`."""
+    """Yield the full names that a file imports, `a.b.c` for `from a.b import c`."""
     package = path.relative_to(ROOT).parent.parts
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
@@ -34,7 +34,7 @@ def imports(path: Path) -> Iterator[str]:
 
 
 def strings(path: Path) -> Iterator[str]:
-    """All strings of a file but docstrings and other strings that stand alone."""
+    """Yield all strings of a file except docstrings and other expression statements."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     alone = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
     for node in ast.walk(tree):
@@ -47,7 +47,7 @@ def is_test(name: str) -> bool:
 
 
 def found(folders: tuple[str, ...], refused) -> list[str]:
-    """Imports of files in `folders` that are refused, as "file: name"."""
+    """Return the refused imports of files in `folders`, as "file: name"."""
     return [
         f"{path.relative_to(ROOT)}: {name}" for path in sources(*folders) for name in imports(path) if refused(name)
     ]
@@ -67,7 +67,7 @@ def test_tests_import_no_benchmark():
     assert found(("tests",), lambda name: name.split(".")[0] == "benchmarks") == []
 
 
-def test_benchmarks_and_reference_know_nothing_of_tests():
+def test_benchmarks_and_reference_do_not_import_tests():
     assert found(("benchmarks", "reference"), lambda name: name.split(".")[0] == "tests") == []
     assert found(("reference",), lambda name: name.split(".")[0] == "benchmarks") == []
     read = [
@@ -113,7 +113,7 @@ def is_private_module(parts: list[str]) -> bool:
     ],
 )
 def test_imports_are_found(line, name, tmp_path, monkeypatch):
-    """The reader itself, for without it every rule above would hold."""
+    """Test the reader itself, since all rules above would hold if it found nothing."""
     monkeypatch.setattr(f"{__name__}.ROOT", tmp_path)
     (tmp_path / "tests").mkdir()
     path = tmp_path / "tests" / "some.py"

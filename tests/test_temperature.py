@@ -41,7 +41,7 @@ def test_constant_heat_rises_with_the_square_root_of_the_way():
     "options", [{"tangential": "fastrip"}, {"tangential": "fastrip_mapped"}, {"normal": "halfspace"}]
 )
 def test_a_sliding_patch_is_as_hot_as_its_hottest_strip_by_the_closed_form(options):
-    """Creepage far beyond saturation: the rigid slip alone heats."""
+    """Creepage is far above saturation, so only the rigid slip heats."""
     if "normal" in options:
         options |= {"tangential": "halfspace", "spacing": 0.25e-3}
     xi, V = 0.3, 10.0
@@ -51,7 +51,7 @@ def test_a_sliding_patch_is_as_hot_as_its_hottest_strip_by_the_closed_form(optio
     assert flash_temperature(sol).max() == pytest.approx(2.188 * unit, rel=2e-2)
 
 
-def test_what_sticks_stays_cold_and_heat_grows_with_the_speed_to_the_half():
+def test_adhesion_stays_cold_and_temperature_grows_with_the_root_of_the_speed():
     slow, fast = (
         contact.solve(contact.Separation.hertzian(1.0, 1.0), contact.Creepage(1e-3), load=8e4, speed=V)
         for V in (5.0, 20.0)

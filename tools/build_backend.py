@@ -1,9 +1,9 @@
-"""The build backend of wheelrail-contact: setuptools, with other names for two packages in a wheel.
+"""Build backend of wheelrail-contact: setuptools, with two packages renamed in a wheel.
 
-In the repository the packages are called `contact`, `fmu_src` and `models`. Beside every other installed package the last two
-names would be in the way: a user's own `models.py` would break the command line. A wheel therefore holds `contact`,
-`contact_fmu` and `contact_models`. `build_wheel` copies the sources into a temporary folder, renames the two packages there
-and lets setuptools build. An editable install and an sdist are setuptools' own, with the names of the repository.
+In the repository the packages are called `contact`, `fmu_src` and `models`. Once installed, the last two names could clash with
+those of other packages: a user's own `models.py` would break the command line. A wheel therefore holds `contact`, `contact_fmu`
+and `contact_models`. `build_wheel` copies the sources into a temporary folder, renames the two packages there and calls
+setuptools. Editable installs and sdists are made by setuptools unchanged, with the names of the repository.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from setuptools import build_meta
-from setuptools.build_meta import (  # what a front end calls besides `build_wheel`
+from setuptools.build_meta import (  # hooks that a front end calls besides `build_wheel`
     build_editable,
     build_sdist,
     get_requires_for_build_editable,
@@ -40,7 +40,7 @@ __all__ = [
 #: Name in the repository → name in a wheel.
 NAMES = {"fmu_src": "contact_fmu", "models": "contact_models"}
 
-# `fmu_src` is no other word, `models` is: only an import, a dotted name and a path of its two packages are meant.
+# `fmu_src` is always the package. `models` is also an ordinary word, so only imports, dotted names and paths of it are renamed.
 _MENTION = re.compile(
     r"\bfmu_src\b|(?:(?<=^from )|(?<=^import )|(?<=    from )|(?<=    import )|\b(?=models[./](?:life|wheelset)\b))models\b",
     re.MULTILINE,
@@ -48,17 +48,17 @@ _MENTION = re.compile(
 
 
 def renamed(text: str) -> str:
-    """Return a source with the packages' names as they are in a wheel."""
+    """Return a source with the names that the packages have in a wheel."""
     return _MENTION.sub(lambda found: NAMES[found[0]], text)
 
 
 def lay_out(root: Path, folder: Path) -> None:
-    """Write what a wheel is built of into `folder`, with the packages' names as they are in a wheel.
+    """Write the sources of a wheel into `folder`, with the names that the packages have in a wheel.
 
     Raises
     ------
     RuntimeError
-        A source that still imports a package by its name in the repository.
+        If a source still imports a package by its name in the repository.
     """
     for name in ("README.md", "LICENSE"):
         shutil.copy2(root / name, folder / name)
@@ -77,7 +77,7 @@ def lay_out(root: Path, folder: Path) -> None:
 def build_wheel(
     wheel_directory: str, config_settings: Mapping[str, Any] | None = None, metadata_directory: str | None = None
 ) -> str:
-    """Build a wheel into a folder and return its name; the hook of PEP 517."""
+    """Build a wheel into a folder and return its name (hook of PEP 517)."""
     root, target = Path.cwd(), os.path.abspath(wheel_directory)
     with TemporaryDirectory() as folder:
         lay_out(root, Path(folder))
@@ -89,7 +89,7 @@ def build_wheel(
 
 
 def _rename_in(path: Path) -> None:
-    """Rename the packages in a file, whose time stays as it is, and check what it imports."""
+    """Rename the packages in a file, keep its modification time, and check its imports."""
     times = path.stat()
     text = renamed(path.read_text(encoding="utf-8"))
     path.write_text(text, encoding="utf-8")

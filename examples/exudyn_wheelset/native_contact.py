@@ -1,4 +1,4 @@
-"""Wheel-rail forces for a multibody program: contact search in Python, elastic contact in the native FMU."""
+"""Wheel-rail forces for a multibody program. The contact search is in Python, the elastic contact in the native FMU."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from models.wheelset.ports import POINTS
 
 Array = NDArray[np.float64]
 
-_APPROACH = 2  # of load.kind
+_APPROACH = 2  # value of load.kind
 _INPUTS = (
     *(f"geometry.{row}[{i}]" for row in "gA" for i in range(1, POINTS + 1)),
     *(f"creepage.{name}" for name in ("longitudinal", "lateral", "spin")),
@@ -28,17 +28,18 @@ _OUTPUTS = ("force.x", "force.y", "force.n", "moment.z")
 
 
 class NativeContact:
-    """One wheel on its rail; the FMU runs as model exchange, so forces belong to the very motion they are asked for.
+    """One wheel on its rail.
 
-    A context manager that frees the FMU.
+    The FMU runs in model exchange, so the forces have no delay. The object is a context manager that frees the FMU.
 
     Parameters
     ----------
     fmu : Path
-        dist/native/WheelRailContact.fmu.
+        The native FMU, dist/native/WheelRailContact.fmu.
     parameters : WheelsetParameters
         Profiles, track and speed.
     side : {"right", "left"}
+        Side of the wheel.
     friction : float
         Coefficient of friction [-].
     """
@@ -71,16 +72,16 @@ class NativeContact:
         self._fmu.enterContinuousTimeMode()
 
     def wrench(self, centre: Array, axle: Array, velocity: Array, rotation: Array) -> Array:
-        """Force [N] and moment about the wheelset's centre [N m] on the wheelset, in track axes, shape (6,).
+        """Return force [N] and moment about the wheelset's centre [N m] on the wheelset, in track axes, shape (6,).
 
         Parameters
         ----------
         centre : ndarray, shape (3,)
-            Of the wheelset, in track axes [m].
+            Centre of the wheelset in track axes [m].
         axle : ndarray, shape (3,)
             Unit vector along the axle, to the right.
         velocity, rotation : ndarray, shape (3,)
-            Of the centre relative to the track frame, which moves at the speed V [m/s], and angular velocity [rad/s].
+            Velocity of the centre relative to the track frame, which moves at the speed V [m/s], and angular velocity [rad/s].
         """
         pose = Pose(y=centre[1], z=centre[2] + self._radius, roll=math.asin(axle[2]), yaw=math.atan2(-axle[0], axle[1]))
         total = np.zeros(6)
@@ -97,7 +98,7 @@ class NativeContact:
         return total
 
     def _solve(self, patch: Patch, creepage: tuple[float, float, float]) -> list[float]:
-        """Forces of one patch by the FMU: Fx, Fy, N [N], Mz [N m]."""
+        """Return the forces of one patch by the FMU: Fx, Fy, N [N], Mz [N m]."""
         values = [*patch.separation.g.tolist(), *patch.separation.A.tolist(), *creepage, patch.approach]
         self._fmu.setReal(self._inputs, values)
         return self._fmu.getReal(self._outputs)

@@ -1,4 +1,4 @@
-"""A wheelset modelled in exudyn on rails from the native FMU, beside the project's own wheelset.
+"""A wheelset modelled in exudyn with contact forces from the native FMU, compared with the project's own wheelset.
 
 python examples/exudyn_wheelset/wheelset.py [--fmu dist/native/WheelRailContact.fmu] [--picture out/exudyn.png]
 """
@@ -34,7 +34,7 @@ from models.wheelset.ports import SIDES
 Array = NDArray[np.float64]
 
 AXLE_BOX = 1.0  # [m] from the centre of the axle
-VERTICAL_DAMPING = 3e4  # [N s/m] of an axle box; it lets the bounce on the elastic contacts, 200 Hz, die out
+VERTICAL_DAMPING = 3e4  # [N s/m] of an axle box; it damps the bounce on the elastic contacts (200 Hz)
 SPEEDS = (18.0, 22.0, 26.0, 30.0)  # [m/s]
 
 
@@ -48,7 +48,7 @@ class Motion(NamedTuple):
 
 
 def in_exudyn(fmu: Path, p: WheelsetParameters, duration: float, step: float = 5e-4) -> Motion:
-    """Run the wheelset in exudyn: a free rigid body with six degrees of freedom, of which that along the track is held."""
+    """Run the wheelset in exudyn: a rigid body with six degrees of freedom, of which motion along the track is held."""
     start = WheelsetModel(p)
     lateral, yaw, _, _, spin, z, roll = start.motion()
     turn = _about_x(roll) @ _about_z(yaw)
@@ -93,7 +93,7 @@ def in_exudyn(fmu: Path, p: WheelsetParameters, duration: float, step: float = 5
         contacts = [stack.enter_context(NativeContact(fmu, p, side)) for side in SIDES]
 
         def wheel_rail_forces(mbs: exu.MainSystem, time: float, *connector: object) -> Array:
-            """Called at every evaluation of the equations of motion; a connector pulls its second marker back."""
+            """Return the load for exudyn. The sign is reversed, since a connector pulls its second marker back."""
             centre, velocity = state(exu.OutputVariableType.Position), state(exu.OutputVariableType.Velocity)
             axle = state(exu.OutputVariableType.RotationMatrix).reshape(3, 3)[:, 1]
             rotation = state(exu.OutputVariableType.AngularVelocity)
@@ -118,13 +118,13 @@ def in_exudyn(fmu: Path, p: WheelsetParameters, duration: float, step: float = 5
 
 
 def our_own(p: WheelsetParameters, duration: float, step: float = 5e-4) -> Motion:
-    """The same by `models.wheelset`: loads from equilibrium, four states and the spin."""
+    """Run the same case with `models.wheelset`: loads from equilibrium, four states and the spin."""
     history = master.run(*direct(p), speed=p.speed, step=step, duration=duration, scheme="iterated")
     return Motion(*(history[name] for name in ("time", "lateral", "lateral_velocity", "yaw")))
 
 
 def hunting(motion: Motion) -> tuple[float, float]:
-    """Frequency [Hz] and rate of growth [1/s] of the lateral motion, over as many half periods as there are."""
+    """Return frequency [Hz] and growth rate [1/s] of the lateral motion, from all its half periods."""
     t, y, v = motion.time, motion.lateral, motion.rate
     k = np.flatnonzero(np.diff(np.sign(y)))
     crossings = t[k] - y[k] * (t[k + 1] - t[k]) / (y[k + 1] - y[k])
@@ -135,7 +135,7 @@ def hunting(motion: Motion) -> tuple[float, float]:
 
 
 def settled(p: WheelsetParameters) -> WheelsetParameters:
-    """The parameters with the approach that the contacts have at the start."""
+    """Return the parameters with the approach that the contacts have at the start."""
     wheelset, contacts = direct(p)
     approaches = []
     for side, contact in zip(SIDES, contacts, strict=True):
@@ -146,7 +146,7 @@ def settled(p: WheelsetParameters) -> WheelsetParameters:
 
 
 def report(fmu: Path, duration: float = 1.5) -> list[tuple[float, Motion, Motion]]:
-    """Run both models from 1 mm at SPEEDS, print what they say, and return the motions."""
+    """Run both models from 1 mm at SPEEDS, print a comparison and return the motions."""
     print("speed    frequency [Hz]     growth [1/s]      difference")
     print(" [m/s]   exudyn     own    exudyn     own     [mm]")
     runs, growths = [], []
@@ -158,12 +158,12 @@ def report(fmu: Path, duration: float = 1.5) -> list[tuple[float, Motion, Motion
         difference = 1e3 * np.abs(runs[-1][1].lateral - runs[-1][2].lateral).max()
         print(f"{speed:6.1f} {f:8.3f} {own_f:7.3f} {growth:9.3f} {own_growth:7.3f} {difference:8.3f}", flush=True)
     limits = (float(np.interp(0.0, column, SPEEDS)) for column in zip(*growths, strict=True))
-    print("speed at which growth begins: {:.1f} m/s in exudyn, {:.1f} m/s of our own".format(*limits))
+    print("critical speed: {:.1f} m/s in exudyn, {:.1f} m/s with the own model".format(*limits))
     return runs
 
 
 def picture(runs: list[tuple[float, Motion, Motion]], path: Path) -> None:
-    """Lateral displacement over time, both models, one panel a speed."""
+    """Draw the lateral displacement of both models over time, one panel for each speed."""
     from matplotlib.figure import Figure
 
     figure = Figure((8.0, 1.7 * len(runs)), layout="constrained")
@@ -194,7 +194,7 @@ def main() -> None:
     parser.add_argument("--picture", type=Path, help="write a picture of the motions to this file")
     arguments = parser.parse_args()
     if not arguments.fmu.is_file():
-        parser.error(f"{arguments.fmu} is missing; make it with  python build_fmu.py --packaging native")
+        parser.error(f"{arguments.fmu} is missing; build it with  python build_fmu.py --packaging native")
     runs = report(arguments.fmu)
     if arguments.picture:
         picture(runs, arguments.picture)

@@ -28,7 +28,7 @@ PAIRS = (
 )
 LOADS = np.array([20e3, 45e3, 70e3, 95e3, 120e3])  # [N]
 FRICTION = np.array([0.1, 0.2, 0.3, 0.4, 0.5])
-LARGEST = 8e-3  # longitudinal and lateral creepage, spaced evenly in their roots: dense where forces grow
+LARGEST = 8e-3  # longitudinal and lateral creepage, evenly spaced in their square roots: dense where forces grow
 POSITIONS = (-4e-3, 5.5e-3)  # [m] lateral displacement of the wheelset
 QUANTITIES = {
     "T_gamma": ("N", "mean T-gamma over the creepages"),
@@ -42,17 +42,17 @@ QUANTITIES = {
 
 @dataclass(frozen=True)
 class Batch:
-    """All loads, creepages and coefficients of one pair of profiles at one position."""
+    """All loads, creepages and friction coefficients of one pair of profiles at one position."""
 
     wheel: str
     rail: str
     inclination: float
     y: float
-    creepages: int  # each of both
+    creepages: int  # number of longitudinal and of lateral creepages
 
 
 def solve(batch: Batch) -> Array:
-    """Shape (quantities, loads, friction): of the right wheel's patch that carries most."""
+    """Return the quantities of the right wheel's patch with the greatest load, shape (quantities, loads, friction)."""
     pair = Pair(profile.named(batch.wheel, kind="wheel"), profile.named(batch.rail, inclination=batch.inclination))
     patch = max(
         pair.contacts(Pose(y=batch.y), Velocity(), load=LOADS.max()), key=lambda patch: patch.share * patch.load
@@ -77,7 +77,7 @@ def solve(batch: Batch) -> Array:
 
 
 def study(positions: int, creepages: int, pool: Workers, watch: Any = lambda done, total: None) -> Any:
-    """The whole grid as an `xarray.Dataset` over pair, position, load and friction."""
+    """Return the whole grid as an `xarray.Dataset` over pair, position, load and friction."""
     import xarray
 
     places = np.linspace(*POSITIONS, positions)
@@ -101,7 +101,7 @@ def study(positions: int, creepages: int, pool: Workers, watch: Any = lambda don
 
 
 def draw(found: Any) -> Any:
-    """Over position: T-gamma, pressure and the share of contacts that fatigue the surface, of each pair of profiles."""
+    """Draw T-gamma, pressure and the share of contacts with surface fatigue over position, for each pair of profiles."""
     from matplotlib.figure import Figure
 
     from contact import plot

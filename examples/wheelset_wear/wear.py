@@ -1,4 +1,4 @@
-"""Wear of S1002 wheels and 60E1 rails over runs of a wheelset: run, accumulate, merge, save, draw (readme.md)."""
+"""Wear of S1002 wheels and 60E1 rails in runs of a wheelset: run, accumulate, merge, save, draw (readme.md)."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ from models.wheelset.parameters import WheelsetParameters
 from models.wheelset.ports import MOTION
 
 SPEED = 20.0  # [m/s], below the critical speed
-AMPLITUDES = (1e-3, 2e-3, 3e-3)  # [m] of each wave of the track's centre line
-WAVES = (37.0, 23.0, 14.0)  # [m] long; a made-up line, not a measured spectrum
-FRICTION, STEP = 0.3, 5e-3  # [-], [s]; the iterated scheme bears such a step
-SETTLING, MOST_WORN = 1.0, 1e-3  # [s] that do not count, [m] of wear that is drawn
-SMOOTHING = 2e-3  # [m]
+AMPLITUDES = (1e-3, 2e-3, 3e-3)  # [m] amplitude of each wave of the track's centre line
+WAVES = (37.0, 23.0, 14.0)  # [m] wavelengths; an artificial line, not a measured spectrum
+FRICTION, STEP = 0.3, 5e-3  # [-], [s]; the iterated scheme is stable at this step
+SETTLING, MOST_WORN = 1.0, 1e-3  # [s] at the start that do not count, [m] greatest wear depth in the drawing
+SMOOTHING = 2e-3  # [m] smoothing width of the wear depth
 
 
 @dataclass
 class Run:
-    """What one track has left on the right wheel and its rail."""
+    """Damage of the right wheel and its rail on one track."""
 
     wheel: Histogram
     rail: Histogram
@@ -39,13 +39,13 @@ class Run:
 
 
 def centre_line(amplitude: float, t: float) -> tuple[float, float]:
-    """Lateral position [m] and slope [-] of the track below the wheelset at time `t` [s]."""
+    """Return lateral position [m] and slope [-] of the track below the wheelset at time `t` [s]."""
     k, x = 2.0 * np.pi / np.array(WAVES), SPEED * t
     return float(amplitude * np.sin(k * x).sum()), float(amplitude * (k * np.cos(k * x)).sum())
 
 
 def run(amplitude: float, seconds: float) -> Run:
-    """Let the wheelset run on a track of that amplitude; its last `seconds` count."""
+    """Run the wheelset on a track with this amplitude. The last `seconds` count."""
     p = WheelsetParameters(speed=SPEED, lateral=0.0)
     wheelset, contacts = direct(p, FRICTION)
     history = master.run(
@@ -68,7 +68,7 @@ def run(amplitude: float, seconds: float) -> Run:
             Pose(y - line, 0.0, roll, yaw - slope),
             Velocity(SPEED, y_rate - SPEED * slope, yaw=yaw_rate, spin=-spin),
         )
-        # the normal force of the wheelset's own contact, which has one plane for all lobes, as a vertical load
+        # vertical load: the normal force of the wheelset's own contact, which has one plane for all lobes
         load = float(history["right.load.normal_force"][k] * np.cos(history["right.contact.angle"][k]))
         patches = pair.contacts(pose, velocity, load=load)
         solutions = [
@@ -85,7 +85,7 @@ def run(amplitude: float, seconds: float) -> Run:
 
 
 def draw(runs: dict[str, Run], out: Path) -> None:
-    """Stacked wear, worn profiles and the shakedown map."""
+    """Draw stacked wear, worn profiles and the shakedown map."""
     out.mkdir(parents=True, exist_ok=True)
     for body in ("wheel", "rail"):
         histograms = {name: getattr(r, body) for name, r in runs.items()}
@@ -98,7 +98,7 @@ def draw(runs: dict[str, Run], out: Path) -> None:
             total.profile,
             worn_profile(total, times, smoothing=SMOOTHING),
             magnified=2.0,
-            title=f"right {body} after {amount} of the same, smoothed over {1e3 * SMOOTHING:g} mm",
+            title=f"right {body} after {amount} of these runs, smoothed over {1e3 * SMOOTHING:g} mm",
         ).savefig(out / f"worn_{body}.png")
     clouds = {name: r.solutions for name, r in runs.items()}
     plot.shakedown(clouds, f"μ = {FRICTION:g}, k = {contact.STEEL.shear_yield * 1e-6:g} MPa").savefig(
@@ -107,7 +107,7 @@ def draw(runs: dict[str, Run], out: Path) -> None:
 
 
 def worn_depth(histogram: Histogram) -> float:
-    """Greatest smoothed depth [m]."""
+    """Return the greatest smoothed wear depth [m]."""
     p, w = histogram.profile, worn_profile(histogram, smoothing=SMOOTHING)
     return float(np.hypot(w.y - p.y, w.z - p.z).max())
 
@@ -132,7 +132,7 @@ def main() -> None:
 
 
 def exceeding(solutions: list[contact.Solution]) -> float:
-    """Share of the contacts whose surface fatigue index is positive."""
+    """Return the share of contacts with a positive surface fatigue index."""
     return float(np.mean([s.damage.fatigue_index > 0.0 for s in solutions]))
 
 

@@ -1,1 +1,1 @@
-"""The native packaging: FMUs without Python, their kernels compiled from the very sources that Python runs."""
+"""The native packaging: FMUs that need no Python. Their kernels are compiled from the sources that Python runs."""

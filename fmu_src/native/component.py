@@ -1,4 +1,4 @@
-"""What the builder and the C wrapper need to know of one native FMU."""
+"""Description of one native FMU for the builder and the C wrapper."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from fmu_src.native.memory import Doubles
 from fmu_src.variables import Table
 
-#: What C calls, by name: types of the result and of the arguments. See `Component.entries`.
+#: Functions that C calls → types of the result and of the arguments. See `Component.entries`.
 SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "model_memory": (types.int64, (Doubles,)),
     "model_size": (types.int64, (Doubles,)),
@@ -28,47 +28,50 @@ SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
 
 @dataclass(frozen=True, kw_only=True)
 class Component:
-    """One native FMU. The module of each in this package has a function `component(**options)` that returns it.
+    """One native FMU. Its module in this package has a function `component(**options)` that returns it.
 
     Parameters
     ----------
     table : Table
-        Its continuous states are the rows that others are the derivatives of.
+        Variable table. The continuous states are the rows that have a derivative among the other rows.
     entries : callable
-        Returns Python functions by the names in `SIGNATURES`, for numba to compile. Each is given the array of all values
-        by value reference, most a second one of working memory, and after these that of the `resources`, if there are
-        any, and the arrays of `data`:
+        Returns Python functions by the names in `SIGNATURES`, which numba compiles. The first argument is the array of all
+        values, indexed by value reference. Most functions also take the working memory. The `resources`, if there are any, and
+        the arrays of `data` follow. Working memory begins with the warm start.
 
-        * ``model_memory(values)`` and ``model_size(values)`` count the numbers of the warm start, with which working memory
-          begins, and of all working memory, for the parameters in `values`;
-        * ``model_prepare(values, work)`` fills what depends on parameters alone;
-        * ``model_start(values, work)`` computes the continuous states, and the outputs of co-simulation, at the start, of
-          parameters alone; it is of no use to a model without states;
-        * ``model_outputs(values, work, h)`` advances by h [s] from the warm start, then computes the outputs; with h = 0 it
-          computes them from inputs and states in `values` alone;
-        * ``model_lazy(values, work)`` computes the rows `lazy`;
-        * ``model_difference(values, reference)`` is a fitting change of one variable for difference quotients;
-        * ``model_field(values, work, k)`` lays out the field with the number `k`, of what ``model_outputs`` has just computed,
-          and returns where in `work` it begins; it is of no use to a model without fields.
+        * ``model_memory(values)`` returns the size of the warm start in numbers, ``model_size(values)`` that of all working
+          memory. Both depend only on the parameters in `values`.
+        * ``model_prepare(values, work)`` fills what depends only on the parameters.
+        * ``model_start(values, work)`` computes the continuous states and the outputs of co-simulation at the start, from the
+          parameters. A model without states does not need it.
+        * ``model_outputs(values, work, h)`` advances by h [s] from the warm start, then computes the outputs. With h = 0 it
+          computes them only from the inputs and states in `values`.
+        * ``model_lazy(values, work)`` computes the rows `lazy`.
+        * ``model_difference(values, reference)`` returns a suitable step of one variable for difference quotients.
+        * ``model_field(values, work, k)`` writes field number `k` of the last ``model_outputs`` into `work` and returns where
+          it begins. A model without fields does not need it.
 
-        Except for counts and the last two they return 0, or the number of what they have to say (`warnings`, `failures`). A
-        model that begins anew finds zeros as its warm start.
+        The functions that return neither a size, a step nor a position return 0 or the number of a message (`warnings`,
+        `failures`). At a cold start the warm start is all zeros.
     data : callable
         Returns constant arrays that the kernels read.
     resources : tuple of (str, bytes)
-        Files in resources/ that an instance reads, and the 8 bytes that each begins with (`fmu_src.profiles`). Kernels find
-        the points of one behind the other: their number n, then n numbers each of y, z and the angle.
+        Files in resources/ that an instance reads, and the 8 bytes with which each begins (`fmu_src.profiles`). The kernels
+        get the points of all files in sequence. For each file: the number of points n, then n values of y, of z and of the
+        angle.
     lazy : tuple of str
-        Rows that are computed when somebody reads them.
+        Rows that are computed only when a host reads them.
     totals : mapping
-        Outputs that the wrapper adds up over time: name → one or two values whose product is the rate.
+        Outputs that the wrapper integrates over time: name → one or two values whose product is the rate.
     accumulated : tuple of str
-        Rows behind all others that add up, with numbers that are not among the values but end the warm start; what
-        ``model_outputs`` makes of them is kept with h > 0 alone, so in model exchange they stay zero.
+        Rows that add up over time. They come after all other rows, and their numbers are the end of the warm start, not part
+        of the values. The wrapper keeps them only after a call of ``model_outputs`` with h > 0, so in model exchange they stay
+        zero.
     accumulates : str
-        Enumeration, a parameter, at whose first item there are none of these numbers: the rows are zero.
+        Parameter, an enumeration. With its first item nothing is added up: the memory of these rows is left out and the rows
+        are zero.
     warnings, failures : mapping
-        Number → text; a number may be a member of an enumeration of `contact.kernels.layout`. A failure discards the step.
+        Number → text. The number may be a member of an enumeration of `contact.kernels.layout`. A failure discards the step.
     """
 
     table: Table

@@ -1,12 +1,12 @@
-"""From kernels to object files: numba's IR, freed of everything that is Python, compiled for each platform.
+"""Compile kernels to object files: numba's IR without anything of Python, compiled for each platform.
 
-Run as a program, ``python -m fmu_src.native.emit NAME OPTIONS FOLDER …``, since numba must be told before it is imported
-not to optimise and not to know this machine: loops that arrive unrolled vectorise badly later, and code for this very CPU
-would not run on another. Several models in one process share what numba compiles of the kernels; LLVM optimises each in
-processes beside it.
+This module runs as a program, ``python -m fmu_src.native.emit NAME OPTIONS FOLDER …``. Before its import, numba must be told
+not to optimise and not to target this machine. Loops that numba has unrolled vectorise badly later, and code for this CPU
+would not run on others. Several models in one process share the kernels that numba compiles. LLVM then optimises each model in
+a process of its own.
 
-numba's conventions used here (the prefix `cfunc.`, the arguments of a function's body, the names of its runtime, how it
-makes machine code) are not documented; pyproject.toml pins numba's version for the build, and tests compare results.
+The numba conventions used here are not documented: the prefix `cfunc.`, the arguments of a function's body, the names of its
+runtime, and how it makes machine code. Therefore pyproject.toml pins the numba version of the build, and tests compare results.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fmu_src.native.component import Component
 
-#: Environment of the process that emits, before numba is imported.
+#: Environment variables that must be set before numba is imported.
 ENVIRONMENT = {
     "NUMBA_CPU_NAME": "generic",
     "NUMBA_CPU_FEATURES": "",
@@ -35,17 +35,17 @@ ENVIRONMENT = {
     "NUMBA_DISABLE_INTEL_SVML": "1",
 }
 
-#: Platform of FMI 2.0 → triple of LLVM. Code is optimised for the first: the others call functions in another way, no more.
+#: Platform of FMI 2.0 → LLVM triple. Code is optimised for the first; the others differ only in their calling conventions.
 TRIPLES = {
     "linux64": "x86_64-unknown-linux-gnu",
     "win64": "x86_64-w64-windows-gnu",
     "darwin64": "x86_64-apple-macosx11.0.0",
 }
-#: Processors that there are kernels for: every one since 2009, and those with AVX2 since 2013; the wrapper chooses.
+#: Processors that kernels are compiled for: all since 2009, and those with AVX2 since 2013. The wrapper chooses at run time.
 CPUS = {"v2": "x86-64-v2", "v3": "x86-64-v3"}
 
-#: What the objects may need from outside: libm and memory functions. Nothing of Python or numba, so nothing allocates, no
-#: reference is counted and no exception raised (its pickled message would remain).
+#: External symbols that the objects may need: libm and memory functions. Symbols of Python or numba are not allowed. This
+#: proves that nothing allocates, counts references or raises an exception (its pickled message would remain).
 _LIBM = {
     "acos",
     "asin",
@@ -65,30 +65,30 @@ _LIBM = {
 }
 ALLOWED = _LIBM | {"memset", "memcpy", "memmove"}
 
-#: Beginnings of the names of data that only exceptions and objects of Python need.
+#: Prefixes of the names of data that only Python exceptions and objects need.
 _REFUSED = (".const.pickle", "numba.dynamic")
 
-#: Platforms whose exp, log and pow come with the FMU, once for every processor: `libm.py`.
+#: Platforms for which the FMU brings its own exp, log and pow, one version for each processor (`libm.py`).
 OWN_LIBM = {"win64"}
 
 
 def objects(folder: Path, platform: str) -> list[Path]:
-    """Paths of what `emit` writes for a platform: the data, and the kernels for each processor."""
+    """Return the paths of the objects of a platform: the data, then the kernels for each processor."""
     return [folder / f"{platform}-{part}.o" for part in ("data", *CPUS)]
 
 
 def emit(components: Mapping[Path, Component]) -> None:
     """Write the `objects` of each component for every platform into its folder.
 
-    The kernels' names end with that of the processor, model_outputs_v2. What is written of a component does not depend on
-    which others are emitted with it. No kernel can be called in this process afterwards.
+    The names of the kernels end with the processor, for example model_outputs_v2. The objects of a component do not depend on
+    which others are emitted in the same call. No kernel can be called in this process afterwards.
 
     Raises
     ------
     RuntimeError
-        If the kernels need something that is not ALLOWED.
+        If the kernels need a symbol that is not in ALLOWED.
     """
-    # Before machine code is done without: components may call kernels to make their data.
+    # This comes before machine code is switched off, since components may call kernels to make their data.
     made = {folder: (own.entries(), own.data(), bool(own.resources)) for folder, own in components.items()}
     _make_no_machine_code()
     with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as pool:
@@ -102,11 +102,11 @@ def emit(components: Mapping[Path, Component]) -> None:
 
 
 def _make_no_machine_code() -> None:
-    """Let numba make IR alone: neither code for this process nor wrappers for calls from Python, half of its work."""
+    """Make numba stop at the IR: no machine code and no wrappers for calls from Python. This saves half of its work."""
     from numba.core import caching, codegen, cpu, registry
 
     def no_pointer(library: Any, name: str) -> int:
-        library._ensure_finalized()  # links what it calls
+        library._ensure_finalized()  # links the functions that it calls
         return 0
 
     registry.cpu_target.target_context.refresh()
@@ -115,20 +115,20 @@ def _make_no_machine_code() -> None:
     codegen.JITCPUCodegen._add_module = lambda self, module: None
     codegen.JITCPUCodegen.set_env = lambda self, name, environment: None
     cpu.CPUContext.create_cpython_wrapper = lambda self, *arguments, **options: None
-    # Kernels kept on disk are machine code.
+    # The kernels in the cache on disk are machine code.
     caching.Cache.load_overload = lambda self, signature, context: None
     caching.Cache.save_overload = lambda self, signature, compiled: None
 
 
 def _write_data(text: str, folder: Path) -> None:
-    """Write the objects of a component's data, given as IR."""
+    """Write the objects of a component's data for all platforms. `text` is their IR."""
     llvm = _llvm_for_all()
     for platform in TRIPLES:
         _write(llvm.parse_assembly(text), platform, "", objects(folder, platform)[0])
 
 
 def _write_kernels(text: str, entries: Sequence[str], suffix: str, folder: Path) -> None:
-    """Write the objects of a component's kernels, given as IR, for one processor."""
+    """Write the objects of a component's kernels for one processor and all platforms. `text` is their IR."""
     _llvm_for_all()
     optimised = _optimised(text, entries, suffix, CPUS[suffix])
     for platform in TRIPLES:
@@ -139,7 +139,7 @@ def _write_kernels(text: str, entries: Sequence[str], suffix: str, folder: Path)
 
 
 def _llvm_for_all() -> Any:
-    """LLVM, ready for all platforms."""
+    """Return llvmlite's binding with the code generators of all platforms initialised."""
     from llvmlite import binding as llvm
 
     llvm.initialize_all_targets()
@@ -148,7 +148,7 @@ def _llvm_for_all() -> Any:
 
 
 def _direct(module: Any, platform: str, cpu: str) -> Any:
-    """Direct a module to a platform; return the machine for it."""
+    """Set the platform of a module and return the LLVM target machine."""
     from llvmlite import binding as llvm
 
     target = llvm.Target.from_triple(TRIPLES[platform])
@@ -162,7 +162,7 @@ def _write(module: Any, platform: str, cpu: str, path: Path) -> None:
 
 
 def _constants(data: Sequence[Any]) -> str:
-    """IR of the arrays as constants that all kernels share."""
+    """Return the IR of the arrays as constants that all kernels share."""
     lines = []
     for i, array in enumerate(data):
         content = "".join(f"\\{byte:02X}" for byte in array.tobytes())
@@ -171,7 +171,7 @@ def _constants(data: Sequence[Any]) -> str:
 
 
 def _linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any], with_resources: bool) -> Any:
-    """One module of all entries, in which these alone are visible."""
+    """Return one module of all entries, in which only these are visible from outside."""
     from llvmlite import binding as llvm
     from numba import cfunc
 
@@ -204,7 +204,7 @@ def _linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any], with
 
 
 def _readable(name: str) -> str:
-    """The dotted name of a function of numba's, without the numbers that depend on what the process compiled before."""
+    """Return the dotted name of a numba function without the numbers that depend on what the process compiled before."""
     parts, rest = [], name.removeprefix("_ZN") if name.startswith("_ZN") else ""
     while found := re.match(r"\d+", rest):
         end = found.end() + int(found[0])
@@ -214,18 +214,18 @@ def _readable(name: str) -> str:
 
 
 class _Glue:
-    """IR of functions with C's conventions around numba's, and of the constant data that these are given."""
+    """IR of functions with C calling conventions that call numba's functions and pass them the constant data."""
 
     def __init__(self, data: Sequence[Any], with_resources: bool) -> None:
         self.data, self.with_resources = data, with_resources
-        # Arrays of kernels belong to the caller and have no reference count; that numba's runtime is needed for nothing
-        # else is what the list of allowed symbols proves.
+        # The kernels' arrays belong to the caller and have no reference count, so these two functions do nothing. ALLOWED
+        # proves that nothing else of numba's runtime is needed.
         self.lines = ["define void @NRT_incref(ptr %0) { ret void }", "define void @NRT_decref(ptr %0) { ret void }"]
         for i, array in enumerate(data):
             self.lines.append(f"@model_data{i} = external hidden constant [{array.nbytes} x i8], align 64")
 
     def add(self, name: str, result: Any, arguments: Sequence[Any], body: str) -> None:
-        """A function `name` that calls numba's `body`, i32 body(result*, exception**, arguments…), which never fails."""
+        """Add a function `name` that calls numba's `body`, i32 body(result*, exception**, arguments…), which never fails."""
         arguments_of_c = [*(f"{_TYPES[str(a)]} %a{i}" for i, a in enumerate(arguments)), "ptr %resources"]
         names = arguments_of_c if self.with_resources else arguments_of_c[:-1]
         constants = [f"ptr @model_data{i}" for i in range(len(self.data))]
@@ -251,7 +251,7 @@ _TYPES = {"int64": "i64", "float64": "double", "float64*": "ptr"}
 
 
 def _without_origin(text: str) -> str:
-    """Blank the pickled messages of exceptions, which name source files of this machine; nothing reads them."""
+    """Return the IR with blank exception messages. Nothing reads them, and they name source files of this machine."""
     return re.sub(
         r'^(@"?\.const\.pickledata\S* = .*constant \[\d+ x i8\]) c".*?"',
         r"\1 zeroinitializer",
@@ -261,7 +261,7 @@ def _without_origin(text: str) -> str:
 
 
 def _optimised(text: str, entries: Iterable[str], suffix: str, cpu: str) -> Any:
-    """The module for a processor, whose name is added to those of the entries."""
+    """Return the module optimised for a processor. The name of the processor is added to the names of the entries."""
     from llvmlite import binding as llvm
 
     module = llvm.parse_assembly(text)
@@ -275,10 +275,10 @@ def _optimised(text: str, entries: Iterable[str], suffix: str, cpu: str) -> Any:
 
 
 def _with_own_libm(code: bytes, suffix: str) -> bytes:
-    """A COFF object that asks for exp_v3 … instead of exp, log and pow.
+    """Return a COFF object that calls exp_v3 … instead of exp, log and pow.
 
-    In the object, as LLVM takes calls of vectors apart only when it writes it. Its table has 18 bytes a symbol, of which 8
-    are a short name and 2, from the 13th on, the section, zero for what is elsewhere.
+    The object is changed and not the IR, because LLVM splits calls on vectors only when it writes the object. The symbol table
+    has 18 bytes for each symbol: a short name in bytes 1 to 8, the section in bytes 13 and 14 (zero for an external symbol).
     """
     changed = bytearray(code)
     table, count = struct.unpack_from("<II", code, 8)
@@ -294,11 +294,11 @@ def _refuse_the_rest(module: Any) -> None:
     needed |= {g.name for g in module.global_variables if g.is_declaration and not g.name.startswith("model_data")}
     needed |= {g.name for g in module.global_variables if g.name.startswith(_REFUSED)}
     if needed - ALLOWED:
-        raise RuntimeError(f"the kernels need more than the FMU may have: {', '.join(sorted(needed - ALLOWED))}")
+        raise RuntimeError(f"the kernels need symbols that the FMU may not have: {', '.join(sorted(needed - ALLOWED))}")
 
 
 def main() -> None:
-    """Emit the objects of models of the catalogue."""
+    """Emit the objects of the models that the command line names."""
     if any(os.environ.get(name) != value for name, value in ENVIRONMENT.items()):
         os.execve(
             sys.executable, [sys.executable, "-m", "fmu_src.native.emit", *sys.argv[1:]], os.environ | ENVIRONMENT

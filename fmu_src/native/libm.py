@@ -1,9 +1,9 @@
-"""exp, log and pow for platforms whose own differ: those of musl, by Arm, which zig brings in source.
+"""exp, log and pow for platforms whose own functions give other bits.
 
-glibc has the same functions. Compiled with fused operations for processors that have them, as glibc's are, they give the
-same bits, so that the FMU computes the same on Windows as on Linux, whatever C library is there. Those of zig, which would be
-linked otherwise, differ in the last digit, and what is iterated or differentiated magnifies that: by 1e5 for strips that
-interact.
+They are the functions of musl, by Arm, which zig ships as source. glibc has the same functions. Like those of glibc, they are
+compiled with fused operations for processors that have these, and then give the same bits. So the FMU computes the same on
+Windows as on Linux, whatever C library is there. Otherwise the functions of zig would be linked, which differ in the last
+digit. Iteration and differentiation magnify this, by 1e5 for strips that interact.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ _FLAGS = {
 
 
 def compile_libm(compiler: list[str], folder: Path, run: Callable[..., None]) -> list[Path]:
-    """Compile exp_v2, log_v3 … into `folder` and return the objects."""
+    """Compile exp_v2, log_v3 … into `folder` and return the paths of the objects."""
     include = [f"-I{path}" for path in _INCLUDE]
     objects = []
     for cpu in CPUS:

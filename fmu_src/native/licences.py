@@ -1,4 +1,4 @@
-"""Licences of all that is in a native FMU, for its folder documentation/licenses."""
+"""Licences of everything in a native FMU, for its folder documentation/licenses."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ from fmu_src.native.libm import ZIG
 from fmu_src.place import licence
 
 _OVERVIEW = """\
-What is in this FMU, and under which licence:
+Contents of this FMU and their licences:
 
 wheelrail-contact.txt   the model, on all platforms (MIT)
 fmi.txt                 the declarations of the Functional Mock-up Interface that it is compiled with (2-clause BSD)
 
-In the libraries for Windows and macOS, linked into them by zig, besides these:
+Also in the libraries for Windows and macOS (linked by zig):
 zig.txt                 compiler-rt: memory and mathematical functions (MIT)
 
-In the library for Windows, too:
+Also in the library for Windows:
 mingw-w64.txt           start-up code (Zope Public License 2.1, parts in the public domain)
 musl.txt                exp, log and pow, by Arm; mathematical functions that zig has translated (MIT)
 """
 
 
 def licences(headers: Path) -> Iterator[tuple[str, str]]:
-    """Names and texts of the files; the FMI project's headers are in `headers`.
+    """Yield (name, text) of the licence files. `headers` is the folder of the FMI project's headers.
 
-    The library for Linux has nothing linked into it that is not ours.
+    The library for Linux contains no foreign code.
     """
     interface = (headers / "fmi2Functions.h").read_text()
     interface = interface[interface.index("Copyright") :]

@@ -1,4 +1,4 @@
-"""What entries that C calls are compiled with: arrays over raw memory come from `contact.kernels.memory`."""
+"""Helpers for the entries that C calls. Arrays over raw memory come from `contact.kernels.memory`."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from numba.extending import intrinsic
 
 Doubles = types.CPointer(types.float64)
 
-#: The policy of `contact._jit` without its cache: these functions are compiled once, by the builder.
+#: The compile options of `contact._jit` without its cache, since the builder compiles these functions only once.
 compiled = njit(error_model="numpy")
 
 
 def _start_of(dtype):
-    """Return an intrinsic: the pointer to the first record of an array, as one to numbers of `dtype`."""
+    """Return an intrinsic that returns the pointer to the first record of an array as a pointer to `dtype`."""
     pointer = types.CPointer(dtype)
 
     @intrinsic
@@ -30,5 +30,5 @@ def _start_of(dtype):
     return start
 
 
-#: The first record of an array as float64 or int64 values, one a member.
+#: Pointer to the first record of an array as float64 or int64 values, one for each member.
 numbers_of, integers_of = _start_of(types.float64), _start_of(types.int64)

@@ -1,4 +1,4 @@
-"""FMU files with binaries for every platform: kernels, wrapper and table compiled and linked, with nothing to install."""
+"""Build FMU files with binaries for every platform. They need no installation."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _COMMON = {
     "canSerializeFMUstate": "true",
     "providesDirectionalDerivative": "true",
 }
-#: What this packaging can do; attributes of the elements ModelExchange and CoSimulation.
+#: Capabilities of this packaging: attributes of the elements ModelExchange and CoSimulation.
 INTERFACES = {
     "ModelExchange": {**_COMMON, "completedIntegratorStepNotNeeded": "false"},
     "CoSimulation": {
@@ -60,30 +60,31 @@ INTERFACES_3 = {
 }
 
 WRAPPER = Path(__file__).parent / "c"
-HEADERS = Path(fmpy.__file__).parent / "c-code"  # the FMI project's own, under the 2-clause BSD licence
-#: Contraction to fused operations would make results differ between processors.
+HEADERS = Path(fmpy.__file__).parent / "c-code"  # headers of the FMI project (2-clause BSD licence)
+#: -ffp-contract=off: fused operations would make the results differ between processors.
 FLAGS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-Wall", "-Wextra", "-shared", "-s")
 _LINKED_AS = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib"}
 _FMI3 = {"linux64": "x86_64-linux", "win64": "x86_64-windows", "darwin64": "x86_64-darwin"}
 _ZIG = {"linux64": "x86_64-linux-gnu.2.17", "win64": "x86_64-windows-gnu", "darwin64": "x86_64-macos.11.0"}
-#: For readers of the documentation in an FMU.
+#: Section of the documentation in an FMU.
 _TRIED = """
-The libraries are for 64-bit Linux (glibc 2.17 or newer), Windows and macOS (11 or newer, Intel) and need nothing but the
-system's C library. That for Linux is tested, that for Windows under Wine; that for macOS is linked, but UNTESTED: never run.
+The libraries are for 64-bit Linux (glibc 2.17 or newer), Windows and macOS (11 or newer, Intel). They need only the C library
+of the system. The Linux library is tested; the Windows library is tested under Wine. The macOS library is UNTESTED: it has
+never been run.
 """
 
 
 def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -> list[Path]:
-    """Write `folder`/<name>.fmu, of FMI 2.0, and `folder`/fmi3/<name>.fmu with the same libraries; return their paths.
+    """Write `folder`/<name>.fmu (FMI 2.0) and `folder`/fmi3/<name>.fmu (FMI 3.0) and return their paths.
 
-    The same sources and tools give the same bytes.
+    Both have the same libraries. The same sources and tools give the same bytes.
 
     Parameters
     ----------
     cache : Path
         Folder in which compiled kernels are kept from one build to the next.
     say : callable
-        Told what is being done, as this takes minutes the first time.
+        Called with a message on progress, since the first build takes minutes.
     """
     component = model.module("native").component(**model.options)
     table = component.table
@@ -120,7 +121,7 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -
 
 
 def link(platform: str, name: str, kernels: list[Path], generated: Path) -> Path:
-    """Compile the wrapper with the code in `generated`, link it with the kernels; return the library."""
+    """Compile the wrapper with the code in `generated`, link it with the kernels and return the path of the library."""
     library = generated / platform / (name + _LINKED_AS[platform])
     library.parent.mkdir(exist_ok=True)
     sources = [*sorted(WRAPPER.glob("*.c")), generated / "model.c"]
@@ -134,32 +135,32 @@ def link(platform: str, name: str, kernels: list[Path], generated: Path) -> Path
 
 
 def _own_flags(platform: str, name: str) -> list[str]:
-    """What a platform's linker wants besides; a library for macOS holds its own path, which is not to be that of the build."""
+    """Return the linker options of a platform. A macOS library stores its own path, which must not be that of the build."""
     own = {"linux64": ["-fPIC", "-Wl,-z,defs", "-lm"], "darwin64": ["-fPIC", f"-Wl,-install_name,@rpath/{name}"]}
     return own.get(platform, [])
 
 
 def compiler(platform: str) -> list[str]:
-    """Command of the C compiler for a platform."""
+    """Return the command of the C compiler for a platform."""
     return [sys.executable, "-m", "ziglang", "cc", "-target", _ZIG[platform], "-fno-sanitize=undefined"]
 
 
 def run(*command: str | Path) -> None:
-    """Run a command; if it fails, raise with what it said."""
+    """Run a command. If it fails, raise an error with its output."""
     done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
     if done.returncode:
         raise RuntimeError(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
 
 
 def kernels(model: Model, cache: Path, say: Callable[[str], None]) -> dict[str, list[Path]]:
-    """Object files of a model's kernels, compiled anew only if their sources or numba have changed."""
+    """Return the object files of a model's kernels by platform. They are compiled only if their sources or numba changed."""
     compile_kernels([model], cache, say)
     folder = _kept(model, cache)
     return {platform: objects(folder, platform) for platform in TRIPLES}
 
 
 def compile_kernels(chosen: Sequence[Model], cache: Path, say: Callable[[str], None]) -> None:
-    """Compile what is not in the cache of the kernels of some models, in one process, where they share most of the work."""
+    """Compile the kernels that are not in the cache, in one process, where the models share most of the work."""
     words: list[str | Path] = []
     for model in chosen:
         folder = _kept(model, cache)
@@ -172,7 +173,7 @@ def compile_kernels(chosen: Sequence[Model], cache: Path, say: Callable[[str], N
 
 
 def _kept(model: Model, cache: Path) -> Path:
-    """The folder of the cache for a model's kernels, named after all that they are made of."""
+    """Return the cache folder of a model's kernels. Its name is a hash of everything that they are made from."""
     options = json.dumps(dict(model.options))
     fingerprint = hashlib.sha256(f"{model.name} {options} {version('numba')} {version('llvmlite')}".encode())
     for package in (Path(contact.__file__), Path(fmu_src.__file__), Path(wheelset.__file__).parent):

@@ -1,7 +1,7 @@
-"""records.h: the records and enumerations of `contact.kernels.layout` in C.
+"""Write records.h: the records and enumerations of `contact.kernels.layout` in C.
 
-Kernels, Python and C share memory by one definition. The header asserts sizes and offsets, so a build of an FMU proves that the
-platform's C compiler lays records as numpy does.
+Kernels, Python and C share memory with one definition. The header asserts sizes and offsets, so each build of an FMU proves
+that the platform's C compiler lays out records as numpy does.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 
 from contact.kernels import layout
 
-#: Those that name the values of a member, or what a kernel returns; others name rows of arrays.
+#: Enumerations that name the values of a member or the result of a kernel. The others name rows of arrays.
 ENUMERATIONS: tuple[type[IntEnum], ...] = (
     layout.LoadKind,
     layout.Normal,
@@ -33,11 +33,11 @@ _TYPES = {np.dtype(np.float64): "double", np.dtype(np.int64): "int64_t"}
 
 
 def header() -> str:
-    """records.h."""
+    """Return the text of records.h."""
     constants = "\n".join(f"#define CONTACT_{name} {getattr(layout, name)!r}" for name in _CONSTANTS)
     enumerations = "\n\n".join(map(_enumeration, ENUMERATIONS))
     records = "\n\n".join(_record(name, dtype) for name, dtype in RECORDS.items())
-    return f"""/* Made from contact/kernels/layout.py: records, the values of their members, constants. */
+    return f"""/* Generated from contact/kernels/layout.py: records, the values of their members, constants. */
 #ifndef RECORDS_H
 #define RECORDS_H
 #include <stddef.h>
@@ -54,14 +54,14 @@ def header() -> str:
 
 
 def enumerator(value: int) -> str:
-    """C for a number: Status.NOT_CONVERGED → CONTACT_STATUS_NOT_CONVERGED, a plain number as it is."""
+    """Return the C name of an enumeration member: Status.OK → CONTACT_STATUS_OK. A plain number stays a number."""
     if isinstance(value, ENUMERATIONS):
         return f"{c_name(type(value).__name__).upper()}_{value.name}"
     return str(int(value))
 
 
 def c_name(name: str) -> str:
-    """Name of a type in C: LoadKind → contact_load_kind, case → contact_case."""
+    """Return the C name of a type: LoadKind → contact_load_kind, case → contact_case."""
     return "contact_" + re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
 
 
@@ -93,6 +93,6 @@ def _members(name: str, dtype: np.dtype) -> Iterator[str]:
 
 
 def _fields(dtype: np.dtype) -> Iterator[tuple[str, tuple]]:
-    """Name, and type and offset, of each member."""
+    """Yield (name, (type, offset)) of each member."""
     assert dtype.fields is not None
     return ((name, dtype.fields[name]) for name in dtype.names or ())

@@ -1,4 +1,4 @@
-"""The solver's workspace over raw memory: `contact.kernels.memory` lays it, here it is put together and filled."""
+"""Lay out and fill the solver's workspace in raw memory, with the layouts of `contact.kernels.memory`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from contact.kernels.tangential.table import SHAPE as CREEP
 from fmu_src.native.memory import compiled
 
 _METHODS = contact.methods().batched
-#: By the number of an item of the enumerations `method.normal` and `method.tangential`, less 1.
+#: Indexed by the value of `method.normal` or `method.tangential`, less 1.
 NORMAL = np.array([int(method.id) for method in _METHODS.normal.values()])
 NORMAL_FAMILY = np.array([int(method.family) for method in _METHODS.normal.values()])
 TANGENTIAL = np.array([int(method.id) for method in _METHODS.tangential.values()])
@@ -27,26 +27,32 @@ heating = compiled(material.heating)
 
 
 def data() -> tuple[np.ndarray, ...]:
-    """Constants for `lay_out` and `fill`: Kalker's coefficients, influence of strips on the centre line and off it, forces."""
+    """Return the constants for `lay_out` and `fill`.
+
+    They are Kalker's coefficients, the influence of strips on the centre line, that off it, and the table of creep forces.
+    """
     return kalker.published(), *workspace.strip_tables(), force_table.load()
 
 
 @compiled
 def size_of(normal, n_strips, n_elements, samples):
-    """Sizes of a workspace, by the item of `method.normal`."""
+    """Return the sizes of a workspace. `normal` is the value of `method.normal`."""
     return Size(n_strips, n_elements, samples, INTERACTING[normal - 1], 1)
 
 
 @compiled
 def choose(normal, tangential, case):
-    """Write the methods into a case, by the items of `method.normal` and `method.tangential`."""
+    """Write the methods into a case. The arguments are the values of `method.normal` and `method.tangential`."""
     case.normal, case.normal_family = NORMAL[normal - 1], NORMAL_FAMILY[normal - 1]
     case.tangential, case.tangential_family = TANGENTIAL[tangential - 1], TANGENTIAL_FAMILY[tangential - 1]
 
 
 @compiled
 def lay_out(work, end, kept, size, centre, plane, creep):
-    """Lay a workspace into `work` from `end` on; return it and where it ends. `kept` has the size of `memory_size`."""
+    """Lay out a workspace in `work` from index `end` on. Return it and the index where it ends.
+
+    `kept` is the memory of the warm start, of size `memory_size`.
+    """
     rule, end = memory.lay_rule(work, end, size)
     coefficients, end = memory.lay_kalker(work, end)
     space, end = memory.lay_space(work, end, size, kept)
@@ -62,7 +68,7 @@ def lay_out(work, end, kept, size, centre, plane, creep):
 
 @compiled
 def fill(own, poisson_ratio, published):
-    """Fill what depends on resolution and material alone."""
+    """Fill the arrays that depend only on resolution and material."""
     rule, tables = own.rule, own.tables
     quadrature.fill_fejer(rule.across.nodes, rule.across.weights)
     quadrature.fill_elements(rule.elements)

@@ -1,4 +1,4 @@
-"""C that a variable table becomes: model.h, model.c and records.h, which the wrapper in `c/` is compiled with."""
+"""Generate C code from a variable table: model.h, model.c and records.h. The wrapper in `c/` is compiled with them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from fmu_src.variables import Causality, Scalar, Table, Variable, identifier
 
 
 def write(component: Component, guid: str, folder: Path) -> None:
-    """Write all of it into a folder."""
+    """Write model.h, model.c and records.h into a folder."""
     for name, text in (
         ("records.h", records.header()),
         ("model.h", header(component, guid)),
@@ -24,17 +24,21 @@ def write(component: Component, guid: str, folder: Path) -> None:
 
 
 def header(component: Component, guid: str) -> str:
-    """model.h: sizes, the guid and the value reference of the first scalar of every row, of fields and of time."""
+    """Return model.h: sizes, the guid, and the value references of fields, of time and of the first scalar of every row."""
     table = component.table
     parameters = sum(s.row.causality is Causality.PARAMETER for s in table.scalars)
     if any(s.row.causality is not Causality.PARAMETER for s in table.scalars[:parameters]):
-        raise ValueError(f"{table.name}: the parameters must come first, the wrapper compares them in one piece")
+        raise ValueError(
+            f"{table.name}: the parameters must come first, because the wrapper compares them as one block"
+        )
     accumulated = sum(table.row[name].size for name in component.accumulated)
     if tuple(row.name for row in table.rows)[len(table.rows) - len(component.accumulated) :] != component.accumulated:
-        raise ValueError(f"{table.name}: what accumulates must come last, it is no part of the values")
+        raise ValueError(
+            f"{table.name}: the rows that accumulate must come last, because they are not part of the values"
+        )
     accumulates = f"((values)[{c_name(component.accumulates)}] > 1.0)" if accumulated else "false"
     references = "\n".join(f"    {c_name(name)} = {reference}," for name, reference in value_references(table).items())
-    return f"""/* Made from the variable table of {table.name}. */
+    return f"""/* Generated from the variable table of {table.name}. */
 #ifndef MODEL_H
 #define MODEL_H
 #define MODEL_GUID "{guid}"
@@ -56,7 +60,7 @@ enum {{
 
 
 def body(component: Component) -> str:
-    """model.c: the table with its starts and ranges, its continuous states, what the model may say, what adds up."""
+    """Return model.c: the table with start values and ranges, the continuous states, the messages and the totals."""
     table = component.table
     rows = [_variable(scalar, first, component) for row in table.rows for first, scalar in _marked(row.scalars())]
     rows += [f"{{{_string(row.name)}, {row.kind.name}, FIELD, 0, false, false, 0.0, 0.0, 0.0}}" for row in table.fields]
@@ -76,7 +80,7 @@ def body(component: Component) -> str:
     files = ", ".join(
         f"{{{_string(name)}, {_string(magic.rstrip(bytes(1)).decode())}}}" for name, magic in component.resources
     )
-    return f"""/* Made from the variable table of {table.name}. */
+    return f"""/* Generated from the variable table of {table.name}. */
 #include <math.h>
 #include <stddef.h>
 
@@ -94,12 +98,12 @@ const Resource resources[N_RESOURCES] = {{{files}}};
 
 
 def c_name(row: str) -> str:
-    """Enumerator of a row: geometry.kind → V_geometry_kind."""
+    """Return the enumerator of a row: geometry.kind → V_geometry_kind."""
     return "V_" + identifier(row)
 
 
 def _marked(scalars: Iterable[Scalar]) -> Iterator[tuple[bool, Scalar]]:
-    """Whether a scalar is the first of its row, and the scalar."""
+    """Yield (whether the scalar is the first of its row, scalar)."""
     return ((i == 0, scalar) for i, scalar in enumerate(scalars))
 
 
@@ -113,7 +117,7 @@ def _variable(scalar: Scalar, first: bool, component: Component) -> str:
 
 
 def _field_size(table: Table) -> str:
-    """C that says how many numbers a field has."""
+    """Return the C expression for the number of elements of a field."""
     shape = table.fields[0].shape if table.fields else (0,)
     factors = (str(n) if isinstance(n, int) else f"(size_t)(values)[{c_name(n)}]" for n in shape)
     return f"({' * '.join(factors)})"

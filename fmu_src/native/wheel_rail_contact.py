@@ -1,6 +1,6 @@
-"""The contact behind the native FMU's table: what C calls, over one array of all values and one of working memory.
+"""Native WheelRailContact: the functions that C calls, on one array of all values and one of working memory.
 
-The solver's own kernels do the work; here values become their arguments and results become values.
+The solver's own kernels do the work. This module converts values to their arguments and results to values.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ from fmu_src.variables import Table, identifier
 
 _CURVATURES, _NORMAL_FORCE = GEOMETRY_KIND.number("Curvatures"), LOAD_KIND.number("NormalForce")
 _DAMAGE_PARAMETERS = np.array([DamageParameters().record(contact.STEEL, 1.0, 1.0)], DAMAGE_PARAMETERS)
-#: Variables → members of CASE; their items count from the same as the members.
+#: Variables → members of CASE.
 _CASE_INPUTS = {
     **MATERIAL,
     "creepage.longitudinal": "vx",
@@ -69,7 +69,7 @@ _OUTPUTS = {
     "status": "status",
 }
 _steps = compiled(creepage_steps)
-#: Field of the table → row of the solver's fields, or what is made of strips.
+#: Field of the table → row of the solver's fields, or one of the three numbers that are computed from the strips.
 _PATCH, _Y, _AREA = range(N_FIELD_ROWS, N_FIELD_ROWS + 3)
 _FIELDS = {
     "field.patch": _PATCH,
@@ -87,7 +87,7 @@ _FIELDS = {
 
 @compiled
 def _element(strips, fields, row, i, j):
-    """Number of an element in the row of `_FIELDS`."""
+    """Return the value of one element. `row` is a value of `_FIELDS`."""
     if row == _PATCH:
         return strips[Strip.PATCH, i] + 1.0
     if row == _Y:
@@ -98,7 +98,7 @@ def _element(strips, fields, row, i, j):
 
 
 def component(points: int) -> Component:
-    """The FMU for separations of `points` samples."""
+    """Return the FMU for separations of `points` samples."""
     interface = table(points)
     return Component(
         table=interface,
@@ -111,7 +111,7 @@ def component(points: int) -> Component:
 
 
 class Arrays(NamedTuple):
-    """Everything in the working memory of an instance."""
+    """All arrays in the working memory of an instance."""
 
     own: Workspace
     samples: Samples
@@ -120,13 +120,13 @@ class Arrays(NamedTuple):
     damage_parameters: Any
     damage_fields: Any
     damage: Any
-    count: Any  # of strips
+    count: Any  # number of strips
     shown: Any  # one field as the host sees it
 
 
 @compiled
 def _lay(work, size, kept, constants):
-    """Lay all arrays into `work`; return them, where the field shown to the host begins, and how many numbers there are."""
+    """Lay out all arrays in `work`. Return them, the index of the field shown to the host, and the total size in numbers."""
     centre, plane, creep = constants
     own, end = lay_out(work, kept.size, kept, size, centre, plane, creep)
     n, capacity = size.n_samples, MAX_PATCHES * size.n_strips
@@ -148,19 +148,19 @@ def _lay(work, size, kept, constants):
 
 @compiled
 def _first(samples, n):
-    """The first n samples."""
+    """Return the first n samples."""
     return Samples(samples.y[:n], samples.g[:n], samples.A[:n], samples.x_c[:n], samples.tilt[:n])
 
 
 def _references(table: Table) -> Any:
-    """Value references of the table's rows, by name."""
+    """Return a named tuple of the value references of the table's rows."""
     return namedtuple("References", [identifier(name) for name in table.span])(
         *(span.start for span in table.span.values())
     )
 
 
 def _poser(table: Table) -> Callable[..., Any]:
-    """Return a compiled function that fills samples and case from values; it returns how many samples there are."""
+    """Return a compiled function that fills samples and case from the values and returns the number of samples."""
     at, points = _references(table), table.row["geometry.g"].size
     read_case = case_reader(table, _CASE_INPUTS)
 
@@ -191,7 +191,7 @@ def _poser(table: Table) -> Callable[..., Any]:
 
 
 def _reporter(table: Table) -> Callable[..., Any]:
-    """Return a compiled function that writes the outputs."""
+    """Return a compiled function that copies the results to the outputs."""
     at = _references(table)
     write, write_damage = writer(table, RESULT, _OUTPUTS), writer(table, DAMAGE, DAMAGE_OUTPUTS)
 
@@ -207,7 +207,7 @@ def _reporter(table: Table) -> Callable[..., Any]:
 
 
 def _differ(table: Table) -> tuple[Callable[..., Any], Callable[..., Any]]:
-    """Return the steps of the three creepages, and the step of any variable, for difference quotients."""
+    """Return two compiled functions for difference quotients: steps of the three creepages, and step of any variable."""
     at, points = _references(table), table.row["geometry.g"].size
 
     @compiled
@@ -216,12 +216,13 @@ def _differ(table: Table) -> tuple[Callable[..., Any], Callable[..., Any]]:
 
     @compiled
     def difference(v, reference):
-        """A step so small that hardly ever an element passes from stick to slip within it: forces have kinks there.
+        """Return a step so small that elements hardly ever change from stick to slip within it, where forces have kinks.
 
-        A thousandth of the step of `creep_stiffness`, which is meant to average over the kinks, or a millionth of a value:
-        of the penetration for the approach, and for the gap where that is less: along the geometry as a whole, samples
-        outside the patch then leave those inside a step above round-off. Every difference begins anew, from nothing, so
-        that the error which interacting strips are solved to, 1e-4, is the same on both sides.
+        For a creepage it is a thousandth of the step of `creep_stiffness`, which is meant to average over the kinks. For the
+        approach it is a millionth of the penetration. For the gap it is a millionth of the penetration or of the height above
+        the least gap, whichever is greater: in a derivative along the whole geometry, samples outside the patch then leave
+        those inside a step above round-off. For other variables it is a millionth of the value. Both sides of a difference
+        are solved from a cold start, so that the tolerance of interacting strips, 1e-4, gives the same error on both sides.
         """
         if at.creepage_longitudinal <= reference <= at.creepage_spin:
             longitudinal, lateral, spin = steps(v)
@@ -246,7 +247,7 @@ def _differ(table: Table) -> tuple[Callable[..., Any], Callable[..., Any]]:
 
 @compiled
 def _move(case, j, by):
-    """Move creepage j of a case."""
+    """Add `by` to creepage j of a case."""
     if j == 0:
         case.vx += by
     elif j == 1:
@@ -257,12 +258,12 @@ def _move(case, j, by):
 
 @compiled
 def _solve(n, a):
-    """Solve what the posed case and its first `n` samples say."""
+    """Solve the case of `a` with its first `n` samples."""
     a.count[0] = solve_case(_first(a.samples, n), a.case, a.own, a.result)
 
 
 def _entries(table: Table) -> dict[str, Callable[..., Any]]:
-    """`Component.entries`; data are Kalker's coefficients and the influence of strips on the centre line and off it."""
+    """Return `Component.entries`. The data arguments are the arrays of `solver.data`."""
     at, n_values = _references(table), len(table.scalars)
     samples = max(table.row["geometry.g"].size, HERTZIAN_POINTS)
     rows = np.array([_FIELDS[field.name] for field in table.fields])
@@ -315,7 +316,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
                 v[at.creep_stiffness + 3 * i + j] = 0.0
             for sign in (1.0, -1.0):
                 _move(case, j, sign * step)
-                a.own.space.memory[0] = 0.0  # a cold start: what is found does not depend on earlier steps
+                a.own.space.memory[0] = 0.0  # cold start, so that the result does not depend on earlier steps
                 _solve(n, a)
                 for i, force in enumerate((result.Fx, result.Fy, result.Mz)):
                     v[at.creep_stiffness + 3 * i + j] += sign * force / (2.0 * step)

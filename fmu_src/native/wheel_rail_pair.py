@@ -1,6 +1,7 @@
-"""The pair behind the native FMU's table: what C calls, over one array of all values and one of working memory.
+"""Native WheelRailPair: the functions that C calls, on one array of all values and one of working memory.
 
-`contact.kernels.pair.solve_pair` does the work, as in Python; here profiles, values and memory become its arguments.
+`contact.kernels.pair.solve_pair` does the work, as in Python. This module converts profiles, values and memory to its
+arguments.
 """
 
 from __future__ import annotations
@@ -58,20 +59,20 @@ _OUTPUTS = {
 }
 _steps = compiled(creepage_steps)
 
-#: What discards a step, numbered behind the statuses.
+#: Reasons to discard a step. Their numbers follow those of the statuses.
 _NO_OVERLAP, _NOT_SETTLED, _TOO_DEEP, _GAUGE_POINT, _STEEP, _ENDLESS = range(max(Status) + 1, max(Status) + 7)
 _FAILURES = {
     _NO_OVERLAP: "pose.y: the profiles of wheel and rail do not overlap",
-    _NOT_SETTLED: "load.normal_force: no height was found at which the wheel carries it on this rail",
+    _NOT_SETTLED: "load.normal_force: no height was found at which the wheel carries this load on this rail",
     _TOO_DEEP: f"pose.z: the wheel lies more than {DEEPEST:g} m inside its rail",
     _GAUGE_POINT: "track.gauge_point: the rail reaches no deeper on its gauge side",
     _STEEP: "rail.inclination: the rail is steep at its top",
-    _ENDLESS: "what accumulates has no finite value for these inputs",
+    _ENDLESS: "the accumulated damage has no finite value for these inputs",
 }
 
 
 def component(inclination: float) -> Component:
-    """The FMU for a rail that is to be turned by this inclination unless told otherwise."""
+    """Return the FMU. `inclination` is the default of `rail.inclination` (tangent)."""
     interface = table(inclination)
     return Component(
         table=interface,
@@ -92,7 +93,10 @@ def component(inclination: float) -> Component:
 
 
 class Start(NamedTuple):
-    """What lies before the bench: memory and bins, counts of nodes that can touch, the whole wheel, the rail as it lies."""
+    """Working memory before the bench.
+
+    It holds the warm start, the bins, the numbers of nodes that can touch, the whole wheel and the inclined rail.
+    """
 
     kept: Any
     bins: Any
@@ -102,7 +106,7 @@ class Start(NamedTuple):
 
 
 def _references(table: Table) -> Any:
-    """Value references of the table's rows, by name."""
+    """Return a named tuple of the value references of the table's rows."""
     return namedtuple("References", [identifier(name) for name in table.span])(
         *(span.start for span in table.span.values())
     )
@@ -110,7 +114,7 @@ def _references(table: Table) -> Any:
 
 @compiled
 def _lay_start(work, piece, n_bins, resources):
-    """Lay what comes first in `work`; return it, and where it ends."""
+    """Lay out `Start` in `work`. Return it and the index where it ends."""
     kept, end = memory.vector(work, 0, 1 + MAX_PATCHES * piece)
     bins, end = memory.cube(work, end, 2, N_BIN_ROWS, n_bins)
     counts, end = memory.vector(work, end, 2)
@@ -123,7 +127,7 @@ def _lay_start(work, piece, n_bins, resources):
 
 @compiled
 def _lay(work, end, start, counts, size, constants):
-    """Lay the bench for curves of so many nodes, from `end` on; return it and how many numbers there are."""
+    """Lay out the bench from index `end` on, for curves of `counts` nodes. Return it and the total size in numbers."""
     centre, plane, creep = constants
     search, end = memory.lay_search(work, end, counts[0], counts[1], 0, size.n_samples)
     piece = memory.memory_size(size)
@@ -134,7 +138,7 @@ def _lay(work, end, start, counts, size, constants):
 
 @compiled
 def _place(wheel, turned, counts, search):
-    """Cut the parts of the profiles that can touch out of them, and fill the rule of the search."""
+    """Copy the parts of the profiles that can touch to the search, and fill its quadrature rule."""
     wheel_from, wheel_to = facing(wheel, True)
     rail_from, rail_to = facing(turned, False)
     counts[0], counts[1] = wheel_to - wheel_from, rail_to - rail_from
@@ -144,7 +148,7 @@ def _place(wheel, turned, counts, search):
 
 
 def _sizer(table: Table) -> Callable[..., Any]:
-    """Return a compiled function: the sizes of the workspace that the parameters ask for."""
+    """Return a compiled function that returns the sizes of the workspace for the parameters."""
     at = _references(table)
 
     @compiled
@@ -156,7 +160,7 @@ def _sizer(table: Table) -> Callable[..., Any]:
 
 
 def _parameter_setter(table: Table) -> Callable[..., Any]:
-    """Return a compiled function that fills, from the parameters, what the bench is prepared with."""
+    """Return a compiled function that copies the parameters to the bench."""
     at = _references(table)
     read_material = reader(table, CASE, {**MATERIAL, "patches.surface": "conformal"})
 
@@ -175,7 +179,7 @@ def _parameter_setter(table: Table) -> Callable[..., Any]:
         bench.damage_parameters[0] = _DAMAGE_PARAMETERS[0]
         parameters, settings = bench.damage_parameters[0], bench.ledger.settings[0]
         parameters.hardness, parameters.shear_yield = v[at.material_hardness], v[at.material_shear_yield]
-        parameters.wear_law = int(v[at.accumulation_wear_law]) - 2  # the first item is none
+        parameters.wear_law = int(v[at.accumulation_wear_law]) - 2  # the first item means that nothing accumulates
         settings.width = v[at.accumulation_width]
         settings.start = v[at.accumulation_first] / v[at.accumulation_width]
 
@@ -183,7 +187,7 @@ def _parameter_setter(table: Table) -> Callable[..., Any]:
 
 
 def _reporter(table: Table) -> Callable[..., Any]:
-    """Return a compiled function that writes the outputs."""
+    """Return a compiled function that copies the results to the outputs."""
     at = _references(table)
     write = writer(table, TOTAL, _OUTPUTS)
 
@@ -204,17 +208,17 @@ def _reporter(table: Table) -> Callable[..., Any]:
 
 
 def _differ(table: Table) -> Callable[..., Any]:
-    """Return a compiled function: the step of a variable for difference quotients."""
+    """Return a compiled function that returns the step of a variable for difference quotients."""
     at = _references(table)
 
     @compiled
     def difference(v, reference):
-        """A step in which hardly an element passes from stick to slip: a millionth of the creepage that saturates.
+        """Return a step so small that elements hardly ever change from stick to slip within it.
 
-        Positions and angles are moved by a tenth of a micrometre or what turns by that much a metre away; a height that is
-        given by a tenth of that, as the penetration is small. Under a load the height is found to 1e-9 of the load. Every
-        difference begins anew, from nothing, so that the error which interacting strips are solved to, 1e-4, is the same
-        on both sides.
+        For velocities it corresponds to a millionth of the creepage at saturation. For positions it is 0.1 µm, for angles
+        1e-7 rad. For heights it is 0.01 µm, since the penetration is small. Under a load the height is found to 1e-9 of the
+        load. Both sides of a difference are solved from a cold start, so that the tolerance of interacting strips, 1e-4, gives
+        the same error on both sides.
         """
         speed = v[at.velocity_x]
         creepage = 1e-3 * _steps(
@@ -235,7 +239,7 @@ def _differ(table: Table) -> Callable[..., Any]:
 
 @compiled
 def _failure(code):
-    """Number of a failure for a value of `NoAnswer`; 0 for none."""
+    """Return the number of the failure for a value of `NoAnswer`, 0 for none."""
     if code == NoAnswer.NO_OVERLAP:
         return _NO_OVERLAP
     if code == NoAnswer.NOT_SETTLED:
@@ -246,14 +250,14 @@ def _failure(code):
 
 
 def _entries(table: Table) -> dict[str, Callable[..., Any]]:
-    """`Component.entries`; data are Kalker's coefficients and the influence of strips on the centre line and off it."""
+    """Return `Component.entries`. The data arguments are the arrays of `solver.data`."""
     at, n_values = _references(table), table.span[ACCUMULATED[0]].start
     size, set_parameters, report, difference = _sizer(table), _parameter_setter(table), _reporter(table), _differ(table)
     read_surface = case_reader(table, {"velocity.x": "speed"})
 
     @compiled
     def n_bins(v):
-        """Bins over each profile, if anything accumulates."""
+        """Return the number of bins on each profile, 0 if nothing accumulates."""
         return BINS if v[at.accumulation_wear_law] > 1.0 else 0
 
     @compiled

@@ -1,6 +1,6 @@
-"""The wheelset behind the native FMU's table: what C calls, over one array of all values and one of working memory.
+"""Native Wheelset: the functions that C calls, on one array of all values and one of working memory.
 
-The kernels of `models.wheelset.motion` do the work; here values become their arguments and results become values.
+The kernels of `models.wheelset.motion` do the work. This module converts values to their arguments and results to values.
 """
 
 from __future__ import annotations
@@ -31,15 +31,15 @@ _WHEEL, _RAIL = WheelsetParameters().wheel, profile.rail_60e1(inclination=0.0)
 _N_WHEEL, _N_RAIL = _WHEEL.y.size, _RAIL.y.size
 _GAUGE_POINT = WheelsetParameters().gauge_point
 _REMEMBERED = 1 + sum(math.prod(shape) for shape in motion.REMEMBERED.values())
-#: Unit → change of a variable for difference quotients: small against 0.1 mm, in which a flange root changes the geometry,
-#: large against round-off; forces enter linearly. Other units are those of parameters.
+#: Unit → step of a variable for difference quotients. It is small against 0.1 mm, the distance in which a flange root changes
+#: the geometry, and large against round-off. Forces enter linearly. Other units occur only in parameters.
 _DIFFERENCES = {"m": 1e-7, "rad": 1e-6, "1": 1e-6, "m/s": 1e-5, "rad/s": 1e-4, "N": 1.0, "N.m": 1.0, "J": 1.0}
 _STANDSTILL = np.zeros(1, GIVEN)
 _OUT_OF_GAUGE = max(motion.MESSAGES) + 1
 
 
 def component() -> Component:
-    """The FMU."""
+    """Return the FMU."""
     interface = table()
     return Component(
         table=interface,
@@ -57,7 +57,7 @@ def _rows(shape: Profile) -> np.ndarray:
 
 
 def _entries(table: Table) -> dict[str, Callable[..., Any]]:
-    """`Component.entries`; data are the profiles of wheel and upright rail."""
+    """Return `Component.entries`. The data arguments are the profiles of the wheel and of the rail before it is inclined."""
     at = namedtuple("References", [name.replace(".", "_") for name in table.span])(
         *(span.start for span in table.span.values())
     )
@@ -66,9 +66,9 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
 
     @compiled
     def arrange(work, n_wheel, n_rail):
-        """Lay all arrays into `work` for curves of so many nodes; return them and how many numbers they are.
+        """Lay out all arrays in `work` for curves of `n_wheel` and `n_rail` nodes. Return them and the total size in numbers.
 
-        What is remembered begins with a number that is not zero once the wheelset stands on its rails.
+        The warm start begins with a flag that is not zero after the wheelset has been placed on its rails.
         """
         begun, end = vector(work, 0, 1)
         state, end = vector(work, end, dynamics.N_STATE)
@@ -98,7 +98,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
 
     @compiled
     def prepared(work):
-        """Return the wheelset as `model_prepare` has laid it out, and the number with which memory begins."""
+        """Return the wheelset as laid out by `model_prepare`, and the flag at the beginning of the warm start."""
         sizes, _ = vector(work, _REMEMBERED, 2)
         wheelset, begun, _, _, _ = arrange(work, int(sizes[0]), int(sizes[1]))
         return wheelset, begun

@@ -1,4 +1,4 @@
-"""Which variable of an FMU's table is which member of a record, and the functions that copy one to the other."""
+"""Connect variables of an FMU's table with members of records, and make the functions that copy one to the other."""
 
 from __future__ import annotations
 
@@ -39,9 +39,9 @@ MATERIAL = {
 def _wired(
     table: Table, dtype: np.dtype, wires: Mapping[str, str]
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Return value references, places in the record, which members are whole numbers, and where enumerations begin.
+    """Return four arrays: value references, positions in the record, whether a member is an integer, and value offsets.
 
-    The items of an enumeration count from 1, the values of a member from 0.
+    The offset is needed for enumerations: their items count from 1, the values of a member from 0.
     """
     assert dtype.fields is not None
     references = np.array([table.span[name].start for name in wires])
@@ -52,7 +52,7 @@ def _wired(
 
 
 def reader(table: Table, dtype: np.dtype, wires: Mapping[str, str]) -> Any:
-    """Return a compiled function that copies values to the first of some records: `read(v, records)`."""
+    """Return a compiled function `read(v, records)` that copies values to the first record."""
     references, places, whole, first = _wired(table, dtype, wires)
     size = dtype.itemsize // 8
 
@@ -69,9 +69,9 @@ def reader(table: Table, dtype: np.dtype, wires: Mapping[str, str]) -> Any:
 
 
 def writer(table: Table, dtype: np.dtype, wires: Mapping[str, str]) -> Any:
-    """Return a compiled function that copies members of the first of some records to values: `write(v, records)`.
+    """Return a compiled function `write(v, records)` that copies members of the first record to values.
 
-    A status has the number of its item already.
+    The value of a status is already the number of its item.
     """
     references, places, whole, _ = _wired(table, dtype, wires)
     size = dtype.itemsize // 8
@@ -86,7 +86,7 @@ def writer(table: Table, dtype: np.dtype, wires: Mapping[str, str]) -> Any:
 
 
 def case_reader(table: Table, wires: Mapping[str, str]) -> Any:
-    """Return a compiled function that fills a case from values: what the `wires` say, and friction that heat changes."""
+    """Return a compiled function that fills a case from values: the members in `wires`, and friction with its heat."""
     from fmu_src.native.solver import heating
 
     read = reader(table, CASE, {**SURFACE, **wires})

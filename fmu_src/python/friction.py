@@ -1,10 +1,10 @@
-"""The surface that the rows `friction.…` and `thermal.…` describe."""
+"""Friction of an FMU from the rows `friction.…` and `thermal.…`."""
 
 from contact.friction import LAWS, VELOCITIES, Friction
 from contact.material import Thermal
 from fmu_src.python.values import Values
 
-#: Rows `friction.…` and members of `Friction` that have the same name.
+#: Names that rows `friction.…` share with members of `Friction`.
 _NUMBERS = (
     *("kinetic", "half_speed", "slope", "slope_far", "slope_rate"),
     *("gauge_factor", "border", "border_width", "k_A", "k_S", "hot_factor", "reference_temperature"),
@@ -14,7 +14,7 @@ _THERMAL = ("conductivity", "density", "heat_capacity", "heat_share")
 
 
 def friction(values: Values) -> Friction:
-    """Friction of both contact FMUs."""
+    """Return the friction of a contact FMU, for WheelRailContact and WheelRailPair."""
     return Friction(
         static=values["friction.coefficient"],
         law=LAWS[int(values["friction.law"]) - 1],

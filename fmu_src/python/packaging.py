@@ -1,8 +1,8 @@
-"""An FMU file for hosts with Python: description, pythonfmu's library, pythonfmu itself and a script of a few lines.
+"""Build FMU files for hosts with Python: description, pythonfmu with its library, and a script of a few lines.
 
-The solver is not bundled. Two FMUs in one process that bundle a package of the same name share the first one's code,
-and numba's cache never hits for code out of an unzipped FMU (both measured with pythonfmu 0.7.0): so the script imports
-the installed package, and its name carries the hash of its content.
+The solver is not included; the script imports the installed package. If two FMUs in one process include a package of the same
+name, both run the code of the first, and numba's cache never hits for code in an unzipped FMU (both measured with pythonfmu
+0.7.0). For the same reason the name of the script contains the hash of its content.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from fmu_src.description import model_description
 from fmu_src.documentation import markdown
 from fmu_src.python.slave import INTERFACES
 
-#: Packages in which a slave may be: of an installed wheel, of a checkout. The build of a wheel renames the latter wherever it
-#: stands in one piece (tools/build_backend.py); here it is meant as it is.
+#: Packages that may hold the slave: that of an installed wheel, then that of a checkout. The build of a wheel renames the
+#: latter wherever its name stands in one piece (tools/build_backend.py). It is split here so that it stays.
 _PACKAGES = ("contact_fmu", "fmu" + "_src")
 
 _SCRIPT = '''\
@@ -48,7 +48,7 @@ class {name}({name}Slave):
 
 
 def build(model: Model, folder: Path) -> Path:
-    """Write `folder`/<name>.fmu and return its path; the same sources give the same bytes."""
+    """Write `folder`/<name>.fmu and return its path. The same sources give the same bytes."""
     return archive.write(folder / f"{model.table.name}.fmu", _files(model))
 
 

@@ -1,7 +1,7 @@
-"""The pythonfmu slave that a variable table drives; a model adds the function from inputs to outputs.
+"""pythonfmu slave that is driven by a variable table. A model adds the function from inputs to outputs.
 
-pythonfmu 0.7.0 turns an exception out of a callback into fmi2Fatal, and the fifth one crashes the host (measured). So
-none leaves here: a doStep that cannot be done is Discarded with a message, any other refused call is logged.
+pythonfmu 0.7.0 turns an exception in a callback into fmi2Fatal, and the fifth one crashes the host (measured). Therefore no
+exception leaves a callback: a doStep that fails returns Discard with a message, and any other refused call is logged.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from fmu_src.description import LOG_CATEGORIES, model_description
 from fmu_src.python.values import Rows, Values
 from fmu_src.variables import Causality, Kind, Table
 
-#: What this packaging can do; attributes of the element CoSimulation.
+#: Capabilities of this packaging: attributes of the element CoSimulation.
 INTERFACES = {
     "CoSimulation": {
         "needsExecutionTool": "true",
@@ -39,13 +39,13 @@ INTERFACES = {
     }
 }
 
-#: FMI's get and set functions: those of Reals, those of Integers and Enumerations, those that no table has a use for.
+#: Kinds served by FMI's get and set functions: for Reals, for Integers and Enumerations, for Booleans and Strings (none).
 _CALLS: tuple[tuple[Kind, ...], ...] = ((Kind.REAL,), (Kind.INTEGER, Kind.ENUMERATION), ())
 _REAL, _INTEGER, _NONE = _CALLS
 
 
 class Phase(StrEnum):
-    """Where the instance is in FMI's state machine."""
+    """State of the instance in FMI's state machine."""
 
     INSTANTIATED = "before initialisation"
     INITIALIZATION = "in initialisation"
@@ -54,7 +54,7 @@ class Phase(StrEnum):
 
 
 def guarded(method: Callable[..., Any]) -> Callable[..., Any]:
-    """Let no exception out of a callback: log it and answer False, which in `do_step` means Discard."""
+    """Wrap a callback so that it logs an exception and returns False, which means Discard in `do_step`."""
 
     @wraps(method)
     def callback(self: TableSlave, *args: Any) -> Any:
@@ -62,7 +62,7 @@ def guarded(method: Callable[..., Any]) -> Callable[..., Any]:
             return method(self, *args)
         except ContactError as error:
             self.log(str(error), Fmi2Status.discard)
-        except Exception as error:  # noqa: BLE001 - whatever it is, it must not reach the host
+        except Exception as error:  # noqa: BLE001 - no exception may reach the host
             self.log(f"{method.__name__}: {type(error).__name__}: {error}", Fmi2Status.error)
         return False
 
@@ -70,16 +70,16 @@ def guarded(method: Callable[..., Any]) -> Callable[..., Any]:
 
 
 class TableSlave(Fmi2Slave):
-    """Co-simulation slave of the FMU with `table`.
+    """Co-simulation slave of an FMU with this table.
 
-    A model implements `outputs`, and `on_demand` for outputs that are costly and seldom read. What an instance remembers
-    is in its values, so that they are its state; a model that remembers more adds `memory` and `recall`.
+    A model implements `outputs`, and `on_demand` for outputs that are costly and seldom read. The state of an instance is its
+    values. A model with further state also implements `memory` and `recall`.
 
     Parameters
     ----------
     table : Table
     guid : str
-        That of the FMU's modelDescription.xml; the installed package must describe the FMU in the same way.
+        Guid in the FMU's modelDescription.xml. It must equal the guid that the installed package computes.
 
     Raises
     ------
@@ -89,15 +89,15 @@ class TableSlave(Fmi2Slave):
 
     log_categories = LOG_CATEGORIES
 
-    #: Rows that are computed when somebody reads them, by `on_demand`.
+    #: Rows that `on_demand` computes only when a host reads them.
     lazy: tuple[str, ...] = ()
-    #: Rows that tell a host at initialisation that what it set was refused.
+    #: Rows that show the host at initialisation that a value it set was refused.
     refused: Rows = MappingProxyType({})
 
     def __init__(self, table: Table, guid: str, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         if self.resources in sys.path:
-            # pythonfmu adds it once for every instance and never takes it back; the script is imported by now.
+            # pythonfmu adds this entry for every instance and never removes it. The script is already imported.
             sys.path.remove(self.resources)
         if guid != model_description(table, INTERFACES)[0]:
             raise RuntimeError(
@@ -109,13 +109,13 @@ class TableSlave(Fmi2Slave):
         self.phase = Phase.INSTANTIATED
         self.stop_time = math.inf
         self.values = Values(table, [s.first for s in table.scalars])
-        self.solved = self.values.copy()  # the values that the lazy rows belong to
+        self.solved = self.values.copy()  # values of the last step, to which the lazy rows belong
         self.lazy_is_stale = False
         self.inputs_are_new = True
         self._index(table)
 
     def _index(self, table: Table) -> None:
-        """Sort the value references by what may be done with them."""
+        """Sort the value references by what a host may do with them."""
         every = list(enumerate(table.scalars))
         inputs = frozenset(r for r, s in every if s.row.causality is Causality.INPUT)
         exact = frozenset(r for r, s in every if s.row.initial == "exact")
@@ -131,20 +131,20 @@ class TableSlave(Fmi2Slave):
         self._checked = [r for r, s in every if s.row.initial == "exact" or r in inputs]
         self._values_checked = itemgetter(*self._checked)
         scalars = [table.scalars[r] for r in self._checked]
-        # Closed ranges of finite numbers: the next number stands for an open minimum, the largest for infinity.
+        # Closed ranges of finite numbers: an open minimum becomes the next number, infinity the largest finite number.
         least = [np.nextafter(s.minimum, np.inf) if s.row.open_minimum else s.minimum for s in scalars]
         self._least = np.maximum(least, -sys.float_info.max)
         self._greatest = np.minimum([s.maximum for s in scalars], sys.float_info.max)
 
-    # ---------------------------------------------------------------- what a model adds
+    # ---------------------------------------------------------------- implemented by a model
 
     def outputs(self, values: Values, step_size: float) -> Rows:
-        """Return the outputs after a step; `step_size` is 0 during initialisation.
+        """Return the outputs after a step of `step_size` [s], which is 0 during initialisation.
 
         Raises
         ------
         ContactError
-            If there is no answer. The step is discarded; a model that has a `memory` has kept it.
+            If there is no solution. The step is then discarded, and the `memory` of the model must be unchanged.
         """
         raise NotImplementedError
 
@@ -153,11 +153,11 @@ class TableSlave(Fmi2Slave):
         raise NotImplementedError
 
     def memory(self) -> str | None:
-        """Return what the model remembers besides its values, as text."""
+        """Return the state of the model other than its values, as text."""
         return None
 
     def recall(self, memory: str | None) -> None:
-        """Take the model, whose values are restored already, back to a `memory`."""
+        """Restore the state of the model from `memory`. The values are already restored."""
 
     # ---------------------------------------------------------------- life of an instance
 
@@ -168,7 +168,7 @@ class TableSlave(Fmi2Slave):
 
     @guarded
     def enter_initialization_mode(self) -> None:
-        """From now on outputs follow what is set."""
+        """Enter initialisation mode, in which outputs follow what is set."""
         self.phase = Phase.INITIALIZATION
 
     @guarded
@@ -178,27 +178,27 @@ class TableSlave(Fmi2Slave):
         try:
             self._update(0.0)
         except ContactError:
-            self.values = self.values.updated(self.refused)  # pythonfmu cannot return an error from here
+            self.values = self.values.updated(self.refused)  # pythonfmu cannot return an error here
             raise
 
     @guarded
     def terminate(self) -> None:
-        """Nothing can be set any more."""
+        """End the run. Nothing can be set after this."""
         self.phase = Phase.TERMINATED
 
     @guarded
     def do_step(self, current_time: float, step_size: float) -> bool:
-        """Advance the outputs; False (Discard) leaves them as they were."""
+        """Advance the outputs by one step. Return False (Discard) if this fails; the outputs are then unchanged."""
         if self.phase is not Phase.STEPPING:
             raise ContactError(f"doStep is not allowed {self.phase}")
         require_number("communicationStepSize", step_size, 0.0, open_minimum=True)
-        # a thousandth of a step: what masters that add up steps lose by rounding is less
+        # tolerance for masters that add up steps: their rounding error is less than a thousandth of a step
         require_number("end of the step", current_time + step_size, maximum=self.stop_time + 1e-3 * step_size)
         self._update(step_size)
         return True
 
     def _update(self, step_size: float) -> None:
-        """Compute the outputs from values that are all within their ranges; keep the old ones if that fails."""
+        """Check the ranges of the values and compute the outputs. If this fails, the outputs are unchanged."""
         self.inputs_are_new = False
         self._check_ranges()
         self.values = self.values.updated(self.outputs(self.values, step_size))
@@ -207,12 +207,12 @@ class TableSlave(Fmi2Slave):
 
     @guarded
     def _update_at_start(self) -> None:
-        """Compute the outputs for what has been set so far."""
+        """Compute the outputs for the values that have been set so far."""
         self._update(0.0)
 
     @guarded
     def _update_lazy(self) -> None:
-        """Compute the lazy rows that belong to the other outputs."""
+        """Compute the lazy rows of the last step."""
         self.lazy_is_stale = False
         self.values = self.values.updated(self.on_demand(self.solved))
 
@@ -227,11 +227,11 @@ class TableSlave(Fmi2Slave):
     # ---------------------------------------------------------------- get and set
 
     def get_real(self, references: list[int]) -> list[float]:
-        """Values of Reals."""
+        """Return the values of Reals."""
         return self._get(_REAL, references)
 
     def get_integer(self, references: list[int]) -> list[int]:
-        """Values of Integers and Enumerations."""
+        """Return the values of Integers and Enumerations."""
         return self._get(_INTEGER, references)
 
     def get_boolean(self, references: list[int]) -> list[bool]:
@@ -312,11 +312,11 @@ class TableSlave(Fmi2Slave):
 
     @staticmethod
     def _fmu_state_to_bytes(state: dict[str, Any]) -> bytes:
-        return json.dumps(state).encode()  # floats are written such that they read back exactly
+        return json.dumps(state).encode()  # JSON floats read back exactly
 
     @staticmethod
     def _fmu_state_from_bytes(state: bytes) -> dict[str, Any]:
         try:
             return json.loads(state)
         except ValueError:
-            return {}  # setting it is refused with a message
+            return {}  # setting this state is refused with a message

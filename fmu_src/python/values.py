@@ -1,4 +1,4 @@
-"""The values of an instance's variables, by the names of its table's rows."""
+"""Values of an instance's variables by the names of the table's rows."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from typing import Any
 from contact.errors import ContactError
 from fmu_src.variables import Table
 
-#: Some rows by name: a number, or a list for an array.
+#: Values of some rows by name: a number, or a list for an array.
 Rows = Mapping[str, float | list[float]]
 
 
 class Values:
-    """The values of all scalars, read by the name of the row: a number, or a list for an array."""
+    """Values of all scalars. A row is read by name: a number, or a list for an array."""
 
     def __init__(self, table: Table, numbers: list[float]) -> None:
         self.table = table
@@ -25,17 +25,17 @@ class Values:
         return self.numbers[span] if self.table.row[name].shape else self.numbers[span.start]
 
     def item(self, name: str) -> str:
-        """Name of the current item of an enumeration."""
+        """Return the name of the current item of an enumeration."""
         enumeration = self.table.row[name].enumeration
         assert enumeration is not None
         return enumeration.item(self.numbers[self.table.span[name].start])
 
     def copy(self) -> Values:
-        """Values that later calls do not change."""
+        """Return a copy that later calls do not change."""
         return Values(self.table, self.numbers.copy())
 
     def updated(self, new: Rows) -> Values:
-        """A copy with some rows replaced, or a ContactError if one of these is not finite."""
+        """Return a copy with some rows replaced. Raise ContactError if one of these is not finite."""
         result = self.copy()
         for name, value in new.items():
             column = value if isinstance(value, list) else [value]

@@ -1,4 +1,4 @@
-"""The slave of the FMU `WheelRailContact`: `contact.solve` behind its table."""
+"""pythonfmu slave of the FMU `WheelRailContact`, which calls `contact.solve`."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _CREEPAGES = ("creepage.longitudinal", "creepage.lateral", "creepage.spin")
 
 
 class WheelRailContactSlave(TableSlave):
-    """One wheel-rail contact in the plane of its separation; forces act on the wheel."""
+    """One wheel-rail contact in the plane of its separation. Forces act on the wheel."""
 
     lazy = ("creep_stiffness",)
     refused: Rows = MappingProxyType({"status": int(Status.OUT_OF_RANGE)})
@@ -32,7 +32,7 @@ class WheelRailContactSlave(TableSlave):
         super().__init__(table(points), guid, **kwargs)
 
     def outputs(self, values: Values, step_size: float) -> Rows:
-        """Solve for the present inputs; they are taken as constant over the step."""
+        """Solve for the present inputs, which are constant over the step."""
         solution = _solve(values, _creepage(values))
         if solution.status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED) and solution.status != values["status"]:
             self.log(f"status {solution.status.name}: {solution.status.message}", Fmi2Status.warning)
@@ -71,7 +71,7 @@ class WheelRailContactSlave(TableSlave):
         }
 
     def on_demand(self, values: Values) -> Rows:
-        """Differentiate the forces by the creepages, with central differences."""
+        """Return the derivatives of the forces with respect to the creepages, by central differences."""
         at = np.array([values[name] for name in _CREEPAGES])
         stiffness = np.zeros((3, 3))
         mu, G = values["friction.coefficient"], values["material.shear_modulus"]
@@ -88,7 +88,7 @@ def _creepage(values: Values) -> Creepage:
 
 
 def _solve(values: Values, creepage: Creepage) -> Solution:
-    """Solve the contact that `values` describe, with another creepage."""
+    """Solve the contact that `values` describe, with the given creepage."""
     material = Material(
         values["material.shear_modulus"],
         values["material.poisson_ratio"],

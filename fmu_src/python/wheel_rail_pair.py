@@ -1,4 +1,4 @@
-"""The slave of the FMU `WheelRailPair`: `contact.pair.WheelRailPair` behind its table."""
+"""pythonfmu slave of the FMU `WheelRailPair`, which calls `contact.pair.WheelRailPair`."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _NO_CONTACT = [0.0] * len(PATCH)
 
 
 class WheelRailPairSlave(TableSlave):
-    """One wheel on one rail; a patch goes on from its last solution where the normal method can use it."""
+    """One wheel on one rail. Each patch starts from its last solution if the normal method can use a warm start."""
 
     refused: Rows = MappingProxyType({"status": int(Status.OUT_OF_RANGE)})
 
@@ -41,7 +41,7 @@ class WheelRailPairSlave(TableSlave):
         self.built_with: list[float] = []
 
     def outputs(self, values: Values, step_size: float) -> Rows:
-        """Solve for the present inputs; they are taken as constant over the step. Before the first one nothing is warm."""
+        """Solve for the present inputs, which are constant over the step. The first step is a cold start."""
         pair = self._pair(values)
         memory = pair.bench.memory
         before = memory.copy() if step_size > 0.0 else np.zeros_like(memory)
@@ -80,7 +80,7 @@ class WheelRailPairSlave(TableSlave):
                 rows |= zip(ACCUMULATED, bins.reshape(-1, BINS).tolist(), strict=True)
             values.updated(rows)
         except Exception:
-            memory[:] = before  # a step that is discarded leaves nothing behind
+            memory[:] = before  # a discarded step must not change the memory
             raise
         if step_size == 0.0:
             memory[:] = 0.0
@@ -89,18 +89,18 @@ class WheelRailPairSlave(TableSlave):
         return rows
 
     def memory(self) -> str | None:
-        """Where the normal method may start from."""
+        """Return the warm start of the normal method, as text."""
         return None if self.pair is None else self.pair.bench.memory.tobytes().hex()
 
     def recall(self, memory: str | None) -> None:
-        """Take the pair back to a `memory`."""
+        """Restore the warm start from `memory`."""
         if memory is None:
             self.pair = None
         else:
             self._pair(self.values).bench.memory[:] = np.frombuffer(bytes.fromhex(memory))
 
     def _pair(self, values: Values) -> WheelRailPair:
-        """The pair with these parameters: a new one when they differ from those of the last."""
+        """Return the pair with these parameters. It is made anew if they have changed."""
         wanted = [values[name] for name in self.parameters]
         if self.pair is None or wanted != self.built_with:
             wheel, rail = self.profiles[0], self.profiles[1].rotated(-np.arctan(values["rail.inclination"]))
@@ -140,7 +140,7 @@ class WheelRailPairSlave(TableSlave):
 
 
 def _accumulation(values: Values, wheel: Profile, rail: Profile) -> dict[str, Any]:
-    """Options of the pair for what accumulates over both profiles, if anything does."""
+    """Return the options of the pair for damage that accumulates on both profiles, empty if nothing accumulates."""
     law = int(values["accumulation.wear_law"])
     if law == 1:
         return {}
@@ -156,7 +156,7 @@ def _accumulation(values: Values, wheel: Profile, rail: Profile) -> dict[str, An
 
 
 def _patches(contacts: tuple[Contact, ...]) -> Rows:
-    """The rows of all patches; zeros where there is none."""
+    """Return the rows of all patches, with zeros for missing patches."""
     columns = [_patch(contact) for contact in contacts]
     columns += [_NO_CONTACT] * (PATCHES - len(columns))
     return {f"patch[].{name}": list(row) for (name, *_), row in zip(PATCH, zip(*columns, strict=True), strict=True)}

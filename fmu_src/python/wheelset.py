@@ -1,4 +1,4 @@
-"""The slave of the FMU `Wheelset`: `models.wheelset.model.WheelsetModel` behind its table."""
+"""pythonfmu slave of the FMU `Wheelset`, which calls `models.wheelset.model.WheelsetModel`."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from models.wheelset.ports import (
 
 
 class WheelsetSlave(TableSlave):
-    """One wheelset whose contact forces come from outside."""
+    """One wheelset whose contact forces are inputs."""
 
     def __init__(self, guid: str, **kwargs: Any) -> None:
         super().__init__(table(), guid, **kwargs)
@@ -35,7 +35,7 @@ class WheelsetSlave(TableSlave):
         self.built_with: dict[str, Any] = {}
 
     def outputs(self, values: Values, step_size: float) -> Rows:
-        """Advance the model with the forces held; without a step report where it starts."""
+        """Advance the model with constant forces. With a step size of 0, return the outputs at the start."""
         model = self._model(values)
         if step_size > 0.0:
             for side in SIDES:
@@ -45,18 +45,18 @@ class WheelsetSlave(TableSlave):
         return _report(model)
 
     def memory(self) -> str | None:
-        """What the model remembers besides its outputs."""
+        """Return the state of the model other than its outputs, as text."""
         return None if self.model is None else self.model.save().hex()
 
     def recall(self, memory: str | None) -> None:
-        """Take the model back to a `memory`."""
+        """Restore the state of the model from `memory`."""
         if memory is None:
             self.model = None
         else:
             self._model(self.values).restore(bytes.fromhex(memory))
 
     def _model(self, values: Values) -> WheelsetModel:
-        """The model with these parameters: a new one, at its start, when they differ from those of the last."""
+        """Return the model with these parameters. If they have changed, it is made anew and is at its start."""
         wanted = {keyword: values[name] for name, keyword in KEYWORDS.items()}
         wanted |= {"substeps": values["resolution.substeps"], "inclination": values["rail.inclination"]}
         if self.model is None or wanted != self.built_with:

@@ -1,4 +1,4 @@
-"""Rows that both FMUs of a contact have: methods, material and resolution; damage, status and totals."""
+"""Rows that WheelRailContact and WheelRailPair share: methods, material, resolution, friction, damage, status and totals."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ FRICTION_LAW = Enumeration(
     "FrictionLaw",  # in the order of contact.friction.LAWS
     (
         ("Coulomb", "constant coefficient of friction"),
-        ("Linear", "falls linearly with the sliding velocity s/friction.half_speed, until twice that"),
+        ("Linear", "falls linearly with s = sliding velocity/friction.half_speed, constant from s = 2 on"),
         ("Rational", "falls as 1/(1 + s)"),
         ("RationalSquare", "falls as 1/(1 + s²)"),
         ("Exponential", "falls as 2^-s"),
@@ -27,11 +27,11 @@ FRICTION_LAW = Enumeration(
 FRICTION_VELOCITY = Enumeration(
     "FrictionVelocity",  # in the order of contact.friction.VELOCITIES
     (
-        ("Global", "speed times the size of longitudinal and lateral creepage"),
-        ("Local", "of each element; the global one where the tangential method gives forces alone"),
+        ("Global", "speed times the magnitude of longitudinal and lateral creepage"),
+        ("Local", "slip velocity of each element; the global one if the tangential method gives forces only"),
         (
             "Greatest",
-            "the greatest local one since a particle entered the patch: what has slipped keeps the lower coefficient",
+            "greatest local slip velocity since the particle entered the patch, so the coefficient never rises again",
         ),
     ),
 )
@@ -41,7 +41,7 @@ SURFACE = Enumeration(
         ("Plane", "the contact plane"),
         (
             "Conformal",
-            "the surface between the profiles: the contact angle varies; not with methods that give forces alone",
+            "the curved surface between the profiles with varying contact angle; not with methods that give forces only",
         ),
     ),
 )
@@ -51,14 +51,14 @@ STATUS = Enumeration("Status", tuple(zip(_STATUS_NAMES, (status.message for stat
 
 
 def parameters() -> Iterable[Variable]:
-    """Everything that `contact.solve` is told besides the problem."""
+    """Yield the parameters of `contact.solve` other than geometry, creepages and load."""
     steel = contact.STEEL
     yield parameter(
         "method.normal", "Method for the normal problem", enumeration=NORMAL_METHOD, start=registry.DEFAULT_NORMAL
     )
     yield parameter(
         "method.tangential",
-        "Method for the tangential problem; creep force laws leave traction, slip, wear depth and indices of fields at zero",
+        "Method for the tangential problem; with creep force laws traction, slip, wear depth and field indices are zero",
         enumeration=TANGENTIAL_METHOD,
         start=registry.DEFAULT_TANGENTIAL,
     )
@@ -98,7 +98,7 @@ def parameters() -> Iterable[Variable]:
     )
     yield parameter(
         "material.pressure_limit",
-        "Pressure that is not exceeded, elastic-perfectly plastic; 0: none",
+        "Pressure limit of an elastic-perfectly plastic material; 0: no limit",
         unit="Pa",
         start=0.0,
         minimum=0.0,
@@ -108,10 +108,12 @@ def parameters() -> Iterable[Variable]:
     yield parameter(
         "resolution.n_elements", "Elements per strip", integer=True, start=N_ELEMENTS, minimum=4, maximum=1000
     )
-    yield parameter("friction.law", "Friction over sliding velocity", enumeration=FRICTION_LAW, start="Coulomb")
+    yield parameter(
+        "friction.law", "Dependence of friction on sliding velocity", enumeration=FRICTION_LAW, start="Coulomb"
+    )
     yield parameter(
         "friction.kinetic",
-        "Coefficient of friction in fast sliding; not for Coulomb",
+        "Coefficient of friction at high sliding velocity; not used by Coulomb",
         start=0.3,
         minimum=0.0,
         maximum=friction.LARGEST,
@@ -126,7 +128,7 @@ def parameters() -> Iterable[Variable]:
     )
     yield parameter(
         "friction.slope",
-        "Factor on the creep stiffness of the clean half space at small creepage",
+        "Factor on the creep stiffness at small creepage; 1: clean surfaces",
         start=1.0,
         minimum=0.0,
         maximum=1.0,
@@ -134,12 +136,12 @@ def parameters() -> Iterable[Variable]:
     )
     yield parameter(
         "friction.slope_far",
-        "What the factor tends to at large creepage, over friction.slope",
+        "Limit of the factor at large creepage, divided by friction.slope",
         start=1.0,
         minimum=0.0,
         maximum=1.0,
     )
-    yield parameter("friction.slope_rate", "How soon the factor falls", start=1.0, minimum=0.0)
+    yield parameter("friction.slope_rate", "Rate at which the factor falls with creepage", start=1.0, minimum=0.0)
     yield parameter(
         "friction.velocity", "Slip velocity that the law follows", enumeration=FRICTION_VELOCITY, start="Global"
     )
@@ -152,13 +154,13 @@ def parameters() -> Iterable[Variable]:
     )
     yield parameter(
         "friction.border",
-        "Where the gauge side, y below it, ends: in the plane of the separation, or in the rail's profile of either side",
+        "Border of the gauge side, which is y below it: in the plane of the separation, or in the profile of either rail",
         unit="m",
         start=0.0,
     )
     yield parameter(
         "friction.border_width",
-        "Width of the smooth transition; negative: the gauge side is y above friction.border",
+        "Width of the smooth transition at friction.border; negative: the gauge side is y above it",
         unit="m",
         start=5e-3,
         nominal=1e-3,
@@ -166,7 +168,7 @@ def parameters() -> Iterable[Variable]:
     for name, where in (("k_A", "adhesion"), ("k_S", "slip")):
         yield parameter(
             f"friction.{name}",
-            f"Polach's reduction factor in the area of {where}, for method.tangential = polach alone",
+            f"Polach's reduction factor in the area of {where}, used only when method.tangential = polach",
             start=1.0,
             minimum=0.0,
             maximum=1.0,
@@ -174,7 +176,7 @@ def parameters() -> Iterable[Variable]:
         )
     yield parameter(
         "friction.hot_factor",
-        "What heat leaves of the coefficient of friction; 1: it does not depend on the temperature",
+        "Share of the coefficient of friction that remains when hot; 1: friction does not depend on the temperature",
         start=1.0,
         minimum=0.0,
         maximum=1.0,
@@ -182,8 +184,8 @@ def parameters() -> Iterable[Variable]:
     room = friction.ROOM_TEMPERATURE
     for name, start, description in (
         ("reference_temperature", room, "Temperature above which friction falls linearly"),
-        ("temperature_range", 400.0, "How much above it only friction.hot_factor is left"),
-        ("background_temperature", room, "Temperature of wheel and rail outside the patch, the mean of both"),
+        ("temperature_range", 400.0, "Rise above it at which friction has fallen to friction.hot_factor"),
+        ("background_temperature", room, "Mean temperature of wheel and rail outside the patch"),
     ):
         yield parameter(
             f"friction.{name}",
@@ -203,7 +205,7 @@ def parameters() -> Iterable[Variable]:
     ):
         yield parameter(
             f"thermal.{name}",
-            f"{description}, for friction.hot_factor",
+            f"{description}, used when friction.hot_factor < 1",
             unit=unit,
             start=getattr(_THERMAL, name),
             minimum=low,
@@ -234,7 +236,7 @@ DAMAGE_OUTPUTS = {
 
 
 def damage() -> Iterable[Variable]:
-    """The damage models' numbers."""
+    """Yield the outputs of the damage models."""
     yield output("damage.T_gamma", "Wear number |Fx ξ| + |Fy η|", unit="N", minimum=0.0, nominal=100.0)
     yield output(
         "damage.wear_rate_pearce_sherratt", "Tread area worn off, Pearce and Sherratt", unit="m2/m", minimum=0.0
@@ -255,7 +257,7 @@ def damage() -> Iterable[Variable]:
 
 
 def status_and_totals() -> Iterable[Variable]:
-    """How the solution came about, and what adds up over time."""
-    yield output("status", "How the solution came about", enumeration=STATUS)
+    """Yield the status of the solution and the totals over time."""
+    yield output("status", "Status of the solution", enumeration=STATUS)
     yield output("total.energy", "Energy dissipated since start", unit="J", start=0.0, minimum=0.0, depends=())
     yield output("total.worn_volume", "Volume worn off since start", unit="m3", start=0.0, minimum=0.0, depends=())

@@ -1,4 +1,4 @@
-"""Interface of the FMU `WheelRailContact`: separation, creepages and load in; forces, moment and damage out."""
+"""Variables of the FMU `WheelRailContact`. Inputs: separation, creepages, load. Outputs: forces, moment, damage."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ GEOMETRY_KIND = Enumeration(
 LOAD_KIND = Enumeration(
     "LoadKind", (("NormalForce", "load.normal_force is given"), ("Approach", "load.approach is given"))
 )
-#: What the normal problem is a function of; forces depend on everything.
+#: Rows on which the solution of the normal problem depends. Forces depend on all rows.
 _NORMAL_PROBLEM = (
     "geometry.kind",
     "geometry.y0",
@@ -40,21 +40,21 @@ _NORMAL_PROBLEM = (
     "material.poisson_ratio",
     "resolution.n_strips",
 )
-#: Least half curvature in the rolling direction [1/m]. Masters that start every connector at 0 give 0, without a load.
+#: Least half curvature in the rolling direction [1/m]. Masters that start every connector at 0 give 0 (and no load).
 FLATTEST = 1e-6
-_HALF_WIDTH = 0.02  # of the separation that the FMU starts with [m]
+_HALF_WIDTH = 0.02  # half width of the default separation [m]
 
 
 @cache
 def table(points: int = 41) -> Table:
-    """Table for a separation of `points` samples across the track (at least 3)."""
+    """Return the table for a separation of `points` samples across the track (at least 3)."""
     if points < 3:
         raise ValueError(f"points = {points}: a separation has at least 3 points")
     rows = [*_parameters(points), *_inputs(points), *_outputs()]
     return Table(
         "WheelRailContact",
         "Elastic wheel-rail contact: non-elliptic patch and pressure, creep forces, spin moment and damage. "
-        "Forces act on the wheel; frame x in the rolling direction, y lateral, z from wheel into rail. As co-simulation has "
+        "Forces act on the wheel. Frame: x in the rolling direction, y lateral, z from wheel into rail. As co-simulation has "
         "no feedthrough, the outputs after a step belong to the inputs before it: one communication step late.",
         rows,
         step_size=1e-3,
@@ -67,7 +67,7 @@ def _parameters(points: int) -> Iterable[Variable]:
     yield parameter("geometry.y0", "Lateral position of geometry.g[1]", unit="m", start=-_HALF_WIDTH)
     yield parameter(
         "geometry.dy",
-        "Lateral distance of two samples",
+        "Lateral distance between samples",
         unit="m",
         start=2.0 * _HALF_WIDTH / (points - 1),
         minimum=0.0,
@@ -75,7 +75,7 @@ def _parameters(points: int) -> Iterable[Variable]:
     )
     yield parameter(
         "geometry.surface",
-        "What the patch lies in; Conformal with geometry.tilt and geometry.rolling, not with geometry.kind = Curvatures",
+        "Surface of the patch; Conformal uses geometry.tilt and geometry.rolling and excludes geometry.kind = Curvatures",
         enumeration=solver.SURFACE,
         start="Plane",
     )
@@ -103,7 +103,7 @@ def _inputs(points: int) -> Iterable[Variable]:
     )
     yield signal(
         "geometry.A",
-        f"Half curvature in the rolling direction; below {FLATTEST:g} it counts as that",
+        f"Half curvature in the rolling direction; values below {FLATTEST:g} are replaced by {FLATTEST:g}",
         unit="1/m",
         start=0.5 / 0.46,
         minimum=0.0,
@@ -111,7 +111,7 @@ def _inputs(points: int) -> Iterable[Variable]:
     )
     yield signal(
         "geometry.tilt",
-        "Slope dz/dy against the contact plane of the surface in which the bodies touch, for geometry.surface = Conformal",
+        "Slope dz/dy of the contact surface relative to the contact plane, used when geometry.surface = Conformal",
         start=0.0,
         minimum=-LARGEST_TILT,
         maximum=LARGEST_TILT,
@@ -120,7 +120,7 @@ def _inputs(points: int) -> Iterable[Variable]:
     )
     yield signal(
         "geometry.rolling",
-        "Turn of the wheel about the y axis of the plane per metre rolled, cos(contact angle)/rolling radius; likewise",
+        "Rotation about y per metre rolled, cos(contact angle)/rolling radius, used when geometry.surface = Conformal",
         unit="rad/m",
         start=1.0 / 0.46,
         minimum=-LARGEST_ROLLING,
@@ -166,7 +166,7 @@ def _inputs(points: int) -> Iterable[Variable]:
     )
     yield signal(
         "speed",
-        "Rolling speed; scales rates only",
+        "Rolling speed; without speed-dependent friction it scales only rates",
         unit="m/s",
         start=20.0,
         minimum=0.0,
@@ -196,7 +196,7 @@ def _outputs() -> Iterable[Variable]:
     yield output("stiffness.normal", "dN/d(approach)", unit="N/m", minimum=0.0, nominal=1e9, depends=_NORMAL_PROBLEM)
     yield output(
         "creep_stiffness",
-        "d(force.x, force.y, moment.z)/d(longitudinal, lateral, spin creepage); computed when it is asked for",
+        "d(force.x, force.y, moment.z)/d(longitudinal, lateral, spin creepage); computed only when it is read",
         unit=("N", "N", "N.m", "N", "N", "N.m", "N.m", "N.m", "N.m2"),
         shape=(3, 3),
         nominal=1e6,
@@ -205,7 +205,10 @@ def _outputs() -> Iterable[Variable]:
 
 
 def _fields() -> Iterable[Variable]:
-    """What belongs to every element of every strip: strips of all patches one after the other, with zeros behind the last."""
+    """Yield the fields: values for every element of every strip.
+
+    The strips of all patches follow each other. The rows after the last strip are zero.
+    """
 
     def field(name: str, description: str, **attributes: Unpack[Attributes]) -> Variable:
         attributes["shape"] = (MAX_PATCHES, "resolution.n_strips", "resolution.n_elements")

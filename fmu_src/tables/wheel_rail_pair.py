@@ -1,4 +1,4 @@
-"""Interface of the FMU `WheelRailPair`: motion of a wheelset in; forces in track coordinates, patches and damage out."""
+"""Variables of the FMU `WheelRailPair`. Inputs: motion of a wheelset. Outputs: forces in track coordinates, patches, damage."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ LOAD_KIND = Enumeration(
     ),
 )
 ACCUMULATE = Enumeration(
-    "Accumulate",  # Off, then those of contact.damage.WEAR_LAWS in their order
+    "Accumulate",  # Off, then the laws in the order of contact.damage.WEAR_LAWS
     (
-        ("Off", "nothing is added up over the profiles, at no cost"),
+        ("Off", "nothing accumulates; costs no time"),
         *zip(
             ("Archard", "Usfd", "UsfdLocal", "PearceSherratt"),
             (
-                "depths by Archard's law with the map of KTH",
-                "by Sheffield's rate for each patch, spread evenly over its area",
-                "by Sheffield's rate for each element",
-                "by the area of Pearce and Sherratt, spread evenly over the area of each patch",
+                "wear depth by Archard's law with the map of KTH",
+                "wear depth by Sheffield's rate for each patch, spread evenly over its area",
+                "wear depth by Sheffield's rate for each element",
+                "wear depth by the area of Pearce and Sherratt, spread evenly over the area of each patch",
             ),
             strict=True,
         ),
@@ -40,13 +40,13 @@ ACCUMULATE = Enumeration(
 PATCHES = 3
 BINS = 100  # over each profile
 BODIES = ("wheel", "rail")
-#: Rows of what accumulates: of the wheel, then of the rail, in the order of `contact.kernels.damage.deposit`.
+#: Rows that accumulate: first of the wheel, then of the rail, in the order of `contact.kernels.damage.deposit`.
 ACCUMULATED = tuple(f"accumulated.{body}.{name}" for body in BODIES for name in SUMS | MAXIMA)
-#: Profiles are files of these names in resources/ (`fmu_src.profiles`); of the right side, for either side.
+#: File names of the profiles in resources/ (`fmu_src.profiles`). They show the right side and serve both sides.
 WHEEL, RAIL = "wheel.profile", "rail.profile"
 RESOURCES = (WHEEL, RAIL)
 
-#: Inputs in the order in which the kernels are given them (`contact.kernels.layout`): name, unit, what it is.
+#: Inputs in the order of the kernels (`contact.kernels.layout`): name, unit, description.
 MOTION = (
     ("pose.y", "m", "Lateral position of the wheelset's centre, positive to the right"),
     ("pose.z", "m", "Height of the centre, positive down, 0 with both tape circles on the plane of the rails' tops"),
@@ -74,7 +74,7 @@ _LIMITS: dict[str, Limits] = {
 _RADIUS, _SPEED = 0.46, 20.0
 _STARTS = {"velocity.x": _SPEED, "velocity.spin": -_SPEED / _RADIUS}
 
-#: Outputs of a patch in the order of `contact.kernels.layout`: name behind `patch[k].`, unit, nominal, what it is.
+#: Outputs of a patch in the order of `contact.kernels.layout`: name after `patch[k].`, unit, nominal, description.
 PATCH = (
     ("n", "N", 1e5, "Normal force"),
     ("fx", "N", 1e4, "Longitudinal creep force on the wheel"),
@@ -82,10 +82,10 @@ PATCH = (
     ("mx", "N.m", 10.0, "Moment of the normal pressure about the longitudinal axis"),
     ("my", "N.m", 10.0, "Moment of the normal pressure about the lateral axis"),
     ("mz", "N.m", 100.0, "Spin moment on the wheel"),
-    ("x", "m", 1e-3, "Where forces and moments count, track coordinates: longitudinal"),
-    ("y", "m", 1.0, "Where forces and moments count, track coordinates: lateral"),
-    ("z", "m", 1e-2, "Where forces and moments count, track coordinates: vertical, positive down"),
-    ("angle", "rad", 0.1, "Contact angle: the contact frame is the track frame turned by it about x"),
+    ("x", "m", 1e-3, "Point of application of forces and moments, track coordinates, longitudinal"),
+    ("y", "m", 1.0, "Point of application of forces and moments, track coordinates, lateral"),
+    ("z", "m", 1e-2, "Point of application of forces and moments, track coordinates, vertical, positive down"),
+    ("angle", "rad", 0.1, "Contact angle; the contact frame is the track frame turned about x by this angle"),
     ("area", "m2", 1e-4, "Contact area"),
     ("pmax", "Pa", 1e9, "Greatest contact pressure"),
     ("longitudinal", "1", 1e-3, "Longitudinal creepage, wheel minus rail"),
@@ -97,14 +97,14 @@ PATCH = (
 
 @cache
 def table(inclination: float = 1.0 / 40.0) -> Table:
-    """Table for a rail that is to be turned by this inclination (its tangent) unless told otherwise."""
+    """Return the table. `inclination` is the default of `rail.inclination` (tangent)."""
     return Table(
         "WheelRailPair",
         "One wheel of a wheelset on one rail, with the profiles in resources: contact search, every patch, creep forces "
-        "and damage: T_gamma, the area of Pearce and Sherratt and the worn volume are sums over the patches, other indices the "
-        "greatest. What accumulates lies in bins over the arc length of both profiles. Forces act on the wheel; track frame x "
-        "forward, y to the right, z down. As co-simulation has no feedthrough, the outputs after a step belong to the inputs "
-        "before it: one communication step late.",
+        "and damage. T_gamma, the area of Pearce and Sherratt and the worn volume are sums over the patches. Other indices are "
+        "the greatest of all patches. Damage accumulates in bins over the arc length of both profiles. Forces act on the "
+        "wheel. Track frame: x forward, y to the right, z down. As co-simulation has no feedthrough, the outputs after a step "
+        "belong to the inputs before it: one communication step late.",
         [*_parameters(inclination), *_inputs(), *_outputs()],
         step_size=1e-3,
     )
@@ -117,7 +117,7 @@ def _parameters(inclination: float) -> Iterable[Variable]:
         "wheel.radius", "Nominal radius, at the tape circle", unit="m", start=_RADIUS, minimum=0.05, maximum=2.0
     )
     yield parameter(
-        "wheel.flange_back", "Distance of the backs of the flanges", unit="m", start=1.36, minimum=0.1, maximum=3.0
+        "wheel.flange_back", "Distance between the backs of the flanges", unit="m", start=1.36, minimum=0.1, maximum=3.0
     )
     yield parameter("track.gauge", "Track gauge", unit="m", start=1.435, minimum=0.1, maximum=3.0)
     yield parameter(
@@ -136,10 +136,10 @@ def _parameters(inclination: float) -> Iterable[Variable]:
         minimum=0.0,
         maximum=0.1,
     )
-    yield parameter("patches.surface", "What each patch lies in", enumeration=solver.SURFACE, start="Plane")
+    yield parameter("patches.surface", "Surface of each patch", enumeration=solver.SURFACE, start="Plane")
     yield parameter(
         "patches.max",
-        "Patches with a frame of their own; further ones share the plane of the last",
+        "Greatest number of patches with their own plane; further patches share the plane of the last",
         integer=True,
         start=PATCHES,
         minimum=1,
@@ -147,7 +147,7 @@ def _parameters(inclination: float) -> Iterable[Variable]:
     )
     yield parameter(
         "patches.combine_distance",
-        "Neighbours nearer than this share one plane",
+        "Neighbouring patches closer than this share one plane",
         unit="m",
         start=8e-3,
         minimum=0.0,
@@ -155,7 +155,7 @@ def _parameters(inclination: float) -> Iterable[Variable]:
     )
     yield parameter(
         "patches.combine_angle",
-        "Neighbours whose angles differ by less share one plane",
+        "Neighbouring patches whose contact angles differ by less than this share one plane",
         unit="rad",
         start=math.radians(10.0),
         minimum=0.0,
@@ -166,13 +166,13 @@ def _parameters(inclination: float) -> Iterable[Variable]:
     )
     yield parameter(
         "accumulation.wear_law",
-        "What accumulates over both profiles at each doStep, as in contact.accumulation; not in model exchange",
+        "Wear law of the damage that accumulates on both profiles at each doStep; nothing accumulates in model exchange",
         enumeration=ACCUMULATE,
         start="Off",
     )
     yield parameter(
         "accumulation.first",
-        "Arc length at which the first bin begins, along either profile from its point nearest to y = 0 to the field side",
+        "Arc length at which the first bin begins; 0 is the profile's point nearest to y = 0, positive to the field side",
         unit="m",
         start=-0.06,
         minimum=-1.0,
@@ -188,7 +188,7 @@ def _inputs() -> Iterable[Variable]:
         yield signal(name, description, unit=unit, start=_STARTS.get(name, 0.0), **_LIMITS.get(name, {}))
     yield signal(
         "load.normal_force",
-        "Vertical force that the normal pressures of all patches carry, used when load.kind = NormalForce",
+        "Vertical force carried by the normal pressures of all patches, used when load.kind = NormalForce",
         unit="N",
         start=80e3,
         minimum=0.0,
@@ -208,7 +208,7 @@ def _outputs() -> Iterable[Variable]:
             nominal=1e4,
         )
     yield output(
-        "wheelset.z", "pose.z that the outputs belong to: as given, or as found for the load", unit="m", nominal=1e-3
+        "wheelset.z", "Height pose.z of the solution: as given, or as found for the load", unit="m", nominal=1e-3
     )
     yield output("pressure.max", "Greatest contact pressure", unit="Pa", minimum=0.0, nominal=1e9)
     yield output("patches.count", "Number of patches", integer=True, minimum=0, maximum=PATCHES)
@@ -227,7 +227,7 @@ def _outputs() -> Iterable[Variable]:
 
 
 def _accumulated() -> Iterable[Variable]:
-    """Bins; they come last, where the native packaging keeps them apart."""
+    """Yield the bins. They come last, since the native packaging stores them separately."""
     for name in ACCUMULATED:
         _, body, quantity = name.split(".")
         unit, meaning = (SUMS | MAXIMA)[quantity]
@@ -235,7 +235,7 @@ def _accumulated() -> Iterable[Variable]:
             unit = "m2"
         yield output(
             name,
-            f"Over the {body}'s profile since start: {meaning}",
+            f"Accumulated since start on the profile of the {body}: {meaning}",
             unit=unit.replace(" ", "."),
             shape=(BINS,),
             depends=(),

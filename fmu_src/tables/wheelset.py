@@ -1,7 +1,7 @@
-"""Interface of the FMU `Wheelset`: creep forces in; motion, geometry, creepages and load of each side out.
+"""Variables of the FMU `Wheelset`. Inputs: creep forces. Outputs: motion; geometry, creepages and load of each side.
 
-What a wheel-rail contact needs and gives has the names of `WheelRailContact` behind the side, so connections are obvious:
-`right.geometry.g[1]` to `geometry.g[1]`, `force.x` to `right.force.x`.
+Variables that connect to a contact have the names of `WheelRailContact` after the side: `right.geometry.g[1]` goes to
+`geometry.g[1]`, and `force.x` to `right.force.x`.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from fmu_src.variables import Attributes, Limits, Table, Variable, output, param
 from models.wheelset.parameters import WheelsetParameters
 from models.wheelset.ports import POINTS, REACTION, SIDES
 
-#: Parameter of the FMU → keyword of `WheelsetParameters`, unit, what it is, and a key of _RANGE.
+#: Parameter of the FMU, keyword of `WheelsetParameters`, unit, description, key of _RANGE.
 _PARAMETERS = (
     ("speed", "speed", "m/s", "Constant forward speed", "positive"),
     ("mass", "mass", "kg", "Mass", "positive"),
-    ("yaw_inertia", "yaw_inertia", "kg.m2", "Moment of inertia about the vertical", "positive"),
+    ("yaw_inertia", "yaw_inertia", "kg.m2", "Moment of inertia about the vertical axis", "positive"),
     ("spin_inertia", "spin_inertia", "kg.m2", "Moment of inertia about the axle", "positive"),
     ("axle_load", "axle_load", "N", "Vertical force that both rails carry together", "positive"),
     ("suspension.lateral_stiffness", "lateral_stiffness", "N/m", "Primary suspension, lateral", "not negative"),
@@ -29,24 +29,24 @@ _PARAMETERS = (
     ("initial.yaw", "yaw", "rad", "Yaw angle at the start, clockwise seen from above", "any"),
     ("initial.lateral_velocity", "lateral_velocity", "m/s", "Lateral velocity at the start", "any"),
     ("initial.yaw_rate", "yaw_rate", "rad/s", "Yaw rate at the start", "any"),
-    ("initial.approach", "approach", "m", "Approach of wheel and rail assumed at the start", "positive"),
+    ("initial.approach", "approach", "m", "Approach of wheel and rail that is assumed at the start", "positive"),
     ("wheel.radius", "radius", "m", "Nominal rolling radius", "radius"),
-    ("wheel.flange_back", "flange_back", "m", "Distance of the backs of the flanges", "gauge"),
+    ("wheel.flange_back", "flange_back", "m", "Distance between the backs of the flanges", "gauge"),
     ("track.gauge", "gauge", "m", "Track gauge", "gauge"),
     (
         "geometry.y0",
         "window_start",
         "m",
-        "First sample of the separations; the same as geometry.y0 of the contacts",
+        "Lateral position of the first sample of the separations; must equal geometry.y0 of the contacts",
         "any",
     ),
-    ("geometry.dy", "window_step", "m", "Distance of samples; the same as geometry.dy of the contacts", "positive"),
+    ("geometry.dy", "window_step", "m", "Distance between samples; must equal geometry.dy of the contacts", "positive"),
 )
 _RANGE: dict[str, Limits] = {
     "any": {},
     "not negative": {"minimum": 0.0},
     "positive": {"minimum": 0.0, "open_minimum": True},
-    "radius": {"minimum": 0.05, "maximum": 2.0},  # those of `contact.geometry.wheelset.Pair`
+    "radius": {"minimum": 0.05, "maximum": 2.0},  # same range as in `contact.geometry.wheelset.Pair`
     "gauge": {"minimum": 0.1, "maximum": 3.0},
 }
 #: Parameter of the FMU → keyword of `WheelsetParameters`
@@ -55,11 +55,11 @@ KEYWORDS = {name: keyword for name, keyword, *_ in _PARAMETERS}
 
 @cache
 def table() -> Table:
-    """Table of the FMU."""
+    """Return the table of the FMU."""
     return Table(
         "Wheelset",
-        "One wheelset with S1002 wheels on straight 60E1 rails, with primary suspension, at constant speed; the contact "
-        "forces come from outside. Track frame: x forward, y to the right, z down.",
+        "One wheelset with S1002 wheels on straight 60E1 rails, with primary suspension, at constant speed. The contact "
+        "forces are inputs. Track frame: x forward, y to the right, z down.",
         [*_parameters(), *_inputs(), *_outputs()],
         step_size=1e-3,
     )
@@ -72,7 +72,7 @@ def _parameters() -> Iterable[Variable]:
     yield parameter("rail.inclination", "Tangent of the rails' inclination", start=1.0 / 40.0, minimum=0.0, maximum=0.1)
     yield parameter(
         "resolution.substeps",
-        "Steps of integration in a communication step",
+        "Integration steps in one communication step",
         integer=True,
         start=defaults.substeps,
         minimum=1,
@@ -96,7 +96,8 @@ def _inputs() -> Iterable[Variable]:
     yield signal("irregularity.slope", "Slope dy/dx of the track's centre line", start=0.0)
 
 
-#: What follows what in model exchange. In co-simulation all outputs are of the end of the step and follow inputs a step late.
+#: Dependencies in model exchange. In co-simulation all outputs belong to the end of the step and follow the inputs one step
+#: late.
 _STATES = ("lateral", "yaw", "lateral_velocity", "yaw_rate", "spin")
 _GEOMETRY = ("lateral", "yaw", "irregularity.lateral", "irregularity.slope", *(f"{side}.approach" for side in SIDES))
 _KINEMATICS = (*_GEOMETRY, "lateral_velocity", "yaw_rate", "spin")
@@ -123,8 +124,12 @@ def _outputs() -> Iterable[Variable]:
     yield state("spin", "Angular velocity about the axle, positive when rolling forward", "rad/s", nominal=100.0)
     yield result("vertical", "Height of the centre, positive down", "m", _GEOMETRY, nominal=1e-3)
     yield result("roll", "Roll angle", "rad", _GEOMETRY, nominal=1e-3)
-    yield state("energy.interface", "Energy that left through the contacts since the start", "J", nominal=1e3)
-    yield state("energy.drive", "Energy that the drive delivered to keep the speed since the start", "J", nominal=1e3)
+    yield state(
+        "energy.interface", "Energy that left the wheelset through the contacts since the start", "J", nominal=1e3
+    )
+    yield state(
+        "energy.drive", "Energy delivered by the drive since the start to keep the speed constant", "J", nominal=1e3
+    )
     yield state("energy.damper", "Energy dissipated in the suspension since the start", "J", nominal=1e3)
     yield result("energy.mechanical", "Kinetic and potential energy", "J", (*_GEOMETRY, *_STATES), nominal=1e5)
     for of, name, description, unit in (
@@ -144,6 +149,6 @@ def _outputs() -> Iterable[Variable]:
         yield result(f"{side}.creepage.spin", f"Spin creepage, {side}", "rad/m", _KINEMATICS, nominal=0.1)
         yield result(f"{side}.load.normal_force", f"Normal force, {side}", "N", _LOADS, minimum=0.0, nominal=1e5)
         for axis in "xyz":
-            origin = f"Origin of the {side} contact frame from the centre, {axis} of the track"
+            origin = f"Origin of the {side} contact frame relative to the centre, track coordinates, {axis}"
             yield result(f"{side}.contact.{axis}", origin, "m", _GEOMETRY)
         yield result(f"{side}.contact.angle", f"Contact angle, {side}", "rad", _GEOMETRY, nominal=0.1)

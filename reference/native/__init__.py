@@ -1,4 +1,4 @@
-"""The hosts in C, in the folder `host`, compiled for a platform and run over a native FMU."""
+"""Compile the C hosts in the folder `host` for a platform and run them with a native FMU."""
 
 import os
 import subprocess
@@ -21,7 +21,7 @@ NAME = "WheelRailContact"
 HOST = Path(__file__).with_name("host")
 _FMI2 = ("fmi2.c", "calls.c", "runs.c", "speed.c")
 _FMI3 = ("fmi3.c",)
-#: Name that a version of FMI has for a platform → that of the builder, and the host's sources.
+#: Platform name in a version of FMI → platform name of the builder, and sources of the host.
 PLATFORMS = {
     "linux64": ("linux64", _FMI2),
     "win64": ("win64", _FMI2),
@@ -29,8 +29,8 @@ PLATFORMS = {
     "x86_64-windows": ("win64", _FMI3),
 }
 SUFFIX = {"linux64": ("so", ""), "win64": ("dll", ".exe")}
-#: FMU → which of its variables the hosts use, and for what: inputs that are set, one whose NaN is refused and what it takes
-#: instead, the first output, two results that tell instances apart, two choices of integers, the coarsest resolution.
+#: FMU → variables that the hosts use, by role: inputs that are set, an input that must refuse NaN and its valid value, the
+#: first output, two results that differ between instances, two integer choices, the coarsest resolution.
 ROLES = {
     NAME: {
         "LOAD": "load.normal_force", "VARIED": "creepage.longitudinal", "REFUSED": "speed", "TAKEN": 20.0,
@@ -54,7 +54,7 @@ ROLES = {
 
 
 class Host:
-    """The compiled host for one platform of one version of FMI."""
+    """Compiled host for one platform and one version of FMI."""
 
     def __init__(self, platform: str, folder: Path, unzipped: Path, name: str = NAME) -> None:
         own, code = PLATFORMS[platform]
@@ -77,7 +77,7 @@ class Host:
         self.environment = os.environ | {"WINEPREFIX": str(folder.parent / "wine"), "WINEDEBUG": "-all"}
 
     def __call__(self, command: str, *arguments: object, stdin: str | None = None, before: tuple[str, ...] = ()) -> str:
-        """Run a command of the host, the first argument a number; return what it prints."""
+        """Run a command of the host and return its output. The first argument is a number."""
         given = (self.library, self.guid, *((self.resources,) if self.fmi2 else ()))
         words = [*before, *self.prefix, self.program, *given, command, *(arguments or (0,))]
         done = subprocess.run(
@@ -87,7 +87,7 @@ class Host:
         return done.stdout
 
     def solve(self, cases: Iterable[Mapping[str, float]], outputs: Sequence[str]) -> np.ndarray:
-        """`outputs` of the FMU after one step from the start, a row for each case, which gives values of its inputs by name."""
+        """Return `outputs` of the FMU after one step from the start, one row for each case (input values by name)."""
         table = component(POINTS).table
         names = [scalar.name for scalar in table.scalars]
         lines = []
@@ -100,13 +100,13 @@ class Host:
 
 
 def resources_of(unzipped: Path, platform: str) -> str:
-    """The URI of the resources of an unzipped FMU; Wine has the files of Linux on its drive Z."""
+    """Return the URI of the resources of an unzipped FMU. Wine shows the files of Linux as drive Z."""
     uri = (unzipped / "resources").resolve().as_uri()
     return uri if platform == "linux64" else uri.replace("file:///", "file:///Z:/")
 
 
 def roles(name: str) -> str:
-    """roles.h for an FMU."""
+    """Return the text of roles.h for an FMU."""
     given = ROLES[name]
     coarsest = given["COARSEST"]
     lines = [f"#define {role} {source.c_name(of)}" for role, of in given.items() if isinstance(of, str)]
@@ -117,12 +117,12 @@ def roles(name: str) -> str:
 
 
 def kernel_objects() -> list[Path]:
-    """The compiled kernels for Linux, which are kept when the FMU is built."""
+    """Return the paths of the compiled kernels for Linux, which the build of the FMU keeps."""
     return kernels(models(POINTS)[0], ROOT / "build" / "native", print)["linux64"]
 
 
 def kernel_library(folder: Path, cpu: str) -> Path:
-    """A library for Linux of the kernels for a processor alone: size, prepare and outputs."""
+    """Build a Linux library of the kernels for one processor (size, prepare, outputs) and return its path."""
     library = folder / f"kernels_{cpu}.so"
     source = Path(__file__).with_name("kernels.c")
     run(*compiler("linux64"), "-shared", "-fPIC", f"-DCPU={cpu}", source, *kernel_objects(), "-o", library, "-lm")

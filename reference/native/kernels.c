@@ -1,4 +1,4 @@
-/* The kernels of a native FMU for one processor, CPU, to be called by themselves. */
+/* The kernels of a native FMU for one processor, CPU, exported so that they can be called without the FMU. */
 #include <stdint.h>
 
 #define JOIN(a, b) a##_##b

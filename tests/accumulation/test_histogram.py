@@ -1,4 +1,4 @@
-"""Accumulated damage: linear growth, nothing lost, merging in any order, both sides alike, files to the last bit."""
+"""Accumulated damage: linear growth, conserved volume, merging in any order, mirror symmetry, exact files."""
 
 import dataclasses
 from itertools import permutations
@@ -80,7 +80,7 @@ def test_worn_volume_is_the_integral_of_the_depth_over_the_strips(profile, conta
     assert histogram["T_gamma"].sum() == pytest.approx(T_gamma, rel=1e-13)
     if profile.kind == "wheel":
         assert (histogram.depth * width).sum() == pytest.approx(area, rel=1e-13)
-    else:  # one pass takes as much from each metre of rail as the wheel wears in rolling a metre
+    else:  # one pass removes as much from each metre of rail as the wheel loses in rolling one metre
         assert (histogram.depth * width).sum() == pytest.approx(volume / histogram.distance, rel=1e-13)
 
 
@@ -135,8 +135,8 @@ def test_on_a_plane_and_an_arc_the_coordinates_are_exact():
         assert 0.5 * (ends[0] + ends[1]) == pytest.approx(on[0], abs=2.1e-5)
 
 
-def test_a_strip_is_shared_by_overlap_and_what_lies_beyond_stays_in_the_outer_bins():
-    """Bins 0.7 wide from 2.1 on; strips given in widths from there."""
+def test_a_strip_is_divided_among_bins_by_overlap_and_the_outer_bins_take_the_rest():
+    """Bins have width 0.7 and begin at 2.1. Strips are given in bin widths from there."""
     width, start, distance, dy = 0.7, 3.0, 2.0, 0.1
     edges = width * (start + np.array([[0.5, 1.2, -2.0, 2.5], [2.5, 1.4, -1.0, 4.5]]))
     expected = np.array([[0.25, 0.5, 0.25], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
@@ -173,7 +173,7 @@ def test_exceedance_counts_the_distance_with_a_positive_index(contacts):
     assert weak["stress_exceedance"].sum() < weak["contact"].sum()
 
 
-def test_views_divide_by_what_has_rolled(contacts):
+def test_views_divide_by_the_rolled_distance(contacts):
     wheel, rail = (run(p, contacts, radius=0.5) for p in (WHEEL, RAIL))
     np.testing.assert_allclose(wheel.per("metre")["wear"] * 30.0, wheel["wear"], rtol=1e-15)
     turns = wheel.distance / (2.0 * np.pi * 0.5)
@@ -299,7 +299,7 @@ def test_bad_input_is_refused_and_nothing_is_added(contacts):
 
 
 def test_strip_without_area_leaves_no_damage_and_no_nan(contacts):
-    """Where a patch is about to part a strip may have no length."""
+    """Shortly before a patch separates, a strip may have zero length."""
     (patch, *_), (solution, *_) = contacts[0]
     dA = solution.dA.copy()
     dA[3] = 0.0
@@ -347,7 +347,7 @@ def test_depth_of_every_wear_law_integrates_to_its_volume(profile, contacts, law
 
 
 def test_worn_area_of_pearce_and_sherratt_is_theirs(contacts):
-    """Their law gives the area of the cross-section, whatever the radius."""
+    """Their law gives the area of the cross-section for any radius."""
     histogram = run(WHEEL, contacts, parameters=DamageParameters(wear_law="pearce_sherratt"))
     areas = [
         evaluate(s, p.rolling_radius).pearce_sherratt

@@ -1,4 +1,4 @@
-"""Pictures of accumulated damage: what is drawn is what the histograms and the solutions hold."""
+"""Pictures of accumulated damage show the data of the histograms and solutions."""
 
 import numpy as np
 import pytest
@@ -19,7 +19,7 @@ WHEEL, RAIL = s1002(), rail_60e1()
 
 @pytest.fixture(scope="module")
 def runs():
-    """Name → wheel, rail and solutions after 50 m and 100 m with two poses."""
+    """Return name → (wheel, rail, solutions) after 50 m and 100 m with two poses."""
     pair, made = Pair(WHEEL, RAIL), {}
     for name, pose, distance in (("middle", Pose(yaw=2e-3), 50.0), ("flange", Pose(y=5e-3, yaw=4e-3), 100.0)):
         patches = pair.contacts(pose, load=60e3)

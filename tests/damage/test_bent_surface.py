@@ -1,4 +1,4 @@
-"""Damage on a bent surface: the rigid slip of each strip at its place, areas along the surface."""
+"""Damage on a bent surface: each strip has its own rigid slip, and areas are measured along the surface."""
 
 import numpy as np
 import pytest
@@ -37,7 +37,7 @@ def test_the_energy_index_over_the_surface_is_nearly_all_dissipated(solution):
     found = damage.evaluate(solution)
     longer = np.hypot(1.0, solution.strips.tilt)[:, None]
     power = (found.energy_index.field * solution.dA * longer).sum()
-    coarse = solution.normal == "halfspace"  # 30 x 30 elements, at whose edges much is dissipated
+    coarse = solution.normal == "halfspace"  # 30 x 30 elements, with much dissipation at the edges
     assert power == pytest.approx(solution.power_per_metre, rel=0.2 if coarse else 0.02)
 
 

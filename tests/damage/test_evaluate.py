@@ -1,4 +1,4 @@
-"""The damage of a whole solution: balances between fields and numbers, scaling, and nothing without contact."""
+"""Damage of a whole solution: balances between fields and numbers, scaling, and zero without contact."""
 
 from dataclasses import fields as record_fields
 from dataclasses import replace
@@ -20,7 +20,7 @@ def solution(request):
 
 @pytest.fixture
 def full_slip(solution):
-    """The same patch as if rigid bodies slid on it: q = -mu p s/|s| with the rigid slip s; exact in every theory."""
+    """Return the same patch in full slip: q = -mu p s/|s| with the rigid slip s, which is exact in every theory."""
     c = contact.Creepage(4e-3, -2e-3, 0.2)
     sx, sy = c.longitudinal - c.spin * solution.y, c.lateral + c.spin * solution.x
     size = np.hypot(sx, sy)
@@ -41,7 +41,7 @@ def full_slip(solution):
 
 
 def numbers(record):
-    """Every number of a Damage, fields and profiles included."""
+    """Return all numbers of a Damage, including fields and profiles."""
     values = []
     for f in record_fields(record):
         value = getattr(record, f.name)
@@ -73,7 +73,7 @@ def test_t_gamma_with_spin_bounds_the_dissipation_of_rigid_sliding(full_slip):
 
 @pytest.mark.parametrize("creepage", [(9e-4, 0.0, 0.0), (0.0, 3e-3, 0.0), (9e-3, 0.0, 0.0), (0.0, 0.0, 0.8)])
 def test_fastrip_dissipates_the_rigid_power(creepage):
-    """Equality in the exact theory; FaStrip's slip field keeps it to 2 to 3 % once a quarter of the patch slips."""
+    """They are equal in the exact theory. FaStrip's slip field agrees to 2 to 3 % from a quarter of the patch in slip on."""
     result = damage.evaluate(contact.solve(WHEEL, contact.Creepage(*creepage), load=80e3, tangential="fastrip"))
     assert result.dissipation == pytest.approx(result.T_gamma_spin, rel=0.03)
 
@@ -142,7 +142,7 @@ def test_global_laws_take_t_gamma_with_or_without_spin(solution):
     assert spin.usfd > plain.usfd
 
 
-def test_wheel_radius_enters_pearce_sherratt_and_the_archard_depth_alone(solution):
+def test_wheel_radius_affects_only_pearce_sherratt_and_the_archard_depth(solution):
     small, large = damage.evaluate(solution, 0.3), damage.evaluate(solution, 0.6)
     assert small.pearce_sherratt == pytest.approx(2.0 * large.pearce_sherratt, rel=1e-12)
     assert small.archard.depth_max == pytest.approx(2.0 * large.archard.depth_max, rel=1e-12)

@@ -1,4 +1,4 @@
-"""Each damage model by itself: the published breakpoints, the disputed variants as options, what is refused."""
+"""Each damage model: published breakpoints, options for disputed variants, and refused input."""
 
 import math
 
@@ -32,7 +32,7 @@ def energies():
 @pytest.mark.parametrize(("xi", "eta", "phi", "Fx", "Fy", "Mz", "dissipation"), energies())
 def test_t_gamma_with_spin_is_an_upper_bound_of_contacts_dissipation(xi, eta, phi, Fx, Fy, Mz, dissipation):
     bound = t_gamma(Fx, Fy, xi, eta, 1e-3 * Mz, 1e3 * phi)
-    # all three terms dissipate here, so exact theory has equality; 4 % is the reference's grid error
+    # all three terms dissipate here, so both are equal in exact theory; 4 % is the grid error of the reference
     assert dissipation <= bound <= 1.04 * dissipation
 
 
@@ -126,7 +126,7 @@ def test_shakedown_limits_meet_and_begin_where_johnsons_do():
 
 @pytest.mark.parametrize("aspect", ELLIPSE)
 def test_limit_of_the_frictionless_ellipse_is_its_greatest_orthogonal_shear(aspect):
-    """k/|τxz|max in the half space under Hertz's pressure, a = aspect and b = 1: Boussinesq's point forces over the ellipse."""
+    """k/|τxz|max under Hertz's pressure, a = aspect, b = 1, integrated from Boussinesq's point forces over the ellipse."""
     # the shear is that of -z ∂(∂φ/∂z)/∂x of the potential φ = ∬ p/(2π r) dA: 3 z² (x - ξ)/(2π r⁵) a point force
     t, weight = np.polynomial.legendre.leggauss(60)
     angle = 2.0 * np.pi * np.arange(120) / 120

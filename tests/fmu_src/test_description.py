@@ -1,4 +1,4 @@
-"""The description that a table becomes, for every FMU of both packagings."""
+"""The model description made from a table, for every FMU of both packagings."""
 
 import re
 from importlib.metadata import version

@@ -1,4 +1,4 @@
-"""What no installed validator checks of a modelDescription.xml of FMI 3.0, for every native FMU."""
+"""modelDescription.xml of FMI 3.0, for every native FMU: properties that no installed validator checks."""
 
 import math
 from xml.etree import ElementTree
@@ -78,7 +78,7 @@ def test_outputs_depend_on_inputs_and_initial_values_on_parameters_too(table, xm
     assert any(set(u.get("dependencies").split()) & parameters for u in xml.findall("ModelStructure/InitialUnknown"))
 
 
-def test_a_derivative_says_of_what():
+def test_a_derivative_refers_to_its_state():
     rows = [signal("f", "Force", start=0.0), output("x", "Place"), output("v", "Velocity", derivative_of="x")]
     xml = ElementTree.fromstring(model_description(Table("T", "Test", rows, 1e-3), INTERFACES_3, ""))
     assert {v.get("name"): v.get("derivative") for v in xml.find("ModelVariables")}["v"] == "1"
@@ -100,5 +100,5 @@ def test_fields_are_documented(table):
 def test_fields_of_two_shapes_are_refused():
     rows = [parameter("n", "Count", integer=True, start=3, minimum=1)]
     fields = [output("a", "One", shape=("n",)), output("b", "Other", shape=(2, "n"))]
-    with pytest.raises(ValueError, match="one shape"):
+    with pytest.raises(ValueError, match="fields must have the same shape"):
         Table("T", "Test", rows, 1e-3, fields)

@@ -1,4 +1,4 @@
-"""Our own rules for FMUs: each finds what it is for, and finds nothing else in a description without faults."""
+"""Our own rules for FMUs: each rule finds its fault, and a description without faults passes."""
 
 import re
 from zipfile import ZipFile
@@ -36,7 +36,7 @@ DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
   </ModelStructure>
 </fmiModelDescription>
 """
-FAULTS = [  # rule, what is replaced by what
+FAULTS = [  # rule, replaced text, new text
     (lint.elements_in_order, r"(<Unit.*)(<TypeDef.*</TypeDefinitions>)", r"\2\1"),
     (lint.names_are_structured, 'name="n"', 'name="n-1"'),
     (lint.names_are_structured, 'name="n"', 'name="n[1"'),
@@ -131,7 +131,7 @@ FAULTS_3 = [
 
 
 def rules(findings):
-    """Which rules the findings are of."""
+    """Return the rules to which the findings belong."""
     return [rule for rule in (*lint.RULES, *lint.FILE_RULES) if any(f.startswith(rule.__doc__) for f in findings)]
 
 
@@ -184,7 +184,7 @@ FILES = {
         ({"resources/a.txt": b"", "resources/A.txt": b""}, [lint.names_are_portable]),
     ],
 )
-def test_files(tmp_path, capsys, changed, found):
+def test_file_rules_find_each_fault(tmp_path, capsys, changed, found):
     path = tmp_path / "M.fmu"
     with ZipFile(path, "w") as archive:
         for name, content in (FILES | changed).items():
@@ -195,7 +195,7 @@ def test_files(tmp_path, capsys, changed, found):
     assert f"{'no' if not found else len(lint.check_file(path))} finding(s)" in capsys.readouterr().out
 
 
-def test_a_file_without_description_is_said_to_be_one(tmp_path):
+def test_a_file_without_a_description_is_reported(tmp_path):
     with ZipFile(tmp_path / "empty.fmu", "w"):
         pass
-    assert lint.check_file(tmp_path / "empty.fmu") == ["There is a modelDescription.xml: not here"]
+    assert lint.check_file(tmp_path / "empty.fmu") == ["There is a modelDescription.xml: it is missing"]

@@ -1,4 +1,4 @@
-"""Profiles as a command line names them for `WheelRailPair`."""
+"""Profiles for `WheelRailPair` that the command line names."""
 
 import argparse
 
@@ -17,7 +17,7 @@ def chosen(*words: object) -> dict[str, profile.Profile]:
 
 
 def test_measured_profiles_are_smoothed_on_request(tmp_path):
-    """As `contact.geometry.profile.read` does it; profiles by name stay what they are."""
+    """Files are smoothed as by `contact.geometry.profile.read`. Profiles given by name are not smoothed."""
     pytest.importorskip("scipy")
     rail, path = profile.named("49E1"), tmp_path / "rail.txt"
     noise = 2e-6 * np.random.default_rng(5).standard_normal(rail.y.size)

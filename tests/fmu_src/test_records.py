@@ -1,4 +1,4 @@
-"""The records in C are those of the kernels, whatever the platform."""
+"""The records in C equal those of the kernels on every platform."""
 
 import subprocess
 
@@ -19,14 +19,14 @@ MODELS = {model.name: model for model in models(POINTS)}
 
 @pytest.mark.parametrize("platform", ["linux64", "win64", "darwin64"])
 def test_compilers_lay_records_as_numpy_does(tmp_path, platform):
-    """Sizes and offsets are asserted in the header itself."""
+    """The header itself asserts sizes and offsets."""
     unit = tmp_path / "unit.c"
     unit.write_text(records.header())
     run(*compiler(platform), *STRICT, unit, "-o", tmp_path / "unit.o")
 
 
 def test_another_layout_is_refused(tmp_path):
-    """By the assertions in the header."""
+    """The assertions in the header refuse it."""
     unit, text = tmp_path / "unit.c", records.header()
     assert text.count("double mu;") == 1
     unit.write_text(text.replace("double mu;", "double mu, more;"))
@@ -35,7 +35,7 @@ def test_another_layout_is_refused(tmp_path):
 
 
 def test_a_program_finds_members_where_numpy_does(tmp_path):
-    """Offset and size of every member, the size of every record and the value of every enumerator, as C sees them."""
+    """Compare offset and size of every member, the size of every record and the value of every enumerator in C."""
     lines, wanted = [], []
     for name, dtype in records.RECORDS.items():
         of = records.c_name(name)
@@ -74,7 +74,7 @@ def test_enumerators_are_prefixed():
 
 @pytest.mark.parametrize("name", MODELS)
 def test_the_code_of_every_model_compiles(tmp_path, name):
-    """With records.h, whose enumerators say which status a warning belongs to; kernels are not needed for that."""
+    """It includes records.h, whose enumerators relate warnings to statuses. Kernels are not needed."""
     model = MODELS[name]
     component = model.module("native").component(**model.options)
     source.write(component, "{guid}", tmp_path)

@@ -1,4 +1,4 @@
-"""The slave that a table drives, called as pythonfmu calls it, with a model of one line."""
+"""The table-driven slave, called as pythonfmu calls it, with a model of one line."""
 
 import math
 import sys
@@ -107,7 +107,7 @@ def test_a_bad_input_discards_the_step_and_keeps_the_outputs(slave, reference, v
 @pytest.mark.parametrize(
     ("time", "step", "name"), [(0.0, 0.0, "Size"), (0.0, -1.0, "Size"), (0.0, math.nan, "Size"), (9.95, 0.1, "end of")]
 )
-def test_a_step_that_is_none_is_discarded(slave, time, step, name):
+def test_an_invalid_step_is_discarded(slave, time, step, name):
     assert slave.do_step(time, step) is False
     assert name in messages(slave, Fmi2Status.discard)[0]
 
@@ -140,7 +140,7 @@ def test_an_enumeration_outside_its_items_is_discarded():
     assert messages(slave, Fmi2Status.discard)[-1] == "mode = 3 is outside the allowed range [1, 2]"
 
 
-def test_what_cannot_be_set_is_refused_by_name(slave):
+def test_a_variable_that_cannot_be_set_is_refused_by_name(slave):
     slave.set_integer([MODE], [2])
     slave.set_real([Q1, 99], [7.0, 7.0])
     slave.set_boolean([X1], [True])
@@ -153,7 +153,7 @@ def test_what_cannot_be_set_is_refused_by_name(slave):
     assert slave.get_integer([MODE]) == [1]
 
 
-def test_what_cannot_be_read_is_refused_by_name(slave):
+def test_a_variable_that_cannot_be_read_is_refused_by_name(slave):
     assert slave.get_real([STEPS, Q1, -1]) == [0, 0.25, 0]
     assert slave.get_string([X1]) == [""]
     assert [m.split(";")[0] for m in messages(slave, Fmi2Status.error)] == [
@@ -163,7 +163,7 @@ def test_what_cannot_be_read_is_refused_by_name(slave):
     ]
 
 
-def test_a_state_may_start_elsewhere_than_its_start():
+def test_a_state_can_be_set_before_initialisation():
     slave = Quotient()
     slave.set_integer([STEPS], [5])
     slave.enter_initialization_mode()
@@ -180,7 +180,7 @@ def test_a_lazy_row_is_computed_once_when_read_and_belongs_to_the_last_step(slav
     assert slave.calls == 1
 
 
-def test_a_lazy_row_does_not_mind_a_bad_input_for_the_next_step(slave):
+def test_a_lazy_row_ignores_a_bad_input_for_the_next_step(slave):
     slave.set_real([X1], [2.0])
     slave.do_step(0.0, 0.1)
     slave.set_real([X1], [math.nan])
@@ -231,6 +231,6 @@ def test_another_version_of_the_package_is_refused_at_instantiation():
 
 
 def test_instances_leave_the_module_path_as_it_was(monkeypatch):
-    monkeypatch.setattr(sys, "path", ["/nowhere", *sys.path])  # what pythonfmu does before it instantiates
+    monkeypatch.setattr(sys, "path", ["/nowhere", *sys.path])  # as pythonfmu does before it instantiates
     Quotient()
     assert "/nowhere" not in sys.path

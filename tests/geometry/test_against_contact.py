@@ -1,4 +1,4 @@
-"""The contact search against CONTACT: S1002 on UIC 60, both sides, 1:40 and 1:20 (reference/wheel_rail.csv)."""
+"""Contact search compared with CONTACT: S1002 on UIC 60, both sides, 1:40 and 1:20 (reference/wheel_rail.csv)."""
 
 import math
 
@@ -22,7 +22,7 @@ def pairs():
 
 @pytest.fixture(scope="module")
 def rows(pairs):
-    """Each row with our patch at CONTACT's height of the wheelset, and under its load."""
+    """Return each row with our patch at CONTACT's height of the wheelset and our patch under its load."""
     result = []
     for row in reference.wheel_rail():
         pair = pairs[row["cant"], row["side"]]
@@ -36,8 +36,8 @@ def deviations(rows, name, scale, own):
     return np.array([own(patch) - scale * float(row[name]) for row, patch, _ in rows])
 
 
-# CONTACT prints z to 0.1 µm, angles to 1e-4 rad, the rest to four digits; one row (1:20 at dy = 6 mm: two lobes, all flat)
-# is the most sensitive to that.
+# CONTACT prints z to 0.1 µm, angles to 1e-4 rad, other numbers to four digits. The row 1:20 at dy = 6 mm (two flat lobes) is
+# the most sensitive to this rounding.
 @pytest.mark.parametrize(
     ("claim", "name", "scale", "own", "typical", "worst"),
     [
@@ -62,7 +62,7 @@ def test_spin_creepage_agrees_with_opposite_sign(rows):
 def test_longitudinal_creepage_is_that_of_the_wheel_surface_not_of_its_plane_of_first_contact(rows):
     for row, patch, _ in rows:
         mean_speed = 0.5 * (1.0 + patch.rolling_radius / R0)
-        # the difference is the depth at the reference point against the greatest depth: at most the penetration over r0
+        # the depths at the reference point and at the deepest point differ: at most the penetration over r0
         assert patch.creepage.longitudinal == pytest.approx(
             -float(row["xi"]) * mean_speed, abs=1e-3 * float(row["penetration"]) / R0 * 0.8
         ), row
@@ -78,14 +78,14 @@ def test_penetration_and_pressure_under_the_load_are_those_of_analyn(rows):
     assert np.median(depth) < 0.015
     assert depth.max() < 0.08
     assert np.median(pressure) < 0.02
-    assert np.sort(pressure)[-6] < 0.08  # the two sides of 1:40 at 5 mm and 1:20 at 6 mm are ANALYN's known weak cases
+    assert np.sort(pressure)[-6] < 0.08  # ANALYN is known to be weak for both sides of 1:40 at 5 mm and 1:20 at 6 mm
 
 
 def test_kpec_under_the_load_is_contacts_kpec(rows):
     depth, pressure = [], []
     for row, _, loaded in rows:
         if row["cant"] == "1:20" and abs(float(row["dy"])) == 6.0:
-            continue  # two zones deeper than half the approach: CONTACT takes their span (docstring of `normal.kpec`)
+            continue  # two zones are deeper than half the approach; CONTACT uses their span (docstring of the kernel kpec)
         solution = contact.solve(loaded.separation, contact.Creepage(), load=loaded.load, normal="kpec")
         depth.append(solution.approach / (1e-3 * float(row["penetration_kpec"])) - 1.0)
         pressure.append(1e-6 * solution.max_pressure / float(row["pmax_kpec"]) - 1.0)
@@ -97,7 +97,7 @@ def test_kpec_under_the_load_is_contacts_kpec(rows):
 
 
 def manchester(pairs, y, yaw, loads):
-    """Right and left patch of a pose of Manchester A-2.2 with the roll that both wheels need; vertical loads given."""
+    """Return right and left patch of Manchester A-2.2 for given vertical loads, with the roll at which both wheels carry."""
     right, left = pairs["1:40", "R"], pairs["1:40", "L"]
 
     def mismatch(roll):
@@ -105,7 +105,7 @@ def manchester(pairs, y, yaw, loads):
         patches = right.contacts(pose, load=loads[0])[0], left.contacts(pose, load=loads[1])[0]
         return right.z - left.z, patches
 
-    low, high = -1e-3, 1e-3  # the wheelset is rigid: both wheels need the same height of its centre
+    low, high = -1e-3, 1e-3  # the wheelset is rigid, so the height of its centre is the same for both wheels
     for _ in range(40):
         middle = 0.5 * (low + high)
         low, high = (low, middle) if (mismatch(middle)[0] > 0) == (mismatch(high)[0] > 0) else (middle, high)
@@ -117,7 +117,7 @@ def manchester(pairs, y, yaw, loads):
     (5e-3, -12e-3, 9619.0, (0.2905, 0.0088), 0.02993e-3, 1625e6),
 ])  # fmt: skip
 def test_kpec_on_the_manchester_benchmark(pairs, y, yaw, load, angles, approach, pressure):
-    """theory.md 10, right wheel, computed with CONTACT 25.1; its row of 0 mm, 442.6 MPa, is not met (350 MPa)."""
+    """theory.md 10, right wheel, computed with CONTACT 25.1. Its row for 0 mm, 442.6 MPa, is not reproduced (350 MPa)."""
     patch, _ = manchester(pairs, y, yaw, (load * math.cos(angles[0]), 10040 * math.cos(angles[1])))
     solution = contact.solve(patch.separation, contact.Creepage(), load=load, normal="kpec")
     assert solution.approach == pytest.approx(approach, rel=0.005)

@@ -1,4 +1,4 @@
-"""Rigid contact points and equivalent conicity: cones in closed form, the reference tables of both editions of EN 15302."""
+"""Rigid contact points and equivalent conicity: cones in closed form, and the tables of both editions of EN 15302."""
 
 import math
 from functools import cache
@@ -30,7 +30,7 @@ def computed(right, left, left_radius, step):
 
 
 def columns(row):
-    """Those amplitudes' indices that the table has, and its values there."""
+    """Return the indices of the amplitudes in the table, and its values there."""
     given = [k for k in range(7) if row[str(k + 1)]]
     return given, np.array([float(row[str(k + 1)]) for k in given])
 
@@ -56,7 +56,7 @@ def test_conicity_of_the_edition_of_2008_comes_out_with_its_own_step():
 
 @pytest.mark.parametrize(("edition", "tolerance"), [("2021", 2e-3), ("2008", 13e-3)])
 def test_rolling_radius_differences_are_those_of_the_tables(edition, tolerance):
-    # mm; the wheels' formulas are those of 2021, from which the tables of 2008 differ by up to 0.012 mm
+    # [mm]; the formulas of the wheels are from 2021, and the tables of 2008 differ by up to 0.012 mm
     for row in tabulated(edition):
         if row["dr3"]:
             points = of(row).points
@@ -93,7 +93,7 @@ def test_cones_the_wrong_way_round_have_negative_conicity_and_no_wavelength():
     assert np.isinf(found.wavelength()).all()
 
 
-def test_cylinders_have_none():
+def test_cylinders_have_no_conicity():
     found = conicity(profile.cone(0.0), ARC, [1e-3, 4e-3], **ON_ARC)
     np.testing.assert_array_equal(found.conicity, 0.0)
 

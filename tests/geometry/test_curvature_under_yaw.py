@@ -1,4 +1,4 @@
-"""A(y) of a separation against second differences of the wheel's surface, constructed point by point."""
+"""A(y) of a separation compared with second differences of the wheel's surface, constructed point by point."""
 
 import math
 
@@ -15,7 +15,7 @@ STEP = 0.4e-3  # [m] along x
 
 
 def from_the_surface(pair, u):
-    """Half the second derivative of the gap along x at `u` of the first patch, the wheel a surface of revolution."""
+    """Return half the second x derivative of the gap at `u` of the first patch. The wheel is a surface of revolution."""
     motion, patch, (y, _, _, x_c, _) = pair.space.motion[0], pair.patches[0], pair.separations[0]
     axle = np.array(search.axle(motion.roll, motion.yaw))
     radius = CubicHermiteSpline(*pair.space.wheel)

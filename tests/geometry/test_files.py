@@ -1,4 +1,4 @@
-"""Profile files: every format leads to the same right-side profile in metres."""
+"""Profile files: every format gives the same right-side profile in metres."""
 
 import sys
 
@@ -38,7 +38,7 @@ def table(y, z, template="{:.9e} {:.9e} 1.0"):
 
 
 def same(read: profile.Profile, shape: profile.Profile, tolerance=1e-9):
-    """Points agree and, away from joints where a spline bends, tangents too."""
+    """Check that points agree, and tangents too away from joints, where a spline bends."""
     assert read.kind == shape.kind
     np.testing.assert_allclose(read.y, shape.y, rtol=0, atol=tolerance)
     np.testing.assert_allclose(read.z, shape.z, rtol=0, atol=tolerance)
@@ -66,7 +66,7 @@ def test_simpack_shifts_before_it_turns_and_turns_before_it_mirrors(tmp_path):
 
 def test_simpack_leaves_out_commented_points_and_near_duplicates(tmp_path):
     rows = table(RAIL.y, RAIL.z).splitlines()
-    rows[3:3] = ["! 9.0 9.0", rows[2].replace("e-02 ", "1e-02 ", 1)]  # a comment, and a point 1e-10 m beside the third
+    rows[3:3] = ["! 9.0 9.0", rows[2].replace("e-02 ", "1e-02 ", 1)]  # a comment, and a point 1e-10 m from the third
     text = SIMPACK.format(type=0, shift=0, rotate=0, mirror=0, per_metre=1.0, points="\n".join(rows))
     path = tmp_path / "rail.prr"
     path.write_text(text)
@@ -120,7 +120,7 @@ def test_plain_columns_either_side_either_way_up(tmp_path, shape, side, sign, up
         ("a.prw", "0 0", {"kind": "rail"}, "is a file of a wheel"),
     ],
 )
-def test_files_that_hold_no_profile_say_why(tmp_path, name, text, arguments, message):
+def test_files_without_a_profile_raise_an_error_with_the_reason(tmp_path, name, text, arguments, message):
     path = tmp_path / name
     if text is not None:
         path.write_text(text)
@@ -136,14 +136,14 @@ def test_files_that_hold_no_profile_say_why(tmp_path, name, text, arguments, mes
         (RAIL, 1e3, "m", r"is 73\.\d+ m wide"),
     ],
 )
-def test_wrong_unit_is_seen_from_the_width(tmp_path, shape, per_metre, unit, message):
+def test_a_wrong_unit_is_detected_by_the_width(tmp_path, shape, per_metre, unit, message):
     path = tmp_path / f"{shape.kind}.txt"
     path.write_text(table(per_metre * shape.y, per_metre * shape.z))
     with pytest.raises(ContactError, match=message):
         profile.read(path, kind=shape.kind, unit=unit, side="right")
 
 
-def test_wrong_unit_of_a_simpack_header_is_seen_and_cured_by_the_option(tmp_path):
+def test_a_wrong_unit_in_a_simpack_header_is_detected_and_corrected_by_the_option(tmp_path):
     path = tmp_path / "wheel.prw"
     points = table(1e3 * WHEEL.y, 1e3 * WHEEL.z)
     path.write_text(SIMPACK.format(type=1, shift=0, rotate=0, mirror=0, per_metre=1.0, points=points))
@@ -153,7 +153,7 @@ def test_wrong_unit_of_a_simpack_header_is_seen_and_cured_by_the_option(tmp_path
 
 
 @pytest.mark.parametrize("up", [1.0, -1.0])
-def test_flange_on_the_field_side_is_seen_and_cured_by_the_option(tmp_path, up):
+def test_a_flange_on_the_field_side_is_detected_and_corrected_by_the_option(tmp_path, up):
     path = tmp_path / "wheel.txt"
     path.write_text(table(-WHEEL.y, up * WHEEL.z))
     with pytest.raises(ContactError, match=r"flange lies on the field side, at y = 0\.05.*set side"):
@@ -166,7 +166,7 @@ def test_smoothing_takes_the_noise_out_of_tangents_and_curvatures(tmp_path):
     y, z = RAIL.y - noise * np.sin(RAIL.angle), RAIL.z + noise * np.cos(RAIL.angle)
     path = tmp_path / "rail.txt"
     path.write_text(table(y, z))
-    middle = slice(20, -20)  # a spline knows less at its ends
+    middle = slice(20, -20)  # a spline is less accurate at its ends
 
     def errors(shape):
         bend = [np.diff(s.angle) / np.hypot(np.diff(s.y), np.diff(s.z)) for s in (shape, RAIL)]

@@ -54,14 +54,16 @@ def test_inclination_turns_the_crown_towards_the_track(inclination):
     rail = profile.rail_60e1(inclination)
     upright = profile.rail_60e1(0.0)
     assert rail.angle[0] - upright.angle[0] == pytest.approx(-math.atan(inclination))
-    assert rail.y[np.argmin(rail.z)] > 5e-3  # leaning to the gauge side it is highest on the field side of its axis
+    assert (
+        rail.y[np.argmin(rail.z)] > 5e-3
+    )  # the rail leans to the gauge side, so its highest point is on the field side of its axis
 
 
 @pytest.mark.parametrize("shape", [profile.s1002(), profile.rail_60e1(), profile.rail_60e1(breakpoints="UIC 519")])
 def test_points_and_tangents_of_an_analytic_profile_agree(shape):
     chord = np.arctan2(np.diff(shape.z), np.diff(shape.y))
     turn = np.diff(shape.angle)
-    # the chord of an arc halves the turn; what is left are joints (curvature jumps) and the -0.12 µm step of S1002 at -35 mm
+    # a chord halves the turn of an arc; the rest are joints (curvature jumps) and the -0.12 µm step of S1002 at -35 mm
     assert np.abs(chord - 0.5 * (shape.angle[1:] + shape.angle[:-1])).max() < 1.5e-3
     assert np.abs(turn).max() < 0.25e-3 / 12e-3 * 1.01  # smallest radius 12 mm: no corner anywhere
     assert np.hypot(np.diff(shape.y), np.diff(shape.z)).max() < 1.001 * profile.SPACING

@@ -1,4 +1,4 @@
-"""Trace line and search kernels against brute force."""
+"""Trace line and search kernels compared with brute force."""
 
 import math
 
@@ -21,7 +21,7 @@ def trace_line(y, roll, yaw):
 
 
 def wheel_surface(y, roll, yaw, theta):
-    """Points of the wheel of revolution, rotated by Rz(yaw) Rx(roll) about its centre; arrays (profile, theta)."""
+    """Return points of the wheel of revolution rotated by Rz(yaw) Rx(roll) about its centre, arrays (profile, theta)."""
     fine = np.interp(np.linspace(0, WHEEL.shape[1] - 1, 8 * WHEEL.shape[1]), np.arange(WHEEL.shape[1]), WHEEL[0])
     d, r = TAPE + fine[:, None], RADIUS + CubicHermiteSpline(*WHEEL)(fine)[:, None]
     py, pz = d + 0 * theta, r * np.cos(theta)

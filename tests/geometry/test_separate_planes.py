@@ -1,4 +1,4 @@
-"""When two lobes of interpenetration have one plane, when planes of their own, and how the one passes into the other."""
+"""Two lobes of interpenetration: when they share one plane, when each has its own, and the transition between these."""
 
 import math
 
@@ -13,7 +13,7 @@ from contact.kernels.layout import LOBE, MAX_LOBES
 
 
 def two_lobes(gap, degrees, steepness=0.0):
-    """Lobes 2 mm wide; the straight line of length `gap` between their edges falls by `steepness` [rad]."""
+    """Return two lobes 2 mm wide. The straight line of length `gap` between their edges falls by `steepness` [rad]."""
     lobe = np.zeros(MAX_LOBES, LOBE)
     y, z = gap * math.cos(steepness), -gap * math.sin(steepness)
     for k, (edge, height, angle) in enumerate(((-2e-3, 0.0, -math.radians(degrees)), (y, z, 0.0))):
@@ -29,9 +29,9 @@ def two_lobes(gap, degrees, steepness=0.0):
     [
         # gauge corner and face of a worn wheel, 37.5 degrees apart: only 4 mm in y (CONTACT 25.1: two patches)
         (12.87e-3, 37.5, 1.257, 2),
-        (12.87e-3, 13.0, 0.2, 2),  # as CONTACT, which looks at the distance alone
+        (12.87e-3, 13.0, 0.2, 2),  # as in CONTACT, which uses only the distance
         (7.9e-3, 37.0, 1.2, 1),
-        (12.87e-3, 9.9, 0.1, 1),  # nearly one plane anyway; only in one do lobes feel each other
+        (12.87e-3, 9.9, 0.1, 1),  # nearly one plane, and lobes interact only in a common plane
     ],
 )
 def test_the_straight_distance_and_the_angle_decide(gap, degrees, steepness, patches):
@@ -64,7 +64,7 @@ def test_the_shares_of_every_patch_add_up_to_one_and_there_are_no_more_than_allo
 
 
 def forces(pair, y, height):
-    """Count of patches, vertical and lateral force of the pressures at a fixed height."""
+    """Return the number of patches, and vertical and lateral force of the pressures, at a fixed height."""
     n = pair.locate(Pose(y=y, z=height))
     vertical = carried(n, pair.space)
     patches = pair.patches[:n]
@@ -72,7 +72,7 @@ def forces(pair, y, height):
     return n, vertical, float((normal * np.sin(patches["angle"])).sum())
 
 
-# S1002 on 60E1 1:20, where tread and gauge corner both carry: the vertical force of 80 kN jumped by 54 and 21 kN within 2 µm
+# S1002 on 60E1 1:20, where tread and gauge corner both carry. The vertical force of 80 kN once jumped by 54 and 21 kN in 2 µm
 @pytest.mark.parametrize(("height", "distance"), [(2.2e-4, 5e-3), (1.8e-4, 8e-3), (2.4e-4, 4e-3)])
 def test_forces_do_not_jump_as_one_plane_becomes_two(height, distance):
     pair = Pair(profile.s1002(), profile.rail_60e1(1 / 20, breakpoints="UIC 519"), combine_distance=distance)
@@ -82,7 +82,7 @@ def test_forces_do_not_jump_as_one_plane_becomes_two(height, distance):
     assert change.max() < 5e3
 
 
-def test_the_vertical_load_is_that_of_all_patches_with_their_shares():
+def test_the_vertical_load_is_the_sum_of_the_shares_of_all_patches():
     pair = Pair(profile.s1002(), profile.rail_60e1(1 / 20, breakpoints="UIC 519"))
     patches = pair.contacts(Pose(y=6.365e-3), load=80e3)
     assert len(patches) == 3

@@ -1,4 +1,4 @@
-"""Small changes of the pose make small changes of the patch, from the field side to full flange contact."""
+"""A small change of the pose causes a small change of the patch, from the field side to full flange contact."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ import pytest
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose
 
-#: One plane whatever the pose: no births of patches to except.
+#: One plane for every pose, so that no new patches appear.
 ONE_PLANE = {"combine_distance": 1.0}
 
 WHEEL = profile.s1002()
@@ -31,7 +31,7 @@ def test_every_output_is_continuous_over_sixteen_millimetres(rail, yaw, how):
     step = 1e-5
     y = np.arange(-8e-3, 8e-3 + step / 2, step)
     change = np.abs(np.diff(sweep(pair, y, yaw, how), axis=0))
-    # steep is allowed (the step from tread to flange), a jump is not: it would not shrink with the step
+    # a steep change (from tread to flange) is allowed, a jump is not, since it would not shrink with the step
     for column in range(change.shape[1]):
         i = int(change[:, column].argmax())
         fine = np.abs(np.diff(sweep(pair, np.linspace(y[i], y[i + 1], 41), yaw, how), axis=0))[:, column].max()
@@ -39,7 +39,7 @@ def test_every_output_is_continuous_over_sixteen_millimetres(rail, yaw, how):
     assert np.median(change[:, 0]) < 2e-3
 
 
-def test_patches_of_their_own_are_born_without_moving_the_others():
+def test_a_new_patch_does_not_move_the_others():
     pair = Pair(WHEEL, RAILS["1:20"])
     y = np.arange(6.2e-3, 6.5e-3, 1e-6)
     counts, last, births = [], None, 0
@@ -49,11 +49,11 @@ def test_patches_of_their_own_are_born_without_moving_the_others():
         if last is not None and len(patches) != len(last):
             births += 1
         last = patches
-    assert max(counts) <= 4  # where one plane passes into two
-    assert births <= 5  # in and out of it: they do not flicker
+    assert max(counts) <= 4  # in the transition from one plane to two
+    assert births <= 5  # in and out of the transition, without flicker
 
 
-def test_a_nascent_patch_carries_nothing():
+def test_a_patch_that_just_appears_is_small_and_finite():
     pair = Pair(WHEEL, RAILS["1:40"])
     for depth in (1e-6, 1e-8, 1e-10):
         (patch,) = pair.contacts(Pose(y=1e-3), penetration=depth)

@@ -1,4 +1,4 @@
-"""The profile library: catalogue dimensions, tabulated points of the standards, names."""
+"""Profile library: catalogue dimensions, tabulated points of the standards, names."""
 
 import math
 
@@ -25,7 +25,7 @@ HEADS = {
     "56E1": (34.925, 14.53),
     "46E1": (32.5, 14.3),
 }
-#: Joints at which the standards' own segments meet in a corner: y [mm]; a chamfer, an outer slope, a table's end.
+#: y [mm] of corners between segments in the standards themselves: a chamfer, an outer slope, the end of a table.
 CORNERS = {"EPS": (-35.0, -32.25, -26.0, 29.0), "1/40": (-32.696, 35.0), "EN 15302 C": (-59.5, 29.0, 59.0)}
 CORNERS |= {"EN 15302 H": (-28.3119, -10.2297)}
 CORNERS |= {f"EN 15302 {letter}": (30.0, 60.0, *CORNERS.get(f"EN 15302 {letter}", ())) for letter in "ABHI"}
@@ -52,7 +52,7 @@ def test_points_and_tangents_agree_but_at_the_standards_own_corners(name):
     between = 0.5e3 * (shape.y[1:] + shape.y[:-1])
     for corner in CORNERS.get(name, ()):
         bend[np.abs(between - corner) < 0.75] = 0.0
-    assert bend.max() < 2e-3  # joints where the curvature changes, and where four printed digits end
+    assert bend.max() < 2e-3  # joints where the curvature changes, and rounding to four printed digits
     assert np.hypot(np.diff(shape.y), np.diff(shape.z)).max() < (0.7e-3 if name == "EPS" else 1.001 * profile.SPACING)
 
 
@@ -116,7 +116,7 @@ def test_rail_a_is_the_60e1_of_uic_519_inclined_1_to_20():
         ("Rail A", "EN 15302 rail A"),
     ],
 )
-def test_old_and_carelessly_written_names_are_known(given, name):
+def test_old_names_and_other_spellings_are_accepted(given, name):
     assert profile.named(given).name == name
 
 

@@ -26,7 +26,7 @@ def left():
     return Pair(WHEEL, RAIL, side="left")
 
 
-#: Lateral place of the arc's crown: its gauge is measured 1 mm below.
+#: Lateral position of the arc's crown. Its gauge is measured 1 mm below.
 ORIGIN = 0.7175 + math.sqrt(0.3**2 - 0.299**2)
 
 
@@ -86,7 +86,7 @@ def test_rolling_wheelset_and_rail_together_about_the_wheelset_turns_the_frame_a
     c, s = math.cos(roll), math.sin(roll)
     moved = Irregularity(y=c * y - s * z - y, z=s * y + c * z - z, roll=roll)
     (b,) = pair.contacts(Pose(z=0.1e-3, roll=roll), irregularity=moved)
-    # depth is weighted vertically, so the reference point shifts by 4 µm
+    # the depth is weighted vertically, so the reference point shifts by 4 µm
     assert b.angle - a.angle == pytest.approx(roll, abs=2e-5)
     assert b.rolling_radius == pytest.approx(a.rolling_radius, abs=5e-7)
     assert b.approach == pytest.approx(a.approach, rel=1e-6)
@@ -198,7 +198,7 @@ def test_creepages_do_not_depend_on_the_speed_of_free_rolling(right):
 def test_vertical_parts_of_the_normal_forces_carry_the_load(right, y, load):
     patches = right.contacts(Pose(y=y), load=load)
     assert sum(p.load * math.cos(p.angle) for p in patches) == pytest.approx(load, rel=1e-8)
-    for patch in patches:  # the approach that belongs to z is the one that contact.solve finds for the normal force
+    for patch in patches:  # contact.solve finds the approach of z for the normal force
         solution = contact.solve(patch.separation, patch.creepage, load=patch.load)
         assert solution.approach == pytest.approx(patch.approach, rel=1e-5)
 
@@ -220,7 +220,7 @@ def test_penetration_counts_from_first_touch(right):
 
 
 def worn_pair(**options):
-    """A wheel whose flange root clears the gauge corner: tread and flange touch at places far apart."""
+    """Return a pair whose flange root clears the gauge corner, so tread and flange touch far apart."""
     return Pair(WHEEL, profile.rail_60e1(1 / 20, breakpoints="UIC 519"), **options)
 
 
@@ -233,7 +233,7 @@ def test_tread_and_flange_touch_in_frames_of_their_own():
     assert abs(flange.angle) - abs(tread.angle) > math.radians(20.0)
     assert flange.position[1] < tread.position[1] - 8e-3
     assert sum(p.load * math.cos(p.angle) for p in patches) == pytest.approx(80e3, rel=1e-8)
-    # neither separation shows the other patch: away from its own interpenetration the gap stays open
+    # neither separation contains the other patch: the gap stays open away from its own interpenetration
     for patch in patches:
         outside = (patch.separation.y < patch.edges[0] - 1e-4) | (patch.separation.y > patch.edges[1] + 1e-4)
         assert patch.separation.g[outside].min() > patch.approach

@@ -12,7 +12,7 @@ from contact.halfspace import influence, norm
 
 
 def paraboloid(A, B, half_x, half_y, n):
-    """Gap A x² + B y² on n × n elements over ±half_x, ±half_y, and the size of an element."""
+    """Return the gap A x² + B y² on n × n elements over ±half_x, ±half_y, and the size of an element."""
     s = (np.arange(n) + 0.5) * 2.0 / n - 1.0
     return B * (half_y * s[:, None]) ** 2 + A * (half_x * s) ** 2, 2.0 * half_x / n, 2.0 * half_y / n
 
@@ -45,7 +45,7 @@ def test_convolution_equals_the_sum_over_all_elements():
 
 @pytest.mark.parametrize("ratio", [0.1, 1.0, 8.0])
 def test_hertz_limit(ratio):
-    """48 elements over 1.3 times the axes: N to 1e-3, peak 3e-3, stiffness 6e-3."""
+    """With 48 elements over 1.3 times the axes, N agrees to 1e-3, the peak to 3e-3, the stiffness to 6e-3."""
     exact = contact.hertz(2.0, 2.0 * ratio, load=6e4)
     gap, dx, dy = paraboloid(2.0, 2.0 * ratio, 1.3 * exact.a, 1.3 * exact.b, 48)
     found = norm(gap, dx, dy, contact.STEEL, approach=exact.approach)
@@ -56,7 +56,7 @@ def test_hertz_limit(ratio):
 
 
 def test_error_falls_with_the_element_size():
-    """Load at given approach: order above 1.5, the edge moving through the grid."""
+    """The load at given approach converges with an order above 1.5, while the edge moves through the grid."""
     exact = contact.hertz(2.0, 6.0, load=6e4)
     errors = []
     for n in (12, 24, 48, 96):
@@ -75,7 +75,7 @@ def test_load_and_approach_are_inverse():
 
 
 def test_contact_conditions_hold_on_a_rough_gap():
-    """p ≥ 0, e ≥ 0 and p·e = 0 on a gap with many separate patches, whatever the start."""
+    """p ≥ 0, e ≥ 0 and p·e = 0 hold on a gap with many separate patches for any start."""
     rng = np.random.default_rng(3)
     gap, dx, dy = paraboloid(2.0, 3.0, 9e-3, 9e-3, 60)
     gap = (
@@ -94,7 +94,7 @@ def test_contact_conditions_hold_on_a_rough_gap():
 
 @pytest.mark.parametrize("load", [1e-6, 1e-2, 1.0, 30.0, 3e3])
 def test_any_load_is_carried_by_a_rough_gap(load):
-    """From one element in contact on: no division by what may vanish."""
+    """This begins with one element in contact, where divisors could vanish."""
     rng = np.random.default_rng(5)
     gap, dx, dy = paraboloid(2.0, 3.0, 4e-3, 4e-3, 30)
     gap = gap + rng.normal(0, 2e-6, gap.shape)
@@ -121,7 +121,7 @@ def test_no_overlap_and_no_load_give_no_pressure():
 
 @pytest.mark.parametrize("case", reference.patches(), ids=lambda case: case["name"])
 def test_real_patches_are_contacts(case):
-    """S1002 on UIC60 at CONTACT's approach on its grid: N, peak and pressure to the printed digits."""
+    """S1002 on UIC60 at CONTACT's approach on its grid: N, peak and pressure agree to the printed digits."""
     x, y = (np.array(case[k]) * 1e-3 for k in ("x_p", "y_p"))
     fine_x, fine_y = ((np.arange(2 * v.size) - 0.0) * 0.2e-3 + v[0] for v in (x, y))
     separation = reference.separation_of(case)

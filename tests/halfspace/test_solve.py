@@ -1,4 +1,4 @@
-"""`contact.solve` with the element-wise half space: records, statuses, grids, other methods' pressure, errors."""
+"""`contact.solve` with the element-wise half space: records, statuses, grids, pressure of other methods, errors."""
 
 import numpy as np
 import pytest
@@ -62,7 +62,7 @@ def test_a_gap_on_a_grid_is_solved_as_the_separation_it_came_from(ellipse):
 
 
 def test_resolution_does_not_ripple(ellipse):
-    """The default grid is within 1 % of mu N of one of twice as many elements."""
+    """Forces on the default grid agree within 1 % of mu N with those on twice as many elements."""
     for creepage in CREEPAGES:
         one, two = (
             contact.solve(ellipse, contact.Creepage(*creepage), load=8e4, n_strips=n, n_elements=n, **BOTH)
@@ -73,7 +73,7 @@ def test_resolution_does_not_ripple(ellipse):
 
 @pytest.mark.parametrize("given", [{"load": 0.0}, {"approach": 0.0}, {"approach": -1e-3}])
 @pytest.mark.parametrize("normal", ["halfspace", "analyn"])
-def test_no_contact_is_an_answer(ellipse, given, normal):
+def test_no_contact_is_a_valid_result(ellipse, given, normal):
     sol = contact.solve(ellipse, contact.Creepage(1e-3, 1e-3, 1.0), normal=normal, tangential="halfspace", **given)
     assert sol.status is contact.Status.NO_CONTACT
     assert (sol.Fx, sol.Fy, sol.Mz, sol.N, sol.area, sol.max_pressure, sol.slip_ratio) == (0,) * 7

@@ -17,7 +17,7 @@ TANG = sys.modules["contact.halfspace.tang"]
 
 
 def elliptic(a, b, N, n, extra=4):
-    """x, y and the Hertz pressure of load N on elements 2a/n × 2b/n."""
+    """Return x, y and the Hertz pressure of load N on elements 2a/n × 2b/n."""
     s = (np.arange(n + extra) - 0.5 * (n + extra - 1)) * 2.0 / n
     x, y = a * s, b * s
     p = np.sqrt(np.maximum(1.0 - (x / a) ** 2 - (y[:, None] / b) ** 2, 0.0))
@@ -25,7 +25,7 @@ def elliptic(a, b, N, n, extra=4):
 
 
 def resultants(x, y, p, found, c, mu=MU):
-    """Fx, Fy over mu N and Mz over mu N c."""
+    """Return Fx and Fy over mu N, Mz over mu N c."""
     bound = mu * p.sum()
     moment = (x * found.qy).sum() - (y[:, None] * found.qx).sum()
     return np.array([found.qx.sum(), found.qy.sum(), moment / c]) / bound
@@ -39,7 +39,7 @@ def on_ellipse(aspect, creepage, n, offset=TANG.OFFSET, c=5e-3, N=5e4):
 
 
 def extrapolated(aspect, creepage, n=24):
-    """Limit of vanishing elements from two grids, the error being of first order."""
+    """Return the limit of vanishing elements, extrapolated from two grids with an error of first order."""
     return 2.0 * on_ellipse(aspect, creepage, 2 * n) - on_ellipse(aspect, creepage, n)
 
 
@@ -61,7 +61,7 @@ def test_forces_on_ellipses_are_contacts(row):
 
 @pytest.mark.parametrize("case", reference.fields(), ids=lambda case: case["name"])
 def test_traction_fields_are_contacts(case):
-    """Set B (mm, N) on CONTACT's grid, of which every third element is kept; here with Hertz' pressure: 1 % in L2."""
+    """Set B (mm, N) on CONTACT's grid, of which every third element is stored, with Hertz's pressure: 1 % in L2."""
     x, y = (v[0] + (np.arange(66) - 1.0) * (v[1] - v[0]) / 3.0 for v in (np.array(case["x"]), np.array(case["y"])))
     p = np.sqrt(np.maximum(1.0 - (x / case["aa"]) ** 2 - (y[:, None] / case["bb"]) ** 2, 0.0))
     p *= case["N"] / (p.sum() * (x[1] - x[0]) * (y[1] - y[0]))
@@ -111,7 +111,7 @@ def test_forces_on_real_patches_are_contacts(k, case):
     (5.0, (0, 1.2, -0.8), (0, 0.150, -0.512)),
 ])  # fmt: skip
 def test_earlier_boundary_elements(aspect, creepage, expected):
-    """Computed before on 26 × 26 elements with the rigid slip at x + dx/3, by marching; up to 0.018 from their limit."""
+    """Earlier results by marching, on 26 × 26 elements with the rigid slip at x + dx/3. They are up to 0.018 off the limit."""
     c11, c22, c23, _ = kalker.coefficients(kalker.table(0.28), math.log(aspect))
     c, N = 5e-3, 5e4
     unit = MU * N / (STEEL.shear_modulus * c * c)
@@ -154,7 +154,7 @@ def test_full_slip_without_spin_carries_mu_N_against_the_creepage():
 
 
 def test_symmetries():
-    """theory.md 2.6: both operations, element for element."""
+    """Both symmetry operations of theory.md 2.6 hold element by element."""
     x, y, p = elliptic(4e-3, 6e-3, 5e4, 20, extra=1)
     creep = (1e-3, -8e-4, 0.4)
     one = tang(p, x, y, contact.Creepage(*creep), MU, STEEL, tolerance=1e-10)
@@ -176,7 +176,7 @@ HARD = {
 
 @pytest.mark.parametrize("name", HARD)
 def test_coulombs_law_holds_by_direct_summation(name):
-    """The conditions that define the one solution, with the slip summed over all pairs of elements, without FFT."""
+    """Check the conditions that define the unique solution. The slip is summed over all pairs of elements, without FFT."""
     aspect, creep = HARD[name]
     x, y, p = elliptic(5e-3 * math.sqrt(aspect), 5e-3 / math.sqrt(aspect), 5e4, 12)
     found = tang(p, x, y, contact.Creepage(*creep), MU, STEEL, offset=0.5, tolerance=1e-9)
@@ -207,7 +207,7 @@ def test_error_is_of_first_order_in_the_element_length():
 
 
 def test_rigid_slip_of_spin_is_best_taken_near_the_centre():
-    """theory.md 6: at x + dx/6, CONTACT's choice, the error under spin is less than at x or half an element ahead."""
+    """theory.md 6: the error under spin is less at x + dx/6, CONTACT's choice, than at x or half an element ahead."""
     creep = (0.0, 0.0, 0.6)
     limit = extrapolated(1.0, creep, 48)
     errors = [abs((on_ellipse(1.0, creep, 24, offset=o) - limit)[1]) for o in (0.0, 1 / 6, 0.5)]
@@ -215,7 +215,7 @@ def test_rigid_slip_of_spin_is_best_taken_near_the_centre():
 
 
 def test_transient_rolling_leads_to_the_same_steady_state(monkeypatch):
-    """The way round when Newton's iteration stalls, here by allowing it too few steps."""
+    """This is the fallback if Newton's iteration stalls, forced here by allowing too few steps."""
     x, y, p = elliptic(6e-3, 4e-3, 5e4, 24)
     creep = contact.Creepage(1e-3, -1.5e-3, 0.5)
     direct = tang(p, x, y, creep, MU, STEEL)

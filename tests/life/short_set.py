@@ -33,7 +33,7 @@ distance = 4e5
 
 
 def written(folder: Path) -> Path:
-    """The files of the set in `folder`; returns that of the set."""
+    """Write the files of the set into `folder` and return the path of the set."""
     for name, text in (("straight", STRAIGHT), ("curve", CURVE), ("set", SET)):
         (folder / f"{name}.toml").write_text(text, encoding="utf-8")
     return folder / "set.toml"

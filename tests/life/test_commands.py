@@ -1,4 +1,4 @@
-"""`contact run` from file to report, over an interruption."""
+"""`contact run` from file to report, with an interruption."""
 
 import pytest
 import typer
@@ -32,7 +32,7 @@ def call(tmp_path):
 
 
 def test_interrupted_run_goes_on_to_the_same_files(call, tmp_path, monkeypatch):
-    monkeypatch.setattr(report, "page_of", lambda run: repr(run.balance))  # pictures take their time
+    monkeypatch.setattr(report, "page_of", lambda run: repr(run.balance))  # pictures take long
     assert call("whole").exit_code == 0
     advance = Run.advance
 

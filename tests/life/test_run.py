@@ -1,4 +1,4 @@
-"""Runs: bits, linear growth, energy, files."""
+"""Runs: reproducibility, linear growth, energy, files."""
 
 from pathlib import Path
 
@@ -51,7 +51,7 @@ def test_same_seed_gives_the_same_bits_and_another_one_does_not(curved):
 
 @pytest.mark.parametrize("steps", [1, 120])
 def test_resumed_run_equals_the_uninterrupted_one_bit_for_bit(curved, tmp_path, steps):
-    """Through a checkpoint on disk."""
+    """The run resumes from a checkpoint on disk."""
     path = tmp_path / "checkpoint.npz"
     first = completed(Run(scenario(track=CURVED, seed=4)), steps)
     checkpoint.write(path, first.scenario.fingerprint, first.save())
@@ -76,7 +76,7 @@ def test_checkpoint_of_another_run_is_refused(curved, tmp_path):
 
 
 def test_motion_is_that_of_the_example_master():
-    """Gauss-Seidel with `contact.solve` as its contacts, on straight track."""
+    """The example uses Gauss-Seidel with `contact.solve` for its contacts, on straight track."""
     ours = Run(scenario(wheelset=Vehicle(lateral=2e-3)))
     p, step, steps = ours.scenario.parameters, ours.scenario.step, 60
     wheelset, contacts = direct(p, 0.3)
@@ -96,7 +96,7 @@ def test_steel_that_flows_limits_the_pressure(curved):
 
 
 def test_constant_conditions_give_linear_growth():
-    """A central wheelset on straight track: twice the distance, twice the damage, the same on both sides."""
+    """On straight track with a central wheelset, twice the distance gives twice the damage, equal on both sides."""
     once, twice = (completed(Run(scenario(length=0.5 + n * 2.0))) for n in (1, 2))
     for body in ("wheel", "rail"):
         one, two = once.harvest.histograms["right", body], twice.harvest.histograms["right", body]
@@ -110,15 +110,15 @@ def test_constant_conditions_give_linear_growth():
 
 
 def test_energy_leaves_through_the_contacts(curved):
-    """What the coupling loses is below 2 % of the dissipation; the patches of the damage dissipate what the run does."""
+    """The coupling loses less than 2 % of the dissipation. The patches of the damage dissipate as much as the run."""
     balance = curved.balance
     assert abs(balance["residual"]) < 0.02 * balance["dissipated"]
     assert balance["harvested"] == pytest.approx(balance["counted"], rel=0.02)
     assert balance["untrusted"] == 0.0
 
 
-def test_energy_of_the_wheelset_is_booked_completely(curved):
-    """Mechanical energy changes by what the drive gives and what leaves through contacts and dampers (readme 10)."""
+def test_energy_balance_of_the_wheelset_is_complete(curved):
+    """The change of mechanical energy is drive energy minus losses in contacts and dampers (readme 10)."""
     interface, drive, damper, mechanical = curved._model.energy()
     start = Run(curved.scenario)._model.energy()[3]
     assert mechanical - start == pytest.approx(drive - interface - damper, abs=0.02 * curved.balance["dissipated"])
@@ -134,7 +134,7 @@ def test_curve_loads_the_outer_wheel_and_steers_outwards(curved):
 
 
 def test_volume_worn_off_is_the_integral_of_depth(curved):
-    """Of the rail to round-off; of the wheel within the spread of the rolling radii."""
+    """The rail agrees to round-off, the wheel within the spread of the rolling radii."""
     for side in SIDES:
         rail, wheel = (curved.harvest.histograms[side, body] for body in ("rail", "wheel"))
         assert rail["wear"].sum() * rail.width == pytest.approx(rail.volume, rel=1e-13)
@@ -158,7 +158,7 @@ def test_result_keeps_series_and_histograms(curved, tmp_path):
         result.histogram(xarray.Dataset(), "right", "wheel")
 
 
-def test_leaving_the_rails_is_said_with_the_place():
+def test_leaving_the_rails_is_reported_with_the_position():
     sharp = Track(curves=(Curve(start=0.0, radius=100.0, length=200.0, transition=5.0),))
     away = scenario(track=sharp, speed=60.0, length=200.0)
     with pytest.raises(ContactError, match=r"short at \d+\.\d\d m, 60 m/s: "):

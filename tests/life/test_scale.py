@@ -1,4 +1,4 @@
-"""Runs on several workers: the order, the number and the death of workers change nothing."""
+"""Runs on several workers: results do not depend on their number, their order or a crash of a worker."""
 
 import os
 import signal
@@ -15,7 +15,7 @@ from tests.life.short_set import written
 
 
 def deadly(item: tuple[str, int]) -> int:
-    """Kills its worker the first time; then the square."""
+    """Kill the worker on the first call with number 2. Otherwise return the square."""
     folder, number = item
     mark = Path(folder) / "killed"
     if number == 2 and not mark.exists():
@@ -24,7 +24,7 @@ def deadly(item: tuple[str, int]) -> int:
     return number * number
 
 
-def test_here_is_one_after_the_other():
+def test_without_workers_items_are_done_in_order():
     seen = []
     with Workers() as pool:
         assert pool.map(abs, [-3, 2, -1], lambda done, total: seen.append((done, total))) == [3, 2, 1]

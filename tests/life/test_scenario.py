@@ -1,4 +1,4 @@
-"""Scenarios: what a file may say, what it may not, and the track that comes of it."""
+"""Scenarios: valid and invalid files, and the resulting track."""
 
 import math
 from pathlib import Path
@@ -72,7 +72,7 @@ def written(folder: Path, text: str) -> Path:
         (LEAST.replace("20.0", "{ at = [0.0, 0.0], values = [20.0, 10.0] }"), r"at\[1\] = 0 is outside .*\]0, inf\["),
     ],
 )
-def test_what_is_wrong_is_said_with_key_value_and_range(tmp_path, text, message):
+def test_errors_name_key_value_and_range(tmp_path, text, message):
     with pytest.raises(ContactError, match=message):
         scenario.read(written(tmp_path, text))
 
@@ -130,7 +130,7 @@ def test_overlapping_curves_are_refused():
 
 
 def test_balanced_cant_leaves_the_wheelset_alone():
-    """V² κ = g φ: neither lateral nor roll load; twice the speed presses it to the outside with its axle load's share."""
+    """V² κ = g φ gives neither lateral nor roll load. At twice the speed the load pushes to the outside."""
     found = scenario.Declaration(name="x", length=100.0, speed=20.0).wheelset
     p = found.parameters(*scenario.Profiles().load(Path()), 20.0)
     cant, curvature = 0.05, 0.05 * 9.81 / 20.0**2
@@ -141,7 +141,7 @@ def test_balanced_cant_leaves_the_wheelset_alone():
 
 
 def test_manchester_wheelset_has_the_published_primary_suspension(tmp_path):
-    """constants.md 13.4, two axle boxes 2.0 m apart."""
+    """constants.md 13.4, with two axle boxes 2.0 m apart."""
     p = scenario.read(written(tmp_path, LEAST + "[wheelset]\nset = 'manchester'\nmass = 1900.0")).parameters
     assert p.lateral_stiffness == pytest.approx(7.768e6)
     assert p.yaw_stiffness == pytest.approx(62.782e6)

@@ -1,4 +1,4 @@
-"""Spectra of the alignment and their realisations (constants.md 13)."""
+"""Spectra of the track alignment and their realisations (constants.md 13)."""
 
 import numpy as np
 import pytest

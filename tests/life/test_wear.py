@@ -1,4 +1,4 @@
-"""Wear over a mileage: the rule of the steps, limits, balances, bits."""
+"""Wear over a mileage: step rule, limits, balances, reproducibility."""
 
 import re
 from pathlib import Path
@@ -54,7 +54,7 @@ def test_step_ends_at_distance_depth_or_mileage(rate, left, length):
     ("height", "thickness", "qR"), [(28e-3, 32.5e-3, 10.8e-3), (30e-3, 32.5e-3, 10.9e-3)], ids=["h 28", "h 30"]
 )
 def test_unworn_flange_has_the_sizes_of_the_standard(height, thickness, qR):
-    """S1002 (EN 13715): h and e are what it is built from; qR of the new profile is known as 10.8 mm."""
+    """S1002 (EN 13715): h and e are its design dimensions. The published qR of the new profile is 10.8 mm."""
     flange = Flange.measured(profile.s1002(height, thickness))
     assert flange.height == pytest.approx(height, abs=1e-6)
     assert flange.thickness == pytest.approx(thickness, abs=2e-6)
@@ -68,7 +68,7 @@ def test_unworn_flange_has_the_sizes_of_the_standard(height, thickness, qR):
         (Flange(height=30e-3, thickness=21e-3, qR=6e-3), "flange thickness 21.00 mm .*, qR 6.00 mm"),
     ],
 )
-def test_limits_are_told_by_name(size, said):
+def test_exceeded_limits_are_named(size, said):
     assert re.match(said, size.exceeded(Flange.limits()))
     assert Flange(height=30e-3, thickness=30e-3, qR=9e-3).exceeded(Flange.limits()) == ""
 
@@ -90,13 +90,13 @@ def test_wear_goes_on_to_the_mileage_in_steps_that_obey_the_rule(life):
 
 
 def test_worn_cross_section_survives_smoothing(life):
-    """∫ depth over the profile before smoothing is the area between the profiles after it; a Gaussian keeps it."""
+    """A Gaussian keeps the area: ∫ depth over the profile before smoothing is the area between the profiles after it."""
     assert (life["area"][1:] > 0.0).all()
     assert life["area_smoothed"] == pytest.approx(life["area"], rel=2e-3)
 
 
 def test_mass_is_that_of_the_cross_section_around_the_wheel(life):
-    """Within the spread of the rolling radii."""
+    """They agree within the spread of the rolling radii."""
     assert life["mass"] == pytest.approx(DENSITY * 2.0 * np.pi * 0.46 * life["area"], rel=0.01)
 
 
@@ -107,7 +107,7 @@ def test_depth_is_the_sum_of_the_scenarios(life):
 
 
 def test_worn_profile_stays_one_curve(life):
-    """After many updates points and tangents still belong together."""
+    """After many updates, tangents still agree with the points."""
     y, z, angle = life.wheel.y, life.wheel.z, life.wheel.angle
     fresh = profile.Profile("wheel", y, z)
     inner = slice(5, -5)
@@ -141,7 +141,7 @@ def test_limit_ends_the_wear(plan):
         (SET.replace("curve.toml", "none.toml"), r"none.toml'?: No such file"),
     ],
 )
-def test_what_is_wrong_with_a_set_is_said(plan, text, message):
+def test_errors_in_a_set_are_named(plan, text, message):
     plan.write_text(text, encoding="utf-8")
     with pytest.raises(ContactError, match=message):
         declared_set.read(plan)
@@ -155,7 +155,7 @@ def test_scenarios_must_share_the_wheel(plan):
         declared_set.read(plan)
 
 
-def test_example_set_is_one():
+def test_the_example_set_is_valid():
     found = declared_set.read(EXAMPLES / "wear_set.toml")
     assert sum(found.weights) == pytest.approx(1.0)
     assert found.wheel.name == "S1002"
@@ -184,7 +184,7 @@ def test_command_writes_result_and_page_and_goes_on_from_its_checkpoint(plan, tm
     stored = xarray.load_dataset(tmp_path / "out" / "result.nc", engine="scipy")
     assert stored["mileage"].values[-1] == pytest.approx(8e5)
     assert stored["conicity"].shape == (stored["mileage"].size, 1)
-    last = int(np.searchsorted(life["mileage"], 8e5 * (1.0 - 1e-9)))  # the wheels before it are those of the longer run
+    last = int(np.searchsorted(life["mileage"], 8e5 * (1.0 - 1e-9)))  # earlier wheels are those of the longer run
     assert (stored["wheel_z"].values[:last] == np.array([w.z for w in life.wheels[:last]])).all()
     assert "<h1>short</h1>" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
 

@@ -1,4 +1,4 @@
-"""Wheelsets on cones and circular rails, where geometry has a closed form."""
+"""Conical wheels on circular rails, for which the geometry has a closed form."""
 
 import math
 
@@ -9,7 +9,7 @@ RAIL_RADIUS = 0.3
 
 
 def on_cones(conicity: float, **changes) -> WheelsetParameters:
-    """Straight cones on circular rails whose crowns and whose tape circles are 1.5 m apart."""
+    """Return parameters of straight cones on circular rails. Rail crowns and tape circles are 1.5 m apart."""
     depth = 1e-3
     crown_from_gauge_point = math.sqrt(RAIL_RADIUS**2 - (RAIL_RADIUS - depth) ** 2)
     return WheelsetParameters(

@@ -9,7 +9,7 @@ UNIT = np.ones(4)
 
 
 def test_steep_linear_map_is_solved_in_as_many_evaluations_as_it_has_directions():
-    """Slopes up to -40; one evaluation to start, one for each direction, one that confirms."""
+    """The slopes are up to -40. The solution takes one initial evaluation, one for each direction and one to confirm."""
     rng = np.random.default_rng(4)
     frame = np.linalg.qr(rng.normal(size=(4, 4)))[0]
     slope, shift = frame @ np.diag([-40.0, -12.0, 0.0, 0.0]) @ frame.T, rng.normal(size=4)
@@ -28,7 +28,7 @@ def test_result_is_measured_in_the_units_given():
     assert n == m
 
 
-def test_map_without_a_fixed_point_is_given_up():
+def test_iteration_stops_for_a_map_without_a_fixed_point():
     x, evaluations = fixed_point(lambda x: np.where(x > 0.0, -1.0, 1.0), np.zeros(4), UNIT, 1e-9, 7)
     assert evaluations == 8
     assert np.isfinite(x).all()

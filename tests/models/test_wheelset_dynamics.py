@@ -1,4 +1,4 @@
-"""The kernels of the wheelset: equilibrium, kinematics and power belong together."""
+"""Kernels of the wheelset: equilibrium, kinematics and power are consistent."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ W, V, R0 = 1.1e5, 30.0, 0.46
 
 @pytest.fixture
 def pose():
-    """Frames, state, axle direction and forces of some wheelset in motion: nothing is small or symmetric."""
+    """Return frames, state, axle direction and forces of a moving wheelset. Nothing is small or symmetric."""
     frames = np.array([[0.0, 0.748, 0.461, -0.35], [0.0, -0.752, 0.459, 0.06]])
     state = np.array([0.004, 0.006, 0.11, -0.4, V / R0 + 0.3])
     axle = np.array([-0.006, 0.99998, 0.003])
@@ -23,7 +23,7 @@ def pose():
 
 
 def axes(frame):
-    """Unit vectors of a contact frame in track axes: lateral and normal (from wheel into rail)."""
+    """Return the lateral and normal unit vectors of a contact frame in track axes (normal from wheel into rail)."""
     c, s = np.cos(frame[d.Frame.ANGLE]), np.sin(frame[d.Frame.ANGLE])
     return np.array([0.0, c, s]), np.array([0.0, -s, c])
 
@@ -72,7 +72,7 @@ def test_both_contact_points_stay_on_the_rails(pose):
 
 
 def test_power_of_the_generalised_forces_is_the_power_at_the_contacts(pose):
-    """Readme (9): the normal loads do work on nothing but the weight, so the rest is friction."""
+    """Readme (9): normal loads do work only against the weight, so the rest is friction."""
     frames, state, axle, forces = pose
     loads = solved(frames, forces)
     z_rate, roll_rate = d.follow(frames, state)
@@ -134,8 +134,8 @@ def test_integrator_converges_with_second_order_to_the_exact_motion():
 @pytest.mark.parametrize(
     "loads", [{}, {"CURVATURE": 2e-3, "LATERAL_LOAD": -8e3, "YAW_LOAD": 900.0}], ids=["straight", "curve"]
 )
-def test_energy_is_booked_completely(loads):
-    """What the bodies hold changes by what left through the contacts, what the drive gave and what the dampers took."""
+def test_energy_balance_is_complete(loads):
+    """The energy of the bodies changes by drive energy minus energy through the contacts and dampers."""
     c, Q = constants(**loads), np.array([900.0, -400.0, 15.0, -700.0])
     start = np.array([0.005, -0.004, 0.0, 0.1, V / R0])
 

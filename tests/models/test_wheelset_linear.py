@@ -1,4 +1,4 @@
-"""The linear theory of theory.md 9.4 against its own eigenvalues."""
+"""The linear theory of theory.md 9.4 compared with its own eigenvalues."""
 
 import dataclasses
 import math

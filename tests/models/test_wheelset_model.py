@@ -1,4 +1,4 @@
-"""The wheelset without contacts: equilibrium, kinematics, symmetry, memory."""
+"""The wheelset without contacts: equilibrium, kinematics, symmetry, state."""
 
 import csv
 import dataclasses
@@ -19,7 +19,7 @@ MIRRORED = np.array([1.0, -1.0, -1.0])  # longitudinal, lateral, spin
 
 
 def gravity(parameters: WheelsetParameters) -> tuple[float, float]:
-    """Lateral force [N] and yaw moment [N m] of the normal loads alone."""
+    """Return lateral force [N] and yaw moment [N m] of only the normal loads."""
     rates = WheelsetModel(parameters).rates()
     return rates[2] * parameters.mass, rates[3] * parameters.yaw_inertia
 
@@ -46,9 +46,9 @@ def test_gravitational_stiffness_of_cones(conicity):
 
 @pytest.mark.parametrize("lateral", [3e-3, 4e-3, 5.8e-3])
 def test_normal_loads_derive_from_the_height_of_the_weight(lateral):
-    """Lateral force of gravity = W dz/dy (S1002 on 60E1), where the point of rigid contact does not jump.
+    """The lateral force of gravity is W dz/dy (S1002 on 60E1) where the point of rigid contact does not jump.
 
-    Where it does the approach changes too, and the weight works on the contacts as well.
+    Where it jumps, the approach also changes, and the weight also does work on the contacts.
     """
     p = WheelsetParameters(**FREE)
     at = [WheelsetModel(dataclasses.replace(p, lateral=lateral + s * 1e-4)) for s in (-1.0, 1.0)]
@@ -70,7 +70,7 @@ def test_central_wheelset_is_symmetric_and_at_rest():
 
 @pytest.mark.parametrize("kick", [0.0, 2e3])
 def test_mirrored_motion_is_the_mirror_image(kick):
-    """To round-off, with forces, through several steps."""
+    """It agrees to round-off over several steps with forces."""
     models = [WheelsetModel(WheelsetParameters(lateral=s * 4e-3, yaw=s * 2e-3, yaw_rate=s * 0.05)) for s in (1, -1)]
     for near, far in (("right", "left"), ("left", "right")):
         models[0].set_forces(near, kick, 0.5 * kick, 1e-3 * kick, 7e-5)
@@ -86,7 +86,7 @@ def test_mirrored_motion_is_the_mirror_image(kick):
 
 
 def test_creepages_are_those_of_the_contact_geometry():
-    """Readme (7) against contact.geometry, which is checked on CONTACT's results, for a pose in full motion."""
+    """Readme (7) compared with contact.geometry, which is verified with CONTACT, for a pose with all velocities."""
     p = WheelsetParameters(lateral=4e-3, yaw=3e-3, lateral_velocity=0.1, yaw_rate=-0.3)
     model = WheelsetModel(p)
     _, _, _, _, spin, z, roll = model.motion()
@@ -98,15 +98,15 @@ def test_creepages_are_those_of_the_contact_geometry():
         velocity = Velocity(p.speed, p.lateral_velocity, z_rate, roll_rate, p.yaw_rate, -spin)
         (patch,) = pair.contacts(Pose(p.lateral, z, roll, p.yaw), velocity)
         ours, theirs = model.problem(side)[CREEPAGE], patch.creepage
-        # they take the point on the wheel, we the one on the rail, an approach of 0.06 mm apart
+        # theirs is the point on the wheel, ours that on the rail, an approach of 0.06 mm apart
         assert ours[0] == pytest.approx(theirs.longitudinal, abs=3e-4 * 0.46)
         assert ours[1] == pytest.approx(theirs.lateral, abs=2e-6)
-        assert ours[2] == pytest.approx(theirs.spin, rel=1e-6)  # they roll about the yawed x axis
+        assert ours[2] == pytest.approx(theirs.spin, rel=1e-6)  # there the roll is about the yawed x axis
         assert model.frame(side)[3] == pytest.approx(patch.angle, abs=1e-12)
 
 
 def test_lateral_creepage_of_yaw_and_of_lateral_velocity():
-    """theory.md 9.4: (dy/dt/V - yaw)/cos δ at the true contact point; a lateral velocity also rolls the wheelset."""
+    """theory.md 9.4: (dy/dt/V - yaw)/cos δ at the true contact point. A lateral velocity also rolls the wheelset."""
     for side in SIDES:
         yawed = WheelsetModel(WheelsetParameters(lateral=0.0, yaw=2e-3))
         cosine = np.cos(yawed.frame(side)[3])
@@ -131,7 +131,7 @@ def test_track_irregularity_displaces_the_track_not_the_creepage():
 
 
 def test_wheelset_on_the_rolling_line_of_a_curve_has_no_longitudinal_creepage():
-    """Redtenbacher: displaced by κ b0 r/λ to the outside, cones roll through a curve as on straight track (readme, Curves)."""
+    """Redtenbacher: cones displaced by κ b0 r/λ to the outside roll through a curve without slip (readme, Curves)."""
     conicity, lateral = 0.05, -7e-3
     model = WheelsetModel(on_cones(conicity, lateral=lateral, **FREE))
     _, half_base, radius, _ = model.frame("right")
@@ -144,13 +144,15 @@ def test_wheelset_on_the_rolling_line_of_a_curve_has_no_longitudinal_creepage():
     model.step(1e-9)
     for side, before in zip(SIDES, straight, strict=True):
         after = model.problem(side)[CREEPAGE]
-        assert after[0] == pytest.approx(0.0, abs=0.02 * curvature * half_base)  # half bases differ by 2 y
+        assert after[0] == pytest.approx(
+            0.0, abs=0.02 * curvature * half_base
+        )  # the half bases of the two sides differ by 2 y
         assert after[1] == pytest.approx(before[1], abs=1e-9)
         assert after[2] - before[2] == pytest.approx(curvature, rel=0.01)
 
 
-def test_power_is_booked_completely_in_a_curve():
-    """Readme (9, 10): forces times creepages leave, the drive gives; only κ x of the contact points is left out."""
+def test_power_balance_is_complete_in_a_curve():
+    """Readme (9, 10): forces times creepages equal the drive power. Only κ x of the contact points is neglected."""
     model = WheelsetModel(WheelsetParameters(lateral=-5e-3, yaw=-2e-3, lateral_velocity=0.05, yaw_rate=0.1))
     model.set_running(28.0, curvature=1.0 / 600.0, lateral_load=-5e3, roll_load=-4e3, yaw_load=800.0)
     for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
@@ -190,7 +192,7 @@ def test_substeps_are_steps_with_held_forces():
 
 
 def test_energy_is_conserved_without_creep():
-    """Readme (10): springs and weight; second order in the step."""
+    """Readme (10): springs and weight conserve energy to second order in the step."""
     p = WheelsetParameters(lateral=3e-3, yaw=1e-3)
     defects = []
     for h in (2e-3, 1e-3):
@@ -215,7 +217,7 @@ def test_model_reproduces_its_reference():
         assert history[column][:: reference.EVERY] == pytest.approx(values, abs=1e-6 * scale), column
 
 
-def test_bad_step_says_so_and_changes_nothing():
+def test_a_bad_step_raises_an_error_and_changes_nothing():
     model = WheelsetModel()
     before = model.save()
     with pytest.raises(ContactError, match=r"h = -0\.001 is outside the allowed range \]0"):
@@ -225,7 +227,7 @@ def test_bad_step_says_so_and_changes_nothing():
     assert model.save() == before
 
 
-def test_wheelset_off_the_track_says_so_and_changes_nothing():
+def test_a_wheelset_off_the_track_raises_an_error_and_changes_nothing():
     model = WheelsetModel(WheelsetParameters(lateral_velocity=100.0))
     before = model.save()
     with pytest.raises(ContactError, match="y"):

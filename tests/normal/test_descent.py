@@ -1,4 +1,4 @@
-"""Steps of the strip half space by the Jacobians of ellipses, the elimination, and the displacement outside the panels."""
+"""Strip half space: steps with the Jacobians of ellipses, elimination, and displacement outside the panels."""
 
 import math
 
@@ -24,7 +24,7 @@ def test_elimination_solves_both_sides(m):
 
 
 @pytest.mark.parametrize("n", [FEWEST, 16, MOST])
-def test_jacobians_are_their_own_mirror_images(n):
+def test_jacobians_are_mirror_symmetric(n):
     layers = workspace.rule(n, 10, True).descent
     assert len(layers) == N_LAYERS
     assert np.isfinite(layers).all()
@@ -32,7 +32,7 @@ def test_jacobians_are_their_own_mirror_images(n):
 
 
 @pytest.mark.parametrize("n", [FEWEST - 1, MOST + 1])
-def test_few_and_many_strips_do_without_jacobians(n):
+def test_too_few_and_too_many_strips_have_no_jacobians(n):
     assert workspace.rule(n, 10, True).descent.size == 1
 
 
@@ -47,13 +47,13 @@ def test_mirrored_residuals_have_mirrored_steps(move):
         vectors = np.zeros((N_VECTOR_ROWS, n))
         vectors[Vector.A] = 1.5
         vectors[Vector.R] = residuals[::side]
-        if side < 0:  # the entries of the end strips are moves along y
+        if side < 0:  # the entries of the end strips are displacements along y
             vectors[Vector.R, [0, -1]] *= -1
         descend(n, 1.0, workspace.rule(n, 10, True).descent, vectors)
         steps.append(vectors[Vector.R].copy())
     steps[1][[0, -1]] *= -1
     np.testing.assert_allclose(steps[0], steps[1][::-1], rtol=1e-12, atol=1e-15)
-    if move > 0.1:  # a far move is as the rule says
+    if move > 0.1:  # a large move follows the rule of the ends
         assert steps[0][0] == pytest.approx(-move)
 
 
@@ -63,7 +63,7 @@ def test_runs_of_loaded_strips(pressures, one):
 
 
 def _two_panels(n):
-    """Panels from -1 to 1 and from 4 to 5 with elliptic pressures."""
+    """Return panels from -1 to 1 and from 4 to 5 with elliptic pressures."""
     cosines = -np.cos(np.arange(n + 1) * math.pi / n)
     vectors = np.zeros((N_VECTOR_ROWS, 2 * n))
     for first, centre, half in ((0, 0.0, 1.0), (n, 4.5, 0.5)):

@@ -1,4 +1,4 @@
-"""Under a pressure limit resultants, power and fields are one answer, in stick that of stiffness, in slip that of friction."""
+"""Under a pressure limit, resultants, power and fields are consistent: in stick by stiffness, in slip by friction."""
 
 import dataclasses
 
@@ -21,7 +21,7 @@ PEAK = contact.solve(SEPARATION, contact.Creepage(), load=LOAD).max_pressure
 
 
 def misfits(sol):
-    """Sums over the fields less the resultants: forces over mu N, power over its own."""
+    """Return sums over the fields minus the resultants: forces over mu N, power relative to itself."""
     power = -((sol.qx * sol.sx + sol.qy * sol.sy) * sol.dA).sum()
     return np.array(
         [
@@ -45,7 +45,7 @@ def test_the_fields_add_up_to_the_resultants_and_to_the_power(tangential, share)
 
 
 @pytest.mark.parametrize("tangential", WITH_FIELDS)
-def test_forces_alone_are_the_same(tangential):
+def test_the_batch_gives_the_same_forces(tangential):
     creepage = contact.Creepage(1e-3, 5e-4, 0.2)
     sol = solved(creepage, 0.6, tangential)
     material = dataclasses.replace(contact.STEEL, pressure_limit=0.6 * PEAK)
@@ -64,7 +64,7 @@ def test_nothing_jumps_where_the_limit_begins(tangential):
 @pytest.mark.parametrize("tangential", ["fastrip", "fastrip_mapped"])
 @pytest.mark.parametrize("creepage", [(1e-4, 0.0, 0.0), (1e-3, 5e-4, 0.0), (0.0, 0.0, 0.5), (2e-3, 1e-3, 0.3)])
 def test_forces_are_those_of_the_half_space_under_the_cut_pressure(tangential, creepage):
-    """50 x 50 elements of the half space with the pressure cut at .7 of its peak."""
+    """Compare with 50 x 50 elements of the half space. The pressure is limited to .7 of its peak."""
     reference = {
         (1e-4, 0.0, 0.0): (-0.0589, 0.0),
         (1e-3, 5e-4, 0.0): (-0.4980, -0.2318),

@@ -20,7 +20,7 @@ def limited(limit, **options):
 
 
 @pytest.mark.parametrize("c", [1e-3, 0.3, 0.9, 0.999])
-def test_a_cut_semi_ellipse_keeps_the_closed_share_of_its_load(c):
+def test_a_cut_semi_ellipse_keeps_the_closed_form_share_of_its_load(c):
     angle = (np.arange(200000) + 0.5) * math.pi / 200000
     cut = (np.minimum(np.sin(angle), c) * np.sin(angle)).sum() * math.pi / 200000
     assert kept(c) == pytest.approx(cut / (math.pi / 2), rel=1e-9)
@@ -45,7 +45,7 @@ def test_the_cut_pressure_carries_the_load_and_stays_below_the_limit(normal, sha
 
 @pytest.mark.parametrize("share", [0.95, 0.6, 0.2])
 def test_the_cut_ellipsoid_is_that_of_hertz_at_a_higher_load(share):
-    """The cut leaves 3c/2 - c³/2 of the load of a semi-ellipsoid, c = p_c/p0, and p0 ~ load^(1/3): with strips to 1e-3."""
+    """The limit leaves 3c/2 - c³/2 of a semi-ellipsoid's load, c = p_c/p0, and p0 ~ load^(1/3). Strips agree to 1e-3."""
     elastic = contact.solve(SEPARATION, CREEPAGE, load=8e4, normal="hertz")
     low, high = 1.0, 1e6
     for _ in range(200):
@@ -108,7 +108,7 @@ def test_the_pressure_at_points_is_the_cut_one():
 
 
 @pytest.mark.parametrize("limit", [1e3, 1e6])
-def test_a_limit_that_the_patch_cannot_bear_is_said(limit):
+def test_a_limit_too_low_for_the_load_is_reported_by_the_status(limit):
     y = np.linspace(-5e-3, 5e-3, 101)
     material = dataclasses.replace(contact.STEEL, pressure_limit=limit)
     sol = contact.solve(contact.Separation(y, y**2, 1.0), CREEPAGE, load=8e4, material=material, throw=False)

@@ -1,4 +1,4 @@
-"""Strip half space: its closed forms, the Hertz limit, published and computed references, warm start, several patches."""
+"""Strip half space: closed forms, Hertz limit, published and computed references, warm start, several patches."""
 
 import math
 
@@ -17,7 +17,7 @@ CENTRE, PLANE = workspace.strip_tables()
 
 
 def exact_U(X, t):
-    """U(X, t) of strip_halfspace.md Eq. 1 by adaptive quadrature."""
+    """Return U(X, t) of strip_halfspace.md Eq. 1 by adaptive quadrature."""
     singular = math.acos(min(X, 1.0))
 
     def integrand(angle):
@@ -42,7 +42,7 @@ def test_plane_table_equals_quadrature(X, t):
 
 @pytest.mark.parametrize("ln_a", [-5.03, -1.94, 0.02, 3.1])
 def test_table_of_a_panel_equals_the_closed_form(ln_a):
-    """Displacement by strips of one panel, interpolated over ln(a/half width), against the table on the centre line."""
+    """Compare the displacement by strips of one panel, interpolated over ln(a/half width), with the centre line table."""
     n = 12
     rule = workspace.rule(n, 10, True)
     columns, logs = rule.columns, rule.cosine_logs
@@ -56,7 +56,7 @@ def test_table_of_a_panel_equals_the_closed_form(ln_a):
 
 @pytest.mark.parametrize("ratio", [0.1, 0.3, 1.0, 4.0, 30.0])
 def test_hertz_limit(ratio):
-    """strip_halfspace.md 6: at 40 strips approach 5e-4, pressure and area 2e-3."""
+    """strip_halfspace.md 6: with 40 strips the approach agrees to 5e-4, pressure and area to 2e-3."""
     separation = contact.Separation.hertzian(3.0, 3.0 * ratio)
     sol = contact.solve(separation, NO_CREEP, load=8e4, normal="strip_halfspace", n_strips=40)
     exact = contact.hertz(3.0, 3.0 * ratio, load=8e4)
@@ -85,7 +85,7 @@ def test_mirrored_separation_gives_the_mirrored_patch():
 
 
 def test_distant_lobes_interact():
-    """Each of two equal lobes feels the other as a point force: it lies deeper by N/2/(pi E* distance)."""
+    """Each of two equal lobes acts on the other as a point force: it lies deeper by N/2/(pi E* distance)."""
     spacing, load = 30e-3, 2e3
     y = np.linspace(-25e-3, 25e-3, 1001)
     g = np.minimum(20.0 * (y + spacing / 2) ** 2, 20.0 * (y - spacing / 2) ** 2)
@@ -97,7 +97,7 @@ def test_distant_lobes_interact():
 
 
 def test_a_patch_that_the_start_misses_is_found():
-    """The second lobe lies 8 % of the approach deeper than ANALYN's factor 1 + beta admits: the ghost check opens a panel."""
+    """The second lobe lies 8 % of the approach below ANALYN's limit (factor 1 + beta). The ghost check opens a panel."""
     separation = two_lobes(38e-6, spacing=20e-3)
     start = contact.solve(separation, NO_CREEP, load=3e4)
     sol = contact.solve(separation, NO_CREEP, load=3e4, normal="strip_halfspace")
@@ -121,7 +121,7 @@ def test_warm_start_gives_the_same_answer_in_fewer_iterations():
 
 
 def test_yaw_shears_the_patch_without_losing_load():
-    """A skewed locus x_c = k·y of a circular contact: the ellipse of the sheared quadratic form, by exact Hertz."""
+    """A skewed locus x_c = k·y of a circular contact gives the ellipse of the sheared quadratic form, by exact Hertz."""
     k, A = 0.15, 4.0
     y = np.linspace(-12e-3, 12e-3, 241)
     skewed = contact.Separation(y, A * (1.0 - k * k) * y**2, A, x_c=k * y)
@@ -133,8 +133,8 @@ def test_yaw_shears_the_patch_without_losing_load():
     assert sol.area == pytest.approx(math.pi * exact.a * exact.b, rel=5e-3)
 
 
-def test_absurd_gap_is_answered_with_analyns_solution():
-    """A sample 500 000 km off made indices out of NaN: the answer is bounded and says that it did not converge."""
+def test_an_extreme_gap_gives_analyns_solution_and_a_status():
+    """A sample 500 000 km off once made indices from NaN. The result must be bounded with status NOT_CONVERGED."""
     y = -0.02 + 0.001 * np.arange(41)
     g = y**2
     g[9] = 5e8
@@ -155,8 +155,8 @@ def test_more_strips_than_are_tabulated_give_the_same_patch():
     assert many.max_pressure == pytest.approx(few.max_pressure, rel=5e-4)
 
 
-def test_punches_mostly_converge_with_their_ends_at_the_corners():
-    """The pressure rises towards the corners, where the rule of the ends has no steady answer: they stand still in the end."""
+def test_most_punches_converge_with_their_ends_at_the_corners():
+    """Pressure rises towards the corners, where the rule of the ends has no steady state. The ends stop there."""
     rng = np.random.default_rng(1)
     y = np.linspace(-20e-3, 20e-3, 201)
     converged = 0
@@ -171,8 +171,8 @@ def test_punches_mostly_converge_with_their_ends_at_the_corners():
     assert converged >= 24
 
 
-def test_newborn_patches_carry_no_spike_of_pressure():
-    """At these places of the lateral sweep a second panel shrank to a width of 1e-12 mm with 40 times the pressure."""
+def test_new_patches_have_no_pressure_spike():
+    """At these lateral positions a second panel once shrank to a width of 1e-12 mm with 40 times the pressure."""
     pair = wheelset.Pair(
         profile.s1002(), profile.rail_60e1(inclination=1 / 40), combine_distance=1.0, combine_angle=math.pi
     )

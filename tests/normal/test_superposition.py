@@ -1,13 +1,13 @@
-"""Two equal lobes far apart under 2 N: approach, pressure, area and forces are those of one lobe under N.
+"""Two equal lobes far apart under 2 N have the approach, pressure, area and forces of one lobe under N.
 
-Where a method lets one lobe feel the other, it is by the far field of its load: a half space moves by N/(π E* d) at distance d,
-a share f of the approach δ. What each method makes of it follows from its equations, to first order in f:
+If lobes interact in a method, they do so by the far field of the load: a half space moves by N/(π E* d) at distance d, which is
+a share f of the approach δ. To first order in f the equations of each method give:
 
-* the interacting strips add it to the approach, δ (1 + f), and keep pressure and area;
-* virtual penetration equates the displacement at the deepest point, which δ^-½ + f δ^-½ stands for, with an approach that also
-  sets the size of the patch: δ (1 + ⅔ f), the area grows and the pressure falls by as much;
-* multi-Hertz lets the second ellipse feel the first, and not the first the second: loads (1 ± ¾ f) N, δ (1 + ½ f), and the
-  first, which bears more, has the pressure p0 (1 + ¼ f).
+* Interacting strips add this to the approach, δ (1 + f), and keep pressure and area.
+* Virtual penetration equates the displacement at the deepest point, δ^-½ + f δ^-½, with an approach that also sets the size of
+  the patch. This gives δ (1 + ⅔ f), the area grows and the pressure falls by the same share.
+* In multi-Hertz the first ellipse acts on the second, but not the reverse: loads (1 ± ¾ f) N, approach δ (1 + ½ f). The first,
+  which carries more, has the pressure p0 (1 + ¼ f).
 """
 
 import math
@@ -20,21 +20,21 @@ import contact
 
 LOAD, A, B = 1e4, 1.0, 2.0
 NORMAL = contact.methods().batched.normal
-#: One patch by definition: an ellipse at the least point, or in the place of all.
+#: Methods with one patch by definition: an ellipse at the least gap, or one in place of all patches.
 SINGLE = {"hertz", "kpec", "pascal_sauvage"}
 
 
 class Felt(NamedTuple):
-    """Relative changes by the other lobe, in shares f."""
+    """Relative changes by the other lobe, in multiples of f."""
 
     approach: float = 0.0
     pressure: float = 0.0
     area: float = 0.0
-    load: float = 0.0  # of the lobe that bears more
+    load: float = 0.0  # of the lobe that carries more
 
 
 VIRTUAL_PENETRATION = Felt(approach=2 / 3, pressure=-2 / 3, area=2 / 3)
-#: Methods whose lobes feel each other; those of all others do not.
+#: Methods in which lobes interact. In all others they do not.
 FELT = {
     "strip_halfspace": Felt(approach=1.0),
     "kik_piotrowski": VIRTUAL_PENETRATION,
@@ -45,7 +45,7 @@ FELT = {
 
 
 def solved(normal, distance, lobes):
-    """Solution for parabolas at half the distance to the left, or to both sides."""
+    """Return the solution for one parabola at half the distance to the left, or for two on both sides."""
     half = 0.5 * distance + 12e-3
     y = np.linspace(-half, half, 2 * round(half / 5e-5) + 1)
     g = np.min([B * (y + side * 0.5 * distance) ** 2 for side in (1.0, -1.0)[:lobes]], axis=0)
@@ -54,12 +54,12 @@ def solved(normal, distance, lobes):
 
 
 def loads(sol):
-    """The share of N that each patch bears, the greatest first."""
+    """Return the share of N of each patch, the greatest first."""
     own = 0.5 * math.pi * sol.strips.p0 * sol.strips.a * sol.strips.dy
     return sorted((float(own[sol.strips.patch == k].sum()) / LOAD for k in range(sol.n_patches)), reverse=True)
 
 
-def test_the_methods_of_one_patch_are_known():
+def test_the_list_of_one_patch_methods_is_complete():
     assert {name for name, method in NORMAL.items() if not method.several_patches} == SINGLE
     assert set(FELT) < set(NORMAL) - SINGLE
 
@@ -70,12 +70,12 @@ def test_two_lobes_far_apart_are_twice_one_lobe(normal, distance):
     two, one = solved(normal, distance, 2), solved(normal, distance, 1)
     assert (two.n_patches, one.n_patches) == (2, 1)
     felt, f = FELT.get(normal), LOAD / (math.pi * contact.STEEL.contact_modulus * distance) / one.approach
-    tolerance = 1e-9 if felt is None else f * f + 5e-4  # beside strips that are solved to 1e-4, their ends to 2e-4
+    tolerance = 1e-9 if felt is None else f * f + 5e-4  # strips are solved to 1e-4, their ends to 2e-4
     found = (two.approach / one.approach, two.max_pressure / one.max_pressure, 0.5 * two.area / one.area, *loads(two))
     felt = felt or Felt()
     changes = f * np.array([felt.approach, felt.pressure, felt.area, felt.load, -felt.load])
     np.testing.assert_allclose(found, 1.0 + changes, rtol=0, atol=tolerance)
-    # forces follow the size of the patch, by no more than it changes; moments are those about the middle of the lobe
+    # forces change at most as much as the size of the patch; moments are about the middle of the lobe
     tolerance += f * felt.area
     np.testing.assert_allclose((two.Fx, two.Fy), (2.0 * one.Fx, 2.0 * one.Fy), rtol=tolerance)
     if felt.load == 0.0:

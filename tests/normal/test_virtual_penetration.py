@@ -1,4 +1,4 @@
-"""The methods of virtual penetration on ellipses, where each promises a patch and a load in closed form."""
+"""Methods of virtual penetration on ellipses, where patch and load of each have a closed form."""
 
 import math
 
@@ -18,12 +18,12 @@ RATIOS = [0.05, 0.28, 1.0, 3.0, 18.0, 80.0]
 
 
 def overlap(share, A, B, delta):
-    """Semi-axes of the ellipse at which paraboloids overlap at a share of the approach."""
+    """Return the semi-axes of the ellipse in which paraboloids overlap at a share of the approach."""
     return math.sqrt(share * delta / A), math.sqrt(share * delta / B)
 
 
 def pressed(a, b, delta):
-    """Load of a semi-ellipsoid of pressure that displaces its centre by delta: u_z(0) = p00 b K(e)/E* (Johnson 1985, 3.53)."""
+    """Return the load of a semi-ellipsoid of pressure with centre displacement u_z(0) = p00 b K(e)/E* (Johnson 3.53)."""
     minor, major = min(a, b), max(a, b)
     return 2 / 3 * math.pi * a * b * delta * E / (minor * ellipk(1 - (minor / major) ** 2))
 
@@ -50,7 +50,7 @@ def hertz(A, B, delta):
 
 
 def stripes_ab(A, B, delta):
-    """Hertz's a, and b = n0 √(delta/(r0 B0 (1 + (n0/m0)²))) (theory.md 5); strip pressures of Hertz on it."""
+    """Return Hertz's a, b = n0 √(delta/(r0 B0 (1 + (n0/m0)²))) (theory.md 5) and the load of Hertz's strip pressures."""
     exact = contact.hertz(A, B, approach=delta)
     share = (exact.b / exact.a) ** 2
     n2_over_r = exact.b**2 * (A + B) / delta  # b = n √(delta/(r (A + B)))
@@ -135,7 +135,7 @@ def test_semi_winkler_carries_hertz_load_on_an_ellipse(ratio):
 
 
 def test_semi_winkler_strip_solves_its_equation():
-    """The edge of a strip lies where the depth is l times the slope of the gap (docstring)."""
+    """The edge of a strip lies where the depth is l times the slope of the gap (docstring of the method)."""
     A, B, delta, length = 1.3, 2.1, 8e-5, 2e-3
     for gap in np.linspace(0.0, 0.9, 10) * _share(B, length / math.sqrt(delta)) * delta:
         a, mean = _strip(gap, A, B, delta, length)
@@ -148,7 +148,7 @@ def test_semi_winkler_strip_solves_its_equation():
 
 @pytest.mark.parametrize("aspect", [0.2, 1.0, 5.0])
 def test_displacement_outside_an_ellipse_is_that_of_its_pressure(aspect):
-    """The gutter of multi_hertz against the sum over the semi-ellipsoid of pressure."""
+    """Compare the gutter of multi_hertz with the sum over the semi-ellipsoid of pressure."""
     a, b = aspect, 1.0
     c, w = np.polynomial.legendre.leggauss(400)
     angle, radius = (c + 1) * math.pi, (c + 1) / 2
@@ -173,13 +173,13 @@ def test_the_equivalent_ellipse_keeps_the_load_of_the_contacts():
     assert one.patch_edges.mean() == pytest.approx(np.average(several.strips.y, weights=weights), abs=1e-9)
 
 
-def test_a_second_contact_feels_the_gutter_of_the_first():
-    """Two equal lobes 12 mm apart: the second is pressed less, by what the first lowers the surface there."""
+def test_a_second_contact_is_unloaded_by_the_gutter_of_the_first():
+    """For two equal lobes 12 mm apart, the second has less penetration, since the first lowers the surface there."""
     alone = contact.hertz(1.0, 2.0, approach=9e-5)
     sol = contact.solve(two_lobes(0.0), NO_CREEP, approach=9e-5, normal="multi_hertz")
     loads = [0.5 * math.pi * (s.p0 * s.a * s.dy)[s.patch == k].sum() for s in [sol.strips] for k in (0, 1)]
     assert loads[0] == pytest.approx(alone.N, rel=1e-6)
-    sunk = alone.N / (math.pi * E * 12e-3)  # of a point load
+    sunk = alone.N / (math.pi * E * 12e-3)  # displacement by a point load
     assert loads[1] == pytest.approx(alone.N * (1 - sunk / 9e-5) ** 1.5, rel=0.05)
 
 
@@ -211,7 +211,7 @@ def test_load_is_continuous_where_patches_are_born_and_merge(normal):
 
 
 def test_the_step_of_the_shape_correction_where_patches_merge_is_small():
-    """The patches of 2008 move where they merge: a step of 0.8 % of the load, the only one."""
+    """The patches of kik_piotrowski_2008 move where they merge. This makes a jump of 0.8 % of the load, the only one."""
     approaches = np.linspace(5e-6, 160e-6, 400)
     many = contact.forces(two_lobes(10e-6, spacing=8e-3), NO_CREEP, approach=approaches, normal="kik_piotrowski_2008")
     steps = np.diff(many.N)

@@ -1,4 +1,4 @@
-"""What a pair adds up over both profiles is what `contact.accumulation` makes of the same patches."""
+"""The damage that a pair accumulates on both profiles equals that of `contact.accumulation` for the same patches."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ from contact.pair import WheelRailPair
 
 BODIES = {"wheel": profile.s1002(), "rail": profile.rail_60e1(1 / 20, breakpoints="UIC 519")}
 VELOCITY = Velocity(forward=30.0)
-#: Tread, tread and flange at once, flange root; metres rolled in each.
+#: Poses with contact on the tread, on tread and flange, on the flange root; metres rolled in each.
 ROLLED = {Pose(y=1e-3, yaw=2e-3): 10.0, Pose(y=6.37e-3): 4.0, Pose(y=5.5e-3, yaw=5e-3): 2.0}
 
 
@@ -66,8 +66,8 @@ def test_left_side_is_the_mirror_image():
     np.testing.assert_array_equal(left, right)
 
 
-def test_bins_add_up_to_the_totals_also_where_they_end_before_the_contact():
-    """Four bins about the tread; what lies beyond belongs to the outer ones."""
+def test_bins_add_up_to_the_totals_even_if_the_contact_lies_outside():
+    """Four bins around the tread. Damage outside belongs to the outer bins."""
     few, many = pair(ledger=ledger(4, -2e-3)), pair(ledger=ledger())
     T_gamma = volume = 0.0
     for pose, distance in ROLLED.items():
@@ -80,7 +80,7 @@ def test_bins_add_up_to_the_totals_also_where_they_end_before_the_contact():
             assert body[Bin.VOLUME].sum() == pytest.approx(volume, rel=1e-12)
 
 
-def test_growth_is_linear_and_nothing_grows_where_nothing_rolls_or_touches():
+def test_growth_is_linear_and_zero_without_rolling_or_contact():
     run = pair(ledger=ledger())
     once = rolled(run).copy()
     for _ in range(4):
@@ -95,7 +95,7 @@ def test_growth_is_linear_and_nothing_grows_where_nothing_rolls_or_touches():
         run.solve(Pose(), VELOCITY, load=60e3, distance=-1.0)
 
 
-def test_laws_that_give_forces_alone_leave_t_gamma_and_fatigue():
+def test_laws_with_forces_only_accumulate_t_gamma_and_fatigue():
     bins = rolled(pair(ledger=ledger(), tangential="polach"))
     assert bins[:, Bin.T_GAMMA].sum() > 0.0
     assert not bins[:, [Bin.WEAR, Bin.VOLUME, Bin.ENERGY_INDEX, Bin.STRESS_EXCEEDANCE]].any()

@@ -1,4 +1,4 @@
-"""`WheelRailPair` against its parts, mechanics and symmetry."""
+"""`WheelRailPair` compared with its parts, mechanics and symmetry."""
 
 import math
 
@@ -15,7 +15,7 @@ from contact.pair import WheelRailPair
 METHODS = contact.methods().batched
 R0 = 0.460
 WHEEL, RAIL = profile.s1002(), profile.rail_60e1()
-#: Its gauge corner clears the flange root: tread and flange touch at once, at places far apart, around y = 6.37 mm.
+#: The gauge corner clears the flange root, so tread and flange touch at the same time, far apart, around y = 6.37 mm.
 WORN = profile.rail_60e1(1 / 20, breakpoints="UIC 519")
 
 
@@ -39,7 +39,7 @@ def worn():
 
 
 def random_motion(seed: int) -> tuple[Pose, Velocity, Irregularity]:
-    """From field side contact to flange contact, all rates at work."""
+    """Return a random motion, from field side contact to flange contact, with all rates."""
     rng = np.random.default_rng(seed)
     pose = Pose(rng.uniform(-8e-3, 8e-3), rng.uniform(0.0, 4e-4), *rng.uniform(-0.02, 0.02, 2))
     V = rng.uniform(5.0, 60.0)
@@ -48,14 +48,14 @@ def random_motion(seed: int) -> tuple[Pose, Velocity, Irregularity]:
 
 
 def turned(angle: float) -> np.ndarray:
-    """Axes of the contact frame in track coordinates, as columns."""
+    """Return the axes of the contact frame in track coordinates, as columns."""
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
 
 
 @pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("load", [None, 80e3])
-def test_is_search_and_solution_of_every_patch_put_together(right, worn, seed, load):
+def test_equals_search_and_separate_solution_of_every_patch(right, worn, seed, load):
     pair = worn if seed % 2 else right
     pose, velocity, rail = random_motion(seed)
     if seed == 1:
@@ -103,7 +103,7 @@ def test_moment_is_that_of_the_contacts_wrenches_about_the_centre(worn, seed):
 
 
 def test_pressure_of_a_curved_rail_is_centred_off_the_reference_point(right):
-    """The moment Mx is the first moment of the pressure, here against the fields of the solution."""
+    """The moment Mx is the first moment of the pressure, here compared with the fields of the solution."""
     pose = Pose(y=2e-3, yaw=0.01)
     s = right.solve(pose, load=80e3)
     (patch,) = right.pair.contacts(pose, load=80e3)
@@ -117,7 +117,7 @@ def test_pressure_of_a_curved_rail_is_centred_off_the_reference_point(right):
 
 @pytest.mark.parametrize("seed", range(10))
 def test_power_of_the_wrench_is_that_of_the_creepages(right, worn, seed):
-    """F·v + M·Omega of the wheelset is V(Fx ξ + Fy η + Mz φ) and what the pressure does; the rail is at rest."""
+    """F·v + M·Omega of the wheelset is V(Fx ξ + Fy η + Mz φ) plus the power of the pressure. The rail is at rest."""
     pair = worn if seed % 2 else right
     pose, velocity, _ = random_motion(seed)
     s = pair.solve(pose, velocity, load=80e3)
@@ -138,7 +138,7 @@ def test_power_of_the_wrench_is_that_of_the_creepages(right, worn, seed):
 
 
 @pytest.mark.parametrize("y", [-6e-3, 0.0, 3e-3, 6.4e-3])
-def test_the_motion_loses_what_friction_dissipates(right, y):
+def test_the_power_lost_by_the_motion_is_the_frictional_dissipation(right, y):
     """In steady rolling -(Fx ξ + Fy η + Mz φ) is the frictional energy per metre, within the discretisation of FaStrip."""
     s = right.solve(Pose(y=y, yaw=3e-3), load=80e3)
     lost = -sum(c.Fx * c.creepage.longitudinal + c.Fy * c.creepage.lateral + c.Mz * c.creepage.spin for c in s.contacts)
@@ -176,7 +176,7 @@ def test_a_displaced_rail_is_a_wheelset_displaced_the_other_way(right, how):
     assert b.z == pytest.approx(a.z - 0.2e-3, abs=1e-12)
 
 
-def test_lift_off_is_an_answer(right):
+def test_lift_off_is_a_valid_result(right):
     for s in (right.solve(Pose(z=-1e-3)), right.solve(Pose(y=1e-3), load=0.0)):
         assert s.status is Status.NO_CONTACT
         assert not s.force.any()
@@ -185,7 +185,7 @@ def test_lift_off_is_an_answer(right):
         assert s.slip_ratio == s.power_per_metre == s.area == 0.0
 
 
-def test_interacting_strips_go_on_from_the_last_call_unless_a_patch_came_or_went():
+def test_interacting_strips_start_from_the_last_call_unless_the_patches_changed():
     pair = make(rail=WORN, normal="strip_halfspace")
     pair.solve(Pose(y=3e-3), load=80e3)
     warm = pair.solve(Pose(y=3.1e-3), load=80e3)
@@ -201,8 +201,8 @@ def test_interacting_strips_go_on_from_the_last_call_unless_a_patch_came_or_went
 
 
 @pytest.mark.parametrize("normal", METHODS.normal)
-def test_what_was_left_in_the_scratch_arrays_does_not_matter(normal):
-    """`memory` is all that goes from one call to the next: an FMU state is no more than that."""
+def test_results_do_not_depend_on_old_content_of_scratch_arrays(normal):
+    """Only `memory` passes from one call to the next, so it is the whole FMU state."""
     pair = make(normal=normal)
     own, search = pair.bench.own, pair.bench.search
     scratch = [
@@ -223,7 +223,7 @@ def test_what_was_left_in_the_scratch_arrays_does_not_matter(normal):
         np.testing.assert_array_equal(answers[1:], answers[:1] * 2)
 
 
-def test_no_more_than_so_many_patches_get_frames_of_their_own():
+def test_the_number_of_patches_with_their_own_frame_is_limited():
     single = WheelRailPair(Pair(WHEEL, WORN, most_patches=1)).solve(Pose(y=6.385e-3), load=80e3)
     assert len(single.contacts) == 1
 

@@ -1,4 +1,4 @@
-"""Two small comparisons that the tests look at."""
+"""A small comparison for the tests."""
 
 import pytest
 
@@ -8,6 +8,6 @@ from tests.study.problems import METHODS, problem
 
 @pytest.fixture(scope="session")
 def small():
-    """Two cases, one of them without contact, two methods and a coarse half space."""
+    """Return a comparison of two cases (one without contact), two methods and a coarse half space."""
     cases = [problem(), problem("apart", load=None, approach=-1e-6)]
     return contact.compare(cases, METHODS, n_strips=12, n_elements=12, reference_elements=20)

@@ -1,10 +1,10 @@
-"""What a page of a report holds."""
+"""Parse a page of a report."""
 
 from html.parser import HTMLParser
 
 
 class Page(HTMLParser):
-    """Links, texts and tags."""
+    """Links, texts and tags of a page."""
 
     def __init__(self):
         super().__init__()

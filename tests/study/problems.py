@@ -1,4 +1,4 @@
-"""A small problem, and methods that answer it."""
+"""A small problem, and methods that solve it."""
 
 import contact
 

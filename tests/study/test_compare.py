@@ -1,4 +1,4 @@
-"""`contact.compare`: what the rows hold, which methods go together, what the files hold."""
+"""`contact.compare`: content of the rows, compatible methods, content of the files."""
 
 import csv
 import io
@@ -37,7 +37,7 @@ def test_errors_are_measured_against_the_half_space(small):
     assert e.moment == pytest.approx(abs(analyn.Mz - true.Mz) / mu_n / math.sqrt(true.area / math.pi), rel=1e-6)
     assert e.max_pressure == pytest.approx(analyn.max_pressure / true.max_pressure - 1.0)
     assert e.approach == pytest.approx(analyn.approach / true.approach - 1.0)
-    # ANALYN is exact on an ellipse, so its pressure differs by the grid's error alone
+    # ANALYN is exact on an ellipse, so its pressure differs only by the grid error
     assert 0.0 < e.pressure < 0.05
     assert abs(e.N) < 1e-9
 
@@ -53,7 +53,7 @@ def test_a_gap_that_starts_elsewhere_changes_no_error():
     assert abs(errors[0]) > 0.02
 
 
-def test_no_contact_is_an_answer(small):
+def test_no_contact_is_a_valid_result(small):
     for row in small.rows[3:]:
         assert (row.status, row.N, row.area, row.adhesion_area, row.errors) == ("NO_CONTACT", 0.0, 0.0, 0.0, None)
 
@@ -75,7 +75,7 @@ def test_forces_alone_have_no_stick_area():
     assert sum("forces only" in title for title in titles) == 1
 
 
-def test_pairs_go_by_name():
+def test_pairs_of_methods_are_selected_by_name():
     assert pairs_of("analyn+fastrip") == pairs_of([("analyn", "fastrip")]) == (("analyn", "fastrip"),)
     assert pairs_of(["hertz+fastsim", "all"]) == (
         ("hertz", "fastsim"),
@@ -190,7 +190,7 @@ def test_stick_and_slip_are_named_inside_the_patch_of_a_half_space(small):
         assert abs(x) < half
 
 
-def test_of_many_pairs_every_method_with_fields_is_drawn_once(monkeypatch):
+def test_with_many_pairs_every_method_with_fields_is_drawn_once(monkeypatch):
     monkeypatch.setattr(comparison, "MOST_PANELS", 3)
     methods = ("hertz+polach", "hertz+fastsim", "analyn+fastsim", "hertz+fastrip", "analyn+fastrip")
     found = contact.compare(problem(), methods, reference=False)

@@ -100,7 +100,7 @@ def test_no_contact_has_nothing_to_compare():
         ("cases.csv", "load,y\n3", "more or fewer cells than names"),
     ],
 )
-def test_files_that_are_no_cases(tmp_path, file, text, message):
+def test_files_without_valid_cases_are_refused(tmp_path, file, text, message):
     (tmp_path / file).write_text(text)
     assert message in " ".join(call("compare", tmp_path / file, code=2).stderr.split())
 

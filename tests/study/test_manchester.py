@@ -1,4 +1,4 @@
-"""The Manchester contact benchmark: the half space meets CONTACT's published numbers; what the tables hold."""
+"""Manchester contact benchmark: the half space reproduces CONTACT's published numbers, and content of the tables."""
 
 import csv
 import io
@@ -15,7 +15,7 @@ from tests.study.page import Page
 
 @pytest.fixture(scope="module")
 def three():
-    """1 mm on both sides and the flange at 10 mm, on a coarse half space."""
+    """Return results at 1 mm on both sides and at 10 mm (flange), with a coarse half space."""
     chosen = [place for place in places() if place.name in ("1 mm right", "1 mm left", "10 mm right")]
     return manchester("analyn+fastrip", at=chosen, reference_elements=40)
 
@@ -23,7 +23,7 @@ def three():
 def test_signs_and_units_are_ours():
     right = next(place for place in places() if place.name == "5 mm right")
     assert (right.y, right.yaw, right.angle) == (5e-3, 12e-3, -0.2905)
-    # the wheel steers to the right: lateral creepage against it, force to the right; 10 kN are carried with friction
+    # the wheel steers to the right: lateral creepage to the left, force to the right; the 10 kN include friction
     assert right.lateral == pytest.approx(-right.yaw / math.cos(right.angle), rel=5e-3)
     assert right.Fy > 0.0
     assert right.N * math.cos(right.angle) - right.Fy * math.sin(right.angle) == pytest.approx(10e3, rel=1e-4)
@@ -52,7 +52,7 @@ def test_tables_set_methods_beside_contact(three):
     analyn = next(row for row in peak.rows if row[0] == "analyn + fastrip")
     place, solution = three.places[0], three.comparison.solutions[1]
     assert float(analyn[1]) == pytest.approx(100 * (solution.max_pressure / place.max_pressure - 1), abs=0.01)
-    assert len(tables[-1].rows) == 0  # CONTACT's KPEC and ANALYN are known at other places
+    assert len(tables[-1].rows) == 0  # CONTACT's KPEC and ANALYN are published for other positions
 
 
 @pytest.mark.slow
@@ -87,5 +87,5 @@ def test_the_command_shows_kpec_as_it_is():
     line = next(row.split() for row in output.splitlines() if row.startswith("kpec, 0 mm right"))
     ours, theirs = map(float, line[-2:])
     assert theirs == 442.6
-    assert ours == pytest.approx(350.0, abs=5.0)  # 21 % below: an open question, shown and not hidden
+    assert ours == pytest.approx(350.0, abs=5.0)  # 21 % below CONTACT: an open question, which the table shows
     assert "The reason is" in output

@@ -1,4 +1,4 @@
-"""The 3220 cases: their design, the errors over a sample, a run that goes on where it was stopped."""
+"""The 3220 cases: design, errors over a sample, and resumption of an interrupted run."""
 
 import json
 import math

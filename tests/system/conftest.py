@@ -1,4 +1,4 @@
-"""FMUs as a user gets them: built by the command, driven by fmpy."""
+"""FMUs as a user gets them: built by the command and driven by fmpy."""
 
 import fcntl
 import os
@@ -21,7 +21,7 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.fixture(scope="session")
 def fmus(tmp_path_factory) -> Path:
-    """Folder with the FMUs that `python build_fmu.py --packaging python` makes."""
+    """Return the folder with the FMUs that `python build_fmu.py --packaging python` builds."""
     folder = tmp_path_factory.mktemp("fmus")
     _build("python", folder)
     return folder
@@ -29,7 +29,7 @@ def fmus(tmp_path_factory) -> Path:
 
 @pytest.fixture(scope="session")
 def native(tmp_path_factory) -> Path:
-    """File of the native WheelRailContact, the others beside it; the first process that wants one builds them for all."""
+    """Return the file of the native WheelRailContact, in one folder with the others. The first process builds all of them."""
     shared = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
         shared = shared.parent
@@ -43,37 +43,37 @@ def native(tmp_path_factory) -> Path:
 
 @pytest.fixture(scope="session")
 def native_folder(native, tmp_path_factory) -> Path:
-    """The native WheelRailContact unzipped."""
+    """Return the folder of the unzipped native WheelRailContact."""
     return Path(fmpy.extract(str(native), str(tmp_path_factory.mktemp("unzipped"))))
 
 
 @pytest.fixture(scope="session")
 def native_fmi3(native) -> Path:
-    """File of the native WheelRailContact of FMI 3.0."""
+    """Return the file of the native WheelRailContact of FMI 3.0."""
     return native.parent / "fmi3" / native.name
 
 
 @pytest.fixture(scope="session")
 def native_fmi3_folder(native_fmi3, tmp_path_factory) -> Path:
-    """The same unzipped."""
+    """Return the folder of the unzipped native WheelRailContact of FMI 3.0."""
     return Path(fmpy.extract(str(native_fmi3), str(tmp_path_factory.mktemp("unzipped"))))
 
 
 @pytest.fixture(scope="session")
 def native_wheelset(native) -> Path:
-    """File of the native Wheelset."""
+    """Return the file of the native Wheelset."""
     return native.with_name("Wheelset.fmu")
 
 
 @pytest.fixture
 def open_native(native_folder):
-    """Instantiate the native WheelRailContact; all are freed at the end."""
+    """Return a function that instantiates the native WheelRailContact. All instances are freed at the end."""
     yield from _opened(lambda kind: Instance(native_folder, kind=kind))
 
 
 @pytest.fixture
 def open_native_fmi3(native_fmi3_folder):
-    """The same of FMI 3.0."""
+    """Return a function that instantiates the native WheelRailContact of FMI 3.0."""
     yield from _opened(lambda kind: Instance3(native_fmi3_folder, kind=kind))
 
 
@@ -91,7 +91,7 @@ def _opened(make):
 
 @pytest.fixture(scope="session")
 def hosts(native, tmp_path_factory):
-    """A host in C for a platform and an FMU by their names, each made once; "win64" runs under Wine."""
+    """Return a function that gives the C host of a platform and an FMU, each compiled once. "win64" runs under Wine."""
 
     @cache
     def unzipped(name: str) -> Path:
@@ -109,25 +109,25 @@ def hosts(native, tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def host(hosts):
-    """A host in C of WheelRailContact."""
+    """Return the C host of WheelRailContact on Linux."""
     return hosts("linux64", NAME)
 
 
 @pytest.fixture(scope="session")
 def windows(hosts):
-    """The same for Windows, under Wine."""
+    """Return the C host of WheelRailContact on Windows, under Wine."""
     return hosts("win64", NAME)
 
 
 @pytest.fixture(scope="session")
 def host_fmi3(native_fmi3_folder, tmp_path_factory):
-    """A host in C for FMI 3.0."""
+    """Return the C host for FMI 3.0 on Linux."""
     return Host("x86_64-linux", tmp_path_factory.mktemp("linux"), native_fmi3_folder)
 
 
 @pytest.fixture(scope="session")
 def windows_fmi3(native_fmi3_folder, tmp_path_factory):
-    """The same for Windows, under Wine."""
+    """Return the C host for FMI 3.0 on Windows, under Wine."""
     _require_wine()
     return Host("x86_64-windows", tmp_path_factory.mktemp("windows"), native_fmi3_folder)
 
@@ -139,12 +139,12 @@ def _require_wine() -> None:
 
 def _build(packaging: str, folder: Path) -> None:
     command = [sys.executable, ROOT / "build_fmu.py", "--packaging", packaging, "--out", folder]
-    subprocess.run(command, check=True, cwd=ROOT, timeout=1200)  # kernels of three FMUs, on a machine with other work
+    subprocess.run(command, check=True, cwd=ROOT, timeout=1200)  # long, for the kernels of three FMUs on a busy machine
 
 
 @pytest.fixture
 def open_fmu(fmus, tmp_path):
-    """Instantiate an FMU of this name; all are freed at the end."""
+    """Return a function that instantiates an FMU by name. All instances are freed at the end."""
     instances = []
 
     def open_fmu(name: str, folder: str = "") -> Instance:

@@ -1,4 +1,4 @@
-"""A contact that the tests of both packagings pose."""
+"""A contact case for the tests of both packagings."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ CREEPAGES = {"creepage.longitudinal": 1.2e-3, "creepage.lateral": -0.8e-3, "cree
 
 
 def separation() -> contact.Separation:
-    """A head of changing curvature, off the centre of its window; curvature along the rail changes too."""
+    """Return a separation of varying curvature in both directions, off the centre of its window."""
     y = -0.02 + 0.001 * np.arange(41)
     return contact.Separation(y, (y - 2e-3) ** 2 * (1.5 + 40.0 * y), 1.0 + 5.0 * y)
 
@@ -24,6 +24,6 @@ def geometry() -> dict[str, float]:
 
 
 def posed(fmu):
-    """Give an instance `separation` and CREEPAGES at 30 m/s; return it."""
+    """Set `separation` and CREEPAGES at 30 m/s in an instance and return it."""
     fmu.update({**geometry(), **CREEPAGES, "geometry.y0": -0.02, "geometry.dy": 0.001, "speed": 30.0})
     return fmu

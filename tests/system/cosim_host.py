@@ -1,6 +1,6 @@
-"""A host of its own kind: libcosim parses the description with FMI Library and drives the FMU from C++.
+"""An independent host: libcosim parses the description with FMI Library and drives the FMU from C++.
 
-Runs in a process of its own, since pythonfmu's library may abort a C++ host at exit. Prints a line for each load.
+It runs in its own process, since pythonfmu's library may abort a C++ host at exit. It prints a line for each load.
 """
 
 import sys

@@ -1,4 +1,4 @@
-"""Difference quotients of the outputs of an instance in model exchange, for its directional derivatives to be held against."""
+"""Difference quotients of outputs in model exchange, to check directional derivatives."""
 
 from collections.abc import Iterable, Mapping
 
@@ -7,13 +7,13 @@ from fmu_instance import Instance
 
 
 def derivative(fmu: Instance, unknowns: Iterable[str], direction: Mapping[str, float]) -> np.ndarray:
-    """What the FMU says: the slope of each unknown along knowns times their seeds."""
+    """Return the FMU's derivative of each unknown along the direction (knowns with their seeds)."""
     references = ([fmu.variables[name].valueReference for name in names] for names in (unknowns, direction))
     return np.array(fmu.fmu.getDirectionalDerivative(*references, list(direction.values())))
 
 
 def quotient(fmu: Instance, unknowns: Iterable[str], direction: Mapping[str, float], h: float) -> np.ndarray:
-    """The same by a central difference of the fourth order with steps of h along the direction."""
+    """Return the same derivative by a central difference of fourth order with steps of h along the direction."""
     at, names, found = fmu.read(direction), list(unknowns), []
     for k in (-2, -1, 1, 2, 0):
         fmu.update({name: at[name] + k * h * seed for name, seed in direction.items()})
@@ -22,7 +22,7 @@ def quotient(fmu: Instance, unknowns: Iterable[str], direction: Mapping[str, flo
 
 
 def parts(vectors: Iterable[Iterable[int]], slopes: np.ndarray) -> np.ndarray:
-    """The size of each vector among the slopes, at each of its components: what a difference of one is measured by."""
+    """Return for each slope the norm of the vector to which it belongs. Differences are relative to it."""
     sizes = np.zeros_like(slopes)
     for vector in map(list, vectors):
         sizes[vector] = np.linalg.norm(slopes[vector])
@@ -30,11 +30,10 @@ def parts(vectors: Iterable[Iterable[int]], slopes: np.ndarray) -> np.ndarray:
 
 
 class Tally:
-    """Derivatives of many cases against quotients with two steps.
+    """Derivatives of many cases compared with quotients of two step sizes.
 
-    Where the two agree to a quarter of TOLERANCE the output is smooth there, and the derivative has to agree with them; where
-    they do not, a kink (an element that passes from stick to slip, a patch that comes) lies within a step, and nothing is
-    said.
+    If the two quotients agree to a quarter of TOLERANCE, the output is smooth and the derivative must agree with them.
+    Otherwise a kink lies within a step (an element changes from stick to slip, a patch appears), and the case is not judged.
     """
 
     TOLERANCE = 1e-4
@@ -43,7 +42,7 @@ class Tally:
         self.smooth, self.rough, self.wrong = 0, [], {}
 
     def add(self, what: object, slopes: np.ndarray, quotients: Iterable[np.ndarray], scale: np.ndarray) -> None:
-        """One case: `scale` is what a difference of 1 would be."""
+        """Add one case. Differences are divided by `scale`."""
         wide, narrow = quotients
         if (np.abs(wide - narrow) > 0.25 * self.TOLERANCE * scale).any():
             self.rough.append(what)

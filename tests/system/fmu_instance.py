@@ -1,4 +1,4 @@
-"""An instance of an FMU for tests."""
+"""FMU instances for tests."""
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable
@@ -13,7 +13,7 @@ OK, WARNING, DISCARD, ERROR = range(4)
 
 
 class Instance:
-    """An instance that is driven by names and keeps what it logs."""
+    """An instance with access to variables by name. It stores its log messages."""
 
     def __init__(self, directory: Path, log: list[tuple[int, str]] | None = None, kind: str = "CoSimulation") -> None:
         description = fmpy.read_model_description(str(directory))
@@ -32,7 +32,7 @@ class Instance:
         self.fmu.instantiate(callbacks=self.callbacks, loggingOn=True)
 
     def free(self) -> None:
-        """Free the instance alone: fmpy's call unloads the library too, under the feet of other instances."""
+        """Free only the instance. fmpy's call would also unload the library, which other instances use."""
         self.fmu.fmi2FreeInstance(self.fmu.component)
 
     def _log(self, environment, name, status, category, message) -> None:
@@ -52,7 +52,7 @@ class Instance:
         return {name: found[name] for name in wanted}
 
     def _by_type(self, names: Iterable[str], verb: str) -> dict[Callable, list[str]]:
-        """fmpy's function for each FMI type → the names that it is for."""
+        """Return fmpy's function for each FMI type → names of its variables."""
         sorted_names = defaultdict(list)
         for name in names:
             kind = "Real" if self.variables[name].type == "Real" else "Integer"
@@ -73,14 +73,14 @@ class Instance:
 
 
 def refused(call, status: int) -> None:
-    """See a call answered with this status."""
+    """Assert that a call returns this status."""
     with pytest.raises(FMICallException) as caught:
         call()
     assert caught.value.status == status
 
 
 def discarded(fmu: Instance, time: float = 0.0, h: float = 1e-3) -> str:
-    """Step, see it discarded, return what the FMU says."""
+    """Assert that a step is discarded, and return the message of the FMU."""
     fmu.log.clear()
     refused(lambda: fmu.step(time, h), DISCARD)
     assert [status for status, _ in fmu.log] == [DISCARD]

@@ -1,4 +1,4 @@
-"""An instance of an FMU of FMI 3.0 for tests; arrays are variables."""
+"""FMU instances of FMI 3.0 for tests. Arrays are variables."""
 
 from pathlib import Path
 
@@ -8,7 +8,7 @@ from fmpy.fmi3 import FMU3Model, FMU3Slave
 
 
 class Instance3:
-    """An instance that is driven by names and keeps what it logs."""
+    """An instance with access to variables by name. It stores its log messages."""
 
     def __init__(self, directory: Path, kind: str = "CoSimulation") -> None:
         description = fmpy.read_model_description(str(directory))
@@ -23,7 +23,7 @@ class Instance3:
         self.fmu.instantiate(loggingOn=True, logMessage=self._log)
 
     def free(self) -> None:
-        """Free the instance alone: fmpy's call unloads the library too, under the feet of other instances."""
+        """Free only the instance. fmpy's call would also unload the library, which other instances use."""
         self.fmu.fmi3FreeInstance(self.fmu.component)
 
     def _log(self, environment, status, category, message) -> None:
@@ -34,7 +34,7 @@ class Instance3:
         return getattr(self.fmu, prefix + ("Int64" if kind == "Enumeration" else kind))
 
     def shape(self, name: str) -> tuple[int, ...]:
-        """Of an array as the instance has it now."""
+        """Return the present shape of an array of the instance."""
         return tuple(d.start or self[d.variable.name] for d in self.variables[name].dimensions)
 
     def update(self, values: dict) -> None:
@@ -50,7 +50,7 @@ class Instance3:
         return {name: np.array(self[name]) for name, v in self.variables.items() if v.causality in causalities}
 
     def configure(self, **counts: int) -> "Instance3":
-        """Set structural parameters resolution.…"""
+        """Set structural parameters `resolution.…`."""
         self.fmu.enterConfigurationMode()
         self.update({f"resolution.{name}": count for name, count in counts.items()})
         self.fmu.exitConfigurationMode()
@@ -62,5 +62,5 @@ class Instance3:
         return self
 
     def step(self, time: float = 0.0, h: float = 1e-3) -> tuple[bool, bool, bool, float]:
-        """Flags event handling needed, terminate, early return, and the last successful time."""
+        """Do a step. Return the flags event handling needed, terminate, early return, and the last successful time."""
         return self.fmu.doStep(time, h)

@@ -1,4 +1,4 @@
-"""Motions of a wheelset that the tests of both packagings of `WheelRailPair` pose, and what the solver says to them."""
+"""Motions of a wheelset for the tests of `WheelRailPair` in both packagings, and the solver's results for them."""
 
 import math
 
@@ -12,7 +12,7 @@ from contact.pair import PairSolution, WheelRailPair
 NAME = "WheelRailPair"
 METHODS = contact.methods().batched
 R0 = 0.46
-#: A motion that loads everything: lateral shift, yaw, rates, an irregular rail.
+#: A motion with lateral shift, yaw, rates and an irregular rail.
 MOTION = {
     "pose.y": 2e-3,
     "pose.roll": 1e-3,
@@ -37,14 +37,14 @@ _PATCH += ("approach",)
 
 
 def mirrored(values: dict[str, float]) -> dict[str, float]:
-    """The values of the other side."""
+    """Return the mirrored values, for the other side."""
     even = ("pose.z", "velocity.x", "velocity.z", "velocity.spin", "irregularity.z", "irregularity.z_rate")
     odd = {name for name in MOTION if name not in even}
     return {name: -value if name in odd else value for name, value in values.items()}
 
 
 def solved(values: dict[str, float], pair: WheelRailPair) -> PairSolution:
-    """The solver's answer for inputs by their names."""
+    """Return the solver's result for inputs by name."""
 
     def part(name: str, *fields: str) -> list[float]:
         return [values.get(f"{name}.{field}", 0.0) for field in fields]
@@ -59,7 +59,7 @@ def solved(values: dict[str, float], pair: WheelRailPair) -> PairSolution:
 
 
 def expected(s: PairSolution, speed: float) -> dict[str, float]:
-    """Outputs by the solver, besides the totals."""
+    """Return the outputs by the solver, without the totals."""
     damage = s.damage
     outputs = {
         **dict(zip(("force.x", "force.y", "force.z"), s.force.tolist(), strict=True)),
@@ -93,7 +93,7 @@ def expected(s: PairSolution, speed: float) -> dict[str, float]:
 
 
 def scale(name: str, values: dict[str, float], wanted: dict[str, float]) -> float:
-    """What a difference of an output is measured by: the value, or what it is a part of."""
+    """Return the scale of an output for differences: its value, or the norm of the quantity to which it belongs."""
     load = max(abs(wanted["force.z"]), 1.0)
     leaf = name.split(".")[-1]
     if name.startswith("force") or leaf in ("n", "fx", "fy"):
@@ -110,7 +110,7 @@ def scale(name: str, values: dict[str, float], wanted: dict[str, float]) -> floa
 
 
 def random_case(seed: int) -> tuple[dict[str, float], WheelRailPair]:
-    """Values of the FMU, and the solver prepared with the same parameters."""
+    """Return values of the FMU and a solver with the same parameters."""
     rng = np.random.default_rng(seed)
     left, by_load = bool(rng.integers(2)), rng.random() < 0.6
     V = rng.uniform(2.0, 80.0)
@@ -182,7 +182,7 @@ def random_case(seed: int) -> tuple[dict[str, float], WheelRailPair]:
 
 
 def compare(fmu, seed: int) -> PairSolution | None:
-    """Step an instance through a random case and hold it against the solver; None where there is no answer."""
+    """Step an instance through a random case and compare it with the solver. Return None if there is no solution."""
     values, pair = random_case(seed)
     fmu.fmu.reset()
     fmu.update(values)

@@ -1,4 +1,4 @@
-"""Random contacts posed to every packaging alike, with the solver's own answer."""
+"""Random contacts for all packagings, with the solver's own results."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ OUTPUTS = (
     *("damage.fatigue_index_surface", "damage.stress_index_max", "damage.energy_index_max", "stiffness.normal"),
     *("total.energy", "total.worn_volume", "patch.count", "status"),
 )
-#: Parameters of friction that depends on the temperature.
+#: Parameters of temperature-dependent friction.
 HEAT = (
     *("friction.hot_factor", "friction.reference_temperature", "friction.temperature_range"),
     *("friction.background_temperature", "thermal.conductivity", "thermal.density", "thermal.heat_capacity"),
@@ -34,7 +34,7 @@ POINTS = 41
 
 @dataclass(frozen=True)
 class Case:
-    """Values of the FMU by name (an int for an Integer or Enumeration), and the solver's answer to the same problem."""
+    """Values of the FMU by name (an int for an Integer or Enumeration), and the solver's result for the same problem."""
 
     seed: int
     values: dict[str, float]
@@ -59,12 +59,13 @@ class Case:
         )
 
     def differences(self, actual: np.ndarray) -> np.ndarray:
-        """What OUTPUTS differ from the solver's, relative to what they are resolved to.
+        """Return the differences of OUTPUTS from the solver's, relative to the scale of each output.
 
-        That is the value, but mu N for forces, hence so much more of what is made of forces as mu N is more than they; mu N
-        times 2 cm for the moment; the yield stress for the stress index, a difference from it; 1 for slip and fatigue index.
-        The stiffness of most methods is a difference quotient over a millionth of the approach: a thousandth of the digits.
-        Where the pressure of interacting strips is limited, their iteration magnifies the last digit of asin: a digit less.
+        The scale is the value, with these exceptions. It is mu N for forces. It is multiplied by mu N over the force for
+        results that are computed from forces. It is mu N times 2 cm for the moment, the yield stress for the stress index
+        (a difference from it), and 1 for slip and fatigue index. The stiffness of most methods is a difference quotient over a
+        millionth of the approach, so its scale is larger by 1000. With a pressure limit the iteration of interacting strips
+        magnifies the last digit of asin, so the scale is larger by 10.
         """
         wanted, s = self.expected(), self.solution
         limit, force = s.friction * s.N, s.utilisation * s.N
@@ -83,7 +84,10 @@ class Case:
 
 
 def random_case(seed: int) -> Case:
-    """All methods, friction laws, kinds of geometry and load; some lift-off, no friction, vanishing or great creepage."""
+    """Return a random case of any method, friction law, geometry and load.
+
+    Some cases have lift-off, no friction, vanishing or large creepage.
+    """
     rng = np.random.default_rng(seed)
     y0, dy = rng.uniform(-0.022, -0.018), rng.uniform(0.9e-3, 1.1e-3)
     y = y0 + dy * np.arange(POINTS)

@@ -1,4 +1,4 @@
-"""The host in C that does what it reads, `host/script.c`, compiled for a platform."""
+"""C host `host/script.c`, which runs commands from standard input, compiled for a platform."""
 
 import os
 import subprocess
@@ -15,7 +15,7 @@ _PLATFORMS = {"linux64": (".so", ["-ldl"], []), "win64": (".dll", [], ["wine"])}
 
 
 class Script:
-    """The compiled host for one platform, in a folder of its own."""
+    """The compiled host for one platform, in its own folder."""
 
     def __init__(self, platform: str, folder: Path) -> None:
         self.platform = platform
@@ -25,7 +25,7 @@ class Script:
         run(*compiler(platform), "-std=gnu11", "-O1", f"-I{HEADERS}", SOURCE, "-o", self.program, *libraries)
 
     def __call__(self, unzipped: Path, kind: int, commands: str, before: tuple[str, ...] = ()) -> np.ndarray:
-        """Run commands over an FMU as model exchange (0) or co-simulation (1); return the numbers that it prints."""
+        """Run commands on an FMU in model exchange (0) or co-simulation (1) and return the printed numbers."""
         description = fmpy.read_model_description(str(unzipped))
         library = unzipped / "binaries" / self.platform / (description.coSimulation.modelIdentifier + self.suffix)
         done = subprocess.run(

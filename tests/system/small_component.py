@@ -1,6 +1,6 @@
-"""Emits the objects of a component of a few lines, in the place of real ones, which compile for a minute: FOLDER [OTHERS …].
+"""Emit the objects of a small component, instead of a real one, which compiles for a minute: FOLDER [OTHERS …].
 
-Before it, with the same functions, one of other data into each of the others.
+Before it, a component with the same functions and other data is emitted into each of the other folders.
 """
 
 import math
@@ -23,7 +23,7 @@ from fmu_src.native.memory import compiled
 
 @compiled
 def energy(numbers):
-    """Something of loops and libm."""
+    """Return a sum that needs a loop and libm."""
     total = 0.0
     for x in numbers:
         total += math.exp(-x) * x * x
@@ -31,7 +31,7 @@ def energy(numbers):
 
 
 def entries():
-    """All of `SIGNATURES`."""
+    """Return functions for all `SIGNATURES`."""
 
     def count(values, data):
         return 3

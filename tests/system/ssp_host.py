@@ -1,4 +1,4 @@
-"""libcosim runs an SSP: python ssp_host.py PATH STEP COUNT prints the lateral position and yaw after each step."""
+"""Run an SSP with libcosim: python ssp_host.py PATH STEP COUNT prints lateral position and yaw after each step."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""Proofs of the coupled system: a wheelset and two contacts, as Python objects and as FMUs (readme of models/wheelset)."""
+"""The coupled system of a wheelset and two contacts, as Python objects and as FMUs (readme of models/wheelset)."""
 
 import itertools
 import math
@@ -28,7 +28,7 @@ def coupled(step: float, duration: float, parameters: WheelsetParameters, **opti
 
 
 def amplitude(history: master.History, start: float, end: float) -> float:
-    """Largest lateral displacement between two times [m]."""
+    """Return the largest lateral displacement [m] between two times."""
     window = (history["time"] >= start) & (history["time"] < end)
     return float(np.abs(history["lateral"][window]).max())
 
@@ -55,7 +55,7 @@ def test_wavelength_on_cones_is_klingels(conicity, speed):
 def test_state_matrix_holds_kalkers_coefficients():
     """Lateral damping 2 C22 G c²/V and yaw damping 2 C11 G c² b0²/V of cones (theory.md 9.4).
 
-    5 %: the patch also carries the spin of the cone's contact angle, and a lateral motion rolls the wheelset.
+    The tolerance is 5 %, since the cone's contact angle causes spin, and a lateral motion also rolls the wheelset.
     """
     p = on_cones(0.025, speed=30.0)
     A = state_matrix(p)
@@ -72,7 +72,7 @@ def test_state_matrix_holds_kalkers_coefficients():
 
 
 def test_critical_speed_of_cones_is_that_of_the_linear_theory():
-    """theory.md 9.4 leaves out gravitational stiffness and spin: 10 % here, where the suspension is the stiffer part."""
+    """theory.md 9.4 neglects gravitational stiffness and spin. This costs 10 % here, since the suspension is stiffer."""
     p = on_cones(0.05)
     _, b0, r, _ = WheelsetModel(p).frame("right")
     linear = LinearWheelset(
@@ -115,7 +115,7 @@ def test_small_offset_grows_above_the_critical_speed():
 def test_growth_ends_in_a_bounded_limit_cycle_with_flange_contact(hunting):
     assert amplitude(hunting, 3.0, 4.0) > 1.1 * 5e-3
     assert amplitude(hunting, 3.0, 3.5) == pytest.approx(amplitude(hunting, 3.5, 4.0), rel=0.01)
-    # both wheels come into the flange root in turn
+    # both wheels reach the flange root in turn
     assert hunting["right.contact.angle"].min() < math.radians(-25.0)
     assert hunting["left.contact.angle"].max() > math.radians(25.0)
     assert hunting["lateral"].max() < 6.5e-3
@@ -129,24 +129,24 @@ def test_growth_ends_in_a_bounded_limit_cycle_with_flange_contact(hunting):
 
 
 def test_friction_takes_the_energy_that_leaves_the_wheelset(hunting):
-    """In a limit cycle with flange contact, at 1 ms: within 1 %; stored elastic energy is accounted for."""
+    """They agree within 1 % in a limit cycle with flange contact, at 1 ms. Stored elastic energy is included."""
     dissipated = float(hunting.creep_power[1:].sum() * hunting.step)
     assert dissipated > 500.0
     assert np.abs(hunting.power_residual).max() < 0.01 * dissipated
-    # the power that the contacts see in their slip fields is that of forces and creepages
+    # the power of the slip fields of the contacts is that of forces and creepages
     assert float(hunting.friction_power[1:].sum() * hunting.step) == pytest.approx(dissipated, rel=0.02)
     assert (hunting.friction_power >= 0.0).all()
 
 
 def test_energy_balance_of_the_wheelset_closes(hunting):
-    """Readme (10): what it holds changes by what drive, dampers and contacts gave and took."""
+    """Readme (10): its energy changes by the work of drive, dampers and contacts."""
     held, interface = hunting["energy.mechanical"], hunting["energy.interface"]
     defect = held - held[0] + interface - hunting["energy.drive"] + hunting["energy.damper"]
     assert np.abs(defect).max() < 2e-3 * np.abs(interface).max()
 
 
 def test_on_cones_the_power_balance_is_exact_but_for_the_step():
-    """Hertzian contact leaves no error of geometry or stored energy: after the start 1e-4 of the energy dissipated."""
+    """Hertzian contact has no error of geometry or stored energy: 1e-4 of the dissipated energy after the start."""
     history = coupled(2.5e-4, 0.6, on_cones(0.05, speed=40.0, lateral=4e-3))
     settled = history["time"] > 0.1
     dissipated = float(history.creep_power[settled].sum() * history.step)
@@ -158,7 +158,7 @@ def test_on_cones_the_power_balance_is_exact_but_for_the_step():
 
 
 def differences(scheme: str, steps: tuple[float, ...], duration: float = 0.15) -> list[np.ndarray]:
-    """Largest differences of lateral [m], yaw [rad] and power residual [J] between runs with successive steps."""
+    """Return the largest differences of lateral [m], yaw [rad] and power residual [J] between successive step sizes."""
     runs = []
     for h in steps:
         history = coupled(h, duration, WheelsetParameters(lateral=3e-3), scheme=scheme)
@@ -175,13 +175,13 @@ def test_half_the_step_is_half_the_error(scheme):
 
 @pytest.mark.parametrize("scheme", ["gauss_seidel", "iterated"])
 def test_power_residual_of_the_coupling_shrinks_with_the_step(scheme):
-    """On real profiles a part does not: the energy stored in a non-Hertzian contact is not quite 2/5 N times approach."""
+    """On real profiles a part remains, since a non-Hertzian contact stores not exactly 2/5 N times approach."""
     coarse, fine = differences(scheme, (2.5e-4, 1.25e-4, 0.625e-4))
     assert fine[2] < 0.8 * coarse[2]
 
 
 def test_iterated_steps_are_of_second_order():
-    """Nearly: the load answers the lateral force of the step before, a small part of first order."""
+    """The order is slightly less, since the load follows the lateral force of the step before (a small first order part)."""
     coarse, fine = differences("iterated", (2e-3, 1e-3, 5e-4))
     assert (np.log2(coarse[:2] / fine[:2]) > 1.7).all()
     (gauss_seidel,) = differences("gauss_seidel", (2.5e-4, 1.25e-4))
@@ -194,7 +194,7 @@ def test_iterated_steps_are_of_second_order():
 
 @pytest.mark.parametrize("scheme", ["jacobi", "gauss_seidel"])
 def test_largest_stable_step_is_that_of_the_axles_spin(scheme):
-    """h < m/c (Jacobi), 2 m/c (Gauss–Seidel) with m = I_s/r², c = 2 f11/V: shorter than for the lateral motion."""
+    """h < m/c (Jacobi) or 2 m/c (Gauss–Seidel) with m = I_s/r², c = 2 f11/V. This is shorter than for lateral motion."""
     lateral, yaw, spin = stability.modes(WheelsetParameters(speed=10.0))
     h, grows = stability.measured(10.0, scheme)
     assert grows == "spin"
@@ -203,12 +203,12 @@ def test_largest_stable_step_is_that_of_the_axles_spin(scheme):
 
 
 def test_iterated_scheme_is_stable_where_the_others_are_not():
-    """Five times the limit of Gauss–Seidel at 5 m/s, and the power balance closes."""
+    """At 5 m/s it runs at five times the limit of Gauss–Seidel, and the power balance closes."""
     p = WheelsetParameters(speed=5.0, lateral=2e-3)
     histories = {s: coupled(1e-3, 0.2, p, scheme=s) for s in get_args(master.Scheme)}
     swing = {s: float(np.ptp(h["right.force.x"][-50:])) for s, h in histories.items()}
     assert swing["iterated"] < 200.0
-    assert min(swing["jacobi"], swing["gauss_seidel"]) > 20e3  # to and fro at the limit of friction
+    assert min(swing["jacobi"], swing["gauss_seidel"]) > 20e3  # alternates at the limit of friction
     history = histories["iterated"]
     assert history.rounds.max() <= master.MOST_ROUNDS
     assert np.abs(history.power_residual).max() < 0.1 * np.abs(histories["gauss_seidel"].power_residual).max()
@@ -231,7 +231,7 @@ def test_jacobi_runs_with_the_answers_to_the_step_before():
 @pytest.mark.parametrize("packaging", ["python", "native"])
 @pytest.mark.parametrize("scheme", get_args(master.Scheme))
 def test_fmus_and_python_objects_give_the_same_result(fmus, request, scheme, packaging):
-    """Through FMI's C interface, states saved and restored, to round-off; the wheel comes into the flange root on the way."""
+    """They agree to round-off through FMI's C interface with saved and restored states. The wheel reaches the flange root."""
     contact = fmus / "WheelRailContact.fmu" if packaging == "python" else request.getfixturevalue("native")
     p = WheelsetParameters(speed=28.0, lateral=5.5e-3, yaw=2e-3, lateral_damping=1e3)
     start = {"speed": p.speed, "initial.lateral": p.lateral, "initial.yaw": p.yaw, "suspension.lateral_damping": 1e3}
@@ -250,7 +250,7 @@ def test_fmus_and_python_objects_give_the_same_result(fmus, request, scheme, pac
 
 
 def test_irregular_track_reaches_the_contacts_and_is_followed():
-    """A bend of the track over 5 m: the wheelset steers after it."""
+    """The wheelset follows a bend of the track over 5 m."""
     p = WheelsetParameters(speed=20.0, lateral=0.0, lateral_stiffness=0.0, yaw_stiffness=0.0)
     wheelset = DirectWheelset(WheelsetModel(p))
     contacts = [LinearContact(8e6) for _ in SIDES]

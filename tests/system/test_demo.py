@@ -39,7 +39,7 @@ def test_demo_leaves_pictures_and_numbers(kind, fmus, tmp_path):
     values = dict(zip(header, np.array(rows, dtype=np.float64).T, strict=True))
     assert values["time"] == pytest.approx(np.arange(100) * 1e-3, abs=1e-12)
     assert values["lateral"][0] == 5e-3
-    assert values["lateral"][-1] < 0.0  # it has rolled through the centre
+    assert values["lateral"][-1] < 0.0  # it has crossed the centre
     for words in ("linear critical speed", "power residual of the coupling", "contacts_flange.png"):
         assert words in result.output
 

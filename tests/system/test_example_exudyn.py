@@ -1,4 +1,4 @@
-"""examples/exudyn_wheelset: a multibody program that nobody here wrote, on wheel-rail forces of the native FMU."""
+"""examples/exudyn_wheelset: an independent multibody program with wheel-rail forces of the native FMU."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,7 @@ from models.wheelset.parameters import WheelsetParameters
 
 
 def test_wheelset_of_exudyn_hunts_like_our_own(native):
-    """Six degrees of freedom on elastic contacts against loads in equilibrium: 0.5 % of the amplitude at 28 m/s, 4 mm."""
+    """Six degrees of freedom on elastic contacts agree with loads in equilibrium: 0.5 % of the amplitude at 28 m/s, 4 mm."""
     pytest.importorskip("exudyn", reason="THE EXAMPLE WITH EXUDYN IS NOT TESTED: pip install exudyn")
     from examples.exudyn_wheelset import wheelset
 

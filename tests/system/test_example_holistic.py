@@ -1,4 +1,4 @@
-"""The example of a holistic study: what every case must obey, and the grid is whole."""
+"""The example of a holistic study: conditions for every case, and a complete grid."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The example of accumulated wear runs, and wheel and rail lose the same volume."""
+"""The example of accumulated wear: it runs, and wheel and rail lose the same volume."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The FMU `WheelRailContact` as a whole, through the C interface of FMI."""
+"""The FMU `WheelRailContact` through the C interface of FMI."""
 
 import math
 import subprocess
@@ -15,7 +15,7 @@ from fmu_instance import Instance, discarded
 import contact
 from contact import kalker
 from fmu_src.catalogue import models
-from fmu_src.python.packaging import build  # here: an FMU that is loaded first brings a pythonfmu of its own
+from fmu_src.python.packaging import build  # imported here, since an FMU that is loaded first brings its own pythonfmu
 from models.wheelset.ports import PROBLEM, REACTION
 
 ROOT = Path(__file__).parents[2]
@@ -23,7 +23,7 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.fixture
 def fmu(open_fmu):
-    """In the case of `separation` and CREEPAGES, ready to step."""
+    """Return an instance with `separation` and CREEPAGES, ready to step."""
     return posed(open_fmu(NAME)).initialize(stop_time=1.0)
 
 
@@ -158,8 +158,8 @@ def test_lift_off_is_a_valid_result(fmu):
     assert not fmu.log
 
 
-def test_connectors_that_start_at_zero_are_no_contact_without_a_load_and_a_flat_one_with_it(fmu):
-    """What a master gives that knows no start values; curvature 0 is then no error."""
+def test_connectors_at_zero_give_no_contact_without_load_and_a_flat_contact_with_load(fmu):
+    """A master without knowledge of start values gives zeros. Curvature 0 is then not an error."""
     good = {name: fmu[name] for name in PROBLEM}
     fmu.step()
     before = fmu["force.x"]
@@ -200,7 +200,7 @@ def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(fmu, name, v
     fmu.step()
     before, good = fmu.all("output"), fmu[name]
     fmu.update({name: value})
-    for _ in range(7):  # the fifth exception out of a pythonfmu callback would crash the host
+    for _ in range(7):  # the fifth exception in a pythonfmu callback would crash the host
         assert discarded(fmu, 1e-3) == f"{name} = {value:g} is outside the allowed range {allowed}"
     assert fmu.all("output") == before
     fmu.update({name: good})
@@ -227,7 +227,7 @@ def test_a_bad_parameter_is_discarded_by_name(open_fmu, name, value, allowed):
     assert all(math.isfinite(v) for v in fmu.all("output").values())
 
 
-def test_a_step_that_is_none_is_discarded(fmu):
+def test_an_invalid_step_is_discarded(fmu):
     assert "communicationStepSize = 0 is outside" in discarded(fmu, 0.0, 0.0)
     assert "communicationStepSize = -0.001 is outside" in discarded(fmu, 0.0, -1e-3)
     assert "end of the step = 1.001 is outside" in discarded(fmu, 1.0, 1e-3)
@@ -241,7 +241,7 @@ def test_a_fixed_parameter_keeps_its_value_after_initialisation(fmu):
 
 
 def trajectory(fmu, start: int) -> list[dict[str, float]]:
-    """Five steps with changing inputs from step `start`."""
+    """Return the outputs of five steps with changing inputs from step `start` on."""
     rows = []
     for k in range(start, start + 5):
         fmu.update({"creepage.lateral": 1e-3 * math.sin(k), "load.normal_force": 8e4 + 1e4 * math.cos(k)})
@@ -275,7 +275,7 @@ def test_a_serialised_state_continues_in_another_instance_bit_by_bit(fmu, open_f
 
 
 def test_a_start_value_out_of_range_is_not_answered_with_ok(open_fmu):
-    """pythonfmu cannot return an error from exitInitializationMode, so the status says it; the instance recovers."""
+    """pythonfmu cannot return an error from exitInitializationMode, so the status reports it. The instance recovers."""
     instance = open_fmu(NAME)
     instance.fmu.setupExperiment(startTime=0.0)
     instance.fmu.enterInitializationMode()
@@ -314,7 +314,7 @@ def test_runs_from_a_folder_with_spaces(open_fmu):
 
 
 def test_two_builds_and_two_versions_live_in_one_process(open_fmu, tmp_path):
-    """pythonfmu would run the first one's script for both if they had the same name."""
+    """If their scripts had the same name, pythonfmu would run the first for both."""
     command = [sys.executable, ROOT / "build_fmu.py", "--packaging", "python", "--out", tmp_path, "--points", "7"]
     said = subprocess.run(command, check=True, timeout=120, capture_output=True, text=True).stdout
     assert "not made, WheelRailContact.fmu does not take the 41 samples of a separation that Wheelset.fmu gives" in said
@@ -342,7 +342,7 @@ def test_an_fmu_of_another_version_is_refused_with_a_reason(open_fmu, fmus, tmp_
 
 
 def test_runs_in_libcosim(fmus):
-    """An independent XML parser and host; of the FMU it takes Reals and Integers alone."""
+    """libcosim is an independent XML parser and host. It supports only Reals and Integers of the FMU."""
     host = subprocess.run(
         [sys.executable, Path(__file__).with_name("cosim_host.py"), fmus / f"{NAME}.fmu"],
         check=True,

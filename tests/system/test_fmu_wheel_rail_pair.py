@@ -1,4 +1,4 @@
-"""The FMU `WheelRailPair` in both packagings as a whole, through the C interface of FMI."""
+"""The FMU `WheelRailPair` in both packagings, through the C interface of FMI."""
 
 import math
 import shutil
@@ -30,18 +30,18 @@ DISCARD = 2
 
 @pytest.fixture(scope="module", params=["python", "native"])
 def file(request) -> Path:
-    """The file of each packaging."""
+    """Return the FMU file of each packaging."""
     folder = request.getfixturevalue("fmus") if request.param == "python" else request.getfixturevalue("native").parent
     return folder / f"{NAME}.fmu"
 
 
 @pytest.fixture
 def open_pair(file, tmp_path):
-    """Instantiate the FMU, each instance from a folder of its own; all are freed at the end."""
+    """Return a function that instantiates the FMU, each time from a new folder. All instances are freed at the end."""
     instances = []
 
     def open_pair(kind: str = "CoSimulation", path: Path = file) -> Instance:
-        # pythonfmu 0.7.0 crashes at a path that an URI has to encode
+        # pythonfmu 0.7.0 crashes at a path that must be encoded in a URI
         odd = "with blanks, ümläuts and 100 %" if file.parent.name == "native" else "plain"
         folder = tmp_path / f"{odd}{len(instances)}" / NAME
         instances.append(Instance(Path(fmpy.extract(str(path), str(folder))), kind=kind))
@@ -54,14 +54,14 @@ def open_pair(file, tmp_path):
 
 @pytest.fixture
 def fmu(open_pair):
-    """In MOTION under 80 kN, ready to step."""
+    """Return an instance in MOTION under 80 kN, ready to step."""
     fmu = open_pair()
     fmu.update(MOTION)
     return fmu.initialize(stop_time=1.0)
 
 
 def discarded(fmu, time=0.0, h=1e-3) -> str:
-    """Step, see it discarded, return what the FMU says."""
+    """Assert that a step is discarded, and return the message of the FMU."""
     fmu.log.clear()
     with pytest.raises(FMICallException) as caught:
         fmu.step(time, h)
@@ -172,7 +172,7 @@ ON = {"accumulation.wear_law": 2}
 
 
 def bins(fmu, body: str, quantity: str) -> np.ndarray:
-    """What has accumulated."""
+    """Return the bins of a quantity on one body."""
     return np.array(list(fmu.read(f"accumulated.{body}.{quantity}[{k + 1}]" for k in range(BINS)).values()))
 
 
@@ -181,7 +181,7 @@ def everything(fmu) -> np.ndarray:
 
 
 def histograms(parameters: DamageParameters) -> dict[str, Histogram]:
-    """Of `rolled`, by contact.accumulation."""
+    """Return the histograms of `rolled` by contact.accumulation."""
     wheel, rail = profile.s1002(), profile.rail_60e1(1 / 40)
     found = {body: Histogram(p, width=1e-3, parameters=parameters) for body, p in (("wheel", wheel), ("rail", rail))}
     pair, velocity = Pair(wheel, rail), Velocity(30.0, spin=-30.0 / 0.46 * 1.001)
@@ -261,14 +261,14 @@ def test_bins_are_part_of_the_state_and_a_discarded_step_leaves_them(open_pair):
     assert not everything(fmu.initialize()).any()
 
 
-def test_what_is_off_stays_zero(fmu):
+def test_bins_stay_zero_when_nothing_accumulates(fmu):
     fmu.step()
     assert not everything(fmu).any()
     assert fmu["total.T_gamma"] > 0.0
 
 
 def exchanged(file: Path, folder: Path) -> tuple[Path, list[profile.Profile]]:
-    """The FMU with a cone on a rail that is one arc, from plain columns in millimetres, and these as they were read."""
+    """Return the FMU with a cone on a circular rail, from plain columns in millimetres, and the profiles as read."""
     options, read = [], []
     for kind, shape in (("wheel", profile.cone(0.05)), ("rail", profile.rail_arc(0.3))):
         path = folder / f"{kind}.txt"
@@ -282,7 +282,7 @@ def exchanged(file: Path, folder: Path) -> tuple[Path, list[profile.Profile]]:
 
 
 def test_takes_a_users_own_profiles(file, open_pair, tmp_path):
-    """Exchanged in the finished file, without a compiler."""
+    """They are replaced in the finished file, without a compiler."""
     path, profiles = exchanged(file, tmp_path)
     fmu = open_pair(path=path)
     values = {"pose.y": 1e-3, "velocity.x": 20.0, "velocity.spin": -20.0 / 0.46}
@@ -309,12 +309,12 @@ def test_a_damaged_profile_is_refused_when_instantiated(file, tmp_path, damage):
         assert "resource rail.profile" in log[0][1]
 
 
-# ---------------------------------------------------------------- the native packaging alone
+# ---------------------------------------------------------------- only the native packaging
 
 
 @pytest.fixture
 def open_pair_fmi3(native_fmi3, tmp_path):
-    """Instantiate the native FMU of FMI 3.0."""
+    """Return a function that instantiates the native FMU of FMI 3.0."""
     instances = []
 
     def open_pair_fmi3(kind: str = "CoSimulation") -> Instance3:
@@ -329,7 +329,7 @@ def open_pair_fmi3(native_fmi3, tmp_path):
 
 @pytest.fixture
 def native_pair(native, tmp_path):
-    """Instantiate the native FMU."""
+    """Return a function that instantiates the native FMU."""
     instances = []
 
     def native_pair(kind: str = "CoSimulation", path: Path | None = None) -> Instance:
@@ -343,7 +343,7 @@ def native_pair(native, tmp_path):
 
 
 def test_both_packagings_go_on_alike_from_step_to_step(native_pair, open_fmu):
-    """With interacting strips, which start from the last step."""
+    """This uses interacting strips, which start from the last step."""
     one, other = native_pair(), open_fmu(NAME)
     for fmu in (one, other):
         fmu.update({**MOTION, "method.normal": list(contact.methods().normal).index("strip_halfspace") + 1})
@@ -392,7 +392,7 @@ WRENCH = ("force.x", "force.y", "force.z", "moment.x", "moment.y", "moment.z")
     ],
 )
 def test_directional_derivatives_are_those_of_the_outputs(native_pair, known, h):
-    """Of the whole wrench, each component by itself, against central differences with other steps."""
+    """Each component of the wrench is compared with central differences of other steps."""
     fmu = native_pair("ModelExchange")
     fmu.update({**MOTION, "pose.yaw": 1e-3})
     fmu.initialize()
@@ -402,9 +402,9 @@ def test_directional_derivatives_are_those_of_the_outputs(native_pair, known, h)
 
 
 def test_derivatives_of_random_motions(native_pair):
-    """To 1e-4 of the slope of force and moment, wherever these are smooth, with every continuous method.
+    """They agree to 1e-4 of the slope of force and moment where these are smooth, for every continuous method.
 
-    The quotients have steps wider and narrower than the FMU's, so that no kink lies within its steps alone.
+    The quotients use wider and narrower steps than the FMU, so that they see every kink within its steps.
     """
     fmu, tally = native_pair("ModelExchange"), Tally()
     continuous = [method.continuous for method in contact.methods().batched.normal.values()]

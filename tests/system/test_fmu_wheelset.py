@@ -1,4 +1,4 @@
-"""The FMU `Wheelset` as a whole, through the C interface of FMI."""
+"""The FMU `Wheelset` through the C interface of FMI."""
 
 import math
 
@@ -40,7 +40,7 @@ def test_every_port_of_the_model_is_a_variable_and_connects_to_the_contact(fmu, 
         assert float(fmu.variables[name].start) == float(contact.variables[name].start)
 
 
-def test_is_where_the_parameters_say_before_the_first_step(open_fmu):
+def test_starts_at_the_position_in_the_parameters(open_fmu):
     fmu = open_fmu(NAME)
     fmu.update({"initial.lateral": -2e-3, "initial.yaw": 1e-3, "speed": 25.0})
     assert fmu.initialize().all("output") == reported(
@@ -170,7 +170,7 @@ def test_reset_returns_to_the_start(fmu):
 
 
 def test_two_fmus_that_share_code_run_in_one_process(fmu, open_fmu):
-    """One step of a wheelset and its right contact."""
+    """Do one step of a wheelset and its right contact."""
     contact = open_fmu("WheelRailContact").initialize()
     contact.update({name: fmu[f"right.{name}"] for name in PROBLEM})
     contact.step()

@@ -1,4 +1,4 @@
-"""Renault's fmutool, which checks more rules of FMI than its schema holds, has nothing to say about any FMU that we build."""
+"""Renault's fmutool, which checks more FMI rules than the schema, has no findings in any FMU that we build."""
 
 import subprocess
 import sys

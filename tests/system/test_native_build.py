@@ -1,4 +1,4 @@
-"""The native FMUs are the same whenever they are built."""
+"""Builds of the native FMUs are reproducible."""
 
 import os
 import subprocess
@@ -13,7 +13,7 @@ WHEELSET = next(model for model in models(41) if model.name == "wheelset")
 
 
 def test_the_same_kernels_give_the_same_bytes(native_wheelset, tmp_path):
-    """Those that the fixture has left behind. Hence the same guid, which is a hash of all that goes in."""
+    """The kernels are those of the fixture. The guid, a hash of all content, is then also the same."""
     again = packaging.build(WHEELSET, tmp_path, ROOT / "build" / "native", print)
     assert [path.read_bytes() for path in again] == [
         path.read_bytes() for path in (native_wheelset, native_wheelset.parent / "fmi3" / native_wheelset.name)
@@ -21,7 +21,7 @@ def test_the_same_kernels_give_the_same_bytes(native_wheelset, tmp_path):
 
 
 def test_the_same_sources_give_the_same_kernels(tmp_path):
-    """Whatever the order of sets in the process that compiles, and whatever else it has compiled before."""
+    """They do not depend on the order of sets in the compiling process or on what it compiled before."""
     found = []
     for seed, others in (("1", ()), ("2", ("before",))):
         folders = [tmp_path / name for name in (seed, *others)]

@@ -11,7 +11,7 @@ from contact import Status
 
 @pytest.fixture
 def fmu(open_native):
-    """In the case of `contact_case`, ready to step."""
+    """Return an instance with the case of `contact_case`, ready to step."""
     return posed(open_native()).initialize(stop_time=1.0)
 
 
@@ -35,7 +35,7 @@ DERIVATIVES = [
 
 @pytest.mark.parametrize("scale", [0.02, 0.5])
 def test_directional_derivatives_are_those_of_the_solver(open_native, scale):
-    """Against central differences of the fourth order of outputs in model exchange; in small and medium creepage."""
+    """They are compared with fourth order differences of outputs in model exchange, at small and medium creepage."""
     fmu = posed(open_native("ModelExchange"))
     fmu.update({name: scale * value for name, value in CREEPAGES.items()})
     fmu.initialize()
@@ -48,7 +48,7 @@ def test_directional_derivatives_are_those_of_the_solver(open_native, scale):
 
 @pytest.mark.parametrize("scale", [0.02, 0.5])
 def test_forces_by_the_scale_of_the_geometry(open_native, scale):
-    """Along (g, A) itself, all 82 samples at once: the contact becomes flatter or sharper."""
+    """The derivative is along (g, A) itself, all 82 samples at once: the contact becomes flatter or sharper."""
     fmu = posed(open_native("ModelExchange"))
     fmu.update({name: scale * value for name, value in CREEPAGES.items()})
     fmu.initialize()
@@ -59,7 +59,7 @@ def test_forces_by_the_scale_of_the_geometry(open_native, scale):
 
 
 def directions(case: Case) -> dict[str, tuple[dict[str, float], float]]:
-    """What the forces of a case are differentiated by: knowns with their seeds, and a change that is great."""
+    """Return the directions of a case: knowns with their seeds, and a large change along them."""
     v, s = case.values, case.solution
     saturates = s.friction * s.N / (s.material.shear_modulus * s.area)
     load = "load.normal_force" if v["load.kind"] == 1 else "load.approach"
@@ -75,7 +75,7 @@ def directions(case: Case) -> dict[str, tuple[dict[str, float], float]]:
 
 
 def test_forces_of_random_contacts(open_native):
-    """Of all continuous methods, to 1e-4 of the slope of the force and of the moment, wherever these are smooth."""
+    """For all continuous methods they agree to 1e-4 of the slope of force and moment where these are smooth."""
     fmu, tally, unknowns = open_native("ModelExchange"), Tally(), ("force.x", "force.y", "moment.z")
     continuous = [method.continuous for method in METHODS.normal.values()]
     for case in map(random_case, range(100)):
@@ -107,7 +107,7 @@ def test_a_directional_derivative_adds_up_what_its_seed_says(open_native):
 
 
 def test_a_derivative_at_the_end_of_a_range_is_one_sided(fmu):
-    """Friction 0 is the least; there |F| grows with mu N."""
+    """The minimum of friction is 0, where |F| grows with mu N."""
     fmu.update({"friction.coefficient": 0.0})
     (slope,) = fmu.fmu.getDirectionalDerivative(
         [fmu.variables["force.x"].valueReference], [fmu.variables["friction.coefficient"].valueReference], [1.0]

@@ -1,4 +1,4 @@
-"""The file of the native `WheelRailContact`: what is in it, and what its libraries need and offer."""
+"""The file of the native `WheelRailContact`: its content, and the symbols that its libraries need and export."""
 
 import re
 import subprocess
@@ -37,7 +37,7 @@ def test_what_is_linked_in_is_listed_with_its_licence(native_folder):
         assert words in texts[name], name
 
 
-def test_the_windows_library_needs_windows_alone(native_folder):
+def test_the_windows_library_needs_only_windows(native_folder):
     content = (native_folder / "binaries" / "win64" / f"{NAME}.dll").read_bytes()
     needed = {name.decode().lower() for name in re.findall(rb"[\w-]+\.dll", content, re.IGNORECASE)} - {
         f"{NAME}.dll".lower()
@@ -54,14 +54,14 @@ C_LIBRARY = {
 
 
 def functions(native_folder) -> set[str]:
-    """What the library for Linux offers."""
+    """Return the symbols that the library for Linux exports."""
     library = native_folder / "binaries" / "linux64" / f"{NAME}.so"
     symbols = subprocess.run(["nm", "-D", library], check=True, capture_output=True, text=True).stdout
     return set(re.findall(r" [A-TV-Z] (\w+)", symbols))
 
 
-def test_the_library_needs_the_c_library_alone(native_folder):
-    """Of others it asks for libm; what it offers are FMI's functions."""
+def test_the_library_needs_only_the_c_library(native_folder):
+    """Apart from the C library it needs libm. It exports the functions of FMI."""
     library = native_folder / "binaries" / "linux64" / f"{NAME}.so"
     symbols = subprocess.run(["nm", "-D", library], check=True, capture_output=True, text=True).stdout
     needed = set(re.findall(r" [Uw] (\w+)", symbols))
@@ -70,13 +70,16 @@ def test_the_library_needs_the_c_library_alone(native_folder):
     offered = functions(native_folder)
     versions = {v: {name for name in offered if name.startswith(v)} for v in ("fmi2", "fmi3")}
     assert offered == versions["fmi2"] | versions["fmi3"]
-    assert {v: len(names) for v, names in versions.items()} == {"fmi2": 44, "fmi3": 75}  # all functions there are
+    assert {v: len(names) for v, names in versions.items()} == {
+        "fmi2": 44,
+        "fmi3": 75,
+    }  # all functions of the standards
     dynamic = subprocess.run(["readelf", "-d", library], check=True, capture_output=True, text=True).stdout
     assert set(re.findall(r"NEEDED.*\[(.+)\]", dynamic)) <= {"libc.so.6", "libm.so.6"}
 
 
-def test_the_library_for_macos_needs_its_c_library_alone(native_folder):
-    """It is looked at, since nothing here can run it."""
+def test_the_library_for_macos_needs_only_its_c_library(native_folder):
+    """Its symbols are inspected, since it cannot run here."""
     library = lief.parse(native_folder / "binaries" / "darwin64" / f"{NAME}.dylib")
     own, system = f"@rpath/{NAME}.dylib", "/usr/lib/libSystem.B.dylib"
     assert [needed.name for needed in library.libraries] == [own, system]
@@ -87,7 +90,7 @@ def test_the_library_for_macos_needs_its_c_library_alone(native_folder):
 
 
 def test_nothing_of_the_library_can_be_written(native_folder):
-    """Data and zeroed data hold what the C start-up code needs, no variable of ours."""
+    """The sections .data and .bss contain only what the C start-up code needs, and no variable of ours."""
     library = native_folder / "binaries" / "linux64" / f"{NAME}.so"
     sections = subprocess.run(["readelf", "-SW", library], check=True, capture_output=True, text=True).stdout
     sizes = {name: int(size, 16) for name, size in re.findall(r"(\.data|\.bss)\s+\w+\s+\w+ \w+ (\w+)", sections)}

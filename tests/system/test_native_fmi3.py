@@ -1,4 +1,4 @@
-"""The native `WheelRailContact` of FMI 3.0: the same library as that of FMI 2.0, where arrays and fields are variables."""
+"""The native `WheelRailContact` of FMI 3.0. Its library is that of FMI 2.0; arrays and fields are variables."""
 
 import math
 from zipfile import ZipFile
@@ -33,7 +33,7 @@ FIELDS = {
 
 
 def pose(fmu):
-    """In the case of `separation` and CREEPAGES."""
+    """Set `separation` and CREEPAGES in an instance and return it."""
     s = separation()
     fmu.update({"geometry.g": s.g, "geometry.A": s.A, **CREEPAGES})
     fmu.update({"geometry.y0": -0.02, "geometry.dy": 0.001, "speed": 30.0})
@@ -46,7 +46,7 @@ def fmu(open_native_fmi3):
 
 
 def arrays(values: dict) -> dict:
-    """Values of `random_case` with geometry.g[1] … as one array."""
+    """Return the values of `random_case` with geometry.g[1] … as one array."""
     whole = {name: value for name, value in values.items() if not name.endswith("]")}
     for name in ("geometry.g", "geometry.A", "geometry.tilt"):
         whole[name] = [value for key, value in values.items() if key.startswith(name + "[")]
@@ -54,12 +54,12 @@ def arrays(values: dict) -> dict:
 
 
 def scalars(values: dict) -> list:
-    """Every number of these variables in the order of their names and indices."""
+    """Return every number of these variables in the order of names and indices."""
     return [number for name in sorted(values) for number in np.ravel(values[name]).tolist()]
 
 
 def by_row(values: dict) -> dict:
-    """Scalars x[1], x[2] … of FMI 2.0 put together."""
+    """Return the scalars x[1], x[2] … of FMI 2.0 as arrays."""
     rows = {}
     for name, value in values.items():
         rows.setdefault(name.split("[")[0], []).append(value)
@@ -159,7 +159,7 @@ def test_an_array_is_started_with_fmpy(native_fmi3):
 
 
 def test_arrays_move_with_time_with_fmpy(native_fmi3):
-    """fmpy takes signals of one size at a time: here both arrays. The gap sinks linearly at a prescribed approach."""
+    """fmpy accepts signals of one size in a run, here both arrays. The gap falls linearly at a prescribed approach."""
     y = -0.02 + 0.001 * np.arange(41)
     kinds = [("time", float), ("geometry.g", float, (41,)), ("geometry.A", float, (41,))]
     gaps, A = (y**2, y**2 - 4e-5), np.full(41, 1.0)
@@ -196,7 +196,7 @@ def test_fields_are_those_of_the_solver(open_native_fmi3, seed):
         field = fmu[name]
         assert field.shape == (4, *resolution.values())
         field = field.reshape(-1, resolution["n_elements"])
-        known = solution.has_fields or attribute in ("x", "y", "dA", "p")  # a creep force law leaves the others at zero
+        known = solution.has_fields or attribute in ("x", "y", "dA", "p")  # with a creep force law the others are zero
         wanted = getattr(solution, attribute) if known else np.zeros((n, resolution["n_elements"]))
         np.testing.assert_allclose(field[:n], wanted, rtol=1e-12, atol=1e-12 * np.max(np.abs(wanted), initial=0.0))
         assert not np.any(field[n:])
@@ -213,7 +213,7 @@ def test_fields_add_up_to_the_forces_and_keep_coulombs_bound(open_native_fmi3, n
     area, p, qx, qy = (fmu[f"field.{name}"] for name in ("area", "pressure", "traction_x", "traction_y"))
     N, mu = fmu["force.n"], fmu["friction.coefficient"]
     assert np.sum(p * area) == pytest.approx(N, rel=1e-12)
-    # forces and area are integrals in closed form, elements are exact for the pressure
+    # forces and area are integrals in closed form, elements are exact only for the pressure
     assert np.sum(area) == pytest.approx(fmu["patch.area"], rel=1e-3)
     assert np.sum(qx * area) == pytest.approx(fmu["force.x"], abs=2e-3 * mu * N)
     assert np.sum(qy * area) == pytest.approx(fmu["force.y"], abs=2e-3 * mu * N)
@@ -223,7 +223,7 @@ def test_fields_add_up_to_the_forces_and_keep_coulombs_bound(open_native_fmi3, n
 
 
 def test_fields_belong_to_the_last_step_whatever_was_computed_since(open_native_fmi3):
-    """Interacting strips start warm: what is computed again must start from where the step did."""
+    """Interacting strips start warm, so a repeated computation must start from the same memory as the step."""
     fmu = pose(open_native_fmi3())
     fmu.update({"method.normal": list(contact.methods().batched.normal).index("strip_halfspace") + 1})
     fmu.initialize()
@@ -265,7 +265,7 @@ def derivative(fmu, unknowns: list[str], knowns: list[str], seed=(1.0,)) -> np.n
 
 @pytest.mark.parametrize("known", ["creepage.longitudinal", "load.normal_force"])
 def test_fields_have_directional_derivatives(open_native_fmi3, known):
-    """Against differences in model exchange; a whole slip keeps elements from changing between stick and slip."""
+    """They are compared with differences in model exchange. In full slip no element changes between stick and slip."""
     fmu = pose(open_native_fmi3("ModelExchange"))
     fmu.update({"creepage.longitudinal": 0.05})
     fmu.initialize()
@@ -278,15 +278,15 @@ def test_fields_have_directional_derivatives(open_native_fmi3, known):
     np.testing.assert_allclose(slopes, wanted, atol=2e-4 * np.max(np.abs(wanted)))
 
 
-def test_a_seed_of_an_array_goes_along_all_its_elements(fmu):
-    """A gap that is wider everywhere is an approach that is less."""
+def test_a_seed_of_an_array_applies_to_all_its_elements(fmu):
+    """A gap that is wider everywhere has the effect of a smaller approach."""
     single = [derivative(fmu, ["approach"], ["geometry.g"], np.eye(41)[i].tolist())[0] for i in range(41)]
     (together,) = derivative(fmu, ["approach"], ["geometry.g"], [1.0] * 41)
     assert together == pytest.approx(1.0, abs=1e-6)
     assert sum(single) == pytest.approx(together, abs=1e-4)
 
 
-# ---------------------------------------------------------------- behaviour that a user meets
+# ---------------------------------------------------------------- behaviour for users
 
 
 def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(fmu):
@@ -316,10 +316,10 @@ def test_a_step_says_that_it_was_done_to_its_end(fmu):
     assert fmu["time"] == 0.25
 
 
-def test_resolution_is_set_in_configuration_mode_alone(open_native_fmi3):
+def test_resolution_is_set_only_in_configuration_mode(open_native_fmi3):
     fmu = open_native_fmi3()
     refused(lambda: fmu.update({"resolution.n_strips": 12}), ERROR)
-    assert fmu.log == [(ERROR, "fmi3SetUInt64: structural parameters, and these alone, are set in configuration mode")]
+    assert fmu.log == [(ERROR, "fmi3SetUInt64: only structural parameters are set, and only in configuration mode")]
     fmu.configure(n_strips=12, n_elements=20)
     fmu.initialize().step()
     assert fmu["field.pressure"].shape == (4, 12, 20)
@@ -341,8 +341,10 @@ def test_the_number_of_values_must_be_that_of_the_array(fmu):
     for call in (lambda: fmu.fmu.setFloat64(reference, [0.0] * 40), lambda: fmu.fmu.getFloat64(reference, nValues=42)):
         fmu.log.clear()
         refused(call, ERROR)
-        assert "values are given where the variables have 41" in fmu.log[0][1]
-    refused(lambda: fmu.fmu.getFloat64([reference[0] + 1]), ERROR)  # within the array: a variable of FMI 2.0 alone
+        assert "values are given, but the variables have 41" in fmu.log[0][1]
+    refused(
+        lambda: fmu.fmu.getFloat64([reference[0] + 1]), ERROR
+    )  # an element of the array: a variable only in FMI 2.0
 
 
 def test_what_is_not_provided_is_refused(native_fmi3_folder):
@@ -392,7 +394,7 @@ def test_reset_restores_every_start(fmu, open_native_fmi3):
 
 
 def test_starts_can_be_read_before_initialisation(open_native_fmi3, native_fmi3):
-    """What FMI 2.0 does not allow; outputs that are to be calculated have no value yet."""
+    """FMI 2.0 does not allow this. Calculated outputs have no value yet."""
     fmu = open_native_fmi3()
     for variable in fmpy.read_model_description(str(native_fmi3)).modelVariables:
         if variable.causality in ("parameter", "input", "structuralParameter"):

@@ -1,4 +1,4 @@
-"""The native `WheelRailContact` through the C interface of FMI: what a user of it meets."""
+"""The native `WheelRailContact` through the C interface of FMI, as a user calls it."""
 
 import math
 import subprocess
@@ -18,7 +18,7 @@ from models.wheelset.ports import PROBLEM, REACTION
 
 @pytest.fixture
 def fmu(open_native):
-    """In the case of `contact_case`, ready to step."""
+    """Return an instance with the case of `contact_case`, ready to step."""
     return posed(open_native()).initialize(stop_time=1.0)
 
 
@@ -74,7 +74,7 @@ def test_a_bad_parameter_is_discarded_by_name_before_the_first_step(open_native)
     fmu.step()
 
 
-def test_a_step_that_is_none_is_an_error_and_changes_nothing(fmu):
+def test_an_invalid_step_is_an_error_and_changes_nothing(fmu):
     for time, h, text in (
         (0.0, 0.0, "= 0 is outside"),
         (0.0, math.nan, "= nan is outside"),
@@ -87,7 +87,7 @@ def test_a_step_that_is_none_is_an_error_and_changes_nothing(fmu):
 
 
 def test_extreme_values_give_finite_outputs_or_none(open_native):
-    """Whatever finite numbers come in: no crash, no hang, no NaN."""
+    """No finite input causes a crash, a hang or NaN."""
     fmu = open_native().initialize()
     rng = np.random.default_rng(7)
     inputs = [v for v in fmu.variables.values() if v.causality == "input"]
@@ -119,8 +119,8 @@ def test_lift_off_is_a_valid_result(fmu):
     assert not any(value for name, value in outputs.items() if name not in ("status", "approach"))
 
 
-def test_connectors_that_start_at_zero_are_no_contact_without_a_load_and_a_flat_one_with_it(fmu):
-    """What a master gives that knows no start values; curvature 0 is then no error."""
+def test_connectors_at_zero_give_no_contact_without_load_and_a_flat_contact_with_load(fmu):
+    """A master without knowledge of start values gives zeros. Curvature 0 is then not an error."""
     good = {name: fmu[name] for name in PROBLEM}
     fmu.step()
     before = fmu["force.x"]
@@ -208,7 +208,7 @@ def test_model_exchange_has_no_delay_and_counts_energy_by_the_trapezoidal_rule(o
 
 
 def test_runs_in_libcosim(native):
-    """An independent XML parser and host."""
+    """libcosim is an independent XML parser and host."""
     host = subprocess.run(
         [sys.executable, Path(__file__).with_name("cosim_host.py"), native],
         check=True,

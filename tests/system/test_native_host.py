@@ -1,4 +1,4 @@
-"""The native FMU in a host written in C, on Linux and, where Wine is installed, as the Windows library."""
+"""The native FMU in a C host, on Linux and, if Wine is installed, as the Windows library."""
 
 import os
 import re
@@ -53,7 +53,7 @@ def test_every_state_meets_every_function_in_fmi_3(host_fmi3):
 
 
 def test_any_function_in_any_order_does_what_its_state_allows(host):
-    """Also bytes that are no state, and values of any size; in the end every call of the table was made in every state."""
+    """This includes invalid state bytes and values of any size. In the end every call has been made in every state."""
     assert host("fuzz", 600_000).split()[0] == "0"
 
 
@@ -68,13 +68,13 @@ def test_random_calls_of_fmi_3_do_no_harm(host_fmi3):
 
 @pytest.mark.parametrize("name", ROLES)
 def test_cycles_and_steps_leave_memory_as_it_was(hosts, name):
-    """10 000 instances and a million steps; of FMUs other than WheelRailContact as many by `make soak`, here fewer."""
+    """10 000 instances and a million steps of WheelRailContact. For the other FMUs fewer, and as many in `make soak`."""
     every = name == NAME or "SOAK" in os.environ
     hosts("linux64", name)("soak", *((10_000, 1_000_000) if every else (300, 10_000)))
 
 
-def test_two_fmus_in_one_process_do_not_meet(hosts, host, tmp_path):
-    """Their symbols have the same names; loaded by RTLD_LOCAL each has its own. One FMU is also two, with other guids."""
+def test_two_fmus_in_one_process_do_not_share_symbols(hosts, host, tmp_path):
+    """Their symbols have equal names, but RTLD_LOCAL keeps them apart. One FMU with two guids is tested too."""
     twin = tmp_path / "twin.so"
     guid = "{" + "0" * 36 + "}"
     twin.write_bytes(host.library.read_bytes().replace(host.guid.encode(), guid.encode()))
@@ -85,8 +85,8 @@ def test_two_fmus_in_one_process_do_not_meet(hosts, host, tmp_path):
         together("two_libraries", 0, other.library, other.guid)
 
 
-def test_the_wrapper_does_nothing_undefined(host, tmp_path):
-    """Compiled such that what C leaves undefined ends the program."""
+def test_the_wrapper_has_no_undefined_behaviour(host, tmp_path):
+    """It is compiled so that undefined behaviour ends the program."""
     model = component(POINTS)
     source.write(model, host.guid, tmp_path)
     checked = copy(host)
@@ -103,7 +103,7 @@ def test_the_wrapper_does_nothing_undefined(host, tmp_path):
 
 @pytest.mark.parametrize(("name", "command"), [("host", "fuzz"), ("host_fmi3", "random_calls")])
 def test_valgrind_finds_nothing(request, name, command):
-    """Leaks and reads of what was never written, over all calls and random ones."""
+    """It looks for leaks and reads of uninitialised memory, over all calls and random ones."""
     host = request.getfixturevalue(name)
     if not shutil.which("valgrind"):
         pytest.skip("valgrind is not installed")

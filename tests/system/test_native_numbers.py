@@ -1,4 +1,4 @@
-"""The numbers of `WheelRailContact` in both packagings against `contact.solve`, of which they are made."""
+"""Numbers of `WheelRailContact` in both packagings compared with `contact.solve`."""
 
 import ctypes
 
@@ -46,7 +46,7 @@ def test_native_packaging_equals_the_solver(host, cases):
 
 
 def test_windows_library_equals_the_solver(windows, cases):
-    """It brings the exp, log and pow that glibc has; of the rest that it takes from Windows nothing is magnified."""
+    """It has the exp, log and pow of glibc. Differences of other functions of Windows are not magnified."""
     check(cases, windows.solve((case.values for case in cases), OUTPUTS))
 
 
@@ -101,7 +101,7 @@ def test_strips_that_interact_go_on_from_the_last_step(open_native):
 
 
 def test_kernels_for_every_processor_agree_bit_by_bit(native, cases, tmp_path):
-    """The wrapper chooses by what the processor can; here both run."""
+    """The wrapper chooses for the processor at run time. Here both versions run."""
     pointer = np.ctypeslib.ndpointer(np.float64)
     libraries = [ctypes.CDLL(str(kernel_library(tmp_path, cpu))) for cpu in CPUS]
     for library in libraries:

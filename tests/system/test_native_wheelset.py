@@ -1,4 +1,4 @@
-"""The native `Wheelset` as a whole: co-simulation against the Python model, model exchange against co-simulation."""
+"""The native `Wheelset`: co-simulation compared with the Python model, model exchange with co-simulation."""
 
 import ctypes
 import math
@@ -44,7 +44,7 @@ def folder(native_wheelset, tmp_path_factory) -> Path:
 
 @pytest.fixture
 def open_wheelset(folder):
-    """Instantiate the native Wheelset; all are freed at the end."""
+    """Return a function that instantiates the native Wheelset. All instances are freed at the end."""
     instances = []
 
     def open_wheelset(kind: str = "CoSimulation", **start: float) -> Instance:
@@ -64,7 +64,7 @@ def fmu(open_wheelset):
 
 @pytest.fixture
 def exchanged(open_wheelset):
-    """In continuous-time mode of model exchange."""
+    """Return an instance in continuous-time mode of model exchange."""
     return continuous(open_wheelset("ModelExchange"))
 
 
@@ -147,7 +147,7 @@ def test_equals_the_model_on_an_irregular_track(fmu):
 
 @pytest.mark.parametrize("scheme", ["gauss_seidel", "jacobi", "iterated"])
 def test_native_and_python_fmus_give_the_same_coupled_run(native, native_wheelset, fmus, scheme):
-    """Two different native FMUs in one process, three instances; the wheel comes into the flange root on the way."""
+    """One process runs two different native FMUs with three instances. The wheel reaches the flange root."""
     wheelset = {"initial.lateral": 5.5e-3, "initial.yaw": 2e-3, "suspension.lateral_damping": 1e3}
     histories = []
     for wheelset_fmu, contact_fmu in (
@@ -230,7 +230,7 @@ FORCED = {"right.force.x": -400.0, "left.force.x": 300.0, "right.force.y": 600.0
 
 @pytest.mark.parametrize("lateral", [3e-3, 5.9e-3])
 def test_model_exchange_with_cvode_equals_co_simulation(native_wheelset, lateral):
-    """Held forces, on the tread and into the flange root; co-simulation's error is of second order in its substeps."""
+    """Forces are constant, on the tread and in the flange root. Co-simulation has an error of second order in its substeps."""
     options = {
         "stop_time": 0.15,
         "output_interval": 1e-3,
@@ -250,7 +250,7 @@ def test_model_exchange_with_cvode_equals_co_simulation(native_wheelset, lateral
 
 
 def test_the_start_follows_inputs_at_once(open_wheelset):
-    """The states do not: those come from parameters alone."""
+    """The states do not follow inputs, since they depend only on parameters."""
     fmu = open_wheelset("ModelExchange", initial__yaw=1e-3)
     fmu.fmu.setupExperiment(startTime=0.0)
     fmu.fmu.enterInitializationMode()
@@ -278,7 +278,7 @@ def test_states_derivatives_and_nominals_are_those_of_the_description(exchanged)
 
 
 def numbers(values):
-    """A C array of doubles and its length."""
+    """Return a C array of doubles and its length."""
     return (ctypes.c_double * len(values))(*values), len(values)
 
 
@@ -286,7 +286,7 @@ def test_a_wrong_number_of_states_is_an_error(exchanged):
     for call in ("setContinuousStates", "getContinuousStates", "getDerivatives", "getNominalsOfContinuousStates"):
         array, n = numbers([0.0] * (len(STATES) + 1))
         refused(lambda call=call, array=array, n=n: getattr(exchanged.fmu, call)(array, n), ERROR)
-        assert f"there are {len(STATES)}, {len(STATES) + 1} were asked for" in exchanged.log[-1][1]
+        assert f"there are {len(STATES)}, but {len(STATES) + 1} were requested" in exchanged.log[-1][1]
 
 
 def test_a_state_that_is_no_number_is_discarded_by_name(exchanged):
@@ -306,7 +306,7 @@ def test_a_state_that_is_no_number_is_discarded_by_name(exchanged):
 
 
 def test_the_power_at_the_interface_is_that_of_the_creep_forces(exchanged):
-    """Readme (9), which holds without an integration error in model exchange."""
+    """Readme (9) holds without an integration error in model exchange."""
     exchanged.update(FORCED | {"irregularity.lateral": 1e-3})
     exchanged.fmu.setContinuousStates(*numbers([*IN_MOTION.values(), 0.0, 0.0, 0.0]))
     names = zip(PROBLEM[CREEPAGE], REACTION[:3], strict=True)
@@ -335,7 +335,7 @@ UNKNOWNS = (
 
 @pytest.mark.parametrize("lateral", [0.0, 4e-3, 5.8e-3])
 def test_directional_derivatives_are_central_differences(exchanged, lateral):
-    """Of derivatives and outputs by states and inputs, against differences of the fourth order with other steps."""
+    """Derivatives and outputs by states and inputs are compared with fourth order differences of other steps."""
     states = [*(IN_MOTION | {"lateral": lateral}).values(), 0.0, 0.0, 0.0]
     exchanged.update(FORCED)
     exchanged.fmu.setContinuousStates(*numbers(states))
@@ -383,7 +383,7 @@ def test_a_host_in_c_gets_what_fmpy_gets(folder, tmp_path, open_wheelset):
 
 
 def test_valgrind_finds_nothing(folder, tmp_path):
-    """No result hangs on memory that was never written, in either kind."""
+    """No result depends on uninitialised memory, in model exchange and co-simulation."""
     if not shutil.which("valgrind"):
         pytest.skip("valgrind is not installed")
     check = ("valgrind", "--error-exitcode=9", "--leak-check=full", "-q")

@@ -1,4 +1,4 @@
-"""coupled.ssp, the wheelset and its contacts as one file: conforming, and the same answer as the example master's."""
+"""coupled.ssp, the wheelset and its contacts in one file: it conforms and gives the results of the example master."""
 
 import subprocess
 import sys
@@ -24,14 +24,14 @@ STEPS = 60
 
 @pytest.fixture(params=PACKAGINGS)
 def system(request) -> Path:
-    """The file as it is built beside the FMUs."""
+    """Return the file that is built in the folder of the FMUs."""
     python = request.param == "python"
     folder = request.getfixturevalue("fmus") if python else request.getfixturevalue("native").parent
     return folder / "coupled.ssp"
 
 
 def jacobi(step: float, from_nothing: bool = False) -> np.ndarray:
-    """Lateral position and yaw after each step, of Python objects; `from_nothing`: every connector starts at 0."""
+    """Return lateral position and yaw after each step of Python objects. With `from_nothing` all connectors start at 0."""
     p = WheelsetParameters()
     wheelset, contacts = direct(p)
     if not from_nothing:
@@ -62,7 +62,7 @@ def by_fmpy(system: Path, step: float) -> np.ndarray:
 
 
 def test_structure_conforms_to_the_schema(system):
-    """Of SSP 1.0: read by fmpy with validation, and by pyssp-standard, which checks connections too."""
+    """The schema is SSP 1.0. fmpy reads it with validation, and pyssp-standard also checks connections."""
     assert len(read_ssd(str(system)).system.elements) == 3
     with SSP(str(system), mode="r") as package, package.system_structure as ssd:
         ssd.check_compliance(ssd.schemas[ssd.identifier], ssd.namespaces)
@@ -82,7 +82,7 @@ def test_connectors_are_variables_of_the_fmus_with_their_causality_and_unit(syst
 
 
 def test_libcosim_gives_the_answer_of_the_example_master(system):
-    """It exchanges outputs in initialisation and is Jacobi from then on: the same to round-off."""
+    """It exchanges outputs in initialisation and uses Jacobi afterwards. The results agree to round-off."""
     expected = jacobi(2e-4)
     command = [sys.executable, Path(__file__).with_name("ssp_host.py"), system, "2e-4", str(STEPS)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=900)
@@ -93,12 +93,12 @@ def test_libcosim_gives_the_answer_of_the_example_master(system):
 
 
 def test_fmpy_gives_the_answer_of_a_jacobi_master_that_starts_from_nothing(system):
-    """Every connector is 0 in its first step: no load, so no contact, and two steps without creep forces."""
+    """Every connector is 0 in its first step. So there is no load and no contact, and two steps have no creep forces."""
     assert by_fmpy(system, 2e-4) == pytest.approx(jacobi(2e-4, from_nothing=True), rel=1e-9, abs=1e-12)
 
 
-def test_what_such_a_start_costs_vanishes_with_the_step():
-    """Within the error of the scheme, which is of first order too: half of it at half the step."""
+def test_the_error_of_a_start_from_zero_vanishes_with_the_step():
+    """It lies within the error of the scheme, which is also of first order: half the step gives half the error."""
     coarse, fine = (
         np.abs(jacobi(h, from_nothing=True) - jacobi(h))[int(STEPS * share) - 1]
         for h, share in ((2e-4, 0.5), (1e-4, 1.0))

@@ -1,4 +1,4 @@
-"""A short run of a wheelset under forces that change from step to step."""
+"""A short run of a wheelset with forces that change in each step."""
 
 import math
 
@@ -15,7 +15,7 @@ NUMBERS = {*MOTION, *ENERGY, *CHANGE, *(f"{s}.{n}" for s in SIDES for n in (*PRO
 
 
 def reactions(k: int) -> dict[str, dict[str, float]]:
-    """Some forces and approaches of step `k`, side by side."""
+    """Return forces and approaches of step `k` for each side."""
     return {
         side: dict(zip(REACTION, (900.0 * m * math.sin(k), -1500.0 + 300.0 * k, 5.0 * m, 7e-5 + 1e-6 * k), strict=True))
         for side, m in zip(SIDES, (1.0, -1.0), strict=True)
@@ -23,12 +23,12 @@ def reactions(k: int) -> dict[str, dict[str, float]]:
 
 
 def inputs(k: int) -> dict[str, float]:
-    """The same by the names of the FMU's inputs."""
+    """Return the same by the names of the FMU's inputs."""
     return {f"{side}.{name}": v for side, forces in reactions(k).items() for name, v in forces.items()}
 
 
 def trajectory(fmu: Instance, start: int) -> list[dict[str, float]]:
-    """Three steps with changing forces from step `start`."""
+    """Return the outputs of three steps with changing forces from step `start` on."""
     rows = []
     for k in range(start, start + 3):
         fmu.update(inputs(k))
@@ -38,7 +38,7 @@ def trajectory(fmu: Instance, start: int) -> list[dict[str, float]]:
 
 
 def reported(model: WheelsetModel) -> dict[str, float]:
-    """All outputs of the model by their names."""
+    """Return all outputs of the model by name."""
     columns = {port: DirectWheelset(model).read(port) for port in WHEELSET_PORTS if port not in INPUT_PORTS}
     return {
         n: v for port, column in columns.items() for n, v in zip(WHEELSET_PORTS[port], column.tolist(), strict=True)
@@ -46,7 +46,7 @@ def reported(model: WheelsetModel) -> dict[str, float]:
 
 
 def commands(kind: int) -> str:
-    """For `host/script.c`: three steps, or derivatives at three states."""
+    """Return commands for `host/script.c`: three steps, or derivatives at three states."""
     at = {scalar.name: reference for reference, scalar in enumerate(table().scalars)}
     lines = [f"s {at['initial.lateral']} 0.005", "i"]
     for k in range(3):

@@ -1,4 +1,4 @@
-"""Laws that give forces alone: closed forms, published numbers, their own tractions, and what they cannot say."""
+"""Creep force laws, which give only forces: closed forms, published numbers, their own tractions, missing fields."""
 
 import math
 
@@ -26,7 +26,7 @@ def solve(separation, vx=0.0, vy=0.0, phi=0.0, tangential="linear", **options):
 
 
 def shape(separation):
-    """a, b, c and Kalker's coefficients of the ellipse."""
+    """Return a, b, c and Kalker's coefficients of the ellipse."""
     found = contact.hertz(separation.A[0], separation.g[-1] / separation.y[-1] ** 2, load=N)
     C = kalker.coefficients(kalker.table(NU), math.log(found.a / found.b))
     return found.a, found.b, math.sqrt(found.a * found.b), C
@@ -38,7 +38,7 @@ def hertzian(request):
 
 
 def test_linear_theory_on_an_ellipse(hertzian):
-    """Kalker 1967: four coefficients; the equivalent ellipse of 200 strips is Hertz's to 1e-4."""
+    """Kalker 1967, with four coefficients. The equivalent ellipse of 200 strips agrees with Hertz to 1e-4."""
     *_, c, (c11, c22, c23, c33) = shape(hertzian)
     unit = G * c * c
     x, y, spin = (solve(hertzian, *creepage) for creepage in np.diag([1e-4, 1e-4, 1e-2]))
@@ -53,7 +53,7 @@ def test_linear_theory_on_an_ellipse(hertzian):
     np.testing.assert_allclose([x.Fy, x.Mz, y.Fx, spin.Fx], 0.0, atol=1e-6)
 
 
-def test_linear_theory_knows_no_friction(hertzian):
+def test_linear_theory_does_not_depend_on_friction(hertzian):
     sol = solve(hertzian, 0.05)
     assert abs(sol.Fx) > 10 * MU * N
     assert not contact.methods().tangential["linear"].saturates
@@ -110,7 +110,7 @@ def test_carter_has_kalkers_slope_on_a_wide_ellipse():
     assert slope == pytest.approx(kalker.coefficients(kalker.table(NU), math.log(a / b))[0], rel=0.02)
 
 
-def test_carter_takes_longitudinal_creepage_alone(ellipse):
+def test_carter_uses_only_longitudinal_creepage(ellipse):
     only = solve(ellipse, 1e-3, tangential="carter")
     with_all = solve(ellipse, 1e-3, 2e-3, 0.3, tangential="carter")
     assert (with_all.Fx, with_all.Fy, with_all.Mz) == pytest.approx((only.Fx, 0.0, 0.0), abs=1e-9)
@@ -135,7 +135,7 @@ def test_slopes_of_vermeulen_and_johnson_are_their_integrals(aspect, nu):
 
 
 def test_slopes_on_a_circle_are_johnsons():
-    """16/(4 - 3 nu), 16/(4 - nu): 4.92 and 4.27 at nu = 1/4, the 19 and 16 per cent above Kalker's of thesis 4.2."""
+    """16/(4 - 3 nu), 16/(4 - nu): 4.92 and 4.27 at nu = 1/4, which is 19 and 16 per cent above Kalker (thesis 4.2)."""
     np.testing.assert_allclose(slopes(1.0, 0.25), (16 / 3.25, 16 / 3.75), rtol=1e-14)
     C = kalker.coefficients(kalker.table(0.25), 0.0)
     np.testing.assert_allclose(np.array(slopes(1.0, 0.25)) / C[:2], (1.19, 1.16), atol=0.01)
@@ -174,7 +174,7 @@ def test_johnson_sees_the_circle_of_equal_area(ellipse):
 
 
 def polach_by_the_book(vx, vy, phi, a, b, C, limit, k_A=1.0, k_S=1.0):
-    """theory.md 2.3 letter by letter."""
+    """Return Polach's forces directly from the equations of theory.md 2.3."""
     c11, c22, c23, _ = C
     vyC = vy + phi * a if abs(vy + phi * a) > abs(vy) else vy
     v, vC = math.hypot(vx, vy), math.hypot(vx, vyC)
@@ -190,7 +190,7 @@ def polach_by_the_book(vx, vy, phi, a, b, C, limit, k_A=1.0, k_S=1.0):
 
 
 @pytest.mark.parametrize("reduced", [(1.0, 1.0), (1.0, 0.4), (0.3, 0.1)])
-def test_polach_is_his_formula(reduced):
+def test_polach_equals_his_formula(reduced):
     rng = np.random.default_rng(3)
     C, inside = kalker.coefficients(kalker.table(NU), math.log(1.5)), 0
     for creepage in rng.normal(0.0, (1e-3, 1e-3, 0.3), (200, 3)):
@@ -204,7 +204,7 @@ def test_polach_is_his_formula(reduced):
 
 
 def test_polachs_factors_come_with_the_friction(hertzian):
-    """Typical of dry and of wet rails: (k_A + k_S)/2 of the stiffness at vanishing creepage, mu N in the end."""
+    """With typical values of dry and wet rails, (k_A + k_S)/2 scales the slope at zero creepage; the limit stays mu N."""
     for k_A, k_S in ((1.0, 0.4), (0.3, 0.1)):
         surface = Friction(MU, k_A=k_A, k_S=k_S)
         solve_on = [
@@ -223,7 +223,7 @@ def test_polachs_factors_come_with_the_friction(hertzian):
 
 
 def test_polach_has_a_lateral_force_from_spin_alone(ellipse):
-    """The trap of theory.md 2.3: with the test of v_yC inverted it would be zero. It vanishes again as spin grows."""
+    """It would be zero if the test of v_yC were inverted (theory.md 2.3). It vanishes again as spin grows."""
     *_, c, C = shape(ellipse)
     spin = MU * N / (G * c**3 * C[2])
     force = [-solve(ellipse, phi=s * spin, tangential="polach").Fy / (MU * N) for s in (0.1, 1.0, 1e3)]
@@ -233,7 +233,7 @@ def test_polach_has_a_lateral_force_from_spin_alone(ellipse):
 
 
 def test_creepage_is_that_of_the_patches_middle(ellipse):
-    """A patch beside the origin rolls with vx - phi y, and its force has a moment about the origin."""
+    """A patch off the origin rolls with vx - phi y, and its force has a moment about the origin."""
     y = 3e-3
     aside = contact.Separation(ellipse.y + y, ellipse.g, ellipse.A)
     for law in LAWS:

@@ -1,4 +1,4 @@
-"""Effective creepages of mapped strip marching: right at their nodes, exact in both limits, each patch's own."""
+"""Effective creepages of mapped strip marching: accurate at the nodes, exact in both limits, separate for each patch."""
 
 import math
 
@@ -18,7 +18,7 @@ FORCES = table.numbers(table.FILE)
 
 
 def forces(a_over_b, creepage, *, y=0.0, n=40):
-    """Fx, Fy over mu N and Mz over mu N c about the patch, which lies `y` off the origin."""
+    """Return Fx and Fy over mu N, Mz over mu N c about the middle of the patch, which lies at `y`."""
     s = ellipse(a_over_b, C, LOAD, creep_table.MATERIAL)
     moved = contact.Separation(s.y + y, s.g, s.A)
     vx, vy, phi = creepage
@@ -41,8 +41,8 @@ def test_at_its_nodes_the_march_has_the_half_spaces_force_and_moment(i, j, k, l)
 
 
 @pytest.mark.slow
-def test_cases_that_the_table_has_not_seen():
-    """300 random ellipses by our half space; without effective creepages .0081 / .0261 / .0927, moment .0075."""
+def test_errors_on_cases_between_the_nodes_are_small():
+    """300 random ellipses by our half space. Without effective creepages the errors are .0081 / .0261 / .0927, moment .0075."""
     errors = unseen.errors(*reference.unseen_ellipses(), "fastrip_mapped")
     assert errors["force"].mean() < 0.0021
     assert np.percentile(errors["force"], 95) < 0.0085
@@ -52,7 +52,7 @@ def test_cases_that_the_table_has_not_seen():
 
 @pytest.mark.parametrize("creepage", [(1e-3, -4e-4, 0.3), (4e-4, 8e-4, -0.9), (0.0, 1e-3, 0.0)])
 def test_a_patch_rolls_the_same_wherever_the_origin_lies(creepage):
-    """Forces and the moment about the patch, with the creepages at its middle."""
+    """Forces, and the moment about the patch, depend only on the creepages at its middle."""
     here = forces(1.6, creepage)
     for y in (-5e-3, 1e-3, 20e-3):
         np.testing.assert_allclose(forces(1.6, creepage, y=y), here, atol=1e-9)
@@ -72,7 +72,7 @@ def test_slopes_at_zero_and_full_slip_are_the_marchs_own(a_over_b):
 
 
 def test_symmetries_hold_to_round_off():
-    """The two operations of theory.md 2.6."""
+    """Both symmetry operations of theory.md 2.6."""
     for X, Y, Z in np.random.default_rng(2).normal(0.0, 1.0, (12, 3)):
         creepage = np.array([1e-3 * X, 1e-3 * Y, 0.3 * Z])
         one = forces(1.4, creepage)
@@ -81,7 +81,7 @@ def test_symmetries_hold_to_round_off():
 
 
 def test_separate_patches_have_effective_creepages_of_their_own():
-    """Two equal patches far apart, each rolling as if alone."""
+    """Of two equal patches far apart, each rolls as if the other were absent."""
     y = np.linspace(-20e-3, 20e-3, 401)
     g = 40.0 * np.minimum((y - 10e-3) ** 2, (y + 10e-3) ** 2)
     vx, vy, phi = 4e-4, -3e-4, 0.2
@@ -98,7 +98,7 @@ def test_separate_patches_have_effective_creepages_of_their_own():
     np.testing.assert_allclose(both.Mz, Mz, rtol=1e-3)
 
 
-def test_the_fit_finds_what_the_file_has():
+def test_the_fit_reproduces_the_file():
     changes = table.numbers(table.EFFECTIVE_FILE)
     expected = effective.neighbours(changes)
     for at in ((4, 2, 8, 4), (2, 3, 4, 5)):
@@ -110,8 +110,8 @@ def test_the_fit_finds_what_the_file_has():
 
 
 @pytest.mark.parametrize("at", [(4, 2, 3, 6), (6, 2, 3, 6)])
-def test_slip_counts_the_creepages_as_given(at):
-    """What friction dissipates is the work of the forces on these, though the effective ones differ by a good part of it."""
+def test_dissipation_is_the_work_on_the_given_creepages(at):
+    """Dissipation is the work of the forces on the given creepages, although the effective ones differ considerably."""
     a_over_b, creepage = node(*at)
     found = contact.solve(
         ellipse(a_over_b, C, LOAD, creep_table.MATERIAL), contact.Creepage(*creepage), load=LOAD, friction=MU,
@@ -126,7 +126,7 @@ def test_slip_counts_the_creepages_as_given(at):
 
 
 @pytest.mark.parametrize("path", [table.FILE, table.EFFECTIVE_FILE])
-def test_the_files_have_nothing_that_symmetry_rules_out(path):
+def test_the_files_obey_the_symmetries(path):
     values = table.numbers(path)
     assert (values[:, -1, :, :, 0] == 0.0).all()
     assert (values[:, :, [0, -1], :, 0] == 0.0).all()

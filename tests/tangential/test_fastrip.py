@@ -13,14 +13,14 @@ N, MU = 8e4, 0.3
 
 
 def force(separation, vx=0.0, vy=0.0, phi=0.0, **options):
-    """(Fx, Fy)/(mu N) and Mz/(mu N c)."""
+    """Return (Fx, Fy)/(mu N) and Mz/(mu N c)."""
     sol = contact.solve(separation, contact.Creepage(vx, vy, phi), load=N, friction=MU, **options)
     c = math.sqrt(sol.area / math.pi)
     return np.array([sol.Fx / (MU * N), sol.Fy / (MU * N), sol.Mz / (MU * N * c)])
 
 
 def scales(separation):
-    """Creepages at which linear theory reaches mu N, and c."""
+    """Return the creepages at which linear theory reaches mu N, and c."""
     sol = contact.solve(separation, contact.Creepage(), load=N)
     c = math.sqrt(sol.area / math.pi)
     C = kalker.coefficients(kalker.table(0.28), math.log(sol.strips.aspect[0]))
@@ -60,7 +60,7 @@ def test_pure_creepage_follows_the_closed_form(linear, value, B):
 @pytest.mark.parametrize("tangential", TANGENTIAL)
 def test_full_slip_gives_mu_N_against_the_creepage(tangential, ellipse):
     sol = contact.solve(ellipse, contact.Creepage(-0.3, 0.4, 0.0), load=N, friction=MU, tangential=tangential)
-    # the elliptic bound is infinitely steep at the leading edge: a sliver behind it sticks at any creepage
+    # the elliptic bound is infinitely steep at the leading edge, so a thin zone after it sticks at any creepage
     assert sol.status is (contact.Status.OK if tangential == "fastsim_elliptic" else contact.Status.SATURATED)
     assert math.hypot(sol.Fx, sol.Fy) == pytest.approx(MU * N, rel=1e-6)
     direction = (sol.Fx / (MU * N), sol.Fy / (MU * N))
@@ -72,7 +72,7 @@ def test_full_slip_gives_mu_N_against_the_creepage(tangential, ellipse):
 @pytest.mark.parametrize("tangential", TANGENTIAL)
 @pytest.mark.parametrize("creep", [(1e-3, 0.7e-3, 0.4), (-2e-3, 3e-3, -1.5), (0.0, 1e-4, 2.0), (5e-3, -1e-3, 0.02)])
 def test_sign_and_mirror_symmetries_hold_to_round_off(tangential, creep, ellipse):
-    """The two operations of theory.md 2.6."""
+    """Both symmetry operations of theory.md 2.6."""
     vx, vy, phi = creep
     F = force(ellipse, vx, vy, phi, tangential=tangential)
     np.testing.assert_allclose(force(ellipse, -vx, -vy, -phi, tangential=tangential), -F, atol=1e-13, err_msg="sign")
@@ -93,7 +93,7 @@ def test_no_friction_no_creepage_no_force(tangential, ellipse):
 
 
 def test_force_is_continuous_through_unit_spin_parameter(ellipse):
-    """|psi| = 1, where the published method declares full slip."""
+    """At |psi| = 1 the published method switches to full slip."""
     _, vy, phi, _ = scales(ellipse)
     for lateral in (-1.5, -0.7, 0.0, 0.7):
         values = np.array([force(ellipse, vy=lateral * vy, phi=p * phi) for p in np.linspace(0.95, 1.05, 101)])
@@ -102,7 +102,7 @@ def test_force_is_continuous_through_unit_spin_parameter(ellipse):
 
 @pytest.mark.parametrize(("vx", "vy"), [(5e-4, 5e-4), (1e-4, -2e-3)])
 def test_force_is_continuous_where_leading_edges_come_to_slip(vx, vy, ellipse):
-    """Beyond |psi| = 1, lateral creepage against spin: steps of .004 and .027 with full slip of such strips at once."""
+    """Beyond |psi| = 1, lateral creepage against spin. With full slip of such strips at once, jumps were .004 and .027."""
     spin = np.linspace(-2.0, 2.0, 801)
     found = contact.forces(ellipse, (vx, vy, spin), load=N, friction=MU)
     largest = {}
@@ -113,11 +113,11 @@ def test_force_is_continuous_where_leading_edges_come_to_slip(vx, vy, ellipse):
         k = int(np.abs(np.diff(curve)).argmax())
         fine = contact.forces(ellipse, (vx, vy, np.linspace(spin[k], spin[k + 1], 101)), load=N, friction=MU)
         largest[name] = np.abs(np.diff(getattr(fine, name) / (MU * N))).max() / np.abs(np.diff(curve)).max()
-    assert max(largest.values()) < 0.03, "a hundredth of the step leaves a hundredth of the largest jump"
+    assert max(largest.values()) < 0.03, "at a hundredth of the step the largest jump must be a hundredth"
 
 
 def test_doubled_strips_and_elements_hardly_change_forces():
-    """Rows of ellipses, a/b 0.2 to 5, in 16 states with up to 2.2 /m of spin: issue "The solver" asks for 0.2 % of mu N."""
+    """Ellipses, a/b 0.2 to 5, in 16 states with spin up to 2.2 /m. Issue "The solver" requires 0.2 % of mu N."""
     rng = np.random.default_rng(3)
     sign = rng.choice([-1.0, 1.0], (3, 16))
     creepage = tuple(sign * np.array([1e-3, 1e-3, 0.5])[:, None] * 10 ** rng.uniform(-1, 0.7, (3, 16)))
@@ -140,7 +140,7 @@ def test_doubled_strips_and_elements_hardly_change_forces():
 
 
 def test_particles_that_stick_again_bear_less_than_the_bound(ellipse):
-    """Spin turns the rigid slip round within a strip; there the march's particles stick, and the bound is not reached."""
+    """Spin reverses the rigid slip within a strip. There particles stick in the march, and the bound is not reached."""
     sol = contact.solve(ellipse, contact.Creepage(0.0, 0.0, 2.0), load=N, friction=MU, n_strips=31)
     used = np.hypot(sol.qx, sol.qy) / (MU * sol.p)
     assert sol.slip_ratio == 1.0, "no stick zone at the leading edge"
@@ -149,7 +149,7 @@ def test_particles_that_stick_again_bear_less_than_the_bound(ellipse):
     assert (np.hypot(sol.sx, sol.sy)[sol.stick] == 0.0).all()
     middle = sol.stick[15]
     assert middle.any(), "in the middle the pole of the rigid slip lies in the strip"
-    # from the leading edge on it passes through zero, from one side to the other
+    # along the strip the traction changes sign
     assert np.unique(np.sign(sol.qy[15])).tolist() == [-1.0, 1.0]
 
 
@@ -167,7 +167,7 @@ def test_slip_of_a_partially_slipping_circle(ellipse):
 
 
 def test_fastsim_saturates_at_the_bound_of_the_strip_load(ellipse):
-    """The parabola must carry the strip load; with 4/3 p0 on every strip the total would be 1.13 mu N (theory.md 2.5)."""
+    """The parabola must carry the strip load. With 4/3 p0 on every strip the total would be 1.13 mu N (theory.md 2.5)."""
     sol = contact.solve(ellipse, contact.Creepage(0.5, 0, 0), load=N, friction=MU, tangential="fastsim")
     centre = np.hypot(sol.qx, sol.qy).max() / (MU * sol.max_pressure)
     assert centre == pytest.approx(4.0 / 3.0, rel=0.01), "Kalker's paraboloid is a third too high at the centre"

@@ -1,4 +1,4 @@
-"""FASTSIM with its choices of flexibility and bound, and strip theory: closed forms, CONTACT's own FASTSIM, the thesis."""
+"""FASTSIM with its choices of flexibility and bound, and strip theory, against closed forms, CONTACT and the thesis."""
 
 import math
 
@@ -23,7 +23,7 @@ def solve(separation, vx=0.0, vy=0.0, phi=0.0, tangential="fastsim", **options):
 
 
 def kalkers(separation):
-    """c and the coefficients of the ellipse."""
+    """Return c and Kalker's coefficients of the ellipse."""
     sol = solve(separation)
     return math.sqrt(sol.area / math.pi), kalker.coefficients(kalker.table(NU), math.log(sol.strips.aspect[0]))
 
@@ -31,7 +31,7 @@ def kalkers(separation):
 @pytest.mark.parametrize("separation", ELLIPSES)
 @pytest.mark.parametrize("method", ["fastsim", "fastsim_elliptic", "fastsim_linder", "fastsim_stripes"])
 def test_slopes_of_three_flexibilities_are_kalkers(method, separation):
-    """Thesis Eqs. 4.28-4.30; the bound does not matter at vanishing creepage."""
+    """Thesis Eqs. 4.28-4.30. The bound has no effect at vanishing creepage."""
     c, (c11, c22, c23, _) = kalkers(separation)
     tiny = 1e-5 * MU * N / (G * c * c)
     x, y, spin = (solve(separation, *creepage, tangential=method) for creepage in np.diag([tiny, tiny, tiny / c]))
@@ -64,7 +64,7 @@ def test_one_flexibility_is_contacts():
         )  # fmt: skip
         scale = reference.MU * reference.N_ELLIPSE
         ours[own] = np.stack([found.Fx / scale, found.Fy / scale, found.Mz / (scale * 5e-3)], axis=1)
-    difference = np.abs(ours - theirs)  # reached: median .001, mean .002, max .021; theirs is a march of first order
+    difference = np.abs(ours - theirs)  # reached: median .001, mean .002, max .021; CONTACT's march is of first order
     assert difference.mean() < 2.5e-3
     assert difference.max() < 0.025
 
@@ -100,7 +100,7 @@ def test_local_ellipses_differ_on_a_real_patch_and_carry_the_same_full_slip():
 
 @pytest.mark.parametrize("separation", ELLIPSES)
 def test_linear_theory_on_an_ellipse_gives_kalkers_flexibilities(separation):
-    """`fastsim_knothe` knows no table; what is left is the table's own error (theory.md 1.2) and that of 18 elements."""
+    """`fastsim_knothe` uses no table. The rest is the error of the table (theory.md 1.2) and of 18 elements."""
     for creepage in [(3e-4, 0.0, 0.0), (2e-4, -4e-4, 0.2)]:
         one, other = solve(separation, *creepage), solve(separation, *creepage, tangential="fastsim_knothe")
         assert math.hypot(one.Fx - other.Fx, one.Fy - other.Fy) < 5e-3 * MU * N
@@ -109,7 +109,7 @@ def test_linear_theory_on_an_ellipse_gives_kalkers_flexibilities(separation):
 @pytest.mark.slow
 @pytest.mark.parametrize("index", [0, 3, 7])
 def test_slopes_of_linear_theory_on_the_patch_itself(index):
-    """`fastsim_knothe` has the slopes of `benchmarks/linear_slopes.py`, which `fastsim` misses by 20 %; reached: 1.7 %."""
+    """`fastsim_knothe` has the slopes of `benchmarks/linear_slopes.py` to 1.7 %; `fastsim` deviates by 20 %."""
     case = reference.patches()[index]
     truth = np.array(reference.linear_slopes()[index]["slopes"])
     tiny = 1e-8
@@ -153,7 +153,7 @@ def test_strip_theory_under_pure_spin_sticks_along_the_middle():
     (0.2, (0.0, 0.0, 1.0), 0.24),
 ])  # fmt: skip
 def test_strip_theory_is_a_quarter_low_on_circles_and_worse_in_spin(aspect, creepage, off):
-    """Thesis 4.4: 25 % under creepage on a circle (18 and 34 here), 20 % (a/b = .2) to 40 % (circle) under spin."""
+    """Thesis 4.4: 25 % under creepage on a circle (here 18 and 34), under spin 20 % (a/b = .2) to 40 % (circle)."""
     separation = ellipse(aspect, 5e-3, N)
     _, C = kalkers(separation)
     tiny = tuple(1e-6 * c * s for c, s in zip(creepage, (1.0, 1.0, 200.0), strict=True))

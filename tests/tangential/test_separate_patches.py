@@ -1,4 +1,4 @@
-"""Separate patches roll each for itself: the forces of two are those of each alone, referred to one origin."""
+"""Separate patches roll independently: two patches have the forces of each one alone, referred to one origin."""
 
 import numpy as np
 import pytest
@@ -6,14 +6,14 @@ import pytest
 import contact
 
 METHODS = contact.methods().batched.tangential
-APART, APPROACH = 15e-3, 6e-5  # [m] of each patch from the origin; of the bodies
+APART, APPROACH = 15e-3, 6e-5  # [m] distance of each patch from the origin; approach of the bodies
 SAMPLES = np.linspace(-APART, APART, 241)
 SMALL, LARGE = 1e-5, 2e-3
 SOFT = contact.friction.Friction(0.3, slope=0.54, slope_far=0.02, slope_rate=0.64)
 
 
 def separation(centres, stretch):
-    """Parabolas about `centres`; those on the right are `stretch` times as steep."""
+    """Return parabolas about `centres`. Those on the right are `stretch` times as steep."""
     g = [np.where(np.array(c) > 0.0, stretch, 1.0) * 3.0 * SAMPLES**2 for c in centres]
     y = np.concatenate([SAMPLES + c for c in centres])
     keep = np.r_[True, np.diff(y) > 1e-9]
@@ -51,7 +51,7 @@ def test_two_patches_bear_what_each_bears_alone(tangential, friction, size):
 @pytest.mark.parametrize("tangential", METHODS)
 @pytest.mark.parametrize("size", [SMALL, 5e-4])
 def test_with_spin_two_equal_patches_bear_what_each_bears_at_its_own_place(tangential, size):
-    """Each rolls with the creepage at its own middle: a patch at y has vx - phi y, and the moment -y Fx about the origin."""
+    """Each rolls with the creepage at its middle: a patch at y has vx - phi y, and the moment -y Fx about the origin."""
     spin = 0.3 * size / 1e-3
     both = solved((-APART, APART), contact.Creepage(size, -0.5 * size, spin), 1.0, tangential, 0.3)
     expected = np.zeros(3)

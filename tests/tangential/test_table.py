@@ -1,4 +1,4 @@
-"""The table of creep forces: its nodes, exact slopes, symmetry, smoothness, and cases that it has not seen."""
+"""The table of creep forces: nodes, exact slopes, symmetry, smoothness, and errors between the nodes."""
 
 import math
 
@@ -17,7 +17,7 @@ G, C, LIMIT, NU = 82e9, 6e-3, 24600.0, table.NU
 
 
 def lookup(log_aspect, X, Y, Z):
-    """Fx, Fy, Mz over mu N, mu N, mu N c and the share of slip, for forces of the linear theory over mu N."""
+    """Return Fx/(mu N), Fy/(mu N), Mz/(mu N c) and the share of slip, for forces of the linear theory over mu N."""
     coefficients = kalker.coefficients(kalker.table(NU), log_aspect)
     c11, c22, c23, _ = coefficients
     unit = LIMIT / (G * C * C)
@@ -60,7 +60,7 @@ def test_slopes_at_zero_are_kalkers_exactly(log_aspect):
 
 
 def test_symmetries_hold_to_round_off():
-    """The two operations of theory.md 2.6."""
+    """Both symmetry operations of theory.md 2.6."""
     for X, Y, Z in np.random.default_rng(2).normal(0.0, 1.5, (50, 3)):
         one = lookup(0.3, X, Y, Z)
         np.testing.assert_allclose(lookup(0.3, -X, -Y, -Z), one * (-1, -1, -1, 1), atol=1e-14)
@@ -68,9 +68,9 @@ def test_symmetries_hold_to_round_off():
 
 
 def test_forces_and_their_slopes_are_continuous():
-    """Along lines across many cells, through the seams of the symmetries: second differences shrink with the step's square.
+    """Along lines across many cells and symmetry planes, second differences shrink with the square of the step.
 
-    Where the cut at mu N sets in, the slope may change.
+    The slope may change where the limit mu N begins.
     """
     rng = np.random.default_rng(3)
     for start, way in zip(rng.normal(0, 1, (6, 3)), rng.normal(0, 2, (6, 3)), strict=True):
@@ -82,7 +82,7 @@ def test_forces_and_their_slopes_are_continuous():
         assert roughness[1] < 0.3 * roughness[0]
 
 
-def test_full_slip_is_the_end():
+def test_large_creepage_gives_full_slip():
     c11, c22, *_ = kalker.coefficients(kalker.table(NU), 0.1)
     found = lookup(0.1, 3e3 * c11, 4e3 * c22, 0.0)
     np.testing.assert_allclose(found, (-0.6, -0.8, 0.0, 1.0), atol=0.01)
@@ -90,8 +90,8 @@ def test_full_slip_is_the_end():
 
 
 @pytest.mark.slow
-def test_cases_that_the_table_has_not_seen():
-    """Half space on the same number of elements (`reference`): what interpolation costs."""
+def test_errors_on_cases_between_the_nodes_are_small():
+    """The reference is the half space with the same number of elements, so the errors are those of interpolation."""
     cases, true = reference.unseen_ellipses()
     errors = unseen.errors(cases, true)
     assert errors["force"].mean() < 0.0025
@@ -116,7 +116,7 @@ def test_a_wrong_file_is_refused(tmp_path):
 
 
 def test_a_build_that_was_interrupted_goes_on(tmp_path, monkeypatch):
-    """And computes what the package's table holds, to the resolution."""
+    """The result agrees with the table of the package within the resolution."""
     rows = table.rows()
     monkeypatch.setattr(table, "rows", lambda: rows[300:302])
     whole, path, told = tmp_path / "whole.csv", tmp_path / "table.csv", []

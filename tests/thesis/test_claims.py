@@ -1,7 +1,7 @@
-"""What the thesis says of the methods in words, on CONTACT's own numbers (`reference`) or our half space.
+"""Statements of the thesis about the methods, checked with CONTACT's own numbers (`reference`) or our half space.
 
-The figures quoted in a test's name are the thesis'; errors are over mu N unless a test says otherwise. The pages under
-docs/thesis draw the same.
+Numbers in the name of a test are those of the thesis. Errors are over mu N unless a test states otherwise. The pages in
+docs/thesis draw the same data.
 """
 
 import math
@@ -21,7 +21,7 @@ LOAD, C, MU = reference.N_ELLIPSE, 5e-3, reference.MU
 
 
 def worst(method: str, *curves: str) -> float:
-    """Largest force error of a method on the curves of that name, a/b from 0.2 to 5."""
+    """Return the largest force error of a method on the named curves, a/b from 0.2 to 5."""
     errors = accuracy.errors_on_ellipses(method)["force"]
     return max(e for e, row in zip(errors, reference.ellipses(), strict=True) if row["curve"] in curves)
 
@@ -34,7 +34,7 @@ def on_circle(creepage: contact.Creepage, tangential: str, n: int = 40) -> conta
 
 
 def circular(kind: int) -> float:
-    """C11, C22, C23 or C33 of the circle."""
+    """Return C11, C22, C23 or C33 of the circle."""
     return kalker.coefficients(kalker.table(reference.STEEL.poisson_ratio), 0.0)[kind]
 
 
@@ -67,11 +67,11 @@ def test_fastsim_is_off_by_more_than_25_percent_of_the_force_at_very_large_spin(
 
 
 def test_the_parabolic_bound_is_33_percent_too_high_in_the_middle():
-    """Fig. 7.5 and section 4.5: full slip, traction at the centre over mu p0; odd numbers put an element there."""
+    """Fig. 7.5 and section 4.5: full slip, traction at the centre over mu p0. Odd numbers put an element at the centre."""
     sol = on_circle(contact.Creepage(0.1), "fastsim", n=41)
     largest = np.hypot(sol.qx, sol.qy).max() / (MU * sol.max_pressure)
     assert largest == pytest.approx(4.0 / 3.0, rel=2e-3)
-    assert math.hypot(sol.Fx, sol.Fy) == pytest.approx(MU * LOAD, rel=1e-3)  # at the same total
+    assert math.hypot(sol.Fx, sol.Fy) == pytest.approx(MU * LOAD, rel=1e-3)  # with the same total force
 
 
 @pytest.mark.parametrize(("aspect", "spin", "percent", "of"), [
@@ -80,7 +80,7 @@ def test_the_parabolic_bound_is_33_percent_too_high_in_the_middle():
     (0.2, True, 20.0, "halfspace"),
 ])  # fmt: skip
 def test_strip_theory_is_25_percent_low_in_creepage_and_20_to_40_in_spin(aspect, spin, percent, of):
-    """Section 4.4; the figures for the circle count from strip theory's force, the other from the half space's."""
+    """Section 4.4. Numbers for the circle are relative to the force of strip theory, the other to that of the half space."""
     unit = 0.1 * MU * LOAD / (reference.STEEL.shear_modulus * C**2)
     c11, _, c23, _ = kalker.coefficients(kalker.table(reference.STEEL.poisson_ratio), math.log(aspect))
     creepage = contact.Creepage(spin=unit / (c23 * C)) if spin else contact.Creepage(unit / c11)
@@ -127,7 +127,7 @@ def test_lateral_creepage_turns_the_wheel_as_4_11_says_with_its_third_line_corre
     "penetration", ["kik_piotrowski", "kik_piotrowski_2008", "linder", "stripes_a", "stripes_ab", "kpec"]
 )
 def test_analyn_is_better_in_pressure_than_virtual_penetration(penetration):
-    """Chapter 9; mean over the real patches, at the same approach and at the same load."""
+    """Chapter 9: mean over the real patches, at the same approach and at the same load."""
     for by_load in (False, True):
         ours, theirs = (accuracy.errors_of_normal(m, by_load)["L2"].mean() for m in ("analyn", penetration))
         assert ours < theirs
@@ -155,4 +155,4 @@ def test_hertz_and_fastsim_miss_the_zone_of_highest_energy_index():
 
     true = peak("halfspace", "halfspace")
     assert np.hypot(*(peak("analyn", "fastrip") - true)) < 1e-3
-    assert np.hypot(*(peak("hertz", "fastsim") - true)) > 10e-3  # at the other end of the patch
+    assert np.hypot(*(peak("hertz", "fastsim") - true)) > 10e-3  # its peak is at the other end of the patch

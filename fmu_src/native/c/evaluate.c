@@ -1,4 +1,4 @@
-/* From values to outputs: ranges, working memory, and the model's functions behind checks of what comes out. */
+/* Compute outputs from values: check ranges, prepare working memory, call the model's functions and check their results. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +23,7 @@ Status check_ranges(const Instance *instance)
     return OK;
 }
 
-/* What the model says by a number; other numbers mean nothing to the host. */
+/* Log the model's message with this number. Numbers without a text are not logged. */
 static const Message *message(int64_t number) { return &messages[number <= N_MESSAGES ? number : 0]; }
 static bool failed(int64_t number) { return message(number)->category == LOG_DISCARD; }
 static Status say(const Instance *instance, int64_t number)
@@ -39,8 +39,8 @@ void free_work(Instance *instance)
     instance->work_block = instance->work = NULL;
 }
 
-/* Lay out and fill working memory for the parameters, which are within their ranges. The warm start of other parameters is
- * given up. */
+/* Lay out and fill working memory for the parameters, which must be within their ranges. A warm start from other parameters is
+ * discarded. */
 Status prepare(Instance *instance)
 {
     double *values = instance->is.values;
@@ -70,7 +70,7 @@ Status prepare(Instance *instance)
     return say(instance, number);
 }
 
-/* NaN and infinity do not leave the FMU: put `before` back if there is one among the outputs. */
+/* NaN and infinity must not leave the FMU: restore `before` if an output is not finite. */
 static Status keep_finite(Instance *instance, const double *before)
 {
     double *values = instance->is.values;
@@ -83,8 +83,9 @@ static Status keep_finite(Instance *instance, const double *before)
     return OK;
 }
 
-/* Compute `values`, the instance's or others, with working memory as it is; return the number of a message. Initialisation
- * gives states their start values. In co-simulation these are all that happens then: states do not follow inputs at once. */
+/* Compute the outputs in `values` (of the instance or another array) with working memory as it is. Return the number of a
+ * message. In initialisation the states get their start values. In co-simulation nothing else is computed then, since states
+ * do not follow inputs at once. */
 int64_t evaluate(const Instance *instance, double *values, double h)
 {
     bool starting = N_STATES > 0 && instance->is.phase == INITIALIZATION;
@@ -98,7 +99,7 @@ static double rate(const Total *t, const double *values)
     return t->other == ALONE ? values[t->factor] : values[t->other] * values[t->factor];
 }
 
-/* Compute the outputs for what is set, advance states and totals by h; `warm` goes on from the last step. */
+/* Compute the outputs for the present values and advance states and totals by h. With `warm` start from the last step. */
 Status update(Instance *instance, double h, bool warm)
 {
     double before[N_VALUES];
@@ -140,7 +141,7 @@ Status update(Instance *instance, double h, bool warm)
     return say(instance, number);
 }
 
-/* Compute the lazy outputs that belong to the others. */
+/* Compute the lazy outputs of the last step. */
 Status update_lazy(Instance *instance)
 {
     double solved[N_VALUES];
@@ -158,7 +159,7 @@ Status update_lazy(Instance *instance)
     return OK;
 }
 
-/* Fill working memory with what the outputs belong to, bit by bit as it was, if it has been used since. */
+/* Restore working memory to the state of the last outputs, bit for bit, if it has been used since. */
 Status update_work(Instance *instance)
 {
     double solved[N_VALUES];
@@ -171,13 +172,13 @@ Status update_work(Instance *instance)
     return OK;
 }
 
-/* Outputs follow inputs at once in initialisation and in model exchange; in co-simulation they wait for the next step. */
+/* Outputs follow inputs at once in initialisation and in model exchange. In co-simulation they change with the next step. */
 Status refresh(Instance *instance)
 {
     return instance->is.is_new ? update(instance, 0.0, false) : OK;
 }
 
-/* Model exchange: add the time since the last accepted step to the totals, by the trapezoidal rule over their rates. */
+/* Model exchange: integrate the rates of the totals since the last accepted step, by the trapezoidal rule. */
 void accumulate(Instance *instance)
 {
     Content *is = &instance->is;

@@ -1,4 +1,4 @@
-/* FMI 2.0: its functions and types, in terms of those that every version shares. */
+/* FMI 2.0: its functions and types, mapped to those that both versions share. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,7 +9,7 @@
 
 static void write_log(const Log *log, const char *name, Status status, const char *category, char *message)
 {
-    /* as the format itself, since loggers of Python hosts see no further arguments; text of the host may hold a % */
+    /* The text is the format itself, since loggers of Python hosts get no further arguments. Text of the host may contain %. */
     for (char *p = message; *p; p++)
         if (*p == '%') *p = '?';
     ((fmi2CallbackLogger)log->logger)(log->environment, name, (fmi2Status)status, category, message);
@@ -50,7 +50,7 @@ fmi2Status fmi2ExitInitializationMode(fmi2Component c) { return SHARED(exit_init
 fmi2Status fmi2Terminate(fmi2Component c) { return SHARED(terminate(c, __func__)); }
 fmi2Status fmi2Reset(fmi2Component c) { return SHARED(reset(c, __func__)); }
 
-/* ---------------------------------------------------------------- variables; no table has Strings */
+/* ---------------------------------------------------------------- variables (no table has Strings) */
 
 #define GET(function, type, kinds) \
     fmi2Status function(fmi2Component c, const fmi2ValueReference refs[], size_t n, type values[]) \
@@ -137,7 +137,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real h, fmi2Boolean no
     return SHARED(do_step(c, __func__, time, h));
 }
 
-/* The phases of co-simulation alone: model exchange has no part in what follows. */
+/* The functions below are for co-simulation only. */
 static Status require_slave(const Instance *instance, const char *function, int phases)
 {
     REQUIRE(instance, function, instance->type == CO_SIMULATION ? phases : 0);
@@ -152,13 +152,13 @@ static Status require_slave(const Instance *instance, const char *function, int 
 
 fmi2Status fmi2CancelStep(fmi2Component c)
 {
-    REQUIRE_SLAVE(0); /* no step is ever in progress */
+    REQUIRE_SLAVE(0); /* a step is never in progress between calls */
     return fmi2OK;
 }
 
 static fmi2Status unknown_status(const Instance *instance, const char *function)
 {
-    return SHARED(report(instance, LOG_DISCARD, "%s: there is no such status", function));
+    return SHARED(report(instance, LOG_DISCARD, "%s: unknown status kind", function));
 }
 
 fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
@@ -188,7 +188,7 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2
 {
     REQUIRE_SLAVE(STEPPED);
     if (kind != fmi2Terminated) return unknown_status(c, __func__);
-    *value = fmi2False; /* this model never asks to stop */
+    *value = fmi2False; /* this model never requests termination */
     return fmi2OK;
 }
 
@@ -200,7 +200,7 @@ fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2S
     return fmi2OK;
 }
 
-/* Inputs are constant over a step and outputs have no derivatives: the capability flags say so. */
+/* Inputs are constant over a step and outputs have no derivatives, as the capability flags state. */
 fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference refs[], size_t n,
                                        const fmi2Integer order[], const fmi2Real values[])
 {

@@ -1,4 +1,4 @@
-/* FMI 3.0: its functions and types, in terms of those that every version shares. */
+/* FMI 3.0: its functions and types, mapped to those that both versions share. */
 #include "fmi3Functions.h"
 #include "instance.h"
 
@@ -8,7 +8,7 @@ static void write_log(const Log *log, const char *name, Status status, const cha
 {
     (void)name;
     for (char *p = message; *p; p++)
-        if (*p == '#') *p = '?'; /* text of the host may hold one, which would be the start of a value reference */
+        if (*p == '#') *p = '?'; /* text of the host may contain #, which starts a value reference */
     ((fmi3LogMessageCallback)log->logger)(log->environment, (fmi3Status)status, category, message);
 }
 
@@ -45,7 +45,7 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
 {
     const Log log = {write_log, (void (*)(void))logger, environment};
     (void)visible, (void)intermediate, (void)update;
-    (void)early_return; /* a step is always done to its end */
+    (void)early_return; /* a step always runs to its end */
     if (event_mode) return cannot(&log, name, "there is no event mode in co-simulation (hasEventMode is false)");
     if (n_intermediate > 0)
         return cannot(&log, name, "there are no intermediate updates (providesIntermediateUpdate is false)");
@@ -158,7 +158,7 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, const fmi3ValueReference
     return SHARED(derivative(c, __func__, unknowns, n_unknowns, knowns, n_knowns, seed, n_seed, result, n_result));
 }
 
-/* ---------------------------------------------------------------- what the capability flags say is not provided */
+/* ---------------------------------------------------------------- not provided, according to the capability flags */
 
 static fmi3Status not_provided(const Instance *instance, const char *function)
 {
@@ -195,7 +195,7 @@ NOT_PROVIDED(fmi3ActivateModelPartition, fmi3ValueReference clock, fmi3Float64 t
 #pragma GCC diagnostic pop
 
 fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance c) { return not_provided(c, __func__); }
-fmi3Status fmi3EnterStepMode(fmi3Instance c) { return not_provided(c, __func__); } /* it ends the event mode of co-simulation */
+fmi3Status fmi3EnterStepMode(fmi3Instance c) { return not_provided(c, __func__); } /* leaves the event mode of co-simulation */
 
 /* ---------------------------------------------------------------- states */
 
@@ -220,7 +220,7 @@ fmi3Status fmi3DeserializeFMUState(fmi3Instance c, const fmi3Byte bytes[], size_
 
 /* ---------------------------------------------------------------- co-simulation */
 
-/* A step is done to its end or not at all; a discarded one may be tried again with other inputs. */
+/* A step runs to its end or not at all. A discarded step may be repeated with other inputs. */
 fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 h, fmi3Boolean no_set_state_before,
                       fmi3Boolean *event_handling_needed, fmi3Boolean *terminate_simulation, fmi3Boolean *early_return,
                       fmi3Float64 *last_successful_time)

@@ -1,10 +1,10 @@
-/* One instance of the FMU. The model is in two places: model.h, generated from the variable table, and the entries
- * model_…, compiled from the solver's kernels, once for every processor and once for those with AVX2. Everything here
- * serves any model with that interface, and both versions of FMI: fmi2.c and fmi3.c only translate, what a call does and
- * when it is legal is in the other files.
+/* One instance of the FMU. The model consists of model.h, which is generated from the variable table, and of the entries
+ * model_…, which are compiled from the solver's kernels, once for all processors and once for those with AVX2. The code here
+ * serves any model with this interface and both versions of FMI. fmi2.c and fmi3.c only translate. The other files define
+ * what a call does and when it is legal.
  *
- * Nothing outside an instance can be written, so instances may run in threads of their own. An instance allocates when it
- * is made, when its resolution is set and when a state is taken; a step allocates nothing. */
+ * There is no writable data outside an instance, so each instance may run in its own thread. Memory is allocated when an
+ * instance is made, when its resolution is set and when a state is saved. A step allocates nothing. */
 #ifndef INSTANCE_H
 #define INSTANCE_H
 
@@ -14,8 +14,8 @@
 
 #include "model.h"
 
-/* ---- the model: one array of all values by value reference, one of working memory that begins with the warm start;
- * component.py says what each does. Those that compute return 0 or the number of a message. */
+/* ---- the model: its functions take one array of all values, indexed by value reference, and one of working memory, which
+ * begins with the warm start. component.py documents each function. Those that compute return 0 or the number of a message. */
 typedef struct {
     int64_t (*memory)(double *values, const double *resources);
     int64_t (*size)(double *values, const double *resources);
@@ -33,17 +33,17 @@ typedef enum {
     INTEGER = 2,
     ENUMERATION = 4,
     BOOLEAN = 8,
-    COUNT = 16 /* INTEGER that fields have their size from: in FMI 3.0 a structural parameter */
+    COUNT = 16 /* INTEGER that sets the size of fields: a structural parameter in FMI 3.0 */
 } Kind;
 typedef enum {
     PARAMETER = 1,
     INPUT = 2,
     OUTPUT = 4,
-    STATE = 8, /* continuous state, an output as well */
-    TOTAL = 16, /* output that adds up, with a start value */
-    FIELD = 32, /* output of FMI 3.0, an array as large as the resolution makes it */
-    TIME = 64,  /* in FMI 3.0 a variable as well */
-    ACCUMULATED = 128 /* output that adds up without being a value: these are the end of the warm start, if it has them */
+    STATE = 8, /* continuous state, which is also an output */
+    TOTAL = 16, /* output that is integrated over time, with a start value */
+    FIELD = 32, /* output of FMI 3.0, an array whose size depends on the resolution */
+    TIME = 64,  /* a variable only in FMI 3.0 */
+    ACCUMULATED = 128 /* output that adds up and is not in `values`: at the end of the warm start, if anything accumulates */
 } Role;
 #define ANY_OUTPUT (OUTPUT | STATE | TOTAL | ACCUMULATED)
 typedef uint32_t Reference;
@@ -52,17 +52,17 @@ typedef struct {
     const char *name;
     Kind kind;
     Role role;
-    size_t size; /* of the array that begins here, 1 for a scalar, 0 within an array; of a field see FIELD_SIZE */
-    bool lazy;   /* computed by model_lazy when somebody reads it */
+    size_t size; /* size of the array that begins here, 1 for a scalar, 0 within an array; for fields see FIELD_SIZE */
+    bool lazy;   /* computed by model_lazy only when a host reads it */
     bool open_minimum;
     double start, minimum, maximum;
 } Variable;
 
-/* First those with a number in `values`, then those that accumulate: an array has one variable for each in FMI 2.0, one for
- * all in FMI 3.0. */
+/* First the variables in `values`, then those that accumulate, then fields and time. In FMI 2.0 each element of an array is a
+ * variable, in FMI 3.0 the whole array is one. */
 extern const Variable variables[N_VALUES + N_ACCUMULATED + N_FIELDS + 1];
 
-/* Continuous states: value references of one and of its derivative, and its nominal value. */
+/* A continuous state: value references of the state and of its derivative, and its nominal value. */
 typedef struct {
     int value, derivative;
     double nominal;
@@ -70,7 +70,7 @@ typedef struct {
 
 extern const Continuous states[N_STATES];
 
-/* Files in resources/ that an instance reads, and how each begins. */
+/* A file in resources/ that an instance reads, and the bytes with which it begins. */
 typedef struct {
     const char *name;
     char magic[9];
@@ -78,7 +78,7 @@ typedef struct {
 
 extern const Resource resources[N_RESOURCES];
 
-/* Outputs that add up over time: the value of `total` grows at the rate of the product of two values, or of one. */
+/* An output that is integrated over time: its rate is the product of two values, or one value. */
 enum { ALONE = -1 };
 typedef struct {
     int total, factor, other;
@@ -86,7 +86,7 @@ typedef struct {
 
 extern const Total totals[N_TOTALS];
 
-/* What a model has to say, by number: a warning, or why a step is discarded; no text where there is nothing to say. */
+/* A message of the model, by number: a warning or the reason to discard a step. There is no text if there is nothing to log. */
 typedef enum { LOG_WARNING = 1, LOG_DISCARD = 2, LOG_ERROR = 4 } Category;
 typedef struct {
     Category category;
@@ -95,16 +95,16 @@ typedef struct {
 
 extern const Message messages[N_MESSAGES + 1];
 
-/* ---- FMI's state machine; a step is done when the call returns, so there is no state for one in progress */
+/* ---- FMI's state machine. A step is complete when the call returns, so there is no state for a step in progress. */
 typedef enum {
     INSTANTIATED = 1,
     INITIALIZATION = 2,
     EVENT = 4,           /* model exchange */
     CONTINUOUS = 8,      /* model exchange */
     STEP_COMPLETE = 16,  /* co-simulation */
-    STEP_FAILED = 32,    /* co-simulation; the discarded step has changed nothing and may be tried again */
+    STEP_FAILED = 32,    /* co-simulation: the discarded step has changed nothing and may be repeated */
     TERMINATED = 64,
-    BROKEN = 128,        /* out of memory: only reset, restore and free remain */
+    BROKEN = 128,        /* out of memory: only reset, restore and free are legal */
     CONFIGURATION = 256  /* FMI 3.0: structural parameters can be set */
 } Phase;
 
@@ -114,46 +114,46 @@ typedef enum {
 typedef enum { MODEL_EXCHANGE, CO_SIMULATION } Type; /* the numbers of fmi2Type */
 typedef enum { OK, WARNING, DISCARD, ERROR } Status; /* the numbers of fmi2Status and fmi3Status */
 
-/* Where messages go: the host's function, of the type that its version of FMI has, and who calls it. Copied, as the host's
- * structure may be gone after the instance is made. */
+/* Destination of messages: the host's function, with the type of its version of FMI, and the caller. This is a copy, since the
+ * host may free its structure after the instance is made. */
 typedef struct Log {
     void (*write)(const struct Log *log, const char *name, Status status, const char *category, char *message);
     void (*logger)(void);
     void *environment;
 } Log;
 
-/* What an instance is, besides its memory: all of an FMU state, copied byte by byte. */
+/* The content of an instance without its memory. An FMU state copies all of it byte by byte. */
 typedef struct {
     double values[N_VALUES];
-    double solved[N_VALUES]; /* the values that the outputs belong to */
+    double solved[N_VALUES]; /* the values for which the outputs were computed */
     double time, stop_time;
-    double accepted_time, accepted[N_TOTALS]; /* model exchange: where the totals have been added up to, their rates there */
+    double accepted_time, accepted[N_TOTALS]; /* model exchange: totals are integrated up to this time, rates there */
     int64_t phase;
-    int64_t is_new;     /* something was set since the outputs were computed */
-    int64_t lazy_stale; /* the lazy outputs belong to older values */
+    int64_t is_new;     /* a value was set after the outputs were computed */
+    int64_t lazy_stale; /* the lazy outputs are out of date */
     int64_t last_step;  /* Status of the last step */
-    int64_t said;       /* number of the last warning, which is not repeated while it lasts */
+    int64_t said;       /* number of the last warning; it is logged once while it lasts */
 } Content;
 
 typedef struct {
     Content is;
-    double *memory; /* twice memory_size numbers: the warm start of the next step, then that which the outputs are from */
+    double *memory; /* twice memory_size numbers: warm start of the next step, then the warm start of the present outputs */
     int64_t memory_size;
-    double *resources;       /* of each its number of points n, then n numbers each of three columns; NULL if there are none */
-    uint64_t resources_hash; /* tells instances with other resources apart */
-    double *work;        /* at the beginning of a cache line: vectors are loaded in one piece */
-    void *work_block;    /* in which it lies */
-    bool work_is_solved; /* and not used for anything else since */
-    double prepared[N_VALUES]; /* parameters that `work` is laid out and filled for; a negative first one: none */
-    const Model *model; /* compiled for this processor; the results are the same */
+    double *resources;       /* for each file: number of points n, then three columns of n numbers; NULL if there are none */
+    uint64_t resources_hash; /* identifies the resources: a state of other resources is refused */
+    double *work;        /* begins at a cache line, so that vectors are loaded at once */
+    void *work_block;    /* allocated block that contains `work` */
+    bool work_is_solved; /* `work` still belongs to the outputs */
+    double prepared[N_VALUES]; /* parameters for which `work` is laid out and filled; none if the first one is negative */
+    const Model *model; /* kernels for this processor; the results are the same for all */
     Type type;
-    bool arrays; /* FMI 3.0: value references stand for arrays */
+    bool arrays; /* FMI 3.0: a value reference denotes a whole array */
     char *name;
     int categories;
     Log log;
 } Instance;
 
-/* Every function that a host calls is told its name there, for messages. */
+/* The functions below get the FMI name of the calling function, for messages. */
 #define REQUIRE(instance, function, phases) \
     do { \
         if (!(instance)) return ERROR; \
@@ -175,14 +175,14 @@ Status exit_initialization(Instance *instance, const char *function);
 Status terminate(Instance *instance, const char *function);
 Status reset(Instance *instance, const char *function);
 
-/* resources.c; a folder is a path, a location is an URI, and its path is to be freed */
+/* resources.c; a folder is a path, a location is a URI; the caller frees the path */
 char *path_of(const char *location);
 bool load_resources(Instance *instance, const char *folder);
 
 /* state.c */
 uint64_t hash(const void *content, size_t size);
 
-/* variables.c: the first two check what is about to be copied, n references that stand for n_values numbers of these kinds */
+/* variables.c: the first two check n references, which must denote n_values numbers of these kinds, before a copy */
 Status before_get(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds, size_t n_values);
 Status before_set(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds, size_t n_values);
 size_t extent(const Instance *instance, Reference reference);
@@ -213,11 +213,11 @@ Status state_size(Instance *instance, const char *function, const void *state, s
 Status serialize(Instance *instance, const char *function, void *source, void *bytes, size_t size);
 Status deserialize(Instance *instance, const char *function, const void *bytes, size_t size, void **target);
 
-/* evaluate.c: compute in place; on anything but OK the content is as it was */
+/* evaluate.c: compute in place; unless the status is OK, the content is unchanged */
 bool in_range(const Variable *variable, double value);
 Status check_ranges(const Instance *instance);
 Status prepare(Instance *instance);
-int64_t evaluate(const Instance *instance, double *values, double h); /* leaves the content alone, not working memory */
+int64_t evaluate(const Instance *instance, double *values, double h); /* does not change the content, but uses working memory */
 Status update(Instance *instance, double h, bool warm);
 void accumulate(Instance *instance);
 Status update_lazy(Instance *instance);

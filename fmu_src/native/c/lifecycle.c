@@ -1,4 +1,4 @@
-/* From making an instance to freeing it, and what it has to say on its way. */
+/* Life of an instance from instantiation to free, and its messages. */
 #include <cpuid.h>
 #include <math.h>
 #include <stdarg.h>
@@ -19,7 +19,7 @@ static const struct {
 };
 #define N_CATEGORIES (sizeof categories / sizeof *categories)
 
-/* Log a message of a category that is switched on; return the category's status. */
+/* Log a message if its category is switched on. Return the status of the category. */
 Status report(const Instance *instance, Category category, const char *format, ...)
 {
     size_t i = 0;
@@ -50,7 +50,7 @@ static const char *phase_name(int64_t phase)
     }
 }
 
-/* The answer to a call that is not legal now; it has changed nothing. */
+/* Report a call that is not legal in this state. It has changed nothing. */
 Status refuse(const Instance *instance, const char *function)
 {
     const char *kind = instance->type == CO_SIMULATION ? "co-simulation" : "model exchange";
@@ -99,8 +99,8 @@ static void restart(Instance *instance)
 ENTRIES(v2)
 ENTRIES(v3)
 
-/* x86-64-v3 needs AVX2, FMA, BMI, LZCNT, MOVBE and F16C of the processor, and a system that saves the wide registers. The
- * compilers' __builtin_cpu_supports needs a variable that the library would have to write. */
+/* x86-64-v3 requires AVX2, FMA, BMI, LZCNT, MOVBE and F16C of the processor, and a system that saves the wide registers.
+ * __builtin_cpu_supports is not used, since it needs a variable that the library would have to write. */
 static const Model *model_for_this_processor(void)
 {
     const unsigned leaf1 = bit_FMA | bit_MOVBE | bit_OSXSAVE | bit_AVX | bit_F16C, leaf7 = bit_AVX2 | bit_BMI | bit_BMI2;
@@ -113,7 +113,7 @@ static const Model *model_for_this_processor(void)
     return (saved & wide_registers) == wide_registers ? &model_v3 : &model_v2;
 }
 
-/* A new instance, or NULL with a message that says why not. */
+/* Return a new instance, or log the reason and return NULL. */
 Instance *instantiate(Type type, bool arrays, const char *name, const char *guid, const char *folder, const Log *log,
                       bool logging)
 {
@@ -128,7 +128,7 @@ Instance *instantiate(Type type, bool arrays, const char *name, const char *guid
         return NULL;
     }
     if (!guid || strcmp(guid, MODEL_GUID)) {
-        report(&caller, LOG_ERROR, "guid %s is not that of this binary, %s: description and binary are of different builds",
+        report(&caller, LOG_ERROR, "guid %s is not that of this binary, %s: description and binary come from different builds",
                guid ? guid : "NULL", MODEL_GUID);
         return NULL;
     }
@@ -165,7 +165,7 @@ Status set_up(Instance *instance, const char *function, double start, bool has_s
 {
     REQUIRE(instance, function, INSTANTIATED);
     if (!isfinite(start) || (has_stop && !(stop >= start)))
-        return report(instance, LOG_ERROR, "startTime = %g, stopTime = %g: stop must not lie before start", start, stop);
+        return report(instance, LOG_ERROR, "startTime = %g, stopTime = %g: the stop is before the start", start, stop);
     instance->is.time = instance->is.accepted_time = start;
     instance->is.stop_time = has_stop ? stop : INFINITY;
     return OK;
@@ -173,7 +173,7 @@ Status set_up(Instance *instance, const char *function, double start, bool has_s
 
 Status enter_configuration(Instance *instance, const char *function)
 {
-    REQUIRE(instance, function, N_FIELDS > 0 ? INSTANTIATED : 0); /* without fields there are no structural parameters */
+    REQUIRE(instance, function, N_FIELDS > 0 ? INSTANTIATED : 0); /* without fields the FMU has no structural parameters */
     instance->is.phase = CONFIGURATION;
     return OK;
 }
@@ -192,7 +192,7 @@ Status enter_initialization(Instance *instance, const char *function)
     return OK;
 }
 
-/* Discard leaves the instance in initialisation mode, where the value that was complained of can be set anew. */
+/* After Discard the instance stays in initialisation mode, where the host can correct the value. */
 Status exit_initialization(Instance *instance, const char *function)
 {
     Status status;

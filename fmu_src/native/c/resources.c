@@ -1,5 +1,5 @@
-/* Files that an instance reads when it is made: profiles, written by fmu_src/profiles.py. Their folder is given as a path or
- * as a file URI, both in UTF-8. */
+/* Files that an instance reads when it is made: profiles, written by fmu_src/profiles.py. Their folder is a path or a file URI,
+ * in UTF-8. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 #include <wchar.h>
 
 #ifdef _WIN32
-/* of kernel32; windows.h takes names like INPUT and ERROR for itself */
+/* function of kernel32, declared here because windows.h defines names like INPUT and ERROR */
 __declspec(dllimport) int __stdcall MultiByteToWideChar(unsigned code_page, unsigned long flags, const char *from, int n,
                                                         wchar_t *to, int room);
 enum { UTF_8 = 65001 };
@@ -23,7 +23,7 @@ static int hexadecimal(char c)
     return found ? (int)(found - digits) % 16 : -1;
 }
 
-/* The path of a file URI, or a copy of anything else; NULL for NULL. file:///a%20b and file:/a%20b are /a b. */
+/* Return the path of a file URI, or a copy of any other text; NULL for NULL. file:///a%20b and file:/a%20b give /a b. */
 char *path_of(const char *location)
 {
     char *path, *end;
@@ -35,7 +35,7 @@ char *path_of(const char *location)
     if (!strncmp(location, "//localhost/", 12)) location += 11;
     if (!strncmp(location, "///", 3)) location += 2;
 #ifdef _WIN32
-    if (location[0] == '/' && location[1] && location[2] == ':') location++; /* /C:/a is C:/a */
+    if (location[0] == '/' && location[1] && location[2] == ':') location++; /* /C:/a becomes C:/a */
 #endif
     while (*location) {
         int high = *location == '%' ? hexadecimal(location[1]) : -1, low = high >= 0 ? hexadecimal(location[2]) : -1;
@@ -58,13 +58,13 @@ static FILE *open_to_read(const char *path)
 
 enum { MOST_POINTS = 100000 };
 
-/* Append the points of a file to the instance's resources, of which there are `size` numbers; return how many there are now,
- * or 0 if the file is not what it should be. */
+/* Append the points of a file to the instance's resources, which hold `size` numbers. Return the new size, or 0 if the file is
+ * not a valid resource. */
 static size_t append(Instance *instance, FILE *file, const char *magic, size_t size)
 {
     struct {
         char magic[8];
-        uint64_t checksum; /* of everything behind it */
+        uint64_t checksum; /* of all bytes after it */
         int64_t n;
     } head;
     size_t length;
@@ -77,7 +77,7 @@ static size_t append(Instance *instance, FILE *file, const char *magic, size_t s
     if (!grown) return 0;
     instance->resources = grown;
     points = grown + size;
-    memcpy(points, &head.n, sizeof head.n); /* as in the file, for the checksum */
+    memcpy(points, &head.n, sizeof head.n); /* the bytes of the file, for the checksum */
     if (fread(points + 1, sizeof(double), length - 1, file) != length - 1) return 0;
     checksum = hash(points, length * sizeof(double));
     if (checksum != head.checksum) return 0;
@@ -88,7 +88,7 @@ static size_t append(Instance *instance, FILE *file, const char *magic, size_t s
     return size + length;
 }
 
-/* Read all of the model's files; false, with a message, if one cannot be had. */
+/* Read all files of the model. If one cannot be read, log a message and return false. */
 bool load_resources(Instance *instance, const char *folder)
 {
     size_t size = 0;
@@ -102,14 +102,14 @@ bool load_resources(Instance *instance, const char *folder)
         }
         free(path);
         if (!file) {
-            report(instance, LOG_ERROR, "resource %s cannot be read in %s", resources[i].name,
+            report(instance, LOG_ERROR, "resource %s cannot be read from %s", resources[i].name,
                    folder ? folder : "no folder: the resource location is NULL");
             return false;
         }
         size = append(instance, file, resources[i].magic, size);
         fclose(file);
         if (size == 0) {
-            report(instance, LOG_ERROR, "resource %s holds no profile: it is damaged, or not made by fmu_src.profiles",
+            report(instance, LOG_ERROR, "resource %s is not a profile: it is damaged or was not made by fmu_src.profiles",
                    resources[i].name);
             return false;
         }
@@ -117,7 +117,7 @@ bool load_resources(Instance *instance, const char *folder)
     return true;
 }
 
-#else /* all data are in the binary, so any folder will do, even none */
+#else /* all data are in the binary, so any folder is accepted, even none */
 
 char *path_of(const char *location)
 {

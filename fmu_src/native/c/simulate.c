@@ -12,9 +12,9 @@ Status do_step(Instance *instance, const char *function, double time, double h)
     if (!isfinite(time)) return report(instance, LOG_ERROR, "currentCommunicationPoint = %g is not finite", time);
     if (!isfinite(h) || h <= 0.0)
         return report(instance, LOG_ERROR, "communicationStepSize = %g is outside the allowed range ]0, inf[", h);
-    /* a thousandth of a step: what masters that add up steps lose by rounding is less */
+    /* tolerance for masters that add up steps: their rounding error is less than a thousandth of a step */
     if (time + h > instance->is.stop_time + 1e-3 * h)
-        return report(instance, LOG_ERROR, "end of the step = %g is past the stopTime = %g", time + h,
+        return report(instance, LOG_ERROR, "end of the step = %g is after the stopTime = %g", time + h,
                       instance->is.stop_time);
     status = update(instance, h, true);
     if (status <= WARNING) instance->is.time = time + h;
@@ -33,7 +33,7 @@ Status enter_event(Instance *instance, const char *function)
     return OK;
 }
 
-/* There are no events: nothing is needed, nothing changes. */
+/* There are no events, so nothing is needed and nothing changes. */
 Status update_discrete(Instance *instance, const char *function)
 {
     REQUIRE(instance, function, EVENT);
@@ -59,20 +59,21 @@ Status completed_step(Instance *instance, const char *function)
 Status set_time(Instance *instance, const char *function, double time)
 {
     REQUIRE(instance, function, EVENT | CONTINUOUS);
-    if (!isfinite(time)) return report(instance, LOG_ERROR, "time = %g is not finite", time); /* solvers look past the end */
+    /* Solvers evaluate past stopTime, so the end is not checked. */
+    if (!isfinite(time)) return report(instance, LOG_ERROR, "time = %g is not finite", time);
     instance->is.time = time;
     return OK;
 }
 
-/* Where what belongs to continuous states may be read. */
+/* Require a state in which data of the continuous states may be read. */
 #define READABLE (EVENT | CONTINUOUS | (instance->type == MODEL_EXCHANGE ? INITIALIZATION | TERMINATED : 0))
 
 static Status wrong_number(const Instance *instance, const char *function, size_t n, size_t there_are)
 {
-    return report(instance, LOG_ERROR, "%s: there are %zu, %zu were asked for", function, there_are, n);
+    return report(instance, LOG_ERROR, "%s: there are %zu, but %zu were requested", function, there_are, n);
 }
 
-/* Any values are taken; the next computation checks them. */
+/* Any values are accepted. The next computation checks them. */
 Status set_states(Instance *instance, const char *function, const double x[], size_t n)
 {
     REQUIRE(instance, function, CONTINUOUS);

@@ -1,18 +1,18 @@
-/* FMU states: the content and the warm start in one block, which is also its serialised form. */
+/* FMU states: content and warm start in one block. The block is also the serialised form. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "instance.h"
 
 typedef struct {
-    uint64_t checksum; /* of everything behind it */
+    uint64_t checksum; /* of all bytes after it */
     char guid[sizeof MODEL_GUID];
     int64_t size;      /* of the whole block in bytes */
     int64_t type;
     uint64_t resources_hash;
     int64_t memory_size;
     Content is;
-    double memory[]; /* both halves */
+    double memory[]; /* both warm starts */
 } State;
 
 uint64_t hash(const void *content, size_t size)
@@ -35,7 +35,7 @@ Status get_state(Instance *instance, const char *function, void **target)
     size_t size;
     State *state;
     REQUIRE(instance, function, ANY);
-    if (!target) return report(instance, LOG_ERROR, "%s: no place for the state is given", function);
+    if (!target) return report(instance, LOG_ERROR, "%s: the pointer to the state is NULL", function);
     size = sizeof *state + memory_bytes(instance->memory_size);
     state = *target;
     if (!state || state->size != (int64_t)size) {
@@ -58,18 +58,18 @@ Status set_state(Instance *instance, const char *function, const void *source)
 {
     const State *state = source;
     REQUIRE(instance, function, ANY);
-    if (!state) return report(instance, LOG_ERROR, "%s: no state is given", function);
+    if (!state) return report(instance, LOG_ERROR, "%s: the state is NULL", function);
     if (state->type != (int64_t)instance->type)
-        return report(instance, LOG_ERROR, "%s: the state is of the other kind of FMU", function);
+        return report(instance, LOG_ERROR, "%s: the state is from the other FMI type", function);
     if (state->resources_hash != instance->resources_hash)
-        return report(instance, LOG_ERROR, "%s: the state is of an FMU with other files in resources", function);
+        return report(instance, LOG_ERROR, "%s: the state is from an FMU with other files in resources", function);
     if (state->memory_size != instance->memory_size) {
         double *memory = malloc(memory_bytes(state->memory_size) + 1);
         if (!memory) return report(instance, LOG_ERROR, "out of memory");
         free(instance->memory);
         instance->memory = memory;
         instance->memory_size = state->memory_size;
-        free_work(instance); /* laid out for another memory */
+        free_work(instance); /* its layout is for another resolution */
     }
     instance->is = state->is;
     instance->work_is_solved = false;
@@ -90,7 +90,7 @@ Status free_state(Instance *instance, const char *function, void **state)
 Status state_size(Instance *instance, const char *function, const void *state, size_t *size)
 {
     REQUIRE(instance, function, ANY);
-    if (!state || !size) return report(instance, LOG_ERROR, "%s: no state is given", function);
+    if (!state || !size) return report(instance, LOG_ERROR, "%s: the state is NULL", function);
     *size = (size_t)((const State *)state)->size;
     return OK;
 }
@@ -100,20 +100,20 @@ Status serialize(Instance *instance, const char *function, void *source, void *b
     State *state = source;
     REQUIRE(instance, function, ANY);
     if (!state || !bytes || size < (size_t)state->size)
-        return report(instance, LOG_ERROR, "%s: no state, or too few bytes for it", function);
+        return report(instance, LOG_ERROR, "%s: the state is NULL or the buffer is too small", function);
     state->checksum = checksum(state);
     memcpy(bytes, state, (size_t)state->size);
     return OK;
 }
 
-/* Bytes of another build, cut short or damaged are refused. */
+/* Bytes that are from another build, truncated or damaged are refused. */
 Status deserialize(Instance *instance, const char *function, const void *bytes, size_t size, void **target)
 {
     State *state;
     bool valid;
     REQUIRE(instance, function, ANY);
     if (!bytes || !target || size < sizeof *state)
-        return report(instance, LOG_ERROR, "%s: these bytes are no state of this FMU", function);
+        return report(instance, LOG_ERROR, "%s: these bytes are not a state of this FMU", function);
     state = malloc(size);
     if (!state) return report(instance, LOG_ERROR, "out of memory");
     memcpy(state, bytes, size);
@@ -123,7 +123,7 @@ Status deserialize(Instance *instance, const char *function, const void *bytes, 
             state->checksum == checksum(state);
     if (!valid) {
         free(state);
-        return report(instance, LOG_ERROR, "%s: these bytes are no state of this FMU", function);
+        return report(instance, LOG_ERROR, "%s: these bytes are not a state of this FMU", function);
     }
     free(*target);
     *target = state;

@@ -1,17 +1,17 @@
-/* What may be read and set when, and directional derivatives. */
+/* Reading and setting variables, the states in which this is legal, and directional derivatives. */
 #include <math.h>
 #include <string.h>
 
 #include "instance.h"
 
-/* How many numbers a value reference stands for. */
+/* Count of numbers that a value reference denotes. */
 size_t extent(const Instance *instance, Reference reference)
 {
     if (!instance->arrays) return 1;
     return variables[reference].role == FIELD ? FIELD_SIZE(instance->is.values) : variables[reference].size;
 }
 
-/* What has accumulated since the start. */
+/* Damage that has accumulated since the start. */
 static const double *accumulated(const Instance *instance)
 {
     static const double nothing[N_ACCUMULATED + 1];
@@ -19,7 +19,7 @@ static const double *accumulated(const Instance *instance)
     return instance->memory + instance->memory_size - N_ACCUMULATED;
 }
 
-/* The numbers of `values` and working memory that a value reference stands for. */
+/* The numbers in `values` or working memory that a value reference denotes. */
 static const double *numbers_of(const Instance *instance, double *values, Reference reference)
 {
     const int64_t field = (int64_t)reference - N_VALUES - N_ACCUMULATED;
@@ -28,7 +28,7 @@ static const double *numbers_of(const Instance *instance, double *values, Refere
     return instance->work + instance->model->field(values, instance->work, field, instance->resources);
 }
 
-/* The instance's own: in `solved` is what working memory belongs to. */
+/* The same for the instance's own values. `solved` holds the values that working memory belongs to. */
 const double *numbers(const Instance *instance, Reference reference)
 {
     if (variables[reference].role == TIME) return &instance->is.time;
@@ -42,12 +42,12 @@ static bool exists(const Instance *instance, Reference reference)
     return reference <= V_time && (variables[reference].size > 0 || variables[reference].role == FIELD);
 }
 
-/* Whether all references are of these kinds and roles, and stand for n_values numbers. */
+/* Check that all references have these kinds and roles and denote n_values numbers. */
 static Status check(const Instance *instance, const Reference refs[], size_t n, int kinds, int roles, size_t n_values,
                     const char *function)
 {
     size_t count = 0;
-    if (n > 0 && !refs) return report(instance, LOG_ERROR, "%s: no value references are given", function);
+    if (n > 0 && !refs) return report(instance, LOG_ERROR, "%s: the value references are NULL", function);
     for (size_t k = 0; k < n; k++) {
         if (!exists(instance, refs[k]))
             return report(instance, LOG_ERROR, "%s: there is no value reference %u", function, refs[k]);
@@ -56,10 +56,10 @@ static Status check(const Instance *instance, const Reference refs[], size_t n, 
         count += extent(instance, refs[k]);
     }
     if (count == n_values) return OK;
-    return report(instance, LOG_ERROR, "%s: %zu values are given where the variables have %zu", function, n_values, count);
+    return report(instance, LOG_ERROR, "%s: %zu values are given, but the variables have %zu", function, n_values, count);
 }
 
-/* Bring what is about to be read up to date; a host may read inputs and parameters at any time. */
+/* Update the variables before they are read. A host may read inputs and parameters at any time. */
 Status before_get(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds, size_t n_values)
 {
     int roles = PARAMETER | INPUT | TIME, read = 0;
@@ -80,7 +80,7 @@ Status before_get(Instance *instance, const char *function, const Reference refs
     return later > status ? later : status;
 }
 
-/* Any value is taken; the next computation checks them all and names the one that it cannot do with. */
+/* Any value is accepted. The next computation checks all values and names one that it cannot use. */
 Status before_set(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds, size_t n_values)
 {
     int roles = INPUT;
@@ -88,14 +88,14 @@ Status before_set(Instance *instance, const char *function, const Reference refs
     REQUIRE(instance, function, INSTANTIATED | CONFIGURATION | INITIALIZATION | RUNNING);
     if (instance->is.phase & (INSTANTIATED | INITIALIZATION)) roles |= PARAMETER | TOTAL;
     if (instance->arrays && n > 0 && (kinds == COUNT) != (instance->is.phase == CONFIGURATION))
-        return report(instance, LOG_ERROR, "%s: structural parameters, and these alone, are set in configuration mode", function);
+        return report(instance, LOG_ERROR, "%s: only structural parameters are set, and only in configuration mode", function);
     if (instance->is.phase == CONFIGURATION) roles = PARAMETER;
     status = check(instance, refs, n, kinds, roles, n_values, function);
     if (status == OK && n > 0) instance->is.is_new = true;
     return status;
 }
 
-/* `h`, or 0 if a step of this length along the seed leads out of the range of a known. */
+/* Return `h`, or 0 if a step of this length along the seed leaves the range of a known. */
 static double reach(const double *values, const double *seeds, double h)
 {
     for (size_t i = 0; i < N_VALUES; i++)
@@ -103,7 +103,7 @@ static double reach(const double *values, const double *seeds, double h)
     return h;
 }
 
-/* Values and outputs at a distance h along the seed. */
+/* Compute values and outputs at a distance h along the seed. */
 static void displaced(Instance *instance, const double *seeds, double h, bool lazy, double *values)
 {
     for (size_t i = 0; i < N_VALUES; i++)
@@ -114,12 +114,13 @@ static void displaced(Instance *instance, const double *seeds, double h, bool la
     if (!lazy) return;
     instance->model->lazy(values, instance->work, instance->resources);
     memset(instance->work, 0, (size_t)instance->memory_size * sizeof(double));
-    evaluate(instance, values, 0.0); /* for fields, which the lazy ones have left none of */
+    evaluate(instance, values, 0.0); /* restores the fields, which the lazy outputs overwrite */
 }
 
-/* Outputs and derivatives by inputs and states (in initialisation by inputs and parameters), at the present values of
- * these: a central difference over steps that fit each variable, one-sided at the end of a range. In co-simulation too
- * outputs count as functions of the present inputs, as a step makes those of a model without states. */
+/* Directional derivatives of outputs and state derivatives with respect to inputs and states (in initialisation: inputs and
+ * parameters) at their present values. They are central differences with a suitable step for each variable, one-sided at the
+ * end of a range. In co-simulation outputs are also taken as functions of the present inputs, as a step computes them in a
+ * model without states. */
 Status derivative(Instance *instance, const char *function, const Reference unknowns[], size_t n_unknowns,
                   const Reference knowns[], size_t n_knowns, const double seed[], size_t n_seed, double result[],
                   size_t n_result)
@@ -143,13 +144,13 @@ Status derivative(Instance *instance, const char *function, const Reference unkn
         }
     memset(result, 0, n_result * sizeof *result);
     for (size_t k = 0; k < n_unknowns; k++) lazy |= variables[unknowns[k]].lazy;
-    displaced(instance, seeds, 0.0, false, values); /* steps fit the outputs at the present values */
+    displaced(instance, seeds, 0.0, false, values); /* the steps depend on the outputs at the present values */
     for (size_t i = 0; i < N_VALUES; i++)
         if (seeds[i] != 0.0) h = fmin(h, instance->model->difference(values, (int64_t)i, instance->resources) / fabs(seeds[i]));
     if (isinf(h)) return OK;
     up = reach(instance->is.values, seeds, h);
     down = reach(instance->is.values, seeds, -h);
-    if (up == down) return report(instance, LOG_DISCARD, "the directional derivative leads out of the allowed range");
+    if (up == down) return report(instance, LOG_DISCARD, "the directional derivative leaves the allowed range");
     displaced(instance, seeds, up, lazy, values);
     for (size_t k = 0, at = 0; k < n_unknowns; at += extent(instance, unknowns[k++]))
         memcpy(result + at, numbers_of(instance, values, unknowns[k]), extent(instance, unknowns[k]) * sizeof *result);

@@ -1,4 +1,4 @@
-/* What is legal when: a table of calls, each in every state, in order and at random. */
+/* Check in which states calls are legal: a table of calls, each tried in every state, in order and at random. */
 #include "fmi2.h"
 
 void instantiate(void)
@@ -78,7 +78,7 @@ static fmi2String text;
 static fmi2Status status;
 static fmi2EventInfo info;
 
-/* Call; states of co-simulation and of model exchange in which it is legal; the state that it leads to. */
+/* Call; states of co-simulation and of model exchange in which it is legal; state after the call. */
 #define CALLS(X) \
     X(SetDebugLogging(c, fmi2True, 0, NULL), ALL, ALL, SAME) \
     X(SetupExperiment(c, fmi2False, 0.0, 0.0, fmi2True, 10.0), INST, INST, SAME) \
@@ -132,7 +132,7 @@ static fmi2EventInfo info;
     X(GetContinuousStates(c, of_states, N_STATES), 0, INIT | EVENT | CONT | TERM, SAME) \
     X(GetNominalsOfContinuousStates(c, of_states, N_STATES), 0, INIT | EVENT | CONT | TERM, SAME)
 
-enum { SAME = 0, STARTED = 128, SAVED = 256 }; /* after initialisation: by type; that of the saved state */
+enum { SAME = 0, STARTED = 128, SAVED = 256 }; /* after initialisation (by type); state of the saved FMU state */
 enum { FIRST_ROW = __COUNTER__ + 1 };
 static fmi2Status perform(int row, fmi2Component c)
 {
@@ -175,7 +175,7 @@ void every_call(void)
     printf("%d calls\n", N_ROWS * N_SITUATIONS);
 }
 
-/* Bytes that are none of a state: a bit of a good one turned over, one cut short, or just any. */
+/* Bytes that are not a valid state: one bit flipped, truncated, or random. */
 static void bad_bytes(fmi2Component c)
 {
     static fmi2Byte damaged[sizeof bytes];
@@ -190,8 +190,8 @@ static void bad_bytes(fmi2Component c)
     check(DeSerializeFMUstate(c, damaged, n, &none) == fmi2Error && !none, "fmi2DeSerializeFMUstate", "of bad bytes");
 }
 
-/* Any function in any order, with any values set in between: what is legal is done or discarded, the rest is an error and
- * changes nothing, and no output is ever NaN. The state that the instance must be in is followed from call to call. */
+/* Random functions in random order, with random values set in between. A legal call succeeds or is discarded, any other call is
+ * an error and changes nothing, and no output is ever NaN. The expected state of the instance is tracked from call to call. */
 void fuzz(int n)
 {
     static const double odd[] = {0.0, -1.0, 1e-300, 1e300, NAN, INFINITY, 1e-3, 8e4};
@@ -213,7 +213,7 @@ void fuzz(int n)
             keep(c);
         }
         int row = (int)draw(N_ROWS), legal = rows[row].legal[type] & state, after = rows[row].after;
-        if ((after == TERM || after == INST) && draw(8)) continue; /* seldom, or no other state is ever reached */
+        if ((after == TERM || after == INST) && draw(8)) continue; /* rarely, otherwise no other state would be reached */
         fmi2Status answer = perform(row, c);
         check(legal ? answer <= fmi2Discard : answer == fmi2Error, rows[row].name, "at random");
         done[row][type][state]++;

@@ -1,4 +1,4 @@
-/* What hosts in C share: to load a library for itself alone, threads, and checks of which the failed ones are printed. */
+/* Shared by the C hosts: loading a library with local symbols, threads, and checks that print failures. */
 #ifndef COMMON_H
 #define COMMON_H
 
@@ -9,7 +9,7 @@
 
 #ifdef _WIN32
 #include <windows.h>
-#define GetVersion fmu_version /* Windows has its own */
+#define GetVersion fmu_version /* Windows has a function of this name */
 typedef HANDLE Thread;
 #define THREAD_RESULT DWORD WINAPI
 #else
@@ -18,7 +18,7 @@ typedef pthread_t Thread;
 #define THREAD_RESULT void *
 #endif
 
-extern const char *guid, *resources; /* of the FMU that is tested; a URI */
+extern const char *guid, *resources; /* of the tested FMU; resources is a URI */
 extern int failures, messages;
 extern char last_message[1024];
 
@@ -29,6 +29,6 @@ void start(Thread *thread, Work *work, void *argument);
 void join(Thread thread);
 void check(int good, const char *what, const char *where);
 double now(void);          /* in microseconds */
-unsigned draw(unsigned n); /* a random number below n, the same ones in every run */
+unsigned draw(unsigned n); /* a random number below n, the same sequence in every run */
 
 #endif

@@ -1,4 +1,4 @@
-/* What the commands share, and main. */
+/* Code shared by the commands, and main. */
 #include "fmi2.h"
 
 #define DEFINE(f) fmi2##f##TYPE *f;
@@ -64,7 +64,7 @@ double any(fmi2Component c, fmi2ValueReference r)
     return GetReal(c, &r, 1, &value) > fmi2Warning ? whole(c, r) : value;
 }
 
-/* LIBRARY GUID RESOURCES COMMAND NUMBER [PATH GUID | NUMBER]. What fails is printed; the exit code says so. */
+/* LIBRARY GUID RESOURCES COMMAND NUMBER [PATH GUID | NUMBER]. Failures are printed and set the exit code. */
 int main(int n_arguments, char **arguments)
 {
     double begin = now();
@@ -85,6 +85,6 @@ int main(int n_arguments, char **arguments)
     else if (!strcmp(command, "two_libraries") && n_arguments > 7) two_libraries(library, path, arguments[7]);
     else if (!strcmp(command, "first_step")) first_step(begin);
     else if (!strcmp(command, "speed")) speed(number, path);
-    else return printf("%s is no command\n", command), 2;
+    else return printf("%s is not a command\n", command), 2;
     return failures != 0;
 }

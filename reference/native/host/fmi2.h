@@ -1,12 +1,12 @@
-/* A host in C for native FMUs (FMI 2.0). Loads a library for itself alone (RTLD_LOCAL), takes every function from it by
- * name, and zeroes the callbacks as soon as fmi2Instantiate has returned, as a host may that has them on its stack. */
+/* A C host for native FMUs (FMI 2.0). It loads a library with local symbols (RTLD_LOCAL) and looks up every function by name.
+ * After fmi2Instantiate it zeroes the callbacks, since a host may have them on its stack. */
 #ifndef FMI2_H
 #define FMI2_H
 
 #include "common.h"
 #include "fmi2FunctionTypes.h"
 #include "model.h"
-#include "roles.h" /* made by reference/native: which variables of the FMU the commands below use, and for what */
+#include "roles.h" /* made by reference/native: the variables of the FMU that the commands use, by role */
 
 #define FUNCTIONS(X) \
     X(GetTypesPlatform) X(GetVersion) X(SetDebugLogging) X(Instantiate) X(FreeInstance) X(SetupExperiment) \
@@ -21,7 +21,7 @@
 FUNCTIONS(DECLARE)
 
 /* fmi2.c */
-void use(void *library, const char *its_guid); /* the functions above are now its */
+void use(void *library, const char *its_guid); /* let the functions above be those of this library */
 #define LOGGER(name) \
     void name(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status, fmi2String category, \
               fmi2String message, ...)
@@ -33,9 +33,9 @@ fmi2Status set_real(fmi2Component c, fmi2ValueReference r, double value);
 fmi2Status set_integer(fmi2Component c, fmi2ValueReference r, int value);
 double real(fmi2Component c, fmi2ValueReference r);
 int whole(fmi2Component c, fmi2ValueReference r);
-double any(fmi2Component c, fmi2ValueReference r); /* a Real or an Integer, of an instance that is `quiet` */
+double any(fmi2Component c, fmi2ValueReference r); /* value of a Real or an Integer of a `quiet` instance */
 
-/* calls.c: what is legal when */
+/* calls.c: legality of calls */
 void instantiate(void);
 void every_call(void);
 void fuzz(int n);

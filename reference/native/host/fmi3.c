@@ -1,4 +1,4 @@
-/* A host in C for the native FMU of FMI 3.0: LIBRARY TOKEN COMMAND [ARGUMENT]. */
+/* A C host for the native FMU of FMI 3.0: LIBRARY TOKEN COMMAND [ARGUMENT]. */
 #include "common.h"
 #include "fmi3FunctionTypes.h"
 #include "model.h"
@@ -21,7 +21,7 @@
 #define DECLARE(f) static fmi3##f##TYPE *f;
 FUNCTIONS(DECLARE)
 
-enum { SAMPLES = V_geometry_A - V_geometry_g }; /* ELEMENTS of a field comes from who compiles this */
+enum { SAMPLES = V_geometry_A - V_geometry_g }; /* ELEMENTS of a field is defined by the compiler's command line */
 static const fmi3ValueReference load = V_load_normal_force, force = V_force_x, method = V_method_normal,
                                 strips = V_resolution_n_strips, gap = V_geometry_g, pressure = V_field_pressure,
                                 stick = V_field_stick, seconds = V_time;
@@ -373,6 +373,6 @@ int main(int n_arguments, char **arguments)
     else if (!strcmp(command, "threads")) threads();
     else if (!strcmp(command, "random_calls")) random_calls(argument);
     else if (!strcmp(command, "speed")) speed(argument);
-    else return printf("%s is no command\n", command), 2;
+    else return printf("%s is not a command\n", command), 2;
     return failures != 0;
 }

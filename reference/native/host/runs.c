@@ -1,4 +1,4 @@
-/* Many instances, many steps, and cases from outside. */
+/* Many instances, many steps, and cases from standard input. */
 #include "fmi2.h"
 
 #ifndef _WIN32
@@ -59,7 +59,7 @@ void threads(void)
 #define N_READ 400
 typedef double Trajectory[N_STEPS][N_READ];
 
-/* A step with all Reals read after it; others are zero. */
+/* Do a step and read all Reals; other variables stay zero. */
 static void step_and_read(fmi2Component c, int k, double *values)
 {
     DoStep(c, 1e-3 * k, 1e-3, fmi2True);
@@ -92,7 +92,7 @@ void two_libraries(void *library, const char *path, const char *its_guid)
 /* ---------------------------------------------------------------- memory over time */
 
 #ifdef _WIN32
-static long resident(void) { return 0; } /* measured on Linux alone */
+static long resident(void) { return 0; } /* measured only on Linux */
 #else
 static long resident(void)
 {
@@ -104,7 +104,7 @@ static long resident(void)
 }
 #endif
 
-/* Instances that come and go, and steps of one, at the coarsest resolution. */
+/* Make and free many instances, and do many steps of one, at the coarsest resolution. */
 void soak(int cycles, int steps)
 {
     static const fmi2ValueReference resolution[] = RESOLUTION;
@@ -144,7 +144,7 @@ void soak(int cycles, int steps)
 
 /* ---------------------------------------------------------------- cases */
 
-/* Cases from standard input: the number of values, then reference, kind (r or i) and value of each. Answers all outputs. */
+/* Solve cases from standard input: the number of values, then reference, kind (r or i) and value of each. Print all outputs. */
 void cases(void)
 {
     int n;

@@ -1,6 +1,7 @@
-/* A host in C that does what it reads: script LIBRARY GUID KIND (0 model exchange, 1 co-simulation). A line is a letter,
- * a value reference or a count, and numbers: s REFERENCE VALUE sets a Real, g REFERENCE prints it, d TIME STEP does a step,
- * t TIME sets the time, x N VALUES… sets the states and prints their derivatives. Parameters are set before `i`, initialise. */
+/* A C host that executes commands from standard input: script LIBRARY GUID KIND (0 model exchange, 1 co-simulation).
+ * Each line is a letter, a value reference or a count, and numbers: s REFERENCE VALUE sets a Real, g REFERENCE prints it,
+ * d TIME STEP does a step, t TIME sets the time, x N VALUES… sets the states and prints their derivatives. i initialises;
+ * parameters are set before it. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -74,7 +75,7 @@ int main(int n_arguments, char **arguments)
             DO(GetDerivatives(c, x, n));
             for (unsigned i = 0; i < n; i++) printf("%.17g\n", x[i]);
         } else {
-            return printf("%c is no command\n", letter), 2;
+            return printf("%c is not a command\n", letter), 2;
         }
     }
     FreeInstance(c);

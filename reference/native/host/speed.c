@@ -1,5 +1,5 @@
-/* How long calls take; the least of many batches counts, as other work on the machine only adds to it: short
- * ones, so that some meet none. */
+/* Measure the time of calls. The least of many batches counts, since other work on the machine only adds time. The batches are
+ * short, so that some run undisturbed. */
 #include <stdint.h>
 
 #include "fmi2.h"
@@ -7,7 +7,7 @@
 #define N_INPUTS 90
 #define BATCHES 1000
 
-/* From before the library was loaded. */
+/* Time since before the library was loaded. */
 void first_step(double begin)
 {
     fmi2Component c = running(quiet);
@@ -28,7 +28,7 @@ static void outputs(void) { kernel(values, work); }
 static void step(void) { DoStep(c, 0.0, 1e-3, fmi2True); }
 static void set_inputs(void) { SetReal(c, references, N_INPUTS, inputs); }
 
-/* Least time of one call, of two functions in turn. */
+/* Least time of one call of each of two functions, which alternate. */
 static void pair(void (*one)(void), void (*other)(void), int n, double least[2])
 {
     void (*calls[2])(void) = {one, other};
@@ -42,7 +42,7 @@ static void pair(void (*one)(void), void (*other)(void), int n, double least[2])
     }
 }
 
-/* An instance that is partly in slip, as contacts of a vehicle are: without creepage a step takes less. */
+/* An instance in partial slip, as contacts of a vehicle are. Without creepage a step takes less time. */
 static fmi2Component in_slip(void)
 {
     fmi2Component instance = running(quiet);
@@ -52,7 +52,7 @@ static fmi2Component in_slip(void)
     return instance;
 }
 
-/* The kernel by itself from a library that has nothing else, against fmi2DoStep; then inputs, then a vehicle's contacts. */
+/* Compare the bare kernel, from a library without the FMU, with fmi2DoStep. Then measure inputs and a vehicle's contacts. */
 void speed(int n, const char *kernels)
 {
     enum { N_CONTACTS = 8, CACHE_LINE = 64 };
@@ -66,7 +66,7 @@ void speed(int n, const char *kernels)
     step();
     for (fmi2ValueReference r = 0; r < N_VALUES; r++) values[r] = any(c, r);
     block = calloc((size_t)((int64_t (*)(double *))find(library, "size"))(values) + CACHE_LINE, sizeof *work);
-    work = (double *)(((uintptr_t)block + CACHE_LINE - 1) / CACHE_LINE * CACHE_LINE); /* as the FMU has it */
+    work = (double *)(((uintptr_t)block + CACHE_LINE - 1) / CACHE_LINE * CACHE_LINE); /* aligned as in the FMU */
     ((int64_t (*)(double *, double *))find(library, "prepare"))(values, work);
     for (int i = 0; i < N_INPUTS; i++) references[i] = V_geometry_g + (fmi2ValueReference)i;
     GetReal(c, references, N_INPUTS, inputs);
@@ -94,6 +94,6 @@ void speed(int n, const char *kernels)
 void speed(int n, const char *kernels)
 {
     (void)n, (void)kernels;
-    puts("speed is measured of WheelRailContact alone"), exit(2);
+    puts("speed is measured only for WheelRailContact"), exit(2);
 }
 #endif
