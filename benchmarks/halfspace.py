@@ -189,8 +189,8 @@ def report() -> str:
 
 TEXT = """# The element-wise half space
 
-`benchmarks/halfspace.py` writes this page. The reference is CONTACT 25.1 (rev 2707, Apache-2.0) on the same elements. Its numbers
-have five or six digits.
+`benchmarks/halfspace.py` writes this page. The reference is CONTACT 25.1 (rev 2707, Apache-2.0) on the same elements. Its
+numbers have five or six digits.
 
 ## Ellipses ({n_a} cases, 66 × 66 elements)
 
@@ -217,8 +217,8 @@ They were found by comparison with CONTACT's source and by variation of its sett
 ## Time
 
 Times are the shortest of several runs in one thread on a shared machine. CONTACT needs 13.5 ms for the normal problem and 2.1 s
-for both problems on a 68 × 124 grid, and 2 ms and 47 ms on a 28 × 50 grid. These are times of its default tangential solver. Its
-solver GDsteady is faster: in another comparison at 0.2 mm the default took 3.9 s, GDsteady .46 s and ours .2 s.
+for both problems on a 68 × 124 grid, and 2 ms and 47 ms on a 28 × 50 grid. These are times of its default tangential solver.
+Its solver GDsteady is faster: in another comparison at 0.2 mm the default took 3.9 s, GDsteady .46 s and ours .2 s.
 
 {fine}
 {coarse}

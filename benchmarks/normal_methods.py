@@ -52,7 +52,8 @@ and disappear (`contact.methods()`: `continuous`). They are meant for comparison
 
 ## KPEC compared with CONTACT's KPEC
 
-Each cell has two errors in per cent, of our KPEC and of CONTACT's KPEC. The reference is CONTACT's half space at the same approach.
+Each cell has two errors in per cent, of our KPEC and of CONTACT's KPEC. The reference is CONTACT's half space at the same
+approach.
 
 {kpec}"""
 
