@@ -12,10 +12,11 @@ from contact import workspace
 from contact.case import cases, set_surface
 from contact.creepage import Creepage
 from contact.damage import DamageParameters
-from contact.errors import require_number
+from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.wheelset import Pair
+from contact.kernels.layout import Height, NoAnswer
 from contact.kernels.memory import Bench, Ledger
 from contact.kernels.pair import solve_pair
 from contact.material import STEEL, Material
@@ -191,6 +192,7 @@ class WheelRailPair:
         *,
         load: float | None = None,
         penetration: float | None = None,
+        vertical: float | None = None,
         irregularity: Irregularity | None = None,
         friction: float | Friction = 0.3,
         distance: float = 0.0,
@@ -200,7 +202,11 @@ class WheelRailPair:
         Parameters
         ----------
         pose, velocity, load, penetration, irregularity :
-            As for `contact.geometry.wheelset.contacts`.
+            As for `contact.geometry.wheelset.contacts`. The normal forces alone carry `load`, shared by the patches as
+            ANALYN shares it; friction adds to the vertical force or relieves it.
+        vertical : float
+            Vertical force on the wheel [N] ≥ 0 that normal and friction forces carry together, by the methods of this
+            pair; instead of `load` and `penetration`. It takes five to ten times as long.
         friction : float or contact.friction.Friction
             Coulomb's coefficient mu ≥ 0 [-], or a friction law, evaluated with the sliding velocity of each patch.
         distance : float
@@ -217,10 +223,19 @@ class WheelRailPair:
         ContactError
             For input outside its range, if wheel and rail do not overlap laterally, or if no z gives the load.
         """
-        mode, amount = self.pair.prescribed(load, penetration)
+        if vertical is None:
+            mode, amount = self.pair.prescribed(load, penetration)
+        elif load is None and penetration is None:
+            mode, amount = Height.VERTICAL, require_number("vertical", vertical, 0.0)
+        else:
+            raise ContactError(f"vertical = {vertical} excludes load = {load} and penetration = {penetration}")
         self.bench.ledger.settings["distance"] = require_number("distance", distance, 0.0)
         set_surface(self.bench.case, as_friction(friction), (velocity or Velocity()).forward)
         code = solve_pair(mode, amount, self.pair.given(pose, velocity, irregularity), self.bench)
+        if vertical is not None and code == NoAnswer.NOT_SETTLED:
+            raise ContactError(
+                f"vertical = {vertical:g}: no z was found at which normal and friction forces carry it together"
+            )
         self.pair.require_found(code, pose, load)
         total = self.bench.total[0]
         return PairSolution(

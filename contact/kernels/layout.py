@@ -153,11 +153,15 @@ _MESSAGES = {
 
 
 class Height(IntEnum):
-    """What the height of a wheel on its rail follows from: pose.z, a penetration [m] or a vertical load [N]."""
+    """What the height of a wheel on its rail follows from.
+
+    LOAD is the vertical part of the normal forces, VERTICAL the whole vertical force, with friction [N].
+    """
 
     GIVEN = 0
     PENETRATION = 1
     LOAD = 2
+    VERTICAL = 3
 
 
 class NoAnswer(IntEnum):

@@ -6,10 +6,13 @@ from contact._jit import kernel
 from contact.kernels.damage.assess import clear_damage, damage_kernel
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.settle import settle
-from contact.kernels.layout import LARGEST_CREEPAGE, MAX_PATCHES, Height, LoadKind, Sep, Status, Strip
+from contact.kernels.layout import LARGEST_CREEPAGE, MAX_PATCHES, Height, LoadKind, NoAnswer, Sep, Status, Strip
 from contact.kernels.ledger import enter
 from contact.kernels.memory import Samples, Space, Workspace
 from contact.kernels.pipeline import solve_case
+
+#: Heights that are tried for a vertical force, of which the residual should be and may be, and the furthest height [m].
+_MAX_HEIGHTS, _TOLERANCE, _ACCEPTABLE, _FURTHEST = 40, 1e-9, 1e-3, 1.0
 
 
 @kernel
@@ -156,15 +159,8 @@ def _space_of_patch(space, memory):
 
 
 @kernel
-def solve_pair(mode, amount, given, bench):
-    """Find the patches, solve each of them, add up.
-
-    `given` is a record GIVEN of `layout`, `mode` and `amount` are those of `settle`. Under a load every patch is solved for
-    the normal force that the search has found for it, so the vertical parts of the normal forces add up to the load for
-    every normal method; else for its approach. Damage is per patch, with its own rolling radius. What adds up does so with
-    the patches' shares (`search.combine`), which are 1 nearly always. Fills bench.contacts and bench.total, and enters what
-    the patches do into bench.ledger. Returns the number of patches, or a code of `settle` where there is no answer.
-    """
+def _solve_at(mode, amount, given, z, enters, bench):
+    """As `solve_pair`, at the height z if `mode` is GIVEN. `enters` says whether the ledger is filled."""
     search, own, memory = bench.search, bench.own, bench.memory
     total, result, damage, parameters = bench.total[0], bench.result[0], bench.damage[0], bench.damage_parameters[0]
     motion = search.motion[0]
@@ -172,6 +168,7 @@ def solve_pair(mode, amount, given, bench):
         _clear_contact(bench.contacts[k])
     _clear_total(total)
     move(given, motion)
+    motion.z = z
     n = settle(mode, amount, search)
     if n < 0:
         return n
@@ -195,8 +192,65 @@ def solve_pair(mode, amount, given, bench):
         if n_strips > 0:
             _add_wrench(contact, motion.y, motion.z - motion.radius, total)
             _add_results(result, damage, patch.share, total)
-            if bench.ledger.bins.shape[2] > 0:
+            if enters and bench.ledger.bins.shape[2] > 0:
                 enter(patch, n_strips, damage, bench)
     total.z, total.n_patches = motion.z, n
     _mirror(motion.mirror, n, bench.contacts, total)
     return n
+
+
+@kernel
+def _solve_vertical(force, given, bench):
+    """As `solve_pair` for Height.VERTICAL: find the height by a bracketed secant over the whole solution.
+
+    It begins at the height at which the normal forces carry the load. The force grows with the power 3/2 of the depth there.
+    """
+    n = _solve_at(Height.LOAD, force, given, given.z, False, bench)
+    if n <= 0 or force <= 0.0:
+        return n
+    total = bench.total[0]
+    deepest = 0.0
+    for k in range(n):
+        deepest = max(deepest, bench.contacts[k].approach / math.cos(bench.contacts[k].angle))
+    z, low, high = total.z, total.z - deepest, math.inf
+    z_before, f_before = z, 0.0
+    best, z_best = math.inf, z
+    for iteration in range(_MAX_HEIGHTS):
+        n = _solve_at(Height.GIVEN, 0.0, given, z, False, bench)
+        if n < 0:
+            return NoAnswer.NOT_SETTLED.value
+        f = -bench.total[0].Fz - force
+        if abs(f) < best:
+            best, z_best = abs(f), z
+        if abs(f) <= _TOLERANCE * force:
+            break
+        if f > 0.0:
+            high = z
+        else:
+            low = z
+        slope = 1.5 * (f + force) / deepest if iteration == 0 else (f - f_before) / (z - z_before)
+        new = z - f / slope if slope > 0.0 else math.inf
+        if not low < new < high:
+            new = 0.5 * (low + high) if high < math.inf else z + 0.5 * deepest
+        if new == z or abs(new) > _FURTHEST:
+            break
+        z_before, f_before, z = z, f, new
+    if best > _ACCEPTABLE * force:
+        return NoAnswer.NOT_SETTLED.value
+    return _solve_at(Height.GIVEN, 0.0, given, z_best, True, bench)
+
+
+@kernel
+def solve_pair(mode, amount, given, bench):
+    """Find the patches, solve each of them, add up.
+
+    `given` is a record GIVEN of `layout`, `mode` and `amount` are those of `settle`. Under a load every patch is solved for
+    the normal force that the search has found for it, so the vertical parts of the normal forces add up to the load for
+    every normal method; else for its approach. With Height.VERTICAL the height is found at which the vertical parts of all
+    forces, friction included, add up to the load. Damage is per patch, with its own rolling radius. What adds up does so with
+    the patches' shares (`search.combine`), which are 1 nearly always. Fills bench.contacts and bench.total, and enters what
+    the patches do into bench.ledger. Returns the number of patches, or a code of `settle` where there is no answer.
+    """
+    if mode == Height.VERTICAL:
+        return _solve_vertical(amount, given, bench)
+    return _solve_at(mode, amount, given, given.z, True, bench)

@@ -45,7 +45,10 @@ from fmu_src.tables.solver import DAMAGE_OUTPUTS
 from fmu_src.tables.wheel_rail_pair import ACCUMULATED, BINS, LOAD_KIND, PATCH, PATCHES, RAIL, SIDE, WHEEL, table
 from fmu_src.variables import Table, identifier
 
-_UNDER_LOAD, _RIGHT = LOAD_KIND.number("NormalForce"), SIDE.number("Right")
+_HEIGHTS = {"NormalForce": Height.LOAD, "Position": Height.GIVEN, "VerticalForce": Height.VERTICAL}
+#: Values of `Height`, by the number of an item of LOAD_KIND, less 1.
+_HEIGHT = np.array([int(_HEIGHTS[name]) for name, _ in LOAD_KIND.items])
+_RIGHT = SIDE.number("Right")
 _DAMAGE_PARAMETERS = np.array([DamageParameters().record(contact.STEEL, 1.0, 1.0)], DAMAGE_PARAMETERS)
 _N_PATCH_ROWS = len(PATCH)  # the first members of CONTACT, in this order
 #: Outputs ← members of TOTAL.
@@ -309,9 +312,8 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         bench = arrange(v, work, resources, (centre, plane, creep))
         read_surface(v, bench.case)
         given, _ = memory.records(values, at.pose_y, 1, GIVEN)
-        by_load = v[at.load_kind] == _UNDER_LOAD
         bench.ledger.settings[0].distance = v[at.velocity_x] * h
-        mode = Height.LOAD.value if by_load else Height.GIVEN.value
+        mode = _HEIGHT[int(v[at.load_kind]) - 1]
         failure = _failure(solve_pair(mode, v[at.load_normal_force], given[0], bench))
         if failure > 0:
             return failure

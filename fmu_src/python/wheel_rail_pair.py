@@ -54,7 +54,7 @@ class WheelRailPairSlave(TableSlave):
                 Pose(*motion[:4]),
                 Velocity(*motion[4:10]),
                 irregularity=Irregularity(*motion[10:]),
-                load=values["load.normal_force"] if values.item("load.kind") == "NormalForce" else None,
+                **_carried(values),
                 friction=friction(values),
                 distance=values["velocity.x"] * step_size,
             )
@@ -138,6 +138,12 @@ class WheelRailPairSlave(TableSlave):
             )
             self.built_with = wanted
         return self.pair
+
+
+def _carried(values: Values) -> dict[str, float]:
+    """Return the argument of `WheelRailPair.solve` for the load, none if the height is given."""
+    name = {"NormalForce": "load", "VerticalForce": "vertical"}.get(values.item("load.kind"))
+    return {} if name is None else {name: values["load.normal_force"]}
 
 
 def _accumulation(values: Values, wheel: Profile, rail: Profile) -> dict[str, Any]:

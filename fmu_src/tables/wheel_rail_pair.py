@@ -17,8 +17,9 @@ SIDE = Enumeration("Side", (("Left", "the left wheel and rail"), ("Right", "the 
 LOAD_KIND = Enumeration(
     "LoadKind",
     (
-        ("NormalForce", "load.normal_force is given, the height of the wheelset follows"),
+        ("NormalForce", "load.normal_force is carried by the normal forces alone, the height of the wheelset follows"),
         ("Position", "pose.z is given, the normal force follows"),
+        ("VerticalForce", "load.normal_force is carried by normal and friction forces together, the height follows"),
     ),
 )
 ACCUMULATE = Enumeration(
@@ -188,7 +189,7 @@ def _inputs() -> Iterable[Variable]:
         yield signal(name, description, unit=unit, start=_STARTS.get(name, 0.0), **_LIMITS.get(name, {}))
     yield signal(
         "load.normal_force",
-        "Vertical force carried by the normal pressures of all patches, used when load.kind = NormalForce",
+        "Vertical force on the wheel; load.kind says whether friction carries a part of it; not used with Position",
         unit="N",
         start=80e3,
         minimum=0.0,

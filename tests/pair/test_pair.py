@@ -253,3 +253,28 @@ def test_the_number_of_patches_with_their_own_frame_is_limited():
 def test_bad_input_is_named(right, call, text):
     with pytest.raises(ContactError, match=text):
         call(right)
+
+
+@pytest.mark.parametrize("methods", [{}, contact.THESIS])
+@pytest.mark.parametrize(("y", "friction"), [(0.0, 0.3), (6.37e-3, 0.3), (7.5e-3, 0.33), (7.5e-3, 0.0)])
+def test_normal_and_friction_forces_carry_the_vertical_force_together(y, friction, methods):
+    pair, force = make(**methods), 69e3
+    motion = Pose(y=y, yaw=5e-3), Velocity(20.0, y=0.1)
+    s = pair.solve(*motion, vertical=force, friction=friction)
+    assert -s.force[2] == pytest.approx(force, rel=1e-4)
+    if friction == 0.0:  # then it is the load of the normal forces, but for ANALYN's share between patches
+        by_load = pair.solve(*motion, load=force, friction=0.0)
+        assert s.z == pytest.approx(by_load.z, abs=2e-5)
+
+
+def test_a_vertical_force_with_friction_differs_from_the_load_of_the_normal_forces_on_a_flange():
+    pair, force = make(), 69e3
+    motion = Pose(y=9e-3, yaw=8e-3), Velocity(20.0)
+    by_load = pair.solve(*motion, load=force, friction=0.33)
+    assert abs(-by_load.force[2] / force - 1.0) > 0.05
+    assert -pair.solve(*motion, vertical=force, friction=0.33).force[2] == pytest.approx(force, rel=1e-4)
+
+
+def test_a_vertical_force_excludes_a_load():
+    with pytest.raises(ContactError, match="vertical = 1 excludes load = 2"):
+        make().solve(Pose(), vertical=1, load=2)
