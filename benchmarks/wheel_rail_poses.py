@@ -1,10 +1,9 @@
 """Whole poses of a wheel on a rail against CONTACT (set O): total force at equal height, and every patch by itself.
 
-    python benchmarks/wheel_rail_poses.py [--set FOLDER] [--worst 10] [METHODS …]
+    python benchmarks/wheel_rail_poses.py FOLDER [--worst 10] [--extract] [--methods normal+tangential+n_strips+n_elements …]
 
-Without FOLDER, the poses of `reference/wheel_rail_poses.csv`, all of the standard profiles S1002 on 60E1, are computed. FOLDER
-holds `wheel_rail_cases.csv` with the same columns and `profiles/`: the other profiles of the set are not ours to pass on.
-METHODS are written normal+tangential+n_strips+n_elements.
+FOLDER holds `wheel_rail_cases.csv` and `profiles/`, which are not ours to pass on. `--extract` writes the gaps of the patches
+`EXTRACTED`, with CONTACT's answers, into `reference/wheel_rail_patches.json`, for `reference.accuracy` and the tests.
 
 * Total force: pose, height and velocity are given; |F - F of CONTACT| over |F of CONTACT|.
 * Patches: of those with N > 500 N, more than 150 elements and a peak below 4 GPa, the force over mu N and the peak pressure.
@@ -15,7 +14,8 @@ from __future__ import annotations
 
 import argparse
 import csv
-import math
+import dataclasses
+import json
 import warnings
 from collections.abc import Iterable
 from functools import cache
@@ -30,35 +30,40 @@ from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair
 from contact.study.errors import mean_p95_max
-from reference import FOLDER
+from reference import FOLDER, STEEL, Patch, accuracy
 
-STEEL = contact.Material(82e9, 0.28)
+#: Patches of `--extract`: those on which ANALYN is furthest off, in pressure, force or `gap_error`, and six ordinary ones.
+EXTRACTED = (
+    *("91.0", "35.0", "98.0", "97.0", "78.1", "73.2", "66.0", "107.0", "9.0", "75.2", "99.0", "104.0", "6.0"),
+    *("12.0", "20.0", "40.0", "60.0", "90.0", "115.0", "120.0"),
+)
+ABOUT = (
+    "Patches of wheels on rails, new, measured and worn, computed with CONTACT 25.1 (rev 2707, Apache-2.0), module 1. The gaps "
+    "are ours, of the same profiles and poses; SI units; forces on the wheel, creepages of the wheel over those of the rail. "
+    "G = 82 GPa, nu = 0.28. 78.1: CONTACT weakens the interaction with the pose's other patch, which is not in the file."
+)
 METHODS = ("analyn+fastrip+30+20", "strip_halfspace+fastrip_mapped+20+20")
 Row = dict[str, str]
 
 
-def read(folder: Path | None) -> dict[tuple[str, str], list[Row]]:
+def read(folder: Path) -> dict[tuple[str, str], list[Row]]:
     """Return the rows of every pose."""
-    path = FOLDER / "wheel_rail_poses.csv" if folder is None else folder / "wheel_rail_cases.csv"
     poses: dict[tuple[str, str], list[Row]] = {}
-    with path.open() as file:
-        for row in csv.DictReader(line for line in file if not line.startswith("#")):
+    with (folder / "wheel_rail_cases.csv").open() as file:
+        for row in csv.DictReader(file):
             poses.setdefault((row["set"], row["id"]), []).append(row)
     return poses
 
 
 @cache
-def pair_of(folder: Path | None, wheel: str, rail: str, gauge: float, flange_back: float) -> Pair:
+def pair_of(folder: Path, wheel: str, rail: str, gauge: float, flange_back: float) -> Pair:
     """Return the profiles of a pose, as a pair."""
-    if folder is None:
-        profiles = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
-    else:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            profiles = (
-                profile.load(str(folder / "profiles" / wheel), "wheel"),
-                profile.load(str(folder / "profiles" / rail), "rail"),
-            )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        profiles = (
+            profile.load(str(folder / "profiles" / wheel), "wheel"),
+            profile.load(str(folder / "profiles" / rail), "rail"),
+        )
     return Pair(*profiles, gauge=gauge, flange_back=flange_back, material=STEEL)
 
 
@@ -67,86 +72,102 @@ def numbers(row: Row, *names: str) -> tuple[float, ...]:
     return tuple(float(row[name]) for name in names)
 
 
-def errors(poses: Iterable[list[Row]], folder: Path | None, method: str) -> dict[str, Any]:
-    """Return the errors of the total forces and of the patches, with the names of the poses."""
-    normal, tangential, n_strips, n_elements = method.split("+")
-    solvers: dict[int, WheelRailPair] = {}
-    single = contact.Solver(
-        normal=normal, tangential=tangential, n_strips=int(n_strips), n_elements=int(n_elements), material=STEEL
-    )
-    total, force, peak, quality = {}, {}, {}, {}
+def pose_of(row: Row) -> tuple[Pose, Velocity]:
+    """Return pose and velocity of the wheelset."""
+    y, z, roll, yaw, V, vy, omega = numbers(row, "y_mm", "z_mm", "roll", "yaw", "V_mm_s", "vy_mm_s", "omega_rad_s")
+    return Pose(y=1e-3 * y, z=1e-3 * z, roll=roll, yaw=yaw), Velocity(1e-3 * V, y=1e-3 * vy, spin=omega)
+
+
+def pair_at(folder: Path, row: Row) -> Pair:
+    """Return the pair of a pose."""
+    gauge, back = numbers(row, "gauge_mm", "flange_back_mm")
+    return pair_of(folder, row["wheel"], row["rail"], 1e-3 * gauge, 1e-3 * back)
+
+
+def patches(poses: Iterable[list[Row]], folder: Path) -> Iterable[Patch]:
+    """Yield the patches that are compared, of the poses in which we find as many as CONTACT."""
     for rows in poses:
-        first = rows[0]
-        pair = pair_of(
-            folder, first["wheel"], first["rail"], *(1e-3 * x for x in numbers(first, "gauge_mm", "flange_back_mm"))
-        )
-        if id(pair) not in solvers:
-            solvers[id(pair)] = WheelRailPair(
-                pair,
-                material=STEEL,
-                normal=normal,
-                tangential=tangential,
-                n_strips=int(n_strips),
-                n_elements=int(n_elements),
-            )
-        y, z, roll, yaw = numbers(first, "y_mm", "z_mm", "roll", "yaw")
-        pose = Pose(y=1e-3 * y, z=1e-3 * z, roll=roll, yaw=yaw)
-        V, vy, omega, mu = numbers(first, "V_mm_s", "vy_mm_s", "omega_rad_s", "mu")
-        name = first["id"]
-        answer = solvers[id(pair)].solve(pose, Velocity(1e-3 * V, y=1e-3 * vy, spin=omega), friction=mu)
-        true = -np.array(numbers(first, "FX_tr", "FY_tr", "FZ_tr"))
-        total[name] = float(np.linalg.norm(answer.force - true) / np.linalg.norm(true))
-        found = pair.contacts(pose)
-        if len(found) != len(rows):
-            continue
-        for row in rows:
+        found = pair_at(folder, rows[0]).contacts(pose_of(rows[0])[0])
+        for row in rows if len(found) == len(rows) else ():
             N, Fx, Fs, pmax, elements = numbers(row, "N_N", "FX_N", "FS_N", "pmax_MPa", "n_contact")
-            if not (N > 500.0 and elements > 150 and pmax < 4000.0):
-                continue
-            cksi, ceta, cphi, veloc = numbers(row, "cksi", "ceta", "cphi_1_mm", "veloc_mm_s")
-            (at,) = numbers(row, "y_tr_mm")
-            patch = min(found, key=lambda p: abs(1e3 * p.position[1] - at))
-            scale = -veloc / V
-            creepage = contact.Creepage(scale * cksi, scale * ceta, scale * 1e3 * cphi)
-            solution = single.solve(patch.separation, creepage, load=N, friction=mu)
-            key = f"{name}.{row['patch']}"
-            force[key] = math.hypot(solution.Fx + Fx, solution.Fy + Fs) / (mu * N)
-            peak[key] = solution.max_pressure / (1e6 * pmax) - 1.0
-            quality[key] = getattr(solution, "quality", math.nan)
-    return {"total": total, "force": force, "peak": peak, "quality": quality}
+            cksi, ceta, cphi, veloc, at = numbers(row, "cksi", "ceta", "cphi_1_mm", "veloc_mm_s", "y_tr_mm")
+            if N > 500.0 and elements > 150 and pmax < 4000.0:
+                separation = min(found, key=lambda patch: abs(1e3 * patch.position[1] - at)).separation
+                scale = -veloc / float(row["V_mm_s"])
+                creepage = contact.Creepage(scale * cksi, scale * ceta, scale * 1e3 * cphi)
+                name, mu = f"{row['id']}.{row['patch']}", float(row["mu"])
+                yield Patch(name, separation, creepage, mu, N, -Fx, -Fs, 1e6 * pmax)
+
+
+def total_errors(poses: Iterable[list[Row]], folder: Path, options: dict[str, Any]) -> dict[str, float]:
+    """Return the error of the total force of every pose over that force."""
+    solvers: dict[int, WheelRailPair] = {}
+    found = {}
+    for rows in poses:
+        pair = pair_at(folder, rows[0])
+        solver = solvers.setdefault(id(pair), WheelRailPair(pair, material=STEEL, **options))
+        answer = solver.solve(*pose_of(rows[0]), friction=float(rows[0]["mu"]))
+        true = -np.array(numbers(rows[0], "FX_tr", "FY_tr", "FZ_tr"))
+        found[rows[0]["id"]] = float(np.linalg.norm(answer.force - true) / np.linalg.norm(true))
+    return found
+
+
+def extract(chosen: Iterable[Patch]) -> None:
+    """Write the patches `EXTRACTED`, where the gap is below 1 mm."""
+    cases = []
+    for patch in chosen:
+        if patch.name not in EXTRACTED:
+            continue
+        s = patch.separation
+        keep = np.flatnonzero(s.g < 1e-3)
+        cases.append(
+            {
+                "name": patch.name,
+                **{k: [float(f"{v:.7g}") for v in getattr(s, k)[keep]] for k in ("y", "g", "A", "x_c")},
+                "creepage": [float(f"{v:.6g}") for v in (*dataclasses.astuple(patch.creepage),)],
+                **{k: getattr(patch, k) for k in Patch._fields[3:]},
+            }
+        )
+    (FOLDER / "wheel_rail_patches.json").write_text(json.dumps({"about": ABOUT, "cases": cases}, indent=0) + "\n")
 
 
 def main() -> None:
     """Print the table, and the worst patches."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("methods", nargs="*", default=METHODS)
-    parser.add_argument("--set", type=Path)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--methods", nargs="*", default=METHODS)
     parser.add_argument("--worst", type=int, default=0)
+    parser.add_argument("--extract", action="store_true")
     chosen = parser.parse_args()
-    poses = read(chosen.set)
+    poses = read(chosen.folder).values()
+    compared = list(patches(poses, chosen.folder))
+    if chosen.extract:
+        extract(compared)
+        return
     rows, worst = [], []
     for method in chosen.methods:
-        e = errors(poses.values(), chosen.set, method)
-        force, peak = np.array(list(e["force"].values())), np.abs(list(e["peak"].values()))
-        bad = [k for k in e["force"] if e["force"][k] > 0.10 or abs(e["peak"][k]) > 0.20]
+        normal, tangential, strips, elements = method.split("+")
+        options = {"normal": normal, "tangential": tangential, "n_strips": int(strips), "n_elements": int(elements)}
+        total = total_errors(poses, chosen.folder, options)
+        force, peak, gap = accuracy.errors_of(compared, **options)
+        bad = (force > 0.10) | (np.abs(peak) > 0.20)
         rows.append(
             [
                 f"`{method}`",
-                " / ".join(f"{v:.3f}" for v in mean_p95_max(list(e["total"].values()))),
-                " / ".join(f"{v:.3f}" for v in mean_p95_max(force)),
-                " / ".join(f"{v:.3f}" for v in mean_p95_max(peak)),
-                f"{len(bad)} of {len(force)}",
+                *(" / ".join(f"{v:.3f}" for v in mean_p95_max(e)) for e in (list(total.values()), force, np.abs(peak))),
+                f"{bad.sum()} of {len(bad)}",
             ]
         )
-        for what in ("total", "force", "peak"):
-            order = sorted(e[what], key=lambda k: -abs(e[what][k]))[: chosen.worst]
-            worst.append(f"{method} {what}: " + ", ".join(f"{k} {e[what][k]:.3f}" for k in order))
+        by_name = [total, *(dict(zip((p.name for p in compared), e, strict=True)) for e in (force, peak, gap))]
+        for what, e in zip(("total", "force", "peak", "gap error"), by_name, strict=True):
+            order = sorted(e, key=lambda k: -abs(e[k]))[: chosen.worst]
+            worst.append(f"{method} {what}: " + ", ".join(f"{k} {e[k]:.3f}" for k in order))
     head = [
         "method",
         "total force, mean / 95 % / max",
         "patch: force",
-        "peak pressure",
-        "force > .10 or peak > 20 % off",
+        "largest pressure",
+        "force > .10 or pressure > 20 % off",
     ]
     print(table(head, rows), *worst if chosen.worst else (), sep="\n")
 

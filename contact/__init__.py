@@ -16,7 +16,7 @@ from contact.registry import Method, Methods, methods
 from contact.separation import Separation
 from contact.solution import Forces, Solution, Status, Strips
 from contact.solve import solve
-from contact.solver import Solver
+from contact.solver import THESIS, Solver
 
 if TYPE_CHECKING:
     from contact.study.case import Case
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "STEEL",
+    "THESIS",
     "Case",
     "Comparison",
     "ContactError",

@@ -156,6 +156,7 @@ def forces(
         slip_ratio=slip_ratio,
         power_per_metre=column("power"),
         status=results["status"].reshape(shape),
+        gap_error=column("gap_error"),
     )
 
 

@@ -45,6 +45,7 @@ class Contact:
     creepage : wheel minus rail at `position`
     approach : [m]
     status : Status
+    gap_error : as `contact.Solution.gap_error` [-]
     """
 
     N: float
@@ -60,6 +61,7 @@ class Contact:
     creepage: Creepage
     approach: float
     status: Status
+    gap_error: float
 
 
 class PairDamage(NamedTuple):
@@ -98,6 +100,7 @@ class PairSolution:
     power_per_metre : frictional energy per metre rolled, sum over the patches [N]
     damage : damage of all patches
     status : Status
+    gap_error : the greatest of the patches [-]
     """
 
     force: Array
@@ -110,6 +113,7 @@ class PairSolution:
     power_per_metre: float
     damage: PairDamage
     status: Status
+    gap_error: float
 
     @property
     def slip_ratio(self) -> float:
@@ -223,6 +227,7 @@ class WheelRailPair:
             power_per_metre=float(total.power),
             damage=PairDamage(*(float(total[name]) for name in PairDamage._fields)),
             status=Status(total.status),
+            gap_error=float(total.gap_error),
         )
 
 
@@ -241,4 +246,5 @@ def _contact(found: np.record) -> Contact:
         creepage=Creepage(float(found.longitudinal), float(found.lateral), float(found.spin)),
         approach=float(found.approach),
         status=Status(found.status),
+        gap_error=float(found.gap_error),
     )

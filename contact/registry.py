@@ -10,8 +10,8 @@ from contact.errors import ContactError, suggestion
 from contact.kernels.layout import Normal, NormalFamily, Tangential, TangentialFamily
 from contact.notebook import table
 
-#: The default methods: those of the thesis.
-DEFAULT_NORMAL, DEFAULT_TANGENTIAL = "analyn", "fastrip"
+#: The default methods. The strip half space starts from ANALYN, and mapped FaStrip corrects FaStrip (docs/accuracy.md).
+DEFAULT_NORMAL, DEFAULT_TANGENTIAL = "strip_halfspace", "fastrip_mapped"
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,6 +26,9 @@ Array = NDArray[np.float64]
 Numbers = float | Array
 Records = NDArray[np.void]
 
+#: A `gap_error` above this means that the largest pressure may be wrong by a fifth (docs/limits.md).
+GAP_ERROR = 0.17
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Strips:
@@ -91,6 +94,8 @@ class Solution:
     area, slip_area : contact area and area of its slip zone [m²]
     power_per_metre : frictional energy per metre rolled, -∬ q·s dA ≥ 0 [N]
     normal_stiffness : dN/d(approach) [N/m]
+    gap_error : the largest gap or overlap that the pressure leaves inside the patch, over the approach [-]. It estimates the
+        error of the normal problem: 0 is exact, above `GAP_ERROR` the largest pressure may be wrong by a fifth
     length, width : extent of the patch along x and y [m]
     n_patches, iterations : int
     status : Status
@@ -108,6 +113,7 @@ class Solution:
     slip_area: float
     power_per_metre: float
     normal_stiffness: float
+    gap_error: float
     length: float
     width: float
     n_patches: int
@@ -194,6 +200,7 @@ class Solution:
             ("slip area / area", f"{self.slip_ratio:.3g}"),
             ("length × width", f"{1e3 * self.length:.4g} mm × {1e3 * self.width:.4g} mm"),
             ("greatest pressure", f"{1e-6 * self.max_pressure:.5g} MPa"),
+            ("gap error", f"{self.gap_error:.2g}{' (not to be trusted)' if self.gap_error > GAP_ERROR else ''}"),
             ("friction", f"{self.friction:g}"),
             ("utilisation", f"{self.utilisation:.3g}"),
             ("energy per metre", f"{self.power_per_metre:.4g} J/m"),
@@ -272,6 +279,7 @@ class Forces:
     slip_ratio: Numbers
     power_per_metre: Numbers
     status: int | NDArray[np.int64]
+    gap_error: Numbers
 
 
 @dataclass(frozen=True, slots=True)
@@ -288,6 +296,7 @@ class CaseForces(Forces):
     slip_ratio: float
     power_per_metre: float
     status: Status
+    gap_error: float
 
 
 def _attributes(
@@ -343,6 +352,7 @@ def _attributes(
         "normal": prepared.normal,
         "tangential": prepared.tangential,
         "pressure_y": float(result.pressure_y),
+        "gap_error": float(result.gap_error),
         "patch_edges": edges,
         "memory": memory,
     }

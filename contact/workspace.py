@@ -85,13 +85,13 @@ def strip_tables() -> tuple[Array, Array]:
 
 
 @functools.lru_cache(maxsize=64)
-def tables(poisson_ratio: float, interacting: bool, tabulated: bool) -> Tables:
-    """Return the cached tables. Only methods that need them get the influence of strips and the half space's forces."""
-    no_influence, no_forces = (np.zeros((1, 2)), np.zeros((1, 1))), np.zeros((1, 1, 1, 1, 1))
-    _read_only(*no_influence, no_forces)  # like the real tables, so that numba compiles one signature
+def tables(poisson_ratio: float, tabulated: bool) -> Tables:
+    """Return the cached tables. Only methods that need them get the half space's forces."""
+    no_forces = np.zeros((1, 1, 1, 1, 1))
+    _read_only(no_forces)  # like the real table, so that numba compiles one signature
     return Tables(
         kalker.table(poisson_ratio),
-        *(strip_tables() if interacting else no_influence),
+        *strip_tables(),
         force_table.load() if tabulated else no_forces,
     )
 
@@ -122,7 +122,7 @@ def allocate(
     return Workspace(
         markers(normal, tangential),
         rule(full.n_strips, full.n_elements, normal.interacting),
-        tables(poisson_ratio, normal.interacting, tangential.tabulated),
+        tables(poisson_ratio, tangential.tabulated),
         space,
         strips,
         field_array,

@@ -9,7 +9,7 @@ import csv
 import json
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,6 +22,19 @@ MU = 0.3
 N_ELLIPSE = 52359.88  # [N] normal force on the ellipses
 
 Rows = list[dict[str, str]]
+
+
+class Patch(NamedTuple):
+    """A patch of set O: our separation, CONTACT's load and answers; SI units, forces on the wheel."""
+
+    name: str
+    separation: contact.Separation
+    creepage: contact.Creepage
+    friction: float
+    N: float
+    Fx: float
+    Fy: float
+    max_pressure: float
 
 
 def rows(name: str | Path) -> Rows:
@@ -58,6 +71,20 @@ def patches() -> list[dict[str, Any]]:
 def separation_of(case: dict[str, Any]) -> contact.Separation:
     """Return the separation of a case of set D."""
     return contact.Separation(*(np.array(case[k]) * s for k, s in (("y", 1e-3), ("g", 1e-3), ("A", 1e3))))
+
+
+@cache
+def wheel_rail_patches() -> tuple[Patch, ...]:
+    """Return the difficult patches of set O."""
+    return tuple(
+        Patch(
+            case["name"],
+            contact.Separation(*(np.array(case[k]) for k in ("y", "g", "A", "x_c"))),
+            contact.Creepage(*case["creepage"]),
+            *(case[k] for k in Patch._fields[3:]),
+        )
+        for case in _cases("wheel_rail_patches.json")
+    )
 
 
 @cache

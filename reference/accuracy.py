@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import functools
 import math
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -171,3 +172,19 @@ def published_on_patches(name: str) -> dict[str, np.ndarray]:
             strict=True,
         )
     )
+
+
+def errors_of(patches: Iterable[Any], **options: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the errors of patches with CONTACT's load and creepages, and the error estimate of the normal problem.
+
+    The first array is the error of the force over mu N, the second the largest pressure over CONTACT's less 1, the third is
+    `Solution.gap_error`. `options` are those of `contact.Solver`; `patches` as `wheel_rail_patches` gives them.
+    """
+    solver = contact.Solver(material=STEEL, **options)
+    rows = []
+    for patch in patches:
+        s = solver.solve(patch.separation, patch.creepage, load=patch.N, friction=patch.friction)
+        force = math.hypot(s.Fx - patch.Fx, s.Fy - patch.Fy) / (patch.friction * patch.N)
+        rows.append((force, s.max_pressure / patch.max_pressure - 1.0, s.gap_error))
+    force, peak, gap = np.array(rows).T
+    return force, peak, gap

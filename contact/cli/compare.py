@@ -13,10 +13,10 @@ from contact.cli import options as opt
 from contact.cli.output import reported, require_endings
 from contact.cli.progress import progress_bar
 from contact.cli.tables import show_study
-from contact.solver import N_ELEMENTS
 from contact.study import SELECTION
 from contact.study import compare as compare_methods
 from contact.study.compare import REFERENCE_ELEMENTS
+from contact.study.pairs import RESOLUTION
 
 COMPARED = "Comparison"
 File = Annotated[
@@ -69,7 +69,7 @@ def compare(
     methods: Methods = None,
     every: All = False,
     without: Without = False,
-    resolution: Resolution = N_ELEMENTS,
+    resolution: Resolution = RESOLUTION,
     reference_elements: Elements = REFERENCE_ELEMENTS,
     as_json: opt.Json = False,
     out: opt.Files = None,

@@ -11,10 +11,10 @@ from contact.cli.compare import COMPARED, All, Elements, Resolution
 from contact.cli.output import reported, require_endings
 from contact.cli.progress import progress_bar
 from contact.cli.tables import show_study
-from contact.solver import N_ELEMENTS
 from contact.study.compare import REFERENCE_ELEMENTS
 from contact.study.manchester import METHODS, NOTES
 from contact.study.manchester import manchester as compute
+from contact.study.pairs import RESOLUTION
 
 Methods = Annotated[
     list[str] | None,
@@ -30,7 +30,7 @@ Methods = Annotated[
 def manchester(
     methods: Methods = None,
     every: All = False,
-    resolution: Resolution = N_ELEMENTS,
+    resolution: Resolution = RESOLUTION,
     reference_elements: Elements = REFERENCE_ELEMENTS,
     as_json: opt.Json = False,
     out: opt.Files = None,

@@ -97,7 +97,7 @@ def data(touch: Touch, wheel_radius: float) -> dict[str, Any]:
             "rolling_radius": p.rolling_radius,
             "share": p.share,
         }
-    names = "N Fx Fy Mz approach max_pressure area slip_ratio length width normal_stiffness power_per_metre n_patches"
+    names = "N Fx Fy Mz approach max_pressure area slip_ratio length width normal_stiffness power_per_metre n_patches gap_error"
     content |= {name: getattr(s, name) for name in names.split()}
     content["status"] = s.status.name
     content["creepage"] = {"longitudinal": c.longitudinal, "lateral": c.lateral, "spin": c.spin}

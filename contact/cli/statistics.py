@@ -11,7 +11,7 @@ from contact.cli import options as opt
 from contact.cli.output import reported, require_endings
 from contact.cli.progress import progress_bar
 from contact.cli.tables import show_study
-from contact.solver import N_ELEMENTS
+from contact.study.pairs import RESOLUTION
 from contact.study.statistics import ELEMENTS
 from contact.study.statistics import statistics as compute
 
@@ -37,7 +37,7 @@ def statistics(
     tangential: Methods = None,
     cases: Cases = None,
     elements: Elements = ELEMENTS,
-    resolution: Resolution = N_ELEMENTS,
+    resolution: Resolution = RESOLUTION,
     stored: Stored = None,
     processes: Processes = None,
     as_json: opt.Json = False,

@@ -141,6 +141,7 @@ def assemble(
         normal=normal,
         tangential=tangential,
         pressure_y=float(sideways.sum()) * force,
+        gap_error=0.0,  # the gap closes at every element, to the tolerance of the iteration
         patch_edges=edges.reshape(-1, 2),
         memory=np.zeros(0),
         grid=(x[full[1]], y[full[0]], p[full]),

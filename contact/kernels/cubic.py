@@ -106,11 +106,27 @@ def crossing(h, f0, m0, f1, m1, level, low, high):
 
 
 @kernel
+def _slope_inside(y, f, i):
+    """Return the three-point slope of f over y at sample i, which has neighbours."""
+    h0, h1 = y[i] - y[i - 1], y[i + 1] - y[i]
+    return (h1 * (f[i] - f[i - 1]) / h0 + h0 * (f[i + 1] - f[i]) / h1) / (h0 + h1)
+
+
+@kernel
+def slope_at(y, f, n, i):
+    """Return the slope at sample i of n that `slopes` gives."""
+    if i == 0:
+        return 2.0 * (f[1] - f[0]) / (y[1] - y[0]) - _slope_inside(y, f, 1)
+    if i == n - 1:
+        return 2.0 * (f[n - 1] - f[n - 2]) / (y[n - 1] - y[n - 2]) - _slope_inside(y, f, n - 2)
+    return _slope_inside(y, f, i)
+
+
+@kernel
 def slopes(y, f, n, out):
     """Fill `out` with three-point slopes of f over y. They are exact for a parabola and one-sided at the ends."""
     for i in range(1, n - 1):
-        h0, h1 = y[i] - y[i - 1], y[i + 1] - y[i]
-        out[i] = (h1 * (f[i] - f[i - 1]) / h0 + h0 * (f[i + 1] - f[i]) / h1) / (h0 + h1)
+        out[i] = _slope_inside(y, f, i)
     out[0] = 2.0 * (f[1] - f[0]) / (y[1] - y[0]) - out[1]
     out[n - 1] = 2.0 * (f[n - 1] - f[n - 2]) / (y[n - 1] - y[n - 2]) - out[n - 2]
 

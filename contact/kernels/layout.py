@@ -238,6 +238,7 @@ RESULT = _record(
     limited:int     1 where the pressure was cut at its limit
     pressure_y      what of Fy is pressure on a bent surface, no creep force [N]
     touch           approach at which the bodies first touch [m]
+    gap_error       largest gap or overlap left in the patch over the approach [-]
     edges:{2 * MAX_PATCHES}         lateral edges of the patches, two each [m]
     """,
 )
@@ -342,6 +343,7 @@ CONTACT = _record(
     lateral         [-]
     spin            [1/m]
     approach        [m]
+    gap_error       [-]
     status:int      Status
     """,
 )
@@ -380,6 +382,7 @@ TOTAL = _record(
     area            [m2]
     slip_area       [m2]
     power           dissipated energy per metre rolled [N]
+    gap_error       greatest of the patches [-]
     """
     + _DAMAGE,
 )

@@ -39,7 +39,7 @@ def _report(patch, case, result, by_y, by_x, contact):
     contact.z, contact.angle = patch.point_z, patch.angle
     contact.area, contact.pmax = share * result.area, result.pmax
     contact.longitudinal, contact.lateral = case.vx, case.vy
-    contact.spin, contact.approach = case.phi, result.approach
+    contact.spin, contact.approach, contact.gap_error = case.phi, result.approach, result.gap_error
     contact.status = result.status
 
 
@@ -79,6 +79,7 @@ def _add_results(result, damage, share, total):
     first = total.area == 0.0
     total.status = _worse(total.status, result.status)
     total.pmax = max(total.pmax, result.pmax)
+    total.gap_error = max(total.gap_error, result.gap_error)
     total.area += share * result.area
     total.slip_area += share * result.slip_area
     total.power += share * result.power
@@ -102,7 +103,7 @@ def _clear_contact(contact):
     contact.x, contact.y, contact.z, contact.angle = 0.0, 0.0, 0.0, 0.0
     contact.area, contact.pmax = 0.0, 0.0
     contact.longitudinal, contact.lateral, contact.spin, contact.approach = 0.0, 0.0, 0.0, 0.0
-    contact.status = 0
+    contact.gap_error, contact.status = 0.0, 0
 
 
 @kernel
@@ -110,7 +111,7 @@ def _clear_total(total):
     """Set every member of a total to zero, the status to no contact."""
     total.Fx, total.Fy, total.Fz, total.Mx, total.My, total.Mz, total.z = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     total.n_patches, total.status = 0, Status.NO_CONTACT
-    total.pmax, total.area, total.slip_area, total.power = 0.0, 0.0, 0.0, 0.0
+    total.pmax, total.area, total.slip_area, total.power, total.gap_error = 0.0, 0.0, 0.0, 0.0, 0.0
     clear_damage(total)
 
 

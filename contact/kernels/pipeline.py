@@ -8,6 +8,7 @@ from contact.kernels.conformal import bend, project
 from contact.kernels.friction import of_bodies, of_case, over_profile
 from contact.kernels.layout import Element, Field, Status, Strip, Tangential, TangentialFamily
 from contact.kernels.memory import Arrays, Samples
+from contact.kernels.normal.gap_error import gap_error
 from contact.kernels.normal.press import fill_cut, press, share_of
 from contact.kernels.tangential.creep_force import creep_force
 from contact.kernels.tangential.ellipses import Part, end_of_patch, place_in_load, stiffness_of
@@ -188,6 +189,7 @@ def press_case(family, sep, case, own, result):
     if n == 0:
         return 0
 
+    result.gap_error = gap_error(sep, n, case, own, result)
     elements, strips, fields = own.rule.elements, own.strips, own.fields
     area, x_low, x_high = 0.0, math.inf, -math.inf
     for i in range(n):

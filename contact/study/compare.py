@@ -14,11 +14,10 @@ from contact.halfspace.gap import least
 from contact.separation import Separation
 from contact.solution import Solution
 from contact.solve import solve
-from contact.solver import N_ELEMENTS, N_STRIPS
 from contact.study.case import Case
 from contact.study.comparison import Comparison
 from contact.study.errors import errors_against
-from contact.study.pairs import REFERENCE, SELECTION, Pair, pairs_of
+from contact.study.pairs import REFERENCE, RESOLUTION, SELECTION, Pair, pairs_of
 from contact.study.row import Row
 
 #: Rows and columns of the reference. Creep forces are within 0.002 mu N of those on a much finer grid; a case takes 0.1 s.
@@ -36,8 +35,8 @@ def compare(
     methods: str | Iterable[str | tuple[str, str]] = SELECTION,
     *,
     reference: bool = True,
-    n_strips: int = N_STRIPS,
-    n_elements: int = N_ELEMENTS,
+    n_strips: int = RESOLUTION,
+    n_elements: int = RESOLUTION,
     reference_elements: int = REFERENCE_ELEMENTS,
     progress: Progress | None = None,
 ) -> Comparison:

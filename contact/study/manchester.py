@@ -21,12 +21,11 @@ from contact.geometry.records import Patch, Pose, Velocity
 from contact.geometry.wheelset import Pair as WheelOnRail
 from contact.solution import Solution
 from contact.solve import solve
-from contact.solver import N_ELEMENTS, N_STRIPS
 from contact.study.case import Case
 from contact.study.compare import REFERENCE_ELEMENTS, Progress, compare
 from contact.study.comparison import Comparison
 from contact.study.files import csv_of
-from contact.study.pairs import REFERENCE, SELECTION, Pair
+from contact.study.pairs import REFERENCE, RESOLUTION, SELECTION, Pair
 from contact.study.report import Report
 from contact.study.row import Row
 from contact.study.table import Table, number, percent
@@ -207,8 +206,8 @@ def manchester(
     methods: str | Iterable[str | tuple[str, str]] = METHODS,
     *,
     at: Sequence[Place] | None = None,
-    n_strips: int = N_STRIPS,
-    n_elements: int = N_ELEMENTS,
+    n_strips: int = RESOLUTION,
+    n_elements: int = RESOLUTION,
     reference_elements: int = REFERENCE_ELEMENTS,
     progress: Progress | None = None,
 ) -> Manchester:

@@ -8,6 +8,9 @@ from typing import NamedTuple
 from contact.errors import ContactError
 from contact.registry import lookup, methods
 
+#: Strips per patch and elements per strip with which all methods are compared.
+RESOLUTION = 30
+
 
 class Pair(NamedTuple):
     """A normal and a tangential method."""

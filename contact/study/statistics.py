@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from contact.errors import ContactError
 from contact.forces import forces
 from contact.registry import lookup, methods
-from contact.solver import N_ELEMENTS, N_STRIPS
 from contact.study.design import FRICTION, LOAD, MATERIAL, Design, design
 from contact.study.errors import mean_p95_max
 from contact.study.files import csv_of
+from contact.study.pairs import RESOLUTION
 from contact.study.reference import reference_forces, separation_of
 from contact.study.report import Report
 from contact.study.table import Table, brief
@@ -180,8 +180,8 @@ def statistics(
     *,
     cases: int | None = None,
     elements: int = ELEMENTS,
-    n_strips: int = N_STRIPS,
-    n_elements: int = N_ELEMENTS,
+    n_strips: int = RESOLUTION,
+    n_elements: int = RESOLUTION,
     stored: str | Path | None = None,
     processes: int | None = None,
     progress: Callable[[float, str], None] | None = None,

@@ -67,6 +67,7 @@ _OUTPUTS = {
     "patch.count": "n_patches",
     "stiffness.normal": "stiffness",
     "status": "status",
+    "gap_error": "gap_error",
 }
 _steps = compiled(creepage_steps)
 #: Field of the table → row of the solver's fields, or one of the three numbers that are computed from the strips.

@@ -55,6 +55,7 @@ _OUTPUTS = {
     "patches.count": "n_patches",
     "patches.area": "area",
     "status": "status",
+    "gap_error": "gap_error",
     **DAMAGE_OUTPUTS,
 }
 _steps = compiled(creepage_steps)

@@ -66,6 +66,7 @@ class WheelRailContactSlave(TableSlave):
             "damage.energy_index_max": energy,
             "stiffness.normal": solution.normal_stiffness,
             "status": int(solution.status),
+            "gap_error": solution.gap_error,
             "total.energy": values["total.energy"] + power * step_size,
             "total.worn_volume": values["total.worn_volume"] + values["speed"] * volume * step_size,
         }

@@ -71,6 +71,7 @@ class WheelRailPairSlave(TableSlave):
                 "slip.ratio": solution.slip_ratio,
                 "power.friction": power,
                 "status": int(solution.status),
+                "gap_error": solution.gap_error,
                 "total.energy": values["total.energy"] + power * step_size,
                 "total.worn_volume": values["total.worn_volume"] + worn * step_size,
                 "total.distance": values["total.distance"] + values["velocity.x"] * step_size,

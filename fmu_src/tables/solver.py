@@ -7,6 +7,7 @@ from collections.abc import Iterable
 import contact
 from contact import Status, friction, registry
 from contact.material import THERMAL_RANGE, Thermal
+from contact.solution import GAP_ERROR
 from contact.solver import N_ELEMENTS, N_STRIPS
 from fmu_src.variables import Enumeration, Variable, output, parameter
 
@@ -261,3 +262,14 @@ def status_and_totals() -> Iterable[Variable]:
     yield output("status", "Status of the solution", enumeration=STATUS)
     yield output("total.energy", "Energy dissipated since start", unit="J", start=0.0, minimum=0.0, depends=())
     yield output("total.worn_volume", "Volume worn off since start", unit="m3", start=0.0, minimum=0.0, depends=())
+
+
+def gap_error(depends: tuple[str, ...] | None = None) -> Variable:
+    """Return the error estimate of the normal problem."""
+    return output(
+        "gap_error",
+        f"Largest gap or overlap left in the patch, over the approach; above {GAP_ERROR:g} the pressure may be 20 % wrong",
+        minimum=0.0,
+        maximum=1.0,
+        depends=depends,
+    )

@@ -202,6 +202,7 @@ def _outputs() -> Iterable[Variable]:
         nominal=1e6,
     )
     yield from solver.status_and_totals()
+    yield solver.gap_error(depends=_NORMAL_PROBLEM)
 
 
 def _fields() -> Iterable[Variable]:

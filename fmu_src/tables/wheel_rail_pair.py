@@ -223,6 +223,7 @@ def _outputs() -> Iterable[Variable]:
     yield output(
         "total.T_gamma", "Wear number times distance since start", unit="J", start=0.0, minimum=0.0, depends=()
     )
+    yield solver.gap_error()
     yield from _accumulated()
 
 
