@@ -130,7 +130,7 @@ def test_a_build_that_was_interrupted_goes_on(tmp_path, monkeypatch):
     np.testing.assert_allclose(
         np.loadtxt(path, delimiter=","), np.loadtxt(table.FILE, delimiter=",")[300:302], atol=0.06
     )
-    path.write_text("does not contain the beginning of this table\n")
+    path.write_text("something else\n")
     with pytest.raises(contact.ContactError, match="does not contain the beginning of this table"):
         creep_table.build(path, 20, processes=1)
 

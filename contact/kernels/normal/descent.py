@@ -182,16 +182,17 @@ def _prescribe(low, high, t, moves, held, out):
 
 
 @kernel
-def descend(n, width, descent, vectors):
-    """Turn the residuals Vector.R of a single panel into steps: times the inverse Jacobian of the Hertz contact with its a/b.
+def descend(first, n, width, descent, vectors):
+    """Multiply the residuals Vector.R of the panel from strip `first` on by the inverse Jacobian of its Hertz contact.
 
-    The entries of the end strips are the moves of the ends. Ends that move far do so as their rule says.
+    That is the contact with the panel's a/b. The entries of the end strips are the moves of the ends. Ends that move far do so
+    as their rule says.
     """
-    r, out = vectors[Vector.Q1], vectors[Vector.R]
+    r, out = vectors[Vector.Q1, first : first + n], vectors[Vector.R, first : first + n]
     last = n - 1
     longest = 0.0
     for i in range(n):
-        longest = max(longest, vectors[Vector.A, i])
+        longest = max(longest, vectors[Vector.A, first + i])
         r[i] = out[i]
     u = (math.log(longest / (0.5 * width)) - _LOW) * (1.0 / _STEP)
     u = u if u > 0.0 else 0.0  # so written, no NaN becomes an index

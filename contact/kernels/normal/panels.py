@@ -19,8 +19,8 @@ EARLY_GHOST, GHOST = 2e-2, 1e-3
 
 
 @kernel
-def lay_panels(sep, g_least, panels, n_panels, own):
-    """Strip positions, mean gaps, curvatures and loci for the present ends of the panels."""
+def lay_panels(sep, g_least, skew, panels, n_panels, own):
+    """Strip positions, mean gaps, curvatures and loci for the present ends of the panels. `skew` scales the loci."""
     y, g, A, xc, cosines, vectors = sep.y, sep.g, sep.A, sep.x_c, own.rule.cosines, own.space.vectors
     n = cosines.size - 1
     size = y.size
@@ -49,7 +49,7 @@ def lay_panels(sep, g_least, panels, n_panels, own):
             middle = locate(y, size, at, middle)
             t = (at - y[middle]) / (y[middle + 1] - y[middle])
             vectors[Vector.CURVATURE, row] = (1.0 - t) * A[middle] + t * A[middle + 1]
-            vectors[Vector.XC, row] = (1.0 - t) * xc[middle] + t * xc[middle + 1]
+            vectors[Vector.XC, row] = skew * ((1.0 - t) * xc[middle] + t * xc[middle + 1])
             low = high
 
 

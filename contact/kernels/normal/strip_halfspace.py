@@ -51,15 +51,18 @@ TURN = 0.02
 #: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's answer is.
 USABLE = 0.02
 
+#: Mean slope of the line of the strips' middles up to which they count as in line.
+SLIGHT = 0.045
+
 # memory[...]: what a later call may start from: number of panels, their ends, the outer ends of ANALYN's patches, then ln a
 MEM_PANELS, MEM_ENDS, MEM_START, MEM_LN_A = 0, 1, 1 + 2 * MAX_PATCHES, 3 + 2 * MAX_PATCHES
 
 
 @kernel
-def _write(y, n_panels, panels, own, result):
+def _write(sep, n_panels, panels, own, result):
     """Loaded strips in ascending order of y into `own.strips`; runs of neighbours are the patches. Returns their number."""
     cosines, vectors, work, strips = own.rule.cosines, own.space.vectors, own.space.grid, own.strips
-    n, size = cosines.size - 1, y.size
+    y, n, size = sep.y, cosines.size - 1, sep.y.size
     count, patch = 0, -1
     done = -math.inf
     k = 0
@@ -88,13 +91,31 @@ def _write(y, n_panels, panels, own, result):
             t = (at - y[k]) / (y[k + 1] - y[k])
             strips[Strip.Y, count] = at
             strips[Strip.DY, count] = 2.0 * vectors[Vector.HALF, row]
-            strips[Strip.XC, count] = vectors[Vector.XC, row]
+            strips[Strip.XC, count] = (1.0 - t) * sep.x_c[k] + t * sep.x_c[k + 1]
             strips[Strip.A, count] = vectors[Vector.A, row]
             strips[Strip.P0, count] = vectors[Vector.P, row]
             strips[Strip.ASPECT, count] = (1.0 - t) * work[Sample.LOG_ASPECT, k] + t * work[Sample.LOG_ASPECT, k + 1]
             strips[Strip.PATCH, count] = patch
             count += 1
     return count
+
+
+@kernel
+def _skew(n, strips):
+    """Return the share, from 0 to 1, of the strips' offsets along x that counts in their influence on each other.
+
+    At a slope s of the line of their middles, strips lie √(1 + s²) times as far apart as in line: .001 at `SLIGHT`, below which
+    the offsets do not count. They double the time. From twice that slope on they count in full, and between smoothly.
+    """
+    slope, load = 0.0, 0.0
+    for i in range(1, n):
+        if strips[Strip.PATCH, i] == strips[Strip.PATCH, i - 1]:
+            weight = strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
+            away = strips[Strip.Y, i] - strips[Strip.Y, i - 1]
+            slope += weight * abs(strips[Strip.XC, i] - strips[Strip.XC, i - 1]) / away
+            load += weight
+    t = min(max(slope / (load * SLIGHT) - 1.0, 0.0), 1.0) if load > 0.0 else 0.0
+    return t * t * (3.0 - 2.0 * t)
 
 
 @kernel
@@ -118,12 +139,24 @@ def _take_best(n, n_panels, panels, vectors):
 
 
 @kernel
-def _damp_turns(n, panels, vectors, known):
-    """Let an end of a single panel that turns back go half the way."""
-    for end in (0, n - 1):
-        move = vectors[Vector.R, end]
-        if known > 0 and vectors[Vector.STEP, end] * move < 0.0 and abs(move) > TURN * (panels[1] - panels[0]):
-            vectors[Vector.R, end] = 0.5 * move
+def _damp_turns(n, n_panels, panels, vectors):
+    """Let the ends that turn back go half the way."""
+    for p in range(n_panels):
+        least = TURN * (panels[2 * p + 1] - panels[2 * p])
+        for side in range(2):
+            end = p * n + side * (n - 1)
+            move = vectors[Vector.R, end]
+            if vectors[Vector.STEP, end] * move < 0.0 and abs(move) > least:
+                vectors[Vector.R, end] = 0.5 * move
+
+
+@kernel
+def _can_descend(n, n_panels, vectors):
+    """Return whether the loaded strips of every panel lie side by side."""
+    runs = 0
+    for p in range(n_panels):
+        runs += 1 if has_one_run(n, vectors[Vector.P, p * n : p * n + n]) else 0
+    return runs == n_panels
 
 
 @kernel
@@ -133,7 +166,7 @@ def strip_halfspace(sep, case, own, result):
     A filled `space.memory` is the start instead of ANALYN's patch; it is left filled for the next call. With the status
     NOT_CONVERGED the answer is the best iterate if that was nearly at rest, and ANALYN's otherwise.
     """
-    y, xc = sep.y, sep.x_c
+    y = sep.y
     rule, space, strips = own.rule, own.space, own.strips
     memory, vectors = space.memory, space.vectors
     n_strips = analyn(sep, case, rule.across, space.grid, strips, result)
@@ -149,9 +182,8 @@ def strip_halfspace(sep, case, own, result):
     amount = case.amount if by_load else case.amount - g_least
     panels = memory[MEM_ENDS : MEM_ENDS + 2 * MAX_PATCHES]
     start_low, start_high = result.edges[0], result.edges[2 * int(strips[Strip.PATCH, n_strips - 1]) + 1]
-    skewed = False
-    for i in range(1, size):
-        skewed = skewed or abs(xc[i] - xc[0]) > 1e-9 * (y[size - 1] - y[0])
+    skew = _skew(n_strips, strips)
+    skewed = skew > 0.0
     n_panels = int(memory[MEM_PANELS])
     if n_panels > 0:
         vectors[Vector.ACTIVE, : n_panels * n] = 1.0
@@ -173,7 +205,7 @@ def strip_halfspace(sep, case, own, result):
     delta, iteration, known, error, load, last_error = 0.0, 0, 0, math.inf, 0.0, math.inf
     for iteration in range(MAX_ITERATIONS):
         total = n * n_panels
-        lay_panels(sep, g_least, panels, n_panels, own)
+        lay_panels(sep, g_least, skew, panels, n_panels, own)
         distances(panels, n_panels, own)
         half_lengths(vectors, n, n_panels)
         assemble(panels, n_panels, own, skewed, unit)
@@ -202,8 +234,8 @@ def strip_halfspace(sep, case, own, result):
             break
         moved, cut = end_moves(y, n, n_panels, panels, rule.cosines, vectors, iteration >= FREEZE)
         by_jacobian = descending
-        descending = n_panels == 1 and rule.descent.shape[1] == n and iteration < FREEZE and not cut
-        descending = descending and has_one_run(n, vectors[Vector.P])
+        descending = rule.descent.shape[1] == n and iteration < FREEZE and not cut
+        descending = descending and _can_descend(n, n_panels, vectors)
         if n_panels < before or error > 2.0 * last_error * load or iteration == FREEZE or descending != by_jacobian:
             known = 0
         last_error = error / load
@@ -213,8 +245,10 @@ def strip_halfspace(sep, case, own, result):
             best = last_error
             _keep_best(n, n_panels, panels, vectors)
         if descending:
-            _damp_turns(n, panels, vectors, known)
-            descend(n, panels[1] - panels[0], rule.descent, vectors)
+            if known > 0:
+                _damp_turns(n, n_panels, panels, vectors)
+            for p in range(n_panels):
+                descend(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors)
         left = 0.0 if cut else mix(n, n_panels, panels, vectors, load, known, space.lu)
         if descending:
             settled = left < LEFT and error < CLOSE * load and moved < CLOSE
@@ -249,7 +283,7 @@ def strip_halfspace(sep, case, own, result):
     else:
         stepped = False
     if stepped:
-        lay_panels(sep, g_least, panels, n_panels, own)
+        lay_panels(sep, g_least, skew, panels, n_panels, own)
         distances(panels, n_panels, own)
         half_lengths(vectors, n, n_panels)
         assemble(panels, n_panels, own, skewed, unit)
@@ -265,7 +299,7 @@ def strip_halfspace(sep, case, own, result):
     memory[MEM_PANELS], memory[MEM_START], memory[MEM_START + 1] = n_panels, start_low, start_high
     for i in range(n_panels * n):
         memory[MEM_LN_A + i] = vectors[Vector.LN_A, i]
-    count = _write(y, n_panels, panels, own, result)
+    count = _write(sep, n_panels, panels, own, result)
     N = 0.0
     for i in range(count):
         N += 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]

@@ -1,0 +1,81 @@
+"""Print the distribution of computing times over poses of a wheelset: what a real-time host has to expect (`make bench`).
+
+    python benchmarks/pose_times.py [--poses 10000]
+
+A pose is a random lateral position, yaw, roll and load of S1002 on 60E1. Its time is the sum over its patches, the least of
+three runs: the normal problem with a creep force law that takes next to no time, cold (no call starts from another one) and warm (the
+call is repeated), and the whole contact with the default methods.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+
+import numpy as np
+
+import contact
+from benchmarks.tables import table
+from contact.geometry import profile
+from contact.geometry.wheelset import Pair, Patch, Pose
+
+REPEATS = 3
+
+
+def poses(count: int) -> list[list[Patch]]:
+    """Return the patches of `count` random poses."""
+    rng = np.random.default_rng(3)
+    pair = Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40))
+    found = []
+    while len(found) < count:
+        pose = Pose(y=rng.uniform(-8e-3, 8e-3), yaw=rng.uniform(-10e-3, 10e-3), roll=rng.uniform(-5e-3, 5e-3))
+        found.append([patch for patch in pair.contacts(pose, load=10 ** rng.uniform(4.3, 5.2)) if patch.load])
+    return found
+
+
+def count_of(patch: Patch) -> int:
+    """Return the number of separate patches that the default method finds in a contact plane."""
+    return contact.solve(patch.separation, patch.creepage, load=patch.load, throw=False).n_patches
+
+
+def seconds(solver: contact.Solver, patches: list[Patch], warm: bool) -> float:
+    """Return the least time that the patches of a pose take together."""
+    total = 0.0
+    for patch in patches:
+        least = np.inf
+        solver.forget()
+        for _ in range(REPEATS + warm):
+            start = time.perf_counter()
+            solver.forces(patch.separation, patch.creepage, load=patch.load, warm=warm)
+            least = min(least, time.perf_counter() - start)
+        total += least
+    return total
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--poses", type=int, default=10_000)
+    found = poses(parser.parse_args().poses)
+    several = np.array([sum(count_of(patch) for patch in patches) for patches in found])
+    rows = []
+    for title, options, warm in (
+        ("`analyn`, normal problem", {**contact.THESIS, "tangential": "linear_saturated"}, False),
+        ("`strip_halfspace`, normal problem, cold", {"tangential": "linear_saturated"}, False),
+        ("`strip_halfspace`, normal problem, warm", {"tangential": "linear_saturated"}, True),
+        ("`analyn` + `fastrip`, 30 × 20", {**contact.THESIS, "n_elements": 20}, False),
+        ("default, cold", {}, False),
+        ("default, warm", {}, True),
+    ):
+        solver = contact.Solver(**options)
+        times = 1e6 * np.array([seconds(solver, patches, warm) for patches in found])
+        rows.append([title, *(f"{v:.0f}" for v in (*np.percentile(times, [50, 95, 99.9]), times.max()))])
+        rows[-1].append(f"{np.mean(times[several > 1]):.0f}" if np.any(several > 1) else "-")
+    print(
+        f"{len(found)} poses, {np.mean(several > 1):.0%} of them with several patches; times in µs with the call from Python\n"
+    )
+    print(table(["what", "median", "95 %", "99.9 %", "longest", "mean with several patches"], rows))
+
+
+if __name__ == "__main__":
+    main()
