@@ -102,7 +102,7 @@ the contact at 54.5 kN are f22 = {f22:.1f} MN (lateral) and f11 = {f11:.1f} MN (
 ## Measured
 
 {every}
-Bold: measured, with the motion that grows first. The other columns are the estimates for each motion.
+Measured limits are bold, with the motion that grows first. The other columns are the estimates for each motion.
 
 * **The spin decides.** An estimate from the lateral motion alone is {longer:.1f} times too long for an axle that turns
   freely (with 1600 kg and f = 8 MN it gives 1 ms by Jacobi and 2 ms by Gauss–Seidel at 10 m/s).
@@ -118,9 +118,9 @@ per cent from the estimates:
 {table(header("lateral", "yaw"), limits(False, EXPLICIT))}
 ## Losses in one second of hunting
 
-{HUNTING:g} m/s, 5 mm at the start. Error: largest difference of the lateral displacement from the iterated scheme at
-0.125 ms. Residual: largest energy that left the wheelset and was neither dissipated by creep nor stored in the contacts,
-in per cent of the dissipated energy. Evaluations: solutions of each contact per step.
+The wheelset runs at {HUNTING:g} m/s and starts at 5 mm. The error is the largest difference of the lateral displacement from
+the iterated scheme at 0.125 ms. The residual is the largest energy that left the wheelset and was neither dissipated by creep
+nor stored in the contacts, in per cent of the dissipated energy. Evaluations are solutions of each contact per step.
 
 {table(["scheme", "h, ms", "error, mm", "residual, %", "evaluations"], [losses(h, s) for s, h in runs])}
 The residual of the iterated scheme does not vanish with the step. It comes from the energy stored in non-Hertzian contacts,

@@ -23,12 +23,12 @@ patches of S1002 on UIC60 (reference/patches.json). Numbers are mean (worst) abs
 
 ## The same approach
 
-As in a simulation with a prescribed height of the wheelset.
+This is the case of a simulation with a prescribed height of the wheelset.
 
 {approach}
 ## The same load
 
-As in a simulation with a prescribed wheel load.
+This is the case of a simulation with a prescribed wheel load.
 
 {load}
 ## Elliptic contact: patch and load of each method
@@ -52,7 +52,8 @@ and disappear (`contact.methods()`: `continuous`). They are meant for comparison
 
 ## KPEC compared with CONTACT's KPEC
 
-Errors of ours / CONTACT's KPEC against CONTACT's half space at the same approach, in per cent.
+Each cell has two errors in per cent, of our KPEC and of CONTACT's KPEC. The reference is CONTACT's half space at the same
+approach.
 
 {kpec}"""
 

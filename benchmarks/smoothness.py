@@ -235,22 +235,23 @@ over μN√(area/π). Written by `benchmarks/smoothness.py`.
 
 ## Lateral displacement −8 to +8 mm in steps of 0.01 mm
 
-One plane: 80 kN along its normal at fixed creepages (0.1 %, 0.1 %, 0.3 /m). Kinematic creepages and separate patches: 80 kN
-vertically.
+One plane at fixed creepages (0.1 %, 0.1 %, 0.3 /m) carries 80 kN along its normal. With kinematic creepages and with separate
+patches the load is 80 kN vertically.
 {lateral}
 ### Jumps under refinement
 
-The largest jump of each result in finer steps. If it shrinks with the step, the curve is steep but continuous.
+The table has the largest jump of each result in finer steps. If the jump shrinks with the step, the curve is continuous.
 
 {zoom}
 ## Load, creepage and spin
 
-Worst of an ellipse and four real patches.
+The worst of an ellipse and four real patches is shown.
 
 {sweeps}
 ## Resolution
 
-Change of the force over μN from the default to the doubled resolution, on ellipses and real patches in 16 states each.
+The table has the change of the force over μN from the default to the doubled resolution, on ellipses and real patches in 16
+states each.
 
 {resolution}"""
 

@@ -1,6 +1,7 @@
 """The exception of the public API, and the checks that raise it."""
 
 import math
+import operator
 from collections.abc import Iterable
 from difflib import get_close_matches
 
@@ -41,6 +42,35 @@ def require_number(
         left = "]" if open_minimum or math.isinf(minimum) else "["
         right = "[" if math.isinf(maximum) else "]"
         raise ContactError(f"{name} = {number:g} is outside the allowed range {left}{minimum:g}, {maximum:g}{right}")
+    return number
+
+
+def require_integer(name: str, value: object, minimum: float = -math.inf, maximum: float = math.inf) -> int:
+    """Return `value` as an int within [`minimum`, `maximum`].
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument, for the message.
+    value : object
+        Value to check. Floats are refused, also 3.0.
+    minimum, maximum : float
+        Allowed range.
+
+    Raises
+    ------
+    ContactError
+        If the value is not an integer or is outside the range.
+    """
+    try:
+        number = operator.index(value)  # type: ignore[arg-type]
+    except TypeError:
+        number = None
+    if number is None or not minimum <= number <= maximum:
+        left, right = "]" if math.isinf(minimum) else "[", "[" if math.isinf(maximum) else "]"
+        raise ContactError(
+            f"{name} = {value!r} is not an integer in the allowed range {left}{minimum:g}, {maximum:g}{right}"
+        )
     return number
 
 

@@ -14,7 +14,7 @@ from contact import workspace
 from contact._jit import compiled_for
 from contact.case import cases, set_surface
 from contact.creepage import Creepage
-from contact.errors import ContactError, require_number
+from contact.errors import ContactError, require_integer, require_number
 from contact.friction import Friction, as_friction
 from contact.kernels.layout import RESULT, LoadKind
 from contact.kernels.memory import Workspace
@@ -38,10 +38,7 @@ N_SAMPLES = 101
 
 def require_resolution(n_strips: object, n_elements: object) -> tuple[int, int]:
     """Return both as integers in [4, 1000], or raise a ContactError."""
-    for name, number in (("n_strips", n_strips), ("n_elements", n_elements)):
-        if not isinstance(number, int | np.integer) or not 4 <= number <= 1000:
-            raise ContactError(f"{name} = {number!r} is not an integer in the allowed range [4, 1000]")
-    return int(n_strips), int(n_elements)  # type: ignore[call-overload]
+    return require_integer("n_strips", n_strips, 4, 1000), require_integer("n_elements", n_elements, 4, 1000)
 
 
 def require_conformal(tangential: Method) -> None:
@@ -125,7 +122,7 @@ class Solver:
         self._coefficients: NDArray[np.float64] | None = None
         self._full: Workspace
         self._forces_only: Workspace
-        self._allocate(int(require_number("n_samples", n_samples, 3)))
+        self._allocate(require_integer("n_samples", n_samples, 3))
 
     def __repr__(self) -> str:
         return (

@@ -323,13 +323,13 @@ class FakeApp:
         assert prog_name == "contact"
 
 
-def test_missing_extra_is_named_and_ends_with_code_1():
+def test_missing_dependency_is_named_and_ends_with_code_1():
     code = (
         "import sys; sys.modules['typer'] = None; sys.argv = ['contact', 'methods']; import contact.cli as c; c.main()"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 1
-    assert "pip install 'wheelrail-contact[cli]'" in done.stderr
+    assert done.stderr == "contact: typer is missing; pip install wheelrail-contact installs it\n"
     assert "Traceback" not in done.stderr
 
 

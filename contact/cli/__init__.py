@@ -18,7 +18,7 @@ def main() -> None:
     except ModuleNotFoundError as missing:
         if (missing.name or "").partition(".")[0] not in ("typer", "rich"):
             raise
-        line = f"contact: {missing.name} is missing; pip install 'wheelrail-contact[cli]'\n"
+        line = f"contact: {missing.name} is missing; pip install wheelrail-contact installs it\n"
         if set(sys.argv[1:]) & {"-h", "--help"}:
             sys.stdout.write(f"{_HELP}\n{line}")
             sys.exit(0)

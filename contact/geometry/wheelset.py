@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact import workspace
 from contact.creepage import Creepage
-from contact.errors import ContactError, require_number
+from contact.errors import ContactError, require_integer, require_number
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Patch, Pose, Velocity
 from contact.kernels.geometry.prepare import cut, facing, move, rail_origin
@@ -121,7 +121,7 @@ class Pair:
         motion.tape = 0.5 * require_number("flange_back", flange_back, 0.1, 3.0) + TAPE_FROM_FLANGE_BACK
         motion.combine_distance = require_number("combine_distance", combine_distance, 0.0)
         motion.combine_angle = require_number("combine_angle", combine_angle, 0.0)
-        motion.most_patches = int(require_number("most_patches", most_patches, 1, MAX_PATCHES))
+        motion.most_patches = require_integer("most_patches", most_patches, 1, MAX_PATCHES)
         motion.mirror = self._mirror
         motion.origin_y, motion.origin_z = origin
         self.space.case["G"], self.space.case["nu"] = material.shear_modulus, material.poisson_ratio

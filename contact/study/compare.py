@@ -9,7 +9,7 @@ from time import perf_counter
 from typing import Any
 
 from contact.creepage import Creepage
-from contact.errors import ContactError
+from contact.errors import ContactError, require_integer
 from contact.halfspace.gap import least
 from contact.separation import Separation
 from contact.solution import Solution
@@ -75,10 +75,7 @@ def compare(
         pairs = (REFERENCE, *(pair for pair in pairs if pair != REFERENCE))
     if not pairs:
         raise ContactError("methods is empty; at least one pair is needed")
-    if not isinstance(reference_elements, int) or not 4 <= reference_elements <= 1000:
-        raise ContactError(
-            f"reference_elements = {reference_elements!r} is not an integer in the allowed range [4, 1000]"
-        )
+    require_integer("reference_elements", reference_elements, 4, 1000)
     rows, solutions = [], []
     total, done = len(listed) * len(pairs), 0
     for case in listed:

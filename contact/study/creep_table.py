@@ -72,7 +72,7 @@ def _heading(elements: int) -> str:
     names = ", ".join(f"{what} at rho = {k}/{table.N_RHO - 1}" for k in (1, 2) for what in ("Fx", "Fy", "Mz", "slip"))
     return (
         "# Creep forces over mu N, moment over mu N c, share of slip, on ellipses of Hertz at Poisson's ratio "
-        f"{table.NU}: contact/tangential/table.py\n"
+        f"{table.NU}: contact/kernels/tangential/table.py\n"
         f"# Computed by `contact table build` (TANG of contact.halfspace, {elements} x {elements} elements on the ellipse)\n"
         f"# A row for each a/b, spin and direction, in the order of table.rows(); {names}, ...\n"
     )

@@ -58,7 +58,7 @@ def build(path: Path, forces: Path = table.FILE, *, progress: Callable[[float, s
     lines = [",".join(creep_table.short(v) for v in changes[i, j, k, 1:].ravel()) for i, j, k in table.rows()]
     names = "longitudinal creepage, lateral creepage, spin over the size of the creepage; exponent"
     heading = (
-        f"# What mapped strip marching changes in {names}: contact/tangential/effective.py\n"
+        f"# What mapped strip marching changes in {names}: contact/kernels/tangential/effective.py\n"
         "# Computed by `contact table effective` from the table of creep forces, in the order of table.rows(), for rho = "
         f"1/{table.N_RHO - 1}, ...\n"
     )

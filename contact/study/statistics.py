@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.errors import ContactError
+from contact.errors import ContactError, require_integer
 from contact.forces import forces
 from contact.registry import lookup, methods
 from contact.study.design import FRICTION, LOAD, MATERIAL, Design, design
@@ -220,9 +220,10 @@ def statistics(
         raise ContactError("tangential is empty; at least one method is needed")
     for name in names:
         lookup("tangential", name, batched=True)
-    for what, value, low in (("cases", cases, 1), ("elements", elements, 4), ("processes", processes, 1)):
-        if value is not None and not (isinstance(value, int) and low <= value <= 4000):
-            raise ContactError(f"{what} = {value!r} is not an integer in the allowed range [{low}, 4000]")
+    require_integer("elements", elements, 4, 1000)
+    for what, value in (("cases", cases), ("processes", processes)):
+        if value is not None:
+            require_integer(what, value, 1, 4000)
     d = design(cases)
     found: dict[str, Array] = {}
     times: dict[str, float] = {}

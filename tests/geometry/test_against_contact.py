@@ -113,11 +113,12 @@ def manchester(pairs, y, yaw, loads):
 
 
 @pytest.mark.parametrize(("y", "yaw", "load", "angles", "approach", "pressure"), [
+    (0.0, 0.0, 9997.0, (0.029, 0.029), 0.0140e-3, 302e6),
     (0.5e-3, -1.2e-3, 9950.0, (0.056, 0.022), 0.02017e-3, 569.8e6),  # the load lies between those of 0 and 1 mm: 9997, 9827 N
     (5e-3, -12e-3, 9619.0, (0.2905, 0.0088), 0.02993e-3, 1625e6),
 ])  # fmt: skip
 def test_kpec_on_the_manchester_benchmark(pairs, y, yaw, load, angles, approach, pressure):
-    """theory.md 10, right wheel, computed with CONTACT 25.1. Its row for 0 mm, 442.6 MPa, is not reproduced (350 MPa)."""
+    """theory.md 10, right wheel, computed with CONTACT 25.1. At 0 mm eps was capped at 1 in CONTACT (442.6 MPa without)."""
     patch, _ = manchester(pairs, y, yaw, (load * math.cos(angles[0]), 10040 * math.cos(angles[1])))
     solution = contact.solve(patch.separation, contact.Creepage(), load=load, normal="kpec")
     assert solution.approach == pytest.approx(approach, rel=0.005)

@@ -271,6 +271,8 @@ def test_a_fixed_grid_shows_the_same_gap(right, y):
         (lambda: Pair(WHEEL, WHEEL), "rail = .* is not a profile of a rail"),
         (lambda: Pair(WHEEL, RAIL, side="up"), "side = 'up'"),
         (lambda: Pair(WHEEL, RAIL, gauge=-1), "gauge = -1"),
+        (lambda: Pair(WHEEL, RAIL, most_patches=2.7), "most_patches = 2.7 is not an integer"),
+        (lambda: Pair(WHEEL, RAIL, most_patches=5), "most_patches = 5 is not an integer in the allowed range"),
         (lambda: Pair(WHEEL, RAIL, gauge_point=0.05), r"gauge_point = 0\.05 is outside"),
         (lambda: Pair(WHEEL, RAIL, nominal_radius=460.0), "nominal_radius = 460"),
         (lambda: Pair(WHEEL, RAIL, samples=3), "samples = 3"),

@@ -98,6 +98,16 @@ def test_pressure_on_an_ellipse_is_a_semi_ellipsoid(normal, ellipse):
     assert sol.max_pressure == pytest.approx(p0, rel=1e-6)
 
 
+@pytest.mark.parametrize("distance", [8e-3, 10e-3, 14e-3])
+def test_kpec_cuts_no_strip_deeper_than_the_overlap(distance):
+    """On a patch wider than long eps grows outwards. On a second lobe it would exceed 1 (up to 1.9 here)."""
+    y, delta = np.linspace(-25e-3, 25e-3, 501), 2e-5
+    separation = contact.Separation(y, np.minimum(0.3 * y**2, 11e-6 + 0.3 * (y - distance) ** 2), 4.0)
+    sol = contact.solve(separation, NO_CREEP, approach=delta, normal="kpec")
+    cut = separation.A[0] * sol.strips.a**2 + np.interp(sol.strips.y, y, separation.g)
+    assert cut.max() == pytest.approx(delta, rel=1e-4), "eps is 1 on the second lobe"
+
+
 def test_winkler_strips_carry_the_load_of_their_parabola(ellipse):
     sol = contact.solve(ellipse, NO_CREEP, load=8e4, normal="winkler")
     exact = contact.hertz(1.0, 2.0, load=8e4)

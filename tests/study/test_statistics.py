@@ -130,6 +130,7 @@ def test_two_processes_give_the_same(sample):
         ({"tangential": []}, "tangential is empty"),
         ({"cases": 0}, "cases = 0 is not an integer in the allowed range [1, 4000]"),
         ({"elements": 2.5}, "elements = 2.5"),
+        ({"elements": 1001}, "elements = 1001 is not an integer in the allowed range [4, 1000]"),
     ],
 )
 def test_bad_input_is_named(given, message):

@@ -8,16 +8,15 @@ An equivalent ellipse sets the share of the approach at which each strip is cut 
     cut         A a(y)² = eps(y) delta - g(y),   eps(y) delta = A1 a² - (A1 a² - B1 b²) ((y - y_m)/b)²
 
 and the pressure, p = kappa √(a(y)² - x²), displaces the least point by delta. On an ellipse this is Hertz's solution.
-Read off CONTACT (routine snorm_kpec_method, rev 2707, Apache-2.0). Departures: of several zones the one with the least point
-counts, not the span of all, which drops the load by a third where a second zone is born; the share is capped at 1 away from
-the ellipse. The load still steps where zones merge. The share falls away from the ellipse: a second
-contact elsewhere is not seen.
+Read off CONTACT (routine snorm_kpec_method, rev 2707, Apache-2.0). There are two departures. Of several zones only the one
+with the least point counts. CONTACT takes the span of all, which drops the load by a third where a second zone is born. And
+eps is at most 1, so that no strip is cut deeper than the profiles overlap. CONTACT has no such cap. The load still steps
+where zones merge. Where eps falls away from the ellipse, a second contact is not seen.
 """
 
 import math
 
 from contact._jit import kernel
-from contact.kernels.cubic import slopes
 from contact.kernels.hertz import local_factors
 from contact.kernels.layout import Sample
 from contact.kernels.normal.analyn import floored
@@ -43,12 +42,11 @@ def share_parabola(y, g, A, n, delta, point, work, edges):
     one_alpha, one_beta, _, log_aspect = local_factors(point.A, B1)
     # A1 a² = delta/(1+alpha) and B1 b² = delta/(1+beta): the share is a parabola that is added to the gap
     level, bend = delta / one_alpha, B1 * (one_beta / one_alpha - 1.0)
-    far = 2.0 * math.sqrt(delta / (one_beta * B1)) + 4.0 * (y[n - 1] - y[0]) / (n - 1)
     for i in range(n):
         gap, away = g[i] - point.g, y[i] - middle
-        G = gap + bend * away * away
-        if abs(away) > far:
-            G = max(G, gap - delta + level)
-        work[Sample.EFFECTIVE_GAP, i], work[Sample.STRETCHED_A, i] = G, A[i]
-    slopes(y, work[Sample.EFFECTIVE_GAP], n, work[Sample.EFFECTIVE_SLOPE])
+        shared, whole = gap + bend * away * away, gap - (delta - level)
+        capped = shared < whole  # a share above 1, which only lies outside the ellipse
+        work[Sample.EFFECTIVE_GAP, i] = whole if capped else shared
+        work[Sample.EFFECTIVE_SLOPE, i] = work[Sample.GAP_SLOPE, i] + (0.0 if capped else 2.0 * bend * away)
+        work[Sample.STRETCHED_A, i] = A[i]
     return level, log_aspect, math.sqrt(max(level - bend * (point.y - middle) ** 2, 0.0) / point.A)
