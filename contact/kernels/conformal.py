@@ -54,7 +54,10 @@ def bend(sep, case, strips, n):
 
 @kernel
 def project(strips, n, fields, result):
-    """Correct `result`, computed as if the strips lay in the plane, for the strips' directions in the surface."""
+    """Add to `result` what changes because tractions and pressure act in the surface and not in the plane.
+
+    Before, the resultants are those of strips that lie in the plane.
+    """
     for i in range(n):
         y, tilt = strips[Strip.Y, i], strips[Strip.TILT, i]
         more = math.sqrt(1.0 + tilt * tilt) - 1.0

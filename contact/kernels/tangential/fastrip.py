@@ -22,10 +22,10 @@ docs/accuracy.md; the published method has .0164):
   .0121).
 * The direction pass is of second order (`march`): .0136. The result no longer depends on the number of elements. The
   first-order pass had gained the difference by its error.
-* A particle that sticks again in the march, because the rigid slip reverses within the strip, bears less than mu·p, by
-  what it bears there (.0137 → .0136). When it was raised to the bound, its traction reversed at once as it passed
-  through zero. Then doubling the strips changed forces by .050 % of mu N instead of .021 % in the mean, doubling the
-  elements by .032 % instead of .013 %.
+* A particle that sticks again in the march, because the rigid slip reverses within the strip, bears the same share of
+  the bound as there, not all of it (.0137 → .0136). When it was raised to the bound, its traction reversed at once as
+  it passed through zero. Then doubling the strips changed forces by .050 % of mu N instead of .021 % in the mean,
+  doubling the elements by .032 % instead of .013 %.
 * The factor 1 + (1 - a/b)⁴ on N in the direction pass is left out (no measurable benefit, theory.md 4.2).
 """
 
@@ -183,10 +183,10 @@ def _slip(lanes, l, s):
 def _slip_zone(elements, lanes, trace, falling, block, n, fields):
     """Sum the slip zones of a block: the magnitude mu·p is exact over each element, the direction is that of the march.
 
-    A particle that sticks again in the march, because the rigid slip reverses, bears as much less as it does there.
-    After a stick zone the slip is strip theory's. In strips that slip as a whole it is rigid and elastic slip against
-    the traction. `fields` of the `n` strips are filled if they have room. `falling` is the case where friction varies
-    along the strip, or None. numba compiles each on its own, the second without the code for varying friction.
+    A particle that sticks again in the march, because the rigid slip reverses, bears the same share of the bound as
+    there. After a stick zone the slip is strip theory's. In strips that slip as a whole it is rigid and elastic slip
+    against the traction. `fields` of the `n` strips are filled if they have room. `falling` is the case where friction
+    varies along the strip, or None. numba compiles each on its own, the second without the code for varying friction.
     """
     for l in range(LANES):
         lanes[_FX + l], lanes[_FY + l], lanes[_MZ + l], lanes[_POWER + l] = 0.0, 0.0, 0.0, 0.0

@@ -290,7 +290,7 @@ for _stub, _kernel in (
 
 @kernel
 def _apply_friction(case, elements, lanes, trace):
-    """Let friction vary along the strips of a block: put the share that it bears into `trace`, and repeat the sums."""
+    """Fill `trace` with the share of the traction that friction varying along the strips still bears. Repeat the sums."""
     for l in range(LANES):
         lanes[_SUM_X + l], lanes[_SUM_Y + l], lanes[_SUM_M + l] = 0.0, 0.0, 0.0
         lanes[_POWER + l], lanes[_STICK + l] = 0.0, 0.0

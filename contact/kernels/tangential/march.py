@@ -156,10 +156,7 @@ def _begin_to_slide(s, lanes):
 
 @kernel
 def _end_slip(rule, place, slope_before, slope, bound, lanes):
-    """Let particles stick from where their slip becomes zero within the step.
-
-    They keep sliding if the bound is too low for the traction of stick.
-    """
+    """Set traction and state of particles whose slip becomes zero within the step: they stick, unless the bound is too low."""
     before, s, step = place
     per_bound = 1.0 / bound
     for l in range(LANES):

@@ -31,10 +31,10 @@ def stick_zone(xi, eta, psi, nu):
     stick zone does not end at |psi| = 1, where the thesis declares full slip. The formula, written without its 0/0,
     continues (measured on set A: mean force error .0175 → .0148, docs/accuracy.md).
 
-    Beyond |psi| = 1 the equation of D also has a larger root, and the bound holds only between the two. When the larger
-    root reaches 1 - nu, the whole strip, its leading edge slips. When both roots meet, or D reaches 1 - nu, all of the
-    strip slips. Where the leading edge slips, the slip zone grows from e to the whole strip. Full slip at once would be
-    a jump, of .01 of mu N for one strip of 30, of .05 for neighbours together.
+    Beyond |psi| = 1 the equation of D also has a larger root, and the bound holds only between the two. D = 1 - nu is
+    the whole strip. When the larger root reaches it, the leading edge slips. When both roots meet, or D reaches it, all
+    of the strip slips. Where the leading edge slips, the slip zone grows from e to the whole strip. Full slip at once
+    would be a jump, of .01 of mu N for one strip of 30, of .05 for neighbours together.
     """
     square, opposed = xi * xi + eta * eta, -eta * psi
     discriminant, excess = eta * eta + (1.0 - psi * psi) * xi * xi, psi * psi - 1.0

@@ -9,9 +9,9 @@ from the integrals of theory.md 2.2),
     a >= b   C11 = pi (a/b)/((1 - nu) D + nu C),   C22 = pi (a/b)/(D - nu C)
     a <= b   C11 = pi/((1 - nu) B + nu g² C),      C22 = pi/(B - nu g² C)
 
-On a circle they are 16/(4 - 3 nu) and 16/(4 - nu), a fifth above Kalker's, because the traction does not meet the
-leading edge. The moment is that of the traction, whose small ellipse lies (1 - k) a ahead of the middle: Mz = -(1 - k)
-a k³ mu N e_y, with e along the force.
+On a circle they are 16/(4 - 3 nu) and 16/(4 - nu), a fifth above Kalker's, because the stick zone touches the leading
+edge at one point only. The moment is that of the traction, whose small ellipse lies (1 - k) a ahead of the middle:
+Mz = -(1 - k) a k³ mu N e_y, with e along the force.
 """
 
 import math
