@@ -3,8 +3,8 @@
     python benchmarks/pose_times.py [--poses 10000]
 
 A pose is a random lateral position, yaw, roll and load of S1002 on 60E1. Its time is the sum over its patches, the least of
-three runs: the normal problem with a creep force law that takes next to no time, cold (no call starts from another one) and warm (the
-call is repeated), and the whole contact with the default methods.
+three runs. The normal problem is timed with a creep force law that takes next to no time: cold, when no call starts from
+another one, and warm, when the call is repeated. The whole contact is timed with the default methods.
 """
 
 from __future__ import annotations

@@ -40,7 +40,8 @@ CALLS = [
 ]
 
 
-def prepared(normal="analyn", tangential="fastrip", **others):
+def prepared(normal="strip_halfspace", tangential="fastrip_mapped", **others):
+    """Return a small solver, by default with the default methods."""
     return contact.Solver(normal=normal, tangential=tangential, **(SMALL | others))
 
 
@@ -123,11 +124,11 @@ def test_friction_and_speed_of_a_call_stay_for_later_calls():
 
 @pytest.mark.parametrize("depth", [0.0, 1e-5, 3e-5])
 def test_a_warm_start_gives_the_same_answer_within_the_tolerance_of_the_method(depth):
-    solver = prepared("strip_halfspace", "fastrip", n_strips=20)
+    solver = prepared(n_strips=20)
     solver.solve(wheel(depth), CALLS[0][1], load=80e3)
     near = wheel(depth + 5e-7)
     warm = solver.solve(near, CALLS[0][1], load=81e3, warm=True)
-    cold = contact.solve(near, CALLS[0][1], load=81e3, normal="strip_halfspace", n_strips=20, n_elements=10)
+    cold = contact.solve(near, CALLS[0][1], load=81e3, n_strips=20, n_elements=10)
     assert pytest.approx(cold.N, rel=1e-3) == warm.N
     assert warm.approach == pytest.approx(cold.approach, rel=1e-3)
     assert warm.area == pytest.approx(cold.area, rel=2e-3)
@@ -266,4 +267,7 @@ def test_two_solvers_do_not_share_memory():
 
 
 def test_the_repr_of_a_solver_shows_its_settings():
-    assert repr(prepared(friction=0.4)) == "Solver(analyn + fastrip, 10 strips x 10 elements, friction 0.4)"
+    assert (
+        repr(prepared(friction=0.4))
+        == "Solver(strip_halfspace + fastrip_mapped, 10 strips x 10 elements, friction 0.4)"
+    )

@@ -61,6 +61,7 @@ def test_equals_search_and_separate_solution_of_every_patch(right, worn, seed, l
     if seed == 1:
         pose, rail = Pose(y=6.37e-3), Irregularity()
     pose = Pose(pose.y, pair.pair.touch(pose, rail) + 8e-5, pose.roll, pose.yaw)
+    pair.forget()
     actual = pair.solve(pose, velocity, load=load, irregularity=rail, friction=0.4)
     patches = pair.pair.contacts(pose, velocity, load=load, irregularity=rail)
     assert len(actual.contacts) == len(patches) >= (2 if seed == 1 and load else 1)
@@ -137,18 +138,24 @@ def test_power_of_the_wrench_is_that_of_the_creepages(right, worn, seed):
     assert s.force @ v + s.moment @ omega == pytest.approx(wanted, abs=1e-11 * max(scale, 80e3))
 
 
+@pytest.mark.parametrize(("methods", "tolerance"), [(contact.THESIS, 0.02), ({}, 0.08)])
 @pytest.mark.parametrize("y", [-6e-3, 0.0, 3e-3, 6.4e-3])
-def test_the_power_lost_by_the_motion_is_the_frictional_dissipation(right, y):
-    """In steady rolling -(Fx ξ + Fy η + Mz φ) is the frictional energy per metre, within the discretisation of FaStrip."""
-    s = right.solve(Pose(y=y, yaw=3e-3), load=80e3)
+def test_the_power_lost_by_the_motion_is_the_frictional_dissipation(y, methods, tolerance):
+    """In steady rolling -(Fx ξ + Fy η + Mz φ) is the frictional energy per metre, within the discretisation of FaStrip.
+
+    The slip of mapped FaStrip follows the given creepages, its forces the effective ones (docs/limits.md).
+    """
+    s = make(**methods).solve(Pose(y=y, yaw=3e-3), load=80e3)
     lost = -sum(c.Fx * c.creepage.longitudinal + c.Fy * c.creepage.lateral + c.Mz * c.creepage.spin for c in s.contacts)
     assert s.power_per_metre > 0.0
-    assert lost == pytest.approx(s.power_per_metre, rel=0.02)
+    assert lost == pytest.approx(s.power_per_metre, rel=tolerance)
 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_left_is_the_mirror_image_of_right_to_the_last_bit(right, left, seed):
     pose, v, r = random_motion(seed)
+    right.forget()
+    left.forget()
     a = right.solve(pose, v, load=80e3, irregularity=r)
     b = left.solve(
         Pose(-pose.y, pose.z, -pose.roll, -pose.yaw),
@@ -168,8 +175,10 @@ def test_left_is_the_mirror_image_of_right_to_the_last_bit(right, left, seed):
 @pytest.mark.parametrize("how", [{"load": 80e3}, {}])
 def test_a_displaced_rail_is_a_wheelset_displaced_the_other_way(right, how):
     z = right.pair.touch(Pose(y=2e-3, yaw=0.01)) + 8e-5
+    right.forget()
     a = right.solve(Pose(2e-3, z, 0.0, 0.01), Velocity(20.0, 0.1, 0.03), **how)
     rail = Irregularity(-3e-3, -0.2e-3, 0.0, -0.1, -0.03)
+    right.forget()
     b = right.solve(Pose(-1e-3, z - 0.2e-3, 0.0, 0.01), Velocity(20.0), irregularity=rail, **how)
     np.testing.assert_allclose(b.force, a.force, rtol=1e-9)
     np.testing.assert_allclose(b.moment, a.moment, rtol=1e-9)
@@ -189,7 +198,7 @@ def test_interacting_strips_start_from_the_last_call_unless_the_patches_changed(
     pair = make(rail=WORN, normal="strip_halfspace")
     pair.solve(Pose(y=3e-3), load=80e3)
     warm = pair.solve(Pose(y=3.1e-3), load=80e3)
-    pair.bench.memory[:] = 0.0
+    pair.forget()
     cold = pair.solve(Pose(y=3.1e-3), load=80e3)
     assert len(cold.contacts) == 1
     np.testing.assert_allclose(warm.force, cold.force, atol=1e-4 * 80e3)

@@ -297,8 +297,10 @@ def strip_halfspace(sep, case, own, result):
     for i in range(n_panels * n):
         peak = max(peak, vectors[Vector.P, i])
     usable = converged or (n_panels > 0 and error < USABLE * load)
-    if not (usable and peak < modulus):  # `strips` and `result` still hold ANALYN's solution
-        result.status = Status.NOT_CONVERGED
+    if not (usable and peak < modulus):
+        # `strips` and `result` still hold ANALYN's solution, and its status if the data end within the patch
+        if result.status != Status.OUT_OF_RANGE:
+            result.status = Status.NOT_CONVERGED
         memory[MEM_PANELS] = 0.0
         return n_strips
     memory[MEM_PANELS], memory[MEM_START], memory[MEM_START + 1] = n_panels, start_low, start_high
@@ -311,7 +313,7 @@ def strip_halfspace(sep, case, own, result):
     if by_load and N > 0.0:  # end strips under tension carry nothing, so 1e-5 of the load goes to the others
         for i in range(count):
             strips[Strip.P0, i] *= amount / N
-    if not converged and error > ACCEPTABLE * load:
+    if not converged and error > ACCEPTABLE * load and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
     elif result.status == Status.OUT_OF_RANGE and not (panels[0] <= y[0] or panels[2 * n_panels - 1] >= y[size - 1]):
         result.status = Status.OK
