@@ -1,1 +1,1 @@
-"""Kernels."""
+"""Compiled code of the solvers, shared by the library, batches and FMUs."""

@@ -1,15 +1,16 @@
 """Conformal geometry: a contact angle that varies over the patch (theory.md 8.6).
 
-The surface in which the bodies touch is not the plane of the separation, but has the slope `tilt` = dz/dy = tan Δ against it
-and the height ζ = ∫ tan Δ dy over it. A wheel that turns by κ radians per metre rolled (κ = cos(contact angle)/rolling radius,
-about the y axis of the plane) slides there, by rigid kinematics,
+The surface in which the bodies touch is not the plane of the separation. Relative to this plane it has the slope `tilt`
+= dz/dy = tan Δ and the height ζ = ∫ tan Δ dy. Let a wheel turn by κ radians per metre rolled (κ = cos(contact
+angle)/rolling radius, about the y axis of the plane). By rigid kinematics it slides there
 
-    longitudinally  ξ - κ ζ - phi y,    along the surface  η cos Δ + (phi cos Δ + κ sin Δ) x,
+    longitudinally  ξ - κ ζ - phi y,    along the surface  η cos Δ + (phi cos Δ + κ sin Δ) x.
 
-so each strip has its own creepages: κ ζ is the exact change of the rolling radius, and phi cos Δ + κ sin Δ = sin(angle + Δ)/r
-in straight rolling. Pressure and traction act in the surface, whose area is that of the plane over cos Δ: the normal load stays
-that of the plane, the pressure gives the lateral force ∫ p tan Δ dA, the traction grows by 1/cos Δ. Left out are the part of
-the traction along the plane's normal, and what the curvature of the surface does to the elastic bodies (about 5 %, thesis 8.1).
+So each strip has its own creepages. κ ζ is the exact change of the rolling radius. In straight rolling phi cos Δ + κ
+sin Δ = sin(angle + Δ)/r. Pressure and traction act in the surface, whose area is that of the plane divided by cos Δ.
+The normal load remains that of the plane, the pressure gives the lateral force ∫ p tan Δ dA, and the traction grows by
+1/cos Δ. Two effects are left out: the part of the traction along the plane's normal, and the effect of the surface's
+curvature on the elastic bodies (about 5 %, thesis 8.1).
 """
 
 import math
@@ -20,21 +21,24 @@ from contact.kernels.layout import Field, Strip
 
 @kernel
 def surface_at(y, tilt, at):
-    """Slope, and height from the first sample, of the surface whose slope is linear between samples; constant beyond them."""
+    """Return slope [-] and height [m] of the surface at y = `at`. The height counts from the first sample.
+
+    The slope is linear between samples and constant beyond them.
+    """
     n, height, k = y.size, 0.0, 1
     while k < n and y[k] <= at:
         height += 0.5 * (tilt[k] + tilt[k - 1]) * (y[k] - y[k - 1])
         k += 1
     if k == n or at <= y[0]:
-        slope, own = (tilt[0], y[0]) if at <= y[0] else (tilt[n - 1], y[n - 1])
-        return slope, height + slope * (at - own)
+        slope, end = (tilt[0], y[0]) if at <= y[0] else (tilt[n - 1], y[n - 1])
+        return slope, height + slope * (at - end)
     slope = tilt[k - 1] + (tilt[k] - tilt[k - 1]) * (at - y[k - 1]) / (y[k] - y[k - 1])
     return slope, height + 0.5 * (slope + tilt[k - 1]) * (at - y[k - 1])
 
 
 @kernel
 def bend(sep, case, strips, n):
-    """Give each of `n` strips the creepages of its place on the surface; `case.rolling` is κ [1/m]."""
+    """Set slope and creepages of each of `n` strips by its position on the surface. `case.rolling` is κ [1/m]."""
     y, tilt, rolling = sep.y, sep.tilt, case.rolling
     vx, vy, phi = case.vx, case.vy, case.phi
     _, origin = surface_at(y, tilt, 0.0)
@@ -42,15 +46,18 @@ def bend(sep, case, strips, n):
         at = strips[Strip.Y, i]
         slope, height = surface_at(y, tilt, at)
         cosine = 1.0 / math.sqrt(1.0 + slope * slope)
-        own = (phi + rolling * slope) * cosine
-        strips[Strip.TILT, i], strips[Strip.PHI, i] = slope, own
-        strips[Strip.VX, i] = vx - rolling * (height - origin) + (own - phi) * at
+        spin = (phi + rolling * slope) * cosine
+        strips[Strip.TILT, i], strips[Strip.PHI, i] = slope, spin
+        strips[Strip.VX, i] = vx - rolling * (height - origin) + (spin - phi) * at
         strips[Strip.VY, i] = vy * cosine
 
 
 @kernel
 def project(strips, n, fields, result):
-    """Turn resultants of the strips, as if they lay in the plane, into those of the surface."""
+    """Add to `result` what changes because tractions and pressure act in the surface and not in the plane.
+
+    Before, the resultants are those of strips that lie in the plane.
+    """
     for i in range(n):
         y, tilt = strips[Strip.Y, i], strips[Strip.TILT, i]
         more = math.sqrt(1.0 + tilt * tilt) - 1.0

@@ -1,6 +1,7 @@
-"""The Hermite cubic on one interval: value, slope, integral, least point, crossing of a level.
+"""The Hermite cubic on one interval: value, slope, integral, smallest value, crossing of a level.
 
-The interval has length h, the cubic the values f0, f1 and the slopes m0, m1 at its ends; t in [0, 1] is the place within it.
+The interval has the length h. The cubic has the values f0, f1 and the slopes m0, m1 at its ends. t in [0, 1] is the
+position within the interval.
 """
 
 import math
@@ -26,7 +27,7 @@ def value_and_slope(h, f0, m0, f1, m1, t):
 
 @kernel
 def basis(t):
-    """Return the weights of f0, h·m0, f1 and h·m1: for several functions over one table."""
+    """Return the weights of f0, h·m0, f1 and h·m1 at t. They serve several functions over one table."""
     w = 1.0 - t
     return (1.0 + 2.0 * t) * w * w, t * w * w, t * t * (3.0 - 2.0 * t), -t * t * w
 
@@ -46,14 +47,14 @@ def integral(h, f0, m0, f1, m1, t):
 
 @kernel
 def interior_minimum(h, f0, m0, f1, m1):
-    """Return place t in ]0, 1[ and value of the local minimum inside the interval; (-1, 0) if there is none."""
+    """Return position t in ]0, 1[ and value of the local minimum inside the interval, or (-1, 0) if there is none."""
     a = 3.0 * (2.0 * (f0 - f1) + h * (m0 + m1))  # h times the slope is a t² + b t + c
     b = 2.0 * (3.0 * (f1 - f0) - h * (2.0 * m0 + m1))
     c = h * m0
     discriminant = b * b - 4.0 * a * c
     if discriminant < 0.0:
         return -1.0, 0.0
-    below = b + math.sqrt(discriminant)  # of the root with a rising slope; no difference of like numbers for a = 0
+    below = b + math.sqrt(discriminant)  # for the root with a rising slope; does not cancel for a = 0
     if below == 0.0:
         return -1.0, 0.0
     t = -2.0 * c / below
@@ -64,7 +65,7 @@ def interior_minimum(h, f0, m0, f1, m1):
 
 @kernel
 def least(h, f0, m0, f1, m1):
-    """Return place t in [0, 1] and value of the least point of the interval, ends included."""
+    """Return position t in [0, 1] and value of the smallest value of the interval, ends included."""
     best_t, best = (1.0, f1) if f1 < f0 else (0.0, f0)
     if m0 < 0.0 < m1:
         t, inside = interior_minimum(h, f0, m0, f1, m1)
@@ -75,7 +76,10 @@ def least(h, f0, m0, f1, m1):
 
 @kernel
 def crossing(h, f0, m0, f1, m1, level, low, high):
-    """Return t where the cubic passes `level` between `low` and `high`: Newton's steps kept in the bracket, 60 at most."""
+    """Return t between `low` and `high` where the cubic passes `level`.
+
+    The method is Newton's, kept in the bracket, with at most 60 iterations.
+    """
     d = f1 - f0
     c3, c2, c1 = h * (m0 + m1) - 2.0 * d, 3.0 * d - h * (2.0 * m0 + m1), h * m0
     c0 = f0 - level
@@ -120,7 +124,7 @@ def slope_at(y, f, n, i):
 
 @kernel
 def slopes(y, f, n, out):
-    """Fill three-point slopes of f over y, exact for a parabola; one-sided at the ends."""
+    """Fill `out` with three-point slopes of f over y. They are exact for a parabola and one-sided at the ends."""
     for i in range(1, n - 1):
         out[i] = _slope_inside(y, f, i)
     out[0] = 2.0 * (f[1] - f[0]) / (y[1] - y[0]) - out[1]
@@ -129,7 +133,10 @@ def slopes(y, f, n, out):
 
 @kernel
 def locate(y, n, at, start):
-    """Return the index i with y[i] <= at <= y[i+1], found by walking from `start`; the first or last interval beyond."""
+    """Return the index i with y[i] <= at <= y[i+1], searched from `start` interval by interval.
+
+    Outside the data it is the first or last interval.
+    """
     i = start
     while i > 0 and y[i] > at:
         i -= 1

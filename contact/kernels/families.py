@@ -1,7 +1,8 @@
-"""Markers that choose the kernels of a workspace by their type: a process compiles only the methods that it uses.
+"""Markers whose type chooses the kernels of a workspace. A process compiles only the methods that it uses.
 
-A workspace holds one marker for the normal and one for the tangential problem. numba compiles a kernel once for each pair of
-them that it meets. `AnyNormal` and `AnyTangential` compile every method and choose by `case` at run time, as an FMU does.
+A workspace holds one marker for the normal and one for the tangential problem. numba compiles a kernel once for each
+pair of markers that it is called with. `AnyNormal` and `AnyTangential` compile every method and choose by `case` at run
+time, as FMUs do.
 """
 
 from __future__ import annotations
@@ -12,43 +13,43 @@ from contact.kernels.layout import NormalFamily, TangentialFamily
 
 
 class Analyn(NamedTuple):
-    """`normal.analyn`."""
+    """Marker of the kernel `normal.analyn`."""
 
 
 class Hertzian(NamedTuple):
-    """`normal.hertzian`."""
+    """Marker of the kernel `normal.hertzian`."""
 
 
 class StripHalfspace(NamedTuple):
-    """`normal.strip_halfspace`."""
+    """Marker of the kernel `normal.strip_halfspace`."""
 
 
 class ByApproach(NamedTuple):
-    """`normal.by_approach`."""
+    """Marker of the kernel `normal.by_approach`."""
 
 
 class AnyNormal(NamedTuple):
-    """All of these, by `case.normal_family`."""
+    """Marker of all normal kernels. `case.normal_family` chooses one of them."""
 
 
 class FaStrip(NamedTuple):
-    """`tangential.fastrip`."""
+    """Marker of the kernel `tangential.fastrip`."""
 
 
 class FaStripMapped(NamedTuple):
-    """`tangential.fastrip_mapped`."""
+    """Marker of the kernel `tangential.fastrip_mapped`."""
 
 
 class Fastsim(NamedTuple):
-    """`tangential.fastsim`."""
+    """Marker of the kernel `tangential.fastsim`."""
 
 
 class CreepForce(NamedTuple):
-    """`tangential.creep_force`."""
+    """Marker of the kernel `tangential.creep_force`."""
 
 
 class AnyTangential(NamedTuple):
-    """All of these, by `case.tangential_family`."""
+    """Marker of all tangential kernels. `case.tangential_family` chooses one of them."""
 
 
 class Families(NamedTuple):

@@ -1,17 +1,20 @@
-"""Friction that falls with sliding velocity and temperature, and surfaces softer at small creepage (theory.md 8.1-8.3, 8.5)."""
+"""Friction that falls with sliding velocity and temperature, and reduced creep stiffness (theory.md 8.1-8.3, 8.5)."""
 
 import math
 
 from contact._jit import kernel
 from contact.kernels.layout import FrictionLaw, SlipVelocity, TangentialFamily
 
-#: Most heat of a strip, far from where products overflow.
+#: Upper limit of the heat of a strip. Products of such numbers do not overflow.
 _MOST_HEAT = 1e100
 
 
 @kernel
 def coefficient(law, static, kinetic, half_speed, velocity):
-    """Coefficient of friction at a sliding velocity [m/s]; halfway from static to kinetic at `half_speed` (theory.md 8.1)."""
+    """Return the coefficient of friction at a sliding velocity [m/s] (theory.md 8.1).
+
+    At `half_speed` it lies halfway between static and kinetic.
+    """
     if law == FrictionLaw.COULOMB:
         return static
     s = velocity / half_speed
@@ -28,7 +31,10 @@ def coefficient(law, static, kinetic, half_speed, velocity):
 
 @kernel
 def falls_locally(case):
-    """Whether the coefficient differs from element to element; methods that give forces alone have no local slip."""
+    """Return whether the coefficient depends on the slip velocity of each element.
+
+    Methods that give only forces have no local slip.
+    """
     return (
         case.velocity != SlipVelocity.GLOBAL
         and case.law != FrictionLaw.COULOMB
@@ -38,34 +44,41 @@ def falls_locally(case):
 
 @kernel
 def fallen(case, slip, stick, before):
-    """Coefficient over the static one of an element with `slip` over V; `before` is that of the element before it.
+    """Return the coefficient of an element with `slip` over V, divided by the static coefficient.
 
-    It never rises above 1, nor, after the greatest slip velocity, above that of the element before. Where slip begins within
-    the element, the share `stick` of it keeps 1: so forces are continuous as the place moves from element to element.
+    `before` is the value of the element before it. The result never exceeds 1. With the law of the greatest slip
+    velocity it never exceeds `before` either. Where slip begins within the element, the share `stick` of it keeps the
+    value 1. So forces are continuous as this place moves from element to element.
     """
     most = before if case.velocity == SlipVelocity.GREATEST else 1.0
     if slip <= 0.0 or case.mu <= 0.0 or not falls_locally(case):
         return most
     kinetic = min(case.kinetic / case.mu, 1.0)
-    own = coefficient(case.law, 1.0, kinetic, case.half_speed, case.speed * slip)
-    return min(own + stick * (1.0 - own), most)
+    local = coefficient(case.law, 1.0, kinetic, case.half_speed, case.speed * slip)
+    return min(local + stick * (1.0 - local), most)
 
 
 @kernel
 def falls_hot(case):
-    """Whether the coefficient falls with the temperature; methods that give forces alone know none."""
+    """Return whether the coefficient falls with the flash temperature.
+
+    Methods that give only forces have no flash temperature.
+    """
     return case.drop > 0.0 and case.tangential_family != TangentialFamily.CREEP_FORCE
 
 
 @kernel
 def heating(case, a, bound):
-    """Rise of temperature [K] by unit slip over V under the traction `bound` over √(2 Δs) of a strip of half length a (8.5)."""
+    """Return the rise of temperature [K] for unit slip over V and ∫ds'/√(s' - s) = 1 (theory.md 8.5).
+
+    The traction is `bound` [Pa] and the half length of the strip is `a` [m]. s is x over a.
+    """
     return min(case.heating * math.sqrt(case.speed * a) * bound, _MOST_HEAT)
 
 
 @kernel
 def of_bodies(case):
-    """What the temperature of the bodies leaves of the coefficient."""
+    """Return the factor on the coefficient due to the temperature of the bodies."""
     drop = case.drop
     if drop <= 0.0:
         return 1.0
@@ -74,9 +87,11 @@ def of_bodies(case):
 
 @kernel
 def of_heat(case, cold, warm, heat):
-    """Coefficient that falls from `cold`, that at the bodies' temperature, by `warm` + `heat` times itself [K] (theory.md 8.5).
+    """Return the coefficient at the temperature that it causes itself (theory.md 8.5).
 
-    The greater the coefficient the hotter, the hotter the smaller: there is one, and the law is linear between its ends.
+    It falls from `cold`, the coefficient at the temperature of the bodies. The rise of temperature [K] is `warm` plus
+    `heat` times the coefficient. A greater coefficient makes the element hotter, and heat makes the coefficient
+    smaller. So there is exactly one solution. The law is linear between its ends.
     """
     bodies, drop, width = of_bodies(case), case.drop, case.warm_range
     if bodies <= 0.0:
@@ -87,7 +102,10 @@ def of_heat(case, cold, warm, heat):
 
 @kernel
 def of_case(case):
-    """Coefficient of friction at the global slip velocity V√(ξ² + η²) of a case; that at rest, where the local one counts."""
+    """Return the coefficient of friction of a case at its global slip velocity V√(ξ² + η²).
+
+    Where the local slip velocity counts, return the coefficient at rest.
+    """
     if falls_locally(case):
         return case.mu
     velocity = case.speed * math.sqrt(case.vx**2 + case.vy**2)
@@ -96,7 +114,10 @@ def of_case(case):
 
 @kernel
 def over_profile(factor, border, width, y):
-    """Factor on the coefficient of friction at y: `factor` where (border - y)/width > 1/2, 1 below -1/2, smooth between."""
+    """Return the factor on the coefficient of friction at y.
+
+    It is `factor` where (border - y)/width > 1/2, 1 where this is below -1/2, and smooth between.
+    """
     if width == 0.0:
         share = 1.0 if y < border else 0.0
     else:
@@ -107,10 +128,11 @@ def over_profile(factor, border, width, y):
 
 @kernel
 def slope_of_case(case, place, a, b, c11, limit):
-    """Factor on the flexibility's inverse, k = k0 (far + (1 - far)/(1 + rate·eps)) (Spiryagin et al. 2013; theory.md 8.2).
+    """Return the factor on the creep stiffness (Spiryagin et al. 2013; theory.md 8.2).
 
-    eps = G π a b k0 C11 v/(4 mu N), v² = ξ² + η_φ², η_φ = η + phi·a if that is larger; `limit` is mu N, (ξ, η) the creepage
-    at the `place` (x, y) of the patch.
+    It is k = k0 (far + (1 - far)/(1 + rate·eps)) with eps = G π a b k0 C11 v/(4 mu N) and v² = ξ² + η_φ². η_φ is η +
+    phi·a if that is larger in magnitude than η. `limit` is mu N [N]. (ξ, η) is the creepage at the `place` (x, y) of
+    the patch.
     """
     k0, far = case.slope, case.slope_far
     if far == 1.0 or limit <= 0.0:

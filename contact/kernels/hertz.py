@@ -9,7 +9,10 @@ from contact.kernels.cubic import basis
 
 
 def _elliptic_integrals(g: float) -> tuple[float, float, float, float]:
-    """K, E, and (E - g²K)/k², (K - E)/k² for complementary modulus g in ]0, 1], by the arithmetic-geometric mean."""
+    """Return K, E, (E - g²K)/k² and (K - E)/k² for the complementary modulus g in ]0, 1].
+
+    The method is the arithmetic-geometric mean.
+    """
     k2 = (1.0 - g) * (1.0 + g)
     p, q, weight, total = 1.0, g, 0.5, 0.5 * k2
     for _ in range(40):
@@ -21,16 +24,16 @@ def _elliptic_integrals(g: float) -> tuple[float, float, float, float]:
             break
     K = 0.5 * math.pi / p
     E = K * (1.0 - total)
-    if k2 < 1e-3:  # the differences below cancel: series in k², error k⁸
+    if k2 < 1e-3:  # the differences below cancel, so series in k² with the error k⁸ are used
         B = 0.25 * math.pi * (1.0 + k2 * (0.125 + k2 * (3.0 / 64.0 + k2 * 25.0 / 1024.0)))
         return K, E, B, K - B  # B + D = K
     return K, E, (E - g * g * K) / k2, (K - E) / k2
 
 
 def _axis_ratio(curvature_ratio: float) -> float:
-    """Minor over major semi-axis of a Hertz ellipse for a ratio lambda = min(A,B)/max(A,B) of curvatures.
+    """Return minor over major semi-axis of a Hertz ellipse for the ratio lambda = min(A,B)/max(A,B) of curvatures.
 
-    Safeguarded Newton on ln(g² D/B) - ln(lambda) in ln g; capped at 60 iterations (6 are typical).
+    Newton's method on ln(g² D/B) - ln(lambda) in ln g, kept in a bracket. The limit is 60 iterations; 6 are typical.
     """
     target = math.log(curvature_ratio)
     low, high = -60.0, 0.0
@@ -42,7 +45,7 @@ def _axis_ratio(curvature_ratio: float) -> float:
             high = t
         else:
             low = t
-        step = residual / 1.5  # slope: 1.5 at the circle, towards 2 for a line
+        step = residual / 1.5  # the slope is 1.5 at the circle and tends to 2 for a line
         t_new = t - step
         if not low < t_new < high:
             t_new = 0.5 * (low + high)
@@ -53,7 +56,7 @@ def _axis_ratio(curvature_ratio: float) -> float:
 
 
 def coefficients(A: float, B: float) -> tuple[float, float, float]:
-    """Hertz's m, n, r for half curvatures A along x, B along y; a = m(…)^(1/3), b = n(…)^(1/3)."""
+    """Return Hertz's m, n, r for half curvatures A along x and B along y: a = m(…)^(1/3), b = n(…)^(1/3)."""
     ratio = min(A, B) / max(A, B)
     g = 1.0 if ratio >= 1.0 else _axis_ratio(ratio)
     K, E, _, _ = _elliptic_integrals(g)
@@ -64,24 +67,22 @@ def coefficients(A: float, B: float) -> tuple[float, float, float]:
     return major * g, major, r
 
 
-# The local factors of ANALYN over u = ln(B/A): 1 + alpha, 1 + beta, n r, ln(m/n) as cubic Hermite values and slopes.
-# The interpolation error is below 2e-8 (tests/test_hertz.py), so kernels pay 10 ns instead of a root find.
+# Table of ANALYN's local factors over u = ln(B/A): 1 + alpha, 1 + beta, n r, ln(m/n) as cubic Hermite values and slopes.
+# The interpolation error is below 2e-8 (tests/test_hertz.py). A lookup takes 10 ns and needs no root search.
 _U_MAX = 16.0
-
-
 _U_STEP = 0.1
 
 
 def _build_table() -> np.ndarray:
-    half = round(_U_MAX / _U_STEP) + 2  # two points more at each end for the difference formula
+    half = round(_U_MAX / _U_STEP) + 2  # two more points at each end for the difference formula
     values = np.empty((2 * half + 1, 4))
     for i in range(half + 1):
         B = math.exp(_U_STEP * i)
         m, k, r = coefficients(1.0, B)
         alpha, beta = r * (1.0 + B) / m**2, r * (1.0 + 1.0 / B) / k**2
         values[half + i] = alpha, beta, k * r, math.log(m / k)
-        values[half - i] = beta, alpha, m * r, math.log(k / m)  # the ellipse on its side
-    slopes = (8.0 * (values[3:-1] - values[1:-3]) - (values[4:] - values[:-4])) / 12.0  # times the step
+        values[half - i] = beta, alpha, m * r, math.log(k / m)  # the same ellipse with its axes exchanged
+    slopes = (8.0 * (values[3:-1] - values[1:-3]) - (values[4:] - values[:-4])) / 12.0  # slopes times the step
     return np.ascontiguousarray(np.hstack([values[2:-2], slopes]))
 
 
@@ -93,12 +94,12 @@ elliptic_integrals = kernel(_elliptic_integrals)
 
 @kernel
 def local_factors(A: float, B: float) -> tuple[float, float, float, float]:
-    """1 + alpha, 1 + beta, n·r and ln(a/b) of Hertz for half curvatures A, B > 0 [1/m] (theory.md 3.1).
+    """Return 1 + alpha, 1 + beta, n·r and ln(a/b) of Hertz for half curvatures A, B > 0 [1/m] (theory.md 3.1).
 
-    1 + alpha = delta/(A a²), 1 + beta = delta/(B b²); B/A is clamped to [1.2e-7, 8.8e6].
+    1 + alpha = delta/(A a²) and 1 + beta = delta/(B b²). B/A is clamped to [1.2e-7, 8.8e6].
     """
     u = (math.log(B / A) + _U_MAX) / _U_STEP
-    u = min(u, 2.0 * _U_MAX / _U_STEP - 1e-9) if u > 0.0 else 0.0  # no number, from gaps that overflow, counts as 0
+    u = min(u, 2.0 * _U_MAX / _U_STEP - 1e-9) if u > 0.0 else 0.0  # NaN, from gaps that overflow, counts as 0
     i = int(u)
     t = u - i
     h00, h10, h01, h11 = basis(t)

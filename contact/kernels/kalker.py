@@ -5,19 +5,18 @@ import math
 from contact._jit import kernel
 from contact.kernels.cubic import basis
 
-#: Range of ln(a/b) covered; the aspect ratio is clamped to [1/50, 50] beyond it.
+#: Largest |ln(a/b)| of the table. Aspect ratios are clamped to [1/50, 50].
 LOG_ASPECT_MAX = math.log(50.0)
-
-
 N_TABLE = 129
-
-
 _STEP = 2.0 * LOG_ASPECT_MAX / (N_TABLE - 1)
 
 
 @kernel
 def fill_table(published, nu, table):
-    """Fill `table` of `coefficients` for one Poisson ratio: parabola in nu through 1/C for C11, C22, C23, through C for C33."""
+    """Fill `table` of `coefficients` for one Poisson's ratio.
+
+    A parabola in nu is interpolated through 1/C for C11, C22, C23 and through C for C33.
+    """
     p, q, r = (4.0 * nu - 1.0) * (2.0 * nu - 1.0), 8.0 * nu * (1.0 - 2.0 * nu), nu * (8.0 * nu - 2.0)
     for c in range(4):
         for i in range(N_TABLE):
@@ -34,7 +33,7 @@ def fill_table(published, nu, table):
 
 @kernel
 def coefficients(table, log_aspect):
-    """C11, C22, C23, C33 at ln(a/b) from a `table`; C32 = -C23. The aspect ratio is clamped to [1/50, 50]."""
+    """Return C11, C22, C23, C33 at ln(a/b) from `table`. C32 = -C23. The aspect ratio is clamped to [1/50, 50]."""
     u = (min(max(log_aspect, -LOG_ASPECT_MAX), LOG_ASPECT_MAX) + LOG_ASPECT_MAX) / _STEP
     i = min(int(u), N_TABLE - 2)
     t = u - i

@@ -1,4 +1,4 @@
-"""What one pair does to both of its profiles, added up over the distance."""
+"""Damage by one pair on both of its profiles, accumulated over the distance."""
 
 from contact._jit import kernel
 from contact.kernels.damage.deposit import deposit, place, strip_rates
@@ -7,7 +7,10 @@ from contact.kernels.layout import Body
 
 @kernel
 def enter(patch, n, damage, bench):
-    """Let the `n` strips of one patch, on the right side, act on both profiles of the ledger of a `memory.Bench`."""
+    """Add the damage by the `n` strips of one patch to both profiles of the ledger of a `memory.Bench`.
+
+    The strips are those of the right side.
+    """
     ledger, strips, fields = bench.ledger, bench.own.strips, bench.own.fields
     settings, rates, edges = ledger.settings[0], ledger.rates, ledger.edges
     strip_rates(strips, n, fields, bench.damage_parameters[0], damage, bench.damage_fields, rates)

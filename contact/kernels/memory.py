@@ -1,8 +1,8 @@
-"""The arrays that kernels work on, with their shapes: one list for Python and for an FMU's block of memory.
+"""Arrays of the kernels with their shapes: one list for Python and for the memory block of an FMU.
 
-Every function here lays its arrays into `block` from the float64 at `end` on and returns them with the new end. In Python a
-block is a numpy array; in compiled code it is a pointer, and nothing is read or written. So the same list allocates a
-Python workspace and places the arrays in the memory of an FMU instance.
+Every function here lays arrays in `block`, from the float64 with index `end` on, and returns them with the new end. In
+Python the block is a numpy array. In compiled code it is a pointer, and nothing is read or written. So the same list
+allocates a Python workspace and places the arrays in the memory of an FMU instance.
 """
 
 from __future__ import annotations
@@ -45,16 +45,16 @@ from contact.kernels.normal.influence import MOST_TABULATED, N_COLUMNS
 from contact.kernels.normal.strip_halfspace import MEM_LN_A
 from contact.kernels.tangential.lanes import LANES, N_LANE_ROWS, TRACE_WIDTH
 
-#: Strips of the normal solution by which a wheel under a load finds its height.
+#: Number of strips of the normal problem that a search solves to find the height of a wheel under a load.
 SEARCH_STRIPS = 30
-#: float64 in a cache line. Vectors that lie across two lines cost a sixth of the march's time.
+#: Number of float64 in a cache line. Vectors that extend over two lines cost a sixth of the time of the march.
 _LINE = 8
 
 Array = Any  # an ndarray in Python; numba infers the rest
 
 
 class Samples(NamedTuple):
-    """A separation as kernels take it: rows of `contact.Separation`, all of the same length."""
+    """Samples of a separation: the rows of `contact.Separation`, all of the same length."""
 
     y: Array
     g: Array
@@ -64,14 +64,14 @@ class Samples(NamedTuple):
 
 
 class Across(NamedTuple):
-    """Where strips lie across a patch, on [-1, 1], and their weights: Fejér's first rule."""
+    """Positions of strips across a patch, on [-1, 1], and their weights: Fejér's first rule."""
 
     nodes: Array
     weights: Array
 
 
 class Rule(NamedTuple):
-    """Where strips and elements lie in a patch: constant for a resolution, read-only."""
+    """Positions of strips and elements in a patch, and tables that follow from them. Constant for a resolution, read-only."""
 
     across: Across
     elements: Array
@@ -82,7 +82,11 @@ class Rule(NamedTuple):
 
 
 class Tables(NamedTuple):
-    """Interpolated functions, read-only: Kalker's coefficients of one Poisson ratio, influence of strips, half-space forces."""
+    """Interpolated functions, read-only.
+
+    They are Kalker's coefficients for one Poisson's ratio, the influence of strips on the centre line and anywhere, and
+    the creep forces of the half space.
+    """
 
     kalker: Array
     centre: Array
@@ -91,9 +95,9 @@ class Tables(NamedTuple):
 
 
 class Space(NamedTuple):
-    """Scratch arrays of the normal methods, `memory` from which the next call may start, and those of the tangential ones.
+    """Scratch arrays of the normal and the tangential methods.
 
-    `case` is a copy that a kernel may change.
+    `memory` is the start for the next call. `case` is a copy that a kernel may change.
     """
 
     grid: Array
@@ -108,7 +112,7 @@ class Space(NamedTuple):
 
 
 class Arrays(NamedTuple):
-    """The arrays of a workspace. Their types are the same for all methods, so a method is compiled once."""
+    """Arrays of a workspace. Their types are the same for all methods, so a method is compiled once."""
 
     rule: Rule
     tables: Tables
@@ -118,7 +122,7 @@ class Arrays(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """Everything that `pipeline.solve_case` needs besides the problem. `families` chooses the kernels, by its type."""
+    """Everything that `pipeline.solve_case` needs besides the problem. The type of `families` chooses the kernels."""
 
     families: Families
     rule: Rule
@@ -129,9 +133,11 @@ class Workspace(NamedTuple):
 
 
 class Search(NamedTuple):
-    """Curves of wheel and rail, `motion` and sample positions to be set; patches and separations to be read; scratch.
+    """Arrays of a contact search.
 
-    `case`, `across` … `result` are those of the normal problem under a load.
+    The input is `wheel`, `rail`, `motion` and the sample positions `grid`. The output is `patches` and `separations`.
+    `case`, `across`, `work`, `strips` and `result` are those of the normal problem under a load. The others are
+    scratch.
     """
 
     wheel: Array
@@ -153,9 +159,10 @@ class Search(NamedTuple):
 
 
 class Ledger(NamedTuple):
-    """Bins over both profiles; without a bin nothing is entered.
+    """Bins over both profiles in which damage is accumulated. Without bins nothing is entered.
 
-    `wheel` and `rail` are rows y, z of the whole profiles, with the arc length of each point; `rates` and `edges` are scratch.
+    `wheel` and `rail` are rows y, z of the whole profiles, with the arc length of each point. `rates` and `edges` are
+    scratch.
     """
 
     wheel: Array
@@ -171,9 +178,9 @@ class Ledger(NamedTuple):
 class Bench(NamedTuple):
     """All arrays of one pair.
 
-    `search`, `own` and `damage_parameters` hold sizes and constants. `case` holds methods, material and friction, `patch_case`
-    the same for the patch at hand. `memory` is what the next call may start from: the number of patches, then one piece for
-    each of MAX_PATCHES. `contacts` and `total` are the answer; `ledger` adds up.
+    `search`, `own` and `damage_parameters` hold sizes and constants. `case` holds methods, material and friction.
+    `patch_case` holds the same for the current patch. `memory` is the start for the next call: the number of patches,
+    then one piece for each of MAX_PATCHES. `contacts` and `total` are the results. `ledger` accumulates damage.
     """
 
     search: Search
@@ -191,9 +198,9 @@ class Bench(NamedTuple):
 
 
 class Size(NamedTuple):
-    """Sizes of a workspace: strips per patch, elements per strip, samples of a separation at most.
+    """Sizes of a workspace: strips per patch, elements per strip, largest number of samples of a separation.
 
-    `interacting` and `with_fields` are 1 for methods whose strips feel each other and where fields are wanted.
+    `interacting` is 1 for methods whose strips interact. `with_fields` is 1 if fields are wanted.
     """
 
     n_strips: int
@@ -218,7 +225,7 @@ def ahead(typing_context, pointer, count):
 
 @intrinsic
 def _untyped(typing_context, pointer):
-    """Return the pointer without its type, which `carray` wants for records."""
+    """Return the pointer as a void pointer, which `carray` requires for records."""
 
     def generate(context, builder, signature, arguments):
         return builder.bitcast(arguments[0], context.get_value_type(types.voidptr))
@@ -227,23 +234,23 @@ def _untyped(typing_context, pointer):
 
 
 def vector(block: Array, end: int, n: int) -> tuple[Array, int]:
-    """Lay n float64."""
+    """Return a vector of `n` float64, laid in `block`, and the new end."""
     return block[end : end + n], end + n
 
 
 def matrix(block: Array, end: int, rows: int, columns: int) -> tuple[Array, int]:
-    """Lay a matrix of float64."""
+    """Return a matrix of float64, laid in `block`, and the new end."""
     return block[end : end + rows * columns].reshape(rows, columns), end + rows * columns
 
 
 def cube(block: Array, end: int, layers: int, rows: int, columns: int) -> tuple[Array, int]:
-    """Lay a three-dimensional array of float64."""
+    """Return a three-dimensional array of float64, laid in `block`, and the new end."""
     size = layers * rows * columns
     return block[end : end + size].reshape(layers, rows, columns), end + size
 
 
 def records(block: Array, end: int, n: int, dtype: Any) -> tuple[Array, int]:
-    """Lay n records."""
+    """Return `n` records, laid in `block`, and the new end."""
     size = n * (dtype.itemsize // 8)
     return block[end : end + size].view(dtype), end + size
 
@@ -274,19 +281,19 @@ def _records(block, end, n, dtype):
 
 @register_jitable
 def next_line(end: int) -> int:
-    """Return the first place from `end` on at which a cache line begins; the block itself begins at one."""
+    """Return the first index from `end` on at which a cache line begins. The block itself begins at one."""
     return (end + _LINE - 1) // _LINE * _LINE
 
 
 @register_jitable
 def memory_size(size: Size) -> int:
-    """Return how many float64 a normal method keeps from one call to the next."""
+    """Return the number of float64 that a normal method keeps from one call to the next."""
     return MEM_LN_A + (MAX_PATCHES * size.n_strips if size.interacting else 1)
 
 
 @register_jitable
 def lay_across(block: Array, end: int, n_strips: int) -> tuple[Across, int]:
-    """Lay the positions and weights of strips across a patch."""
+    """Return the arrays for positions and weights of strips across a patch, and the new end."""
     nodes, end = vector(block, end, n_strips)
     weights, end = vector(block, end, n_strips)
     return Across(nodes, weights), end
@@ -294,7 +301,7 @@ def lay_across(block: Array, end: int, n_strips: int) -> tuple[Across, int]:
 
 @register_jitable
 def lay_rule(block: Array, end: int, size: Size) -> tuple[Rule, int]:
-    """Lay the rule of a resolution."""
+    """Return the arrays of the rule of a resolution, and the new end."""
     n = size.n_strips
     across, end = lay_across(block, end, n)
     elements, end = matrix(block, end, N_ELEMENT_ROWS, size.n_elements)
@@ -309,13 +316,13 @@ def lay_rule(block: Array, end: int, size: Size) -> tuple[Rule, int]:
 
 @register_jitable
 def lay_kalker(block: Array, end: int) -> tuple[Array, int]:
-    """Lay the table of Kalker's coefficients for one Poisson ratio."""
+    """Return the table of Kalker's coefficients for one Poisson's ratio, and the new end."""
     return matrix(block, end, N_TABLE, 8)
 
 
 @register_jitable
 def lay_space(block: Array, end: int, size: Size, memory: Array) -> tuple[Space, int]:
-    """Lay the scratch arrays of a workspace around `memory`, which has the size `memory_size`."""
+    """Return the scratch arrays of a workspace around `memory`, which has the size `memory_size`, and the new end."""
     capacity = MAX_PATCHES * size.n_strips if size.interacting else 1
     grid, end = matrix(block, end, N_SAMPLE_ROWS, size.n_samples)
     vectors, end = matrix(block, end, N_VECTOR_ROWS, capacity)
@@ -330,7 +337,7 @@ def lay_space(block: Array, end: int, size: Size, memory: Array) -> tuple[Space,
 
 @register_jitable
 def lay_strips_and_fields(block: Array, end: int, size: Size) -> tuple[Array, Array, int]:
-    """Lay what a solution consists of. Without fields one row of them serves all strips."""
+    """Return strips and fields of a solution, and the new end. Without fields one row of them serves all strips."""
     capacity = MAX_PATCHES * size.n_strips
     strips, end = matrix(block, end, N_STRIP_ROWS, capacity)
     fields, end = cube(block, end, N_FIELD_ROWS, capacity if size.with_fields else 1, size.n_elements)
@@ -341,7 +348,10 @@ def lay_strips_and_fields(block: Array, end: int, size: Size) -> tuple[Array, Ar
 def lay_search(
     block: Array, end: int, n_wheel: int, n_rail: int, prescribed: int, n_samples: int
 ) -> tuple[Search, int]:
-    """Lay a contact search for curves of so many nodes; `prescribed` of the samples lie at given positions, all or none."""
+    """Return the arrays of a contact search for curves of `n_wheel` and `n_rail` nodes, and the new end.
+
+    `prescribed` is the number of samples at given positions: all or none.
+    """
     wheel, end = matrix(block, end, N_PROFILE_ROWS, n_wheel)
     rail, end = matrix(block, end, N_PROFILE_ROWS, n_rail)
     motion, end = records(block, end, 1, MOTION)
@@ -367,7 +377,7 @@ def lay_search(
 
 @register_jitable
 def lay_ledger(block: Array, end: int, wheel: Array, rail: Array, bins: Array, n_strips: int) -> tuple[Ledger, int]:
-    """Lay a ledger around the profiles' rows and the bins."""
+    """Return a ledger around the rows of the profiles and the bins, and the new end."""
     capacity = MAX_PATCHES * n_strips
     wheel_arc, end = vector(block, end, wheel.shape[1])
     rail_arc, end = vector(block, end, rail.shape[1])
@@ -381,7 +391,7 @@ def lay_ledger(block: Array, end: int, wheel: Array, rail: Array, bins: Array, n
 def lay_bench(
     block: Array, end: int, size: Size, memory: Array, search: Search, own: Workspace, ledger: Ledger
 ) -> tuple[Bench, int]:
-    """Lay what a pair needs besides its search, its workspace and its ledger."""
+    """Return the arrays of a pair around its search, its workspace and its ledger, and the new end."""
     case, end = records(block, end, 1, CASE)
     patch_case, end = records(block, end, 1, CASE)
     result, end = records(block, end, 1, RESULT)

@@ -1,4 +1,4 @@
-"""Where strips and elements lie inside a patch: cosine nodes, dense at the edges where pressure and traction are steep."""
+"""Positions of strips and elements inside a patch: cosine nodes, dense at the edges where pressure and traction are steep."""
 
 import math
 
@@ -8,9 +8,10 @@ from contact.kernels.layout import Element
 
 @kernel
 def on_circle(k, n):
-    """Cosine and sine of pi k/n, without libm: where strips lie is the same on every platform to the last digit.
+    """Return cosine and sine of pi k/n, with an error of at most 2e-16.
 
-    Taylor's series within an eighth of the circle, to which whole numbers reduce k/n exactly; within 2e-16.
+    No libm is used, so strips lie at the same positions on every platform to the last digit. Integers reduce k/n
+    exactly to an eighth of the circle, in which Taylor's series is evaluated.
     """
     k %= 2 * n
     lower, left = k > n, False
@@ -33,9 +34,9 @@ def on_circle(k, n):
 
 @kernel
 def fill_fejer(nodes, weights):
-    """Fill both with `fejer` of their length."""
+    """Fill nodes and weights of Fejér's first rule on [-1, 1], as many as the arrays hold."""
     n = nodes.size
-    for i in range((n + 1) // 2):  # the other half mirrors it: symmetric to round-off
+    for i in range((n + 1) // 2):  # the other half is the mirror image, so the rule is symmetric to round-off
         total = 0.0
         for k in range(1, n // 2 + 1):
             total += on_circle((2 * i + 1) * k, n)[0] / (4.0 * k * k - 1.0)
@@ -46,7 +47,7 @@ def fill_fejer(nodes, weights):
 
 @kernel
 def fill_panel(edges, logs):
-    """Fill both with `panel` of the length of `logs`."""
+    """Fill `edges` of cosine-spaced strips on [-1, 1], and `logs[i, k]` = ln|edge k - middle of strip i|."""
     n = logs.shape[0]
     for k in range(n // 2 + 1):
         edges[k] = -on_circle(k, n)[0]
@@ -58,9 +59,9 @@ def fill_panel(edges, logs):
 
 @kernel
 def fill_elements(rows):
-    """Fill the rows with `elements` of their length."""
+    """Fill the rows of `Element` for as many elements as `rows` holds."""
     n = rows.shape[1]
-    before, half_angle = 1.0, 0.0  # its tangent; atanh(cos) is minus its logarithm
+    before, half_angle = 1.0, 0.0  # tangent of half the angle; atanh(cos) is minus its logarithm
     for k in range(n):
         end = (k + 1) * math.pi / n
         (s, sine), (end_s, end_sine) = on_circle(2 * k + 1, 2 * n), on_circle(k + 1, n)

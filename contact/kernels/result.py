@@ -1,4 +1,4 @@
-"""What every solver does with a result."""
+"""Operations on a result that all solvers share."""
 
 from contact._jit import kernel
 

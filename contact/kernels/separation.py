@@ -4,17 +4,16 @@ import math
 
 from contact._jit import kernel
 
-#: Samples of a separation with constant curvatures.
+#: Number of samples of a separation with constant curvatures.
 HERTZIAN_POINTS = 41
 
-
-#: Gap that it reaches to [m].
+#: Gap at both ends of these samples [m].
 _HERTZIAN_GAP = 1e-3
 
 
 @kernel
 def fill_hertzian(B, y, g):
-    """Fill with samples of g = B·y² out to a gap of 1 mm."""
+    """Fill `y` and `g` [m] with samples of g = B·y² up to a gap of 1 mm."""
     n = y.size
     for i in range(n):
         y[i] = math.sqrt(_HERTZIAN_GAP / B) * (2.0 * i / (n - 1) - 1.0)

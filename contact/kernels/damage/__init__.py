@@ -1,1 +1,1 @@
-"""Damage models, one a file, and what they do to a profile."""
+"""Damage models, one per file, and the accumulation of damage on a profile."""

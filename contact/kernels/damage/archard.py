@@ -5,18 +5,19 @@ from contact._jit import kernel
 
 @kernel
 def wear_coefficient_kernel(velocity, pressure, hardness, constants):
-    """Archard's k [-] for sliding velocity [m/s], pressure and hardness [Pa]."""
+    """Return Archard's coefficient k [-] for a sliding velocity [m/s], pressure and hardness [Pa]."""
     mild, severe, mild_fast, seizure = constants[0], constants[1], constants[2], constants[3]
-    k = severe if velocity <= constants[5] else mild_fast  # choices, not branches: for vector instructions
+    k = severe if velocity <= constants[5] else mild_fast  # selections instead of branches, for vector instructions
     k = mild if velocity < constants[4] else k
     return seizure if pressure > constants[6] * hardness else k
 
 
 @kernel
 def depth_times_hardness(slip, pressure, dx, speed, hardness, constants):
-    """k p Δs [Pa m], Δs = slip·dx: over the hardness the depth that a particle loses on its way dx [m] (Eq. 6.4).
+    """Return k p Δs [Pa m] with Δs = slip·dx (Eq. 6.4).
 
-    `slip` is the sliding velocity relative to the rolling speed, so it takes dx/V to pass and slides slip·V·dx/V.
+    Divided by the hardness it is the depth that a particle loses on its way dx [m]. `slip` is the sliding velocity
+    divided by the rolling speed V. A particle passes dx in the time dx/V and slides slip·V·dx/V.
     """
     k = wear_coefficient_kernel(slip * speed, pressure, hardness, constants)
     return k * pressure * slip * dx

@@ -1,4 +1,4 @@
-"""All damage models over the arrays of one solved case: one source for `evaluate`, batches and the native FMU."""
+"""All damage models over the arrays of one solved case. `evaluate`, batches and the native FMU use this code."""
 
 import math
 
@@ -24,7 +24,7 @@ def clear_damage(damage):
 
 @kernel
 def strip_width(strips, i):
-    """Width of strip i along the surface, dy/cos: more than dy where that is bent (`contact.kernels.conformal`)."""
+    """Return the width of strip i along the surface [m], dy/cos Δ. It exceeds dy where the surface is bent (`conformal`)."""
     return strips[Strip.DY, i] * math.sqrt(1.0 + strips[Strip.TILT, i] ** 2)
 
 
@@ -32,10 +32,10 @@ def strip_width(strips, i):
 def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, damage):
     """Fill `damage` and the first `n` strips of `damage_fields` from a solved case (see `contact.kernels.layout`).
 
-    The depth of an element is spread over the circumference, so it is metre per metre rolled; the volume is that of all
-    strips, ∬ k p |s|/H dA over the surface. The energy index takes the rigid slip of each strip at its place on the surface,
-    T-gamma the plane's creepages and the resultants in its frame. With n = 0 everything is zero, and what needs fields where
-    the law gives forces alone.
+    The depth of an element is spread over the circumference, so it is in metres per metre rolled. The volume is that of
+    all strips, ∬ k p |s|/H dA over the surface. The energy index uses the rigid slip of each strip at its position on
+    the surface. T-gamma uses the creepages of the plane and the resultants in its frame. With n = 0 all values are
+    zero. If the law gives only forces, the values that need fields are zero.
     """
     clear_damage(damage)
     without_fields = case.tangential_family == TangentialFamily.CREEP_FORCE
@@ -66,8 +66,8 @@ def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, da
     speed, hardness, archard = parameters.speed, parameters.hardness, parameters.archard
     columns, to_depth = fields.shape[2], 1.0 / (circumference * hardness)
     for i in range(n):
-        y, own_x, own_y, own_phi = strips[Strip.Y, i], strips[Strip.VX, i], strips[Strip.VY, i], strips[Strip.PHI, i]
-        # one loop an index: with more the compiler gives up vector instructions
+        y, vx_i, vy_i, phi_i = strips[Strip.Y, i], strips[Strip.VX, i], strips[Strip.VY, i], strips[Strip.PHI, i]
+        # one loop per index: the compiler does not vectorise a loop with several
         for j in range(columns):
             slip = math.sqrt(fields[Field.SX, i, j] ** 2 + fields[Field.SY, i, j] ** 2)
             work = depth_times_hardness(slip, fields[Field.P, i, j], fields[Field.DX, i, j], speed, hardness, archard)
@@ -77,9 +77,9 @@ def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, da
             damage_fields[DamageField.STRESS_INDEX, i, j] = stress
         for j in range(columns):
             damage_fields[DamageField.ENERGY_INDEX, i, j] = energy_index_kernel(
-                fields[Field.QX, i, j], fields[Field.QY, i, j], fields[Field.X, i, j], y, own_x, own_y, own_phi
+                fields[Field.QX, i, j], fields[Field.QY, i, j], fields[Field.X, i, j], y, vx_i, vy_i, phi_i
             )
-        lost = 0.0  # by a particle that crosses the patch along this strip, over the circumference
+        lost = 0.0  # loss of a particle that crosses the patch along this strip, over the circumference
         for j in range(columns):
             lost += damage_fields[DamageField.DEPTH, i, j]
             stress_max = max(stress_max, damage_fields[DamageField.STRESS_INDEX, i, j])

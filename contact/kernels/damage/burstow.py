@@ -5,7 +5,7 @@ from contact._jit import kernel
 
 @kernel
 def burstow_kernel(T_gamma, constants):
-    """Damage per axle pass [-] for T-gamma [N]."""
+    """Return the damage per axle pass [-] for T-gamma [N]."""
     threshold, peak_at, zero_at, peak, floor = constants[0], constants[1], constants[2], constants[3], constants[4]
     if T_gamma <= threshold:
         return 0.0

@@ -1,7 +1,7 @@
-"""What the strips of a patch do to a profile: their rates, where they lie on it, and their shares in bins of its arc length.
+"""Damage by the strips of a patch on a profile: rates, positions on the profile, and shares in bins of its arc length.
 
-One source for `contact.accumulation`, `contact.pair` and the FMUs. A profile is an array with the rows y, z [m] first, in the
-convention of the right side; its arc length counts from the point nearest to y = 0, positive to the field side.
+`contact.accumulation`, `contact.pair` and the FMUs use this code. A profile is an array whose first rows are y, z [m],
+in the convention of the right side. Its arc length counts from the point nearest to y = 0, positive to the field side.
 """
 
 import math
@@ -11,15 +11,15 @@ from contact.kernels.damage.assess import strip_width
 from contact.kernels.damage.usfd import usfd_kernel
 from contact.kernels.layout import Bin, Curve, DamageField, Field, Strip, WearLaw
 
-_TURNED = 0.17  # cosine of the angle to the contact plane, 80°, beyond which a profile no longer faces it
+_LEAST_COSINE = 0.17  # of the angle between profile and contact plane, 80°; at larger angles it does not face the plane
 
 
 @kernel
 def _depth(i, chord, area, fields, parameters, damage, damage_fields):
-    """What strip i takes off per metre rolled, spread over the wheel's circumference [m].
+    """Return the depth that strip i removes per metre rolled, spread over the wheel's circumference [m].
 
-    The laws for a whole patch are spread evenly over its area: a particle of the wheel loses what its way through it, the
-    strip's `chord`, is of that.
+    Laws for a whole patch are spread evenly over its area. The loss of a particle of the wheel is proportional to its
+    way through the patch, which is the strip's `chord`.
     """
     law, per_circumference = parameters.wear_law, 0.5 / (math.pi * parameters.wheel_radius)
     if law == WearLaw.PEARCE_SHERRATT:
@@ -39,10 +39,10 @@ def _depth(i, chord, area, fields, parameters, damage, damage_fields):
 
 @kernel
 def strip_rates(strips, n, fields, parameters, damage, damage_fields, rates):
-    """What each of `n` strips does per metre rolled and metre across, from the arrays of `damage_kernel`.
+    """Fill the rates of each of `n` strips, per metre rolled and metre across, from the arrays of `damage_kernel`.
 
-    WEAR is the depth of a wheel; the volume, per metre across, is the depth of a rail per pass. T-gamma, of the whole patch,
-    is shared by contact area. A strip may have none, where a patch is about to part.
+    WEAR is the depth on a wheel. VOLUME, per metre across, is the depth on a rail per pass. T-gamma of the whole patch
+    is shared in proportion to contact area. A strip may have no area when a patch is about to separate.
     """
     area = 0.0
     for i in range(n):
@@ -50,7 +50,7 @@ def strip_rates(strips, n, fields, parameters, damage, damage_fields, rates):
     for i in range(n):
         chord, length, energy, stress, greatest = 2.0 * strips[Strip.A, i], 0.0, 0.0, -math.inf, -math.inf
         for j in range(fields.shape[2]):
-            length += fields[Field.DX, i, j]  # of the elements, which are exact for the pressure, not for the area
+            length += fields[Field.DX, i, j]  # of the elements, which are exact for the pressure but not for the area
             energy += damage_fields[DamageField.ENERGY_INDEX, i, j] * fields[Field.DX, i, j]
             greatest = max(greatest, damage_fields[DamageField.ENERGY_INDEX, i, j])
             stress = max(stress, damage_fields[DamageField.STRESS_INDEX, i, j])
@@ -66,7 +66,7 @@ def strip_rates(strips, n, fields, parameters, damage, damage_fields, rates):
 
 @kernel
 def arc_length(profile, arc):
-    """Fill the arc length of each point of a profile."""
+    """Fill `arc` with the arc length of each point of a profile [m]."""
     nearest = 0
     arc[0] = 0.0
     for i in range(1, profile.shape[1]):
@@ -80,20 +80,23 @@ def arc_length(profile, arc):
 
 @kernel
 def _along(profile, i, y0, z0, c, s):
-    """Position of a point of the profile along the contact plane through (y0, z0)."""
+    """Return the coordinate of a point of the profile along the contact plane through (y0, z0) [m]."""
     return (profile[Curve.Y, i] - y0) * c + (profile[Curve.Z, i] - z0) * s
 
 
 @kernel
 def _faces(profile, arc, i, c, s):
-    """Whether the profile faces the plane between the points i and i + 1."""
+    """Return whether the profile faces the plane between the points i and i + 1."""
     step = (profile[Curve.Y, i + 1] - profile[Curve.Y, i]) * c + (profile[Curve.Z, i + 1] - profile[Curve.Z, i]) * s
-    return step >= _TURNED * (arc[i + 1] - arc[i])
+    return step >= _LEAST_COSINE * (arc[i + 1] - arc[i])
 
 
 @kernel
 def _facing(profile, arc, y0, z0, c, s):
-    """First and last point around that nearest to (y0, z0) between which the profile faces the plane."""
+    """Return the first and last point of the part of the profile that faces the plane.
+
+    The part contains the point nearest to (y0, z0).
+    """
     n, nearest, least = profile.shape[1], 0, math.inf
     for i in range(n):
         distance = (profile[Curve.Y, i] - y0) ** 2 + (profile[Curve.Z, i] - z0) ** 2
@@ -109,23 +112,23 @@ def _facing(profile, arc, y0, z0, c, s):
 
 @kernel
 def place(profile, arc, point, angle, mirror, strips, n, edges):
-    """Fill the arc lengths at which each strip begins and ends on the profile.
+    """Fill `edges` with the arc lengths at which each strip begins and ends on the profile [m].
 
-    Its edges are projected along the normal of the contact plane, which lies at `angle` through the profile's `point` (y0, z0);
-    `mirror` is -1 where angle and strips are those of the left side. The plane is taken not to be rolled relative to the
-    profile: a roll of 10 mrad shifts a point 0.1 mm off the plane by 1 µm. Beyond its ends, and where it turns away from
-    the plane, the profile is continued straight.
+    The edges of the strips are projected along the normal of the contact plane. The plane has the `angle` and passes
+    through the profile's `point` (y0, z0). `mirror` is -1 if angle and strips are those of the left side. The roll of
+    the plane relative to the profile is neglected: a roll of 10 mrad shifts a point 0.1 mm off the plane by 1 µm.
+    Beyond its ends, and where it turns away from the plane, the profile is continued straight.
 
     Returns
     -------
     float
-        How far the profile passes (y0, z0) by, along the normal, or ends before it [m].
+        Distance at which the profile passes (y0, z0) along the normal or, if larger, at which it ends before that point [m].
     """
     y0, z0 = point
     c, s = math.cos(angle), mirror * math.sin(angle)
     first, last = _facing(profile, arc, y0, z0, c, s)
     k, off = first, 0.0
-    for i in range(-1, 2 * n):  # the first is the reference point
+    for i in range(-1, 2 * n):  # i = -1 is the reference point
         side = -0.5 if i % 2 == 0 else 0.5
         at = 0.0 if i < 0 else mirror * strips[Strip.Y, i // 2] + side * strips[Strip.DY, i // 2]
         while k < last - 1 and _along(profile, k + 1, y0, z0, c, s) <= at:
@@ -147,10 +150,11 @@ def place(profile, arc, point, angle, mirror, strips, n, edges):
 
 @kernel
 def deposit(rates, edges, strips, n, settings, share, is_wheel, bins):
-    """Let `n` strips act on a wheel or a rail over a distance: each is shared over the bins that it overlaps.
+    """Add the damage by `n` strips over a distance to the bins of a wheel or a rail.
 
-    `settings` is a record LEDGER of `layout`, `share` that with which the patch counts. Bin k begins at width·(start + k); the
-    first and the last are open outwards, so that nothing is lost.
+    Each strip is shared among the bins that it overlaps. `settings` is a record LEDGER of `layout`. `share` is the
+    weight of the patch. Bin k begins at width·(start + k). The first and the last bin are open outwards, so that
+    nothing is lost.
     """
     start, width, distance = settings.start, settings.width, share * settings.distance
     greatest = bins.shape[1] - 1
@@ -166,7 +170,7 @@ def deposit(rates, edges, strips, n, settings, share, is_wheel, bins):
             amount = distance * strip_width(strips, i) * share
             for row in range(Bin.ENERGY_INDEX_MAX):
                 rate = rates[Bin.VOLUME, i] if row == Bin.WEAR and not is_wheel else rates[row, i]
-                of_the_bin = row == Bin.VOLUME or row == Bin.T_GAMMA  # the others are means over its width
+                of_the_bin = row == Bin.VOLUME or row == Bin.T_GAMMA  # the others are means over the width of the bin
                 bins[row, k] += amount * rate if of_the_bin else amount * rate / width
             if amount > 0.0:
                 bins[Bin.ENERGY_INDEX_MAX, k] = max(bins[Bin.ENERGY_INDEX_MAX, k], rates[Bin.ENERGY_INDEX_MAX, i])

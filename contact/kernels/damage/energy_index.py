@@ -5,5 +5,5 @@ from contact._jit import kernel
 
 @kernel
 def energy_index_kernel(qx: float, qy: float, x: float, y: float, vx: float, vy: float, phi: float) -> float:
-    """EI = -(qx (vx - phi y) + qy (vy + phi x)) [Pa]."""
+    """Return EI = -(qx (vx - phi y) + qy (vy + phi x)) [Pa]."""
     return -(qx * (vx - phi * y) + qy * (vy + phi * x))

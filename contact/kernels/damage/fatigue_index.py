@@ -5,5 +5,5 @@ from contact._jit import kernel
 
 @kernel
 def fatigue_index_kernel(utilisation: float, max_pressure: float, shear_yield: float) -> float:
-    """FI_surf = utilisation - k/p0 [-]."""
+    """Return FI_surf = utilisation - k/p0 [-]."""
     return utilisation - shear_yield / max_pressure

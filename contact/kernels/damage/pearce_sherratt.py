@@ -7,7 +7,7 @@ _MM2_PER_KM = 1e-9  # [m² per m rolled]
 
 @kernel
 def pearce_sherratt_kernel(T_gamma, diameter, constants):
-    """Area loss [m² per m rolled] for T-gamma [N] and wheel diameter [m]."""
+    """Return the area loss [m² per m rolled] for T-gamma [N] and wheel diameter [m]."""
     mild_slope, plateau, severe_slope, severe_offset, mild_limit, severe_from, floor = (
         constants[0],
         constants[1],

@@ -7,5 +7,5 @@ from contact._jit import kernel
 
 @kernel
 def stress_index_kernel(qx: float, qy: float, shear_yield: float) -> float:
-    """SI = √(qx² + qy²) - k [Pa]."""
+    """Return SI = √(qx² + qy²) - k [Pa]."""
     return math.sqrt(qx * qx + qy * qy) - shear_yield

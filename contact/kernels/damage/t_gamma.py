@@ -5,5 +5,5 @@ from contact._jit import kernel
 
 @kernel
 def t_gamma_kernel(Fx: float, Fy: float, Mz: float, vx: float, vy: float, phi: float) -> float:
-    """|Fx vx| + |Fy vy| + |Mz phi| [N]; Mz = 0 gives thesis Eq. 6.1."""
+    """Return |Fx vx| + |Fy vy| + |Mz phi| [N]. Mz = 0 gives thesis Eq. 6.1."""
     return abs(Fx * vx) + abs(Fy * vy) + abs(Mz * phi)

@@ -5,7 +5,7 @@ from contact._jit import kernel
 
 @kernel
 def usfd_kernel(T_gamma, area, constants):
-    """Volume lost per contact area and metre rolled [m] for T-gamma [N] and contact area [m²]."""
+    """Return the volume lost per contact area and metre rolled [m] for T-gamma [N] and contact area [m²]."""
     mild_slope, mild_limit, plateau, severe_limit, severe_slope, intercept, density = (
         constants[0],
         constants[1],

@@ -1,7 +1,7 @@
-"""Kernels on curves f(y): rows of nodes with values and slopes, a cubic between each two (piecewise Hermite, C¹).
+"""Kernels on curves f(y): nodes with values and slopes, and a cubic between each two (piecewise Hermite, C¹).
 
-The profiles of the standards have exact tangents, so arcs are followed to fourth order of the spacing and a joint of two
-arcs stays where it is; a spline through the points would ring there.
+The profiles of the standards have exact tangents. So arcs are followed to fourth order of the spacing, and the joint of
+two arcs keeps its position. A spline through the points would oscillate there.
 """
 
 from typing import Any
@@ -14,12 +14,12 @@ from contact.kernels.cubic import value_and_slope
 from contact.kernels.layout import Curve
 
 Array = NDArray[np.float64]
-Record = Any  # of `contact.kernels.layout`
+Record = Any  # a record of `contact.kernels.layout`
 
 
 @kernel
 def advance(curve: Array, n: int, j: int, y: float) -> int:
-    """First node j of the segment that holds y, searched from node j up; curve[Curve.Y] increases."""
+    """Return the first node j of the segment that holds y, searched upwards from node j. curve[Curve.Y] increases."""
     while j < n - 2 and curve[Curve.Y, j + 1] <= y:
         j += 1
     return j
@@ -27,9 +27,10 @@ def advance(curve: Array, n: int, j: int, y: float) -> int:
 
 @kernel
 def at(curve: Array, j: int, y: float) -> tuple[float, float]:
-    """Value and slope of the curve at y in segment j.
+    """Return value and slope of the curve at y in segment j.
 
-    The slope stays between those of the nodes: where two branches of an outline meet in a corner, a cubic would overshoot.
+    The slope stays between those of the nodes, because a cubic would overshoot where two branches of an outline meet in
+    a corner.
     """
     h = curve[Curve.Y, j + 1] - curve[Curve.Y, j]
     m0, m1 = curve[Curve.SLOPE, j], curve[Curve.SLOPE, j + 1]

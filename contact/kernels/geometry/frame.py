@@ -1,7 +1,8 @@
 """Kernels that describe one patch in its own plane: separation, positions and creepages.
 
-The contact frame is the track frame turned about x by the contact angle; its z axis points from the wheel into the rail. Its
-origin, the reference point, lies on the rail; on the wheel it is the point opposite, along the normal.
+The contact frame is the track frame turned about x by the contact angle. Its z axis points from the wheel into the
+rail. Its origin, the reference point, lies on the rail. The corresponding point of the wheel lies opposite, along the
+normal.
 """
 
 import math
@@ -15,15 +16,18 @@ from contact.kernels.memory import Search
 
 Direction = tuple[float, float, float]
 
-MARGIN = 3e-3  # [m] by which samples extend beyond the interpenetration: the room of a second difference there
-_ARM = 0.2e-3  # [m] to both sides, over which the curvature of the trace line is taken
-_MOST = 0.8  # share of A that it may make; only noise of a profile makes more
+MARGIN = 3e-3  # [m] by which samples extend beyond the interpenetration, enough for a second difference there
+_ARM = 0.2e-3  # [m] to both sides of a point, over which the curvature of the trace line is taken
+_MOST = 0.8  # upper limit of k s²/a in `half_curvature`; only noise of a profile exceeds it
 _OPENING = 1.0  # slope at which the gap opens where a profile, or the patch's own range, ends
 
 
 @kernel
 def creepages(motion: Record, frame: Frame, x: float, y: float, z: float, patch: Record) -> None:
-    """Creepages at the wheel's point (x, y, z): its velocity v + Omega × p less the rail's, over V (theory.md 9.4)."""
+    """Fill the creepages of `patch` at the wheel's point (x, y, z) (theory.md 9.4).
+
+    They are the velocity of the wheel, v + Omega × p, minus that of the rail, divided by V.
+    """
     lx, ly, lz = axle(motion.roll, motion.yaw)
     wx = motion.roll_rate * math.cos(motion.yaw) + motion.spin * lx
     wy = motion.roll_rate * math.sin(motion.yaw) + motion.spin * ly
@@ -40,7 +44,10 @@ def creepages(motion: Record, frame: Frame, x: float, y: float, z: float, patch:
 
 @kernel
 def positions(motion: Record, frame: Frame, wheel: Array, n_wheel: int, patch: Record) -> None:
-    """Where the reference point is, on the rail and opposite on the wheel, with the creepages there."""
+    """Fill the position of the reference point and the creepages there.
+
+    The position is given on the rail and opposite on the wheel, in track coordinates and in those of the profiles [m].
+    """
     y0, z0, c, s = frame
     height, slope = at(wheel, advance(wheel, n_wheel, 0, 0.0), 0.0)
     y, z = y0 - height * s, z0 + height * c
@@ -60,21 +67,24 @@ def positions(motion: Record, frame: Frame, wheel: Array, n_wheel: int, patch: R
 
 @kernel
 def half_curvature(wheel: Array, n_wheel: int, j: int, u: float, tilt: float, r: float, axis: Direction) -> float:
-    """Half the second derivative along x of the gap at the trace point `u`: A [1/m], exact for any yaw and roll.
+    """Return A [1/m], half the second derivative along x of the gap at the trace point `u`, exact for any yaw and roll.
 
-    The surface is F = rho - R(d) = 0 with d the distance along the axle l and rho that from it. At a point of the trace line
-    F_x = 0, so that the height v along the plane's normal N has v_xx = -F_xx/F_v. With the ring's tangent t = l × e_r
+    The surface is F = rho - R(d) = 0, where d is the distance along the axle l and rho the distance from it. At a point
+    of the trace line F_x = 0. So the height v along the plane's normal N has v_xx = -F_xx/F_v. With the ring's tangent
+    t = l × e_r
 
-        F_xx = t_x²/r - R'' l_x²,   t_x² = 1 - s²,   s² = l_x² (1 + R'²),   F_v = |grad F| cos D = √(1 + R'²) cos D,
+            F_xx = t_x²/r - R'' l_x²,   t_x² = 1 - s²,   s² = l_x² (1 + R'²),   F_v = |grad F| cos D = √(1 + R'²) cos D,
 
-    D the angle between surface and plane. In normal curvatures, of the ring a = 1/(r √(1 + R'²)) and of the profile
-    m = -R''/(1 + R'²)^(3/2), this is Euler's 2 A cos D = a (1 - s²) + m s². The trace line is the outline of the wheel seen
-    along x; its curvature k obeys k (a (1 - s²) + m s²) = a m (both are Gauss's curvature), and m drops out:
+    where D is the angle between surface and plane. Let a = 1/(r √(1 + R'²)) be the normal curvature of the ring and m =
+    -R''/(1 + R'²)^(3/2) that of the profile. Then this is Euler's 2 A cos D = a (1 - s²) + m s². The trace line is the
+    outline of the wheel seen along x. Its curvature k satisfies k (a (1 - s²) + m s²) = a m, because both sides are
+    Gauss's curvature. This eliminates m:
 
-        2 A cos D = a (1 - s²)/(1 - k s²/a).
+            2 A cos D = a (1 - s²)/(1 - k s²/a).
 
-    k is that of the arc through the trace line's points at `_ARM` on both sides: profiles' own second derivatives are noise.
-    `tilt` is the slope of the trace line in track coordinates, `axis` the direction of the axle.
+    k is the curvature of the arc through the trace line's points at `_ARM` on both sides, because the profiles' own
+    second derivatives are noise. `tilt` is the slope of the trace line in track coordinates, `axis` the direction of
+    the axle.
     """
     lx, ly, lz = axis
     slope = at(wheel, j, u)[1]
@@ -97,9 +107,10 @@ def half_curvature(wheel: Array, n_wheel: int, j: int, u: float, tilt: float, r:
 def sample(
     frame: Frame, n_wheel: int, n_rail: int, low: float, high: float, patch: Record, out: Array, space: Search
 ) -> None:
-    """Fill the separation: at the positions `grid`, or, when that is empty, over low … high, dense where the gap is small.
+    """Fill the separation `out` at the positions `grid` or, if that is empty, over low … high.
 
-    Beyond low … high, where a profile or the patch's own range ends, the gap opens at 45°.
+    Positions over low … high are dense where the gap is small. Beyond low … high, where a profile or the patch's own
+    range ends, the gap opens at 45°.
     """
     y0, z0, c, s = frame
     motion, grid, wheel, rail = space.motion[0], space.grid, space.wheel_plane, space.rail_plane
@@ -131,9 +142,9 @@ def sample(
 def describe(
     first_node: int, start: int, end: int, lobe: Record, neighbours: tuple[float, float], k: int, space: Search
 ) -> bool:
-    """Fill patch and separation `k` of one combined lobe. Return False when too little of the profiles faces its plane.
+    """Fill patch and separation `k` of one combined lobe. Return False if too little of the profiles faces its plane.
 
-    `neighbours` bound the patch in track y; infinite where it has none.
+    `neighbours` are the bounds of the patch in track y [m]. They are infinite on a side without neighbour.
     """
     before, after = neighbours
     line, placed, grid, motion = space.line, space.placed, space.grid, space.motion[0]
@@ -144,7 +155,7 @@ def describe(
     centre = advance(placed, n_placed, 0, y0)
     frame = (y0, at(placed, centre, y0)[0], math.cos(angle), math.sin(angle))
 
-    # the edges of the interpenetration lie on both curves; the middles between neighbours are taken on the rail
+    # the edges of the interpenetration lie on both curves; the bounds between neighbours are points of the rail
     i = advance(placed, n_placed, 0, lobe.low)
     first = along(frame, lobe.low, at(placed, i, lobe.low)[0])
     i = advance(placed, n_placed, i, lobe.high)
@@ -175,15 +186,16 @@ def describe(
 
 @kernel
 def describe_all(first_node: int, start: int, end: int, space: Search) -> int:
-    """Describe all patches at the pose in `space.motion`, from the field side to the flange; return their number.
+    """Describe all patches at the pose in `space.motion`, from the field side to the flange. Return their number.
 
-    While lobes pass from one plane to planes of their own they are described in both, with shares (`search.combine`).
+    While lobes pass from a common plane to planes of their own, they are described in both, with shares
+    (`search.combine`).
     """
     motion, lobe = space.motion[0], space.lobes
     n = lobes(space.line, start, end, motion.z, lobe)
     n = combine(lobe, n, motion.combine_distance, motion.combine_angle, motion.most_patches)
     untie(lobe, n, space.patches.size)
-    found, spare = 0, lobe.size - 1  # of the lobes at most as many are left as there are patches
+    count, spare = 0, lobe.size - 1  # no more lobes than patches are left, so the last one is free
     for last in range(n - 1, -1, -1):
         for first in range(last, -1, -1):
             share = shared(lobe, n, first, last)
@@ -194,7 +206,7 @@ def describe_all(first_node: int, start: int, end: int, space: Search) -> int:
                 join(lobe[k], lobe[spare])
             before = 0.5 * (lobe[first - 1].high + lobe[first].low) if first > 0 else -math.inf
             after = 0.5 * (lobe[last].high + lobe[last + 1].low) if last < n - 1 else math.inf
-            if describe(first_node, start, end, lobe[spare], (before, after), found, space):
-                space.patches[found].share = share
-                found += 1
-    return found
+            if describe(first_node, start, end, lobe[spare], (before, after), count, space):
+                space.patches[count].share = share
+                count += 1
+    return count

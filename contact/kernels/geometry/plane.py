@@ -1,7 +1,8 @@
-"""Kernels that turn the curves of wheel and rail into a contact plane.
+"""Kernels that transform the curves of wheel and rail into a contact plane.
 
-A frame is (y0, z0, c, s): origin in track coordinates, cosine and sine of the contact angle. Along the plane runs
-u = (y - y0) c + (z - z0) s; the height along its normal, from the wheel into the rail, is v = (z - z0) c - (y - y0) s.
+A frame is (y0, z0, c, s): origin in track coordinates, cosine and sine of the contact angle. The coordinate along the
+plane is u = (y - y0) c + (z - z0) s. The height along its normal, from the wheel into the rail, is v = (z - z0) c - (y
+- y0) s.
 """
 
 import math
@@ -14,27 +15,27 @@ from contact.kernels.layout import Curve
 Frame = tuple[float, float, float, float]
 
 _STEEPEST = 0.17  # cosine of the largest angle between a surface and the contact plane, 80°
-_NEAR = 50e-6  # [m] gap at which samples become half as dense
+_NEAR = 50e-6  # [m] gap at which samples are half as dense as in contact
 _SPARSEST = 0.05  # least density of samples, relative to that in contact
 
 
 @kernel
 def along(frame: Frame, y: float, z: float) -> float:
-    """Coordinate u of a point in track coordinates."""
+    """Return the coordinate u [m] of a point in track coordinates."""
     y0, z0, c, s = frame
     return (y - y0) * c + (z - z0) * s
 
 
 @kernel
 def track_slope(frame: Frame, slope: float) -> float:
-    """dz/dy in track coordinates of a direction with slope dv/du in the plane."""
+    """Return dz/dy in track coordinates of a direction with slope dv/du in the plane."""
     c, s = frame[2], frame[3]
     return (slope * c + s) / (c - slope * s)
 
 
 @kernel
 def cosine(frame: Frame, slope: float) -> float:
-    """Cosine of the angle between a surface of slope dz/dy and the plane."""
+    """Return the cosine of the angle between a surface of slope dz/dy and the plane."""
     return (frame[2] + slope * frame[3]) / math.sqrt(1.0 + slope * slope)
 
 
@@ -42,11 +43,12 @@ def cosine(frame: Frame, slope: float) -> float:
 def _walk(
     curve: Array, start: int, end: int, j: int, ahead: int, dz: float, frame: Frame, limit: float
 ) -> tuple[int, float]:
-    """Last node and last u of the part of `curve` that faces the plane, from node j in the direction `ahead` (±1) to `limit`.
+    """Return the last node and the last u [m] of the part of `curve` that faces the plane.
 
-    Where the curve turns away from the plane, the last u lies between two nodes, so that it moves smoothly with the frame.
+    The search starts at node j and goes in the direction `ahead` (±1) up to `limit`. Where the curve turns away from
+    the plane, the last u lies between two nodes, so that it moves smoothly with the frame.
     """
-    own = cosine(frame, curve[Curve.SLOPE, j])
+    here = cosine(frame, curve[Curve.SLOPE, j])
     while True:
         u = along(frame, curve[Curve.Y, j], curve[Curve.Z, j] + dz)
         if (u - limit) * ahead >= 0.0:
@@ -55,22 +57,21 @@ def _walk(
             return j, u
         following = cosine(frame, curve[Curve.SLOPE, j + ahead])
         if following < _STEEPEST:
-            if following < 0.5 * _STEEPEST:  # a corner: no use to interpolate to the next node
+            if following < 0.5 * _STEEPEST:  # a corner: interpolation to the next node has no meaning
                 return j, u
             beyond = along(frame, curve[Curve.Y, j + ahead], curve[Curve.Z, j + ahead] + dz)
-            return j + ahead, u + (beyond - u) * (own - _STEEPEST) / (own - following)
-        j, own = j + ahead, following
+            return j + ahead, u + (beyond - u) * (here - _STEEPEST) / (here - following)
+        j, here = j + ahead, following
 
 
 @kernel
 def project(
     curve: Array, nodes: tuple[int, int, int], dz: float, frame: Frame, low: float, high: float, out: Array
 ) -> tuple[int, float, float]:
-    """Project the nodes of `curve`, lowered by dz, that face the plane, out to just beyond low … high.
+    """Fill `out` with the nodes of `curve`, lowered by dz, that face the plane. Return their number and a range of u [m].
 
-    `nodes` are the first, the end and the centre, around which they are sought.
-    Returns their number and the range of u, within low … high, in which they face it; `out` is then a curve v(u) with u
-    increasing.
+    `out` is a curve v(u) with increasing u, out to just beyond low … high. `nodes` are the first, the end and the
+    centre, around which the nodes are searched. The range of u is the part of low … high in which they face the plane.
     """
     start, end, centre = nodes
     if cosine(frame, curve[Curve.SLOPE, centre]) < _STEEPEST:
@@ -88,9 +89,10 @@ def project(
 
 @kernel
 def normal_gap(wheel: Array, n_wheel: int, rail: Array, n_rail: int, low: float, high: float) -> float:
-    """Fill the gap rows of the wheel's curve with rail minus wheel along the normal; return its least value in low … high.
+    """Fill the gap rows of the wheel's curve with rail minus wheel along the normal [m]. Return the smallest gap in low … high.
 
-    Both curves are in the plane. Nodes beyond the rail's curve take the gap at its end.
+    A positive smallest gap counts as 0. Both curves are in the plane. Nodes beyond the rail's curve take the gap at its
+    end.
     """
     i = 0
     for j in range(n_wheel):
@@ -119,7 +121,7 @@ def normal_gap(wheel: Array, n_wheel: int, rail: Array, n_rail: int, low: float,
 
 @kernel
 def _share(wheel: Array, j: int, low: float, high: float) -> tuple[float, float, float]:
-    """Ends of segment j within low … high and its share of the samples, width times density."""
+    """Return the ends of segment j within low … high and its share of the samples, width times density."""
     u0, u1 = max(wheel[Curve.Y, j], low), min(wheel[Curve.Y, j + 1], high)
     gap = max(0.5 * (wheel[Curve.GAP, j] + wheel[Curve.GAP, j + 1]), 0.0)
     return u0, u1, max(u1 - u0, 0.0) * max(_NEAR / (_NEAR + gap), _SPARSEST)
@@ -127,9 +129,9 @@ def _share(wheel: Array, j: int, low: float, high: float) -> tuple[float, float,
 
 @kernel
 def spread(wheel: Array, n_wheel: int, low: float, high: float, out: Array) -> None:
-    """Sample positions `out` over low … high, dense where the gap is small.
+    """Fill `out` with sample positions over low … high, dense where the gap is small.
 
-    Curvature jumps and narrow lobes may lie anywhere in a patch, but what is far from contact needs few samples.
+    Curvature jumps and narrow lobes may lie anywhere in a patch, but regions far from contact need few samples.
     """
     n = out.size
     total = 0.0

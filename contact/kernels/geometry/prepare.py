@@ -1,4 +1,4 @@
-"""Kernels that make a search's curves of two profiles: the parts that can touch, and the place of the rail in its gauge.
+"""Kernels that make the curves of a search from two profiles: the parts that can touch, and the rail's place in its gauge.
 
 A profile is an array with the rows y, z [m] and the angle of the tangent [rad], in the convention of `profile`.
 """
@@ -10,13 +10,13 @@ from contact.kernels import cubic
 from contact.kernels.geometry.curve import Array, Record
 from contact.kernels.layout import Curve
 
-#: Steeper parts of the profiles take no part in the search, whatever roll is allowed on top [rad].
+#: Largest slope angles of the parts that take part in the search [rad]. The roll comes in addition.
 STEEPEST_WHEEL, STEEPEST_RAIL = math.radians(80.0), math.radians(86.0)
 
 
 @kernel
 def turn(profile: Array, roll: float, out: Array) -> None:
-    """The profile turned about its origin by `roll`, positive from y towards z."""
+    """Fill `out` with the profile turned about its origin by `roll` [rad], positive from y towards z."""
     c, s = math.cos(roll), math.sin(roll)
     for i in range(profile.shape[1]):
         y, z = profile[Curve.Y, i], profile[Curve.Z, i]
@@ -25,17 +25,17 @@ def turn(profile: Array, roll: float, out: Array) -> None:
 
 
 @kernel
-def _fair(profile: Array, i: int, steepest: float) -> bool:
-    """Whether node i is less steep than that and the next one, if any, lies further out."""
+def _can_touch(profile: Array, i: int, steepest: float) -> bool:
+    """Return whether node i is less steep than `steepest` and the next one, if any, lies further out."""
     rising = i == profile.shape[1] - 1 or profile[Curve.Y, i + 1] > profile[Curve.Y, i]
     return rising and math.cos(profile[Curve.ANGLE, i]) > math.cos(steepest)
 
 
 @kernel
 def facing(profile: Array, is_wheel: bool) -> tuple[int, int]:
-    """First node, and the one after the last, around the wheel's tape circle or the rail's crown that can touch.
+    """Return the first node and the end of the part that can touch, around the wheel's tape circle or the rail's crown.
 
-    They are less steep than `STEEPEST_…` and have rising y; none where even the middle is steep.
+    Its nodes are less steep than `STEEPEST_…` and have rising y. The part is empty if even the middle is too steep.
     """
     n = profile.shape[1]
     steepest = STEEPEST_WHEEL if is_wheel else STEEPEST_RAIL
@@ -48,18 +48,18 @@ def facing(profile: Array, is_wheel: bool) -> tuple[int, int]:
         )
         centre = i if nearer else centre
     low, high = centre, centre
-    if not _fair(profile, centre, steepest):
+    if not _can_touch(profile, centre, steepest):
         return centre, centre
-    while low > 0 and _fair(profile, low - 1, steepest):
+    while low > 0 and _can_touch(profile, low - 1, steepest):
         low -= 1
-    while high < n and _fair(profile, high, steepest):
+    while high < n and _can_touch(profile, high, steepest):
         high += 1
     return low, high
 
 
 @kernel
 def cut(profile: Array, low: int, high: int, curve: Array) -> None:
-    """Nodes low … high - 1 as a curve: rows y, z, dz/dy."""
+    """Fill `curve` with the nodes low … high - 1 of a profile: rows y, z, dz/dy."""
     for i in range(low, high):
         curve[Curve.Y, i - low], curve[Curve.Z, i - low] = profile[Curve.Y, i], profile[Curve.Z, i]
         curve[Curve.SLOPE, i - low] = math.tan(profile[Curve.ANGLE, i])
@@ -67,15 +67,16 @@ def cut(profile: Array, low: int, high: int, curve: Array) -> None:
 
 @kernel
 def rail_origin(rail: Array, gauge: float, gauge_point: float) -> tuple[float, float, float]:
-    """(y, z) of the origin of the right rail's profile: its top at z = 0, its gauge face at half the gauge.
+    """Return (y, z) of the origin of the right rail's profile and the depth that its gauge side reaches [m].
 
-    The third number is the depth below the top that its gauge side reaches: `gauge_point` must lie less deep.
+    With this origin the top lies at z = 0 and the gauge face at half the gauge. The depth counts from the top.
+    `gauge_point` must be less deep.
     """
     highest = 0
     for i in range(1, rail.shape[1]):
         highest = i if rail[Curve.Z, i] < rail[Curve.Z, highest] else highest
     top = rail[Curve.Z, highest]
-    for i in range(max(highest - 1, 0), min(highest + 1, rail.shape[1] - 1)):  # the crest lies between two points
+    for i in range(max(highest - 1, 0), min(highest + 1, rail.shape[1] - 1)):  # the crest may lie between two points
         h, m0, m1 = (
             rail[Curve.Y, i + 1] - rail[Curve.Y, i],
             math.tan(rail[Curve.ANGLE, i]),
@@ -91,7 +92,7 @@ def rail_origin(rail: Array, gauge: float, gauge_point: float) -> tuple[float, f
             break
     if deepest < gauge_point or i == rail.shape[1] - 1:
         return 0.0, 0.0, deepest
-    h = rail[Curve.Z, i + 1] - rail[Curve.Z, i]  # the gauge face is steep: y is interpolated over z there
+    h = rail[Curve.Z, i + 1] - rail[Curve.Z, i]  # the gauge face is steep, so y is interpolated over z
     cot0, cot1 = 1.0 / math.tan(rail[Curve.ANGLE, i]), 1.0 / math.tan(rail[Curve.ANGLE, i + 1])
     y = cubic.value(h, rail[Curve.Y, i], cot0, rail[Curve.Y, i + 1], cot1, (top + gauge_point - rail[Curve.Z, i]) / h)
     return 0.5 * gauge - y, -top, deepest
@@ -99,7 +100,10 @@ def rail_origin(rail: Array, gauge: float, gauge_point: float) -> tuple[float, f
 
 @kernel
 def move(given: Record, motion: Record) -> None:
-    """Take over pose, velocity and the rail's irregularity from a record GIVEN of `layout`, mirrored to the right side."""
+    """Copy pose, velocity and the rail's irregularity from a record GIVEN of `layout` to `motion`.
+
+    They are mirrored to the right side, and the rail's origin is added.
+    """
     mirror = motion.mirror
     motion.y, motion.z, motion.roll, motion.yaw = mirror * given.y, given.z, mirror * given.roll, mirror * given.yaw
     motion.vx, motion.vy, motion.vz = given.vx, mirror * given.vy, given.vz

@@ -1,8 +1,8 @@
 """Contact search between one wheel and one rail: trace line, gap, lobes of interpenetration, patches.
 
-Everything here is the right side in track coordinates (x forward, y right, z down) and in metres. The wheel is shown to the
-rail by its trace line, the curve of points whose normal has no x component: for a rail that is a prism along x, contact
-can lie nowhere else (Wang's trace line, theory.md 9.4). With it the search is one in the y-z plane.
+All quantities are those of the right side in track coordinates (x forward, y right, z down), in metres. The wheel is
+represented by its trace line, the curve of points whose normal has no x component. The rail is a prism along x, so
+contact can lie nowhere else (Wang's trace line, theory.md 9.4). This makes the search one in the y-z plane.
 """
 
 import math
@@ -12,25 +12,26 @@ from contact.kernels import cubic
 from contact.kernels.geometry.curve import Array, Record, advance, at
 from contact.kernels.layout import MAX_LOBES, Curve
 
-_COINCIDENT = 1e-9  # [m]
-_GAUSS_T = 0.5 * math.sqrt(0.6)
-_TRANSITION = 0.25  # of the limits of distance and angle: over so much beyond them one plane passes into two
+_COINCIDENT = 1e-9  # [m] distance below which points coincide
+_GAUSS_T = 0.5 * math.sqrt(0.6)  # outer nodes of three-point Gauss, from the middle of an interval of length 1
+_TRANSITION = 0.25  # of the limits of distance and angle: width of the transition from one plane to two
 
 
 @kernel
 def axle(roll: float, yaw: float) -> tuple[float, float, float]:
-    """Direction of the axle, towards the right wheel."""
+    """Return the direction of the axle, towards the right wheel."""
     return -math.sin(yaw) * math.cos(roll), math.cos(yaw) * math.cos(roll), math.sin(roll)
 
 
 @kernel
 def trace(wheel: Array, n: int, radius: float, tape: float, y: float, roll: float, yaw: float, line: Array) -> int:
-    """Trace line of the wheel profile `wheel` [m] of a wheelset at (y, z = 0, roll, yaw); returns its first valid node.
+    """Fill the trace line of the wheel profile `wheel` [m]. Return its first valid node.
 
-    A point of the profile turns on a circle of radius r about the axle direction l. Of that circle the point whose surface
-    normal e_r - r'·l has no x component is at l_x·(d + r r') (theory.md 9.4, with its height factor); d is the distance from
-    the wheelset's centre. In a fillet too narrow for the yaw the trace line folds back on itself: there the lower of its
-    branches is the outline of the wheel, and nodes above it are left out.
+    The wheelset is at (y, z = 0, roll, yaw). A point of the profile turns on a circle of radius r about the axle
+    direction l. The point of that circle whose surface normal e_r - r'·l has no x component is at l_x·(d + r r')
+    (theory.md 9.4, with its height factor), where d is the distance from the wheelset's centre. In a fillet that is too
+    narrow for the yaw the trace line folds back on itself. There the lower branch is the outline of the wheel, and
+    nodes above it are left out.
     """
     lx, ly, lz = axle(roll, yaw)
     c2 = 1.0 - lx * lx
@@ -38,7 +39,7 @@ def trace(wheel: Array, n: int, radius: float, tape: float, y: float, roll: floa
     for j in range(n - 1, -1, -1):
         d, r, rp = tape + wheel[Curve.Y, j], radius + wheel[Curve.Z, j], wheel[Curve.SLOPE, j]
         h2 = c2 - (lx * rp) ** 2
-        if h2 <= 0.0:  # steeper than the axle's own yaw allows: the ring never faces the rail
+        if h2 <= 0.0:  # too steep for this yaw: the ring never faces the rail
             continue
         h = math.sqrt(h2)
         py = y + d * ly - r * (rp * lx * lx * ly + h * lz) / c2
@@ -65,9 +66,10 @@ def trace(wheel: Array, n: int, radius: float, tape: float, y: float, roll: floa
 
 @kernel
 def on_wheel(slope: float, py: float, pz: float, lx: float, ly: float, lz: float) -> tuple[float, float, float]:
-    """x, axial distance and rolling radius of the trace point (py, pz), relative to the wheelset centre, of given slope.
+    """Return x, axial distance and rolling radius [m] of the trace point (py, pz) with the given slope.
 
-    The normal there is n = (0, -sin, cos) of the slope; e_r is its part across the axle, so both follow without the profile.
+    The point is relative to the wheelset's centre. Its normal is n = (0, -sin, cos) of the slope. e_r is the part of n
+    perpendicular to the axle. So the profile is not needed.
     """
     norm = 1.0 / math.sqrt(1.0 + slope * slope)
     ny, nz = -slope * norm, norm
@@ -82,7 +84,7 @@ def on_wheel(slope: float, py: float, pz: float, lx: float, ly: float, lz: float
 
 @kernel
 def place(rail: Array, n: int, y: float, z: float, roll: float, placed: Array) -> None:
-    """The rail profile in track coordinates: turned by `roll` about its origin, which lies at (y, z)."""
+    """Fill `placed` with the rail profile in track coordinates: turned by `roll` about its origin, which lies at (y, z)."""
     c, s = math.cos(roll), math.sin(roll)
     for j in range(n):
         placed[Curve.Y, j] = y + c * rail[Curve.Y, j] - s * rail[Curve.Z, j]
@@ -92,7 +94,7 @@ def place(rail: Array, n: int, y: float, z: float, roll: float, placed: Array) -
 
 @kernel
 def vertical_gap(line: Array, first: int, n: int, placed: Array, n_rail: int) -> tuple[int, int]:
-    """Fill the gap rows of the trace line; returns the range of nodes that lie above the rail."""
+    """Fill the gap rows of the trace line. Return the range of nodes that lie above the rail."""
     start, i = n, 0
     for j in range(first, n):
         y = line[Curve.Y, j]
@@ -110,7 +112,10 @@ def vertical_gap(line: Array, first: int, n: int, placed: Array, n_rail: int) ->
 
 @kernel
 def touch(line: Array, start: int, end: int) -> float:
-    """Least vertical gap at pose.z = 0: the z of the wheelset at which the rigid wheel just touches."""
+    """Return the smallest vertical gap at pose.z = 0 [m].
+
+    It is the z of the wheelset at which the rigid wheel just touches.
+    """
     lowest = line[Curve.GAP, start]
     for j in range(start, end - 1):
         lowest = min(lowest, line[Curve.GAP, j + 1])
@@ -125,7 +130,7 @@ def touch(line: Array, start: int, end: int) -> float:
 
 
 @kernel
-def _weigh(line: Array, j: int, z: float, t0: float, t1: float, lobe: Record, k: int) -> None:
+def _add_moments(line: Array, j: int, z: float, t0: float, t1: float, lobe: Record, k: int) -> None:
     """Add segment j between t0 and t1 to the moments of lobe k, by three Gauss points."""
     h = line[Curve.Y, j + 1] - line[Curve.Y, j]
     g0, m0 = line[Curve.GAP, j], line[Curve.OPENING, j]
@@ -146,12 +151,12 @@ def _weigh(line: Array, j: int, z: float, t0: float, t1: float, lobe: Record, k:
 
 @kernel
 def lobes(line: Array, start: int, end: int, z: float, lobe: Record) -> int:
-    """Runs of y in which the wheel, lowered by z, lies inside the rail; returns their number.
+    """Fill `lobe` with the runs of y in which the wheel, lowered by z, lies inside the rail. Return their number.
 
-    Points are weighted with depth^(5/2), which is the square of the interpenetration integrated along x. The mean position
-    becomes the reference point and the mean direction of the rail the contact angle, so both move smoothly with the pose
-    and a new lobe enters without a jump. The weight is CONTACT's: with it, and with no other power, its printed reference
-    points come out (benchmarks/geometry_table.py).
+    Points are weighted with depth^(5/2), which is the square of the interpenetration integrated along x. The mean
+    position becomes the reference point, and the mean direction of the rail becomes the contact angle. So both move
+    smoothly with the pose, and a new lobe enters without a jump. The weight is that of CONTACT: its printed reference
+    points are reproduced with this power and with no other (benchmarks/geometry_table.py).
     """
     k, inside = -1, False
     for j in range(start, end - 1):
@@ -177,7 +182,7 @@ def lobes(line: Array, start: int, end: int, z: float, lobe: Record) -> int:
             lobe[k].weight, lobe[k].moment, lobe[k].cosine, lobe[k].sine = 0.0, 0.0, 0.0, 0.0
             lobe[k].low = line[Curve.Y, j] + t0 * h
             lobe[k].low_z = at(line, j, lobe[k].low)[0] + z
-        _weigh(line, j, z, t0, t1, lobe, k)
+        _add_moments(line, j, z, t0, t1, lobe, k)
         lobe[k].high = line[Curve.Y, j] + t1 * h
         lobe[k].high_z = at(line, j, lobe[k].high)[0] + z
         inside = g1 < 0.0
@@ -185,8 +190,8 @@ def lobes(line: Array, start: int, end: int, z: float, lobe: Record) -> int:
 
 
 @kernel
-def _beyond(value: float, limit: float) -> float:
-    """0 up to the limit, 1 from 5/4 of it on, smooth between."""
+def _transition(value: float, limit: float) -> float:
+    """Return 0 up to the limit, 1 from 5/4 of it on, and a smooth step between."""
     if limit <= 0.0:
         return 1.0 if value > 0.0 else 0.0
     t = min(max((value - limit) / (_TRANSITION * limit), 0.0), 1.0)
@@ -195,18 +200,20 @@ def _beyond(value: float, limit: float) -> float:
 
 @kernel
 def combine(lobe: Record, n: int, distance: float, angle: float, most: int) -> int:
-    """Merge neighbouring lobes in place into at most `most` patches; returns the number of patches.
+    """Merge neighbouring lobes in place into at most `most` patches. Return the number of patches.
 
-    Two lobes become patches of their own when their nearest edges are further apart than `distance` [m], in a straight line,
-    and their angles differ by more than `angle` [rad]; nearer ones share one plane. From 1 to 5/4 of these limits they are
-    both, each with a share (`shared`): no normal method has the same answer for two lobes in one plane and for each alone,
-    so that only a mean of both leads smoothly from one to the other. CONTACT lets the interaction of lobes fade from 4 to
-    8 mm and takes planes of their own from there on, whatever the angle.
-    The angle of each side is that of all that lies near on it, so that it does not matter whether they are one lobe or two.
+    Two lobes become separate patches if their nearest edges are further apart than `distance` [m], in a straight line,
+    and their angles differ by more than `angle` [rad]. Otherwise they share one plane. From 1 to 5/4 of these limits
+    they count in both ways, each with a share (`shared`). No normal method has the same result for two lobes in one
+    plane and for each alone, so only a mean of both passes smoothly from one to the other. CONTACT lets the interaction
+    of lobes fade from 4 to 8 mm and uses separate planes from there on, whatever the angle.
+
+    The angle of each side is that of all lobes near it on this side. So it does not matter whether these are one lobe
+    or two.
     """
     for i in range(1, n):
         dy, dz = lobe[i].low - lobe[i - 1].high, lobe[i].low_z - lobe[i - 1].high_z
-        lobe[i].tie = 1.0 - _beyond(math.sqrt(dy * dy + dz * dz), distance)
+        lobe[i].tie = 1.0 - _transition(math.sqrt(dy * dy + dz * dz), distance)
     k, tie, cosine, sine = 0, 0.0, 0.0, 0.0
     for i in range(1, n):
         cosine, sine = lobe[i - 1].cosine + tie * cosine, lobe[i - 1].sine + tie * sine
@@ -217,7 +224,7 @@ def combine(lobe: Record, n: int, distance: float, angle: float, most: int) -> i
             cosine_ahead += share * lobe[j].cosine
             sine_ahead += share * lobe[j].sine
         turn = abs(math.atan2(sine_ahead, cosine_ahead) - math.atan2(sine, cosine))
-        apart = (1.0 - tie) * _beyond(turn, angle)
+        apart = (1.0 - tie) * _transition(turn, angle)
         if apart > 0.0 and k < most - 1:
             k += 1
             lobe[k] = lobe[i]
@@ -229,7 +236,7 @@ def combine(lobe: Record, n: int, distance: float, angle: float, most: int) -> i
 
 @kernel
 def join(lobe: Record, patch: Record) -> None:
-    """Add a lobe to a patch on its left."""
+    """Add a lobe to the patch on its left."""
     patch.high, patch.high_z = lobe.high, lobe.high_z
     patch.weight += lobe.weight
     patch.moment += lobe.moment
@@ -239,7 +246,7 @@ def join(lobe: Record, patch: Record) -> None:
 
 @kernel
 def shared(lobe: Record, n: int, first: int, last: int) -> float:
-    """Share with which the patches first … last of `n` count as one: the shares of each patch so add up to 1."""
+    """Return the share with which the patches first … last of `n` count as one. The shares of each patch add up to 1."""
     share = 1.0 if first == 0 else 1.0 - lobe[first].tie
     for k in range(first + 1, last + 1):
         share *= lobe[k].tie
@@ -248,7 +255,10 @@ def shared(lobe: Record, n: int, first: int, last: int) -> float:
 
 @kernel
 def untie(lobe: Record, n: int, most: int) -> None:
-    """Round ties, the nearest to 0 or 1 first, until `n` patches with all that they form together are at most `most`."""
+    """Round ties until `n` patches, with all patches that they form together, are at most `most`.
+
+    The tie nearest to 0 or 1 is rounded first.
+    """
     for _ in range(n):
         count = 0
         for last in range(n):

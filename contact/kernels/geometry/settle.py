@@ -1,4 +1,4 @@
-"""How deep the wheel sits on the rail: at a given z, at a given penetration, or under a given vertical load.
+"""Height of the wheel on the rail: at a given z, at a given penetration, or under a given vertical load.
 
 These are the entry kernels of the geometry. They return the number of patches or, below zero, a value of `NoAnswer`.
 """
@@ -15,13 +15,13 @@ from contact.kernels.normal.analyn import analyn
 from contact.kernels.result import clear
 
 _MAX_ITERATIONS = 60
-_TOLERANCE = 1e-11  # of the load; it is noise of the height, and difference quotients of FMUs see that
-DEEPEST = 5e-3  # [m] below first touch: far beyond any load that steel carries
+_TOLERANCE = 1e-11  # of the load; it becomes noise of the height and of difference quotients of FMUs
+DEEPEST = 5e-3  # [m] below first touch, far beyond any load that steel carries
 
 
 @kernel
 def oppose(wheel: Array, rail: Array, motion: Record, line: Array, placed: Array) -> tuple[int, int, int]:
-    """Trace line, placed rail and the gap between; returns the first trace node and the range of those above the rail."""
+    """Fill trace line, placed rail and the gap between. Return the first trace node and the range of those above the rail."""
     n = wheel.shape[1]
     first = trace(wheel, n, motion.radius, motion.tape, motion.y, motion.roll, motion.yaw, line)
     place(rail, rail.shape[1], motion.rail_y, motion.rail_z, motion.rail_roll, placed)
@@ -31,7 +31,7 @@ def oppose(wheel: Array, rail: Array, motion: Record, line: Array, placed: Array
 
 @kernel
 def first_touch(wheel: Array, rail: Array, motion: Record, line: Array, placed: Array) -> tuple[bool, float]:
-    """Do the profiles lie above each other, and the z at which the rigid wheel just touches."""
+    """Return whether the profiles lie above each other, and the z [m] at which the rigid wheel just touches."""
     _, start, end = oppose(wheel, rail, motion, line, placed)
     if end - start < 3:
         return False, 0.0
@@ -40,7 +40,10 @@ def first_touch(wheel: Array, rail: Array, motion: Record, line: Array, placed: 
 
 @kernel
 def carried(n: int, space: Search) -> float:
-    """Vertical force of the pressures of n patches by ANALYN, sum of share N cos(angle); fills `load` of each patch."""
+    """Return the vertical force of the pressures of n patches by ANALYN [N]. Fill `load` of each patch.
+
+    The force is the sum of share N cos(angle).
+    """
     total = 0.0
     case, result, patches = space.case[0], space.result[0], space.patches
     case.load_kind = LoadKind.APPROACH
@@ -57,14 +60,14 @@ def carried(n: int, space: Search) -> float:
 
 @kernel
 def _describe_at(z: float, first: int, start: int, end: int, space: Search) -> int:
-    """All patches with the wheelset at z, which is left in motion.z."""
+    """Set motion.z to z, describe all patches there and return their number."""
     space.motion[0].z = z
     return describe_all(first, start, end, space)
 
 
 @kernel
 def locate(space: Search) -> int:
-    """Describe the patches at motion.z; needs none of the arrays of the normal problem."""
+    """Describe the patches at motion.z and return their number. The arrays of the normal problem are not needed."""
     motion = space.motion[0]
     first, start, end = oppose(space.wheel, space.rail, motion, space.line, space.placed)
     if end - start < 3:
@@ -76,10 +79,10 @@ def locate(space: Search) -> int:
 
 @kernel
 def settle(mode: int, amount: float, space: Search) -> int:
-    """Find z as `mode` says, leave it in motion.z and describe the patches there.
+    """Set motion.z as `mode` says, describe the patches there and return their number.
 
-    Under a load, F^(2/3) is nearly linear in the penetration (Hertz); its root is bracketed and found by the Illinois
-    variant of regula falsi, usually at the fifth force, by bisection when that is slow.
+    Under a load, F^(2/3) is nearly linear in the penetration (Hertz). Its root is bracketed and found by the Illinois
+    variant of regula falsi, usually at the fifth force. If that is slow, bisection is used.
     """
     if mode == Height.GIVEN:
         return locate(space)
@@ -88,7 +91,7 @@ def settle(mode: int, amount: float, space: Search) -> int:
     if end - start < 3:
         return NoAnswer.NO_OVERLAP.value
     z0 = touch(space.line, start, end)
-    if amount <= 0.0:  # no load, no depth: no patch, not even one of round-off
+    if amount <= 0.0:  # no load or depth: no patch, not even one due to round-off
         motion.z = z0 + amount
         return 0
     if mode == Height.PENETRATION:
@@ -111,7 +114,7 @@ def settle(mode: int, amount: float, space: Search) -> int:
             low, f_low, side = p, f, -1
         if high < math.inf:
             p = low - f_low * (high - low) / (f_high - f_low) if iteration < 15 else 0.5 * (low + high)
-        else:  # extrapolate the line, a little beyond
+        else:  # extrapolate the line and go a little further
             p = min(1.05 * p * target / (f + target), 3.0 * p) if f > -target else 3.0 * p
             if p > DEEPEST:
                 return NoAnswer.NOT_SETTLED.value

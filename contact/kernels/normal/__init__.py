@@ -1,1 +1,1 @@
-"""Normal contact: separation and load in, strips with semi-elliptic pressure out. One method a file."""
+"""Normal contact: from separation and load to strips with semi-elliptic pressure. One method per file."""

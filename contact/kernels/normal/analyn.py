@@ -1,17 +1,17 @@
 """ANALYN: the non-elliptic patch from an approximate surface deformation (theory.md 3; thesis section 9).
 
-On the edge of a Hertzian patch the displacement is a multiple of the separation: alpha·A a² at (a, 0), beta·B b² at (0, b).
-ANALYN uses these factors of the local A(y), B(y) on the true separation,
+On the edge of a Hertzian patch the displacement is a multiple of the separation: alpha·A a² at (a, 0), beta·B b² at (0,
+b). ANALYN applies these factors, of the local A(y), B(y), to the true separation,
 
-    (1 + alpha) A (x - x_c)² + (1 + beta) g = delta,                                       (theory.md 3.1)
+    (1 + alpha) A (x - x_c)² + (1 + beta) g = delta.                                       (theory.md 3.1)
 
-so a strip is in contact where d(y) = delta - (1 + beta) g > 0, with half length a = √(d/((1 + alpha) A)) and the peak
-pressure of a Hertz contact (A, B) at approach d: p0 = (2 E*/pi) d/(n r a) (thesis Eq. 9.1, corrected).
-Its strip load (pi/2) p0 a = E* d/(n r) is linear in d: the load is a convex, monotone function of the approach.
+So a strip is in contact where d(y) = delta - (1 + beta) g > 0. Its half length is a = √(d/((1 + alpha) A)). Its peak
+pressure is that of a Hertz contact (A, B) at approach d: p0 = (2 E*/pi) d/(n r a) (thesis Eq. 9.1, corrected). Its
+strip load (pi/2) p0 a = E* d/(n r) is linear in d, so the load is a convex, monotone function of the approach.
 
-Departures from the thesis, which does not say how curvature jumps are treated: B(y) is a second difference over a fixed width
-and floored (theory.md 3.3), and the deformation beta·g of a flank never falls where the gap opens (set D: mean error of N
-2.78 → 2.69 %, of the area 2.96 → 2.85 %; among 400 other real patches no satellite patch instead of three).
+The thesis does not say how curvature jumps are treated. Here B(y) is a second difference over a fixed width and floored
+(theory.md 3.3), and the deformation beta·g of a flank never falls where the gap opens (set D: mean error of N 2.78 →
+2.69 %, of the area 2.96 → 2.85 %; among 400 other real patches no satellite patch instead of three).
 """
 
 import math
@@ -25,28 +25,28 @@ from contact.kernels.normal.lay import at_end, find_patches, lay_strips, least_p
 
 #: Half base of the second difference that gives B(y) [m]: a triangular average of g'' with standard deviation 1 mm.
 CURVATURE_HALF_BASE = 2.45e-3
-#: Least half curvature B [1/m]; negative and vanishing curvature count as this flat (CONTACT's value; theory.md 3.3).
+#: Smallest half curvature B [1/m]. Negative and vanishing curvature count as this value, CONTACT's (theory.md 3.3).
 CURVATURE_FLOOR = 0.1
 
 #: An overlap below this fraction of the separation's width is round-off, not contact.
 NO_OVERLAP = 1e-14
 
-#: Nodes at which the local factors are computed, in one half base.
+#: Number of nodes per half base at which the local factors are computed.
 NODES_PER_HALF_BASE = 5
 
-#: How many times faster than the gap its deformation may fall (`_keep_rising`).
+#: Largest ratio of the fall of the deformation to the fall of the gap (`_keep_rising`).
 STEEPEST = 20.0
 
-#: Product of the shares of the load that may be missing at the ends of the last secant.
+#: Limit of the product of the relative errors of the load at both ends of the last secant.
 SECANT_CLOSE = 1e-8
 
-#: Steps before bisection, which closes in on a step of the load, and the cap.
+#: Number of steps before bisection, which converges to a step of the load, and limit of iterations.
 _STEPS, _MAX_ITERATIONS = 15, 60
 
 
 @kernel
 def floored(B):
-    """max(B, floor) with its corner rounded to a continuous slope; equal to B from twice the floor on."""
+    """Return max(B, floor) [1/m] with its corner rounded to a continuous slope. It is B from twice the floor on."""
     if B >= 2.0 * CURVATURE_FLOOR:
         return B
     if B <= 0.0:
@@ -56,11 +56,11 @@ def floored(B):
 
 @kernel
 def lateral_curvature(y, g, m, n, i, below, above):
-    """B = g''/2 at sample i as a second difference of the interpolated gap over ±CURVATURE_HALF_BASE.
+    """Return B = g''/2 [1/m] at sample i and two indices for the neighbouring sample.
 
-    A second difference is g'' averaged with a triangle: it needs no second derivative of noisy profiles, has a fixed
-    physical width, and is exact for a parabola. At the ends of the data the base is shifted inwards. `below` and `above` are
-    indices to search from, any; those found are returned for the neighbouring sample.
+    B is a second difference of the interpolated gap over ±CURVATURE_HALF_BASE. That is g'' averaged with a triangle. It
+    needs no second derivative of noisy profiles, has a fixed physical width, and is exact for a parabola. At the ends
+    of the data the base is shifted inwards. `below` and `above` are any indices to search from.
     """
     base = max(CURVATURE_HALF_BASE, 0.5 * (y[min(i + 1, n - 1)] - y[max(i - 1, 0)]))
     base = min(base, 0.5 * (y[n - 1] - y[0]))
@@ -81,13 +81,13 @@ def lateral_curvature(y, g, m, n, i, below, above):
 
 @kernel
 def lattice(span, n):
-    """Step of the nodes at which B is computed, their number to each side of the middle, and nodes per half base.
+    """Return the step of the nodes at which B is computed [m], their number to each side of the middle, and per half base.
 
-    A node more than the samples could hold makes the lattice coarser.
+    If there were more nodes than samples, the step is made larger.
     """
     apart = NODES_PER_HALF_BASE
     step = min(CURVATURE_HALF_BASE, 0.5 * span) / apart
-    count = 0.5 * span / step * (1.0 + 1e-12)  # compared as a number: any span is allowed, also one that has overflown
+    count = 0.5 * span / step * (1.0 + 1e-12)  # compared as a float: any span is allowed, also one that has overflowed
     half = max(int(count), apart) if count < n else n
     if 2 * half >= n:
         half = (n - 1) // 2
@@ -98,11 +98,12 @@ def lattice(span, n):
 
 @kernel
 def prepare(y, g, A, n, g_least, work):
-    """Local Hertz factors and effective gap (1 + beta)(g - min g) at every sample.
+    """Fill local Hertz factors and effective gap (1 + beta)(g - min g) at every sample.
 
-    The factors follow B, an average over the base: between nodes a fifth of it apart they are as good as linear, in constant B
-    exactly. The nodes lie symmetrically in the data, whatever the gap, and B is a second difference of the gap there. Closer
-    to an end of the data than the base, B is that of the last node with a whole base.
+    The factors follow B, which is an average over the base. Between nodes a fifth of it apart they are nearly linear,
+    and exactly so if B is constant. The nodes lie symmetrically in the data, whatever the gap, and B is a second
+    difference of the gap at them. Closer to an end of the data than the base, B is that of the last node with a whole
+    base.
     """
     gaps, curvatures = work[Sample.EFFECTIVE_SLOPE], work[Sample.SHARE]  # of nodes; both rows are free until the slopes
     step, half, apart = lattice(y[n - 1] - y[0], n)
@@ -115,7 +116,7 @@ def prepare(y, g, A, n, g_least, work):
         t = (at - y[k]) / h if h > 0.0 else 0.0
         gaps[j] = cubic.value(h, g[k], work[Sample.GAP_SLOPE, k], g[k + 1], work[Sample.GAP_SLOPE, k + 1], t)
         curvatures[j] = (1.0 - t) * A[k] + t * A[k + 1]
-    # no overflow, nor 0·inf, where the samples lie closer than numbers can tell
+    # no overflow and no 0·inf where samples are closer than round-off
     scale, per_step = 0.5 / max((apart * step) ** 2, 1e-300), 1.0 / max(step, 1e-300)
     i = 0
     alpha, beta, nr, log_aspect = 0.0, 0.0, 0.0, 0.0
@@ -130,7 +131,7 @@ def prepare(y, g, A, n, g_least, work):
         left, end, beyond = first + (j - 1) * step, first + j * step, j > 2 * half
         d_alpha, d_beta = (alpha - alpha_before) * per_step, (beta - beta_before) * per_step
         d_nr, d_log = (nr - nr_before) * per_step, (log_aspect - log_before) * per_step
-        while i < n and (beyond or y[i] < end):  # also samples that have overflown: nothing is left unwritten
+        while i < n and (beyond or y[i] < end):  # also samples that have overflowed, so that all are written
             t = y[i] - left
             work[Sample.STRETCHED_A, i] = A[i] * (alpha_before + t * d_alpha)
             work[Sample.EFFECTIVE_GAP, i] = (beta_before + t * d_beta) * (g[i] - g_least)
@@ -139,7 +140,7 @@ def prepare(y, g, A, n, g_least, work):
     _keep_rising(g, n, work)
     gap, slope = work[Sample.EFFECTIVE_GAP], work[Sample.EFFECTIVE_SLOPE]
     slopes(y, gap, n, slope)
-    # noise or a curvature jump may let the interpolated product dip below zero: a patch would be born with a finite width
+    # noise or a curvature jump may bring the interpolated product below zero: a patch would appear with a finite width
     _, deepest = least_point(y, gap, slope, n)
     for i in range(n):
         gap[i] -= deepest
@@ -147,16 +148,17 @@ def prepare(y, g, A, n, g_least, work):
 
 @kernel
 def _keep_rising(g, n, work):
-    """Let the deformation beta·g not fall where the gap opens: the effective gap rises at least as the gap itself.
+    """Raise the effective gap so that the deformation beta·g does not fall where the gap opens.
 
-    A convex flank that turns concave would lose beta faster than the gap opens, which made a satellite patch without load.
-    Beyond a summit of the gap the deformation may fall with it, STEEPEST times as fast: the rule fades, or the result would
-    jump where a summit moves from one sample to the next.
+    Then the effective gap rises at least as the gap itself. On a convex flank that turns concave, beta would fall
+    faster than the gap opens, which made a satellite patch without load. Beyond a maximum of the gap the deformation
+    may fall with it, STEEPEST times as fast. So the rule fades out; otherwise the result would jump where a maximum
+    moves from one sample to the next.
     """
     gap, deformation = work[Sample.EFFECTIVE_GAP], work[Sample.SHARE]
     for i in range(n):
         deformation[i] = gap[i] - g[i]
-    up, down = deformation[0], deformation[n - 1]  # the least that is allowed, from the left and from the right
+    up, down = deformation[0], deformation[n - 1]  # lower bounds of the deformation, from the left and from the right
     for i in range(1, n):
         j = n - 1 - i
         rise = g[i] - g[i - 1]
@@ -168,8 +170,11 @@ def _keep_rising(g, n, work):
 
 
 @kernel
-def _carried(delta, n, gap, share):
-    """Load over the modulus and its slope at an approach, by the samples; four sums, as one waits for every addition."""
+def _sampled_load(delta, n, gap, share):
+    """Return load over the modulus and its slope at an approach, summed over the samples.
+
+    Four partial sums are used, because in one sum every addition waits for the one before.
+    """
     N0, N1, N2, N3, k0, k1, k2, k3 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     quads = (n - 2) // 4
     for q in range(quads):
@@ -187,17 +192,17 @@ def _carried(delta, n, gap, share):
 
 @kernel
 def estimated_approach(y, n, load, modulus, work, hertz):
-    """Approach at which the samples carry the load, to about a thousandth.
+    """Return the approach [m] at which the samples carry the load, to about a thousandth.
 
-    Newton on a convex, piecewise linear function, started from Hertz's approach at the least point; that is also the answer
-    when the patch is narrower than the samples.
+    Newton's method on a convex, piecewise linear function starts from Hertz's approach at the smallest gap. That is
+    also the result if the patch is narrower than the samples.
     """
     gap, share = work[Sample.EFFECTIVE_GAP], work[Sample.SHARE]
     for i in range(1, n - 1):
         share[i] = 0.5 * (y[i + 1] - y[i - 1]) / work[Sample.NR, i]
     delta = hertz
     for _ in range(12):
-        N, stiffness = _carried(delta, n, gap, share)
+        N, stiffness = _sampled_load(delta, n, gap, share)
         if stiffness == 0.0:
             return hertz
         change = (load / modulus - N) / stiffness
@@ -209,7 +214,7 @@ def estimated_approach(y, n, load, modulus, work, hertz):
 
 @kernel
 def load_at(y, n, delta, modulus, across, work, edges):
-    """Load and stiffness dN/d(delta) at approach `delta` above first touch."""
+    """Return load [N] and stiffness dN/d(delta) [N/m] at approach `delta` above first touch."""
     nodes, weights = across.nodes, across.weights
     G, m, nr = work[Sample.EFFECTIVE_GAP], work[Sample.EFFECTIVE_SLOPE], work[Sample.NR]
     count = find_patches(y, G, m, n, delta, edges)
@@ -231,7 +236,7 @@ def load_at(y, n, delta, modulus, across, work, edges):
 
 @kernel
 def fill_strips(sep, delta, modulus, across, work, edges, strips):
-    """Lay strips at approach `delta`; return load, stiffness and number of strips."""
+    """Fill `strips` at approach `delta`. Return load [N], stiffness [N/m] and number of strips."""
     y, xc, n = sep.y, sep.x_c, sep.y.size
     G, m = work[Sample.EFFECTIVE_GAP], work[Sample.EFFECTIVE_SLOPE]
     count = find_patches(y, G, m, n, delta, edges)
@@ -259,10 +264,10 @@ def fill_strips(sep, delta, modulus, across, work, edges, strips):
 
 @kernel
 def solve_load(sep, y_least, case, across, work, result):
-    """Approach above first touch that carries `load`, with everything prepared.
+    """Return the approach above first touch [m] that carries the load `case.amount`. Prepare everything for it.
 
-    N ~ delta^(3/2) in Hertz contact: bracketed steps on N^(2/3). The first is Newton's; its slope is that of fixed strips, one
-    or two per cent off, so the others are secants.
+    N ~ delta^(3/2) in Hertz contact, so steps are bracketed steps on N^(2/3). The first is Newton's. Its slope is that
+    of fixed strips, one or two per cent off, so the others are secants.
     """
     y, n, edges = sep.y, sep.y.size, result.edges
     load, modulus = case.amount, case.G / (1.0 - case.nu)
@@ -287,13 +292,13 @@ def solve_load(sep, y_least, case, across, work, result):
             new = delta - 1.5 * N / stiffness * left / (1.0 + left)
         else:
             new = 2.0 * delta
-        if missing * missing_before <= SECANT_CLOSE:  # what a secant leaves goes with both
+        if missing * missing_before <= SECANT_CLOSE:  # the error of a secant is proportional to both
             return new
         before, left_before, missing_before = delta, left, missing
         if not low < new < high or (iteration >= _STEPS and high < math.inf):
             new = 0.5 * (low + high) if high < math.inf else 2.0 * delta
         if new == delta or high - low <= 1e-12 * delta:  # a step: two patches merge within one sample interval
-            return high if high < math.inf else delta  # its upper side, whatever the way there
+            return high if high < math.inf else delta  # its upper side, so that the result does not depend on the path
         delta = new
     result.status = Status.NOT_CONVERGED
     return delta
@@ -301,9 +306,9 @@ def solve_load(sep, y_least, case, across, work, result):
 
 @kernel
 def analyn(sep, case, across, work, strips, result):
-    """Solve the normal problem; fill `strips` (`Strip.ASPECT` holds ln(a/b)) and `result`; return the number of strips.
+    """Solve the normal problem. Fill `strips` (`Strip.ASPECT` holds ln(a/b)) and `result`. Return the number of strips.
 
-    `across` is the rule by which strips lie in a patch, `work` a scratch array of the rows of `Sample`.
+    `across` is the rule for the positions of strips in a patch. `work` is a scratch array of the rows of `Sample`.
     """
     y, g, A, n = sep.y, sep.g, sep.A, sep.y.size
     modulus = case.G / (1.0 - case.nu)
@@ -324,11 +329,11 @@ def analyn(sep, case, across, work, strips, result):
     else:
         delta = solve_load(sep, y_least, case, across, work, result)
     N, stiffness, n_strips = fill_strips(sep, delta, modulus, across, work, edges, strips)
-    if N <= 0.0 or delta <= NO_OVERLAP * (y[n - 1] - y[0]):  # less load than numbers can tell
+    if N <= 0.0 or delta <= NO_OVERLAP * (y[n - 1] - y[0]):  # the load is below round-off
         result.status, result.approach = Status.NO_CONTACT, g_least
         return 0
     if not by_approach:
-        # what is left of round-off, or of the step at which two patches merge, is taken by the pressure
+        # the pressure is scaled to remove the rest of round-off, or of the step at which two patches merge
         for i in range(n_strips):
             strips[Strip.P0, i] *= load / N
         N = load

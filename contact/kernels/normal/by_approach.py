@@ -1,7 +1,8 @@
-"""The methods whose strips follow from the approach in one go, and the search for the approach that carries a load.
+"""Methods whose strips follow from the approach without iteration, and the search for the approach that carries a load.
 
-Virtual penetration is one sequence: an effective gap, prepared in `work`, is cut at the approach, the strips get their shape,
-then their pressure. `_load_at` shows it; a method's file holds what only that method does.
+All methods of virtual penetration have one sequence. An effective gap, prepared in `work`, is cut at the approach. Then
+the strips get their shape, then their pressure. `_load_at` shows this sequence. The file of a method has only what is
+specific to it.
 """
 
 import math
@@ -23,7 +24,7 @@ from contact.kernels.normal.multi_hertz import beyond, multi_hertz
 from contact.kernels.normal.pascal_sauvage import one_ellipse
 from contact.kernels.normal.winkler import winkler
 
-#: Secant steps before bisection, which closes in on a step of the load, and the cap.
+#: Number of secant steps before bisection, which converges to a step of the load, and limit of iterations.
 _SECANT_ITERATIONS, MAX_ITERATIONS = 20, 70
 #: Relative step of the difference quotient that gives the stiffness.
 _DIFFERENCE = 1e-6
@@ -31,6 +32,7 @@ _DIFFERENCE = 1e-6
 
 @kernel
 def _prepare(method, sep, point, work):
+    """Fill the rows of `work` that do not depend on the approach."""
     y, g, A, n = sep.y, sep.g, sep.A, sep.y.size
     if method == Normal.STRIPES_A or method == Normal.STRIPES_AB:
         stripes.prepare(y, g, A, n, point, method == Normal.STRIPES_AB, work)
@@ -47,7 +49,7 @@ def _prepare(method, sep, point, work):
 
 @kernel
 def _load_at(case, sep, delta, point, across, work, strips, edges):
-    """Fill `strips` at approach delta; return load, number of strips and whether the patch reaches the end of the data."""
+    """Fill `strips` at approach delta. Return load [N], number of strips and whether the patch reaches the end of the data."""
     method, modulus = case.normal, case.G / (1.0 - case.nu)
     y, n, panel = sep.y, sep.y.size, across.nodes.size
     if method == Normal.STRIPES_A or method == Normal.STRIPES_AB:
@@ -84,7 +86,7 @@ def _load_at(case, sep, delta, point, across, work, strips, edges):
 
 @kernel
 def by_approach(sep, case, across, work, strips, result):
-    """Solve the normal problem; same arguments and answers as `analyn`."""
+    """Solve the normal problem. Arguments and results are those of `analyn`."""
     y, n, edges = sep.y, sep.y.size, result.edges
     point = deepest(y, sep.g, sep.A, n, work)
     result.status, result.iterations, result.touch = Status.OK, 0, point.g
@@ -98,7 +100,7 @@ def by_approach(sep, case, across, work, strips, result):
     _prepare(case.normal, sep, point, work)
 
     if by_load:
-        # N ~ delta^(3/2) in Hertz contact: secant on N^(2/3), bracketed
+        # N ~ delta^(3/2) in Hertz contact, so a bracketed secant on N^(2/3)
         target = load ** (2.0 / 3.0)
         low, high, delta_before, before = 0.0, math.inf, 0.0, 0.0
         converged = False
@@ -116,7 +118,7 @@ def by_approach(sep, case, across, work, strips, result):
             new = delta + (target - now) * (delta - delta_before) / (now - before) if now != before else -1.0
             if not low < new < high or (iteration >= _SECANT_ITERATIONS and high < math.inf):
                 new = 0.5 * (low + high) if high < math.inf else 2.0 * delta
-            if new == delta or high - low <= 1e-13 * delta:  # a step of the load
+            if new == delta or high - low <= 1e-13 * delta:  # the load has a step here
                 converged = True
                 break
             delta_before, before, delta = delta, now, new
@@ -129,7 +131,7 @@ def by_approach(sep, case, across, work, strips, result):
         result.status = Status.NO_CONTACT
         return 0
     result.stiffness = max(further - N, 0.0) / (_DIFFERENCE * delta)
-    if by_load:  # what is left of round-off, or of a step, is taken by the pressure
+    if by_load:  # the pressure is scaled to remove the rest of round-off or of a step
         for i in range(n_strips):
             strips[Strip.P0, i] *= load / N
         N = load

@@ -1,8 +1,8 @@
-"""What the methods of virtual penetration share: cut the gap at a level, press the strips, describe their ellipse.
+"""Steps that the methods of virtual penetration share: cut the gap at a level, set pressures, describe the ellipse.
 
-The bodies are let through each other; the patch is taken from where they would overlap at a share of the approach. In terms
-of an effective gap G and an effective half curvature S, both in `work`, a strip at y lies where G(y) < delta and has the half
-length a = √((delta - G)/S); a constant share eps is G = g/eps, S = A/eps: A a² = eps·delta - g.
+The undeformed bodies penetrate each other. The patch is where they would overlap at a share of the approach. Let G be
+an effective gap and S an effective half curvature, both in `work`. A strip at y is in contact where G(y) < delta, and
+its half length is a = √((delta - G)/S). With a constant share eps, G = g/eps and S = A/eps, so A a² = eps·delta - g.
 """
 
 import math
@@ -17,7 +17,7 @@ from contact.kernels.normal.lay import at_end, find_patches, lay_strips
 
 @kernel
 def share_gap(y, g, A, n, g_least, share, work):
-    """Effective gap and curvature of a penetration that is a constant share of the approach."""
+    """Fill effective gap and curvature of a penetration that is a constant share of the approach."""
     for i in range(n):
         work[Sample.EFFECTIVE_GAP, i] = (g[i] - g_least) / share
         work[Sample.STRETCHED_A, i] = A[i] / share
@@ -26,7 +26,7 @@ def share_gap(y, g, A, n, g_least, share, work):
 
 @kernel
 def cut(sep, level, across, work, strips, edges):
-    """Lay strips where G < level: y, dy, x_c, a, patch; the depth level - G goes into P0.
+    """Fill y, dy, x_c, a and patch of strips where G < level. P0 holds the depth level - G [m].
 
     Returns
     -------
@@ -51,7 +51,7 @@ def cut(sep, level, across, work, strips, edges):
 
 @kernel
 def carried(strips, n):
-    """Load of strips with semi-elliptic pressure, and nothing else."""
+    """Return the load of strips with semi-elliptic pressure [N]."""
     N = 0.0
     for i in range(n):
         N += 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
@@ -60,18 +60,19 @@ def carried(strips, n):
 
 @kernel
 def displacement(strips, n, edges, at, a_at, peak):
-    """Surface displacement times pi E* at lateral position `at` on the centre line, half length and p0 there given.
+    """Return the surface displacement times pi E* [N/m] at the lateral position `at` on the centre line.
 
-    A strip adds p0 dy U'(eta/a) (`influence`). What is singular at eta = 0 is taken out of the sum over the strips of the
-    patch around `at` and integrated in closed form: 2 peak asinh(c/eta), c = 2 a/e, which is U' for small and, to 6 %, for
-    large eta/a. The contact locus is taken as straight.
+    Half length `a_at` and p0 `peak` there are given. A strip adds p0 dy U'(eta/a) (`influence`). The part that is
+    singular at eta = 0 is taken out of the sum over the strips of the patch around `at` and integrated in closed form.
+    It is 2 peak asinh(c/eta) with c = 2 a/e, which is U' for small and, to 6 %, for large eta/a. The contact locus is
+    taken as straight.
     """
-    total, width, own = 0.0, 0.0, -1.0
+    total, width, patch = 0.0, 0.0, -1.0
     c = 2.0 * math.exp(-1.0) * a_at
     for i in range(n):
         k = int(strips[Strip.PATCH, i])
         if peak > 0.0 and edges[2 * k] < at < edges[2 * k + 1]:
-            width, own = edges[2 * k + 1] - edges[2 * k], strips[Strip.PATCH, i]
+            width, patch = edges[2 * k + 1] - edges[2 * k], strips[Strip.PATCH, i]
             for s in (at - edges[2 * k], edges[2 * k + 1] - at):
                 total += 2.0 * peak * (s * math.asinh(c / s) + c * math.asinh(s / c))
             break
@@ -81,7 +82,7 @@ def displacement(strips, n, edges, at, a_at, peak):
             continue
         eta = max(abs(strips[Strip.Y, i] - at), 1e-9 * width)
         density = p0 * centre_slope(eta / a)
-        if strips[Strip.PATCH, i] == own:
+        if strips[Strip.PATCH, i] == patch:
             density -= 2.0 * peak * math.asinh(c / eta)
         total += density * strips[Strip.DY, i]
     return total
@@ -89,9 +90,9 @@ def displacement(strips, n, edges, at, a_at, peak):
 
 @kernel
 def press(strips, n, edges, at, a_at, delta, modulus):
-    """Set p0 = kappa·a, kappa such that the displacement at `at`, half length a_at, is delta.
+    """Set p0 = kappa·a [Pa] such that the displacement at `at`, with the half length `a_at`, is delta.
 
-    One kappa serves all patches: the load stays continuous where patches are born and merge.
+    One kappa serves all patches, so the load stays continuous where patches appear and merge.
     """
     for i in range(n):
         strips[Strip.P0, i] = strips[Strip.A, i]
@@ -102,7 +103,10 @@ def press(strips, n, edges, at, a_at, delta, modulus):
 
 @kernel
 def equivalent_aspect(strips, n):
-    """Give each strip ln(a/b) of its patch's equivalent ellipse: the longest strip as a, the same area."""
+    """Set ASPECT of each strip to ln(a/b) of its patch's equivalent ellipse.
+
+    This ellipse has the longest strip as a and the area of the patch.
+    """
     i = 0
     while i < n:
         a, area, end = 0.0, 0.0, i

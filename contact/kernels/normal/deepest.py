@@ -1,4 +1,4 @@
-"""The least point of a separation with the constants of Hertz's contact there."""
+"""The smallest gap of a separation with the constants of Hertz's contact there."""
 
 import math
 from typing import NamedTuple
@@ -12,7 +12,7 @@ from contact.kernels.normal.lay import least_point
 
 
 class Deepest(NamedTuple):
-    """Position and gap of the least point, its half curvatures and Hertz's factors (`hertz.local_factors`) of them."""
+    """Position and value of the smallest gap, the half curvatures there and their Hertz factors (`hertz.local_factors`)."""
 
     y: float
     g: float
@@ -26,7 +26,7 @@ class Deepest(NamedTuple):
 
 @kernel
 def deepest(y, g, A, n, work):
-    """Find it; the slopes of the gap are left in `work`."""
+    """Return the smallest gap with its constants. Fill GAP_SLOPE of `work` with the slopes of the gap."""
     m = work[Sample.GAP_SLOPE]
     slopes(y, g, n, m)
     y_least, g_least = least_point(y, g, m, n)
@@ -42,5 +42,8 @@ def deepest(y, g, A, n, work):
 
 @kernel
 def unit_load(point, modulus):
-    """Hertz's load at unit approach; N = unit·delta^(3/2): from a² = delta/((1+alpha)A), p0 = 2 E* delta/(pi n r a)."""
+    """Return Hertz's load at unit approach [N/m^1.5]; N = unit·delta^(3/2).
+
+    It follows from a² = delta/((1+alpha)A) and p0 = 2 E* delta/(pi n r a).
+    """
     return 4.0 / 3.0 * modulus / (point.nr * math.sqrt(point.one_beta * point.B))

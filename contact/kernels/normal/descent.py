@@ -1,8 +1,8 @@
-"""How half lengths and ends answer to the residuals of the strip half space: inverse Jacobians of Hertz contacts.
+"""Inverse Jacobians of Hertz contacts: response of half lengths and ends of the strip half space to the residuals.
 
-The plain step of the half lengths, their own residual, removes a fifth to a third of an error. On strips at fixed cosines the
-Jacobian of a Hertz contact depends on a/b alone, and that of other patches is near the one of the ellipse with their a/b: its
-inverse takes away three quarters of an error and more at every step (strip_halfspace.md 2, step 6).
+If the residual of the half lengths is itself the step, it removes a fifth to a third of an error. On strips at fixed
+cosines the Jacobian of a Hertz contact depends only on a/b. The Jacobian of another patch is near that of the ellipse
+with its a/b. The inverse removes three quarters of an error or more at every step (strip_halfspace.md 2, step 6).
 """
 
 import math
@@ -13,23 +13,24 @@ from contact.kernels.normal.elimination import eliminate
 from contact.kernels.normal.influence import at_centre, in_row, logarithm, row_at
 from contact.kernels.quadrature import on_circle
 
-#: Layers of the table: ln(a/b) of the first, their distance, their number.
+#: Layers of the table: ln(a/b) of the first layer, step between layers, number of layers.
 _LOW, _STEP, N_LAYERS = -3.0, 0.7, 10
-#: With fewer strips a panel, and with more, the steps are plain.
+#: Range of strips per panel that use the Jacobian. Otherwise the residuals are the steps.
 FEWEST, MOST = 8, 64
-#: Steps of the differences: of ln a, and of an end over the width of the end strip.
+#: Steps of the difference quotients: of ln a, and of an end over the width of the end strip.
 _DIFFERENCE, _END_DIFFERENCE = 0.01, 0.05
-#: From this move on, over the width, the rule of the ends says where the end is and the Jacobian has no say.
+#: From this move on, over the width, an end moves by the rule of the ends and not by the Jacobian.
 _HOLD = 0.03
-#: Half lengths of end strips over their neighbours'.
+#: Half length of an end strip over that of its neighbour.
 END_LENGTH = 0.447
-#: Share of an end's move that its rule asks for; (p1/p2)² at the exact half width and its slope (strip_halfspace.md 2, step 4).
+#: Share of the move that the rule of the ends asks for; (p1/p2)² at the exact half width and its slope
+#: (strip_halfspace.md 2, step 4).
 END_STEP, END_VALUE, END_SLOPE = 0.6, 0.365, 0.108
 
 
 @kernel
 def _lay(n, low, high, y, h):
-    """Middles and half widths of cosine-spaced strips."""
+    """Fill middles and half widths of cosine-spaced strips from `low` to `high`."""
     centre, half = 0.5 * (low + high), 0.5 * (high - low)
     for i in range(n):
         left, right = centre - half * on_circle(i, n)[0], centre - half * on_circle(i + 1, n)[0]
@@ -38,7 +39,7 @@ def _lay(n, low, high, y, h):
 
 @kernel
 def _influence(i, j, X, y, h, a, centre, plane):
-    """Displacement at strip i, x = X·a_j, by a unit pressure on strip j; pi E* = 1."""
+    """Return the displacement at strip i, x = X·a_j, by a unit pressure on strip j, with pi E* = 1."""
     near = max(abs(y[j] - h[j] - y[i]), 1e-12)
     far = max(abs(y[j] + h[j] - y[i]), 1e-12)
     near, far = math.log(near / a[j]), math.log(far / a[j])
@@ -51,7 +52,7 @@ def _influence(i, j, X, y, h, a, centre, plane):
 
 @kernel
 def _residual(low, high, scratch, B, A, centre, plane, out):
-    """Residuals of a Hertz contact with half lengths and ends that are not its own, at the same approach."""
+    """Fill `out` with the residuals of a Hertz contact at its approach, but with other half lengths and ends."""
     n = scratch.shape[1]
     lu = scratch[0]
     ln_a, a, p, q = scratch[1, 0], scratch[1, 1], scratch[1, 2], scratch[1, 3]
@@ -71,14 +72,17 @@ def _residual(low, high, scratch, B, A, centre, plane, out):
             u += p[j] * _influence(i, j, a[i] / a[j], y, h, a, centre, plane)
         overlap = -(g0[i] + B * (y[i] * y[i] + h[i] * h[i] / 3.0 - y0[i])) - u
         out[i] = 0.5 * math.log(max(overlap / (A * a[i] * a[i]), 1e-3))
-    e = 0.5 * (1.0 - on_circle(1, n)[0])  # outwards over the width
+    e = 0.5 * (1.0 - on_circle(1, n)[0])  # width of the end strip over that of the panel
     out[0] = END_STEP * e * ((p[1] / p[2]) ** 2 - END_VALUE) / END_SLOPE
     out[n - 1] = END_STEP * e * ((p[n - 2] / p[n - 3]) ** 2 - END_VALUE) / END_SLOPE
 
 
 @kernel
 def _hertz(aspect, scratch, centre, plane):
-    """Half lengths, gap and curvatures B, A of the Hertz contact with half width 1, a/b = `aspect` and peak pressure 1."""
+    """Fill half lengths and gap of the Hertz contact with half width 1, a/b = `aspect` and peak pressure 1.
+
+    Return its half curvatures B, A.
+    """
     n = scratch.shape[1]
     ln_a, a, p = scratch[1, 0], scratch[1, 1], scratch[1, 2]
     y, h, y0, g0 = scratch[2, 0], scratch[2, 1], scratch[2, 2], scratch[2, 3]
@@ -102,7 +106,7 @@ def _hertz(aspect, scratch, centre, plane):
 
 @kernel
 def _fill_layer(aspect, scratch, centre, plane, layer):
-    """Minus the inverse Jacobian of the Hertz contact with a/b = `aspect`, into `layer`."""
+    """Fill `layer` with minus the inverse Jacobian of the Hertz contact with a/b = `aspect`."""
     n = scratch.shape[1]
     B, A = _hertz(aspect, scratch, centre, plane)
     ln_a, jacobian, r, before = scratch[1, 0], scratch[3], scratch[4, 0], scratch[4, 1]
@@ -134,7 +138,7 @@ def _fill_layer(aspect, scratch, centre, plane, layer):
         for i in range(n):
             layer[i, k] = one[i]
             layer[i, min(k + 1, n - 1)] = other[i]
-    for i in range(n):  # mirror images to the last bit
+    for i in range(n):  # makes both halves mirror images to the last bit
         for k in range((n + 1) // 2):
             mean = 0.5 * (layer[i, k] + layer[n - 1 - i, n - 1 - k])
             layer[i, k] = layer[n - 1 - i, n - 1 - k] = mean
@@ -142,7 +146,7 @@ def _fill_layer(aspect, scratch, centre, plane, layer):
 
 @kernel
 def fill_descent(centre, plane, scratch, descent):
-    """Fill the inverse Jacobians; `scratch` has five layers of the same shape or more, which are overwritten."""
+    """Fill the inverse Jacobians. `scratch` has at least five layers of the same shape, which are overwritten."""
     if descent.shape[1] < FEWEST:
         return
     for m in range(N_LAYERS):
@@ -151,7 +155,7 @@ def fill_descent(centre, plane, scratch, descent):
 
 @kernel
 def has_one_run(n, pressures):
-    """Whether no strip without pressure lies between loaded ones."""
+    """Return whether no strip without pressure lies between loaded ones."""
     runs = 0
     for i in range(n):
         if pressures[i] > 0.0 and (i == 0 or pressures[i - 1] <= 0.0):
@@ -161,7 +165,10 @@ def has_one_run(n, pressures):
 
 @kernel
 def _prescribe(low, high, t, moves, held, out):
-    """Change `out` so that ends which are held make their moves, over the width, and half lengths go with them."""
+    """Change the steps `out` so that the ends which are `held` make their `moves`, over the width.
+
+    The half lengths change with them.
+    """
     n = low.shape[0]
     last = n - 1
     aa, ab = (1.0 - t) * low[0, 0] + t * high[0, 0], (1.0 - t) * low[0, last] + t * high[0, last]
@@ -183,10 +190,10 @@ def _prescribe(low, high, t, moves, held, out):
 
 @kernel
 def descend(first, n, width, descent, vectors):
-    """Multiply the residuals Vector.R of the panel from strip `first` on by the inverse Jacobian of its Hertz contact.
+    """Replace the residuals Vector.R of the panel from strip `first` on by steps of half lengths and ends.
 
-    That is the contact with the panel's a/b. The entries of the end strips are the moves of the ends. Ends that move far do so
-    as their rule says.
+    The steps are the residuals times the inverse Jacobian of the Hertz contact with the panel's a/b. The entries of the
+    end strips are the moves of the ends. Ends with large moves follow their own rule.
     """
     r, out = vectors[Vector.Q1, first : first + n], vectors[Vector.R, first : first + n]
     last = n - 1
@@ -195,7 +202,7 @@ def descend(first, n, width, descent, vectors):
         longest = max(longest, vectors[Vector.A, first + i])
         r[i] = out[i]
     u = (math.log(longest / (0.5 * width)) - _LOW) * (1.0 / _STEP)
-    u = u if u > 0.0 else 0.0  # so written, no NaN becomes an index
+    u = u if u > 0.0 else 0.0  # written so that NaN does not become an index
     u = min(u, N_LAYERS - 1.000001)
     m = int(u)
     t = u - m

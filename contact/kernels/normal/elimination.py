@@ -5,9 +5,10 @@ from contact._jit import kernel
 
 @kernel
 def eliminate(lu, m, first, second):
-    """Solve lu·x = first and = second in place by Gaussian elimination; the influence matrix needs no pivoting.
+    """Solve lu·x = first and lu·x = second for `m` unknowns in place by Gaussian elimination.
 
-    Two pivots and four rows at a time: a row is read and written half as often, and loops are fewer.
+    The influence matrix needs no pivoting. Two pivots and four rows are processed at a time, so a row is read and
+    written half as often and there are fewer loops.
     """
     for k in range(0, m - 1, 2):
         above, below = lu[k], lu[k + 1]

@@ -1,8 +1,9 @@
-"""How far a pressure violates the contact conditions of the half space: an error estimate for every normal method.
+"""Violation of the half space's contact conditions by a pressure: an error estimate for every normal method.
 
 Inside the patch the gap must close: displacement + undeformed gap = approach. The semi-elliptic pressures of all strips
-displace the surface by U of `influence`; what is left of the gap, or overlaps, at a few strips' middles over the approach is
-the estimate. It is zero for an exact solution and for Hertz's ellipse. Strips that interact satisfy it by construction.
+displace the surface by U of `influence`. The estimate is the gap or overlap that remains at the middles of a few
+strips, divided by the approach. It is zero for an exact solution and for Hertz's ellipse. Strips that interact satisfy
+it by construction.
 """
 
 import math
@@ -13,7 +14,7 @@ from contact.kernels.layout import Strip
 from contact.kernels.normal.influence import anywhere, at_centre
 from contact.kernels.normal.strip_system import IN_LINE
 
-#: Strips at which the gap is looked at.
+#: Number of strips at which the gap is evaluated.
 PROBES = 8
 
 

@@ -1,4 +1,4 @@
-"""Hertz's ellipse from the curvatures at the least point of the separation (theory.md 1.1)."""
+"""Hertz's ellipse from the curvatures at the smallest gap of the separation (theory.md 1.1)."""
 
 import math
 
@@ -12,7 +12,7 @@ from contact.kernels.normal.lay import lay_strips
 
 @kernel
 def hertzian(sep, case, across, work, strips, result):
-    """Solve as if A and B were constant; same arguments and answers as `analyn`."""
+    """Solve the normal problem as if A and B were constant. Arguments and results are those of `analyn`."""
     y, xc, n = sep.y, sep.x_c, sep.y.size
     modulus = case.G / (1.0 - case.nu)
     edges = result.edges

@@ -1,9 +1,11 @@
 """Normal displacement by a strip with semi-elliptic pressure: tables and their lookup (strip_halfspace.md 1).
 
 A strip |x| <= a with p = p0·√(1 - (x/a)²) between lateral distances t1·a and t2·a displaces the surface at x = X·a by
-    u = p0 a/(pi E*)·[U(X, t2) - U(X, t1)],   U(X, t) = ∫√(1-s²) asinh(t/|X-s|) ds over [-1, 1],
-odd in t, even in X, finite everywhere: the strip itself needs no special case. On the centre line dU/dt has the closed form
-2√(1+t²)(K(m) - E(m)), m = 1/(1+t²).
+
+    u = p0 a/(pi E*)·[U(X, t2) - U(X, t1)],   U(X, t) = ∫√(1-s²) asinh(t/|X-s|) ds over [-1, 1].
+
+U is odd in t, even in X and finite everywhere, so the displacement of a strip by itself needs no special case. On the
+centre line dU/dt has the closed form 2√(1+t²)(K(m) - E(m)), m = 1/(1+t²).
 """
 
 import math
@@ -21,20 +23,20 @@ _CENTRE_STEP = (_LN_T_MAX - _LN_T_MIN) / (_N_CENTRE - 1)
 _X_MAX, _N_X = 4.0, 201
 _X_STEP = _X_MAX / (_N_X - 1)
 _PER_X_STEP = 1.0 / _X_STEP
-#: Below the 150th value of ln t, t = 1.1e-3, U is as good as proportional to t.
+#: Below the 150th value of ln t, t = 1.1e-3, U is nearly proportional to t.
 _LN_T_HIGH, _T_STEP = math.log(1e2), 0.03
 _N_PROPORTIONAL, _N_T = 150, 534
 _LN_T_LOW, _PER_T_STEP = _LN_T_HIGH - (_N_T - 1) * _T_STEP, 1.0 / _T_STEP
 
-#: Shapes of the two tables. Two rows more in the second: U beyond X = 4 is linear in 1/X² at fixed t/X, so they hold its
+#: Shapes of the two tables. The second has two more rows. Beyond X = 4, U is linear in 1/X² at fixed t/X. These rows hold its
 #: values at 1/X² = 0 and 1 over ln(t/X).
 CENTRE, PLANE = (_N_CENTRE, 2), (_N_X + 2, _N_T)
 
-#: Strips of one panel sit at fixed cosines: what one does to another depends on ln(a/half width of the panel) alone. Range and
-#: step of that table, which has a row more at either end.
+#: Strips of one panel lie at fixed cosines, so their influence depends only on ln(a/half width of the panel). Range and step of
+#: the table of this influence, which has one more row at either end.
 _LN_A_LOW, _LN_A_HIGH, _LN_A_STEP = -7.0, 4.0, 0.125
 N_COLUMNS = round((_LN_A_HIGH - _LN_A_LOW) / _LN_A_STEP) + 3
-#: Panels of more strips do without the table: it grows with their square (7 MB at 100).
+#: Panels of more strips do not use this table. Its size grows with the square of their number (7 MB at 100).
 MOST_TABULATED = 100
 
 _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(6)
@@ -42,7 +44,7 @@ _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(6)
 
 @kernel
 def centre_slope(t):
-    """DU/dt on the centre line, X = 0 (closed form)."""
+    """Return dU/dt on the centre line, X = 0 (closed form)."""
     root = math.sqrt(1.0 + t * t)
     K, E, _, _ = elliptic_integrals(t / root)  # complementary modulus; K - E = k² D
     return 2.0 * root * (K - E)
@@ -50,7 +52,7 @@ def centre_slope(t):
 
 @kernel
 def _panel(X, t, low, high):
-    """∫sin² asinh(t/|X - cos|) over a range of the angle, six Gauss points."""
+    """Return ∫sin² asinh(t/|X - cos|) over a range of the angle, by six Gauss points."""
     total = 0.0
     for i in range(6):
         angle = 0.5 * (low + high + (high - low) * _GAUSS_X[i])
@@ -62,7 +64,10 @@ def _panel(X, t, low, high):
 
 @kernel
 def quadrature(X, t):
-    """U(X, t) by Gauss panels graded geometrically towards the singular angle; relative error 1e-5 or less."""
+    """Return U(X, t) by Gauss panels graded geometrically towards the singular angle.
+
+    The relative error is 1e-5 or less.
+    """
     singular = math.acos(min(X, 1.0))
     total = 0.0
     for side in range(2):
@@ -83,7 +88,7 @@ def fill(centre, plane):
     value = math.exp(_LN_T_MIN) * 2.0 * (math.log(4.0) - _LN_T_MIN)  # U ~ 2t ln(4/t)
     for i in range(_N_CENTRE):
         t = math.exp(_LN_T_MIN + i * _CENTRE_STEP)
-        if i > 0:  # three-point Gauss of dU/d(ln t) = t U' over the last interval
+        if i > 0:  # six-point Gauss of dU/d(ln t) = t U' over the last interval
             before = _LN_T_MIN + (i - 1) * _CENTRE_STEP
             for k in range(6):
                 at = math.exp(before + 0.5 * _CENTRE_STEP * (1.0 + _GAUSS_X[k]))
@@ -102,9 +107,9 @@ def fill(centre, plane):
 
 @kernel
 def at_centre(centre, log_t):
-    """U(0, t) for t > 0 given by its logarithm; error below 1e-7."""
+    """Return U(0, t) for t > 0 given by its logarithm. The error is below 1e-7."""
     u = (log_t - _LN_T_MIN) / _CENTRE_STEP
-    if not u > 0.0:  # so written, no NaN becomes an index, here and below
+    if not u > 0.0:  # written so that NaN does not become an index, here and below
         t = math.exp(log_t)
         return 2.0 * t * (math.log(4.0) - log_t)
     if u >= _N_CENTRE - 1:
@@ -116,7 +121,7 @@ def at_centre(centre, log_t):
 
 @kernel
 def fill_columns(cosine_logs, centre, columns):
-    """U(0, t2) - U(0, t1) of strip j at the middle of strip i of one panel, into columns[ln(a_j/half width), j, i]."""
+    """Fill columns[ln(a_j/half width), j, i] with U(0, t2) - U(0, t1) of strip j at the middle of strip i of one panel."""
     n = cosine_logs.shape[0]
     for m in range(columns.shape[0]):
         ln_a = _LN_A_LOW + (m - 1) * _LN_A_STEP
@@ -128,7 +133,10 @@ def fill_columns(cosine_logs, centre, columns):
 
 @kernel
 def column(columns, j, ln_a, scale, out):
-    """U(0, t2) - U(0, t1) of strip j at all strips of its panel, times `scale`: cubic in ln(a_j/half width), error 3e-6."""
+    """Fill `out` with U(0, t2) - U(0, t1) of strip j at all strips of its panel, times `scale`.
+
+    The interpolation is cubic in ln(a_j/half width). Its error is 3e-6.
+    """
     u = (ln_a - _LN_A_LOW) * (1.0 / _LN_A_STEP)
     u = u if u > 0.0 else 0.0
     u = min(u, N_COLUMNS - 3.000001)
@@ -143,7 +151,7 @@ def column(columns, j, ln_a, scale, out):
 
 @kernel
 def row_at(X, ln_X):
-    """Row of the plane's table for X >= 0, the share of the next row, and what its ln t counts from (for `in_row`)."""
+    """Return the row of the plane's table for X >= 0, the share of the next row, and the origin of its ln t (for `in_row`)."""
     if not X < _X_MAX:
         return _N_X, 1.0 / (X * X), ln_X
     u = X * _PER_X_STEP
@@ -153,15 +161,18 @@ def row_at(X, ln_X):
 
 @kernel
 def logarithm(X):
-    """Ln X where `row_at` needs it."""
+    """Return ln X where `row_at` needs it, else 0."""
     return math.log(X) if X >= _X_MAX else 0.0
 
 
 @kernel
 def in_row(plane, i, u, log_t):
-    """U(X, t) for t > 0, bilinear in the table at the row and share given by `row_at`; logarithmic beyond its range of t."""
+    """Return U(X, t) for t > 0 at the row and share given by `row_at`.
+
+    The interpolation is bilinear. Beyond the table's range of t, U is logarithmic.
+    """
     v = (log_t - _LN_T_LOW) * _PER_T_STEP
-    v = v if v > 0.0 else 0.0  # so written, no NaN becomes an index
+    v = v if v > 0.0 else 0.0  # written so that NaN does not become an index
     extra = 0.5 * math.pi * _T_STEP * max(v - (_N_T - 1.0), 0.0)
     v = min(v, _N_T - 1.000001)
     k = int(v)
@@ -173,6 +184,6 @@ def in_row(plane, i, u, log_t):
 
 @kernel
 def anywhere(plane, X, log_t):
-    """U(X, t) for X >= 0, t > 0; error below 1e-3."""
+    """Return U(X, t) for X >= 0, t > 0. The error is below 1e-3."""
     i, u, ln_X = row_at(X, logarithm(X))
     return in_row(plane, i, u, log_t - ln_X)

@@ -1,13 +1,16 @@
 """Kik and Piotrowski's virtual penetration with shape correction (2008).
 
-The patch of 1996 is stretched along x and shrunk along y, its area kept, until an ellipse has Hertz's axes (theory.md 0.6, 5):
+The patch of 1996 is stretched along x and shrunk along y at the same area, so that an ellipse has Hertz's axes
+(theory.md 0.6, 5):
 
     a_c/a = b/b_c = √((m0/n0)/√(B0/A0)),   so that a_c/b_c = m0/n0 where a/b = √(B0/A0)
 
-with the curvatures A0, B0 of the least point. The pressure follows as in 1996. [R]: recalled from Piotrowski and Kik, Vehicle
-System Dynamics 46 (2008) 27, by way of the thesis, Eqs. 7.5-7.6, whose ratio is printed upside down. Ours: the factor comes
-from the curvatures, not from length and width of the patch, which would make a large step where patches merge; every patch
-is stretched about the centroid of its own area, which leaves a small one (0.8 % of the load for two alike).
+with the curvatures A0, B0 at the smallest gap. The pressure follows as in 1996. [R]: recalled from Piotrowski and Kik,
+Vehicle System Dynamics 46 (2008) 27, by way of the thesis, Eqs. 7.5-7.6, whose ratio is printed upside down.
+
+Two choices are ours. The factor comes from the curvatures. If it came from length and width of the patch, the load
+would have a large step where patches merge. Every patch is stretched about the centroid of its own area, which leaves a
+small step (0.8 % of the load for two equal patches).
 """
 
 import math
@@ -18,7 +21,7 @@ from contact.kernels.layout import Strip
 
 @kernel
 def _stretch(strips, first, last, factor, edges, at):
-    """Stretch the strips of one patch; return where the point `at` goes if it lies in the patch, else `at`."""
+    """Stretch the strips of one patch. Return the new position of the point `at` if it lies in the patch, else `at`."""
     area, moment = 0.0, 0.0
     for i in range(first, last):
         weight = strips[Strip.A, i] * strips[Strip.DY, i]
@@ -41,7 +44,7 @@ def _stretch(strips, first, last, factor, edges, at):
 
 @kernel
 def stretch(strips, n, panel, edges, point):
-    """Stretch `n` strips, `panel` in a patch; return the factor along x and where the least point goes."""
+    """Stretch `n` strips, `panel` per patch. Return the factor along x and the new position of the smallest gap."""
     factor = math.exp(0.5 * (point.log_aspect - 0.5 * math.log(point.B / point.A)))
     at = point.y
     for k in range(n // panel):

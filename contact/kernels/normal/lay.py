@@ -1,7 +1,8 @@
-"""Lay strips inside the patches where a penetration function is positive.
+"""Strips inside the patches where a penetration function is positive.
 
-The function is known at the samples of the separation; between them it is the cubic through values and three-point slopes,
-which reproduces a parabola exactly. Patches are found at any approach, also when they are narrower than a sample interval.
+The function is known at the samples of the separation. Between them it is the cubic through values and three-point
+slopes, which reproduces a parabola exactly. Patches are found at any approach, even if they are narrower than a sample
+interval.
 """
 
 from contact._jit import kernel
@@ -11,7 +12,7 @@ from contact.kernels.layout import MAX_PATCHES, Strip
 
 @kernel
 def least_point(y, f, m, n):
-    """Position and value of the least point of the interpolant."""
+    """Return position and value of the smallest value of the interpolant."""
     k = 0
     for i in range(1, n):
         if f[i] < f[k]:
@@ -29,9 +30,10 @@ def least_point(y, f, m, n):
 
 @kernel
 def find_patches(y, G, m, n, delta, edges):
-    """Intervals of the `n` samples y on which G(y) < delta, into edges[2k], edges[2k+1]; return their number.
+    """Fill edges[2k], edges[2k+1] with the intervals of the `n` samples y on which G(y) < delta. Return their number.
 
-    There are at most MAX_PATCHES; further ones are merged into the last. A patch that reaches the end of the data ends there.
+    There are at most MAX_PATCHES; further ones are merged into the last. A patch that reaches the end of the data ends
+    there.
     """
     count = 0
     inside = G[0] < delta
@@ -67,13 +69,13 @@ def find_patches(y, G, m, n, delta, edges):
 
 @kernel
 def at_end(y, n, edges, count):
-    """Whether one of the `count` patches reaches the end of the data."""
+    """Return whether one of the `count` patches reaches the end of the data."""
     return count > 0 and (edges[0] <= y[0] or edges[2 * count - 1] >= y[n - 1])
 
 
 @kernel
 def lay_strips(edges, count, across, strips):
-    """Write y, dy and the label of a panel of strips for every patch; return the number of strips."""
+    """Fill y, dy and the patch number of a panel of strips for every patch. Return the number of strips."""
     nodes, weights, n = across.nodes, across.weights, across.nodes.size
     for k in range(count):
         centre = 0.5 * (edges[2 * k] + edges[2 * k + 1])

@@ -1,19 +1,20 @@
-"""Steps of the strip half space: residuals of half lengths and panel ends mixed over the last iterations (Anderson 1965)."""
+"""Steps of the strip half space: Anderson's mixing of half lengths and panel ends over the last iterations (1965)."""
 
 from contact._jit import kernel
 from contact.kernels.layout import DEPTH, Vector
 
-#: Weight of an end in the mixing beside the loads of all strips.
+#: Weight of an end in the mixing. The loads of all strips together have the weight 1.
 _END_WEIGHT = 1.0
 
 
 @kernel
 def mix(n, n_panels, panels, vectors, load, known, gram):
-    """Next step of half lengths and ends, into Vector.STEP: Anderson's mixing over the last `DEPTH` of the `known` steps.
+    """Fill Vector.STEP with the next step of half lengths and ends. Return the size of the residual that the mixing leaves.
 
-    Weighted with strip loads. The end strips' entries of the residual Vector.R and of the steps stand for the ends of their
-    panel. Steps and changes of the residual are kept in rings of rows. Returns what the mixing leaves: of the half lengths'
-    residual the weighted mean, or of the ends' the largest over the width, whichever is more.
+    Anderson's mixing uses the last `DEPTH` of the `known` steps. The weights are strip loads. In the residual Vector.R
+    and in the steps, the entries of the end strips belong to the ends of their panel. Steps and changes of the residual
+    are kept in rings of rows. The returned size is the weighted mean for half lengths or the largest over the width for
+    ends, whichever is larger.
     """
     total = n * n_panels
     if known > 0:
@@ -69,7 +70,7 @@ def mix(n, n_panels, panels, vectors, load, known, gram):
 
 @kernel
 def advance(n, n_panels, panels, vectors):
-    """Take the step that `mix` has found."""
+    """Change half lengths and ends by the step that `mix` has found."""
     for p in range(n_panels):
         first, last = p * n, p * n + n - 1
         for i in range(first + 1, last):
@@ -77,7 +78,7 @@ def advance(n, n_panels, panels, vectors):
             vectors[Vector.LN_A, i] += vectors[Vector.STEP, i]
         bound = 0.25 * (panels[2 * p + 1] - panels[2 * p])
         for end in (first, last):
-            # beyond its range the end rule says no more than a direction, which mixing must not reverse
+            # beyond its range the end rule gives only a direction, which mixing must not reverse
             if vectors[Vector.STEP, end] * vectors[Vector.R, end] <= 0.0 and abs(vectors[Vector.R, end]) > 1e-2 * bound:
                 vectors[Vector.STEP, end] = vectors[Vector.R, end]
             vectors[Vector.STEP, end] = min(max(vectors[Vector.STEP, end], -bound), bound)

@@ -1,17 +1,18 @@
-"""Multi-Hertzian contact: Hertz's ellipse at the least point, and at secondary points that the first leave (gutter concept).
+"""Multi-Hertzian contact: Hertz's ellipse at the smallest gap, and at secondary points that the first leaves (gutter concept).
 
-The first ellipse presses a gutter into the surface: inside, the gap is closed; outside, it has grown by Hertz's displacement,
-which has a closed form on the line x = 0,
+The first ellipse presses a gutter into the surface. Inside, the gap is closed. Outside, it grows by Hertz's
+displacement, which has a closed form on the line x = 0,
 
     u(y) = (p0 a b/E*) ∫_0^1 y (1 - c²) dc/(√(y² - b² c²) √(y² + (a² - b²) c²)),   |y| > b.              [D]
 
-Where what is left of the gap, h = g + u, is still below the approach, the bodies would overlap: every least point of h there,
-but for those inside an ellipse already laid, is a secondary contact, an ellipse with the approach delta - h and the curvatures
-of h; the deepest first, four in all. The loads add up.
+The remaining gap is h = g + u. Where it is still below the approach, the bodies would overlap. Every minimum of h there
+that is not inside an ellipse already laid is a secondary contact. It is an ellipse with the approach delta - h and the
+curvatures of h. The deepest comes first, and there are at most four in all. The loads add up.
 
-[R]: the gutter is recalled from Pascal and Sauvage, Vehicle System Dynamics 22 (1993) 263, by way of the thesis; that the half
-space deepens it outside the first ellipse is our reading. The first contact does not feel the others nor they each other, and
-ellipses may overlap, where the pressures add up: known weaknesses. The load steps where a secondary point comes or goes.
+[R]: the gutter is recalled from Pascal and Sauvage, Vehicle System Dynamics 22 (1993) 263, by way of the thesis. That
+the half space deepens it outside the first ellipse is our reading. Known weaknesses: the first contact is not affected
+by the others, nor these by each other. Ellipses may overlap, and the pressures add up there. The load steps where a
+secondary point appears or disappears.
 """
 
 import math
@@ -24,7 +25,7 @@ from contact.kernels.hertz import local_factors
 from contact.kernels.layout import MAX_PATCHES, Sample, Strip
 from contact.kernels.normal.analyn import floored, lateral_curvature
 
-#: A secondary contact with less of the approach than this is none.
+#: A secondary contact with a smaller share of the approach is neglected.
 _LEAST_SHARE = 1e-4
 
 _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(12)
@@ -32,7 +33,7 @@ _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(12)
 
 @kernel
 def _outside(y, a2, b2):
-    """Displacement of Hertz's ellipse at distance |y| >= b, but for a factor."""
+    """Return the displacement of Hertz's ellipse at distance |y| >= b, up to a constant factor."""
     total = 0.0
     for i in range(_GAUSS_X.size):
         c2 = (0.5 + 0.5 * _GAUSS_X[i]) ** 2
@@ -41,7 +42,7 @@ def _outside(y, a2, b2):
 
 
 @kernel
-def _press(y, n, point, delta, h):
+def _add_gutter(y, n, point, delta, h):
     """Add the displacement of the first ellipse to the gap h."""
     a2, b2 = delta / (point.one_alpha * point.A), delta / (point.one_beta * point.B)
     at_edge = (delta - point.B * b2) / _outside(math.sqrt(b2), a2, b2)
@@ -51,8 +52,8 @@ def _press(y, n, point, delta, h):
 
 
 @kernel
-def _secondary(y, h, n, edges, count):
-    """Position and value of the least point of h outside the ellipses, on a parabola through three samples."""
+def _secondary_point(y, h, n, edges, count):
+    """Return position and value of the smallest minimum of h outside the ellipses, by a parabola through three samples."""
     y_best, best = 0.0, math.inf
     for i in range(1, n - 1):
         if h[i] > h[i - 1] or h[i] >= h[i + 1]:
@@ -75,7 +76,7 @@ def _secondary(y, h, n, edges, count):
 
 @kernel
 def lay_ellipse(strips, k, d, curvatures, place, modulus, across, edges):
-    """Write the strips of ellipse k, half curvatures (A, B) at `place` = (y, x), and return its load."""
+    """Fill the strips of ellipse k with half curvatures (A, B) at `place` = (y, x). Return its load [N]."""
     A, B = curvatures
     centre, x_c = place
     nodes, weights = across.nodes, across.weights
@@ -94,7 +95,7 @@ def lay_ellipse(strips, k, d, curvatures, place, modulus, across, edges):
 
 @kernel
 def multi_hertz(sep, delta, modulus, point, across, work, strips, edges):
-    """Fill `strips` at approach delta; return load and number of strips."""
+    """Fill `strips` at approach delta. Return load [N] and number of strips."""
     y, g, A, xc, n = sep.y, sep.g, sep.A, sep.x_c, sep.y.size
     h, m = work[Sample.EFFECTIVE_GAP], work[Sample.EFFECTIVE_SLOPE]
     for i in range(n):
@@ -110,18 +111,18 @@ def multi_hertz(sep, delta, modulus, point, across, work, strips, edges):
         A_here, x_c = (1.0 - t) * A[k] + t * A[k + 1], (1.0 - t) * xc[k] + t * xc[k + 1]
         N += lay_ellipse(strips, count, d, (A_here, B), (centre, x_c), modulus, across, edges)
         if count == 0:
-            _press(y, n, point, delta, h)
+            _add_gutter(y, n, point, delta, h)
             slopes(y, h, n, m)
         count += 1
-        centre, least = _secondary(y, h, n, edges, count)
+        centre, least = _secondary_point(y, h, n, edges, count)
         d = delta - least
     return N, count * across.nodes.size
 
 
 @kernel
 def beyond(y, n, edges, count):
-    """Whether one of the `count` ellipses, in any order, goes beyond the data."""
-    found = False
+    """Return whether one of the `count` ellipses, in any order, goes beyond the data."""
+    outside = False
     for k in range(count):
-        found = found or edges[2 * k] < y[0] or edges[2 * k + 1] > y[n - 1]
-    return found
+        outside = outside or edges[2 * k] < y[0] or edges[2 * k + 1] > y[n - 1]
+    return outside

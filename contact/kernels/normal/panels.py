@@ -1,4 +1,4 @@
-"""Panels of cosine-spaced strips that cover the patches of the strip half space: laid, moved, opened, joined and dropped."""
+"""Panels of cosine-spaced strips that cover the patches of the strip half space: made, moved, opened, joined and removed."""
 
 import math
 
@@ -9,18 +9,21 @@ from contact.kernels.layout import MAX_PATCHES, Sample, Strip, Vector
 from contact.kernels.normal.descent import END_LENGTH, END_SLOPE, END_STEP, END_VALUE
 from contact.kernels.normal.strip_system import displacement_outside
 
-_END_RANGE = (-3.0, 20.0)  # of one move outwards before damping, in widths of the end strip
-#: A frozen end still moves outwards from here on: the pressure rises towards the corner of a punch.
+_END_RANGE = (-3.0, 20.0)  # of one move outwards before the factor END_STEP, in widths of the end strip
+#: Squared ratio of pressures from which on a frozen end still moves outwards: they rise towards the corner of a punch.
 _PUNCH = 1.0
-#: A panel narrower than this, over the widest, is none.
+#: A panel narrower than this, over the widest, is removed.
 NO_PANEL = 1e-5
-#: Overlap outside the panels, over the approach, that counts as missed contact, early and in the end.
+#: Overlap outside the panels, over the approach, that counts as missed contact: early, and at convergence.
 EARLY_GHOST, GHOST = 2e-2, 1e-3
 
 
 @kernel
 def lay_panels(sep, g_least, skew, panels, n_panels, own):
-    """Strip positions, mean gaps, curvatures and loci for the present ends of the panels. `skew` scales the loci."""
+    """Fill strip positions, mean gaps, curvatures and loci for the present ends of the panels.
+
+    `skew` scales the loci.
+    """
     y, g, A, xc, cosines, vectors = sep.y, sep.g, sep.A, sep.x_c, own.rule.cosines, own.space.vectors
     n = cosines.size - 1
     size = y.size
@@ -55,7 +58,10 @@ def lay_panels(sep, g_least, skew, panels, n_panels, own):
 
 @kernel
 def half_lengths(vectors, n, n_panels):
-    """a from ln a; strips at the ends follow the square root of the edge, none collapses beside its neighbours."""
+    """Fill half lengths a from ln a.
+
+    Strips at the ends follow the square root of the edge. No strip may collapse beside its neighbours.
+    """
     for p in range(n_panels):
         first = p * n
         for i in range(first + 1, first + n - 1):
@@ -73,7 +79,7 @@ def half_lengths(vectors, n, n_panels):
 
 @kernel
 def _resample(old_low, old_high, low, high, cosines, vectors, first):
-    """Carry a²(y) of one panel over to new ends, linear in y and constant beyond."""
+    """Transfer a²(y) of one panel to new ends, linear in y and constant beyond."""
     n = cosines.size - 1
     scale = 0.5 * (old_high - old_low)
     for i in range(n):
@@ -94,7 +100,7 @@ def _resample(old_low, old_high, low, high, cosines, vectors, first):
 
 @kernel
 def start_panels(n_strips, panel_strips, strips, result, panels, cosines, vectors):
-    """One panel for each patch of the ANALYN solution, its half lengths carried over; return the number of panels."""
+    """Make one panel for each patch of the ANALYN solution, with its half lengths. Return the number of panels."""
     n = cosines.size - 1
     count = int(strips[Strip.PATCH, n_strips - 1]) + 1
     for p in range(count):
@@ -119,11 +125,11 @@ def start_panels(n_strips, panel_strips, strips, result, panels, cosines, vector
 
 @kernel
 def _end_move(vectors, n, first, step, cosines, frozen):
-    """How far one end of a panel should move outwards over its half width, and the number of idle strips there.
+    """Return the outward move of one end of a panel over its half width, and the number of idle strips there.
 
-    `first` is the strip at this end, `step` the way to its neighbour. On the exact half width the squared ratio q of the
-    second and third pressures has a known value; a high second strip means that the panel is too narrow. A `frozen` end
-    stays where it is, and idle strips with it, unless the pressure rises towards it.
+    `first` is the strip at this end, `step` the step to its neighbour. On the exact half width the squared ratio q of
+    the second and third pressures has a known value. If the second pressure is high, the panel is too narrow. A
+    `frozen` end keeps its place, and idle strips with it, unless the pressure rises towards it.
     """
     idle = 0
     while idle < n - 1 and vectors[Vector.P, first + idle * step] <= 0.0:
@@ -141,9 +147,9 @@ def _end_move(vectors, n, first, step, cosines, frozen):
 
 @kernel
 def end_moves(y, n, n_panels, panels, cosines, vectors, frozen):
-    """Moves of all panels' ends into Vector.R of their end strips.
+    """Fill Vector.R of the end strips with the moves of all panels' ends. Return the largest move over the width and a flag.
 
-    Returns the largest over the width, and whether a quarter of a panel is idle, so that it must be cut off.
+    The flag says whether a quarter of a panel is idle, so that it must be cut off.
     """
     largest, cut = 0.0, False
     for p in range(n_panels):
@@ -162,7 +168,7 @@ def end_moves(y, n, n_panels, panels, cosines, vectors, frozen):
 
 @kernel
 def cut_idle(n, n_panels, panels, cosines, vectors):
-    """Move the ends by Vector.R at once and carry the half lengths over."""
+    """Move the ends by Vector.R without mixing, and transfer the half lengths."""
     for p in range(n_panels):
         first, last = p * n, p * n + n - 1
         low, high = panels[2 * p], panels[2 * p + 1]
@@ -173,7 +179,7 @@ def cut_idle(n, n_panels, panels, cosines, vectors):
 
 @kernel
 def _summarise(n, n_panels, vectors, unit):
-    """Reach and spread of strips and of whole panels."""
+    """Fill reach and spread of strips and of whole panels."""
     for p in range(n_panels):
         first = p * n
         load, moment, square = 0.0, 0.0, 0.0
@@ -189,10 +195,10 @@ def _summarise(n, n_panels, vectors, unit):
 
 @kernel
 def _is_overlapped(at, allowed, n, n_panels, vectors, centre, unit):
-    """Whether the displacement at a point outside the panels is less than `allowed`.
+    """Return whether the displacement at a point outside the panels is less than `allowed`.
 
-    First as if the load of every panel, then of every strip, lay at the root mean square of its distances: that displaces no
-    more than the load does, and is cheap.
+    Two cheap lower bounds are tried first. They take the load of every panel, then of every strip, at the root mean
+    square of its distances. This displaces the point no more than the load does.
     """
     u = 0.0
     for p in range(n_panels):
@@ -210,14 +216,14 @@ def _is_overlapped(at, allowed, n, n_panels, vectors, centre, unit):
 
 @kernel
 def extend_to_ghosts(sep, g_least, delta, least, unit, n_panels, panels, own):
-    """Where the gap outside all panels would be overlapped, widen the nearest panel or open a new one.
+    """Widen the nearest panel or open a new one where the gap outside all panels would be overlapped.
 
-    Without this a second patch that the start solution missed stays unseen (strip_halfspace.md 2, step 5). Returns the
-    number of panels and whether anything changed.
+    Return the number of panels and whether anything changed. Without this a second patch that the start solution missed
+    would not be found (strip_halfspace.md 2, step 5).
     """
     y, g, cosines, vectors, centre = sep.y, sep.g, own.rule.cosines, own.space.vectors, own.tables.centre
     size, n = y.size, cosines.size - 1
-    known = n_panels  # new ones displace nothing while further ghosts are looked for
+    known = n_panels  # new panels displace nothing during the search for further ghosts
     changed = False
     _summarise(n, n_panels, vectors, unit)
     highest = (1.0 - least) * delta + g_least
@@ -229,14 +235,14 @@ def extend_to_ghosts(sep, g_least, delta, least, unit, n_panels, panels, own):
         if inside or not _is_overlapped(y[i], highest - g[i], n, known, vectors, centre, unit):
             i += 1
             continue
-        k = i  # how far does it go
+        k = i  # the overlap goes from sample i to k
         while (
             k + 1 < size
             and g[k + 1] < highest
             and _is_overlapped(y[k + 1], highest - g[k + 1], n, known, vectors, centre, unit)
         ):
             k += 1
-        margin = 1 if least <= GHOST else 0  # while the ends still move, no further than necessary
+        margin = 1 if least <= GHOST else 0  # no margin while the ends still move
         low, high = y[max(i - margin, 0)], y[min(k + margin, size - 1)]
         nearest, distance = 0, math.inf
         for p in range(n_panels):
@@ -272,7 +278,7 @@ def extend_to_ghosts(sep, g_least, delta, least, unit, n_panels, panels, own):
 
 @kernel
 def _remove_panel(p, n, n_panels, panels, vectors):
-    """Close the gap that panel p leaves in the lists."""
+    """Remove panel p from the lists; those after it move up."""
     for q in range(p, n_panels - 1):
         panels[2 * q], panels[2 * q + 1] = panels[2 * q + 2], panels[2 * q + 3]
         for i in range(n):
@@ -282,7 +288,7 @@ def _remove_panel(p, n, n_panels, panels, vectors):
 
 @kernel
 def remove_unloaded(n, n_panels, panels, vectors):
-    """Drop the panels that carry nothing, or have shrunk to nothing; return the number of those left."""
+    """Remove the panels that carry no load or have shrunk to nothing. Return the number of panels left."""
     widest = 0.0
     for p in range(n_panels):
         widest = max(widest, panels[2 * p + 1] - panels[2 * p])
@@ -305,7 +311,7 @@ def remove_unloaded(n, n_panels, panels, vectors):
 
 @kernel
 def join_panels(n, n_panels, panels, cosines, vectors):
-    """Join panels that overlap into one; returns the count and whether any were joined."""
+    """Join panels that overlap into one. Return their number and whether any were joined."""
     joined = False
     p = 0
     while p < n_panels:

@@ -1,9 +1,10 @@
-"""Pascal and Sauvage's equivalent ellipse (1993): one Hertzian contact in the place of several, with their total load.
+"""Pascal and Sauvage's equivalent ellipse (1993): one Hertzian contact in place of several, with their total load.
 
-The contacts of `multi_hertz` are replaced by one ellipse at their common approach: its centre is the centroid of their loads,
-its half curvature A the separation's there, and its B such that Hertz's load N(A, B, delta) is their sum, so that one ellipse
-serves a tangential method that knows no other. [R]: recalled from Pascal and Sauvage, Vehicle System Dynamics 22 (1993) 263,
-by way of theory.md 5 ("conserving total force"); how they choose the ratio of the axes is not at hand.
+The contacts of `multi_hertz` are replaced by one ellipse at their common approach. Its centre is the centroid of their
+loads, and its half curvature A is that of the separation there. Its B is such that Hertz's load N(A, B, delta) is the
+sum of their loads. So tangential methods for one ellipse can be used. [R]: recalled from Pascal and Sauvage, Vehicle
+System Dynamics 22 (1993) 263, by way of theory.md 5 ("conserving total force"). How they choose the ratio of the axes
+is not at hand.
 """
 
 import math
@@ -14,13 +15,13 @@ from contact.kernels.hertz import local_factors
 from contact.kernels.layout import Strip
 from contact.kernels.normal.multi_hertz import lay_ellipse
 
-#: ln(B/A) between which the equivalent curvature is sought.
+#: Range of ln(B/A) in which the equivalent curvature is searched.
 _LOW, _HIGH = -16.0, 16.0
 
 
 @kernel
 def equivalent_curvature(A, N, delta, modulus):
-    """B at which Hertz's contact (A, B) carries N at approach delta; N falls with B, so bisection."""
+    """Return B [1/m] at which Hertz's contact (A, B) carries N at approach delta. N falls with B, so bisection is used."""
     low, high = _LOW, _HIGH
     for _ in range(60):
         u = 0.5 * (low + high)
@@ -35,7 +36,7 @@ def equivalent_curvature(A, N, delta, modulus):
 
 @kernel
 def one_ellipse(sep, N, n_strips, delta, modulus, across, strips, edges):
-    """Replace the strips of several ellipses that carry N by those of one; return their number."""
+    """Replace the strips of several ellipses that carry N by those of one. Return their number."""
     y, A, xc, n = sep.y, sep.A, sep.x_c, sep.y.size
     load, moment = 0.0, 0.0
     for i in range(n_strips):

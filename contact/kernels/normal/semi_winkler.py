@@ -2,18 +2,18 @@
 
     k w - k l² (w_xx + w_yy) = p,   w = delta - g - A x² in the patch, decaying as exp(-distance/l) outside
 
-The neighbours draw the surface down around the patch, which is so much smaller than Winkler's: its edge is where the slope of
-w goes over into the decay, w = l |grad w|. With g'² = 4 B g, exact for a parabola,
+The neighbours draw the surface down around the patch, so the patch is smaller than Winkler's. Its edge is where the
+slope of w continues into the decay, w = l |grad w|. With g'² = 4 B g, exact for a parabola,
 
     delta - g - A a² = 2 l √(A² a² + B g)      half length of the strip at y,
     g < eps delta,  √eps = √(1 + l² B/delta) - √(l² B/delta)      width of the patch,
     p = k [delta - g - A x² + 2 l² (A + B)]
 
-l and k are not Telliskivi's, who fitted his springs to a contact at hand ([R]: recalled from Wear 256 (2004) 817): l is half
-the mean semi-axis √(a b) of Hertz's ellipse at the least point, which gives Hertz's patch for A = B, and k gives Hertz's load
-at every approach. Both then scale with the patch. B is smoothed and floored as in ANALYN.
+l and k are not Telliskivi's, who fitted his springs to one contact ([R]: recalled from Wear 256 (2004) 817). Here l is
+half the mean semi-axis √(a b) of Hertz's ellipse at the smallest gap, which gives Hertz's patch for A = B. k gives
+Hertz's load at every approach. Both scale with the patch. B is smoothed and floored as in ANALYN.
 
-Strips carry a semi-ellipse: that of the same length and load as the parabola on its pedestal.
+Strips carry a semi-ellipse with the length and load of the parabola on its pedestal.
 """
 
 import math
@@ -25,19 +25,19 @@ from contact.kernels.normal.analyn import floored, lateral_curvature
 from contact.kernels.normal.deepest import unit_load
 from contact.kernels.normal.lay import least_point
 
-#: Row of `work` that keeps B(y).
+#: Row of `work` that holds B(y).
 _B = Sample.SHARE
 
 
 @kernel
-def _decay(point):
-    """Decay length of the foundation over √delta: half of √(a b)/√delta."""
+def _decay_length(point):
+    """Return the decay length of the foundation over √delta [√m]: half of √(a b)/√delta."""
     return 0.5 / math.sqrt(math.sqrt(point.one_alpha * point.A * point.one_beta * point.B))
 
 
 @kernel
 def _share(B, decay):
-    """Share of the approach at which the gap is cut."""
+    """Return the share of the approach at which the gap is cut."""
     u = decay * decay * B
     return (math.sqrt(1.0 + u) - math.sqrt(u)) ** 2
 
@@ -45,7 +45,7 @@ def _share(B, decay):
 @kernel
 def prepare(y, g, A, n, point, work):
     """Fill effective gap, A and B of all samples."""
-    decay = _decay(point)
+    decay = _decay_length(point)
     below, above = 0, 0
     for i in range(n):
         B, below, above = lateral_curvature(y, g, work[Sample.GAP_SLOPE], n, i, below, above)
@@ -53,13 +53,13 @@ def prepare(y, g, A, n, point, work):
         work[Sample.EFFECTIVE_GAP, i] = (g[i] - point.g) / _share(floored(B), decay)
     slopes(y, work[Sample.EFFECTIVE_GAP], n, work[Sample.EFFECTIVE_SLOPE])
     _, least = least_point(y, work[Sample.EFFECTIVE_GAP], work[Sample.EFFECTIVE_SLOPE], n)
-    for i in range(n):  # the interpolated product may miss zero
+    for i in range(n):  # the smallest value of the interpolated product may differ from zero
         work[Sample.EFFECTIVE_GAP, i] -= least
 
 
 @kernel
 def _strip(gap, A, B, delta, length):
-    """Half length of a strip, and its load over 2 a k."""
+    """Return the half length of a strip [m], and its load over 2 a k."""
     depth = delta - gap
     side = 4.0 * length * length * B * gap
     root = math.sqrt(4.0 * length * length * A * (depth + length * length * A) + side)
@@ -69,12 +69,12 @@ def _strip(gap, A, B, delta, length):
 
 @kernel
 def semi_winkler(sep, delta, modulus, point, across, work, strips, n_strips):
-    """Set half lengths and pressures of strips, from the depths that `cut` has left in P0."""
+    """Set half lengths and pressures of strips from the depths that `cut` left in P0."""
     y, A, n = sep.y, sep.A, sep.y.size
     nodes, weights = across.nodes, across.weights
-    decay = _decay(point)
+    decay = _decay_length(point)
     length = decay * math.sqrt(delta)
-    # k: the ellipse of the least point carries Hertz's load
+    # k such that the ellipse at the smallest gap carries Hertz's load
     volume, gap_at_edge = 0.0, _share(point.B, decay) * delta
     for i in range(nodes.size):
         a, mean = _strip(gap_at_edge * nodes[i] * nodes[i], point.A, point.B, delta, length)

@@ -1,13 +1,14 @@
 """Strip half space: longitudinal strips with semi-elliptic pressure and exact half-space influence between them.
 
-Unknown are the peak pressure and the half length of every strip and, for a prescribed load, the approach. Two conditions a
-strip: the gap closes on the centre line and at the strip's ends (strip_halfspace.md 2, "C1"; after Knothe and Le The 1984).
-Hertz's ellipse satisfies both exactly for every aspect ratio. Strips are cosine-spaced between moving ends, one panel of
-strips for every patch of the start solution; all panels interact. No second derivative of the profile enters.
+The unknowns are the peak pressure and the half length of every strip and, for a prescribed load, the approach. There
+are two conditions per strip: the gap closes on the centre line and at the strip's ends (strip_halfspace.md 2, "C1";
+after Knothe and Le The 1984). Hertz's ellipse satisfies both exactly for every aspect ratio. Strips are cosine-spaced
+between moving ends, with one panel of strips for every patch of the start solution. All panels interact. No second
+derivative of the profile is used.
 
-Beyond strip_halfspace.md: half lengths and ends are mixed together; ends follow their rule for a dozen iterations and then
-stand still, and the active set ends the patch inside them (nearly flat and rough gaps: 12 → 1.2 % not converged). The best
-iterate since then is kept, which halves the rest. A single panel steps by the Jacobian of the ellipse with its a/b (`descent`).
+Half lengths and ends are mixed together. Ends follow their rule for a dozen iterations and are then fixed, and the
+active set ends the patch inside them (nearly flat and rough gaps: 12 → 1.2 % not converged). The best iterate since
+then is kept, which halves the rest. A panel steps by the Jacobian of the ellipse with its a/b (`descent`).
 """
 
 import math
@@ -40,27 +41,30 @@ from contact.kernels.normal.strip_system import (
 MAX_ITERATIONS = 40
 #: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops.
 TOLERANCE = 1e-4
-#: Where steps take the Jacobian of an ellipse: what mixing may leave of the step, and how large the residuals may be.
+#: Limits at which steps by the Jacobian of an ellipse stop: what mixing leaves of the step, and the residuals.
 LEFT, CLOSE = 4e-4, 4e-3
-#: What counts as converged at the cap.
+#: Load-weighted mean change of ln a that counts as converged at the limit of iterations.
 ACCEPTABLE = 1e-3
-#: From here on the ends stand still: at the corner of a punch and on rough gaps their rule has no steady answer.
+#: Iteration from which on the ends are fixed. At the corner of a punch and on rough gaps their rule has no steady solution.
 FREEZE = 12
-#: An end that moves further than this, over the width, and turns back, goes half the way.
+#: An end that reverses and moves further than this, over the width, moves half the way.
 TURN = 0.02
-#: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's answer is.
+#: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's solution is.
 USABLE = 0.02
 
-#: Mean slope of the line of the strips' middles up to which they count as in line.
+#: Largest mean slope of the line of the strips' middles at which strips count as in line.
 SLIGHT = 0.045
 
-# memory[...]: what a later call may start from: number of panels, their ends, the outer ends of ANALYN's patches, then ln a
+# memory[...]: start of a later call: number of panels, their ends, the outer ends of ANALYN's patches, then ln a
 MEM_PANELS, MEM_ENDS, MEM_START, MEM_LN_A = 0, 1, 1 + 2 * MAX_PATCHES, 3 + 2 * MAX_PATCHES
 
 
 @kernel
 def _write(sep, n_panels, panels, own, result):
-    """Loaded strips in ascending order of y into `own.strips`; runs of neighbours are the patches. Returns their number."""
+    """Fill `own.strips` with the loaded strips in ascending order of y. Return their number.
+
+    Runs of neighbours are the patches.
+    """
     cosines, vectors, work, strips = own.rule.cosines, own.space.vectors, own.space.grid, own.strips
     y, n, size = sep.y, cosines.size - 1, sep.y.size
     count, patch = 0, -1
@@ -104,8 +108,9 @@ def _write(sep, n_panels, panels, own, result):
 def _skew(n, strips):
     """Return the share, from 0 to 1, of the strips' offsets along x that counts in their influence on each other.
 
-    At a slope s of the line of their middles, strips lie √(1 + s²) times as far apart as in line: .001 at `SLIGHT`, below which
-    the offsets do not count. They double the time. From twice that slope on they count in full, and between smoothly.
+    At a slope s of the line of their middles, strips lie √(1 + s²) times as far apart as in line: .001 more at
+    `SLIGHT`. Below this slope the offsets do not count, because they double the time. From twice that slope on they
+    count in full, with a smooth transition.
     """
     slope, load = 0.0, 0.0
     for i in range(1, n):
@@ -120,7 +125,7 @@ def _skew(n, strips):
 
 @kernel
 def _keep_best(n, n_panels, panels, vectors):
-    """Keep lengths and ends."""
+    """Store half lengths and ends in Vector.BEST."""
     for i in range(n * n_panels):
         vectors[Vector.BEST, i] = vectors[Vector.LN_A, i]
     for p in range(n_panels):
@@ -129,7 +134,7 @@ def _keep_best(n, n_panels, panels, vectors):
 
 @kernel
 def _take_best(n, n_panels, panels, vectors):
-    """Go back to the lengths and ends that were kept."""
+    """Restore the half lengths and ends that `_keep_best` stored."""
     for p in range(n_panels):
         first, last = p * n, p * n + n - 1
         panels[2 * p], panels[2 * p + 1] = vectors[Vector.BEST, first], vectors[Vector.BEST, last]
@@ -140,7 +145,7 @@ def _take_best(n, n_panels, panels, vectors):
 
 @kernel
 def _damp_turns(n, n_panels, panels, vectors):
-    """Let the ends that turn back go half the way."""
+    """Halve the moves of ends that reverse."""
     for p in range(n_panels):
         least = TURN * (panels[2 * p + 1] - panels[2 * p])
         for side in range(2):
@@ -152,7 +157,7 @@ def _damp_turns(n, n_panels, panels, vectors):
 
 @kernel
 def _can_descend(n, n_panels, vectors):
-    """Return whether the loaded strips of every panel lie side by side."""
+    """Return whether every panel has its loaded strips side by side."""
     runs = 0
     for p in range(n_panels):
         runs += 1 if has_one_run(n, vectors[Vector.P, p * n : p * n + n]) else 0
@@ -161,10 +166,10 @@ def _can_descend(n, n_panels, vectors):
 
 @kernel
 def strip_halfspace(sep, case, own, result):
-    """Solve the normal problem; same answers as `analyn`, which gives the start and the local aspect ratios.
+    """Solve the normal problem. Results are those of `analyn`, which gives the start and the local aspect ratios.
 
-    A filled `space.memory` is the start instead of ANALYN's patch; it is left filled for the next call. With the status
-    NOT_CONVERGED the answer is the best iterate if that was nearly at rest, and ANALYN's otherwise.
+    If `space.memory` is filled, it is the start instead of ANALYN's patch. It is left filled for the next call. With
+    the status NOT_CONVERGED the result is the best iterate if its changes were small, and ANALYN's solution otherwise.
     """
     y = sep.y
     rule, space, strips = own.rule, own.space, own.strips
@@ -189,7 +194,7 @@ def strip_halfspace(sep, case, own, result):
         vectors[Vector.ACTIVE, : n_panels * n] = 1.0
         for i in range(n_panels * n):
             vectors[Vector.LN_A, i] = memory[MEM_LN_A + i]
-        # the panels move as ANALYN's patch has moved: a mean shift, small against the patch or not to be believed
+        # the panels move with ANALYN's patch; a mean shift that is not small against the patch is ignored
         shift = 0.5 * (start_low + start_high - memory[MEM_START] - memory[MEM_START + 1])
         shift = shift if abs(shift) < 0.02 * (start_high - start_low) else 0.0
         for p in range(n_panels):
@@ -197,7 +202,7 @@ def strip_halfspace(sep, case, own, result):
             panels[2 * p + 1] += shift
             panels[2 * p], panels[2 * p + 1] = max(panels[2 * p], y[0]), min(panels[2 * p + 1], y[size - 1])
             if not panels[2 * p] < panels[2 * p + 1]:
-                n_panels = 0  # the memory is of another place
+                n_panels = 0  # the memory belongs to another position
     if n_panels == 0:
         n_panels = start_panels(n_strips, n, strips, result, panels, rule.cosines, vectors)
 
@@ -213,7 +218,7 @@ def strip_halfspace(sep, case, own, result):
         error, load = math.inf, 0.0
         if not abs(delta) < math.inf:
             break
-        # the strip ends: stretch each strip by the ratio of the overlap at its ends to the one that a parabola leaves
+        # strip ends: stretch each strip by the ratio of the overlap at its ends to that of a parabola
         edge_displacements(panels, n_panels, own, skewed, unit)
         error, load = 0.0, 0.0
         for i in range(total):
@@ -274,7 +279,7 @@ def strip_halfspace(sep, case, own, result):
             known, best = 0, math.inf
 
     result.iterations = iteration + 1
-    stepped = True  # lengths and ends are not those of the pressures
+    stepped = True  # lengths and ends have changed since the pressures were found
     if converged and descending:
         advance(n, n_panels, panels, vectors)
     elif not converged and n_panels > 0 and best * load < error:
@@ -292,9 +297,8 @@ def strip_halfspace(sep, case, own, result):
     for i in range(n_panels * n):
         peak = max(peak, vectors[Vector.P, i])
     usable = converged or (n_panels > 0 and error < USABLE * load)
-    if not (
-        usable and peak < modulus
-    ):  # ANALYN's answer is still in place, and its status if the data end within the patch
+    if not (usable and peak < modulus):
+        # `strips` and `result` still hold ANALYN's solution, and its status if the data end within the patch
         if result.status != Status.OUT_OF_RANGE:
             result.status = Status.NOT_CONVERGED
         memory[MEM_PANELS] = 0.0
@@ -306,7 +310,7 @@ def strip_halfspace(sep, case, own, result):
     N = 0.0
     for i in range(count):
         N += 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
-    if by_load and N > 0.0:  # end strips that would pull carry nothing: 1e-5 of the load goes to the others
+    if by_load and N > 0.0:  # end strips under tension carry nothing, so 1e-5 of the load goes to the others
         for i in range(count):
             strips[Strip.P0, i] *= amount / N
     if not converged and error > ACCEPTABLE * load and result.status != Status.OUT_OF_RANGE:
@@ -314,7 +318,7 @@ def strip_halfspace(sep, case, own, result):
     elif result.status == Status.OUT_OF_RANGE and not (panels[0] <= y[0] or panels[2 * n_panels - 1] >= y[size - 1]):
         result.status = Status.OK
     N = amount if by_load else N
-    # d(ln N)/d(ln delta) of ANALYN, exact in Hertz contact: the strips' semi-ellipses cannot show a punch's edge pressure
+    # d(ln N)/d(ln delta) of ANALYN, exact in Hertz contact; semi-ellipses cannot represent the edge pressure of a punch
     result.stiffness *= (result.approach - g_least) / result.N * N / delta if delta > 0.0 else 0.0
     result.N = N
     result.approach = delta + g_least

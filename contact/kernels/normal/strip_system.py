@@ -1,4 +1,4 @@
-"""The linear system of interacting strips: influence matrix, active-set solution, displacement at strip edges."""
+"""Linear system of interacting strips: influence matrix, active-set solution, displacement at the ends of strips."""
 
 import math
 
@@ -7,15 +7,16 @@ from contact.kernels.layout import Vector
 from contact.kernels.normal.elimination import eliminate
 from contact.kernels.normal.influence import anywhere, at_centre, column, in_row, logarithm, row_at
 
-#: Offset along x over the half length below which strips count as in line: the table off the centre line is no more exact.
+#: Offset along x over the half length below which strips count as in line. The table off the centre line is not more exact.
 IN_LINE = 0.01
 
 
 @kernel
 def distances(panels, n_panels, own):
-    """ln|Y_k - y_i| of every strip i to every edge k of other panels, into `own.space.logs[i, k]`; n + 1 edges a panel.
+    """Fill `own.space.logs[i, k]` with ln|Y_k - y_i| of every strip i to every edge k of other panels; n + 1 edges a panel.
 
-    Within a panel the strips sit at fixed cosines: a constant table plus ln of the panel's half width.
+    Within a panel strips lie at fixed cosines. There a constant table plus ln of the panel's half width is used
+    instead.
     """
     cosines, vectors, logs = own.rule.cosines, own.space.vectors, own.space.logs
     n = cosines.size - 1
@@ -33,7 +34,10 @@ def distances(panels, n_panels, own):
 
 @kernel
 def _fill_skewed(first, j, n, own, ln_a, scale):
-    """Column of strip j within its panel, which begins at strip `first`, where strips lie off each other's centre."""
+    """Fill the column of strip j within its panel where strips lie off each other's centre.
+
+    The panel begins at strip `first`. Strips in line are filled only if there is no table of columns.
+    """
     cosine_logs, vectors, row = own.rule.cosine_logs, own.space.vectors, own.space.matrix[j]
     centre, plane = own.tables.centre, own.tables.plane
     tabulated, k = own.rule.columns.shape[1] == n, j - first
@@ -50,9 +54,9 @@ def _fill_skewed(first, j, n, own, ln_a, scale):
 
 @kernel
 def assemble(panels, n_panels, own, skewed, unit):
-    """Displacement on the centre line of strip i by unit peak pressure on strip j, into `own.space.matrix[j, i]`.
+    """Fill `own.space.matrix[j, i]` with the displacement on the centre line of strip i by unit peak pressure on strip j.
 
-    `unit` is 1/(pi E*); `skewed` says whether strips lie off each other's centre.
+    `unit` is 1/(pi E*). `skewed` says whether strips lie off each other's centre.
     """
     columns, vectors, logs, matrix = own.rule.columns, own.space.vectors, own.space.logs, own.space.matrix
     centre, plane = own.tables.centre, own.tables.plane
@@ -60,7 +64,7 @@ def assemble(panels, n_panels, own, skewed, unit):
     tabulated = columns.shape[1] == n
     for j in range(n * n_panels):
         panel = j // n
-        first, k = panel * n, j + panel  # k: the first of its two edges
+        first, k = panel * n, j + panel  # k is the first of its two edges
         a = vectors[Vector.A, j]
         scale, ln_a = a * unit, math.log(a)
         ln_share = ln_a - math.log(0.5 * (panels[2 * panel + 1] - panels[2 * panel]))
@@ -82,9 +86,9 @@ def assemble(panels, n_panels, own, skewed, unit):
 
 @kernel
 def _add_panel(p, q, n, logs, ln_unit, vectors, plane):
-    """Add to Vector.U the displacement at the ends of panel p's strips by panel q; `logs` + `ln_unit` are ln|Y_k - y_i|.
+    """Add to Vector.U the displacement at the ends of panel p's strips by panel q.
 
-    `logs` are of all panels, or of one and itself.
+    `logs` + `ln_unit` are ln|Y_k - y_i|. `logs` are those of all panels or, for p = q, those within one panel.
     """
     row, edge = (0, 0) if p == q else (p * n, q * (n + 1))
     first, last = q * n, (q + 1) * n
@@ -106,7 +110,10 @@ def _add_panel(p, q, n, logs, ln_unit, vectors, plane):
 
 @kernel
 def _add_skewed_panel(p, q, n, logs, ln_unit, vectors, plane):
-    """As `_add_panel` under yaw: the mean of both ends of strips that lie off each other's centre."""
+    """Add to Vector.U what `_add_panel` adds, under yaw.
+
+    The mean of both ends is taken for strips that lie off each other's centre.
+    """
     row, edge = (0, 0) if p == q else (p * n, q * (n + 1))
     first, last = q * n, (q + 1) * n
     logs_a, inverses = vectors[Vector.Q1, first:last], vectors[Vector.Q2, first:last]
@@ -135,7 +142,7 @@ def _add_skewed_panel(p, q, n, logs, ln_unit, vectors, plane):
 
 @kernel
 def edge_displacements(panels, n_panels, own, skewed, unit):
-    """Displacement at the ends of every loaded strip into Vector.U."""
+    """Fill Vector.U with the displacement at the ends of every loaded strip [m]."""
     cosine_logs, vectors, logs, plane = own.rule.cosine_logs, own.space.vectors, own.space.logs, own.tables.plane
     n = cosine_logs.shape[0]
     for j in range(n * n_panels):
@@ -158,7 +165,7 @@ def edge_displacements(panels, n_panels, own, skewed, unit):
 
 @kernel
 def displacement_outside(at, n, n_panels, vectors, centre, unit):
-    """Displacement at a point of the centre line that lies in no panel."""
+    """Return the displacement at a point of the centre line that lies in no panel [m]."""
     u = 0.0
     for p in range(n_panels):
         first = p * n
@@ -180,10 +187,11 @@ def displacement_outside(at, n, n_panels, vectors, centre, unit):
 
 @kernel
 def solve_active(n, n_panels, space, by_load, amount):
-    """Peak pressures that close the gap of every loaded strip; return the approach above first touch.
+    """Fill the peak pressures that close the gap of every loaded strip. Return the approach above first touch [m].
 
-    p = delta·q1 + q2 with q1 the answer to a unit approach, so load- and approach-prescribed differ in one line. Strips under
-    tension leave the active set, separated strips that would overlap enter it; at most 20 rounds.
+    p = delta·q1 + q2 with the response q1 to a unit approach. So a prescribed load and a prescribed approach differ in
+    one line. Strips under tension leave the active set. Separated strips that would overlap enter it. There are at most
+    20 rounds.
     """
     vectors, matrix, lu = space.vectors, space.matrix, space.lu
     total = n * n_panels
@@ -231,7 +239,7 @@ def solve_active(n, n_panels, space, by_load, amount):
             break
         if m == 0:
             break
-    for i in range(total):  # ends kept in the set for smoothness do not pull
+    for i in range(total):  # end strips that are kept in the set for smoothness carry no tension
         if vectors[Vector.P, i] < 0.0:
             vectors[Vector.P, i] = 0.0
     return delta

@@ -1,16 +1,16 @@
-"""STRIPES (Ayasse and Chollet 2005): Hertz's contact strip by strip, corrected so that an ellipse is met.
+"""STRIPES (Ayasse and Chollet 2005): Hertz's contact strip by strip, corrected so that an ellipse is reproduced.
 
-Strips lie where g < eps·delta; their length follows from a corrected curvature along x (theory.md 5):
+Strips lie where g < eps·delta. Their length follows from a corrected curvature along x (theory.md 5):
 
     A correction    eps = n0² B0/(r0 (A0 + B0)) = 1/(1 + beta0),   A_c = (n/m)² B
     AB correction   eps = n0²/(r0 (1 + (n0/m0)²)),                 A_c = (A + B) (n/m)²/(1 + (n/m)²)
 
     a² = (eps·delta - g)/A_c,   p0 = (2 E*/pi) (eps·delta - g)/(eps n r a)
 
-with m, n, r of the local A(y), B(y), index 0 at the least point. On an ellipse the A correction is Hertz's solution, the AB
-correction has Hertz's a but b² = eps·delta/B. B is smoothed and floored as in ANALYN; the published smoothing is not at hand.
-The pressure is the one that is Hertz's on the A-corrected ellipse, our choice. [R]: recalled from Ayasse and Chollet, Vehicle
-System Dynamics 43 (2005) 161, by way of the thesis, ch. 7.
+m, n, r are those of the local A(y), B(y). The index 0 stands for the smallest gap. On an ellipse the A correction is
+Hertz's solution. The AB correction has Hertz's a, but b² = eps·delta/B. B is smoothed and floored as in ANALYN, because
+the published smoothing is not at hand. The pressure is our choice: it is Hertz's on the A-corrected ellipse. [R]:
+recalled from Ayasse and Chollet, Vehicle System Dynamics 43 (2005) 161, by way of the thesis, ch. 7.
 """
 
 import math
@@ -24,7 +24,7 @@ from contact.kernels.normal.analyn import floored, lateral_curvature
 
 @kernel
 def prepare(y, g, A, n, point, both, work):
-    """Fill effective gap, effective curvature and Hertz's factors of all samples; `both`: the AB correction."""
+    """Fill effective gap, effective curvature and Hertz's factors of all samples. `both` selects the AB correction."""
     ratio2 = math.exp(-2.0 * point.log_aspect)  # (n0/m0)²
     share = 1.0 / point.one_beta
     if both:

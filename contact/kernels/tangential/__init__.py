@@ -1,1 +1,1 @@
-"""Tangential contact: strips and creepages in, traction, slip and forces out. One method a file."""
+"""Tangential contact: from strips and creepages to traction, slip and forces. One method per file."""

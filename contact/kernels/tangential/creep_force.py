@@ -1,8 +1,9 @@
-"""Laws that give forces alone, patch by patch of strips: each patch is its equivalent ellipse, rolling at its centre of load.
+"""Laws that give only forces. Each patch is its equivalent ellipse, which rolls at its centre of load.
 
-The ellipse has the area of the patch and the longest strip as semi-axis a; Poisson's ratio, friction and load are the
-patch's own. What the law says about the ellipse's middle is taken about the separation's origin. There are no fields; the
-power is -(F·v + Mz phi), which in steady rolling is all that friction dissipates, less what a law without moment leaves out.
+The ellipse has the area of the patch and the longest strip as semi-axis a. Poisson's ratio, friction and load are those
+of the patch. Forces and moment of the law act at the middle of the ellipse and are referred to the separation's origin.
+There are no fields. The power is -(F·v + Mz phi). In steady rolling this is all that friction dissipates, except for
+what a law without moment leaves out.
 """
 
 import math
@@ -21,7 +22,10 @@ from contact.kernels.tangential.vermeulen_johnson import vermeulen_johnson
 
 @kernel
 def of_ellipse(case, creepage, a, b, limit, tables):
-    """Fx, Fy, Mz and the share of slip of one ellipse that rolls with a creepage (vx, vy, phi); `limit` is mu N."""
+    """Return Fx, Fy, Mz [N, N, N m] and the share of slip of one ellipse.
+
+    The ellipse rolls with the creepage (vx, vy, phi). `limit` is mu N.
+    """
     vx, vy, _ = creepage
     law, G, nu = case.tangential, case.G, case.nu
     if law == Tangential.CARTER:
@@ -46,7 +50,7 @@ def of_ellipse(case, creepage, a, b, limit, tables):
 
 @kernel
 def creep_force(part, case, own, result):
-    """Add what one patch bears to `result`; traction and slip of its fields are zero."""
+    """Add forces, power and slip area of one patch to `result`. Set traction and slip of its fields to zero."""
     strips, fields, first, last = own.strips, own.fields, part.first, part.last
     fields[Field.QX : Field.STICK + 1, first : min(last, fields.shape[1]), :] = 0.0
     load, load_y, load_x, bound = 0.0, 0.0, 0.0, 0.0

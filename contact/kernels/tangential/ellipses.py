@@ -10,7 +10,7 @@ from contact.kernels.layout import Strip
 
 
 class Part(NamedTuple):
-    """One separate patch: its strips are first … last - 1, its load `N` [N], its place (x, y) [m] that of `place_in_load`."""
+    """One separate patch: strips first … last - 1, load `N` [N], and position (x, y) [m] as `place_in_load` gives it."""
 
     first: int
     last: int
@@ -21,7 +21,7 @@ class Part(NamedTuple):
 
 @kernel
 def end_of_patch(strips, n, first):
-    """The strip after the last one of the patch that begins at strip `first`."""
+    """Return the index after the last strip of the patch that begins at strip `first`."""
     last = first + 1
     while last < n and strips[Strip.PATCH, last] == strips[Strip.PATCH, first]:
         last += 1
@@ -30,7 +30,7 @@ def end_of_patch(strips, n, first):
 
 @kernel
 def centre_of_load(strips, first, last):
-    """Load of strips over π/2, and its centre (x, y)."""
+    """Return the load of strips over π/2 [N] and its centre (x, y) [m]."""
     load, x, y = 0.0, 0.0, 0.0
     for i in range(first, last):
         share = strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
@@ -42,10 +42,11 @@ def centre_of_load(strips, first, last):
 
 @kernel
 def place_in_load(strips, n, first, last):
-    """Share of a patch in the load of all `n` strips, and its centre (x, y) from theirs: 1, 0, 0 of a single patch, exactly.
+    """Return the share of a patch in the load of all `n` strips, and its centre (x, y) relative to theirs [m].
 
-    Where a law takes creepages of a patch as a whole, they are those at this place, so that separate patches do not matter to
-    each other; of a single one, and as a second is born, those at the origin.
+    For a single patch the result is exactly 1, 0, 0. Laws that take creepages of a patch as a whole take them at this
+    place. So separate patches do not affect each other. For a single patch, and when a second one appears, this is the
+    origin.
     """
     total, x0, y0 = centre_of_load(strips, 0, n)
     load, x, y = centre_of_load(strips, first, last)
@@ -54,7 +55,10 @@ def place_in_load(strips, n, first, last):
 
 @kernel
 def stiffness_of(part, case, limit, own):
-    """Shear modulus of a case times the slope of friction on one patch that friction lets bear `limit`."""
+    """Return the shear modulus of a case times the factor on the creep stiffness, for one patch [Pa].
+
+    `limit` is the largest force that friction allows on the patch [N].
+    """
     if case.slope == 1.0 and case.slope_far == 1.0:
         return case.G
     a, b = equivalent_ellipse(own.strips, part.first, part.last)
@@ -64,7 +68,7 @@ def stiffness_of(part, case, limit, own):
 
 @kernel
 def equivalent_ellipse(strips, first, last):
-    """Semi-axes of the ellipse with the longest strip as a and the area of the patch."""
+    """Return the semi-axes [m] of the ellipse with the longest strip as a and the area of the patch."""
     a = 0.0
     area = 0.0
     for i in range(first, last):
@@ -75,7 +79,10 @@ def equivalent_ellipse(strips, first, last):
 
 @kernel
 def mean_ellipse(strips, first, last):
-    """Semi-axes of the ellipse with the area of the patch and its mean length: ∫a² dy/∫a dy is 8a/(3π) on an ellipse."""
+    """Return the semi-axes [m] of the ellipse with the area of the patch and its mean length.
+
+    The mean length follows from ∫a² dy/∫a dy, which is 8a/(3π) on an ellipse.
+    """
     area, square = 0.0, 0.0
     for i in range(first, last):
         area += strips[Strip.A, i] * strips[Strip.DY, i]
@@ -86,7 +93,10 @@ def mean_ellipse(strips, first, last):
 
 @kernel
 def flexibilities(G, a, b, table):
-    """L1, L2, L3 [m/Pa] with which the forces of vanishing creepage are Kalker's (thesis Eqs. 4.28-4.30); 1 for no ellipse."""
+    """Return L1, L2, L3 [m/Pa] with which the forces at vanishing creepage are Kalker's (thesis Eqs. 4.28-4.30).
+
+    Return 1, 1, 1 if there is no ellipse.
+    """
     if a <= 0.0 or b <= 0.0:
         return 1.0, 1.0, 1.0
     c11, c22, c23, _ = kalker.coefficients(table, math.log(a / b))
@@ -99,7 +109,10 @@ def flexibilities(G, a, b, table):
 
 @kernel
 def weighted(vx, vy, phi, c, L1, L2, L3):
-    """The one flexibility, (|vx| L1 + |vy| L2 + |phi| c L3)/√(vx² + vy² + phi² c²) (Kalker 1982; thesis Eqs. 4.31-4.32)."""
+    """Return the single flexibility (|vx| L1 + |vy| L2 + |phi| c L3)/√(vx² + vy² + phi² c²) [m/Pa].
+
+    The source is Kalker 1982; thesis Eqs. 4.31-4.32.
+    """
     spin = c * phi
     size = math.sqrt(vx * vx + vy * vy + spin * spin)
     return (abs(vx) * L1 + abs(vy) * L2 + abs(spin) * L3) / size if size > 0.0 else L1

@@ -1,26 +1,32 @@
 """FaStrip: strip theory amended by Kalker's coefficients, with FASTSIM's directions in the slip zone (theory.md 4).
 
-`strip_theory` (Haines and Ollerton 1963; Kalker 1967; thesis Eqs. 4.14-4.26) is the same without either: its own coefficients,
-and in slip one direction for each strip, that of the traction where stick ends (4.23) or, where the whole strip slips, of the
-rigid slip at its middle (4.25). So its force jumps where a strip comes to slip under combined creepage, as published.
+Every strip is the central strip of a local ellipse with its own half length a(y), peak pressure p0(y) and aspect ratio.
+So the method needs no elliptic patch. On an ellipse it is the published method. Stick-zone forces are integrated in
+closed form. In the slip zone the magnitude mu·p is integrated exactly over each element, and only the direction is that
+of the element.
 
-Every strip is the central strip of a local ellipse with its own half length a(y), peak pressure p0(y) and aspect ratio, so
-the method needs no elliptic patch; on an ellipse it is the published method. Stick-zone forces are integrated in closed
-form; in the slip zone the magnitude mu·p is integrated exactly over each element and only the direction is the element's.
+`strip_theory` (Haines and Ollerton 1963; Kalker 1967; thesis Eqs. 4.14-4.26) is the same with its own coefficients and
+without the march. In slip each strip has one direction: that of the traction where stick ends (4.23) or, where the
+whole strip slips, that of the rigid slip at its middle (4.25). So its force jumps where a strip begins to slip under
+combined creepage, as published.
 
-Departures from the thesis, each measured on elliptic cases against CONTACT (mean force error over mu N; docs/accuracy.md; the
-published method has .0164):
-* the longitudinal term of a strip is its C11-scaled local creepage vx - phi·y (moment error .0138 → .0122);
-* the stick zone is continued through |psi| = 1 where lateral creepage opposes spin (`strip_theory.stick_zone`; .0175 → .0148),
-  and left by and by where its leading edge comes to slip (.0138 → .0137; forces jumped there, by up to .046 as spin rises);
-* the single flexibility of a slipping leading edge is Vollebregt's weighted mean, L = (vx² + vy² + c²phi²)/(vx²/L1 + …)
-  (theory.md 2.5, "crss"), blended in instead of switched, which removes a jump from strip to strip (.0148 → .0121);
-* the direction pass is of second order (`march`): .0136, and the result no longer depends on the number of elements, where
-  the first-order pass had gained the difference by its error;
-* a particle that sticks again in the march, as the rigid slip turns round within the strip, bears less than mu·p, by what it
-  bears there (.0137 → .0136). Raised to the bound, its traction turned round at once as it passed through zero; doubling the
-  strips changed forces by .050 % of mu N instead of .021 % in the mean, the elements by .032 % instead of .013 %;
-* the factor 1 + (1 - a/b)⁴ on N in the direction pass is left out (no measurable benefit, theory.md 4.2).
+The departures from the thesis were each measured on elliptic cases against CONTACT (mean force error over mu N;
+docs/accuracy.md; the published method has .0164):
+
+* The longitudinal term of a strip is its C11-scaled local creepage vx - phi·y (moment error .0138 → .0122).
+* The stick zone is continued through |psi| = 1 where lateral creepage opposes spin (`strip_theory.stick_zone`; .0175 →
+  .0148). It is left gradually where its leading edge begins to slip (.0138 → .0137; forces jumped there, by up to .046
+  as spin rises).
+* The single flexibility of a slipping leading edge is Vollebregt's weighted mean, L = (vx² + vy² + c²phi²)/(vx²/L1 + …)
+  (theory.md 2.5, "crss"). It is blended in instead of switched, which removes a jump from strip to strip (.0148 →
+  .0121).
+* The direction pass is of second order (`march`): .0136. The result no longer depends on the number of elements. The
+  first-order pass had gained the difference by its error.
+* A particle that sticks again in the march, because the rigid slip reverses within the strip, bears the same share of
+  the bound as there, not all of it (.0137 → .0136). When it was raised to the bound, its traction reversed at once as
+  it passed through zero. Then doubling the strips changed forces by .050 % of mu N instead of .021 % in the mean,
+  doubling the elements by .032 % instead of .013 %.
+* The factor 1 + (1 - a/b)⁴ on N in the direction pass is left out (no measurable benefit, theory.md 4.2).
 """
 
 import math
@@ -49,9 +55,9 @@ from contact.kernels.tangential.march import FREE_BEHIND_MARCH, ROW_CAME, ROW_ST
 from contact.kernels.tangential.strip_theory import coefficients, inner_resultants, outer_resultants, stick_zone
 from contact.kernels.tangential.varying import begin_varying, soften, varies
 
-_NOW_SX, _NOW_SY = NOW_SLIP, NOW_SLIDES  # where `_show` leaves the slip velocity
+_NOW_SX, _NOW_SY = NOW_SLIP, NOW_SLIDES  # where `_to_fields` puts the slip velocity
 
-# rows of `lanes` behind those of the march
+# rows of `lanes` after those of the march
 (
     _A,
     _Y,
@@ -72,20 +78,20 @@ _NOW_SX, _NOW_SY = NOW_SLIP, NOW_SLIDES  # where `_show` leaves the slip velocit
     _VX,
     _VY,
     _SPIN,  # phi·a
-    _STRAIN,  # slip velocity behind the stick zone over √((1-s)(2e-1-s)), by strip theory (theory.md 4.3)
+    _STRAIN,  # slip velocity after the stick zone over √((1-s)(2e-1-s)), by strip theory (theory.md 4.3)
     _FX,  # sums over the slip zone, over mu p0
     _FY,
     _MZ,
     _POWER,
 ) = (FREE_BEHIND_MARCH + row * LANES for row in range(24))
 
-#: Share of the bound, squared, up to which a particle of the slip zone sticks again.
+#: Squared share of the bound up to which a particle of the slip zone counts as sticking again.
 _AT_BOUND = 1.0 - 1e-9
 
 
 @kernel
 def _set_block(part, block, case, c_patch, own):
-    """Amended strip theory (theory.md 4.1) of the strips from `block` on, and the set-up of their march."""
+    """Fill `lanes` for the strips from `block` on: amended strip theory (theory.md 4.1) and the input of their march."""
     strips, lanes, table = own.strips, own.space.lanes, own.tables.kalker
     G, nu = case.G, case.nu
     least = NO_FRICTION * G
@@ -109,13 +115,13 @@ def _set_block(part, block, case, c_patch, own):
         c11, c22, c23, root_aspect = lanes[_C11 + l], lanes[_C22 + l], lanes[_C23 + l], lanes[_ROOT_ASPECT + l]
         rigid_x, rigid_y, phi = lanes[_VX + l], lanes[_VY + l], lanes[_SPIN + l]
         spin2 = (phi * c_patch) ** 2
-        at_x, at_y = rigid_x - phi * part.y, rigid_y + phi * part.x  # and the spin is about the patch
+        at_x, at_y = rigid_x - phi * part.y, rigid_y + phi * part.x  # at the patch's place, about which the spin counts
         live = 1.0 if bound > 0.0 else 0.0
-        unit = live * G / (bound + (1.0 - live))  # no slip at all in a strip that bears nothing
+        unit = live * G / (bound + (1.0 - live))  # no slip in a strip that carries no load
         across = c23 / root_aspect
-        # directions from the parabola of peak 4/3 mu p0 (theory.md 4.4); its three stiffnesses, a/(flexibility·bound), pass
-        # into a single one as the leading edge comes to slip: `edge` is the utilisation of the bound there, where both
-        # vanish, and beyond 1 the thesis repeats the strip with one flexibility
+        # directions from the parabola of peak 4/3 mu p0 (theory.md 4.4). Its three stiffnesses, a/(flexibility·bound), are
+        # blended into a single one as the leading edge begins to slip. `edge` is the utilisation of the bound there, in the
+        # limit where both vanish. Beyond 1 the thesis repeats the strip with one flexibility.
         L1, L2, L3 = 0.28125 * unit * c11, 0.28125 * unit * c22, 3.0 / math.pi * unit * across
         x, z = at_x * L1 - phi * (y - part.y) * L3, at_y * L2 + phi * (xc - part.x + a) * L3
         w = math.sqrt(x * x + z * z) - 1.0  # 2 edge - 1
@@ -146,7 +152,7 @@ def _set_block(part, block, case, c_patch, own):
 
 @kernel
 def _keep_direction(lanes, trace):
-    """Strip theory in place of the march: one direction of slip for each strip (thesis 4.23-4.26)."""
+    """Fill `trace` with one direction of slip for each strip, as in strip theory (thesis 4.23-4.26). No march is made."""
     for l in range(LANES):
         lanes[ROW_START + l], lanes[ROW_CAME + l] = 0.0, -2.0
         x, y = lanes[_KAPPA + l], lanes[_LAMBDA + l]
@@ -159,9 +165,9 @@ def _keep_direction(lanes, trace):
 
 @kernel
 def _slip(lanes, l, s):
-    """Slip at s against the direction of lane l: strip theory's behind a stick zone, else rigid and elastic slip.
+    """Return the slip over V at s against the direction of lane l; 0 where the particle sticks again.
 
-    None where the particle sticks again.
+    After a stick zone it is strip theory's. In a strip that slips as a whole it is rigid and elastic slip.
     """
     ex, ey = lanes[NOW_X + l], lanes[NOW_Y + l]
     slides = 1.0 if ex * ex + ey * ey > _AT_BOUND else 0.0
@@ -175,12 +181,12 @@ def _slip(lanes, l, s):
 
 @kernel
 def _slip_zone(elements, lanes, trace, falling, block, n, fields):
-    """Sum the slip zones of a block: magnitude mu·p, exact over each element, direction of the march.
+    """Sum the slip zones of a block: the magnitude mu·p is exact over each element, the direction is that of the march.
 
-    A particle that sticks again in the march, as the rigid slip turns round, bears as much less as it does there. The slip is
-    strip theory's behind a stick zone; in strips that slip as a whole it is rigid and elastic slip against the traction.
-    `fields` of the `n` strips are filled if they have room for them. `falling` is the case where friction varies along the
-    strip, or None: numba compiles each on its own, the second without what belongs to the first.
+    A particle that sticks again in the march, because the rigid slip reverses, bears the same share of the bound as
+    there. After a stick zone the slip is strip theory's. In strips that slip as a whole it is rigid and elastic slip
+    against the traction. `fields` of the `n` strips are filled if they have room. `falling` is the case where friction
+    varies along the strip, or None. numba compiles each on its own, the second without the code for varying friction.
     """
     for l in range(LANES):
         lanes[_FX + l], lanes[_FY + l], lanes[_MZ + l], lanes[_POWER + l] = 0.0, 0.0, 0.0, 0.0
@@ -190,7 +196,7 @@ def _slip_zone(elements, lanes, trace, falling, block, n, fields):
         load_end, moment_end = elements[Element.LOAD_END, k], elements[Element.MOMENT_END, k]
         recall(lanes, trace[k])
         sticks = 0
-        for l in range(lanes.size // N_LANE_ROWS):  # as in `_normalise`: so short a loop would be written out
+        for l in range(lanes.size // N_LANE_ROWS):  # as in `_normalise`, so that it is not unrolled
             sticks += 1 if lanes[NOW_SLIDES + l] < 0.5 and load_end > lanes[_LOAD + l] else 0
         if sticks > 0:
             _normalise(s, lanes)
@@ -198,7 +204,7 @@ def _slip_zone(elements, lanes, trace, falling, block, n, fields):
             for l in range(LANES):
                 slip = _slip(lanes, l, s)
                 lanes[SLIP + l], lanes[FLUX + l] = slip, lanes[HEATING + l] * elements[Element.SINE, k] * slip
-                lanes[NOW_STICK + l] = 0.0  # the sums take the part behind the stick zone alone
+                lanes[NOW_STICK + l] = 0.0  # the sums take only the part after the stick zone
             soften(falling, k, elements, lanes, trace)
         for l in range(LANES):
             load_from, ex, ey = lanes[_LOAD + l], lanes[NOW_X + l], lanes[NOW_Y + l]
@@ -217,17 +223,18 @@ def _slip_zone(elements, lanes, trace, falling, block, n, fields):
             lanes[_MZ + l] += share_s * ey
             lanes[_POWER + l] += amount * slip
             lanes[NOW_SLIP + l] = slip
-        if n <= fields.shape[1]:  # else only forces are asked for
-            _show(s, elements[Element.SINE, k], lanes, falling)
+        if n <= fields.shape[1]:  # else only forces are wanted
+            _to_fields(s, elements[Element.SINE, k], lanes, falling)
             _write(k, block, n, lanes, fields)
         load_before, moment_before = load_end, moment_end
 
 
 @kernel
 def _normalise(s, lanes):
-    """Raise what the march leaves where it sticks to the bound, by what raises its largest utilisation so far to the bound.
+    """Divide the traction that the march leaves in stick by its largest utilisation of the bound so far.
 
-    Up to slip that is the present one or, as the utilisation is convex in 1/(1 + s), that of the leading edge.
+    Before slip that is the present utilisation or that of the leading edge, because the utilisation is convex in 1/(1 +
+    s). After slip it is 1.
     """
     for l in range(lanes.size // N_LANE_ROWS):
         x, y, start = lanes[NOW_X + l], lanes[NOW_Y + l], lanes[ROW_START + l]
@@ -239,8 +246,8 @@ def _normalise(s, lanes):
 
 
 @kernel
-def _show(s, sine, lanes, falling):
-    """Replace what the march leaves by traction over mu p0, slip velocity and 1 in stick, for the fields."""
+def _to_fields(s, sine, lanes, falling):
+    """Replace the output of the march by that of the fields: traction over mu p0, slip velocity, and 1 in stick."""
     per_square, sticks = 1.0 / (sine * sine), 0
     for l in range(lanes.size // N_LANE_ROWS):
         ex, ey, slip = lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_SLIP + l]
@@ -260,18 +267,21 @@ def _show(s, sine, lanes, falling):
         e = lanes[_E + l]
         stick = 1.0 if s > 2.0 * e - 1.0 else 0.0
         S2 = (1.0 - e) * (1.0 - e) - (s - e) * (s - e)
-        S = math.sqrt(0.5 * (S2 + abs(S2)))  # no choice: the compiler would branch around the root
+        S = math.sqrt(0.5 * (S2 + abs(S2)))  # no selection: the compiler would make a branch around the root
         qx, qy = lanes[_KAPPA + l] * (sine - S), lanes[_LAMBDA + l] * sine - lanes[_LAMBDA1 + l] * S
         lanes[NOW_X + l] += stick * (qx - lanes[NOW_X + l])
         lanes[NOW_Y + l] += stick * (qy - lanes[NOW_Y + l])
         beyond += 1 if stick * (qx * qx + qy * qy) * per_square > 1.0 else 0
     if beyond > 0:
-        _cut_to_bound(per_square, lanes)
+        _scale_to_bound(per_square, lanes)
 
 
 @kernel
-def _cut_to_bound(per_square, lanes):
-    """Keep the field admissible where strip theory's stick zone is not; its closed-form resultants do not need it."""
+def _scale_to_bound(per_square, lanes):
+    """Scale the traction to the bound where that of strip theory's stick zone exceeds it.
+
+    This is for the fields. The closed-form resultants do not need it.
+    """
     for l in range(lanes.size // N_LANE_ROWS):
         qx, qy, stick = lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_STICK + l]
         used = stick * (qx * qx + qy * qy) * per_square
@@ -281,7 +291,7 @@ def _cut_to_bound(per_square, lanes):
 
 @kernel
 def _write(k, block, n, lanes, fields):
-    """Traction, slip and stick flag of element k of a block's strips; none of a strip that bears nothing."""
+    """Fill traction, slip and stick flag of element k of a block's strips. A strip that carries no load gets zeros."""
     for l in range(min(LANES, n - block)):
         row, bound = block + l, lanes[_BOUND + l]
         live = 1.0 if bound > 0.0 else 0.0
@@ -292,7 +302,7 @@ def _write(k, block, n, lanes, fields):
 
 @kernel
 def fastrip(part, case, own, result):
-    """Fill the traction, slip and stick fields of one patch and add what it bears to `result`."""
+    """Fill the traction, slip and stick fields of one patch. Add its forces, power and slip area to `result`."""
     strips, fields, elements, last = own.strips, own.fields, own.rule.elements, part.last
     lanes, trace = own.space.lanes, own.space.trace
     a0, b0 = equivalent_ellipse(strips, part.first, last)

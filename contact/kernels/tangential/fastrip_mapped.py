@@ -1,16 +1,21 @@
-"""Mapped strip marching: FaStrip in one march, defined where the strip theory of the thesis is not.
+"""Mapped strip marching: FaStrip in one march, also defined where the strip theory of the thesis is not.
 
-Normalise a strip as x = x_c + a s, traction tau in a march with the parabolic bound 1 - s², u = tau/(1 - s²). With the
-flexibilities of the amended strip theory the first stick zone |u| < 1 is identical to strip theory's, and
+A strip is normalised as x = x_c + a s. With the traction tau of a march under the parabolic bound 1 - s², let u =
+tau/(1 - s²). With the flexibilities of the amended strip theory the first stick zone |u| < 1 is identical to strip
+theory's, and
+
     q/(mu p) = o + (u - o) f(t)/t,  f(t) = 1 - (1 - t)^m,  o = (0, -psi),
-maps the march onto the elliptic pressure, where t is the position of u on the ray from o to the unit circle; m = 1/2 is
-strip theory exactly. March and map stay defined for |psi| >= 1, lateral creepage against spin, stick after slip, and any
-pressure along the strip. Eight constants, of one half of the ellipses computed with CONTACT, let m, the spin and the turning
-of the slip direction vary with spin and aspect ratio (mapped_strip.md, which measures every choice).
 
-On a patch that is no ellipse the logarithm of the aspect ratio of a strip is .6 of the local one, from the curvatures, and
-.4 of that of the equivalent ellipse. Strips roll with effective creepages (`effective`), which give the half space's forces
-on ellipses: on set A the mean error of the force is .0025 of mu N, without them .0077; on real patches .0062 and .0114.
+maps the march onto the elliptic pressure. t is the position of u on the ray from o to the unit circle. m = 1/2 is
+exactly strip theory. March and map remain defined for |psi| >= 1, lateral creepage against spin, stick after slip, and
+any pressure along the strip. Eight constants let m, the spin and the turning of the slip direction vary with spin and
+aspect ratio. They were fitted to one half of the ellipses computed with CONTACT (mapped_strip.md measures every
+choice).
+
+On a patch that is not an ellipse the logarithm of the aspect ratio of a strip is .6 of the local one, from the
+curvatures, and .4 of that of the equivalent ellipse. Strips roll with effective creepages (`effective`), which give the
+half space's forces on ellipses. On set A the mean error of the force is .0025 of mu N, without them .0077. On real
+patches it is .0062, without them .0114.
 """
 
 import math
@@ -66,8 +71,8 @@ from contact.kernels.tangential.march import (
 )
 from contact.kernels.tangential.varying import begin_varying, soften, varies
 
-_NOW_SHARE = NOW_STICK  # where `_fall` leaves the share of the traction that friction still bears
-_LOG_ASPECT_FIT = 1.7  # ln(a/b) up to which the constants were fitted; frozen beyond
+_NOW_SHARE = NOW_STICK  # where `_apply_friction` puts the share of the traction that friction still bears
+_LOG_ASPECT_FIT = 1.7  # ln(a/b) up to which the constants were fitted; they stay constant beyond
 
 
 # rows of `lanes` after those of the march: the strip's constants, its sums over mu p0
@@ -87,18 +92,21 @@ _LOG_ASPECT_FIT = 1.7  # ln(a/b) up to which the constants were fitted; frozen b
     _STICK,  # length in stick, over a
     _BOUND,  # mu p0
     _UNIT,  # of slip
-    _TO_X,  # what effective creepages add to the rigid slip, in that unit: (_TO_X, _TO_Y + _TO_SPIN s)
+    _TO_X,  # change of the rigid slip by effective creepages, in that unit: (_TO_X, _TO_Y + _TO_SPIN s)
     _TO_Y,
     _TO_SPIN,
 ) = (FREE_BEHIND_MARCH + row * LANES for row in range(18))
-# what the set-up reads, in rows that the march writes before it reads them
+# inputs of the set-up, in rows that the march writes before it reads them
 _HALF, _AT, _XC, _VX, _VY = NOW_X, NOW_Y, NOW_SLIP, NOW_SLIDES, NOW_STICK
 _PHI, _C11, _C22, _C23, _ROOT_ASPECT, _FITTED = TRIAL_X, TRIAL_Y, TRIAL_USED, _SUM_X, _SUM_Y, _SUM_M
 
 
 @kernel
 def _set_block(strips, block, last, case, table, centres, lanes):
-    """Steps 1 and 2 of mapped_strip.md 3 for the strips from `block` on; all zero for a strip that bears nothing."""
+    """Fill `lanes` for the strips from `block` on: steps 1 and 2 of mapped_strip.md 3.
+
+    All rows are zero for a strip that carries no load.
+    """
     G = case.G
     y_c, y_spin, rho33 = centres
     least = NO_FRICTION * G
@@ -131,7 +139,7 @@ def _set_block(strips, block, last, case, table, centres, lanes):
         lateral = k22 * (vy + phi * xc)
         psi = 0.5 * k22 * rho23 * phi * a
 
-        # how far from stick (T) and how much spin (psi) set exponent, stiffness, spin and turning rate
+        # T, the distance from stick, and psi, the spin, set exponent, stiffness, spin and turning rate
         T2 = 0.25 * ((translation + rotation) * (translation + rotation) + lateral * lateral)
         psi2 = psi * psi
         h, t = psi2 / (1.0 + psi2), T2 / (1.0 + T2)
@@ -172,19 +180,19 @@ def _set_block(strips, block, last, case, table, centres, lanes):
 
 @kernel
 def _set_edges(lanes):
-    """Directions of the strips that slip from their leading edge."""
+    """Fill EX, EY of the strips that slip from their leading edge."""
     for l in range(lanes.size // N_LANE_ROWS):
         ex, ey = edge_direction(lanes[_R + l], lanes[_XS + l], lanes[_YS + l] + 2.0 * lanes[_SPIN + l])
         lanes[EX + l], lanes[EY + l] = lanes[_FROM_EDGE + l] * ex, lanes[_FROM_EDGE + l] * ey
 
 
 class Uneven(NamedTuple):
-    """Two flexibilities in slip, a parabolic bound, and the map onto the elliptic pressure."""
+    """Rule with two flexibilities in slip, a parabolic bound, and the map onto the elliptic pressure."""
 
 
 @kernel
 def _begin(rule, lanes):
-    pass  # `_set_block` has
+    pass  # `_set_block` has set the state
 
 
 @kernel
@@ -206,9 +214,9 @@ def _slip_at(rule, s, slope, x, y, lanes, l):
 
 @kernel
 def _slide(rule, place, bound, slope, lanes):
-    """Steps 3 of mapped_strip.md 3: the direction with unequal flexibilities, and the slip that is shown."""
+    """Turn the direction with unequal flexibilities (mapped_strip.md 3, step 3), and set the slip of the fields."""
     s, step, middle, stretch = place
-    stop = 0
+    ends = 0
     for l in range(LANES):
         Xs, Ys, spin, r = lanes[_XS + l], lanes[_YS + l], lanes[_SPIN + l], lanes[_R + l]
         slid, x, y, left = lanes[SLIPS + l], lanes[EX + l], lanes[EY + l], lanes[LEFT + l]
@@ -225,7 +233,7 @@ def _slide(rule, place, bound, slope, lanes):
         ex, ey = turned(x, y, wx, wy, w, rest)
         slip = _slip_at(rule, s, slope, ex, ey, lanes, l)
         slides = 1.0 if used > 1.0 else slid
-        stop += 1 if slides > 0.5 and slip < 0.0 else 0
+        ends += 1 if slides > 0.5 and slip < 0.0 else 0
         shown = slid_at(s, (ex, ey), r, lanes[_POLE + l], (Xs, Ys, spin), lanes[_FROM_EDGE + l])
         lanes[EX + l], lanes[EY + l] = ex, ey
         lanes[TX + l] = bound * ex if slides > 0.5 else trial_x
@@ -235,14 +243,14 @@ def _slide(rule, place, bound, slope, lanes):
         lanes[NOW_SLIP + l], lanes[NOW_SLIDES + l] = 0.5 * (shown + abs(shown)) * slides, slides
         lanes[NOW_STICK + l] = (1.0 - slid) * (1.0 - left) if slides > 0.5 else 1.0
         lanes[TRIAL_X + l], lanes[TRIAL_Y + l], lanes[TRIAL_USED + l] = x, y, slid
-    return stop
+    return ends
 
 
 @kernel
 def _map(per_bound, lanes):
     """Map the traction of the strips that stick.
 
-    The count of lanes is LANES; unknown to the compiler, which would write out so short a loop instead of using vectors.
+    The number of lanes is LANES, but unknown to the compiler. It would unroll so short a loop instead of using vectors.
     """
     for l in range(lanes.size // N_LANE_ROWS):
         x, y, slides = lanes[TX + l] * per_bound, lanes[TY + l] * per_bound, lanes[SLIPS + l]
@@ -253,7 +261,7 @@ def _map(per_bound, lanes):
 
 @kernel
 def _leave(rule, s, k, elements, lanes):
-    """Step 4: map the traction where a strip sticks, and sum."""
+    """Map the traction where a strip sticks, and add the element to the sums (mapped_strip.md 3, step 4)."""
     stick = 0
     for l in range(LANES):
         stick += 1 if lanes[SLIPS + l] < 0.5 else 0
@@ -281,8 +289,8 @@ for _stub, _kernel in (
 
 
 @kernel
-def _fall(case, elements, lanes, trace):
-    """Let friction vary along the strips of a block: what it bears of the traction into `trace`, new sums."""
+def _apply_friction(case, elements, lanes, trace):
+    """Fill `trace` with the share of the traction that friction varying along the strips still bears. Repeat the sums."""
     for l in range(LANES):
         lanes[_SUM_X + l], lanes[_SUM_Y + l], lanes[_SUM_M + l] = 0.0, 0.0, 0.0
         lanes[_POWER + l], lanes[_STICK + l] = 0.0, 0.0
@@ -310,7 +318,10 @@ def _fall(case, elements, lanes, trace):
 
 @kernel
 def _write_fields(block, last, elements, falling, lanes, trace, fields):
-    """Traction, slip and stick flag of a block's strips, element by element: so `trace` is read as it lies in memory."""
+    """Fill traction, slip and stick flag of a block's strips.
+
+    The outer loop is over elements, so `trace` is read in its order in memory.
+    """
     for k in range(elements.shape[1]):
         for l in range(min(LANES, last - block)):
             i, bound = block + l, lanes[_BOUND + l]
@@ -323,17 +334,20 @@ def _write_fields(block, last, elements, falling, lanes, trace, fields):
 
 @kernel
 def roll_patch(first, last, case, centres, own, result):
-    """Add what the strips of a patch bear to `result`; fill their fields if there is room. `centres`: `elastic_centre`."""
+    """Add forces, power and slip area of the strips of a patch to `result`. Fill their fields if there is room.
+
+    `centres` are those of `elastic_centre`.
+    """
     strips, fields, elements = own.strips, own.fields, own.rule.elements
     lanes, trace = own.space.lanes, own.space.trace
-    behind = 1.0 + elements[Element.S, -1]  # the middle of the last element
+    rest = 1.0 + elements[Element.S, -1]  # from the middle of the last element to the trailing edge
     falling = varies(case)
     for block in range(first, last, LANES):
         _set_block(strips, block, last, case, own.tables.kalker, centres, lanes)
         march(Uneven(), elements, lanes, trace)
         if falling:
             begin_varying(strips, block, last, case, _BOUND, lanes)
-            _fall(case, elements, lanes, trace)
+            _apply_friction(case, elements, lanes, trace)
         for l in range(min(LANES, last - block)):
             i = block + l
             a, dy, y, xc = strips[Strip.A, i], strips[Strip.DY, i], strips[Strip.Y, i], strips[Strip.XC, i]
@@ -344,15 +358,15 @@ def roll_patch(first, last, case, centres, own, result):
             result.Fy += Fy
             result.Mz += load * a * lanes[_SUM_M + l] + xc * Fy - y * Fx
             result.power += load * lanes[_POWER + l] * unit
-            stick = lanes[_STICK + l] + behind * (1.0 - lanes[SLIPS + l]) if bound > 0.0 else 0.0
+            stick = lanes[_STICK + l] + rest * (1.0 - lanes[SLIPS + l]) if bound > 0.0 else 0.0
             result.slip_area += max(2.0 - stick, 0.0) * a * dy
-        if fields.shape[1] >= last:  # else only forces are asked for
+        if fields.shape[1] >= last:  # else only forces are wanted
             _write_fields(block, last, elements, falling, lanes, trace, fields)
 
 
 @kernel
 def fastrip_mapped(part, case, own, result):
-    """Fill the traction, slip and stick fields of one patch and add what it bears to `result`."""
+    """Fill the traction, slip and stick fields of one patch. Add its forces, power and slip area to `result`."""
     strips, tables = own.strips, own.tables
     a, b = equivalent_ellipse(strips, part.first, part.last)
     centres = 0.0, 0.0, 1.0

@@ -1,18 +1,21 @@
-"""FASTSIM (Kalker 1982) on any patch: simplified theory, with a choice of flexibilities and bound (theory.md 2.5).
+"""FASTSIM (Kalker 1982) on any patch: simplified theory with a choice of flexibilities and bound (theory.md 2.5).
 
     fastsim           three flexibilities, parabolic bound
     fastsim_one       one flexibility, weighted by the creepages, parabolic bound
     fastsim_elliptic  three flexibilities, elliptic bound mu p
     fastsim_linder    three of each strip's own ellipse, as wide as the patch (Linder 1997; `normal.linder`)
     fastsim_stripes   three of each strip's own ellipse, as long as the patch, with a/b of the local curvatures (Ayasse and
-                      Chollet 2005, as theory.md 4.4 has it; the published length of this ellipse is not at hand)
+                      Chollet 2005, as in theory.md 4.4; the published length of this ellipse is not at hand)
     fastsim_knothe    three with which the slopes of the forces are those of the half space on the patch itself, given as
                       coefficients (`halfspace.linear`; after Knothe and Le The 1984)
 
-All but the local ones take the equivalent ellipse of each separate patch: its area with the longest strip as semi-axis a. On
-an ellipse the local ones are that ellipse too, and they are the first method. The parabolic bound of a strip has its peak
-proportional to its p0·a, scaled so that the bounds carry the patch's load: on an ellipse this is Kalker's paraboloid exactly,
-on any patch full slip gives mu N. The weighted flexibility changes with the ratio of the creepages, at any size of them.
+`fastsim_linder` and `fastsim_stripes` are local. All others take the equivalent ellipse of each separate patch: its area
+with the longest strip as semi-axis a. On an ellipse the local ellipses are that ellipse too, so the local methods equal
+`fastsim`.
+
+The parabolic bound of a strip has its peak proportional to its p0·a, scaled so that the bounds carry the patch's load.
+On an ellipse this is exactly Kalker's paraboloid. On any patch full slip gives mu N. The weighted flexibility depends
+on the ratio of the creepages, however small they are.
 """
 
 import math
@@ -37,16 +40,16 @@ from contact.kernels.tangential.lanes import (
 from contact.kernels.tangential.march import FREE_BEHIND_MARCH, ROW_X, ROW_Y, ROW_Z, Even, march
 from contact.kernels.tangential.varying import begin_varying, soften, varies
 
-#: A traction bound below this fraction of G is none: creepage over it would overflow.
+#: A traction bound below this fraction of G counts as zero. Creepage divided by it would overflow.
 NO_FRICTION = 1e-15
 
-# rows of `lanes` behind those of the march
+# rows of `lanes` after those of the march
 _PEAK, _L1, _L2, _PER_LENGTH = (FREE_BEHIND_MARCH + row * LANES for row in range(4))
 
 
 @kernel
-def _own_ellipse(strips, i, method, a0, edges):
-    """Semi-axes of the ellipse to which strip i belongs by Linder or STRIPES."""
+def _local_axes(strips, i, method, a0, edges):
+    """Return the semi-axes [m] of the ellipse of strip i by Linder or STRIPES."""
     if method == Tangential.FASTSIM_STRIPES:
         return a0, a0 * math.exp(-strips[Strip.ASPECT, i])
     k = int(strips[Strip.PATCH, i])
@@ -55,7 +58,10 @@ def _own_ellipse(strips, i, method, a0, edges):
 
 @kernel
 def _peak_per_load(part, strips, elements, mu, elliptic):
-    """Peak of a strip's bound over p0 (elliptic) or p0·a: parabolas that carry the load, by the fields' quadrature."""
+    """Return the peak of a strip's bound over p0 (elliptic bound) or over p0·a (parabolic bound).
+
+    The parabolas carry the load by the quadrature of the fields.
+    """
     if elliptic:
         return mu
     cubes, spread = 0.0, 0.0
@@ -68,14 +74,14 @@ def _peak_per_load(part, strips, elements, mu, elliptic):
 
 @kernel
 def _slip(lanes, trace, k, l):
-    """Slip over V of element k in lane l."""
+    """Return the slip over V (sx, sy) of element k in lane l."""
     slip = trace[k, NOW_SLIP + l] * lanes[_PER_LENGTH + l]
     return -lanes[_L1 + l] * slip * trace[k, NOW_X + l], -lanes[_L2 + l] * slip * trace[k, NOW_Y + l]
 
 
 @kernel
-def _fall(case, elliptic, elements, lanes, trace):
-    """Leave the coefficients of friction that varies along the strips of a block, over those at rest, in `trace`."""
+def _fill_friction(case, elliptic, elements, lanes, trace):
+    """Fill TRACE_FALL of `trace` with the coefficients of friction along the strips of a block, over those at rest."""
     for k in range(elements.shape[1]):
         size = elements[Element.SINE, k] if elliptic else elements[Element.SINE, k] ** 2
         for l in range(LANES):
@@ -90,7 +96,7 @@ def _fall(case, elliptic, elements, lanes, trace):
 
 @kernel
 def fastsim(part, case, own, result):
-    """Fill the traction, slip and stick fields of one patch and add what it bears to `result`."""
+    """Fill the traction, slip and stick fields of one patch. Add its forces, power and slip area to `result`."""
     strips, fields, elements, table = own.strips, own.fields, own.rule.elements, own.tables.kalker
     lanes, trace = own.space.lanes, own.space.trace
     method, G = case.tangential, case.G
@@ -111,22 +117,22 @@ def fastsim(part, case, own, result):
             peak = per_load * strips[Strip.BOUND, i] * (1.0 if elliptic else a)
             scale = a / peak if peak > NO_FRICTION * G else 0.0
             if local:
-                own_a, own_b = _own_ellipse(strips, i, method, a0, result.edges)
-                L1, L2, L3 = flexibilities(G, own_a, own_b, table)
+                local_a, local_b = _local_axes(strips, i, method, a0, result.edges)
+                L1, L2, L3 = flexibilities(G, local_a, local_b, table)
             vx, vy, phi = strips[Strip.VX, i], strips[Strip.VY, i], strips[Strip.PHI, i]
             lanes[_PEAK + l], lanes[_L1 + l], lanes[_L2 + l] = peak if scale > 0.0 else 0.0, L1, L2
             lanes[_PER_LENGTH + l] = lanes[_PEAK + l] / a if a > 0.0 else 0.0
-            vx, vy = vx - phi * part.y, vy + phi * part.x  # L3 belongs to the spin about the patch
+            vx, vy = vx - phi * part.y, vy + phi * part.x  # L3 belongs to the spin about the patch's own place
             lanes[ROW_X + l] = scale * (vx / L1 - phi * (strips[Strip.Y, i] - part.y) / L3)
             lanes[ROW_Y + l] = scale * (vy / L2 + phi * (strips[Strip.XC, i] - part.x) / L3)
             lanes[ROW_Z + l] = scale * a * phi / L3
         march(Even(elliptic), elements, lanes, trace)
         if falling:
             begin_varying(strips, block, part.last, case, _PEAK, lanes)
-            _fall(case, elliptic, elements, lanes, trace)
+            _fill_friction(case, elliptic, elements, lanes, trace)
         for l in range(min(LANES, part.last - block)):
             i = block + l
-            row = min(i, fields.shape[1] - 1)  # one row serves all strips when only forces are asked for
+            row = min(i, fields.shape[1] - 1)  # one row serves all strips if only forces are wanted
             a, y, dy = strips[Strip.A, i], strips[Strip.Y, i], strips[Strip.DY, i]
             peak = lanes[_PEAK + l]
             frictionless = peak <= 0.0
@@ -154,7 +160,7 @@ def fastsim(part, case, own, result):
                 power -= (qx * sx + qy * sy) * dA
                 slip_area += (1.0 - stick) * elements[Element.STEP, k] * a * dy
             slides = 1.0 if frictionless else trace[elements.shape[1] - 1, NOW_SLIDES + l]
-            slip_area += slides * (1.0 + elements[Element.S, -1]) * a * dy  # behind the last element's middle
+            slip_area += slides * (1.0 + elements[Element.S, -1]) * a * dy  # after the middle of the last element
     result.Fx += Fx
     result.Fy += Fy
     result.Mz += Mz

@@ -1,40 +1,42 @@
-"""Sixteen strips side by side: the shape in which compilers turn the march into vector instructions.
+"""Sixteen strips side by side: the data layout in which compilers vectorise the march.
 
-A march is a recurrence along x with square roots and divisions, so one strip keeps the processor waiting. Here sixteen strips
-advance together. Their state lies in one flat array, lanes[ROW·LANES + l], with constant rows: only then does LLVM see that
-no two rows overlap, and vectorises. So the inner loops over l read and write nothing else; what an element leaves behind is
-copied to `trace` afterwards. They are free of branches (every value is computed, then chosen) and of calls into libm; the
-exponential is a rational function. One strip after the other took 17 ns an element, eight lanes 7; sixteen take four fifths
-of that, as one vector works while another waits; 32 are no faster and leave more lanes empty.
+A march is a recurrence along x with square roots and divisions, so one strip keeps the processor waiting. Here sixteen
+strips advance together. Their state lies in one flat array, lanes[ROW·LANES + l], with constant rows. Only then does
+LLVM see that no two rows overlap, and vectorise. So the inner loops over l read and write nothing else. The output of
+an element is copied to `trace` afterwards. The loops are free of branches (every value is computed, then selected) and
+of calls into libm; the exponential is a rational function.
+
+One strip after the other took 17 ns per element, eight lanes 7. Sixteen take four fifths of that, because one vector
+works while another waits. 32 are no faster and leave more lanes empty.
 """
 
 from contact._jit import kernel
 
 LANES = 16
 
-#: First rows of `lanes`: what the present element leaves in a row of `trace` (n_elements, N_TRACE·LANES).
+#: First rows of `lanes`: output of the present element, which is copied to a row of `trace`.
 NOW_X, NOW_Y, NOW_SLIP, NOW_SLIDES, NOW_STICK = (row * LANES for row in range(5))
 N_TRACE = 5
 FREE_ROW = N_TRACE * LANES
 
-#: Rows of `lanes`, of which the largest user needs 44; the last six are those of friction that varies along the strips.
+#: Number of rows of `lanes`. The largest user needs 44. The last six are for friction that varies along the strips.
 N_LANE_ROWS = 50
 SLIP, FLUX, HEATING, SLOWED, WARM, FALL = (row * LANES for row in range(N_LANE_ROWS - 6, N_LANE_ROWS))
-#: Behind what elements leave in `trace`, for such friction: the heat of an element, and its coefficient over that at rest.
+#: Columns of `trace` after the output of elements, for such friction: heat of an element, its coefficient over that at rest.
 TRACE_HEAT, TRACE_FALL = N_TRACE * LANES, (N_TRACE + 1) * LANES
 TRACE_WIDTH = (N_TRACE + 2) * LANES
 
-#: Bound to the normalised distance over which a direction may turn in one step; beyond it nothing is left to turn.
+#: Upper limit of the normalised distance over which a direction turns in one step. At it, the turn is complete.
 FAR = 1e3
 
 
 @kernel
 def decay_and_lag(z):
-    """exp(-z) for z >= 0, and the share of a step, from its start, at which rigid slip turns a direction that so decays.
+    """Return exp(-z) for z >= 0, and the share of a step, from its start, whose rigid slip turns a direction that decays so.
 
-    exp(-z) to 2e-6 of 1 is the eighth power of an exponential series; positive and monotone for every z. For a rigid slip
-    that changes linearly the share is 1/(1 - exp(-z)) - 1/z, from 1/2 to 1 - 1/z; here (1 + L(z/2))/2 with
-    L(x) = coth x - 1/x rational, to .025. Both in one division.
+    exp(-z) is the eighth power of an exponential series. Its error is 2e-6 (of 1), and it is positive and monotone for
+    every z. For a rigid slip that changes linearly the share is 1/(1 - exp(-z)) - 1/z, from 1/2 to 1 - 1/z. Here it is
+    (1 + L(z/2))/2 with a rational L(x) = coth x - 1/x, to .025. Both take one division.
     """
     u = 0.125 * z
     p = 1.0 + u * (1.0 + u * (0.5 + u * (1.0 / 6.0 + u * (1.0 / 24.0))))
@@ -49,7 +51,10 @@ def decay_and_lag(z):
 
 @kernel
 def small_exp(z):
-    """exp(z) for |z| <= 1 to 2e-11 of it: the eighth power of a Taylor series, which needs no libm."""
+    """Return exp(z) for |z| <= 1 with a relative error of 2e-11.
+
+    It is the eighth power of a Taylor series, which needs no libm.
+    """
     u = 0.125 * z
     p = 1.0 / 6.0 + u * (1.0 / 24.0 + u * (1.0 / 120.0 + u * (1.0 / 720.0 + u * (1.0 / 5040.0))))
     p = 1.0 + u * (1.0 + u * (0.5 + u * p))
@@ -60,9 +65,10 @@ def small_exp(z):
 
 @kernel
 def turned(ex, ey, wx, wy, w, rest):
-    """Unit vector (ex, ey) turned towards -(wx, wy), |w| = w > 0: the tangent of half the angle shrinks to the share `rest`.
+    """Return the unit vector (ex, ey) turned towards -(wx, wy), where |w| = w > 0.
 
-    A direction exactly opposite, an unstable equilibrium, is left where it is to round-off.
+    The tangent of half the angle is multiplied by `rest`. A direction exactly opposite to the aim is an unstable
+    equilibrium. It is kept, to round-off.
     """
     along = w - (wx * ex + wy * ey)
     across = (wy * ex - wx * ey) * rest
@@ -75,13 +81,13 @@ def turned(ex, ey, wx, wy, w, rest):
 
 @kernel
 def keep(lanes, row):
-    """Copy what the present element leaves from `lanes` to its row of the trace."""
+    """Copy the output of the present element from `lanes` to its row of the trace."""
     for j in range(N_TRACE * LANES):
         row[j] = lanes[j]
 
 
 @kernel
 def recall(lanes, row):
-    """Copy a row of the trace back."""
+    """Copy a row of the trace back to `lanes`."""
     for j in range(N_TRACE * LANES):
         lanes[j] = row[j]

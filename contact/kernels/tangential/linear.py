@@ -2,15 +2,15 @@
 
     Fx = -C11 G c² vx,   Fy = -C22 G c² vy - C23 G c³ phi,   Mz = C23 G c³ vy - C33 G c⁴ phi,   c = √(ab)
 
-(Kalker 1967, 1990 Table E.3); no friction is known, |F| may exceed mu N. The bounded laws multiply this force, of which
-f = |F|/(mu N), by
+(Kalker 1967, 1990 Table E.3). Friction does not limit this force, so |F| may exceed mu N. With f = |F|/(mu N), the
+bounded laws multiply it by
 
     linear_saturated     min(1, 1/f)
     shen_hedrick_elkins  1 - f/3 + f²/27 up to f = 3, then 1/f: Johnson's and Vermeulen's cubic (1983; thesis Eq. 5.4)
 
-and have no moment: shrunk in step with the force, the linear one would reach 6 mu N c under pure spin, where the half space
-has less than one (a/b = .2). The share of the patch that slips is 0 or 1, but for the cubic: its stick zone is an ellipse
-1 - f/3 times the patch.
+and have no moment. If the linear moment were reduced as the force, it would reach 6 mu N c under pure spin, where the
+half space has less than one (a/b = .2). The share of the patch that slips is 0 or 1, except for the cubic: its stick
+zone is an ellipse 1 - f/3 times the patch.
 """
 
 import math
@@ -20,7 +20,7 @@ from contact._jit import kernel
 
 @kernel
 def linear(creepage, G, c, coefficients):
-    """Fx, Fy, Mz and the share of slip."""
+    """Return Fx, Fy, Mz [N, N, N m] and the share of slip."""
     vx, vy, phi = creepage
     c11, c22, c23, c33 = coefficients
     unit = G * c * c
@@ -29,13 +29,13 @@ def linear(creepage, G, c, coefficients):
 
 @kernel
 def cut(force, limit):
-    """Factor and share of slip by which a linear `force` is cut at `limit`."""
+    """Return factor and share of slip by which a linear `force` is cut at `limit`."""
     return (1.0, 0.0) if force <= limit else (limit / force, 1.0)
 
 
 @kernel
 def cubic(force, limit):
-    """Factor and share of slip of the cubic saturation."""
+    """Return factor and share of slip of the cubic saturation."""
     if force <= 0.0:
         return 1.0, 0.0
     if force >= 3.0 * limit:
@@ -47,7 +47,7 @@ def cubic(force, limit):
 
 @kernel
 def saturated(Fx, Fy, limit, smoothly):
-    """Fx, Fy, Mz and the share of slip from the linear force, cut or `smoothly` bounded."""
+    """Return Fx, Fy, Mz [N, N, N m] and the share of slip from the linear force, cut or `smoothly` bounded."""
     force = math.sqrt(Fx * Fx + Fy * Fy)
     factor, slip = cubic(force, limit) if smoothly else cut(force, limit)
     return factor * Fx, factor * Fy, 0.0, slip

@@ -1,4 +1,4 @@
-"""What mapped strip marching has besides its march: edge, map, slip behind stick, centres of a patch (mapped_strip.md)."""
+"""Mapped strip marching without its march: edge, map, slip after stick, centres of a patch (mapped_strip.md)."""
 
 import math
 
@@ -6,18 +6,18 @@ from contact._jit import kernel
 from contact.kernels import kalker
 from contact.kernels.layout import Strip
 
-#: Share of a strip's own ln(a/b), from the curvatures, beside that of the equivalent ellipse (mapped_strip.md has 1/2).
+#: Share of a strip's own ln(a/b), from the curvatures, against that of the equivalent ellipse (theory.md 4.4).
 OWN_ASPECT = 0.6
 
 
 @kernel
 def edge_direction(r, wx, wy):
-    """Direction of slip at a slipping leading edge, where bound and traction start from zero."""
+    """Return the direction of slip at a slipping leading edge, where bound and traction start from zero."""
     size = math.sqrt(wx * wx + wy * wy) + 1e-300
     ex, ey = -wx / size, -wy / size
     for _ in range(3):
         slip = size - 2.0 * (r * ex * ex + ey * ey)
-        slip = 0.5 * (slip + abs(slip))  # no choice, which the compiler would branch upon
+        slip = 0.5 * (slip + abs(slip))  # no selection, of which the compiler would make a branch
         ex, ey = -wx / (slip + 2.0 * r), -wy / (slip + 2.0)
         per_length = 1.0 / (math.sqrt(ex * ex + ey * ey) + 1e-300)
         ex, ey = ex * per_length, ey * per_length
@@ -26,17 +26,17 @@ def edge_direction(r, wx, wy):
 
 @kernel
 def mapped(ux, uy, o, n):
-    """Traction over mu·p from the utilisation u of the parabolic bound in stick; `o` is the y component of the pole.
+    """Return the traction over mu·p in stick from the utilisation u of the parabolic bound.
 
-    The exponent m = 1/2 + n enters as √(1-t)·(1-t)^n, the second factor as its [2/2] Padé approximant, which is free of
-    libm (no change of accuracy on set A: .0077 → .0076).
+    `o` is the y component of the pole. The exponent m = 1/2 + n enters as √(1-t)·(1-t)^n. The second factor is replaced
+    by its [2/2] Padé approximant, which needs no libm (no change of accuracy on set A: .0077 → .0076).
     """
     dx, dy = ux, uy - o
     square = dx * dx + dy * dy
     along = o * dy
     t = square / (math.sqrt(along * along + square * (1.0 - o * o)) - along + 1e-300)
     t = t if t < 1.0 else 1.0
-    # with √(1-t) = 1 - t/r, r = 1 + √(1-t), and above/below = 1 - n t (1-t/2)/below, f has no difference of like numbers
+    # with √(1-t) = 1 - t/r, r = 1 + √(1-t), and above/below = 1 - n t (1-t/2)/below, f has no cancellation
     r = 1.0 + math.sqrt(1.0 - t)
     below = 1.0 - 0.5 * (2.0 - n) * t + (2.0 - n) * (1.0 - n) / 12.0 * t * t
     f = (below + n * (1.0 - 0.5 * t) * (r - t)) / (r * below)
@@ -45,13 +45,12 @@ def mapped(ux, uy, o, n):
 
 @kernel
 def slid_at(s, direction, r, pole, rigid, from_edge):
-    """Slip of a particle at s over the lateral flexibility; 0 or more.
+    """Return the slip of a particle at s over the lateral flexibility, 0 or more.
 
-    It slides along `direction` against the `rigid` slip (Xs, Ys + 2 spin s).
-
-    Where the strip slips from its edge this is the march's own slip. Behind a stick zone that ends at s_b the march has
-    (1 - s) + (s_b - s), which belongs to the parabola, and strip theory 2√((1 - s)(s_b - s)), both times the traction
-    without its spin part e - o (theory.md 4.3); the two agree, with their slopes, where the strip comes to slip as a whole.
+    The particle slides along `direction` against the `rigid` slip (Xs, Ys + 2 spin s). Where the strip slips from its
+    edge this is the slip of the march. After a stick zone that ends at s_b the march has (1 - s) + (s_b - s), which
+    belongs to the parabola. Strip theory has 2√((1 - s)(s_b - s)). Both multiply the traction without its spin part, e
+    - o (theory.md 4.3). They agree in value and slope where the whole strip begins to slip.
     """
     ex, ey = direction
     Xs, Ys, spin = rigid
@@ -68,9 +67,9 @@ def slid_at(s, direction, r, pole, rigid, from_edge):
 
 @kernel
 def elastic_centre(strips, first, last, table, log_equivalent):
-    """Blend the aspect ratios in place; return the centres of longitudinal stiffness and of spin, and the C33 factor.
+    """Blend the aspect ratios in place. Return the centres of longitudinal stiffness and of spin [m], and the C33 factor.
 
-    Weights C11·a·dy and C11·a²·dy; on an ellipse both centres are its own (mapped_strip.md 3, step 0).
+    The weights are C11·a·dy and C11·a²·dy. On an ellipse both centres are its own (mapped_strip.md 3, step 0).
     """
     stiffness, moment, stiffness2, moment2, spin = 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(first, last):

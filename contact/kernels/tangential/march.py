@@ -1,17 +1,20 @@
-"""The march along a block of strips in normalised form: of FASTSIM's methods, FaStrip's direction pass, mapped FaStrip.
+"""March along a block of strips in normalised form, for FASTSIM's methods, FaStrip's direction pass and mapped FaStrip.
 
-With x = x_c + a s, traction tau and the bound g, parabolic 1 - s² or elliptic √(1 - s²), both divided by the peak of the
-bound, the rigid slip over flexibility is W = (X, Y + Z s): X = a vx/(L1 g0), Y = a vy/(L2 g0), Z = a² phi/(L3 g0)
-(theory.md 2.5; Kalker 1982).
+Let x = x_c + a s. Traction tau and bound g, parabolic 1 - s² or elliptic √(1 - s²), are both divided by the peak g0 of
+the bound. The rigid slip over flexibility is W = (X, Y + Z s) with X = a vx/(L1 g0), Y = a vy/(L2 g0), Z = a² phi/(L3
+g0) (theory.md 2.5; Kalker 1982).
 
-A rule completes the march: what bounds the traction, and how a direction turns in slip. Its type chooses `begin`, `bound_at`,
-`height_at`, `slide`, `slip_at`, `leave`. `Even`, here, is Kalker's with one flexibility in slip; `fastrip_mapped` has another.
+A rule completes the march: the bound of the traction, and how its direction turns in slip. The type of the rule chooses
+`begin`, `bound_at`, `height_at`, `slide`, `slip_at` and `leave`. `Even`, in this file, is Kalker's rule with one
+flexibility in slip. `fastrip_mapped` has another.
 
-Kalker's scaling of the trial traction back onto the bound is of first order in the element length: at 30 elements it left
-0.9 % of mu N under lateral creepage with spin. Here the direction of a sliding particle follows the same equation exactly
-for a constant W: in slip g d(angle) = |W| sin(angle to -W) ds, so tan(angle/2) decays with exp(-|W| ∫ds/g).
+Kalker's scaling of the trial traction back onto the bound is of first order in the element length. At 30 elements it
+left 0.9 % of mu N under lateral creepage with spin. Here the direction of a sliding particle follows the same equation,
+exactly for a constant W: in slip g d(angle) = |W| sin(angle to -W) ds, so tan(angle/2) decays with exp(-|W| ∫ds/g).
+
 A particle passes from stick to slip, or back, within an element, where the traction reaches the bound or the slip ends.
-This is of second order and stable at both edges, where the bound vanishes (mapped_strip.md 3, step 3, for one flexibility).
+This is of second order and stable at both edges, where the bound vanishes (mapped_strip.md 3, step 3, for one
+flexibility).
 """
 
 import math
@@ -33,8 +36,8 @@ from contact.kernels.tangential.lanes import (
     turned,
 )
 
-# Rows of `lanes`. The caller sets X, Y, Z. The march leaves in START the utilisation of the bound at the leading edge, squared,
-# and in CAME the s of the element where a particle first slides, -2 for nowhere.
+# Rows of `lanes`. The caller sets X, Y, Z. The march fills START with the squared utilisation of the bound at the leading edge
+# and CAME with the s of the element where a particle first slides, or -2.
 (
     ROW_X,
     ROW_Y,
@@ -48,7 +51,7 @@ from contact.kernels.tangential.lanes import (
     TRIAL_X,  # traction in stick, with its utilisation squared
     TRIAL_Y,
     TRIAL_USED,
-    LEFT,  # share of the step left when a strip comes to slide
+    LEFT,  # share of the step that is left when a strip begins to slide
     EX,  # direction of the traction in slip
     EY,
 ) = (FREE_ROW + row * LANES for row in range(15))
@@ -56,18 +59,18 @@ FREE_BEHIND_MARCH = FREE_ROW + 15 * LANES
 
 
 class Even(NamedTuple):
-    """One flexibility in slip; the bound is elliptic or parabolic."""
+    """Rule with one flexibility in slip. The bound is elliptic or parabolic."""
 
     elliptic: bool
 
 
 def begin(rule: Any, lanes: Any) -> None:
-    """Set the state at the leading edge: TX to LEFT, EX, EY."""
+    """Set the state at the leading edge: the rows TX to LEFT, and EX, EY."""
     raise NotImplementedError
 
 
 def bound_at(rule: Any, k: int, elements: Any) -> tuple[float, float, float]:
-    """Return the bound at element k, its fall over s, and ∫ds/g of the step."""
+    """Return the bound at element k, its decrease with s, and ∫ds/g of the step."""
     raise NotImplementedError
 
 
@@ -77,10 +80,10 @@ def height_at(rule: Any, s: float) -> float:
 
 
 def slide(rule: Any, place: Any, bound: float, slope: float, lanes: Any) -> int:
-    """Turn the direction of all strips that slide; the others stick as tried. Return how many slide against their slip.
+    """Turn the direction of all strips that slide. The others keep the trial traction. Return how many have a negative slip.
 
-    `place` holds s, the step to it, its middle and ∫ds/g. Leaves the direction from which they started, and whether they slid,
-    in the rows of the trial.
+    `place` holds s, the step to it, its middle and ∫ds/g. The rows TRIAL_X to TRIAL_USED get the direction before the
+    step and whether the strip slid.
     """
     raise NotImplementedError
 
@@ -91,16 +94,16 @@ def slip_at(rule: Any, s: float, slope: float, x: float, y: float, lanes: Any, l
 
 
 def leave(rule: Any, s: float, k: int, elements: Any, lanes: Any) -> None:
-    """Complete what element k leaves in the rows NOW_X to NOW_STICK."""
+    """Complete the output of element k in the rows NOW_X to NOW_STICK."""
     raise NotImplementedError
 
 
 @kernel
 def march(rule, elements, lanes, trace):
-    """March from the leading edge; leave traction over the bound and slip at each element in `trace`.
+    """March from the leading edge. Fill `trace` with traction over the bound and slip at each element.
 
-    Besides, whether it slides and the share of the step to it in stick. The slip is in units of flexibility times the
-    bound's peak over a. In stick the traction is exact, spin included.
+    `trace` also holds whether the element slides and the share of the step to it that is in stick. The slip is in units
+    of flexibility times the bound's peak over a. In stick the traction is exact, spin included.
     """
     begin(rule, lanes)
     s, slope = 1.0, 2.0
@@ -109,20 +112,20 @@ def march(rule, elements, lanes, trace):
         slope_before = slope
         bound, slope, stretch = bound_at(rule, k, elements)
         per_bound = 1.0 / bound
-        come, sliding = 0, 0
+        begins, sliding = 0, 0
         for l in range(LANES):
             x = lanes[TX + l] - step * lanes[ROW_X + l]
             y = lanes[TY + l] - step * (lanes[ROW_Y + l] + lanes[ROW_Z + l] * middle)
             used = (x * x + y * y) * per_bound * per_bound
             lanes[TRIAL_X + l], lanes[TRIAL_Y + l], lanes[TRIAL_USED + l] = x, y, used
             sliding += 1 if lanes[SLIPS + l] > 0.5 else 0
-            come += 1 if used > 1.0 and lanes[SLIPS + l] < 0.5 else 0
-        if come > 0:
-            _come_to_slide(s, lanes)
-        if come + sliding > 0:
-            stop = slide(rule, (s, step, middle, stretch), bound, slope, lanes)
-            if stop > 0:
-                _stop(rule, (before, s, step), slope_before, slope, bound, lanes)
+            begins += 1 if used > 1.0 and lanes[SLIPS + l] < 0.5 else 0
+        if begins > 0:
+            _begin_to_slide(s, lanes)
+        if begins + sliding > 0:
+            ends = slide(rule, (s, step, middle, stretch), bound, slope, lanes)
+            if ends > 0:
+                _end_slip(rule, (before, s, step), slope_before, slope, bound, lanes)
         else:
             for l in range(LANES):
                 x, y = lanes[TRIAL_X + l], lanes[TRIAL_Y + l]
@@ -134,8 +137,8 @@ def march(rule, elements, lanes, trace):
 
 
 @kernel
-def _come_to_slide(s, lanes):
-    """Where a trial traction passes the bound: its direction there, and the share of the step that is left."""
+def _begin_to_slide(s, lanes):
+    """Set the direction where a trial traction passes the bound, and the share of the step that is left."""
     for l in range(LANES):
         x, y, used, before = lanes[TX + l], lanes[TY + l], lanes[TRIAL_USED + l], lanes[USED + l]
         comes = 1.0 - lanes[SLIPS + l] if used > 1.0 else 0.0
@@ -143,7 +146,7 @@ def _come_to_slide(s, lanes):
         share = (1.0 - before) / (gap if gap > 1e-12 else 1.0)
         x, y = x + share * (lanes[TRIAL_X + l] - x), y + share * (lanes[TRIAL_Y + l] - y)
         per_size = 1.0 / (math.sqrt(x * x + y * y) + 1e-300)
-        # sums, not choices: the compiler would put roots and divisions behind a branch
+        # sums instead of selections: the compiler would put roots and divisions in a branch
         lanes[EX + l] += comes * (x * per_size - lanes[EX + l])
         lanes[EY + l] += comes * (y * per_size - lanes[EY + l])
         lanes[LEFT + l] = 1.0 - comes * share
@@ -152,8 +155,8 @@ def _come_to_slide(s, lanes):
 
 
 @kernel
-def _stop(rule, place, slope_before, slope, bound, lanes):
-    """A particle slides as far as its slip is positive; from there on it sticks, unless the bound is too low for that."""
+def _end_slip(rule, place, slope_before, slope, bound, lanes):
+    """Set traction and state of particles whose slip becomes zero within the step: they stick, unless the bound is too low."""
     before, s, step = place
     per_bound = 1.0 / bound
     for l in range(LANES):
@@ -214,7 +217,7 @@ def _height_even(rule, s):
 def _slide_even(rule, place, bound, slope, lanes):
     s, step, middle, stretch = place
     per_bound = 1.0 / bound
-    stop = 0
+    ends = 0
     for l in range(LANES):
         X, Y, Z, slid = lanes[ROW_X + l], lanes[ROW_Y + l], lanes[ROW_Z + l], lanes[SLIPS + l]
         x, y, left = lanes[EX + l], lanes[EY + l], lanes[LEFT + l]
@@ -227,7 +230,7 @@ def _slide_even(rule, place, bound, slope, lanes):
         ex, ey = turned(x, y, wx, wy, w, rest)
         slip = -(X * ex + (Y + Z * s) * ey) - slope
         slides = 1.0 if used > 1.0 else slid
-        stop += 1 if slides > 0.5 and slip < 0.0 else 0
+        ends += 1 if slides > 0.5 and slip < 0.0 else 0
         lanes[EX + l], lanes[EY + l] = ex, ey
         lanes[NOW_X + l] = ex if slides > 0.5 else trial_x * per_bound
         lanes[NOW_Y + l] = ey if slides > 0.5 else trial_y * per_bound
@@ -237,7 +240,7 @@ def _slide_even(rule, place, bound, slope, lanes):
         lanes[NOW_SLIP + l], lanes[NOW_SLIDES + l] = slip * slides, slides
         lanes[NOW_STICK + l] = (1.0 - slid) * (1.0 - left) if slides > 0.5 else 1.0
         lanes[TRIAL_X + l], lanes[TRIAL_Y + l], lanes[TRIAL_USED + l] = x, y, slid
-    return stop
+    return ends
 
 
 @kernel

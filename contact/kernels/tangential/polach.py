@@ -2,31 +2,35 @@
 
     F = (2 mu N/pi) (k_A eps/(1 + (k_A eps)²) + atan(k_S eps)),   eps = G pi a b C_jj v_C/(4 mu N)
 
-acts against the creepage v_C = (vx, v_yC), v_yC = vy + phi a if that is larger than vy; the lateral force of spin alone, with
-kappa = 1 + 6.3 (1 - exp(-a/b)), eps_S = (8/3) G b c C23 |v_yC|/(kappa mu N), D = (eps_S² - 1)/(eps_S² + 1), is
+acts against the creepage v_C = (vx, v_yC). v_yC is vy + phi a if that is larger in magnitude than vy, and vy otherwise.
+With kappa = 1 + 6.3 (1 - exp(-a/b)), eps_S = (8/3) G b c C23 |v_yC|/(kappa mu N), D = (eps_S² - 1)/(eps_S² + 1), the
+lateral force of spin is
 
     F_yS = (9/16) a mu N kappa (eps_S (D³/3 - D²/2 + 1/6) - (1 - D²)^(3/2)/3) phi/v_C.
 
-At vanishing creepage the forces are Kalker's. There is no moment: the law has none. [R], checked against a public conversion of
-Polach's program and the linear limit. Two things are ours: the resultant is cut at mu N (lateral creepage with spin would
-exceed it), and the share of slip, (k_A eps)²/(1 + (k_A eps)²), follows from his traction: it never reaches 1.
+At vanishing creepage the forces are Kalker's. The law has no moment. [R], checked against a public conversion of
+Polach's program and the linear limit. Two things are ours. The resultant is cut at mu N, because lateral creepage with
+spin would exceed it. The share of slip, (k_A eps)²/(1 + (k_A eps)²), follows from Polach's traction and never reaches
+1.
 
-The reduction factors k_S <= k_A <= 1 describe a real surface: dry .4, 1; wet .1, .3 (Polach 2005, Table 2, with friction that
-falls as the sliding velocity grows); `contact.friction.Friction` has them, 1, 1 the clean surface of the theory.
+The reduction factors k_S <= k_A <= 1 describe a real surface. k_S, k_A are .4, 1 for dry and .1, .3 for wet rails
+(Polach 2005, Table 2, with friction that falls as the sliding velocity grows). They are in `contact.friction.Friction`.
+1, 1 is the clean surface of the theory.
 """
 
 import math
 
 from contact._jit import kernel
 
-_FAR = 1e100  # deep in full slip; its square is a number
+_FAR = 1e100  # deep in full slip; its square does not overflow
 
 
 @kernel
 def _spin_integral(eps):
-    """eps (D³/3 - D²/2 + 1/6) - (1 - D²)^(3/2)/3, which falls from 0 with the slope -2/3 and comes back to 0.
+    """Return eps (D³/3 - D²/2 + 1/6) - (1 - D²)^(3/2)/3. It starts at 0 with the slope -2/3 and returns to 0.
 
-    With D = 1 - 2u, u = 1/(1 + eps²), the first bracket is 2 u² (1 - 4u/3) and 1 - D² = 4 u (1 - u), free of cancellation.
+    With D = 1 - 2u, u = 1/(1 + eps²), the first bracket is 2 u² (1 - 4u/3) and 1 - D² = 4 u (1 - u), free of
+    cancellation.
     """
     u = 1.0 / (1.0 + eps * eps)
     root = 2.0 * math.sqrt(u * (1.0 - u))
@@ -35,7 +39,7 @@ def _spin_integral(eps):
 
 @kernel
 def polach(creepage, G, a, b, coefficients, limit, k_A, k_S):
-    """Fx, Fy, Mz and the share of slip; `limit` is mu N."""
+    """Return Fx, Fy, Mz [N, N, N m] and the share of slip. `limit` is mu N."""
     vx, vy, phi = creepage
     c11, c22, c23, _ = coefficients
     with_spin = vy + phi * a

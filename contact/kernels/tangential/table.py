@@ -1,20 +1,23 @@
-"""Creep forces looked up, in the style of Kalker's USETAB (1996; theory.md 2.6), in a table of our own half space.
+"""Creep forces from a table of our own half space, in the style of Kalker's USETAB (1996; theory.md 2.6).
 
 Creepages enter as the forces of the linear theory over mu N,
 
     X = C11 G c² vx/(mu N),   Y = C22 G c² vy/(mu N),   Z = C23 G c³ phi/(mu N),
 
-in spherical coordinates: sizes rho = r/(r + R0), r² = X² + Y² + (w Z)², direction alpha of (X, Y), elevation beta of the spin.
-The weight w(a/b) makes spin count as the creepage that it is at the edges of the patch, so that slip comes about at r = 1 to 3
-on every ellipse. X >= 0, Y >= 0 suffice, by the two symmetries of theory.md 2.6. With ln(a/b) there are four coordinates.
+in spherical coordinates: size rho = r/(r + R0) with r² = X² + Y² + (w Z)², direction alpha of (X, Y), elevation beta of
+the spin. The weight w(a/b) measures spin by the creepage that it causes at the edges of the patch, so that slip comes
+about at r = 1 to 3 on every ellipse. X >= 0, Y >= 0 suffice, because of the two symmetries of theory.md 2.6. ln(a/b) is
+the fourth coordinate.
 
-The file holds Fx/(mu N), Fy/(mu N), Mz/(mu N c) and the share of slip at Poisson's ratio 0.28, rho up to 1, which is full slip.
-What is interpolated, by cubic convolution (Catmull and Rom), once continuously differentiable, is the difference to the
-linear theory's force times R0 rho (1 - rho), with zero slope at rho = 0: the slopes at vanishing creepage are Kalker's exactly.
-Beyond a/b of the table's ends the difference is that of the end. The resultant is cut at mu N, as interpolation may exceed it.
+The file holds Fx/(mu N), Fy/(mu N), Mz/(mu N c) and the share of slip at Poisson's ratio 0.28 for rho up to 1, which is
+full slip. The interpolated quantity is the difference to the linear theory's force times R0 rho (1 - rho)/r. Its slope
+at rho = 0 is zero, so the slopes at vanishing creepage are exactly Kalker's. The interpolation is cubic convolution
+(Catmull and Rom), which is once continuously differentiable. Beyond the ends of the table's a/b the difference is that
+of the end. The resultant is cut at mu N, because interpolation may exceed it.
 
-On 300 random ellipses and creepages that it has not seen the force differs from the half space by .0023 of mu N in the mean,
-.0091 at the 95th percentile and .026 at most, the moment by .0025 of mu N c (`benchmarks/creep_table.py`).
+On 300 random ellipses and creepages that are not in the table the force differs from that of the half space by .0023 of
+mu N in the mean, .0091 at the 95th percentile and .026 at most. The moment differs by .0025 of mu N c
+(`benchmarks/creep_table.py`).
 """
 
 from __future__ import annotations
@@ -28,18 +31,21 @@ from contact._jit import kernel
 
 Array = NDArray[np.float64]
 NU = 0.28
-#: Nodes of ln(a/b) from -LOG_ASPECT_MAX on, of alpha from 0 to 90°, of beta from -90° to 90°, of rho from 0 to 1.
+#: Number of nodes of ln(a/b) from -LOG_ASPECT_MAX on, of alpha from 0 to 90°, of beta from -90° to 90°, of rho from 0 to 1.
 N_ASPECT, N_ALPHA, N_BETA, N_RHO = 9, 5, 13, 9
 LOG_ASPECT_MAX, R0 = math.log(10.0), 1.5
-#: Of the array that kernels take: one node more on every side, and twice four numbers.
+#: Shape of the array that kernels take: one more node on every side, and twice four numbers.
 SHAPE = (N_ASPECT + 2, N_ALPHA + 2, N_BETA + 2, N_RHO + 2, 8)
-#: First of the four numbers of the forces and of the effective creepages (`contact.kernels.tangential.effective`).
+#: Index of the first of the four numbers of forces and of effective creepages (`contact.kernels.tangential.effective`).
 FORCES, EFFECTIVE = 0, 4
 
 
 @kernel
 def spin_weight(log_aspect, c11, c22, c23):
-    """Rigid slip of spin at the edges, √((C11 b/2)² + (C22 a/2)²), over its lateral force C23 c."""
+    """Return the weight w of the spin [-].
+
+    It is the rigid slip of spin at the edges, √((C11 b/2)² + (C22 a/2)²), over its lateral force C23 c.
+    """
     root = math.exp(0.5 * log_aspect)  # a/c
     return 0.5 * math.sqrt((c11 / root) ** 2 + (c22 * root) ** 2) / c23
 
@@ -54,13 +60,13 @@ def units(G, c, limit, log_aspect, coefficients):
 
 @kernel
 def signs(X, Y, Z):
-    """Return the signs of the two symmetries, with which X and Y, or Z where Y is zero, become 0 or more."""
+    """Return the signs of the two symmetries that make X and Y, or Z where Y is zero, 0 or more."""
     return 1.0 if X >= 0.0 else -1.0, 1.0 if Y > 0.0 or (Y == 0.0 and Z >= 0.0) else -1.0
 
 
 @kernel
 def _weights(t):
-    """Cubic convolution between the second and the third of four nodes."""
+    """Return the weights of four nodes for cubic convolution between the second and the third."""
     return (
         ((1.0 - 0.5 * t) * t - 0.5) * t,
         (1.5 * t - 2.5) * t * t + 1.0,
@@ -71,14 +77,17 @@ def _weights(t):
 
 @kernel
 def _cell(u, nodes):
-    """First node of the four around u in [0, nodes - 1], with their weights."""
+    """Return the first of the four nodes around u in [0, nodes - 1], and their weights."""
     i = max(min(int(u), nodes - 2), 0)
     return i, _weights(u - i)
 
 
 @kernel
 def interpolated(log_aspect, X, Y, spin, first, table):
-    """The four numbers of the table from `first` on at X >= 0, Y >= 0 and the weighted spin, not all zero."""
+    """Return the four numbers of the table from `first` on at X >= 0, Y >= 0 and the weighted spin.
+
+    The three creepages must not all be zero.
+    """
     plane = math.sqrt(X * X + Y * Y)
     r = math.sqrt(plane * plane + spin * spin)
     share = min(max((log_aspect + LOG_ASPECT_MAX) / (2.0 * LOG_ASPECT_MAX), 0.0), 1.0)
@@ -91,7 +100,7 @@ def interpolated(log_aspect, X, Y, spin, first, table):
         for dj in range(4):
             for dk in range(4):
                 outer = of_aspect[di] * of_alpha[dj] * of_beta[dk]
-                w0, w1, w2, w3 = 0.0, 0.0, 0.0, 0.0  # short sums side by side: one long one waits for every addition
+                w0, w1, w2, w3 = 0.0, 0.0, 0.0, 0.0  # short sums side by side: in a long one every addition waits
                 for dl in range(4):
                     node, weight = table[i + di, j + dj, k + dk, l + dl], of_rho[dl]
                     w0 += weight * node[first]
@@ -107,7 +116,7 @@ def interpolated(log_aspect, X, Y, spin, first, table):
 
 @kernel
 def lookup(creepage, G, c, log_aspect, coefficients, limit, table):
-    """Fx, Fy, Mz and the share of slip; `limit` is mu N, `table` from `contact.force_table.load`."""
+    """Return Fx, Fy, Mz [N, N, N m] and the share of slip. `limit` is mu N, `table` is from `contact.force_table.load`."""
     vx, vy, phi = creepage
     _, c22, c23, c33 = coefficients
     if limit <= 0.0 or (vx == 0.0 and vy == 0.0 and phi == 0.0):

@@ -1,8 +1,9 @@
-"""Friction that varies along a strip: with the slip velocity and the temperature of each element (theory.md 8.1, 8.5).
+"""Friction that varies along a strip with the slip velocity and the temperature of each element (theory.md 8.1, 8.5).
 
-Both follow the slip that an element has under the coefficient at rest; so the march stays as it is, and what is added to it is
-causal: from the leading edge on, element by element. The temperature needs the heat of all elements ahead, n²/2 products of a
-strip; their weights, of which each takes a root, are the same for a block of strips.
+Both follow from the slip that an element has under the coefficient at rest. So the march does not change, and what is
+added to it is causal: from the leading edge on, element by element. The temperature needs the heat of all elements
+ahead, which takes n²/2 products per strip. Each of their weights takes a root. The weights are the same for a block of
+strips.
 """
 
 import math
@@ -15,23 +16,27 @@ from contact.kernels.tangential.lanes import FALL, FLUX, HEATING, LANES, NOW_STI
 
 @kernel
 def varies(case):
-    """Whether the coefficient differs from element to element of a strip."""
+    """Return whether the coefficient differs from element to element of a strip."""
     return falls_locally(case) or falls_hot(case)
 
 
 @kernel
 def begin_varying(strips, block, n, case, bound, lanes):
-    """Set out from the leading edges of the strips from `block` on; `bound` is the row of `lanes` with their peaks of mu p."""
+    """Set the state at the leading edges of the strips from `block` on.
+
+    `bound` is the row of `lanes` with their peaks of mu p.
+    """
     for l in range(LANES):
         lanes[SLOWED + l] = 1.0
         lanes[HEATING + l] = heating(case, strips[Strip.A, min(block + l, n - 1)], lanes[bound + l])
 
 
 @kernel
-def _warm(elements, k, lanes, trace):
-    """Temperature at the middle of element k by the heat of those ahead; return the weight of its own.
+def _fill_warm(elements, k, lanes, trace):
+    """Fill WARM with the rise of temperature [K] at the middle of element k by the heat of the elements ahead.
 
-    The weights are ∫ds'/√(s' - s) over each element, whose heat is taken as constant.
+    Return the weight of the element's own heat. The weights are ∫ds'/√(s' - s) over each element, in which the heat is
+    taken as constant.
     """
     start = elements[Element.END, k - 1] if k > 0 else 1.0
     middle = 0.5 * (start + elements[Element.END, k])
@@ -49,17 +54,17 @@ def _warm(elements, k, lanes, trace):
 
 @kernel
 def soften(case, k, elements, lanes, trace):
-    """Coefficients of element k of a block, over those at rest, into lanes[FALL + l].
+    """Fill lanes[FALL + l] with the coefficients of element k of a block, over those at rest.
 
-    Its user has left in `lanes` the slip over V (SLIP), the heat under the coefficient at rest (FLUX, of HEATING), and the
-    share of the element that sticks (NOW_STICK), which has no heat: so the temperature is continuous as well.
+    The caller has filled the slip over V (SLIP), the heat under the coefficient at rest (FLUX, by HEATING), and the
+    share of the element that sticks (NOW_STICK). This share has no heat, so that the temperature is continuous as well.
     """
     for l in range(LANES):
         lanes[SLOWED + l] = fallen(case, lanes[SLIP + l], lanes[NOW_STICK + l], lanes[SLOWED + l])
         lanes[FALL + l] = lanes[SLOWED + l]
     if not falls_hot(case):
         return
-    weight = _warm(elements, k, lanes, trace)
+    weight = _fill_warm(elements, k, lanes, trace)
     for l in range(LANES):
         heat = (1.0 - lanes[NOW_STICK + l]) * lanes[FLUX + l]
         fall = of_heat(case, lanes[FALL + l], lanes[WARM + l], weight * heat)

@@ -1,15 +1,17 @@
 """Vermeulen and Johnson (1964): creepage without spin on an ellipse; on a circle Johnson (1958) (theory.md 2.2).
 
-The stick zone is the ellipse of the patch, k times as large, k³ = 1 - F/(mu N), touching the leading edge; the traction is the
-sliding one less k times that of the small ellipse. Linear in creepage F = |(C11 vx, C22 vy)| G c², saturated by the cubic law.
-The slopes are those of the semi-ellipsoidal traction, evaluated here for any ellipse by complete elliptic integrals: with
-B, D of theory.md 1.1, C = (D - B)/k² and g the minor over the major axis (derived from the integrals of theory.md 2.2),
+The stick zone is the ellipse of the patch scaled by k, k³ = 1 - F/(mu N), and touches the leading edge. The traction is
+that of sliding minus k times that of the small ellipse. The force is F = |(C11 vx, C22 vy)| G c², linear in creepage
+and saturated by the cubic law. The slopes are those of the semi-ellipsoidal traction, evaluated here for any ellipse by
+complete elliptic integrals. With B, D of theory.md 1.1, C = (D - B)/k² and g the minor over the major axis (derived
+from the integrals of theory.md 2.2),
 
     a >= b   C11 = pi (a/b)/((1 - nu) D + nu C),   C22 = pi (a/b)/(D - nu C)
     a <= b   C11 = pi/((1 - nu) B + nu g² C),      C22 = pi/(B - nu g² C)
 
-On a circle 16/(4 - 3 nu) and 16/(4 - nu), a fifth above Kalker's: the traction does not meet the leading edge. The moment is
-that of the traction, whose small ellipse lies (1 - k) a ahead of the middle: Mz = -(1 - k) a k³ mu N e_y, e along the force.
+On a circle they are 16/(4 - 3 nu) and 16/(4 - nu), a fifth above Kalker's, because the stick zone touches the leading
+edge at one point only. The moment is that of the traction, whose small ellipse lies (1 - k) a ahead of the middle:
+Mz = -(1 - k) a k³ mu N e_y, with e along the force.
 """
 
 import math
@@ -23,11 +25,11 @@ _NEARLY_CIRCULAR = 1e-3
 
 @kernel
 def slopes(aspect, nu):
-    """C11 and C22 for a/b = `aspect`."""
+    """Return C11 and C22 for a/b = `aspect`."""
     g = min(aspect, 1.0 / aspect)
     k2 = (1.0 - g) * (1.0 + g)
     _, _, B, D = elliptic_integrals(g)
-    if k2 < _NEARLY_CIRCULAR:  # the difference cancels: series, error k⁸
+    if k2 < _NEARLY_CIRCULAR:  # the difference cancels, so a series with the error k⁸ is used
         C = math.pi / 16.0 * (1.0 + k2 * (0.75 + k2 * (75.0 / 128.0 + k2 * 245.0 / 512.0)))
     else:
         C = (D - B) / k2
@@ -39,7 +41,7 @@ def slopes(aspect, nu):
 
 @kernel
 def vermeulen_johnson(vx, vy, G, a, b, nu, limit):
-    """Fx, Fy, Mz and the share of slip; `limit` is mu N."""
+    """Return Fx, Fy, Mz [N, N, N m] and the share of slip. `limit` is mu N."""
     c11, c22 = slopes(a / b, nu)
     Fx, Fy = -c11 * G * a * b * vx, -c22 * G * a * b * vy
     factor, slip = cubic(math.sqrt(Fx * Fx + Fy * Fy), limit)
