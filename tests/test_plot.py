@@ -50,11 +50,11 @@ def test_outline_encloses_the_contact_area(solution, two_patches):
         for k in range(solved.n_patches):
             y, x = PatchMesh(solved, k).outline()
             area += 0.5 * abs(np.dot(x, np.roll(y, 1)) - np.dot(y, np.roll(x, 1)))
-        assert area == pytest.approx(1e6 * solved.area, rel=5e-3), "polygon through 30 strips"
+        assert area == pytest.approx(1e6 * solved.area, rel=8e-3), "polygon through 20 strips"
 
 
 def test_drawn_boundary_is_the_leading_edge_shifted_back_by_strip_theory(ellipse):
-    solved = contact.solve(ellipse, contact.Creepage(1.5e-3, 0.0, 0.0), load=80e3, tangential="fastrip")
+    solved = contact.solve(ellipse, contact.Creepage(1.5e-3, 0.0, 0.0), load=80e3, **contact.THESIS)
     mesh = PatchMesh(solved, 0)
     partly = mesh.stick.any(axis=1) & ~mesh.stick.all(axis=1)
     boundary = np.array(

@@ -15,10 +15,19 @@ SEPARATION = contact.Separation(Y, 2.0 * Y**2, 1.1, 0.02 * Y, 60.0 * Y, 1.0 / 0.
 CREEPAGE = contact.Creepage(2e-3, -1e-3, 0.3)
 
 
-@pytest.fixture(scope="module", params=["analyn", "halfspace"])
+METHODS = {
+    "analyn": contact.THESIS,
+    "default": {},
+    "halfspace": {"normal": "halfspace", "tangential": "halfspace", "n_strips": 30, "n_elements": 30},
+}
+#: How far the index over the surface may be from the power. The half space with 30 x 30 elements dissipates much at the edges
+#: (.14); mapped FaStrip's power is less than the work of its forces, as on a plane (.09; `kernels.tangential.effective`).
+MISFIT = {"analyn": 0.02, "default": 0.12, "halfspace": 0.2}
+
+
+@pytest.fixture(scope="module", params=METHODS)
 def solution(request):
-    kind = {"normal": "halfspace", "tangential": "halfspace"} if request.param == "halfspace" else {}
-    return contact.solve(SEPARATION, CREEPAGE, load=8e4, conformal=True, **kind)
+    return contact.solve(SEPARATION, CREEPAGE, load=8e4, conformal=True, **METHODS[request.param])
 
 
 def test_the_energy_index_is_traction_times_the_rigid_slip_on_the_surface(solution):
@@ -33,12 +42,12 @@ def test_the_energy_index_is_traction_times_the_rigid_slip_on_the_surface(soluti
         np.testing.assert_allclose(found.field[i], expected, rtol=1e-9, atol=1e-9 * found.max)
 
 
-def test_the_energy_index_over_the_surface_is_nearly_all_dissipated(solution):
+def test_the_energy_index_over_the_surface_is_nearly_all_dissipated(solution, request):
     found = damage.evaluate(solution)
     longer = np.hypot(1.0, solution.strips.tilt)[:, None]
     power = (found.energy_index.field * solution.dA * longer).sum()
-    coarse = solution.normal == "halfspace"  # 30 x 30 elements, with much dissipation at the edges
-    assert power == pytest.approx(solution.power_per_metre, rel=0.2 if coarse else 0.02)
+    misfit = MISFIT[request.node.callspec.params["solution"]]
+    assert power == pytest.approx(solution.power_per_metre, rel=misfit)
 
 
 def test_the_worn_volume_counts_the_surface(solution):

@@ -1,5 +1,7 @@
 """ANALYN: the Hertz limit, load and approach, separate patches, robustness of the patch search."""
 
+import functools
+
 import numpy as np
 import pytest
 
@@ -8,13 +10,14 @@ from tests.separations import two_lobes
 
 STEEL = contact.STEEL
 NO_CREEP = contact.Creepage()
+solve = functools.partial(contact.solve, **contact.THESIS)
 
 
 @pytest.mark.parametrize("ratio", [0.28, 1.0, 3.0, 18.0])
 @pytest.mark.parametrize("load", [10.0, 8e4])
 def test_hertz_limit_is_exact(ratio, load):
     separation = contact.Separation.hertzian(1.0, ratio)
-    sol = contact.solve(separation, NO_CREEP, load=load)
+    sol = solve(separation, NO_CREEP, load=load)
     exact = contact.hertz(1.0, ratio, load=load)
     at = np.sqrt(1.0 - (sol.strips.y / exact.b) ** 2)
     np.testing.assert_allclose(sol.strips.a, exact.a * at, rtol=1e-6, err_msg="half length of strips (theory.md 3.2)")
@@ -36,14 +39,14 @@ def test_approach_gives_the_load_back(normal, ellipse):
 def test_a_patch_narrower_than_the_sampling_is_resolved():
     # semi-width 0.01 mm between samples 1 mm apart, and off the samples
     y = np.linspace(-20e-3, 20e-3, 41) + 0.37e-3
-    sol = contact.solve(contact.Separation(y, 3.0 * y**2, 1.0), NO_CREEP, load=1e-3)
+    sol = solve(contact.Separation(y, 3.0 * y**2, 1.0), NO_CREEP, load=1e-3)
     exact = contact.hertz(1.0, 3.0, load=1e-3)
     assert sol.width < 1e-4
     assert sol.max_pressure == pytest.approx(exact.p0, rel=1e-5)
 
 
 def test_separate_patches_are_labelled():
-    sol = contact.solve(two_lobes(0.0), NO_CREEP, load=4e4)
+    sol = solve(two_lobes(0.0), NO_CREEP, load=4e4)
     assert sol.n_patches == 2
     assert set(sol.strips.patch) == {0, 1}
     assert (sol.strips.y[sol.strips.patch == 0] < 0).all()
@@ -55,7 +58,7 @@ def test_separate_patches_are_labelled():
 def test_load_is_continuous_where_patches_are_born_and_merge():
     separation = two_lobes(10e-6, spacing=8e-3)
     approaches = np.linspace(5e-6, 160e-6, 600)
-    solutions = [contact.solve(separation, NO_CREEP, approach=float(d)) for d in approaches]
+    solutions = [solve(separation, NO_CREEP, approach=float(d)) for d in approaches]
     loads = np.array([s.N for s in solutions])
     assert {1, 2} <= {s.n_patches for s in solutions}
     assert (np.diff(loads) > 0).all(), "N(approach) is monotone"
@@ -66,17 +69,17 @@ def test_load_is_continuous_where_patches_are_born_and_merge():
 def test_mirrored_separation_gives_the_mirrored_patch():
     y = np.linspace(-15e-3, 15e-3, 301)
     g = 2.0 * y**2 + 300.0 * y**3 * (y > 0) + 1e-6 * np.cos(900 * y)
-    one = contact.solve(contact.Separation(y, g, 1.0), NO_CREEP, load=5e4)
-    other = contact.solve(contact.Separation(-y[::-1], g[::-1], 1.0), NO_CREEP, load=5e4)
+    one = solve(contact.Separation(y, g, 1.0), NO_CREEP, load=5e4)
+    other = solve(contact.Separation(-y[::-1], g[::-1], 1.0), NO_CREEP, load=5e4)
     np.testing.assert_allclose(one.strips.p0, other.strips.p0[::-1], rtol=1e-9)
     assert one.approach == pytest.approx(other.approach, rel=1e-12)
 
 
 def test_contact_locus_carries_the_strips():
     y = np.linspace(-15e-3, 15e-3, 61)
-    shifted = contact.solve(contact.Separation(y, 2 * y**2, 1.0, x_c=0.1 * y), NO_CREEP, load=5e4)
+    shifted = solve(contact.Separation(y, 2 * y**2, 1.0, x_c=0.1 * y), NO_CREEP, load=5e4)
     np.testing.assert_allclose(shifted.strips.x_c, 0.1 * shifted.strips.y, atol=1e-15)
-    straight = contact.solve(contact.Separation(y, 2 * y**2, 1.0), NO_CREEP, load=5e4)
+    straight = solve(contact.Separation(y, 2 * y**2, 1.0), NO_CREEP, load=5e4)
     assert shifted.approach == straight.approach
     np.testing.assert_allclose(shifted.x, straight.x + 0.1 * straight.y, atol=1e-15)
 
@@ -84,13 +87,13 @@ def test_contact_locus_carries_the_strips():
 def test_negative_curvature_is_floored_not_lost():
     y = np.linspace(-12e-3, 12e-3, 241)
     g = 5e-6 * (1 + np.cos(y / 12e-3 * 3 * np.pi)) + 2.0 * np.maximum(np.abs(y) - 8e-3, 0.0) ** 2
-    sol = contact.solve(contact.Separation(y, g, 1.0), NO_CREEP, load=1e5, throw=False)
+    sol = solve(contact.Separation(y, g, 1.0), NO_CREEP, load=1e5, throw=False)
     assert sol.status in (contact.Status.OK, contact.Status.OUT_OF_RANGE)
     assert np.isfinite(sol.p).all()
 
 
 def test_pressure_can_be_evaluated_anywhere(ellipse):
-    sol = contact.solve(ellipse, NO_CREEP, load=8e4)
+    sol = solve(ellipse, NO_CREEP, load=8e4)
     exact = contact.hertz(1.0, 2.0, load=8e4)
     x = np.linspace(-1.2, 1.2, 49)[:, None] * exact.a
     y = np.linspace(-1.2, 1.2, 47)[None, :] * exact.b

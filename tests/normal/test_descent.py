@@ -37,20 +37,24 @@ def test_too_few_and_too_many_strips_have_no_jacobians(n):
 
 
 @pytest.mark.parametrize("move", [0.01, 0.2])
-def test_mirrored_residuals_have_mirrored_steps(move):
+@pytest.mark.parametrize("first", [0, 16])
+def test_mirrored_residuals_have_mirrored_steps(move, first):
+    """Of a panel that begins at strip `first`; the other panel, which is longer, stays as it is."""
     n = 16
+    own = slice(first, first + n)
     rng = np.random.default_rng(2)
     steps = []
     residuals = rng.normal(0, 0.01, n)
     residuals[0], residuals[-1] = -move, 0.001
     for side in (1, -1):
-        vectors = np.zeros((N_VECTOR_ROWS, n))
-        vectors[Vector.A] = 1.5
-        vectors[Vector.R] = residuals[::side]
+        vectors = np.zeros((N_VECTOR_ROWS, 2 * n))
+        vectors[Vector.A], vectors[Vector.R] = 7.0, 3.0
+        vectors[Vector.A, own], vectors[Vector.R, own] = 1.5, residuals[::side]
         if side < 0:  # the entries of the end strips are displacements along y
-            vectors[Vector.R, [0, -1]] *= -1
-        descend(n, 1.0, workspace.rule(n, 10, True).descent, vectors)
-        steps.append(vectors[Vector.R].copy())
+            vectors[Vector.R, [first, first + n - 1]] *= -1
+        descend(first, n, 1.0, workspace.rule(n, 10, True).descent, vectors)
+        assert (np.delete(vectors[Vector.R], own) == 3.0).all()
+        steps.append(vectors[Vector.R, own].copy())
     steps[1][[0, -1]] *= -1
     np.testing.assert_allclose(steps[0], steps[1][::-1], rtol=1e-12, atol=1e-15)
     if move > 0.1:  # a large move follows the rule of the ends

@@ -8,6 +8,7 @@ import contact
 
 pytest.importorskip("typer")
 
+from contact.study.pairs import RESOLUTION
 from tests.command_line import call
 
 QUICK = ("--method", "hertz+fastsim", "--reference-elements", 12)
@@ -27,6 +28,8 @@ def test_options_are_those_of_solve():
         friction=0.4,
         normal="hertz",
         tangential="fastsim",
+        n_strips=RESOLUTION,
+        n_elements=RESOLUTION,
     )
     assert [r["normal"] for r in case["results"]] == ["halfspace", "hertz"]
     assert case["results"][1]["Fy"] == s.Fy

@@ -9,6 +9,7 @@ import pytest
 
 import contact
 from contact.study.design import ELLIPSES, FRICTION, LOAD, MATERIAL, design
+from contact.study.pairs import RESOLUTION
 from contact.study.reference import reference_forces, separation_of
 from contact.study.statistics import statistics
 from tests.study.page import Page
@@ -63,6 +64,8 @@ def test_errors_are_those_of_single_solves(sample):
             material=MATERIAL,
             normal="hertz",
             tangential="fastrip",
+            n_strips=RESOLUTION,
+            n_elements=RESOLUTION,
         )
         force, moment = sample.errors("fastrip")
         Fx, Fy, Mz = sample.reference[k]
