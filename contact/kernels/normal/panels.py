@@ -67,6 +67,7 @@ def half_lengths(vectors, n, n_panels):
         for i in range(first + 1, first + n - 1):
             vectors[Vector.A, i] = math.exp(vectors[Vector.LN_A, i])
             vectors[Vector.FLOORED, i] = 0.0
+        vectors[Vector.FLOORED, first] = vectors[Vector.FLOORED, first + n - 1] = 0.0
         vectors[Vector.A, first] = END_LENGTH * vectors[Vector.A, first + 1]
         vectors[Vector.A, first + n - 1] = END_LENGTH * vectors[Vector.A, first + n - 2]
         for i in range(first + 1, first + n - 1):
