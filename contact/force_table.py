@@ -57,6 +57,9 @@ def load(forces: Path = FILE, effective: Path = EFFECTIVE_FILE) -> Array:
         If a file is missing or is not a table on these nodes.
     """
     of_forces, changes = numbers(forces), numbers(effective)
+    # without Y, (X, -Z) is the mirror image of (X, Z); the fit finds another of several solutions that are as good
+    changes[:, 0] = 0.5 * (changes[:, 0] + changes[:, 0, ::-1] * np.array([1.0, -1.0, -1.0, 1.0]))
+    changes[:, :, [0, -1]] = changes[:, :1, [0, -1]]
     of_forces[..., :3] -= _linear()
     result = np.concatenate([with_margins(of_forces), with_margins(changes)], axis=-1)
     result.setflags(write=False)

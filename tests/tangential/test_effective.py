@@ -125,6 +125,17 @@ def test_dissipation_is_the_work_on_the_given_creepages(at):
     assert abs(found.power_per_metre - work) < 0.05 * work
 
 
+@pytest.mark.parametrize("B", [0.1, 2.0, 30.0])
+def test_nothing_jumps_where_lateral_creepage_changes_sign(B):
+    """With files that are not mirror symmetric where Y = 0, force jumps were .003 of mu N, of the power .02."""
+    separation = contact.Separation.hertzian(1.0, B)
+    vx, phi = (part.ravel() for part in np.meshgrid([1e-4, 1e-3, 4e-3, 8e-3], [0.1, 0.4, 1.0, 2.5, 5.0]))
+    one, other = (contact.forces(separation, (vx, vy, phi), load=LOAD, friction=MU) for vy in (1e-15, -1e-15))
+    np.testing.assert_allclose(one.Fx, other.Fx, atol=1e-9 * MU * LOAD)
+    np.testing.assert_allclose(one.Fy, other.Fy, atol=1e-9 * MU * LOAD)
+    np.testing.assert_allclose(one.power_per_metre, other.power_per_metre, rtol=1e-9)
+
+
 @pytest.mark.parametrize("path", [table.FILE, table.EFFECTIVE_FILE])
 def test_the_files_obey_the_symmetries(path):
     values = table.numbers(path)

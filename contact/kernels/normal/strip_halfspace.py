@@ -116,6 +116,7 @@ def _skew(n, strips):
     for i in range(1, n):
         if strips[Strip.PATCH, i] == strips[Strip.PATCH, i - 1]:
             weight = strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
+            weight += strips[Strip.P0, i - 1] * strips[Strip.A, i - 1] * strips[Strip.DY, i - 1]
             away = strips[Strip.Y, i] - strips[Strip.Y, i - 1]
             slope += weight * abs(strips[Strip.XC, i] - strips[Strip.XC, i - 1]) / away
             load += weight

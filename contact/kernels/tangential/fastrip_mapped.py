@@ -73,6 +73,7 @@ from contact.kernels.tangential.varying import begin_varying, soften, varies
 
 _NOW_SHARE = NOW_STICK  # where `_apply_friction` puts the share of the traction that friction still bears
 _LOG_ASPECT_FIT = 1.7  # ln(a/b) up to which the constants were fitted; they stay constant beyond
+_ROUND_OFF = 1e-12  # a slip zone shorter than this, over half the length of its strip, is none
 
 
 # rows of `lanes` after those of the march: the strip's constants, its sums over mu p0
@@ -359,7 +360,8 @@ def roll_patch(first, last, case, centres, own, result):
             result.Mz += load * a * lanes[_SUM_M + l] + xc * Fy - y * Fx
             result.power += load * lanes[_POWER + l] * unit
             stick = lanes[_STICK + l] + rest * (1.0 - lanes[SLIPS + l]) if bound > 0.0 else 0.0
-            result.slip_area += max(2.0 - stick, 0.0) * a * dy
+            slip = 2.0 - stick
+            result.slip_area += slip * a * dy if slip > _ROUND_OFF else 0.0
         if fields.shape[1] >= last:  # else only forces are wanted
             _write_fields(block, last, elements, falling, lanes, trace, fields)
 
