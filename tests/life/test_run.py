@@ -117,7 +117,7 @@ def test_energy_leaves_through_the_contacts(curved):
     """
     balance = curved.balance
     assert abs(balance["residual"]) < 0.02 * balance["dissipated"]
-    assert balance["harvested"] == pytest.approx(balance["counted"], rel=0.05)
+    assert balance["harvested"] == pytest.approx(balance["counted"], rel=0.02)
     assert balance["untrusted"] == 0.0
 
 

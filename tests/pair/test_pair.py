@@ -138,7 +138,7 @@ def test_power_of_the_wrench_is_that_of_the_creepages(right, worn, seed):
     assert s.force @ v + s.moment @ omega == pytest.approx(wanted, abs=1e-11 * max(scale, 80e3))
 
 
-@pytest.mark.parametrize(("methods", "tolerance"), [(contact.THESIS, 0.02), ({}, 0.08)])
+@pytest.mark.parametrize(("methods", "tolerance"), [(contact.THESIS, 0.02), ({}, 0.001)])
 @pytest.mark.parametrize("y", [-6e-3, 0.0, 3e-3, 6.4e-3])
 def test_the_power_lost_by_the_motion_is_the_frictional_dissipation(y, methods, tolerance):
     """In steady rolling -(Fx ξ + Fy η + Mz φ) is the frictional energy per metre, within the discretisation of FaStrip.

@@ -73,6 +73,7 @@ from contact.kernels.tangential.varying import begin_varying, soften, varies
 
 _NOW_SHARE = NOW_STICK  # where `_apply_friction` puts the share of the traction that friction still bears
 _LOG_ASPECT_FIT = 1.7  # ln(a/b) up to which the constants were fitted; they stay constant beyond
+_MOST = 2.0  # factor by which slip velocities may be scaled
 _ROUND_OFF = 1e-12  # a slip zone shorter than this, over half the length of its strip, is none
 
 
@@ -337,12 +338,14 @@ def _write_fields(block, last, elements, falling, lanes, trace, fields):
 def roll_patch(first, last, case, centres, own, result):
     """Add forces, power and slip area of the strips of a patch to `result`. Fill their fields if there is room.
 
-    `centres` are those of `elastic_centre`.
+    `centres` are those of `elastic_centre`. In steady rolling the slip dissipates the work of the forces. The march's slip
+    follows the given creepages, its forces the effective ones, so the slip velocities of the patch are scaled to that work.
     """
     strips, fields, elements = own.strips, own.fields, own.rule.elements
     lanes, trace = own.space.lanes, own.space.trace
     rest = 1.0 + elements[Element.S, -1]  # from the middle of the last element to the trailing edge
     falling = varies(case)
+    power, work = 0.0, 0.0
     for block in range(first, last, LANES):
         _set_block(strips, block, last, case, own.tables.kalker, centres, lanes)
         march(Uneven(), elements, lanes, trace)
@@ -357,13 +360,26 @@ def roll_patch(first, last, case, centres, own, result):
             Fx, Fy = load * lanes[_SUM_X + l], load * lanes[_SUM_Y + l]
             result.Fx += Fx
             result.Fy += Fy
-            result.Mz += load * a * lanes[_SUM_M + l] + xc * Fy - y * Fx
-            result.power += load * lanes[_POWER + l] * unit
+            Mz, vx, vy, phi = (
+                load * a * lanes[_SUM_M + l],
+                strips[Strip.VX, i],
+                strips[Strip.VY, i],
+                strips[Strip.PHI, i],
+            )
+            result.Mz += Mz + xc * Fy - y * Fx
+            power += load * lanes[_POWER + l] * unit
+            work -= Fx * (vx - phi * y) + Fy * (vy + phi * xc) + Mz * phi
             stick = lanes[_STICK + l] + rest * (1.0 - lanes[SLIPS + l]) if bound > 0.0 else 0.0
             slip = 2.0 - stick
             result.slip_area += slip * a * dy if slip > _ROUND_OFF else 0.0
         if fields.shape[1] >= last:  # else only forces are wanted
             _write_fields(block, last, elements, falling, lanes, trace, fields)
+    factor = min(max(work / power, 1.0 / _MOST), _MOST) if power > 0.0 else 1.0
+    result.power += factor * power
+    for i in range(first, last if fields.shape[1] >= last else first):
+        for k in range(elements.shape[1]):
+            fields[Field.SX, i, k] *= factor
+            fields[Field.SY, i, k] *= factor
 
 
 @kernel
