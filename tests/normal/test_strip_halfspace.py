@@ -183,3 +183,12 @@ def test_new_patches_have_no_pressure_spike():
         assert sol.converged
         peaks.append(sol.max_pressure)
     np.testing.assert_allclose(np.diff(np.log(peaks).reshape(3, 3)), 0.0, atol=0.05)
+
+
+@pytest.mark.parametrize("B", [1e-6, 0.05])
+def test_a_patch_cut_off_by_the_end_of_the_data_is_out_of_range(B):
+    y = np.linspace(-0.02, 0.02, 41)
+    cut_off = contact.solve(contact.Separation(y, B * y**2, 1.1), contact.Creepage(), load=8e4, throw=False)
+    assert cut_off.status is contact.Status.OUT_OF_RANGE
+    inside = contact.solve(contact.Separation(y, 0.2 * y**2, 1.1), contact.Creepage(), load=8e4, throw=False)
+    assert inside.status is contact.Status.OK

@@ -80,6 +80,7 @@ def expected(s: PairSolution, speed: float) -> dict[str, float]:
         "damage.stress_index_max": damage.stress_index,
         "damage.energy_index_max": damage.energy_index,
         "status": s.status,
+        "gap_error": s.gap_error,
     }
     for k in range(3):
         c = s.contacts[k] if k < len(s.contacts) else None

@@ -15,6 +15,7 @@ from fmpy.validation import validate_fmu
 from fmu_instance import Instance
 from fmu_instance_fmi3 import Instance3
 from pair_case import MOTION, NAME, compare, expected, mirrored, random_case, solved
+from thesis_case import THESIS
 
 import contact
 from contact.accumulation import MAXIMA, SUMS, Histogram
@@ -56,7 +57,7 @@ def open_pair(file, tmp_path):
 def fmu(open_pair):
     """Return an instance in MOTION under 80 kN, ready to step."""
     fmu = open_pair()
-    fmu.update(MOTION)
+    fmu.update({**MOTION, **THESIS})
     return fmu.initialize(stop_time=1.0)
 
 
@@ -187,7 +188,10 @@ def histograms(parameters: DamageParameters) -> dict[str, Histogram]:
     pair, velocity = Pair(wheel, rail), Velocity(30.0, spin=-30.0 / 0.46 * 1.001)
     for k in range(4):
         patches = pair.contacts(Pose(y=2e-3 * k, yaw=4e-3), velocity, load=80e3)
-        solutions = [contact.solve(p.separation, p.creepage, load=p.load, speed=30.0, throw=False) for p in patches]
+        solutions = [
+            contact.solve(p.separation, p.creepage, load=p.load, speed=30.0, throw=False, **contact.THESIS)
+            for p in patches
+        ]
         for histogram in found.values():
             histogram.add(patches, solutions, distance=30.0 * 2e-3)
     return found
@@ -200,7 +204,7 @@ def rolled(fmu, start: int = 0, steps: int = 4):
     return fmu
 
 
-ROLLING = {"pose.yaw": 4e-3, "velocity.x": 30.0, "velocity.spin": -30.0 / 0.46 * 1.001}
+ROLLING = {"pose.yaw": 4e-3, "velocity.x": 30.0, "velocity.spin": -30.0 / 0.46 * 1.001, **THESIS}
 
 
 @pytest.mark.parametrize("law", range(len(WEAR_LAWS)))

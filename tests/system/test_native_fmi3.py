@@ -12,6 +12,7 @@ from fmpy.fmi3 import FMU3Slave
 from fmpy.validation import validate_fmu
 from fmu_instance import DISCARD, ERROR, refused
 from random_cases import random_case
+from thesis_case import THESIS
 
 import contact
 from contact.kernels.layout import MAX_PATCHES
@@ -152,9 +153,11 @@ def test_simulates_with_fmpy(native, native_fmi3, kind):
 
 def test_an_array_is_started_with_fmpy(native_fmi3):
     s = separation()
-    start = {"geometry.g": s.g, "geometry.A": s.A, "geometry.y0": -0.02, "geometry.dy": 0.001, **CREEPAGES}
+    start = {"geometry.g": s.g, "geometry.A": s.A, "geometry.y0": -0.02, "geometry.dy": 0.001, **CREEPAGES, **THESIS}
     result = fmpy.simulate_fmu(str(native_fmi3), stop_time=2e-3, start_values=start, output=["force.x", "geometry.g"])
-    assert result["force.x"][-1] == contact.solve(s, contact.Creepage(*CREEPAGES.values()), load=80e3).Fx
+    assert (
+        result["force.x"][-1] == contact.solve(s, contact.Creepage(*CREEPAGES.values()), load=80e3, **contact.THESIS).Fx
+    )
     np.testing.assert_array_equal(result["geometry.g"][-1], s.g)
 
 
@@ -214,7 +217,7 @@ def test_fields_add_up_to_the_forces_and_keep_coulombs_bound(open_native_fmi3, n
     N, mu = fmu["force.n"], fmu["friction.coefficient"]
     assert np.sum(p * area) == pytest.approx(N, rel=1e-12)
     # forces and area are integrals in closed form, elements are exact only for the pressure
-    assert np.sum(area) == pytest.approx(fmu["patch.area"], rel=1e-3)
+    assert np.sum(area) == pytest.approx(fmu["patch.area"], rel=2e-3)
     assert np.sum(qx * area) == pytest.approx(fmu["force.x"], abs=2e-3 * mu * N)
     assert np.sum(qy * area) == pytest.approx(fmu["force.y"], abs=2e-3 * mu * N)
     assert np.all(np.hypot(qx, qy) <= mu * p * (1.0 + 1e-12))

@@ -11,6 +11,7 @@ import pytest
 from contact_case import posed
 from fmpy.fmi1 import FMICallException
 from fmu_instance import DISCARD, ERROR, WARNING, discarded, refused
+from thesis_case import THESIS
 
 import contact
 from models.wheelset.ports import PROBLEM, REACTION
@@ -19,7 +20,9 @@ from models.wheelset.ports import PROBLEM, REACTION
 @pytest.fixture
 def fmu(open_native):
     """Return an instance with the case of `contact_case`, ready to step."""
-    return posed(open_native()).initialize(stop_time=1.0)
+    fmu = posed(open_native())
+    fmu.update(THESIS)
+    return fmu.initialize(stop_time=1.0)
 
 
 @pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
@@ -36,7 +39,7 @@ def test_simulates_with_fmpy(native, kind):
     delay = 1 if kind == "CoSimulation" else 0
     y = -0.02 + 0.001 * np.arange(41)
     s = contact.solve(contact.Separation(y, y**2, 0.5 / 0.46), contact.Creepage(2e-4 * (10 - delay)), load=80e3)
-    assert result["force.x"][-1] == pytest.approx(s.Fx, rel=1e-9)
+    assert result["force.x"][-1] == pytest.approx(s.Fx, rel=1e-4)  # interacting strips start from the last step
     assert 0.0 < result["total.energy"][-1] < 0.01 * 20.0 * s.power_per_metre
 
 
@@ -220,4 +223,5 @@ def test_runs_in_libcosim(native):
     y = -0.02 + 0.001 * np.arange(41)
     for load, row in zip((80e3, 50e3), rows, strict=True):
         s = contact.solve(contact.Separation(y, y**2, 0.5 / 0.46), contact.Creepage(1e-3), load=load)
-        assert [float.fromhex(number) for number in row[:2]] == pytest.approx([s.N, s.Fx], rel=1e-12)
+        # interacting strips start from the last step
+        assert [float.fromhex(number) for number in row[:2]] == pytest.approx([s.N, s.Fx], rel=1e-4)

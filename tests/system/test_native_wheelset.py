@@ -13,6 +13,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 from fmu_instance import Instance
 from script_host import Script
+from thesis_case import THESIS
 from wheelset_case import NUMBERS, STATES, commands, inputs, reactions, reported, trajectory
 
 from fmu_src import lint
@@ -159,7 +160,7 @@ def test_native_and_python_fmus_give_the_same_coupled_run(native, native_wheelse
                 stack.enter_context(FmuComponent(path, ports, {"speed": 28.0, **start}))
                 for path, ports, start in (
                     (wheelset_fmu, WHEELSET_PORTS, wheelset),
-                    *((contact_fmu, CONTACT_PORTS, {}) for _ in SIDES),
+                    *((contact_fmu, CONTACT_PORTS, THESIS) for _ in SIDES),
                 )
             )
             histories.append(master.run(first, contacts, speed=28.0, step=1e-3, duration=0.06, scheme=scheme))

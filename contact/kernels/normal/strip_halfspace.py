@@ -54,6 +54,8 @@ USABLE = 0.02
 
 #: Largest mean slope of the line of the strips' middles at which strips count as in line.
 SLIGHT = 0.045
+#: Distance of a patch from the end of the data, over its width, below which the data cut it off.
+AT_END = 0.01
 
 # memory[...]: start of a later call: number of panels, their ends, the outer ends of ANALYN's patches, then ln a
 MEM_PANELS, MEM_ENDS, MEM_START, MEM_LN_A = 0, 1, 1 + 2 * MAX_PATCHES, 3 + 2 * MAX_PATCHES
@@ -316,8 +318,12 @@ def strip_halfspace(sep, case, own, result):
             strips[Strip.P0, i] *= amount / N
     if not converged and error > ACCEPTABLE * load and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
-    elif result.status == Status.OUT_OF_RANGE and not (panels[0] <= y[0] or panels[2 * n_panels - 1] >= y[size - 1]):
-        result.status = Status.OK
+    elif result.status == Status.OUT_OF_RANGE:
+        margin = AT_END * (
+            panels[2 * n_panels - 1] - panels[0]
+        )  # ends come close to the end of the data, but do not reach it
+        if panels[0] > y[0] + margin and panels[2 * n_panels - 1] < y[size - 1] - margin:
+            result.status = Status.OK
     N = amount if by_load else N
     # d(ln N)/d(ln delta) of ANALYN, exact in Hertz contact; semi-ellipses cannot represent the edge pressure of a punch
     result.stiffness *= (result.approach - g_least) / result.N * N / delta if delta > 0.0 else 0.0
