@@ -58,7 +58,9 @@ coupling: $(READY) ## write the largest stable steps of the coupling schemes to 
 
 bench: $(READY)  ## print the speed tables
 	PYTHONPATH=. $(BIN)/python benchmarks/speed.py
+	PYTHONPATH=. $(BIN)/python benchmarks/pose_times.py
 	PYTHONPATH=. $(BIN)/python benchmarks/fmu_speed.py
+	PYTHONPATH=. $(BIN)/python benchmarks/compile_times.py
 
 $(READY_FOR_DOCS): $(READY)
 	$(BIN)/python -m pip install --quiet --editable '.[docs]'

@@ -82,7 +82,10 @@ def test_connectors_are_variables_of_the_fmus_with_their_causality_and_unit(syst
 
 
 def test_libcosim_gives_the_answer_of_the_example_master(system):
-    """It exchanges outputs in initialisation and uses Jacobi afterwards. The results agree within the tolerance of interacting strips."""
+    """It exchanges outputs in initialisation and uses Jacobi afterwards.
+
+    The results agree within the tolerance of interacting strips, which start from the last step in the FMUs.
+    """
     expected = jacobi(2e-4)
     command = [sys.executable, Path(__file__).with_name("ssp_host.py"), system, "2e-4", str(STEPS)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=900)
