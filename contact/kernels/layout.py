@@ -19,12 +19,12 @@ MAX_LOBES = 16
 #: Range of creepages [-] and spin [1/m]: slip beyond any use, and far from where squares overflow.
 LARGEST_CREEPAGE = 1e6
 
-#: Record → member → what it is; the header for C code is made of it (`fmu_src.native.records`).
+#: Record → member → meaning. `fmu_src.native.records` makes the C header from it.
 MEANING: dict[str, dict[str, str]] = {}
 
 
 def _record(name: str, members: str) -> np.dtype:
-    """Return the aligned record `name` of the lines of `members`: ``name meaning``.
+    """Return the aligned record `name`. Each line of `members` is ``name meaning``.
 
     ``name`` is a float64, ``name:int`` an int64, ``name:8`` an array of 8 float64.
     """

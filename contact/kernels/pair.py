@@ -1,4 +1,4 @@
-"""The whole way from the motion of a wheelset to the forces of one wheel on one rail: the kernel behind API and FMUs."""
+"""From the motion of a wheelset to the forces of one wheel on one rail: the kernel of `WheelRailPair` and its FMU."""
 
 import math
 
@@ -17,13 +17,13 @@ _MAX_HEIGHTS, _TOLERANCE, _ACCEPTABLE, _FURTHEST = 40, 1e-9, 1e-3, 1.0
 
 @kernel
 def _bounded(creepage):
-    """Creepage within its range; a wheelset almost at rest leaves it, deep in full slip."""
+    """Return the creepage, limited to its range. A wheelset almost at rest leaves the range, in full slip."""
     return min(max(creepage, -LARGEST_CREEPAGE), LARGEST_CREEPAGE)
 
 
 @kernel
 def _pressure_centre(strips, n):
-    """Moments of the pressure, ∬ y p dA and ∬ x p dA; a strip carries π/2 p0 a a unit of width."""
+    """Return the moments ∬ y p dA and ∬ x p dA of the pressure [N m]. A strip carries π/2 p0 a per unit of width."""
     by_y, by_x = 0.0, 0.0
     for i in range(n):
         load = 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
@@ -34,7 +34,7 @@ def _pressure_centre(strips, n):
 
 @kernel
 def _report(patch, case, result, by_y, by_x, contact):
-    """Fill the contact of one patch, on the right side: forces, moments and area with the share with which it counts."""
+    """Fill the contact of one patch on the right side. Forces, moments and area are multiplied by the patch's share."""
     share = patch.share
     contact.N, contact.Fx, contact.Fy = share * result.N, share * result.Fx, share * result.Fy
     contact.Mx, contact.My, contact.Mz = -share * by_y, share * by_x, share * result.Mz
@@ -67,7 +67,7 @@ def _add_wrench(contact, y_centre, z_centre, total):
 
 @kernel
 def _worse(status, other):
-    """Status with another patch that carries: full slip when both slip, not trustworthy when one is not."""
+    """Return the status of two loaded patches: full slip if both slip, not trustworthy if one of them is not."""
     if status == Status.NO_CONTACT:  # so far
         return other
     untrusted = status == Status.OUT_OF_RANGE or status == Status.NOT_CONVERGED
@@ -78,7 +78,7 @@ def _worse(status, other):
 
 @kernel
 def _add_results(result, damage, share, total):
-    """Add what belongs to a patch that carries, besides its wrench: rates add up by `share`, of indices the greatest counts."""
+    """Add the results of a loaded patch except forces and moments: rates are summed by `share`, indices take the maximum."""
     first = total.area == 0.0
     total.status = _worse(total.status, result.status)
     total.pmax = max(total.pmax, result.pmax)
@@ -120,7 +120,7 @@ def _clear_total(total):
 
 @kernel
 def _mirror(mirror, n, contacts, total):
-    """Give `n` contacts and the total the signs of the actual side."""
+    """Change the signs of `n` contacts and the total to those of the actual side."""
     total.Fy, total.Mx, total.Mz = mirror * total.Fy, mirror * total.Mx, mirror * total.Mz
     for k in range(n):
         contact = contacts[k]
@@ -144,7 +144,7 @@ def _roll_patch(patch, under_load, motion, template, case):
 
 @kernel
 def _space_of_patch(space, memory):
-    """The scratch arrays, with the memory of one patch."""
+    """Return the scratch arrays with the memory of one patch."""
     return Space(
         space.grid,
         space.vectors,

@@ -19,7 +19,7 @@ from contact.kernels.tangential.fastsim import fastsim
 
 @kernel
 def _square_slope(strips, i, first, last):
-    """Slope of p0² at strip i from the parabola through it and its neighbours in the patch of strips first … last."""
+    """Return the slope of p0² at strip i, from the parabola through it and its neighbours in the patch first … last."""
     k = min(max(i, first + 1), last - 1)
     y, left, right = strips[Strip.Y, k], strips[Strip.Y, k - 1], strips[Strip.Y, k + 1]
     top = strips[Strip.P0, k] ** 2
@@ -30,7 +30,7 @@ def _square_slope(strips, i, first, last):
 
 @kernel
 def peak_pressure(strips, n):
-    """Largest pressure: top of the cubics through p0² of the strips with three-point slopes (exact for an ellipse)."""
+    """Return the largest pressure: the top of the cubics through p0² of the strips. It is exact for an ellipse."""
     top, first = 0.0, 0
     while first < n:
         last = first
@@ -53,7 +53,7 @@ def peak_pressure(strips, n):
 
 @kernel
 def _limit_pressure(strips, n, limit, elements, fields, N):
-    """Cut the pressure at the limit: in the fields, and in the strips by semi-ellipses of the same load; together N."""
+    """Limit the pressure in the fields and replace each limited strip by the semi-ellipse of the same load; together N."""
     total = 0.0
     for i in range(n):
         p0 = strips[Strip.P0, i]
@@ -69,19 +69,19 @@ def _limit_pressure(strips, n, limit, elements, fields, N):
 
 @kernel
 def _bears_pressure(case):
-    """Whether the traction of a method is bounded by the pressure: not so where forces are all or the bound is a parabola."""
+    """Return whether the pressure bounds the traction of the method. It does not for force laws and a parabolic bound."""
     family = case.tangential_family
     by_strips = family == TangentialFamily.FASTRIP or family == TangentialFamily.FASTRIP_MAPPED
     return by_strips or case.tangential == Tangential.FASTSIM_ELLIPTIC
 
 
 @kernel
-def _bear(strips, n, case, elements, fields, result):
-    """Carry the traction under the semi-ellipses over to the cut pressure, and what this changes to the resultants.
+def _rescale_tractions(strips, n, case, elements, fields, result):
+    """Rescale the tractions, which were found under semi-ellipses, to the limited pressure; correct the forces alike.
 
-    Where an element slips its traction is changed in the ratio of the pressures. Where it sticks the bodies' stiffness makes
-    the traction, whatever the pressure: there the change fades with the square of the utilisation of friction. The ratio is
-    at least π/4 (theory.md 8.4), so that the traction never exceeds friction.
+    In slip the traction changes in the ratio of the pressures. In stick the stiffness of the bodies determines it, so there
+    the change decreases with the square of the utilisation of friction. The ratio is at least π/4 (theory.md 8.4), so the
+    traction never exceeds friction.
     """
     if n > fields.shape[1]:  # no fields to carry over
         return
@@ -106,7 +106,7 @@ def _bear(strips, n, case, elements, fields, result):
 
 @kernel
 def _set_rolling(strips, n, case):
-    """What friction acts on, the pressure times factors of temperature and side of the profile, and the plane's creepages."""
+    """Set the bound of each strip, the pressure times factors of temperature and profile, and the plane's creepages."""
     factor, bodies = case.gauge_factor, of_bodies(case)
     for i in range(n):
         strips[Strip.VX, i], strips[Strip.VY, i], strips[Strip.PHI, i] = case.vx, case.vy, case.phi
@@ -184,7 +184,7 @@ def _roll(family, n, case, own, result):
 
 @inlined
 def press_case(family, sep, case, own, result):
-    """The first half of `solve_case`: the normal problem, and the creepages and the bound with which each strip rolls."""
+    """Solve the normal problem and set the creepages and the bound of each strip; return the strip count."""
     n = press(family, sep, case, own, result)
     if n == 0:
         return 0
@@ -215,11 +215,11 @@ def press_case(family, sep, case, own, result):
 
 @inlined
 def roll_case(family, n, case, own, result):
-    """The second half of `solve_case`: the tangential problem of `n` > 0 strips."""
+    """Solve the tangential problem of `n` > 0 strips."""
     strips = own.strips
     _roll(family, n, case, own, result)
     if result.limited != 0 and _bears_pressure(case):
-        _bear(strips, n, case, own.rule.elements, own.fields, result)
+        _rescale_tractions(strips, n, case, own.rule.elements, own.fields, result)
     if not abs(result.Fx) + abs(result.Fy) + abs(result.Mz) + result.N < math.inf:
         result.status = Status.NOT_CONVERGED  # gaps or creepages so large that numbers overflow
     full = result.area * (1.0 - 1e-12)

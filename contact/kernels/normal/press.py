@@ -27,19 +27,19 @@ _TOLERANCE, _MAX_ITERATIONS, _DIFFERENCE, _COARSE_DIFFERENCE = 1e-10, 60, 1e-3, 
 
 @kernel
 def kept(c):
-    """Share of its load that a semi-elliptic pressure keeps when it is cut at `c` < 1 of its peak."""
+    """Return the share of its load that a semi-elliptic pressure keeps when it is limited to `c` < 1 of its peak."""
     return 2.0 / math.pi * (c * math.sqrt(1.0 - c * c) + math.asin(c))
 
 
 @kernel
 def share_of(p0, limit):
-    """Share of its load that a strip of peak p0 keeps; a limit of 0 stands for none."""
+    """Return the share of its load that a strip of peak p0 keeps. A limit of 0 means none."""
     return kept(limit / p0) if 0.0 < limit < p0 else 1.0
 
 
 @kernel
 def fill_cut(elements, p0, limit, row):
-    """Mean pressure over each element of a strip whose peak p0 > limit is cut: the strip's load to round-off."""
+    """Fill the mean limited pressure of each element of a strip with p0 > limit. They add up to the strip's load."""
     c = limit / p0
     t = math.sqrt(1.0 - c * c)
     outer = 0.5 * (math.asin(c) - t * c)  # ∫√(1-s²) from t to 1
@@ -104,7 +104,7 @@ chosen_by(
 
 @kernel
 def _cut_load(strips, n, limit):
-    """Load of `n` elastic strips after the cut."""
+    """Return the load of `n` elastic strips after their pressure is limited [N]."""
     N = 0.0
     for i in range(n):
         p0 = strips[Strip.P0, i]
@@ -114,14 +114,14 @@ def _cut_load(strips, n, limit):
 
 @inlined
 def _solve_elastic(family, sep, case, own, result):
-    """As `_elastic`, from a cleared result."""
+    """Clear the result and call `_elastic`."""
     clear(result)
     return _elastic(family, sep, case, own, result)
 
 
 @kernel
 def _find_elastic_load(family, load, n, sep, case, own, result):
-    """Raise the elastic load of `case` until its cut pressure carries `load`, by a bracketed secant; return the strip count."""
+    """Find the elastic load of `case` whose limited pressure carries `load` by a bracketed secant; return the strip count."""
     limit = case.pressure_limit
     before, cut_before, low, high = 0.0, 0.0, 0.0, math.inf
     now, cut = load, _cut_load(own.strips, n, limit)
