@@ -88,7 +88,7 @@ def test_equals_the_solver_on_random_cases(open_pair, request):
 
 def test_left_is_the_mirror_image_of_right(fmu, open_pair):
     left = open_pair()
-    left.update({**mirrored(MOTION), "side": 1})
+    left.update({**mirrored(MOTION), "side": 1, **THESIS})
     left.initialize()
     for instance in (fmu, left):
         instance.step()

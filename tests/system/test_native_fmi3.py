@@ -153,11 +153,11 @@ def test_simulates_with_fmpy(native, native_fmi3, kind):
 
 def test_an_array_is_started_with_fmpy(native_fmi3):
     s = separation()
-    start = {"geometry.g": s.g, "geometry.A": s.A, "geometry.y0": -0.02, "geometry.dy": 0.001, **CREEPAGES, **THESIS}
+    start = {"geometry.g": s.g, "geometry.A": s.A, "geometry.y0": -0.02, "geometry.dy": 0.001, **CREEPAGES}
+    start |= {name: THESIS[name] for name in ("method.normal", "method.tangential")}
     result = fmpy.simulate_fmu(str(native_fmi3), stop_time=2e-3, start_values=start, output=["force.x", "geometry.g"])
-    assert (
-        result["force.x"][-1] == contact.solve(s, contact.Creepage(*CREEPAGES.values()), load=80e3, **contact.THESIS).Fx
-    )
+    options = {**contact.THESIS, "n_strips": N_STRIPS, "n_elements": N_ELEMENTS}
+    assert result["force.x"][-1] == contact.solve(s, contact.Creepage(*CREEPAGES.values()), load=80e3, **options).Fx
     np.testing.assert_array_equal(result["geometry.g"][-1], s.g)
 
 

@@ -291,8 +291,11 @@ for _stub, _kernel in (
 
 
 @kernel
-def _apply_friction(case, elements, lanes, trace):
-    """Fill `trace` with the share of the traction that friction varying along the strips still bears. Repeat the sums."""
+def _apply_friction(case, factor, elements, lanes, trace):
+    """Fill `trace` with the share of the traction that friction varying along the strips still bears. Repeat the sums.
+
+    `factor` scales the slip.
+    """
     for l in range(LANES):
         lanes[_SUM_X + l], lanes[_SUM_Y + l], lanes[_SUM_M + l] = 0.0, 0.0, 0.0
         lanes[_POWER + l], lanes[_STICK + l] = 0.0, 0.0
@@ -300,7 +303,7 @@ def _apply_friction(case, elements, lanes, trace):
         sine = elements[Element.SINE, k]
         weight = sine * elements[Element.DX, k]
         for l in range(LANES):
-            slip = trace[k, NOW_SLIP + l] * lanes[_UNIT + l]
+            slip = trace[k, NOW_SLIP + l] * lanes[_UNIT + l] * factor
             lanes[SLIP + l], lanes[FLUX + l] = slip, lanes[HEATING + l] * sine * slip
             lanes[NOW_STICK + l] = trace[k, NOW_STICK + l]
         soften(case, k, elements, lanes, trace)
@@ -335,6 +338,22 @@ def _write_fields(block, last, elements, falling, lanes, trace, fields):
 
 
 @kernel
+def _energy(strips, i, l, lanes):
+    """Return what the slip of strip i, in lane l, dissipates and the work of its forces, per metre rolled [N]."""
+    a, y, xc = strips[Strip.A, i], strips[Strip.Y, i], strips[Strip.XC, i]
+    vx, vy, phi = strips[Strip.VX, i], strips[Strip.VY, i], strips[Strip.PHI, i]
+    load = lanes[_BOUND + l] * a * strips[Strip.DY, i]
+    work = lanes[_SUM_X + l] * (vx - phi * y) + lanes[_SUM_Y + l] * (vy + phi * xc) + a * lanes[_SUM_M + l] * phi
+    return load * lanes[_POWER + l] * lanes[_UNIT + l], -load * work
+
+
+@kernel
+def _factor(power, work):
+    """Return the factor of the slip velocities of a patch with which they dissipate the work of its forces."""
+    return min(max(work / power, 1.0 / _MOST), _MOST) if power > 0.0 else 1.0
+
+
+@kernel
 def roll_patch(first, last, case, centres, own, result):
     """Add forces, power and slip area of the strips of a patch to `result`. Fill their fields if there is room.
 
@@ -345,36 +364,40 @@ def roll_patch(first, last, case, centres, own, result):
     lanes, trace = own.space.lanes, own.space.trace
     rest = 1.0 + elements[Element.S, -1]  # from the middle of the last element to the trailing edge
     falling = varies(case)
-    power, work = 0.0, 0.0
+    factor, power, work = 1.0, 0.0, 0.0
+    if falling:  # friction follows from the scaled slip, so its factor is needed first
+        for block in range(first, last, LANES):
+            _set_block(strips, block, last, case, own.tables.kalker, centres, lanes)
+            march(Uneven(), elements, lanes, trace)
+            for l in range(min(LANES, last - block)):
+                more_power, more_work = _energy(strips, block + l, l, lanes)
+                power, work = power + more_power, work + more_work
+        factor = _factor(power, work)
+        power, work = 0.0, 0.0
     for block in range(first, last, LANES):
         _set_block(strips, block, last, case, own.tables.kalker, centres, lanes)
         march(Uneven(), elements, lanes, trace)
         if falling:
             begin_varying(strips, block, last, case, _BOUND, lanes)
-            _apply_friction(case, elements, lanes, trace)
+            _apply_friction(case, factor, elements, lanes, trace)
         for l in range(min(LANES, last - block)):
             i = block + l
             a, dy, y, xc = strips[Strip.A, i], strips[Strip.DY, i], strips[Strip.Y, i], strips[Strip.XC, i]
-            bound, unit = lanes[_BOUND + l], lanes[_UNIT + l]
+            bound = lanes[_BOUND + l]
             load = bound * a * dy
             Fx, Fy = load * lanes[_SUM_X + l], load * lanes[_SUM_Y + l]
             result.Fx += Fx
             result.Fy += Fy
-            Mz, vx, vy, phi = (
-                load * a * lanes[_SUM_M + l],
-                strips[Strip.VX, i],
-                strips[Strip.VY, i],
-                strips[Strip.PHI, i],
-            )
-            result.Mz += Mz + xc * Fy - y * Fx
-            power += load * lanes[_POWER + l] * unit
-            work -= Fx * (vx - phi * y) + Fy * (vy + phi * xc) + Mz * phi
+            result.Mz += load * a * lanes[_SUM_M + l] + xc * Fy - y * Fx
+            more_power, more_work = _energy(strips, i, l, lanes)
+            power, work = power + more_power, work + more_work
             stick = lanes[_STICK + l] + rest * (1.0 - lanes[SLIPS + l]) if bound > 0.0 else 0.0
             slip = 2.0 - stick
             result.slip_area += slip * a * dy if slip > _ROUND_OFF else 0.0
         if fields.shape[1] >= last:  # else only forces are wanted
             _write_fields(block, last, elements, falling, lanes, trace, fields)
-    factor = min(max(work / power, 1.0 / _MOST), _MOST) if power > 0.0 else 1.0
+    if not falling:
+        factor = _factor(power, work)
     result.power += factor * power
     for i in range(first, last if fields.shape[1] >= last else first):
         for k in range(elements.shape[1]):
