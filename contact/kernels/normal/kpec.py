@@ -46,10 +46,12 @@ def share_parabola(y, g, A, n, delta, point, work, edges):
     one_alpha, one_beta, _, log_aspect = local_factors(point.A, B1)
     # A1 a² = delta/(1+alpha) and B1 b² = delta/(1+beta), so the share is a parabola that is added to the gap
     level, bend = delta / one_alpha, B1 * (one_beta / one_alpha - 1.0)
+    # a share above 1 only lies outside the ellipse; coarse samples leave the interval of its edge uncapped
+    edge = math.sqrt(delta / (one_beta * B1)) + 2.0 * (y[n - 1] - y[0]) / (n - 1)
     for i in range(n):
         gap, away = g[i] - point.g, y[i] - middle
         shared, whole = gap + bend * away * away, gap - (delta - level)
-        capped = shared < whole  # a share above 1, which only lies outside the ellipse
+        capped = shared < whole and abs(away) > edge
         work[Sample.EFFECTIVE_GAP, i] = whole if capped else shared
         work[Sample.EFFECTIVE_SLOPE, i] = work[Sample.GAP_SLOPE, i] + (0.0 if capped else 2.0 * bend * away)
         work[Sample.STRETCHED_A, i] = A[i]
