@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from numba import float64
 
 import contact
 from contact import _jit
@@ -69,3 +70,22 @@ def test_stale_caches_are_removed(tmp_path):
     _jit._remove_stale(tmp_path)
     left = {path.name for path in tmp_path.iterdir()}
     assert left == {*names[1:-1], "of another program"}
+
+
+@_jit.kernel
+def _times(x, factor):
+    return x * factor
+
+
+@_jit.kernel
+def _outer(x):
+    return _times(x, 2) + _times(x, 3)
+
+
+def test_a_kernel_that_a_kernel_calls_is_compiled_once_and_not_for_python():
+    _outer.get_overload.__self__.compile((float64,))  # what kernels link is never read from the cache
+    assert _times.signatures == []
+    assert len(_times.get_overload.__self__.signatures) == 1, "a literal counts as its type"
+    assert _outer(1.0) == 5.0
+    assert _times(2.0, 4) == 8.0
+    assert len(_times.signatures) == 1
