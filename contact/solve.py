@@ -140,6 +140,8 @@ def solve(
     else:
         problem = _StripProblem(separation, creepage, load, approach, surface, material, speed, method.name)
         kernel_name = DEFAULT_TANGENTIAL if rolling.elementwise else rolling.kernel
+        if rolling.name == kernel_name and not rolling.calibrated:  # nothing more to do, so the solution stays lazy
+            return problem.solve(kernel_name, n_strips, n_elements, start, conformal, throw=throw)
         solution = problem.solve(kernel_name, n_strips, n_elements, start, conformal and not rolling.elementwise)
         if rolling.calibrated and solution.N > 0.0:
             coefficients = _patch_coefficients(problem, solution)
@@ -213,6 +215,7 @@ class _StripProblem(NamedTuple):
         start: Solution | None = None,
         conformal: bool = False,
         coefficients: tuple[float, float, float] | None = None,
+        throw: bool = False,
     ) -> Solution:
         """Return the solution. `coefficients` are C11, C22, C23 to use instead of those of linear theory."""
         key = self.normal, tangential, n_strips, n_elements, self.material, conformal, coefficients
@@ -227,7 +230,7 @@ class _StripProblem(NamedTuple):
             friction=self.friction,
             speed=self.speed,
             warm=start is not None,
-            throw=False,
+            throw=throw,
         )
 
 
