@@ -12,9 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact.absence import only_with_fields
 from contact.creepage import Creepage
+from contact.kernels.arrays import Workspace
+from contact.kernels.enumerations import Status
 from contact.kernels.friction import of_case
-from contact.kernels.layout import CASE, RESULT, Field, Status, Strip
-from contact.kernels.memory import Workspace
+from contact.kernels.records import CASE, RESULT
+from contact.kernels.rows import Field, Strip
 from contact.material import Material
 from contact.notebook import Sketch, beside, table
 from contact.registry import methods

@@ -16,9 +16,10 @@ from contact.case import cases, set_surface
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_integer, require_number
 from contact.friction import Friction, as_friction
-from contact.kernels.layout import RESULT, LoadKind
-from contact.kernels.memory import Workspace
+from contact.kernels.arrays import Workspace
+from contact.kernels.enumerations import LoadKind
 from contact.kernels.pipeline import solve_case
+from contact.kernels.records import RESULT
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.separation import Separation

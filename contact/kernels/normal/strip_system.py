@@ -3,9 +3,9 @@
 import math
 
 from contact._jit import kernel
-from contact.kernels.layout import Vector
 from contact.kernels.normal.elimination import eliminate
 from contact.kernels.normal.influence import anywhere, at_centre, column, in_row, logarithm, row_at
+from contact.kernels.rows import Vector
 
 #: Offset along x over the half length below which strips count as in line. The table off the centre line is not more exact.
 IN_LINE = 0.01

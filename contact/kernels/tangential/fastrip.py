@@ -34,7 +34,8 @@ from enum import auto
 
 from contact._jit import kernel
 from contact.kernels import kalker
-from contact.kernels.layout import Element, Field, Strip, Tangential
+from contact.kernels.enumerations import Tangential
+from contact.kernels.rows import Element, Field, Strip
 from contact.kernels.tangential.ellipses import equivalent_ellipse
 from contact.kernels.tangential.fastsim import NO_FRICTION
 from contact.kernels.tangential.lanes import LANES, N_LANE_ROWS, Now, Row, Varying, after, keep, recall

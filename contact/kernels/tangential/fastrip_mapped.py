@@ -24,7 +24,7 @@ from typing import NamedTuple
 
 from contact._jit import chosen_by, kernel
 from contact.kernels import kalker
-from contact.kernels.layout import Element, Field, Strip
+from contact.kernels.rows import Element, Field, Strip
 from contact.kernels.tangential.effective import set_effective
 from contact.kernels.tangential.ellipses import equivalent_ellipse
 from contact.kernels.tangential.fastsim import NO_FRICTION

@@ -22,8 +22,9 @@ import math
 from enum import auto
 
 from contact._jit import kernel
-from contact.kernels.layout import Element, Field, Strip, Tangential
+from contact.kernels.enumerations import Tangential
 from contact.kernels.normal.linder import local_ellipse
+from contact.kernels.rows import Element, Field, Strip
 from contact.kernels.tangential.ellipses import equivalent_ellipse, flexibilities, weighted
 from contact.kernels.tangential.lanes import LANES, Now, Row, Trace, Varying, after
 from contact.kernels.tangential.march import Even, March, march

@@ -22,7 +22,7 @@ from enum import auto
 from typing import Any, NamedTuple
 
 from contact._jit import chosen_by, kernel
-from contact.kernels.layout import Element
+from contact.kernels.rows import Element
 from contact.kernels.tangential.lanes import FAR, LANES, Now, Row, after, decay_and_lag, keep, turned
 
 

@@ -10,7 +10,7 @@ import math
 
 from contact._jit import kernel
 from contact.kernels.friction import fallen, falls_hot, falls_locally, heating, of_heat
-from contact.kernels.layout import Element, Strip
+from contact.kernels.rows import Element, Strip
 from contact.kernels.tangential.lanes import LANES, Now, Trace, Varying
 
 
