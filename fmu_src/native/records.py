@@ -26,7 +26,7 @@ def header() -> str:
     """Return the text of records.h."""
     constants = "\n".join(f"#define CONTACT_{name} {getattr(records, name)!r}" for name in _CONSTANTS)
     enumerations = "\n\n".join(map(_enumeration, ENUMERATIONS))
-    records = "\n\n".join(_record(name, dtype) for name, dtype in RECORDS.items())
+    structs = "\n\n".join(_record(name, dtype) for name, dtype in RECORDS.items())
     return f"""/* Generated from contact/kernels/records.py and enumerations.py. */
 #ifndef RECORDS_H
 #define RECORDS_H
@@ -37,7 +37,7 @@ def header() -> str:
 
 {enumerations}
 
-{records}
+{structs}
 
 #endif
 """
