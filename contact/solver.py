@@ -22,8 +22,9 @@ from contact.kernels.pipeline import solve_case
 from contact.kernels.records import RESULT
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
+from contact.resultants import CaseForces
 from contact.separation import Separation
-from contact.solution import CaseForces, Prepared, Solution, Status
+from contact.solution import Prepared, Solution, Status
 
 #: Default resolution. On the patches of set D the normal force is then 0.06 %, the largest pressure 0.3 % off CONTACT's.
 N_STRIPS, N_ELEMENTS = 20, 20
