@@ -8,8 +8,8 @@ from numba import carray
 import contact
 from contact import force_table, kalker, material, workspace
 from contact.kernels import families, memory, quadrature
+from contact.kernels.arrays import Size, Tables, Workspace
 from contact.kernels.kalker import N_TABLE, fill_table
-from contact.kernels.memory import Size, Tables, Workspace
 from contact.kernels.normal import influence
 from contact.kernels.normal.between_panels import fill_probes
 from contact.kernels.normal.descent import fill_descent

@@ -7,8 +7,8 @@ that lie nearly at Chebyshev's nodes. The polynomial through them serves the oth
 import math
 
 from contact._jit import kernel
-from contact.kernels.layout import Vector
 from contact.kernels.normal.influence import anywhere, at_centre, in_row, logarithm, row_at
+from contact.kernels.rows import Vector
 
 #: Number of strips of a panel at which the displacement by other panels is calculated.
 PROBES = 6

@@ -5,9 +5,10 @@ import math
 from contact._jit import kernel
 from contact.kernels import cubic
 from contact.kernels.cubic import locate
-from contact.kernels.layout import MAX_PATCHES, Sample, Strip, Vector
 from contact.kernels.normal.descent import END_LENGTH, END_SLOPE, END_STEP, END_VALUE
 from contact.kernels.normal.strip_system import displacement_outside
+from contact.kernels.records import MAX_PATCHES
+from contact.kernels.rows import Sample, Strip, Vector
 
 _END_RANGE = (-3.0, 20.0)  # of one move outwards before the factor END_STEP, in widths of the end strip
 #: Squared ratio of pressures from which on a frozen end still moves outwards: they rise towards the corner of a punch.

@@ -15,7 +15,7 @@ import math
 
 from contact._jit import kernel
 from contact.kernels.cubic import locate
-from contact.kernels.layout import MAX_PATCHES, LoadKind, Sample, Status, Strip, Vector
+from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.normal.analyn import analyn
 from contact.kernels.normal.between_panels import distances
 from contact.kernels.normal.descent import descend, has_one_run
@@ -37,6 +37,8 @@ from contact.kernels.normal.strip_system import (
     edge_displacements,
     solve_active,
 )
+from contact.kernels.records import MAX_PATCHES
+from contact.kernels.rows import Sample, Strip, Vector
 
 MAX_ITERATIONS = 40
 #: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops.

@@ -3,10 +3,10 @@
 import math
 
 from contact._jit import kernel
-from contact.kernels.layout import Vector
 from contact.kernels.normal.between_panels import IN_LINE, add_others, assemble_others
 from contact.kernels.normal.elimination import eliminate
 from contact.kernels.normal.influence import at_centre, column, in_row, logarithm, row_at
+from contact.kernels.rows import Vector
 
 
 @kernel
