@@ -6,7 +6,7 @@ READY  := $(VENV)/.ready
 READY_FOR_DOCS := $(VENV)/.ready-for-docs
 
 .DEFAULT_GOAL := help
-.PHONY: help demo docs test check soak lint fmu accuracy bench coupling smoothness pictures format clean
+.PHONY: help demo docs explorer test check soak lint fmu accuracy bench coupling smoothness pictures format clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -66,7 +66,13 @@ $(READY_FOR_DOCS): $(READY)
 	$(BIN)/python -m pip install --quiet --editable '.[docs]'
 	@touch $@
 
-docs: $(READY_FOR_DOCS) ## build the documentation site in build/docs/html; warnings are errors
+EXPLORER := $(wildcard explorer/*.py explorer/*.c explorer/page/* fmu_src/tables/*.py fmu_src/native/*.py) $(shell find contact/kernels -name '*.py')
+dist/explorer.html: $(EXPLORER) | $(READY)
+	$(BIN)/python -m explorer --out $@
+
+explorer: dist/explorer.html ## compile the kernels to WebAssembly and write the contact explorer, one web page
+
+docs: $(READY_FOR_DOCS) dist/explorer.html ## build the documentation site in build/docs/html; warnings are errors
 	$(BIN)/python -m sphinx -W --keep-going -q -b html docs build/docs/html
 	@echo "build/docs/html/index.html"
 

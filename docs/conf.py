@@ -27,6 +27,8 @@ myst_heading_anchors = 3
 html_theme = "furo"
 html_title = "wheelrail-contact"
 html_static_path = ["_static"]
+# `make docs` writes the explorer before; without it the frame on the first page stays empty.
+html_extra_path = [str(path) for path in [ROOT / "dist" / "explorer.html"] if path.exists()]
 html_css_files = ["site.css"]
 html_show_sourcelink = False
 

@@ -21,8 +21,8 @@ def ellipse() -> contact.Separation:
     return contact.Separation.hertzian(1.0, 2.0)
 
 
-#: Folders in which every test is slow: whole FMUs, and runs over a line.
-SLOW = {"system", "life"}
+#: Folders in which every test is slow: whole FMUs, runs over a line, and the page with the compiled kernels.
+SLOW = {"system", "life", "explorer"}
 
 
 @pytest.hookimpl(tryfirst=True)  # before pytest evaluates -m

@@ -161,10 +161,32 @@ def _space_of_patch(space, memory):
 
 
 @kernel
+def solve_patch(k, under_load, bench):
+    """Solve patch k of the last search for its load or its approach, with its damage. Return the number of strips.
+
+    Strips and fields are those of `bench.own`, until the next patch is solved. `bench.patch_case` has to hold the case of
+    the pair.
+    """
+    search, own, memory = bench.search, bench.own, bench.memory
+    patch, sep, parameters = search.patches[k], search.separations[k], bench.damage_parameters[0]
+    case, piece = bench.patch_case[0], (memory.size - 1) // MAX_PATCHES
+    _roll_patch(patch, under_load, search.motion[0], bench.case[0], case)
+    samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
+    space = _space_of_patch(own.space, memory[1 + k * piece : 1 + (k + 1) * piece])
+    of_patch = Workspace(own.families, own.rule, own.tables, space, own.strips, own.fields)
+    n_strips = solve_case(samples, bench.patch_case, of_patch, bench.result)
+    parameters.speed, parameters.wheel_radius = search.motion[0].vx, patch.radius
+    damage_kernel(
+        own.strips, n_strips, own.fields, case, bench.result[0], parameters, bench.damage_fields, bench.damage[0]
+    )
+    return n_strips
+
+
+@kernel
 def _solve_at(mode, amount, given, z, enters, bench):
     """As `solve_pair`, at the height z if `mode` is GIVEN. `enters` says whether the ledger is filled."""
     search, own, memory = bench.search, bench.own, bench.memory
-    total, result, damage, parameters = bench.total[0], bench.result[0], bench.damage[0], bench.damage_parameters[0]
+    total, result, damage, case = bench.total[0], bench.result[0], bench.damage[0], bench.patch_case[0]
     motion = search.motion[0]
     for k in range(MAX_PATCHES):
         _clear_contact(bench.contacts[k])
@@ -174,21 +196,13 @@ def _solve_at(mode, amount, given, z, enters, bench):
     n = settle(mode, amount, search)
     if n < 0:
         return n
-    piece = (memory.size - 1) // MAX_PATCHES
     if memory[0] != n:  # a patch came or went: none starts from another one
         memory[:] = 0.0
         memory[0] = n
     bench.patch_case[0] = bench.case[0]
-    case = bench.patch_case[0]
     for k in range(n):
-        patch, sep, contact = search.patches[k], search.separations[k], bench.contacts[k]
-        _roll_patch(patch, mode == Height.LOAD, motion, bench.case[0], case)
-        samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
-        space = _space_of_patch(own.space, memory[1 + k * piece : 1 + (k + 1) * piece])
-        of_patch = Workspace(own.families, own.rule, own.tables, space, own.strips, own.fields)
-        n_strips = solve_case(samples, bench.patch_case, of_patch, bench.result)
-        parameters.speed, parameters.wheel_radius = motion.vx, patch.radius
-        damage_kernel(own.strips, n_strips, own.fields, case, result, parameters, bench.damage_fields, damage)
+        patch, contact = search.patches[k], bench.contacts[k]
+        n_strips = solve_patch(k, mode == Height.LOAD, bench)
         by_y, by_x = _pressure_centre(own.strips, n_strips)
         _report(patch, case, result, by_y, by_x, contact)
         if n_strips > 0:

@@ -90,18 +90,18 @@ def emit(components: Mapping[Path, Component]) -> None:
     """
     # This comes before machine code is switched off, since components may call kernels to make their data.
     made = {folder: (own.entries(), own.data(), bool(own.resources)) for folder, own in components.items()}
-    _make_no_machine_code()
+    make_no_machine_code()
     with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as pool:
         parts = []
         for folder, (entries, data, with_resources) in made.items():
-            text = str(_linked(entries, data, with_resources))
+            text = str(linked(entries, data, with_resources))
             parts += [pool.submit(_write_kernels, text, tuple(entries), suffix, folder) for suffix in CPUS]
-            parts.append(pool.submit(_write_data, _constants(data), folder))
+            parts.append(pool.submit(_write_data, data_as_ir(data), folder))
         for part in parts:
             part.result()
 
 
-def _make_no_machine_code() -> None:
+def make_no_machine_code() -> None:
     """Make numba stop at the IR: no machine code and no wrappers for calls from Python. This saves half of its work."""
     from numba.core import caching, codegen, cpu, registry
 
@@ -161,7 +161,7 @@ def _write(module: Any, platform: str, cpu: str, path: Path) -> None:
     path.write_bytes(_direct(module, platform, cpu).emit_object(module))
 
 
-def _constants(data: Sequence[Any]) -> str:
+def data_as_ir(data: Sequence[Any]) -> str:
     """Return the IR of the arrays as constants that all kernels share."""
     lines = []
     for i, array in enumerate(data):
@@ -170,7 +170,7 @@ def _constants(data: Sequence[Any]) -> str:
     return "\n".join(lines)
 
 
-def _linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any], with_resources: bool) -> Any:
+def linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any], with_resources: bool) -> Any:
     """Return one module of all entries, in which only these are visible from outside."""
     from llvmlite import binding as llvm
     from numba import cfunc
@@ -270,7 +270,7 @@ def _optimised(text: str, entries: Iterable[str], suffix: str, cpu: str) -> Any:
     machine = _direct(module, next(iter(TRIPLES)), cpu)
     builder = llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options(speed_level=3))
     builder.getModulePassManager().run(module, builder)
-    _refuse_the_rest(module)
+    refuse_the_rest(module)
     return module
 
 
@@ -289,7 +289,7 @@ def _with_own_libm(code: bytes, suffix: str) -> bytes:
     return bytes(changed)
 
 
-def _refuse_the_rest(module: Any) -> None:
+def refuse_the_rest(module: Any) -> None:
     needed = {f.name for f in module.functions if f.is_declaration and not f.name.startswith("llvm.")}
     needed |= {g.name for g in module.global_variables if g.is_declaration and not g.name.startswith("model_data")}
     needed |= {g.name for g in module.global_variables if g.name.startswith(_REFUSED)}

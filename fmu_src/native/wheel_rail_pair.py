@@ -83,7 +83,7 @@ def component(inclination: float) -> Component:
     interface = table(inclination)
     return Component(
         table=interface,
-        entries=lambda: _entries(interface),
+        entries=lambda: entries(interface),
         data=data,
         resources=((WHEEL, MAGIC["wheel"]), (RAIL, MAGIC["rail"])),
         totals={
@@ -256,11 +256,18 @@ def _failure(code):
     return 0
 
 
-def _entries(table: Table) -> dict[str, Callable[..., Any]]:
-    """Return `Component.entries`. The data arguments are the arrays of `solver.data`."""
-    at, n_values = _references(table), table.span[ACCUMULATED[0]].start
-    size, set_parameters, report, difference = _sizer(table), _parameter_setter(table), _reporter(table), _differ(table)
-    read_surface = case_reader(table, {"velocity.x": "speed"})
+class Layout(NamedTuple):
+    """Compiled functions of the values that lay out the working memory."""
+
+    size: Callable[..., Any]
+    n_bins: Callable[..., Any]
+    begin: Callable[..., Any]
+    arrange: Callable[..., Any]
+
+
+def layout_of(table: Table) -> Layout:
+    """Return the functions of the layout for the rows of `table`."""
+    at, size = _references(table), _sizer(table)
 
     @compiled
     def n_bins(v):
@@ -273,8 +280,19 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
 
     @compiled
     def arrange(v, work, resources, constants):
+        """Return the bench that `model_prepare` has filled."""
         start, end = begin(v, work, resources)
         return _lay(work, end, start, (int(start.counts[0]), int(start.counts[1])), size(v), constants)[0]
+
+    return Layout(size, n_bins, begin, arrange)
+
+
+def entries(table: Table) -> dict[str, Callable[..., Any]]:
+    """Return `Component.entries`. The data arguments are the arrays of `solver.data`."""
+    at, n_values = _references(table), table.span[ACCUMULATED[0]].start
+    set_parameters, report, difference = _parameter_setter(table), _reporter(table), _differ(table)
+    size, n_bins, begin, arrange = layout_of(table)
+    read_surface = case_reader(table, {"velocity.x": "speed"})
 
     def model_memory(values, resources, published, centre, plane, creep):
         v = carray(values, (n_values,))

@@ -102,13 +102,14 @@ def interpolated(log_aspect, X, Y, spin, first, table):
     k, of_beta = _cell((math.atan2(spin, plane) / math.pi + 0.5) * (N_BETA - 1), N_BETA)
     l, of_rho = _cell(r / (r + R0) * (N_RHO - 1), N_RHO)
     v0, v1, v2, v3 = 0.0, 0.0, 0.0, 0.0
+    # & 3 tells a compiler that does not unroll these loops (WebAssembly) that no index leaves its tuple.
     for di in range(4):
         for dj in range(4):
             for dk in range(4):
-                outer = of_aspect[di] * of_alpha[dj] * of_beta[dk]
+                outer = of_aspect[di & 3] * of_alpha[dj & 3] * of_beta[dk & 3]
                 w0, w1, w2, w3 = 0.0, 0.0, 0.0, 0.0  # short sums side by side: in a long one every addition waits
                 for dl in range(4):
-                    node, weight = table[i + di, j + dj, k + dk, l + dl], of_rho[dl]
+                    node, weight = table[i + di, j + dj, k + dk, l + dl], of_rho[dl & 3]
                     w0 += weight * node[first]
                     w1 += weight * node[first + 1]
                     w2 += weight * node[first + 2]

@@ -1,0 +1,131 @@
+"""What the page needs besides its code: the variables of `WheelRailPair` from their table, profiles, texts and numbers."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+import contact
+from contact.geometry import profile
+from contact.geometry.profile import Profile
+from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
+from contact.kernels.records import MAX_PATCHES
+from explorer.patch import FIELDS, STRIPS
+from fmu_src.native import wheel_rail_pair
+from fmu_src.variables import Causality, Table, Variable
+
+WHEELS = ("S1002", "1/40", "EPS", "EN 15302 B", "EN 15302 H")
+RAILS = ("60E1", "60E2", "56E1", "54E1", "50E1", "49E1", "EN 15302 rail A")
+#: Strips and elements up to which the page has room.
+MOST = 40
+
+#: Unit → the unit shown and how many of these are one.
+UNITS = {
+    "m": ("mm", 1e3),
+    "m2": ("mm²", 1e6),
+    "N": ("kN", 1e-3),
+    "N.m": ("N m", 1.0),
+    "Pa": ("MPa", 1e-6),
+    "rad": ("mrad", 1e3),
+    "W": ("kW", 1e-3),
+    "rad/m": ("1/m", 1.0),
+    "1": ("", 1.0),
+}
+#: Sliders: name, title, least, greatest and step in the unit shown. `slip` is the longitudinal slip; the wheel's spin follows.
+SLIDERS = (
+    ("pose.y", "lateral shift", -8.0, 8.0, 0.02),
+    ("pose.yaw", "yaw", -20.0, 20.0, 0.1),
+    ("pose.roll", "roll", -10.0, 10.0, 0.1),
+    ("load.normal_force", "wheel load", 5.0, 200.0, 1.0),
+    ("slip", "longitudinal slip", -2.0, 2.0, 0.01),
+    ("velocity.x", "speed", 1.0, 100.0, 1.0),
+    ("friction.coefficient", "friction", 0.05, 0.7, 0.01),
+    ("rail.inclination", "rail inclination", 0.0, 0.1, 0.0025),
+    ("friction.kinetic", "friction ratio at speed", 0.1, 1.0, 0.01),
+    ("friction.half_speed", "speed of half the fall", 0.1, 5.0, 0.1),
+    ("resolution.n_strips", "strips per patch", 8.0, float(MOST), 1.0),
+    ("resolution.n_elements", "elements per strip", 8.0, float(MOST), 1.0),
+)
+CHOICES = (
+    ("method.normal", "normal problem"),
+    ("method.tangential", "tangential problem"),
+    ("patches.surface", "surface"),
+    ("friction.law", "friction law"),
+    ("friction.velocity", "sliding speed"),
+)
+#: Numbers shown for each method, and curves that can be chosen: name and title.
+RESULTS = (
+    ("force.x", "longitudinal force"),
+    ("force.y", "lateral force"),
+    ("force.z", "vertical force"),
+    ("pressure.max", "greatest pressure"),
+    ("patches.area", "contact area"),
+    ("slip.ratio", "share that slips"),
+    ("damage.T_gamma", "wear number Tγ"),
+    ("damage.energy_index_max", "greatest energy index"),
+    ("gap_error", "gap error"),
+)
+
+
+def _doubles(numbers: np.ndarray) -> str:
+    return base64.b64encode(np.ascontiguousarray(numbers, "<f8").tobytes()).decode()
+
+
+def _points(given: Profile) -> str:
+    """Return the profile as a resource of the kernels: the number of points, then y, z and the angle."""
+    return _doubles(np.concatenate(([given.y.size], given.y, given.z, given.angle)))
+
+
+def _variable(table: Table, row: Variable) -> dict[str, Any]:
+    unit, factor = UNITS.get(row.unit, (row.unit, 1.0))
+    if row.name in ("damage.T_gamma", "damage.energy_index_max"):
+        unit, factor = row.unit, 1.0
+    return {
+        "at": table.span[row.name].start,
+        "description": row.description,
+        "unit": unit,
+        "factor": factor,
+        "given": row.causality in (Causality.PARAMETER, Causality.INPUT),
+        "parameter": row.causality is Causality.PARAMETER,
+        "items": [list(item) for item in row.enumeration.items] if row.enumeration else [],
+    }
+
+
+def _starts(table: Table, rows: Iterable[Variable], n_values: int) -> np.ndarray:
+    values = np.zeros(n_values)
+    for row in rows:
+        start = row.start
+        if isinstance(start, str):
+            assert row.enumeration is not None
+            start = row.enumeration.number(start)
+        span = table.span[row.name]
+        values[span.start : span.stop] = 0.0 if start is None else start
+    return values
+
+
+def bundle(wasm: bytes) -> dict[str, Any]:
+    """Return what the page reads as JSON. Arrays are little-endian float64 in base64, and so is the module."""
+    interface = wheel_rail_pair.table()
+    n_values = interface.span[wheel_rail_pair.ACCUMULATED[0]].start
+    rows = [row for row in interface.rows if interface.span[row.name].start < n_values]
+    component = wheel_rail_pair.component(1.0 / 40.0)
+    return {
+        "version": contact.__version__,
+        "wasm": base64.b64encode(wasm).decode(),
+        "variables": {row.name: _variable(interface, row) for row in rows},
+        "start": _doubles(_starts(interface, rows, n_values)),
+        "room": (len(STRIPS) + (len(FIELDS) + 1) * MOST) * MOST * MAX_PATCHES,
+        "stripRows": [row.name for row in STRIPS],
+        "fieldRows": [*(row.name for row in FIELDS), "ENERGY"],
+        "sliders": [list(row) for row in SLIDERS],
+        "choices": [list(row) for row in CHOICES],
+        "results": [list(row) for row in RESULTS],
+        "failures": {int(number): text for number, text in component.failures.items()},
+        "untrusted": [int(contact.Status.OUT_OF_RANGE), int(contact.Status.NOT_CONVERGED)],
+        "tape": TAPE_FROM_FLANGE_BACK,
+        "wheels": {name: _points(profile.load(name, "wheel")) for name in WHEELS},
+        "rails": {name: _points(profile.load(name, "rail")) for name in RAILS},
+    }

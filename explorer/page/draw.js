@@ -1,0 +1,230 @@
+"use strict";
+/* Drawing on canvases: the section, the maps of the patches, curves. Lengths are in m, forces in N. */
+
+/* Viridis (matplotlib, CC0) at eleven places. */
+const VIRIDIS = ["440154", "482475", "414487", "355f8d", "2a788e", "21918c", "22a884", "44bf70", "7ad151", "bddf26", "fde725"]
+  .map(text => [0, 2, 4].map(at => parseInt(text.slice(at, at + 2), 16)));
+const COLOURS = Array.from({ length: 256 }, (_, i) => {
+  const t = i / 255 * (VIRIDIS.length - 1), k = Math.min(VIRIDIS.length - 2, Math.floor(t));
+  return "rgb(" + VIRIDIS[k].map((c, j) => Math.round(c + (VIRIDIS[k + 1][j] - c) * (t - k))).join(",") + ")";
+});
+const colour = t => COLOURS[Math.max(0, Math.min(255, Math.round(255 * t)))];
+
+/* Colours of the page, which follow light and dark. */
+const ink = name => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
+
+/* Size a canvas for the screen and clear it. Return the context, width and height in CSS pixels. */
+function fit(canvas) {
+  const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth || 400;
+  const height = Math.round(width * Number(canvas.dataset.ratio));
+  if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+    canvas.style.height = height + "px";
+  }
+  const g = canvas.getContext("2d");
+  g.setTransform(ratio, 0, 0, ratio, 0, 0);
+  g.fillStyle = ink("paper");
+  g.fillRect(0, 0, width, height);
+  g.font = "12px system-ui, sans-serif";
+  g.textBaseline = "alphabetic";
+  g.textAlign = "left";
+  return [g, width, height];
+}
+
+/* A round number of 1, 2 or 5 times a power of ten, so that `range` holds about five of it. */
+function step(range) {
+  const raw = range / 5, ten = 10 ** Math.floor(Math.log10(raw));
+  return ten * (raw / ten < 1.5 ? 1 : raw / ten < 3.5 ? 2 : raw / ten < 7.5 ? 5 : 10);
+}
+
+const plain = (value, by) => Number(value.toFixed(Math.max(0, 1 - Math.floor(Math.log10(by) + 1e-9)))).toString();
+
+/* Place the rail in the track: turned by its inclination, its top at z = 0, the gauge at its depth. Return nodes [y, z]. */
+function railNodes(points, solver) {
+  const n = points[0], turn = -Math.atan(solver.get("rail.inclination")), c = Math.cos(turn), s = Math.sin(turn), nodes = [];
+  for (let i = 0; i < n; i++) nodes.push([c * points[1 + i] - s * points[1 + n + i], s * points[1 + i] + c * points[1 + n + i]]);
+  const top = Math.min(...nodes.map(node => node[1])), depth = solver.get("track.gauge_point");
+  const crown = nodes.findIndex(node => node[1] === top);
+  let k = crown;
+  while (k > 0 && nodes[k][1] - top < depth) k--;
+  const [y0, z0] = nodes[k], [y1, z1] = nodes[k + 1];
+  const gauge = y0 + (y1 - y0) * (depth + top - z0) / (z1 - z0), shift = solver.get("track.gauge") / 2 - gauge;
+  return nodes.map(([y, z]) => [y + shift, z - top]);
+}
+
+/* The right wheel in the track, seen along the rail. Return nodes [y, z]. */
+function wheelNodes(points, solver, tapeFromBack) {
+  const n = points[0], tape = solver.get("wheel.flange_back") / 2 + tapeFromBack, radius = solver.get("wheel.radius");
+  const roll = solver.get("pose.roll"), c = Math.cos(roll), s = Math.sin(roll), nodes = [];
+  for (let i = 0; i < n; i++) {
+    const y = tape + points[1 + i], z = radius + points[1 + n + i];
+    nodes.push([solver.get("pose.y") + c * y - s * z, solver.get("wheelset.z") - radius + s * y + c * z]);
+  }
+  return nodes;
+}
+
+function section(canvas, solver, wheel, rail) {
+  const [g, width, height] = fit(canvas), railAt = railNodes(rail, solver);
+  const wheelAt = solver.failed ? [] : wheelNodes(wheel, solver, solver.bundle.tape);
+  const middle = railAt.reduce((sum, node) => sum + node[0], 0) / railAt.length, scale = width / 0.15;
+  const px = y => width / 2 + scale * (y - middle), pz = z => 0.45 * height + scale * z;
+  const path = nodes => { g.beginPath(); nodes.forEach(([y, z], i) => i ? g.lineTo(px(y), pz(z)) : g.moveTo(px(y), pz(z))); };
+  path(railAt);
+  g.lineTo(px(railAt[railAt.length - 1][0]), height);
+  g.lineTo(px(railAt[0][0]), height);
+  g.fillStyle = ink("steel");
+  g.fill();
+  path(railAt);
+  g.strokeStyle = ink("text");
+  g.lineWidth = 1.4;
+  g.stroke();
+  path(wheelAt);
+  g.strokeStyle = ink("wheel");
+  g.lineWidth = 2;
+  g.stroke();
+  const count = solver.failed ? 0 : Math.min(solver.get("patches.count"), 3);
+  for (let k = 0; k < count; k++) {
+    const load = solver.get("patch[].n", k);
+    if (!(load > 0)) continue;
+    const y = px(solver.get("patch[].y", k)), z = pz(solver.get("patch[].z", k)), angle = solver.get("patch[].angle", k);
+    const length = 14 + 50 * load / solver.get("load.normal_force");
+    g.strokeStyle = g.fillStyle = ink("mark");
+    g.lineWidth = 2.5;
+    g.beginPath(); g.moveTo(y, z); g.lineTo(y + length * Math.sin(angle), z - length * Math.cos(angle)); g.stroke();
+    g.beginPath(); g.arc(y, z, 4, 0, 7); g.fill();
+    g.fillText(`${k + 1}: ${(load / 1e3).toFixed(1)} kN at ${(angle * 180 / Math.PI).toFixed(1)}°`, 8, 16 + 15 * k);
+  }
+  bar(g, 8, height - 10, scale * 0.01, "10 mm");
+}
+
+function bar(g, x, y, length, text) {
+  g.fillStyle = ink("text");
+  g.fillRect(x, y, length, 2);
+  g.fillText(text, x, y - 5);
+}
+
+/* What a map shows: title, unit, factor of the unit shown, and its value at an element. */
+const MAPS = {
+  pressure: { title: "pressure", unit: "MPa", factor: 1e-6, at: (p, e) => p.P[e] },
+  traction: { title: "traction", unit: "MPa", factor: 1e-6, at: (p, e) => Math.hypot(p.QX[e], p.QY[e]), sticks: true },
+  slip: { title: "slip over speed", unit: "‰", factor: 1e3, at: (p, e) => Math.hypot(p.SX[e], p.SY[e]), sticks: true },
+  energy: { title: "energy index", unit: "Pa", factor: 1, at: (p, e) => Math.max(p.ENERGY[e], 0) },
+};
+
+function extent(patches) {
+  return patches.map(p => {
+    let low = Infinity, high = -Infinity, reach = 0;
+    for (let i = 0; i < p.n; i++) {
+      low = Math.min(low, p.Y[i] - p.DY[i] / 2);
+      high = Math.max(high, p.Y[i] + p.DY[i] / 2);
+      reach = Math.max(reach, Math.abs(p.XC[i]) + p.A[i]);
+    }
+    return [low, high, reach];
+  });
+}
+
+/* Greatest value of a map over several answers, so that two methods share one scale. */
+function greatest(answers, kind) {
+  let top = 0;
+  for (const patches of answers) for (const p of patches) for (let e = 0; e < p.n * p.m; e++) top = Math.max(top, MAPS[kind].at(p, e));
+  return top;
+}
+
+/* Draw the patches side by side, rolling upwards. `frame` is {width, reach, top} shared by both methods. */
+function map(canvas, patches, kind, frame) {
+  const [g, width, height] = fit(canvas), shown = MAPS[kind], gap = 3e-3;
+  if (!patches.length) { g.fillStyle = ink("faint"); g.textAlign = "center"; g.fillText("no contact", width / 2, height / 2); return; }
+  const scale = Math.min((width - 16) / frame.width, (height - 64) / (2 * frame.reach)), boxes = extent(patches);
+  const total = boxes.reduce((sum, box) => sum + box[1] - box[0] + gap, -gap), middle = (height - 34) / 2 + 4;
+  let left = (width - scale * total) / 2;
+  patches.forEach((p, k) => {
+    const at = y => left + scale * (y - boxes[k][0]), up = x => middle - scale * x;
+    for (let i = 0; i < p.n; i++) for (let j = 0; j < p.m; j++) {
+      const e = i * p.m + j;
+      g.fillStyle = shown.sticks && p.STICK[e] > 0.5 ? ink("stick") : colour(frame.top > 0 ? shown.at(p, e) / frame.top : 0);
+      g.fillRect(at(p.Y[i] - p.DY[i] / 2) - 0.3, up(p.X[e] + p.DX[e] / 2) - 0.3, scale * p.DY[i] + 0.6, scale * p.DX[e] + 0.6);
+    }
+    if (kind === "traction") arrows(g, p, at, up, frame.top);
+    if (kind === "slip") arrows(g, { ...p, QX: p.SX, QY: p.SY }, at, up, frame.top);
+    g.fillStyle = ink("text");
+    g.textAlign = "center";
+    g.fillText(`${k + 1}`, left + scale * (boxes[k][1] - boxes[k][0]) / 2, height - 36);
+    g.textAlign = "left";
+    left += scale * (boxes[k][1] - boxes[k][0] + gap);
+  });
+  bar(g, 8, height - 10, scale * 5e-3, "5 mm");
+  legend(g, width, height, shown, frame.top);
+}
+
+function arrows(g, p, at, up, top) {
+  if (!(top > 0)) return;
+  const everyI = Math.max(1, Math.round(p.n / 9)), everyJ = Math.max(1, Math.round(p.m / 9)), length = 22;
+  g.strokeStyle = ink("arrow");
+  g.lineWidth = 1.2;
+  g.beginPath();
+  for (let i = everyI >> 1; i < p.n; i += everyI) for (let j = everyJ >> 1; j < p.m; j += everyJ) {
+    const e = i * p.m + j, qx = p.QX[e] / top, qy = p.QY[e] / top;
+    if (Math.hypot(qx, qy) < 0.04) continue;
+    const x0 = at(p.Y[i]), y0 = up(p.X[e]), x1 = x0 + length * qy, y1 = y0 - length * qx, a = Math.atan2(y1 - y0, x1 - x0);
+    g.moveTo(x0, y0); g.lineTo(x1, y1); g.lineTo(x1 - 4 * Math.cos(a - 0.5), y1 - 4 * Math.sin(a - 0.5));
+    g.moveTo(x1, y1); g.lineTo(x1 - 4 * Math.cos(a + 0.5), y1 - 4 * Math.sin(a + 0.5));
+  }
+  g.stroke();
+}
+
+function legend(g, width, height, shown, top) {
+  const size = Math.min(170, 0.42 * width), x = width - size - 10, y = height - 16;
+  for (let i = 0; i < size; i++) { g.fillStyle = colour(i / size); g.fillRect(x + i, y, 1.5, 8); }
+  g.fillStyle = ink("text");
+  const value = shown.factor * top;
+  g.textAlign = "right";
+  g.fillText(`${value.toPrecision(3)} ${shown.unit}`, x + size, y - 4);
+  g.textAlign = "left";
+  g.fillText("0", x, y - 4);
+  if (shown.sticks) { g.fillStyle = ink("stick"); g.fillRect(x - 52, y, 10, 8); g.fillStyle = ink("text"); g.fillText("stick", x - 38, y + 8); }
+}
+
+/* Draw curves {x, y, dashed} over [low, high] with a marker at `now`. */
+function curves(canvas, lines, low, high, now, titles) {
+  const [g, width, height] = fit(canvas), left = 54, right = width - 10, top = 14, bottom = height - 36;
+  let least = 0, most = 0;
+  for (const line of lines) for (const y of line.y) if (Number.isFinite(y)) { least = Math.min(least, y); most = Math.max(most, y); }
+  if (most - least < 1e-12) most = least + 1;
+  const pad = 0.05 * (most - least), from = least < 0 ? least - pad : 0, to = most > 0 ? most + pad : 0;
+  const px = x => left + (right - left) * (x - low) / (high - low), py = y => bottom - (bottom - top) * (y - from) / (to - from);
+  g.strokeStyle = ink("line");
+  g.fillStyle = ink("faint");
+  g.lineWidth = 1;
+  const sx = step(high - low), sy = step(to - from);
+  g.textAlign = "center";
+  for (let x = Math.ceil(low / sx - 1e-9) * sx; x <= high + 1e-9; x += sx) {
+    g.beginPath(); g.moveTo(px(x), top); g.lineTo(px(x), bottom); g.stroke(); g.fillText(plain(x, sx), px(x), bottom + 14);
+  }
+  g.textAlign = "right";
+  for (let y = Math.ceil(from / sy - 1e-9) * sy; y <= to + 1e-12; y += sy) {
+    g.beginPath(); g.moveTo(left, py(y)); g.lineTo(right, py(y)); g.stroke(); g.fillText(plain(y, sy), left - 5, py(y) + 4);
+  }
+  g.textAlign = "center";
+  g.fillStyle = ink("text");
+  g.fillText(titles[0], (left + right) / 2, height - 6);
+  g.save(); g.translate(13, (top + bottom) / 2); g.rotate(-Math.PI / 2); g.fillText(titles[1], 0, 0); g.restore();
+  g.textAlign = "left";
+  lines.forEach(line => {
+    g.strokeStyle = ink(line.dashed ? "second" : "first");
+    g.setLineDash(line.dashed ? [6, 4] : []);
+    g.lineWidth = 2;
+    g.beginPath();
+    let drawing = false;
+    line.x.forEach((x, i) => {
+      if (!Number.isFinite(line.y[i])) { drawing = false; return; }
+      if (drawing) g.lineTo(px(x), py(line.y[i])); else g.moveTo(px(x), py(line.y[i]));
+      drawing = true;
+    });
+    g.stroke();
+  });
+  g.setLineDash([]);
+  g.strokeStyle = ink("mark");
+  g.lineWidth = 1.5;
+  g.beginPath(); g.moveTo(px(now), top); g.lineTo(px(now), bottom); g.stroke();
+}

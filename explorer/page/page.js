@@ -1,0 +1,310 @@
+"use strict";
+/* Controls, state and frames of the page. */
+
+const $ = id => document.getElementById(id);
+const bundle = JSON.parse($("bundle").textContent);
+const own = { wheel: {}, rail: {} }; // profiles that the user has opened
+const SWEEPS = [
+  { name: "pose.y", canvas: "shift", choice: "over-shift", low: -8, high: 8, count: 81, title: "lateral shift [mm]" },
+  { name: "slip", canvas: "slip", choice: "over-slip", low: -2, high: 2, count: 81, title: "longitudinal slip [%]" },
+];
+const MORE = new Set(["pose.roll", "rail.inclination", "friction.kinetic", "friction.half_speed", "resolution.n_strips",
+  "resolution.n_elements", "patches.surface", "friction.law", "friction.velocity"]);
+
+function startState() {
+  const starts = doubles(bundle.start), values = {};
+  const value = name => {
+    const row = bundle.variables[name], start = starts[row.at];
+    return row.items.length ? row.items[start - 1][0] : start * row.factor;
+  };
+  for (const [name] of bundle.sliders) values[name] = name === "slip" ? 0 : value(name);
+  for (const [name] of bundle.choices) if (!name.startsWith("method.")) values[name] = value(name);
+  values["pose.y"] = 1;
+  return { wheel: "S1002", rail: "60E1", values, methods: [{ normal: value("method.normal"), tangential: value("method.tangential") }],
+    map: "traction", shift: "force.y", slip: "force.x" };
+}
+
+let state = startState(), dirty = true, lines = {}, asked = 0, answered = 0, solvers, worker, answers = [[], []];
+const SECOND = { normal: "analyn", tangential: "fastrip" };
+
+/* The state as a link: only what differs from the start. */
+function write() {
+  const start = startState(), parts = new URLSearchParams();
+  for (const name of ["wheel", "rail", "map", "shift", "slip"])
+    if (state[name] !== start[name] && !(own[name] && own[name][state[name]])) parts.set(name, state[name]);
+  for (const [name, value] of Object.entries(state.values)) if (value !== start.values[name]) parts.set(name, value);
+  state.methods.forEach((method, k) => {
+    if (k || JSON.stringify(method) !== JSON.stringify(start.methods[0])) parts.set(`method${k + 1}`, `${method.normal} ${method.tangential}`);
+  });
+  return parts.toString();
+}
+
+/* Read a link. What this page does not know is left out. */
+function read(text) {
+  const made = startState();
+  for (const [name, value] of new URLSearchParams(text)) {
+    const slider = bundle.sliders.find(row => row[0] === name), row = bundle.variables[name];
+    const found = /^method([12])$/.exec(name);
+    if (slider && Number.isFinite(Number(value))) made.values[name] = Math.min(Math.max(Number(value), slider[2]), slider[3]);
+    else if (row && row.items.some(item => item[0] === value) && name in made.values) made.values[name] = value;
+    else if (name === "wheel" && bundle.wheels[value] || name === "rail" && bundle.rails[value]) made[name] = value;
+    else if (name === "map" && MAPS[value]) made.map = value;
+    else if ((name === "shift" || name === "slip") && bundle.results.some(row => row[0] === value)) made[name] = value;
+    else if (found) {
+      const [normal, tangential] = value.split(" "), has = (name, item) => bundle.variables[name].items.some(row => row[0] === item);
+      if (has("method.normal", normal) && has("method.tangential", tangential)) made.methods[found[1] - 1] = { normal, tangential };
+    }
+  }
+  made.methods = [made.methods[0], ...made.methods.slice(1, 2)];
+  return made;
+}
+
+const points = kind => own[kind][state[kind]] ?? doubles(bundle[kind + "s"][state[kind]]);
+
+function changed() {
+  dirty = true;
+  history.replaceState(null, "", "#" + write());
+}
+
+function option(value, text, title) {
+  const made = document.createElement("option");
+  made.value = value;
+  made.textContent = text;
+  if (title) made.title = title;
+  return made;
+}
+
+function select(id, items, get, set) {
+  const made = $(id);
+  made.replaceChildren(...items.map(([value, text, title]) => option(value, text ?? value, title)));
+  made.value = get();
+  made.onchange = () => { set(made.value); changed(); };
+}
+
+function labelled(parent, title, description, control) {
+  const label = document.createElement("label");
+  label.title = description;
+  label.append(title, ...control);
+  parent.append(label);
+}
+
+function controls() {
+  for (const id of ["inputs", "more", "method-0", "method-1"]) $(id).replaceChildren();
+  for (const [name, title, low, high, by] of bundle.sliders) {
+    const row = bundle.variables[name], input = document.createElement("input"), shown = document.createElement("output");
+    const unit = name === "slip" ? "%" : row.unit, digits = Math.max(0, -Math.floor(Math.log10(by) + 1e-9));
+    Object.assign(input, { type: "range", min: low, max: high, step: by, value: state.values[name], id: "input-" + name });
+    const show = () => { shown.textContent = `${state.values[name].toFixed(digits)} ${unit}`; };
+    input.oninput = () => { state.values[name] = Number(input.value); show(); changed(); };
+    show();
+    const description = row ? row.description : "The wheel turns faster (+) or slower (-) than it rolls";
+    labelled($(MORE.has(name) ? "more" : "inputs"), title, description, [shown, input]);
+  }
+  const choice = (parent, name, title, get, set) => {
+    const made = document.createElement("select");
+    made.id = `${parent}-${name}`;
+    labelled($(parent), title, bundle.variables[name].description, [made]);
+    select(made.id, bundle.variables[name].items.map(item => [item[0], item[0], item[1]]), get, set);
+  };
+  for (const [name, title] of bundle.choices) {
+    const part = name.split(".")[1];
+    if (name.startsWith("method.")) state.methods.forEach((method, k) =>
+      choice(`method-${k}`, name, title, () => method[part], value => { method[part] = value; }));
+    else choice("more", name, title, () => state.values[name], value => { state.values[name] = value; });
+  }
+  for (const kind of ["wheel", "rail"])
+    select(kind, [...Object.keys(bundle[kind + "s"]), ...Object.keys(own[kind])].map(name => [name]), () => state[kind], value => { state[kind] = value; });
+  const results = bundle.results.map(([name, title]) => [name, title]);
+  for (const sweep of SWEEPS) select(sweep.choice, results, () => state[sweep.canvas], value => { state[sweep.canvas] = value; });
+  select("map", Object.entries(MAPS).map(([name, row]) => [name, row.title]), () => state.map, value => { state.map = value; });
+  $("second").checked = state.methods.length > 1;
+}
+
+function numbers(found) {
+  const names = state.methods.map(method => `${method.normal} + ${method.tangential}`);
+  const head = names.map((name, k) => `<th class="${k ? "second" : "first"}">${name}</th>`).join("");
+  const row = (title, cells, kind = "") => `<tr><th>${title}</th>${cells.map(cell => `<td class="${kind} ${cell[1] ?? ""}">${cell[0]}</td>`).join("")}</tr>`;
+  const rows = bundle.results.map(([name, title]) => {
+    const { unit, factor } = bundle.variables[name];
+    return row(title, found.map((answer, k) => [answer.failed ? "–" : `${(factor * solvers[k].get(name)).toPrecision(4)} ${unit}`]));
+  });
+  const creepages = row("creepages ξ, η, φ of patch 1", found.map((answer, k) => [answer.failed ? "–" :
+    `${["longitudinal", "lateral"].map(name => (1e3 * solvers[k].get(`patch[].${name}`)).toFixed(2)).join(", ")} ‰, ${solvers[k].get("patch[].spin").toFixed(3)} 1/m`]));
+  const status = row("status", found.map(answer => [answer.text, answer.failed || answer.untrusted ? "bad" : ""]), "status");
+  $("numbers").innerHTML = `<table><thead><tr><th></th>${head}</tr></thead><tbody>${rows.join("")}${creepages}${status}</tbody></table>`;
+}
+
+function ask() {
+  if (!worker || asked > answered) return; // one question at a time; the newest state is asked when the answer comes
+  asked++;
+  asking = write() + state.wheel + state.rail;
+  worker.postMessage({ number: asked, state, wheel: points("wheel"), rail: points("rail"),
+    sweeps: SWEEPS.map(({ name, low, high, count }) => ({ name, low, high, count })) });
+}
+let asking = "";
+
+function drawCurves() {
+  for (const sweep of SWEEPS) {
+    const name = state[sweep.canvas], row = bundle.variables[name], title = bundle.results.find(result => result[0] === name)[1];
+    const drawn = (lines[sweep.name] ?? []).slice(0, state.methods.length).map((line, k) => ({ x: line.x, y: line.results[name], dashed: k > 0 }));
+    curves($(sweep.canvas), drawn, sweep.low, sweep.high, state.values[sweep.name], [sweep.title, row.unit ? `${title} [${row.unit}]` : title]);
+  }
+}
+
+function frame() {
+  requestAnimationFrame(frame);
+  if (!dirty) return;
+  dirty = false;
+  const wheel = points("wheel"), rail = points("rail"), key = state.wheel + "|" + state.rail;
+  const found = state.methods.map((method, k) => {
+    const solver = solvers[k];
+    if (solver.loaded !== key || own.wheel[state.wheel] || own.rail[state.rail]) { solver.profiles(wheel, rail); solver.loaded = key; }
+    apply(solver, state, k);
+    const answer = solver.solve();
+    answers[k] = solver.patches();
+    return answer;
+  });
+  const shown = answers.slice(0, state.methods.length), boxes = shown.map(extent);
+  const width = Math.max(18e-3, ...boxes.map(list => list.reduce((sum, box) => sum + box[1] - box[0] + 3e-3, 0)));
+  const reach = Math.max(6e-3, ...boxes.flat().map(box => 1.08 * box[2])), scale = { width, reach, top: greatest(shown, state.map) };
+  numbers(found);
+  section($("section"), solvers[0], wheel, rail);
+  state.methods.forEach((method, k) => {
+    $(`title-${k}`).textContent = `${MAPS[state.map].title}: ${method.normal} + ${method.tangential}`;
+    map($(`map-${k}`), answers[k], state.map, scale);
+  });
+  $("figure-1").hidden = state.methods.length < 2;
+  drawCurves();
+  ask();
+  window.last = { found, force: ["x", "y", "z"].map(axis => solvers[0].get("force." + axis)) }; // for the tests
+}
+
+function save(name, blob) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+function csv(id) {
+  const sweep = SWEEPS.find(row => row.canvas === id), rows = [`# wheelrail-contact ${bundle.version}, ${location.hash}`];
+  if (sweep) {
+    const unit = name => bundle.variables[name].unit || "1";
+    const names = bundle.results.map(row => row[0]), shown = (lines[sweep.name] ?? []).slice(0, state.methods.length);
+    rows.push([sweep.title, ...shown.flatMap((_, k) => names.map(name => `${name} [${unit(name)}] method ${k + 1}`))].join(","));
+    (shown[0]?.x ?? []).forEach((x, i) => rows.push([x, ...shown.flatMap(line => names.map(name => line.results[name][i]))].join(",")));
+  } else {
+    rows.push("patch,y [m],x [m],dy [m],dx [m],pressure [Pa],qx [Pa],qy [Pa],sx [1],sy [1],stick,energy index [Pa]");
+    answers[Number(id.slice(-1))].forEach((p, k) => {
+      for (let i = 0; i < p.n; i++) for (let j = 0; j < p.m; j++) {
+        const e = i * p.m + j;
+        rows.push([k + 1, p.Y[i], p.X[e], p.DY[i], p.DX[e], p.P[e], p.QX[e], p.QY[e], p.SX[e], p.SY[e], p.STICK[e], p.ENERGY[e]].join(","));
+      }
+    });
+  }
+  save(`${id}.csv`, new Blob([rows.join("\n") + "\n"], { type: "text/csv" }));
+}
+
+/* Read a profile: two columns y, z of the right side, z down, in m or mm, or a resource of `python -m fmu_src.profiles`. */
+async function open(file, kind) {
+  try {
+    const content = await file.arrayBuffer(), magic = new TextDecoder("latin1").decode(content.slice(0, 8));
+    let numbers;
+    if (magic === "wr-wheel" || magic === "wr-rail\0") {
+      kind = magic === "wr-wheel" ? "wheel" : "rail";
+      const n = Number(new DataView(content).getBigInt64(16, true));
+      numbers = new Float64Array(1 + 3 * n);
+      numbers[0] = n;
+      numbers.set(new Float64Array(content.slice(24, 24 + 24 * n)), 1);
+    } else numbers = columns(new TextDecoder().decode(content), kind);
+    const name = file.name.slice(0, 40);
+    own[kind][name] = numbers;
+    state[kind] = name;
+    controls();
+    changed();
+  } catch (error) {
+    alert(`${file.name}: ${error.message}`);
+  }
+}
+
+function columns(text, kind) {
+  let nodes = text.split(/\r?\n/).map(line => line.trim().split(/[\s,;]+/).map(Number)).filter(row => row.length >= 2 && row.slice(0, 2).every(Number.isFinite));
+  if (nodes.length < 10) throw new Error("a profile needs at least ten rows with two numbers, y and z");
+  if (nodes.length > 3000) throw new Error(`a profile may have 3000 points here; this one has ${nodes.length}`);
+  const width = Math.max(...nodes.map(row => row[0])) - Math.min(...nodes.map(row => row[0])), unit = width > 1 ? 1e-3 : 1;
+  nodes = nodes.map(row => [unit * row[0], unit * row[1]]);
+  if (nodes[0][0] > nodes[nodes.length - 1][0]) nodes.reverse();
+  for (let i = 1; i < nodes.length; i++)
+    if (!(nodes[i][0] > nodes[i - 1][0])) throw new Error(`y must rise from row to row; it does not at row ${i + 1}`);
+  const n = nodes.length, found = new Float64Array(1 + 3 * n);
+  if (kind === "rail") { // the top is the origin of z
+    const top = Math.min(...nodes.map(row => row[1]));
+    nodes = nodes.map(row => [row[0], row[1] - top]);
+  }
+  found[0] = n;
+  const slope = i => (nodes[i + 1][1] - nodes[i][1]) / (nodes[i + 1][0] - nodes[i][0]);
+  for (let i = 0; i < n; i++) {
+    const before = i ? nodes[i][0] - nodes[i - 1][0] : 0, after = i < n - 1 ? nodes[i + 1][0] - nodes[i][0] : 0;
+    const steep = !i ? slope(0) : i === n - 1 ? slope(n - 2) : (slope(i - 1) * after + slope(i) * before) / (before + after);
+    found[1 + i] = nodes[i][0];
+    found[1 + n + i] = nodes[i][1];
+    found[1 + 2 * n + i] = Math.atan(steep);
+  }
+  return found;
+}
+
+function theme(name) {
+  document.documentElement.dataset.theme = name;
+  $("theme").textContent = name === "dark" ? "Light" : "Dark";
+  dirty = true;
+}
+
+async function begin() {
+  theme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+  const module = await WebAssembly.compile(bytes(bundle.wasm));
+  solvers = [0, 1].map(() => new Solver(module, bundle));
+  try {
+    const code = $("solver").textContent + $("worker").textContent;
+    worker = new Worker(URL.createObjectURL(new Blob([code], { type: "text/javascript" })));
+    worker.postMessage({ bundle: { ...bundle, wasm: "" }, module });
+    worker.onmessage = ({ data }) => {
+      answered = data.number;
+      lines = data.lines;
+      drawCurves();
+      if (asking !== write() + state.wheel + state.rail) ask();
+    };
+  } catch {
+    worker = undefined; // some browsers allow no worker from a file: the curves stay empty
+  }
+  state = read(location.hash.slice(1));
+  controls();
+  window.onresize = () => { dirty = true; };
+  window.onhashchange = () => { state = read(location.hash.slice(1)); controls(); dirty = true; };
+  $("theme").onclick = () => theme(document.documentElement.dataset.theme === "dark" ? "light" : "dark");
+  $("reset").onclick = () => { state = startState(); controls(); changed(); };
+  $("link").onclick = async () => {
+    changed();
+    try { await navigator.clipboard.writeText(location.href); $("link").textContent = "Copied"; } catch { prompt("Link:", location.href); }
+    setTimeout(() => { $("link").textContent = "Copy link"; }, 1500);
+  };
+  $("second").onchange = () => { state.methods = $("second").checked ? [state.methods[0], { ...SECOND }] : [state.methods[0]]; controls(); changed(); };
+  for (const button of document.querySelectorAll("[data-png]")) button.onclick = () => $(button.dataset.png).toBlob(blob => save(`${button.dataset.png}.png`, blob));
+  for (const button of document.querySelectorAll("[data-csv]")) button.onclick = () => csv(button.dataset.csv);
+  let kind = "wheel";
+  for (const one of ["wheel", "rail"]) $(`open-${one}`).onclick = () => { kind = one; $("file").click(); };
+  $("file").onchange = () => { if ($("file").files[0]) open($("file").files[0], kind); $("file").value = ""; };
+  const drop = $("drop");
+  drop.ondragover = event => { event.preventDefault(); drop.classList.add("over"); };
+  drop.ondragleave = () => drop.classList.remove("over");
+  drop.ondrop = event => {
+    event.preventDefault();
+    drop.classList.remove("over");
+    const file = event.dataTransfer.files[0];
+    if (file) open(file, /rail/i.test(file.name) ? "rail" : "wheel");
+  };
+  requestAnimationFrame(frame);
+  window.ready = true;
+}
+
+begin().catch(error => { $("numbers").innerHTML = `<p class="bad">The page cannot start: ${error.message}</p>`; });

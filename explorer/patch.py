@@ -1,0 +1,54 @@
+"""Entries that the page calls: those of the native FMU `WheelRailPair`, and the fields of one of its patches."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numba import carray
+
+from contact.kernels.block import ahead
+from contact.kernels.pair import solve_patch
+from contact.kernels.rows import DamageField, Field, Strip
+from fmu_src.native import wheel_rail_pair
+from fmu_src.tables.wheel_rail_pair import LOAD_KIND
+from fmu_src.variables import Table
+
+#: Rows of a patch that the page draws, one number a strip.
+STRIPS = (Strip.Y, Strip.DY, Strip.XC, Strip.A)
+#: Rows with one number an element. After them comes the energy index.
+FIELDS = (Field.X, Field.DX, Field.P, Field.QX, Field.QY, Field.SX, Field.SY, Field.STICK)
+N_ELEMENT_ROWS = len(FIELDS) + 1
+
+_STRIPS, _FIELDS = np.array(STRIPS), np.array(FIELDS)  # an index into a tuple could raise an exception
+_BY_HEIGHT = LOAD_KIND.number("Position")
+
+
+def entries(table: Table) -> dict[str, Callable[..., Any]]:
+    """Return `Component.entries` of WheelRailPair, with a `model_field` that writes patch k behind the values.
+
+    It writes the rows STRIPS and then those of FIELDS and the energy index, row by row, with as many strips as it returns.
+    """
+    arrange = wheel_rail_pair.layout_of(table).arrange
+    n_values = table.span[wheel_rail_pair.ACCUMULATED[0]].start
+    kind, elements = table.span["load.kind"].start, table.span["resolution.n_elements"].start
+    energy = DamageField.ENERGY_INDEX
+
+    def model_field(values, work, k, resources, published, centre, plane, creep):
+        v = carray(values, (n_values,))
+        bench = arrange(v, work, resources, (centre, plane, creep))
+        own, n = bench.own, solve_patch(k, v[kind] != _BY_HEIGHT, bench)
+        m = int(v[elements])
+        by_strip = carray(ahead(values, n_values), (len(STRIPS), n))
+        by_element = carray(ahead(values, n_values + len(STRIPS) * n), (N_ELEMENT_ROWS, n, m))
+        for i in range(n):
+            for row in range(_STRIPS.size):
+                by_strip[row, i] = own.strips[_STRIPS[row], i]
+            for j in range(m):
+                for row in range(_FIELDS.size):
+                    by_element[row, i, j] = own.fields[_FIELDS[row], i, j]
+                by_element[_FIELDS.size, i, j] = bench.damage_fields[energy, i, j]
+        return n
+
+    return {**wheel_rail_pair.entries(table), "model_field": model_field}

@@ -1,0 +1,128 @@
+"""The explorer's module against Python, and the page in a browser."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import contact
+from contact.geometry import profile
+from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.pair import WheelRailPair
+from explorer.bundle import RAILS, WHEELS
+from fmu_src.tables.wheel_rail_pair import table
+
+ROOT = Path(__file__).parents[2]
+METHODS = contact.methods().batched
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory) -> Path:
+    """Return the page that `python -m explorer` writes."""
+    path = tmp_path_factory.mktemp("explorer") / "explorer.html"
+    subprocess.run([sys.executable, "-m", "explorer", "--out", str(path)], check=True, cwd=ROOT)
+    return path
+
+
+def _states(count: int) -> list[dict]:
+    """Return random states of the page, with every method at least twice."""
+    rng = np.random.default_rng(11)
+    normal, tangential = list(METHODS.normal), list(METHODS.tangential)
+    states = []
+    for i in range(count):
+        values = {
+            "pose.y": rng.uniform(-8.0, 8.0),
+            "pose.yaw": rng.uniform(-20.0, 20.0),
+            "pose.roll": rng.uniform(-5.0, 5.0),
+            "load.normal_force": rng.uniform(20.0, 150.0),
+            "slip": rng.uniform(-1.0, 1.0),
+            "velocity.x": rng.uniform(5.0, 80.0),
+            "friction.coefficient": rng.uniform(0.1, 0.5),
+        }
+        states.append(
+            {
+                "wheel": WHEELS[i % len(WHEELS)],
+                "rail": RAILS[i % len(RAILS)],
+                "values": values,
+                "methods": [{"normal": normal[i % len(normal)], "tangential": tangential[i % len(tangential)]}],
+            }
+        )
+    return states
+
+
+def _python(state: dict) -> contact.pair.PairSolution:
+    values, method = state["values"], state["methods"][0]
+    pair = Pair(profile.load(state["wheel"], "wheel"), profile.load(state["rail"], "rail", inclination=1 / 40))
+    solver = WheelRailPair(pair, **method)
+    speed = values["velocity.x"]
+    velocity = Velocity(forward=speed, spin=-speed / pair.radius * (1.0 + values["slip"] / 100.0))
+    pose = Pose(
+        *(1e-3 * values[f"pose.{name}"] for name in ("y",)),
+        roll=1e-3 * values["pose.roll"],
+        yaw=1e-3 * values["pose.yaw"],
+    )
+    return solver.solve(pose, velocity, load=1e3 * values["load.normal_force"], friction=values["friction.coefficient"])
+
+
+@pytest.mark.skipif(not shutil.which("node"), reason="needs node")
+def test_the_module_answers_as_python_does(page, tmp_path):
+    states = _states(200)
+    (tmp_path / "states.json").write_text(json.dumps(states))
+    done = subprocess.run(
+        ["node", str(Path(__file__).with_name("answers.js")), str(page), str(tmp_path / "states.json")],
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    answers = [json.loads(line) for line in done.stdout.splitlines()]
+    assert len(answers) == len(states)
+    solved = 0
+    for state, answer in zip(states, answers, strict=True):
+        try:
+            expected = _python(state)
+        except contact.ContactError:
+            assert answer["code"] > max(contact.Status), state
+            continue
+        solved += 1
+        assert answer["code"] == expected.status, state
+        size = 1e-10 * 1e3 * state["values"]["load.normal_force"]
+        np.testing.assert_allclose(answer["force"], expected.force, rtol=1e-10, atol=size, err_msg=str(state))
+        np.testing.assert_allclose(answer["moment"], expected.moment, rtol=1e-10, atol=size, err_msg=str(state))
+        np.testing.assert_allclose(answer["pressure"], expected.max_pressure, rtol=1e-10)
+        for patch, found in zip(answer["patches"], [c for c in expected.contacts if c.N > 0.0], strict=False):
+            assert patch["loads"] == pytest.approx(found.N, rel=1e-10)
+    assert solved > 150
+
+
+@pytest.mark.skipif(not shutil.which("chromium"), reason="needs chromium")
+def test_the_page_shows_numbers_curves_and_a_link_in_a_browser(page):
+    link = f"{page.as_uri()}#pose.y=-3&load.normal_force=100&method2=analyn+fastrip"
+    done = subprocess.run(
+        ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=8000", "--dump-dom", link],
+        capture_output=True, text=True, check=True, timeout=120,
+    )  # fmt: skip
+    dom = done.stdout
+    expected = _python({
+        "wheel": "S1002", "rail": "60E1",
+        "values": {"pose.y": -3.0, "pose.yaw": 0.0, "pose.roll": 0.0, "load.normal_force": 100.0, "slip": 0.0,
+                   "velocity.x": table().row["velocity.x"].start, "friction.coefficient": 0.3},
+        "methods": [{"normal": "strip_halfspace", "tangential": "fastrip_mapped"}],
+    })  # fmt: skip
+    assert "analyn + fastrip" in dom
+    assert f"{expected.max_pressure / 1e6:.4g} MPa" in dom
+    assert "the page cannot start" not in dom.lower()
+
+
+def test_every_slider_choice_and_result_is_a_variable_of_the_fmu():
+    from explorer.bundle import CHOICES, RESULTS, SLIDERS
+
+    rows = table().row
+    for name, _, low, high, step in SLIDERS:
+        assert low < high
+        assert 0.0 < step < high - low
+        assert name in rows or name == "slip"
+    assert all(name in rows for name, *_ in (*CHOICES, *RESULTS))
