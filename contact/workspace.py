@@ -14,6 +14,7 @@ from contact.kernels import families, memory, quadrature
 from contact.kernels.arrays import Bench, Ledger, Rule, Search, Size, Tables, Workspace
 from contact.kernels.damage.deposit import arc_length
 from contact.kernels.normal import influence
+from contact.kernels.normal.between_panels import fill_probes
 from contact.kernels.normal.descent import fill_descent
 from contact.kernels.rows import Bin
 from contact.registry import Method
@@ -63,6 +64,7 @@ def rule(n_strips: int, n_elements: int, interacting: bool) -> Rule:
     quadrature.fill_fejer(*made.across)
     quadrature.fill_elements(made.elements)
     quadrature.fill_panel(made.cosines, made.cosine_logs)
+    fill_probes(made.cosines, made.probes, made.spread)
     if made.columns.size > 1:
         fill_descent(
             *strip_tables(), made.columns, made.descent

@@ -35,6 +35,8 @@ class Rule(NamedTuple):
     cosine_logs: Array
     columns: Array
     descent: Array
+    probes: Array
+    spread: Array
 
 
 class Tables(NamedTuple):

@@ -11,6 +11,7 @@ from numba.extending import register_jitable
 from contact.kernels.arrays import Across, Array, Bench, Ledger, Rule, Search, Size, Space, Workspace
 from contact.kernels.block import cube, matrix, next_line, records, vector
 from contact.kernels.kalker import N_TABLE
+from contact.kernels.normal.between_panels import PROBES
 from contact.kernels.normal.descent import FEWEST, MOST, N_LAYERS
 from contact.kernels.normal.influence import MOST_TABULATED, N_COLUMNS
 from contact.kernels.normal.strip_halfspace import MEM_LN_A
@@ -72,7 +73,9 @@ def lay_rule(block: Array, end: int, size: Size) -> tuple[Rule, int]:
     columns, end = cube(block, end, N_COLUMNS if tabulated else 1, n if tabulated else 1, n if tabulated else 1)
     descending = size.interacting != 0 and FEWEST <= n <= MOST
     descent, end = cube(block, end, N_LAYERS if descending else 1, n if descending else 1, n if descending else 1)
-    return Rule(across, elements, cosines, cosine_logs, columns, descent), end
+    probes, end = vector(block, end, PROBES)
+    spread, end = matrix(block, end, PROBES, n)
+    return Rule(across, elements, cosines, cosine_logs, columns, descent, probes, spread), end
 
 
 @register_jitable
@@ -87,7 +90,7 @@ def lay_space(block: Array, end: int, size: Size, memory: Array) -> tuple[Space,
     capacity = MAX_PATCHES * size.n_strips if size.interacting else 1
     grid, end = matrix(block, end, len(Sample), size.n_samples)
     vectors, end = matrix(block, end, N_VECTOR_ROWS, capacity)
-    logs, end = matrix(block, end, capacity, capacity + MAX_PATCHES)
+    logs, end = matrix(block, end, MAX_PATCHES * PROBES if size.interacting else 1, capacity + MAX_PATCHES)
     influence, end = matrix(block, end, capacity, capacity)
     lu, end = matrix(block, end, capacity, capacity)
     lanes, end = vector(block, next_line(end), N_LANE_ROWS * LANES)
