@@ -81,8 +81,8 @@ def _points(given: Profile) -> str:
 
 def _variable(table: Table, row: Variable) -> dict[str, Any]:
     unit, factor = UNITS.get(row.unit, (row.unit, 1.0))
-    if row.name in ("damage.T_gamma", "damage.energy_index_max"):
-        unit, factor = row.unit, 1.0
+    if row.name == "damage.T_gamma":
+        unit, factor = row.unit, 1.0  # hundreds of N
     return {
         "at": table.span[row.name].start,
         "description": row.description,

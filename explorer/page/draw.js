@@ -109,7 +109,7 @@ const MAPS = {
   pressure: { title: "pressure", unit: "MPa", factor: 1e-6, at: (p, e) => p.P[e] },
   traction: { title: "traction", unit: "MPa", factor: 1e-6, at: (p, e) => Math.hypot(p.QX[e], p.QY[e]), sticks: true },
   slip: { title: "slip over speed", unit: "‰", factor: 1e3, at: (p, e) => Math.hypot(p.SX[e], p.SY[e]), sticks: true },
-  energy: { title: "energy index", unit: "Pa", factor: 1, at: (p, e) => Math.max(p.ENERGY[e], 0) },
+  energy: { title: "energy index", unit: "MPa", factor: 1e-6, at: (p, e) => Math.max(p.ENERGY[e], 0) },
 };
 
 function extent(patches) {

@@ -170,7 +170,7 @@ function frame() {
   numbers(found);
   section($("section"), solvers[0], wheel, rail);
   state.methods.forEach((method, k) => {
-    $(`title-${k}`).textContent = `${MAPS[state.map].title}: ${method.normal} + ${method.tangential}`;
+    $(`title-${k}`).textContent = `${method.normal} + ${method.tangential}`;
     map($(`map-${k}`), answers[k], state.map, scale);
   });
   $("figure-1").hidden = state.methods.length < 2;
@@ -267,15 +267,17 @@ async function begin() {
   try {
     const code = $("solver").textContent + $("worker").textContent;
     worker = new Worker(URL.createObjectURL(new Blob([code], { type: "text/javascript" })));
-    worker.postMessage({ bundle: { ...bundle, wasm: "" }, module });
+    worker.onerror = event => { $("trouble").textContent = `No curves: ${event.message || "this browser allows no worker here"}.`; };
+    worker.postMessage({ bundle });
     worker.onmessage = ({ data }) => {
       answered = data.number;
       lines = data.lines;
       drawCurves();
       if (asking !== write() + state.wheel + state.rail) ask();
     };
-  } catch {
-    worker = undefined; // some browsers allow no worker from a file: the curves stay empty
+  } catch (error) {
+    worker = undefined;
+    $("trouble").textContent = `No curves: ${error.message}.`;
   }
   state = read(location.hash.slice(1));
   controls();

@@ -1,7 +1,7 @@
 "use strict";
 /* Curves, computed beside the page so that no frame is lost. solver.js stands before this text. */
 
-let solvers, wheel, rail, latest = 0;
+let solvers, wheel, rail;
 
 function curve(state, method, sweep) {
   const solver = solvers[method], found = { x: [], results: {} };
@@ -19,11 +19,14 @@ function curve(state, method, sweep) {
 }
 
 onmessage = ({ data }) => {
-  if (data.bundle) { solvers = [0, 1].map(() => new Solver(data.module, data.bundle)); return; }
-  latest = data.number;
+  if (data.bundle) {
+    const module = new WebAssembly.Module(bytes(data.bundle.wasm)); // a page from a file may not share its own module
+    solvers = [0, 1].map(() => new Solver(module, data.bundle));
+    return;
+  }
   [wheel, rail] = [data.wheel, data.rail];
   const lines = {};
   for (const sweep of data.sweeps)
     lines[sweep.name] = data.state.methods.map((_, method) => curve(data.state, method, sweep));
-  postMessage({ number: latest, lines });
+  postMessage({ number: data.number, lines });
 };

@@ -61,7 +61,7 @@ def _python(state: dict) -> contact.pair.PairSolution:
     pair = Pair(profile.load(state["wheel"], "wheel"), profile.load(state["rail"], "rail", inclination=1 / 40))
     solver = WheelRailPair(pair, **method)
     speed = values["velocity.x"]
-    velocity = Velocity(forward=speed, spin=-speed / pair.radius * (1.0 + values["slip"] / 100.0))
+    velocity = Velocity(forward=speed, spin=-speed / pair.nominal_radius * (1.0 + values["slip"] / 100.0))
     pose = Pose(
         *(1e-3 * values[f"pose.{name}"] for name in ("y",)),
         roll=1e-3 * values["pose.roll"],
