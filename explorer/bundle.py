@@ -18,7 +18,7 @@ from fmu_src.native import wheel_rail_pair
 from fmu_src.variables import Causality, Table, Variable
 
 WHEELS = ("S1002", "1/40", "EPS", "EN 15302 B", "EN 15302 H")
-RAILS = ("60E1", "60E2", "56E1", "54E1", "50E1", "49E1", "EN 15302 rail A")
+RAILS = ("60E1", "60E2", "56E1", "54E1", "50E1", "49E1")  # not inclined: `rail.inclination` turns them
 #: Strips and elements up to which the page has room.
 MOST = 40
 
@@ -80,9 +80,10 @@ def _points(given: Profile) -> str:
 
 
 def _variable(table: Table, row: Variable) -> dict[str, Any]:
-    unit, factor = UNITS.get(row.unit, (row.unit, 1.0))
+    own = str(row.unit)
+    unit, factor = UNITS.get(own, (own, 1.0))
     if row.name == "damage.T_gamma":
-        unit, factor = row.unit, 1.0  # hundreds of N
+        unit, factor = own, 1.0  # hundreds of N
     return {
         "at": table.span[row.name].start,
         "description": row.description,
@@ -127,5 +128,5 @@ def bundle(wasm: bytes) -> dict[str, Any]:
         "untrusted": [int(contact.Status.OUT_OF_RANGE), int(contact.Status.NOT_CONVERGED)],
         "tape": TAPE_FROM_FLANGE_BACK,
         "wheels": {name: _points(profile.load(name, "wheel")) for name in WHEELS},
-        "rails": {name: _points(profile.load(name, "rail")) for name in RAILS},
+        "rails": {name: _points(profile.load(name, "rail", inclination=0.0)) for name in RAILS},
     }

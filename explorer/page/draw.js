@@ -38,6 +38,9 @@ function step(range) {
   return ten * (raw / ten < 1.5 ? 1 : raw / ten < 3.5 ? 2 : raw / ten < 7.5 ? 5 : 10);
 }
 
+/* A number with `digits` significant digits, without an exponent if it is not very small. */
+const short = (value, digits) => Number(value.toPrecision(digits)).toString();
+
 const plain = (value, by) => Number(value.toFixed(Math.max(0, 1 - Math.floor(Math.log10(by) + 1e-9)))).toString();
 
 /* Place the rail in the track: turned by its inclination, its top at z = 0, the gauge at its depth. Return nodes [y, z]. */
@@ -179,7 +182,7 @@ function legend(g, width, height, shown, top) {
   g.fillStyle = ink("text");
   const value = shown.factor * top;
   g.textAlign = "right";
-  g.fillText(`${value.toPrecision(3)} ${shown.unit}`, x + size, y - 4);
+  g.fillText(`${short(value, 3)} ${shown.unit}`, x + size, y - 4);
   g.textAlign = "left";
   g.fillText("0", x, y - 4);
   if (shown.sticks) { g.fillStyle = ink("stick"); g.fillRect(x - 52, y, 10, 8); g.fillStyle = ink("text"); g.fillText("stick", x - 38, y + 8); }

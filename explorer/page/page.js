@@ -126,12 +126,13 @@ function numbers(found) {
   const row = (title, cells, kind = "") => `<tr><th>${title}</th>${cells.map(cell => `<td class="${kind} ${cell[1] ?? ""}">${cell[0]}</td>`).join("")}</tr>`;
   const rows = bundle.results.map(([name, title]) => {
     const { unit, factor } = bundle.variables[name];
-    return row(title, found.map((answer, k) => [answer.failed ? "–" : `${(factor * solvers[k].get(name)).toPrecision(4)} ${unit}`]));
+    return row(title, found.map((answer, k) => [answer.failed ? "–" : `${short(factor * solvers[k].get(name), 4)} ${unit}`]));
   });
-  const creepages = row("creepages ξ, η, φ of patch 1", found.map((answer, k) => [answer.failed ? "–" :
-    `${["longitudinal", "lateral"].map(name => (1e3 * solvers[k].get(`patch[].${name}`)).toFixed(2)).join(", ")} ‰, ${solvers[k].get("patch[].spin").toFixed(3)} 1/m`]));
+  for (const [name, factor, unit] of [["longitudinal", 1e3, "‰"], ["lateral", 1e3, "‰"], ["spin", 1, "1/m"]])
+    rows.push(row(`${name} creepage of patch 1`, found.map((answer, k) => [answer.failed ? "–" :
+      `${(factor * solvers[k].get(`patch[].${name}`)).toFixed(3)} ${unit}`])));
   const status = row("status", found.map(answer => [answer.text, answer.failed || answer.untrusted ? "bad" : ""]), "status");
-  $("numbers").innerHTML = `<table><thead><tr><th></th>${head}</tr></thead><tbody>${rows.join("")}${creepages}${status}</tbody></table>`;
+  $("numbers").innerHTML = `<table><thead><tr><th></th>${head}</tr></thead><tbody>${rows.join("")}${status}</tbody></table>`;
 }
 
 function ask() {
@@ -221,6 +222,7 @@ async function open(file, kind) {
     const name = file.name.slice(0, 40);
     own[kind][name] = numbers;
     state[kind] = name;
+    if (kind === "rail") state.values["rail.inclination"] = 0; // a file shows the rail as it lies
     controls();
     changed();
   } catch (error) {
