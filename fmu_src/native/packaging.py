@@ -15,7 +15,6 @@ from tempfile import TemporaryDirectory
 import fmpy
 
 import contact
-import fmu_src
 from fmu_src import archive
 from fmu_src.catalogue import Model
 from fmu_src.description import model_description
@@ -66,6 +65,15 @@ FLAGS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-Wall",
 _LINKED_AS = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib"}
 _FMI3 = {"linux64": "x86_64-linux", "win64": "x86_64-windows", "darwin64": "x86_64-darwin"}
 _ZIG = {"linux64": "x86_64-linux-gnu.2.17", "win64": "x86_64-windows-gnu", "darwin64": "x86_64-macos.11.0"}
+#: Folder of sources of the kernels → names of folders and modules in it of which kernels are not made.
+_SOURCES: dict[Path, set[str]] = {
+    Path(contact.__file__).parent: {"cli", "plot", "study", "halfspace"},
+    Path(__file__).parents[1]: {
+        *("python", "archive", "build", "catalogue", "command", "description", "description_fmi3", "documentation"),
+        *("lint", "place", "profiles", "ssp", "units", "packaging", "source", "licences", "libm", "records"),
+    },
+    Path(wheelset.__file__).parent: set(),
+}
 #: Section of the documentation in an FMU.
 _TRIED = """
 The libraries are for 64-bit Linux (glibc 2.17 or newer), Windows and macOS (11 or newer, Intel). They need only the C library
@@ -176,7 +184,8 @@ def _kept(model: Model, cache: Path) -> Path:
     """Return the cache folder of a model's kernels. Its name is a hash of everything that they are made from."""
     options = json.dumps(dict(model.options))
     fingerprint = hashlib.sha256(f"{model.name} {options} {version('numba')} {version('llvmlite')}".encode())
-    for package in (Path(contact.__file__), Path(fmu_src.__file__), Path(wheelset.__file__).parent):
-        for path in sorted(package.parent.rglob("*.py")):
-            fingerprint.update(path.read_bytes())
+    for package, others in _SOURCES.items():
+        for path in sorted(package.rglob("*.py")):
+            if not set(path.relative_to(package).with_suffix("").parts) & others:
+                fingerprint.update(path.read_bytes())
     return cache / fingerprint.hexdigest()[:16]

@@ -29,6 +29,7 @@ from contact.kernels.layout import (
     MAX_PATCHES,
     N_BIN_ROWS,
     N_PROFILE_ROWS,
+    SLOWEST,
     TOTAL,
     Height,
     NoAnswer,
@@ -59,6 +60,10 @@ _OUTPUTS = {
     "patches.area": "area",
     "status": "status",
     "gap_error": "gap_error",
+    "wheel.Q": "Q",
+    "wheel.Y": "Y",
+    "wheel.Y_over_Q": "Y_over_Q",
+    "used_friction": "used_friction",
     **DAMAGE_OUTPUTS,
 }
 _steps = compiled(creepage_steps)
@@ -224,7 +229,7 @@ def _differ(table: Table) -> Callable[..., Any]:
         load. Both sides of a difference are solved from a cold start, so that the tolerance of interacting strips, 1e-4, gives
         the same error on both sides.
         """
-        speed = v[at.velocity_x]
+        speed = max(v[at.velocity_x], SLOWEST)
         creepage = 1e-3 * _steps(
             v[at.friction_coefficient], abs(v[at.force_z]), v[at.material_shear_modulus], v[at.patches_area]
         )[0]  # fmt: skip
@@ -314,7 +319,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         given, _ = memory.records(values, at.pose_y, 1, GIVEN)
         bench.ledger.settings[0].distance = v[at.velocity_x] * h
         mode = _HEIGHT[int(v[at.load_kind]) - 1]
-        failure = _failure(solve_pair(mode, v[at.load_normal_force], given[0], bench))
+        failure = _failure(solve_pair(mode, max(v[at.load_normal_force], 0.0), given[0], bench))
         if failure > 0:
             return failure
         if not math.isfinite(bench.ledger.bins.sum()):

@@ -86,6 +86,16 @@ class Host:
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
         return done.stdout
 
+    def wrong_calls(self, folder: Path, trials: int) -> str:
+        """Call every function of both versions of FMI wrongly, each time in a process of its own. Return what was done."""
+        program = folder / "wrong"
+        flags = ["-std=gnu11", "-O1", f"-I{self.program.parent}", f"-I{HEADERS}"]
+        run(*compiler("linux64"), *flags, HOST / "common.c", HOST / "wrong.c", "-o", program, "-ldl", "-lpthread", "-lm")
+        words = [program, self.library, self.guid, self.resources, trials]
+        done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=3000)
+        assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+        return done.stdout
+
     def solve(self, cases: Iterable[Mapping[str, float]], outputs: Sequence[str]) -> np.ndarray:
         """Return `outputs` of the FMU after one step from the start, one row for each case (input values by name)."""
         table = component(POINTS).table

@@ -58,6 +58,12 @@ int whole(fmi2Component c, fmi2ValueReference r)
     return value;
 }
 
+double reached(fmi2Component c)
+{
+    double time = 0.0;
+    return GetRealStatus(c, fmi2LastSuccessfulTime, &time) == fmi2OK ? time : 0.0;
+}
+
 double any(fmi2Component c, fmi2ValueReference r)
 {
     double value;
