@@ -18,7 +18,10 @@ def write(path: Path, files: Iterable[tuple[str, bytes]]) -> Path:
     path.parent.mkdir(parents=True, exist_ok=True)
     new = None
     try:
-        with NamedTemporaryFile(dir=path.parent, prefix=path.name, delete=False) as new, ZipFile(new, "w", ZIP_DEFLATED) as archive:
+        with (
+            NamedTemporaryFile(dir=path.parent, prefix=path.name, delete=False) as new,
+            ZipFile(new, "w", ZIP_DEFLATED) as archive,
+        ):
             for name, content in sorted(files):
                 entry = ZipInfo(name)  # its default date is 1980, so the bytes do not depend on the time of the build
                 entry.compress_type = ZIP_DEFLATED

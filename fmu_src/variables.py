@@ -287,7 +287,9 @@ def with_twins(rows: Sequence[Variable]) -> tuple[Variable, ...]:
     for row in rows:
         if row.causality is Causality.OUTPUT and row.kind is not Kind.REAL:
             every.append(replace(row, causality=Causality.LOCAL))
-            numbers = row.enumeration and ", ".join(f"{i} {name}" for i, (name, _) in enumerate(row.enumeration.items, 1))
+            numbers = row.enumeration and ", ".join(
+                f"{i} {name}" for i, (name, _) in enumerate(row.enumeration.items, 1)
+            )
             every.append(
                 output(
                     f"{row.name}_real",

@@ -65,8 +65,9 @@ def body(component: Component) -> str:
     """Return model.c: the table with start values and ranges, the continuous states, the messages and the totals."""
     table = component.table
     rows = [_variable(scalar, first, component) for row in table.rows for first, scalar in _marked(row.scalars())]
-    rows += [f"{{{_string(row.name)}, {row.kind.name}, FIELD}}" for row in table.fields]
-    rows += ['{"time", REAL, TIME, 1}']
+    nothing = "false, false, 0.0, 0.0, 0.0, {{0, 0u}}"
+    rows += [f"{{{_string(row.name)}, {row.kind.name}, FIELD, 0, {nothing}}}" for row in table.fields]
+    rows += [f'{{"time", REAL, TIME, 1, {nothing}}}']
     listed = "\n".join(f"    {row}," for row in rows)
     states = ", ".join(
         f"{{{c_name(state.name)}, {c_name(derivative.name)}, {_number(state.nominal or 1.0)}}}"
@@ -121,7 +122,7 @@ def _variable(scalar: Scalar, first: bool, component: Component) -> str:
     size = row.size if first else 0
     flags = f"{str(row.name in component.lazy).lower()}, {str(row.open_minimum).lower()}"
     numbers = ", ".join(_number(x) for x in (scalar.first, scalar.minimum, scalar.maximum))
-    used = ", ".join(_use(component.table, name, items) for name, items in row.used.items())
+    used = ", ".join(_use(component.table, name, items) for name, items in row.used.items()) or "{0, 0u}"
     return f"{{{_string(scalar.name)}, {kind}, {_role(row, component)}, {size}, {flags}, {numbers}, {{{used}}}}}"
 
 

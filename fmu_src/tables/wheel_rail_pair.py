@@ -96,7 +96,12 @@ PATCH = (
     ("approach", "m", 1e-4, "Rigid approach from first touch, along the normal"),
     ("rail_y", "m", 1e-2, "Contact position on the profile of the rail, lateral, positive to the field side"),
     ("rail_z", "m", 1e-2, "Contact position on the profile of the rail, vertical, positive down"),
-    ("wheel_y", "m", 1e-2, "Contact position on the profile of the wheel, lateral from the tape circle, positive to the field side"),
+    (
+        "wheel_y",
+        "m",
+        1e-2,
+        "Contact position on the profile of the wheel, lateral from the tape circle, positive to the field side",
+    ),
     ("wheel_z", "m", 1e-2, "Contact position on the profile of the wheel, vertical, positive down"),
     ("used_friction", "1", 0.1, "Creep force over normal force"),
 )

@@ -4,6 +4,7 @@ import os
 import subprocess
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from urllib.parse import unquote, urlsplit
 
 import fmpy
 import numpy as np
@@ -90,8 +91,10 @@ class Host:
         """Call every function of both versions of FMI wrongly, each time in a process of its own. Return what was done."""
         program = folder / "wrong"
         flags = ["-std=gnu11", "-O1", f"-I{self.program.parent}", f"-I{HEADERS}"]
-        run(*compiler("linux64"), *flags, HOST / "common.c", HOST / "wrong.c", "-o", program, "-ldl", "-lpthread", "-lm")
-        words = [program, self.library, self.guid, self.resources, trials]
+        run(
+            *compiler("linux64"), *flags, HOST / "common.c", HOST / "wrong.c", "-o", program, "-ldl", "-lpthread", "-lm"
+        )
+        words = [program, self.library, self.guid, self.resources, unquote(urlsplit(self.resources).path), trials]
         done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=3000)
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
         return done.stdout

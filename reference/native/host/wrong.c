@@ -1,4 +1,5 @@
-/* Every function of FMI 2.0 and 3.0, called wrongly: wrong LIBRARY GUID RESOURCES RANDOM_TRIALS. Each trial is a process of its
+/* Every function of FMI 2.0 and 3.0, called wrongly: wrong LIBRARY GUID URI PATH RANDOM_TRIALS (URI
+ * and PATH of the resources). Each trial is a process of its
  * own, so a call that kills its host is one failure. Every pointer of every function is NULL once in every state: the answer is
  * an Error and one message. Then random functions are called in sequence with random pointers and counts. POSIX only. */
 #include <stdint.h>
@@ -310,13 +311,12 @@ static void long_names(void)
 
 int main(int n_arguments, char **arguments)
 {
-    if (n_arguments != 5 || !(library = open_library(arguments[1]))) return puts("wrong LIBRARY GUID RESOURCES TRIALS"), 2;
-    guid = arguments[2], resources = arguments[3];
+    if (n_arguments != 6 || !(library = open_library(arguments[1]))) return puts("wrong LIBRARY GUID URI PATH TRIALS"), 2;
+    guid = arguments[2];
     for (version = 2; version <= 3; version++) {
-        /* FMI 3.0 takes the path of the resources, FMI 2.0 their URI */
-        if (version == 3 && !strncmp(resources, "file://", 7)) resources += 7;
+        resources = arguments[version == 2 ? 3 : 4];
         printf("FMI %d.0: %d functions, %d wrong calls\n", version, n_calls(), systematic());
-        random_trials(atoi(arguments[4]));
+        random_trials(atoi(arguments[5]));
     }
     resources = arguments[3];
     long_names();
