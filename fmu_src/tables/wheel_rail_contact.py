@@ -38,6 +38,7 @@ _NORMAL_PROBLEM = (
     "method.normal",
     "material.shear_modulus",
     "material.poisson_ratio",
+    "material.pressure_limit",
     "resolution.n_strips",
 )
 #: Least half curvature [1/m]. Masters that start every connector at 0 give 0 (and no load).

@@ -89,4 +89,4 @@ def test_no_output_moves_with_a_variable_on_which_it_does_not_depend(native, tmp
                     if row not in table.knowns(rows[output]):
                         wrong.add((output, row.name))
     fmu.free()
-    assert not wrong, sorted(wrong)
+    assert not wrong, "\n".join(f"{output} moves with {of}" for output, of in sorted(wrong))

@@ -60,6 +60,8 @@ def test_no_wrong_call_ends_the_host(hosts, name, tmp_path):
     assert of_2 == 39
     assert of_3 > 60
     assert min(wrong_2, wrong_3) > 500
+    (taken,) = re.findall(r"(\d+) of 2000 forged states taken", said)
+    assert int(taken) > 100  # so they have been tried
 
 
 def test_any_function_in_any_order_does_what_its_state_allows(host):

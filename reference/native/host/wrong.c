@@ -1,7 +1,8 @@
 /* Every function of FMI 2.0 and 3.0, called wrongly: wrong LIBRARY GUID URI PATH RANDOM_TRIALS (URI
  * and PATH of the resources). Each trial is a process of its
  * own, so a call that kills its host is one failure. Every pointer of every function is NULL once in every state: the answer is
- * an Error and one message. Then random functions are called in sequence with random pointers and counts. POSIX only. */
+ * an Error and one message. Then random functions are called in sequence with random pointers and counts, and forged
+ * states are set. POSIX only. */
 #include <stdint.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +13,7 @@
 #include "model.h"
 #include "roles.h"
 
+enum { STATE_CHECKSUM = 40, STATE_CONTENT = 48 }; /* places in the bytes of a state */
 enum { ANSWER_OK, ANSWER_ERROR = 3, CRASHED = 99, ROOM = 64 };
 static void *library, *instance;
 static const void *replaced; /* the pointer that was NULL instead */
@@ -294,6 +296,61 @@ static void random_trials(int n)
     }
 }
 
+static uint64_t checksum(size_t n)
+{
+    uint64_t value = 14695981039346656037u; /* FNV-1a, as in state.c */
+    for (size_t i = STATE_CONTENT; i < n; i++) value = (value ^ bytes[i]) * 1099511628211u;
+    return value;
+}
+
+/* States in which some numbers are replaced, with the right checksum: refused, or the instance goes on. */
+static void forged_states(int n)
+{
+    int taken_states = 0;
+    static const double odd[] = {0.0, -1.0, 0.5, 3.0, 1e-300, 1e9, 1e18, 1e300, -1e300, NAN, INFINITY};
+    version = 2;
+    for (int i = 0; i < n; i++) {
+        int is_cs = (int)draw(2), own = (int)draw(1000);
+        pid_t child = fork();
+        if (!child) {
+            reach(INST, is_cs);
+            integers[0] = 1 + (int)draw(15);
+            F2(SetInteger)(instance, choice, 1, integers);
+            F2(EnterInitializationMode)(instance);
+            F2(ExitInitializationMode)(instance);
+            for (int k = 0; is_cs && k < 3; k++) F2(DoStep)(instance, 1e-3 * k, 1e-3, 1);
+            F2(GetFMUstate)(instance, &state);
+            F2(SerializedFMUstateSize)(instance, state, sizes);
+            F2(SerializeFMUstate)(instance, state, (char *)bytes, sizeof bytes);
+            for (int k = 0; k < own; k++) draw(2);
+            for (unsigned k = 1 + draw(6); k > 0; k--) {
+                size_t at = STATE_CONTENT + 8 * draw((unsigned)(sizes[0] - STATE_CONTENT) / 8);
+                if (draw(4)) at = STATE_CONTENT + 8 * draw(6 + 2 * N_VALUES + 16); /* the content rather than the warm start */
+                int64_t whole = (int64_t)draw(400) - 3;
+                if (at + 8 <= sizes[0]) memcpy(bytes + at, draw(3) ? (const void *)&odd[draw(11)] : (const void *)&whole, 8);
+            }
+            uint64_t sum = checksum(sizes[0]);
+            memcpy(bytes + STATE_CHECKSUM, &sum, sizeof sum);
+            int taken = F2(DeSerializeFMUstate)(instance, (char *)bytes, sizes[0], &state) == fmi2OK;
+            if (taken) {
+                F2(SetFMUstate)(instance, state);
+                for (int k = 0; k < 3; k++) {
+                    double time = 0.0;
+                    F2(GetRealStatus)(instance, fmi2LastSuccessfulTime, &time);
+                    F2(DoStep)(instance, time, 1e-3, 1);
+                    for (unsigned r = 0; r < N_VALUES; r++) F2(GetReal)(instance, &r, 1, reals);
+                }
+            }
+            F2(FreeInstance)(instance);
+            _exit(taken ? ANSWER_OK : ANSWER_ERROR);
+        }
+        int answer = end_of(child);
+        taken_states += answer == ANSWER_OK;
+        check(answer == ANSWER_OK || answer == ANSWER_ERROR, "a forged state", "ends the host");
+    }
+    printf("%d of %d forged states taken\n", taken_states, n);
+}
+
 /* A guid and a name without an end lie before a page that may not be read, or are long: nothing of them is copied whole. */
 static void long_names(void)
 {
@@ -320,5 +377,6 @@ int main(int n_arguments, char **arguments)
     }
     resources = arguments[3];
     long_names();
+    forged_states(atoi(arguments[5]));
     return failures != 0;
 }
