@@ -16,13 +16,15 @@ from contact.case import cases, set_surface
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_integer, require_number
 from contact.friction import Friction, as_friction
-from contact.kernels.layout import RESULT, LoadKind
-from contact.kernels.memory import Workspace
+from contact.kernels.arrays import Workspace
+from contact.kernels.enumerations import LoadKind
 from contact.kernels.pipeline import solve_case
+from contact.kernels.records import RESULT
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
+from contact.resultants import CaseForces
 from contact.separation import Separation
-from contact.solution import CaseForces, Prepared, Solution, Status
+from contact.solution import Prepared, Solution, Status
 
 #: Default resolution. On the patches of set D the normal force is then 0.06 %, the largest pressure 0.3 % off CONTACT's.
 N_STRIPS, N_ELEMENTS = 20, 20

@@ -27,7 +27,7 @@ def model_description(table: Table, interfaces: Interfaces, token: str) -> str:
     )
     for interface, attributes in interfaces.items():
         SubElement(root, interface, {"modelIdentifier": table.name, **attributes})
-    units(root, {row.unit for row in (*table.rows, *table.fields) if row.kind is Kind.REAL} | {"s"})
+    units(root, {row.unit for row in (*table.shown, *table.fields) if row.kind is Kind.REAL} | {"s"})
     _types(root, table)
     experiment(root, table)
     _variables(root, table)
@@ -48,7 +48,7 @@ def value_references(table: Table) -> dict[str, int]:
 
 
 def _types(root: Element, table: Table) -> None:
-    enumerations = {row.enumeration.name: row.enumeration for row in table.rows if row.enumeration}
+    enumerations = {row.enumeration.name: row.enumeration for row in table.shown if row.enumeration}
     if not enumerations:
         return
     definitions = SubElement(root, "TypeDefinitions")
@@ -61,7 +61,7 @@ def _types(root: Element, table: Table) -> None:
 def _variables(root: Element, table: Table) -> None:
     references = value_references(table)
     variables = SubElement(root, "ModelVariables")
-    for row in (*table.rows, *table.fields):
+    for row in (*table.shown, *table.fields):
         element = SubElement(
             variables,
             "UInt64" if row.name in table.structural else _TYPES[row.kind],
@@ -114,7 +114,7 @@ def _attributes(row: Variable, scalars: list[Scalar]) -> Iterator[tuple[str, str
 def _structure(root: Element, table: Table) -> None:
     """Add ModelStructure. Outputs depend on inputs and states, their initial values on parameters and inputs."""
     structure = SubElement(root, "ModelStructure")
-    rows, references = (*table.rows, *table.fields), value_references(table)
+    rows, references = (*table.shown, *table.fields), value_references(table)
     outputs = [row for row in rows if row.causality is Causality.OUTPUT]
     inputs = [row for row in rows if row.causality is Causality.INPUT]
     parameters = [row for row in rows if row.causality is Causality.PARAMETER]

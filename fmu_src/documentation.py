@@ -17,7 +17,7 @@ def markdown(table: Table) -> str:
         "",
         "| name | | type, unit | start | range | meaning |",
         "|---|---|---|---|---|---|",
-        *(_line(row) for row in table.rows),
+        *(_line(row) for row in table.shown),
     ]
     if table.fields:
         counts = " and ".join(f"`{name}`" for name in sorted(table.structural))

@@ -218,6 +218,7 @@ class Table:
     """Interface of one FMU. The value reference of a scalar is its position in `scalars`. Rows that need one get a twin.
 
     The rows are the interface in FMI 2.0. In FMI 3.0 an array is one variable, with the value reference of its first scalar.
+    `hidden` names rows that hosts do not see: they keep their start values, and the code is that of the whole table.
     `fields` are outputs only in FMI 3.0. All fields have the same shape, and the parameters that it names are structural
     parameters in FMI 3.0. The value references of the fields follow those of the scalars, and that of time comes last.
     """
@@ -227,6 +228,7 @@ class Table:
     rows: Sequence[Variable]
     step_size: float  # step size of the default experiment [s]
     fields: Sequence[Variable] = ()
+    hidden: frozenset[str] = frozenset()
     row: dict[str, Variable] = field(init=False)
     span: dict[str, slice] = field(init=False)  # name of a row → positions of its scalars
     scalars: tuple[Scalar, ...] = field(init=False)
@@ -256,6 +258,11 @@ class Table:
         return [self.row[row.derivative_of] for row in self.derivatives if row.derivative_of is not None]
 
     @property
+    def shown(self) -> list[Variable]:
+        """Rows that hosts see."""
+        return [row for row in self.rows if not {row.name, row.twin_of} & self.hidden]
+
+    @property
     def twins(self) -> list[Variable]:
         """Rows that stand for another one."""
         return [row for row in self.rows if row.twin_of]
@@ -272,7 +279,7 @@ class Table:
 
     def knowns(self, output: Variable) -> list[Variable]:
         """Return the parameters, inputs and continuous states on which `output` depends."""
-        known = [row for row in self.rows if row.is_given or row in self.states]
+        known = [row for row in self.shown if row.is_given or row in self.states]
         return [row for row in known if output.depends is None or {row.name, row.twin_of} & {*output.depends}]
 
 
@@ -306,7 +313,7 @@ def with_twins(rows: Sequence[Variable]) -> tuple[Variable, ...]:
                 row,
                 Variable(
                     name=f"{row.name}_integer",
-                    description=f"Number of the item of {row.name}, for hosts without Enumerations; 0: {row.name} itself counts",
+                    description=f"Number of the item of {row.name}, for hosts without Enumerations; 0: {row.name} counts",
                     causality=row.causality,
                     integer=True,
                     start=0,

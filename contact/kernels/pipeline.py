@@ -4,12 +4,13 @@ import math
 
 from contact._jit import chosen_by, inlined, kernel
 from contact.kernels import cubic, families
+from contact.kernels.arrays import Arrays, Samples
 from contact.kernels.conformal import bend, project
+from contact.kernels.enumerations import Status, Tangential, TangentialFamily
 from contact.kernels.friction import of_bodies, of_case, over_profile
-from contact.kernels.layout import Element, Field, Status, Strip, Tangential, TangentialFamily
-from contact.kernels.memory import Arrays, Samples
 from contact.kernels.normal.gap_error import gap_error
-from contact.kernels.normal.press import fill_cut, press, share_of
+from contact.kernels.normal.press import fill_limited, press, share_of
+from contact.kernels.rows import Element, Field, Strip
 from contact.kernels.tangential.creep_force import creep_force
 from contact.kernels.tangential.ellipses import Part, end_of_patch, place_in_load, stiffness_of
 from contact.kernels.tangential.fastrip import fastrip
@@ -58,7 +59,7 @@ def _limit_pressure(strips, n, limit, elements, fields, N):
     for i in range(n):
         p0 = strips[Strip.P0, i]
         if p0 > limit and i < fields.shape[1]:
-            fill_cut(elements, p0, limit, fields[Field.P, i])
+            fill_limited(elements, p0, limit, fields[Field.P, i])
         strips[Strip.P0, i] = p0 * share_of(p0, limit)
         total += 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
     for i in range(n):  # what the iteration has left over

@@ -94,7 +94,7 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -
     say : callable
         Called with a message on progress, since the first build takes minutes.
     """
-    component = model.module("native").component(**model.options)
+    component = model.module("native").component(**model.all_options)
     table = component.table
     objects_of = kernels(model, cache, say)
     sources = [*chain.from_iterable(objects_of.values()), *sorted(WRAPPER.iterdir())]
@@ -170,8 +170,7 @@ def kernels(model: Model, cache: Path, say: Callable[[str], None]) -> dict[str, 
 def compile_kernels(chosen: Sequence[Model], cache: Path, say: Callable[[str], None]) -> None:
     """Compile the kernels that are not in the cache, in one process, where the models share most of the work."""
     words: list[str | Path] = []
-    for model in chosen:
-        folder = _kept(model, cache)
+    for folder, model in {_kept(model, cache): model for model in chosen}.items():
         if not all(path.exists() for platform in TRIPLES for path in objects(folder, platform)):
             folder.mkdir(parents=True, exist_ok=True)
             words += [model.name, json.dumps(dict(model.options)), folder]

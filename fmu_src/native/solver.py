@@ -8,10 +8,12 @@ from numba import carray
 import contact
 from contact import force_table, kalker, material, workspace
 from contact.kernels import families, memory, quadrature
+from contact.kernels.arrays import Size, Tables, Workspace
 from contact.kernels.kalker import N_TABLE, fill_table
-from contact.kernels.memory import Size, Tables, Workspace
 from contact.kernels.normal import influence
+from contact.kernels.normal.between_panels import fill_probes
 from contact.kernels.normal.descent import fill_descent
+from contact.kernels.records import MAX_PATCHES
 from contact.kernels.tangential.table import SHAPE as CREEP
 from fmu_src.native.memory import compiled
 
@@ -67,12 +69,20 @@ def lay_out(work, end, kept, size, centre, plane, creep):
 
 
 @compiled
+def forget_forged(kept):
+    """Forget a warm start that says more panels than there can be, which a host can restore (FMU states)."""
+    if kept.size > 0 and not 0.0 <= kept[0] <= MAX_PATCHES:
+        kept[0] = 0.0
+
+
+@compiled
 def fill(own, poisson_ratio, published):
     """Fill the arrays that depend only on resolution and material."""
     rule, tables = own.rule, own.tables
     quadrature.fill_fejer(rule.across.nodes, rule.across.weights)
     quadrature.fill_elements(rule.elements)
     quadrature.fill_panel(rule.cosines, rule.cosine_logs)
+    fill_probes(rule.cosines, rule.probes, rule.spread)
     if rule.columns.size > 1:
         fill_descent(tables.centre, tables.plane, rule.columns, rule.descent)
         influence.fill_columns(rule.cosine_logs, tables.centre, rule.columns)

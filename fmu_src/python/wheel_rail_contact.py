@@ -28,8 +28,8 @@ class WheelRailContactSlave(TableSlave):
     lazy = ("creep_stiffness",)
     refused: Rows = MappingProxyType({"status": int(Status.OUT_OF_RANGE)})
 
-    def __init__(self, points: int, guid: str, **kwargs: Any) -> None:
-        super().__init__(table(points), guid, **kwargs)
+    def __init__(self, points: int, guid: str, elliptic: bool = False, **kwargs: Any) -> None:
+        super().__init__(table(points, elliptic), guid, **kwargs)
 
     def outputs(self, values: Values, step_size: float) -> Rows:
         """Solve for the present inputs, which are constant over the step."""

@@ -33,8 +33,8 @@ class WheelRailPairSlave(TableSlave):
 
     refused: Rows = MappingProxyType({"status": int(Status.OUT_OF_RANGE)})
 
-    def __init__(self, inclination: float, guid: str, **kwargs: Any) -> None:
-        super().__init__(table(inclination), guid, **kwargs)
+    def __init__(self, inclination: float, guid: str, accumulation: bool = False, **kwargs: Any) -> None:
+        super().__init__(table(inclination, accumulation), guid, **kwargs)
         self.profiles = [profiles.read(Path(self.resources), kind) for kind in ("wheel", "rail")]
         self.parameters = [row.name for row in self.table.rows if row.causality is Causality.PARAMETER]
         self.pair: WheelRailPair | None = None

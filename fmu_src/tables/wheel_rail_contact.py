@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from functools import cache
 from typing import Unpack
 
 from contact import friction
 from contact.creepage import LARGEST_CREEPAGE
-from contact.kernels.layout import MAX_PATCHES
+from contact.kernels.records import MAX_PATCHES
 from contact.separation import LARGEST_ROLLING, LARGEST_TILT
 from fmu_src.tables import solver
 from fmu_src.variables import Attributes, Enumeration, Table, Variable, output, parameter, signal
@@ -49,20 +50,31 @@ _CURVATURES = {"geometry.kind": ("Curvatures",)}
 _HALF_WIDTH = 0.02  # half width of the default separation [m]
 
 
+#: Rows that `EllipticContact` does not show.
+_OF_SAMPLES = frozenset(f"geometry.{name}" for name in ("kind", "y0", "dy", "surface", "g", "A", "tilt", "rolling"))
+
+
 @cache
-def table(points: int = 41) -> Table:
-    """Return the table for a separation of `points` samples across the track (at least 3)."""
+def table(points: int = 41, elliptic: bool = False) -> Table:
+    """Return the table for a separation of `points` samples across the track (at least 3).
+
+    With `elliptic` it is that of `EllipticContact`: the same model, with constant curvatures only and few inputs.
+    """
     if points < 3:
         raise ValueError(f"points = {points}: a separation has at least 3 points")
     rows = [*_parameters(points), *_inputs(points), *_outputs()]
+    if elliptic:
+        rows = [replace(row, start="Curvatures") if row.name == "geometry.kind" else row for row in rows]
     return Table(
-        "WheelRailContact",
-        "Elastic wheel-rail contact: non-elliptic patch and pressure, creep forces, spin moment and damage. "
+        "EllipticContact" if elliptic else "WheelRailContact",
+        f"Elastic wheel-rail contact: {'elliptic' if elliptic else 'non-elliptic'} patch and pressure, creep forces, spin "
+        "moment and damage. "
         "Forces act on the wheel. Frame: x in the rolling direction, y lateral, z from wheel into rail. As co-simulation has "
         "no feedthrough, the outputs after a step belong to the inputs before it: one communication step late.",
         rows,
         step_size=1e-3,
         fields=list(_fields()),
+        hidden=_OF_SAMPLES if elliptic else frozenset(),
     )
 
 

@@ -10,7 +10,7 @@ from contact import friction
 from contact.accumulation import MAXIMA, SUMS
 from contact.geometry.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL
 from contact.geometry.wheelset import SAMPLES
-from contact.kernels.layout import SLOWEST
+from contact.kernels.records import SLOWEST
 from fmu_src.tables import solver
 from fmu_src.variables import Enumeration, Limits, Table, Variable, output, parameter, signal
 
@@ -48,7 +48,7 @@ ACCUMULATED = tuple(f"accumulated.{body}.{name}" for body in BODIES for name in 
 WHEEL, RAIL = "wheel.profile", "rail.profile"
 RESOURCES = (WHEEL, RAIL)
 
-#: Inputs in the order of the kernels (`contact.kernels.layout`): name, unit, description.
+#: Inputs in the order of the record GIVEN: name, unit, description.
 MOTION = (
     ("pose.y", "m", "Lateral position of the wheelset's centre, positive to the right"),
     ("pose.z", "m", "Height of the centre, positive down, 0 with both tape circles on the plane of the rails' tops"),
@@ -76,7 +76,7 @@ _LIMITS: dict[str, Limits] = {
 _RADIUS, _SPEED = 0.46, 20.0
 _STARTS = {"velocity.x": _SPEED, "velocity.spin": -_SPEED / _RADIUS}
 
-#: Outputs of a patch in the order of `contact.kernels.layout`: name after `patch[k].`, unit, nominal, description.
+#: Outputs of a patch in the order of the record CONTACT: name after `patch[k].`, unit, nominal, description.
 PATCH = (
     ("n", "N", 1e5, "Normal force"),
     ("fx", "N", 1e4, "Longitudinal creep force on the wheel"),
@@ -107,9 +107,15 @@ PATCH = (
 )
 
 
+_OF_ACCUMULATION = frozenset((*ACCUMULATED, *(f"accumulation.{name}" for name in ("wear_law", "first", "width"))))
+
+
 @cache
-def table(inclination: float = 1.0 / 40.0) -> Table:
-    """Return the table. `inclination` is the default of `rail.inclination` (tangent)."""
+def table(inclination: float = 1.0 / 40.0, accumulation: bool = False) -> Table:
+    """Return the table. `inclination` is the default of `rail.inclination` (tangent).
+
+    Only with `accumulation` hosts see the damage that accumulates: it has 1200 outputs.
+    """
     return Table(
         "WheelRailPair",
         "One wheel of a wheelset on one rail, with the profiles in resources: contact search, every patch, creep forces "
@@ -119,6 +125,7 @@ def table(inclination: float = 1.0 / 40.0) -> Table:
         "belong to the inputs before it: one communication step late.",
         [*_parameters(inclination), *_inputs(), *_outputs()],
         step_size=1e-3,
+        hidden=frozenset() if accumulation else _OF_ACCUMULATION,
     )
 
 

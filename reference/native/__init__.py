@@ -9,7 +9,7 @@ from urllib.parse import unquote, urlsplit
 import fmpy
 import numpy as np
 
-from contact.kernels.layout import MAX_PATCHES
+from contact.kernels.records import MAX_PATCHES
 from contact.solver import N_ELEMENTS, N_STRIPS
 from fmu_src.catalogue import models
 from fmu_src.native import source
@@ -63,8 +63,8 @@ class Host:
         self.guid = fmpy.read_model_description(str(unzipped)).guid
         self.library = unzipped / "binaries" / platform / f"{name}.{library}"
         self.resources = resources_of(unzipped, own)
-        (model,) = (model for model in models(POINTS) if model.table.name == name)
-        (folder / "model.h").write_text(source.header(model.module("native").component(**model.options), self.guid))
+        (model,) = (model for model in models(POINTS, accumulation=True) if model.table.name == name)
+        (folder / "model.h").write_text(source.header(model.module("native").component(**model.all_options), self.guid))
         (folder / "roles.h").write_text(roles(name))
         self.program = folder / f"host{program}"
         libraries = ["-ldl", "-lpthread", "-lm"] if own == "linux64" else []

@@ -73,7 +73,9 @@ def outputs(fmu: Instance, values: dict[str, float], read: list[str]) -> dict[st
 def test_no_output_moves_with_a_variable_on_which_it_does_not_depend(native, tmp_path, name):
     fmu = Instance(Path(fmpy.extract(str(native.with_name(f"{name}.fmu")), str(tmp_path))))
     table = TABLES[name]
-    rows = {row.name: row for row in table.rows if row.initial == "calculated" and not row.name.startswith("accumulated")}
+    rows = {
+        row.name: row for row in table.rows if row.initial == "calculated" and not row.name.startswith("accumulated")
+    }
     of = {s.name: s.row.name for s in table.scalars if s.row.name in rows and s.row.name != "creep_stiffness"}
     wrong = set()
     for case in CASES[name]:
