@@ -13,7 +13,7 @@ from uuid import UUID
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from contact import __version__
-from fmu_src.units import BASE_UNITS, UNITS
+from fmu_src.units import BASE_UNITS, DISPLAY_UNITS, UNITS, display_unit
 from fmu_src.variables import Causality, Kind, Scalar, Table
 
 LOG_CATEGORIES = {
@@ -86,6 +86,9 @@ def units(root: Element, used: Collection[str | tuple[str, ...]]) -> None:
             SubElement(
                 unit, "BaseUnit", {base: str(e) for base, e in zip(BASE_UNITS, exponents, strict=True) if e != 0}
             )
+            if name in DISPLAY_UNITS:
+                shown, factor = DISPLAY_UNITS[name]
+                SubElement(unit, "DisplayUnit", name=shown, factor=number(factor))
 
 
 def experiment(root: Element, table: Table) -> None:
@@ -130,6 +133,8 @@ def _type_attributes(scalar: Scalar) -> Iterator[tuple[str, str]]:
         yield "declaredType", row.enumeration.name
     if row.kind is Kind.REAL:
         yield "unit", scalar.unit
+        if shown := display_unit(scalar.unit, row.nominal):
+            yield "displayUnit", shown
     for name, bound in (("min", scalar.minimum), ("max", scalar.maximum)):
         if math.isfinite(bound):
             yield name, number(bound)

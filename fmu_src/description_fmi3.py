@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from fmu_src.description import ORIGIN, Interfaces, experiment, number, units
+from fmu_src.units import display_unit
 from fmu_src.variables import Causality, Kind, Scalar, Table, Variable
 
 _TYPES = {Kind.REAL: "Float64", Kind.INTEGER: "Int64", Kind.BOOLEAN: "Boolean", Kind.ENUMERATION: "Enumeration"}
@@ -98,6 +99,8 @@ def _attributes(row: Variable, scalars: list[Scalar]) -> Iterator[tuple[str, str
         yield "declaredType", row.enumeration.name
     if row.kind is Kind.REAL and isinstance(row.unit, str):  # the elements of an array have one unit or none
         yield "unit", row.unit
+        if shown := display_unit(row.unit, row.nominal):
+            yield "displayUnit", shown
     if row.kind is not Kind.BOOLEAN:
         write = number if row.kind is Kind.REAL else lambda bound: str(int(bound))
         limits = scalars[0] if scalars else row

@@ -19,11 +19,13 @@ from fmu_src import archive
 from fmu_src.catalogue import Model
 from fmu_src.description import model_description
 from fmu_src.description_fmi3 import model_description as description_fmi3
-from fmu_src.documentation import markdown
+from fmu_src.documentation import markdown, page
+from fmu_src.icon import png
 from fmu_src.native import source
 from fmu_src.native.emit import OWN_LIBM, TRIPLES, objects
 from fmu_src.native.libm import compile_libm
 from fmu_src.native.licences import licences
+from fmu_src.terminals import terminals
 from models import wheelset
 
 _COMMON = {
@@ -70,7 +72,20 @@ _SOURCES: dict[Path, set[str]] = {
     Path(contact.__file__).parent: {"cli", "plot", "study", "halfspace"},
     Path(__file__).parents[1]: {
         *("python", "archive", "build", "catalogue", "command", "description", "description_fmi3", "documentation"),
-        *("lint", "place", "profiles", "ssp", "units", "packaging", "source", "licences", "libm", "records"),
+        *(
+            "icon",
+            "lint",
+            "place",
+            "profiles",
+            "ssp",
+            "terminals",
+            "units",
+            "packaging",
+            "source",
+            "licences",
+            "libm",
+            "records",
+        ),
     },
     Path(wheelset.__file__).parent: set(),
 }
@@ -107,7 +122,14 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -
             (f"documentation/{table.name}.md", (markdown(table) + _TRIED).encode()),
             *((f"resources/{resource}", content) for resource, content in model.resources.items()),
             *((f"documentation/licenses/{name}", text.encode()) for name, text in licences(HEADERS)),
+            ("documentation/index.html", page(table).encode()),
         ]
+        of_version = {
+            folder: [("model.png", png(table.name))],
+            folder / "fmi3": [("terminalsAndIcons/icon.png", png(table.name))],
+        }
+        if found := terminals(table):
+            of_version[folder / "fmi3"].append(("terminalsAndIcons/terminalsAndIcons.xml", found.encode()))
         libraries = {}
         for platform, parts in objects_of.items():
             say(f"linking for {platform}")
@@ -118,6 +140,7 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -
                 [
                     ("modelDescription.xml", description.encode()),
                     *documents,
+                    *of_version[where],
                     *((f"binaries/{names[p]}/{path.name}", path.read_bytes()) for p, path in libraries.items()),
                 ],
             )

@@ -18,7 +18,8 @@ from contact import __version__
 from fmu_src import archive
 from fmu_src.catalogue import Model
 from fmu_src.description import model_description
-from fmu_src.documentation import markdown
+from fmu_src.documentation import markdown, page
+from fmu_src.icon import png
 from fmu_src.place import licence
 from fmu_src.python.slave import INTERFACES
 
@@ -77,6 +78,8 @@ def _files(model: Model) -> Iterator[tuple[str, bytes]]:
     for library in (package / "resources" / "binaries").glob("*/*"):
         yield f"binaries/{library.parent.name}/{name}{library.suffix}", library.read_bytes()
     yield f"documentation/{name}.md", markdown(model.table).encode()
+    yield "documentation/index.html", page(model.table).encode()
+    yield "model.png", png(name)
     yield "documentation/licenses/wheelrail-contact.txt", licence().encode()
     if text := distribution("pythonfmu").read_text("licenses/LICENSE"):
         yield "documentation/licenses/pythonfmu.txt", text.encode()

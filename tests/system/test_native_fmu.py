@@ -242,3 +242,14 @@ def test_runs_in_libcosim(native):
         s = contact.solve(contact.Separation(y, y**2, 0.5 / 0.46), contact.Creepage(1e-3), load=load)
         # interacting strips start from the last step
         assert [float.fromhex(number) for number in row[:2]] == pytest.approx([s.N, s.Fx], rel=1e-4)
+
+
+def test_discrete_variables_change_only_at_events_and_their_twins_at_once(open_native):
+    """Model exchange: a host does not read a discrete variable again in continuous time."""
+    fmu = open_native("ModelExchange").initialize()
+    fmu.fmu.enterContinuousTimeMode()
+    fmu.update({"load.normal_force": 0.0})
+    assert fmu["status_real"] == contact.Status.NO_CONTACT
+    assert (fmu["status"], fmu["patch.count"], fmu["patch.count_real"]) == (contact.Status.OK, 1, 0.0)
+    fmu.fmu.enterEventMode()
+    assert (fmu["status"], fmu["patch.count"]) == (contact.Status.NO_CONTACT, 0)
