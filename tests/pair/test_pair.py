@@ -289,7 +289,7 @@ def test_what_engineers_plot_is_that_of_forces_and_profiles(side, seed):
     found = pair.solve(pose, velocity, load=80e3, irregularity=rail)
     outwards = 1.0 if side == "right" else -1.0
     assert found.Q == -found.force[2] > 0.0
-    assert found.Y == -outwards * found.force[1]
+    assert -outwards * found.force[1] == found.Y
     assert found.Y_over_Q == found.Y / found.Q
     creep = [math.hypot(c.Fx, c.Fy) for c in found.contacts]
     assert found.used_friction == pytest.approx(sum(creep) / sum(c.N for c in found.contacts), rel=1e-12)

@@ -49,10 +49,11 @@ static bool is_possible(const Instance *instance, const State *state)
     if (!is_phase(is->phase, instance->type) || is->last_step < OK || is->last_step > ERROR) return false;
     if (is->is_new >> 1 || is->lazy_stale >> 1) return false;
     if (!isfinite(is->time) || !isfinite(is->accepted_time) || isnan(is->stop_time)) return false;
-    if (is->is_new) return true;
     for (size_t i = 0; i < N_VALUES; i++)
-        if (!is_allowed(i, is->values) || !is_allowed(i, is->solved)) return false;
-    return true;
+        if (!is_allowed(i, is->solved) || !(is->is_new || is_allowed(i, is->values))) return false;
+    /* working memory is laid out for the parameters in `values` and then used with `solved` */
+    if (is->is_new && is->phase & (INSTANTIATED | CONFIGURATION | INITIALIZATION)) return true;
+    return !memcmp(is->values, is->solved, N_PARAMETERS * sizeof(double));
 }
 
 Status get_state(Instance *instance, const char *function, void **target)
