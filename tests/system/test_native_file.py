@@ -53,7 +53,22 @@ def test_the_windows_library_needs_only_windows(native_folder):
 #: Functions of libc and libm that a library may ask its system for.
 C_LIBRARY = {
     *("bcmp", "calloc", "free", "malloc", "memcmp", "memcpy", "memmove", "memset", "strcmp", "strcpy", "strlen"),
-    *("vsnprintf", "acos", "asin", "asinh", "atan", "atan2", "atanh", "cos", "exp", "log", "pow", "sin", "sincos"),
+    *(
+        "snprintf",
+        "vsnprintf",
+        "acos",
+        "asin",
+        "asinh",
+        "atan",
+        "atan2",
+        "atanh",
+        "cos",
+        "exp",
+        "log",
+        "pow",
+        "sin",
+        "sincos",
+    ),
 }
 
 
