@@ -6,8 +6,11 @@
 
 #include "instance.h"
 
+enum { GUID_ROOM = (sizeof MODEL_GUID + 7) / 8 * 8 }; /* no padding after it, which the checksum would not cover */
+static const char own_guid[GUID_ROOM] = MODEL_GUID;
+
 typedef struct {
-    char guid[sizeof MODEL_GUID]; /* first, since a state of another FMU may be shorter than this one */
+    char guid[GUID_ROOM]; /* first, since a state of another FMU may be shorter than this one */
     uint64_t checksum; /* of all bytes after it, written when it is serialised */
     int64_t size;      /* of the whole block in bytes */
     int64_t type;
@@ -32,7 +35,7 @@ static uint64_t checksum(const State *state)
 
 static size_t memory_bytes(int64_t memory_size) { return 2 * (size_t)memory_size * sizeof(double); }
 
-static bool is_ours(const State *state) { return !memcmp(state->guid, MODEL_GUID, sizeof MODEL_GUID); }
+static bool is_ours(const State *state) { return !memcmp(state->guid, own_guid, sizeof own_guid); }
 
 /* Whether this is a phase of an instance of this type. */
 static bool is_phase(int64_t phase, Type type)
@@ -70,7 +73,7 @@ Status get_state(Instance *instance, const char *function, void **target)
         free(*target);
     }
     *target = state;
-    memcpy(state->guid, MODEL_GUID, sizeof MODEL_GUID);
+    memcpy(state->guid, own_guid, sizeof own_guid);
     state->size = (int64_t)size;
     state->type = instance->type;
     state->resources_hash = instance->resources_hash;
