@@ -72,6 +72,11 @@ def test_libcosim_chooses_a_method_by_its_number(native):
         assert found["status"] == [contact.Status.OK]
 
 
+def test_cofmupy_couples_two_contacts(native):
+    """The third step starts from the second, which started from the first."""
+    assert run("cofmupy", "cofmupy_contact.py", native)["force.x"] == [pytest.approx(solved().Fx, rel=1e-4)]
+
+
 def test_ecos_runs_the_coupled_wheelset(native):
     """At 28 m/s the wheelset hunts with a growing amplitude of millimetres."""
     lateral = run("ecospy", "ecos_coupled.py", native.with_name("coupled.ssp"))["lateral"]
