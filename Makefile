@@ -32,8 +32,8 @@ test: $(READY)   ## run the tests
 check: $(READY)  ## run the quick tests (a minute once the kernels are compiled)
 	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow"
 
-soak: $(READY)   ## check that memory does not grow over 10 000 instances and a million steps of every native FMU (minutes)
-	SOAK=1 $(BIN)/python -m pytest tests/system/test_native_host.py -k leave_memory
+soak: $(READY)   ## check memory over a million steps of every native FMU, and try wrong calls and damaged files (minutes)
+	SOAK=1 $(BIN)/python -m pytest tests/system/test_native_host.py tests/test_readers.py -k "leave_memory or wrong_call or damaged"
 
 lint: $(READY)   ## ruff, mypy, import-linter
 	$(BIN)/ruff check .

@@ -60,7 +60,7 @@ def forces(
     friction : array_like or contact.friction.Friction
         Coefficient of friction [-], or a friction law common to all cases.
     speed : array_like
-        Rolling speed [m/s] > 0. Forces depend on it only if the friction does.
+        Rolling speed [m/s] ≥ 0. Forces depend on it only if the friction does.
     material, normal, tangential, n_strips, n_elements, conformal :
         As in `contact.solve`, common to all cases.
     threads : int
@@ -95,7 +95,7 @@ def forces(
             for name, value in zip(("longitudinal", "lateral", "spin"), creepage, strict=True)
         ),
         _checked("friction", coefficients, 0.0, LARGEST),
-        _checked("speed", speed, np.nextafter(0.0, 1.0)),
+        _checked("speed", speed, 0.0),
         index,
     ]
     try:

@@ -45,6 +45,8 @@ class Contact:
     area, max_pressure : [m²], [Pa]
     creepage : wheel minus rail at `position`
     approach : [m]
+    on_rail, on_wheel : position on the profiles, (y, z), as in `contact.geometry.records.Patch` [m]
+    used_friction : creep force over normal force [-]
     status : Status
     gap_error : as `contact.Solution.gap_error` [-]
     """
@@ -61,6 +63,9 @@ class Contact:
     max_pressure: float
     creepage: Creepage
     approach: float
+    on_rail: tuple[float, float]
+    on_wheel: tuple[float, float]
+    used_friction: float
     status: Status
     gap_error: float
 
@@ -94,6 +99,10 @@ class PairSolution:
     ----------
     force : (x, y, z) on the wheel [N]
     moment : about the wheelset's centre (0, pose.y, z - nominal radius) [N m]
+    Q : vertical force of the wheel on the rail, positive down [N]
+    Y : lateral force of the wheel on the rail, positive outwards, as with the flange in contact [N]
+    Y_over_Q : their ratio [-]; 0 without vertical force
+    used_friction : sum of the creep forces of all patches over that of the normal forces [-]
     z : pose.z, as given or as found for a load or a penetration [m]
     contacts : all patches, from the field side to the flange
     max_pressure : largest pressure of all patches [Pa]
@@ -106,6 +115,10 @@ class PairSolution:
 
     force: Array
     moment: Array
+    Q: float
+    Y: float
+    Y_over_Q: float
+    used_friction: float
     z: float
     contacts: tuple[Contact, ...]
     max_pressure: float
@@ -241,6 +254,10 @@ class WheelRailPair:
         return PairSolution(
             force=np.array([total.Fx, total.Fy, total.Fz]),
             moment=np.array([total.Mx, total.My, total.Mz]),
+            Q=float(total.Q),
+            Y=float(total.Y),
+            Y_over_Q=float(total.Y_over_Q),
+            used_friction=float(total.used_friction),
             z=float(total.z),
             contacts=tuple(_contact(row) for row in self.bench.contacts[:code]),
             max_pressure=float(total.pmax),
@@ -267,6 +284,9 @@ def _contact(found: np.record) -> Contact:
         max_pressure=float(found.pmax),
         creepage=Creepage(float(found.longitudinal), float(found.lateral), float(found.spin)),
         approach=float(found.approach),
+        on_rail=(float(found.rail_y), float(found.rail_z)),
+        on_wheel=(float(found.wheel_y), float(found.wheel_z)),
+        used_friction=float(found.used_friction),
         status=Status(found.status),
         gap_error=float(found.gap_error),
     )

@@ -60,7 +60,7 @@ def solve(
         Coulomb's coefficient mu ≥ 0 [-], or a friction law.
     material : Material
     speed : float
-        Rolling speed [m/s] > 0. Sliding velocities and powers scale with it. Forces depend on it only if the friction does.
+        Rolling speed [m/s] ≥ 0. Sliding velocities and powers scale with it. Forces depend on it only if the friction does.
     normal, tangential : str
         Names from `contact.methods()`.
     n_strips, n_elements : int
@@ -102,7 +102,7 @@ def solve(
     else:
         require_number("approach", approach)
     surface = as_friction(friction)
-    speed = require_number("speed", speed, 0.0, open_minimum=True)
+    speed = require_number("speed", speed, 0.0)
     n_strips, n_elements = require_resolution(n_strips, n_elements)
     method, rolling = lookup("normal", normal), lookup("tangential", tangential)
     division = Division(n_strips, n_elements, _pair(spacing))

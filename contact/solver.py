@@ -77,7 +77,7 @@ class Solver:
         Coulomb's coefficient mu ≥ 0 [-], or a friction law. A call may give another one.
     material : Material
     speed : float
-        Rolling speed [m/s] > 0. A call may give another one.
+        Rolling speed [m/s] ≥ 0. A call may give another one.
     conformal : bool
         Let the contact angle vary over the patch, as in `contact.solve`.
     n_samples : int
@@ -136,7 +136,7 @@ class Solver:
 
     def set_surface(self, friction: float | Friction, speed: float) -> None:
         """Set the friction [-] and the rolling speed [m/s] for the following calls that do not give their own."""
-        surface, velocity = as_friction(friction), require_number("speed", speed, 0.0, open_minimum=True)
+        surface, velocity = as_friction(friction), require_number("speed", speed, 0.0)
         self._friction, self._speed = surface, velocity
         set_surface(self._case, self._friction, self._speed)
 

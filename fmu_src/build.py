@@ -35,6 +35,11 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
         default=ports.POINTS,
         help=f"samples of the separation of WheelRailContact, at least 3 (default: {ports.POINTS}, as many as Wheelset gives)",
     )
+    parser.add_argument(
+        "--accumulation",
+        action="store_true",
+        help="give WheelRailPair 1200 outputs more: damage that accumulates in bins over both profiles",
+    )
     profiles.add_options(parser)
     parser.add_argument("--describe", action="store_true", help="print the variables as Markdown and build nothing")
     arguments = parser.parse_args(words)
@@ -42,7 +47,7 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
         parser.error(f"--points {arguments.points}: a separation has at least 3 samples")
 
     try:
-        chosen = models(arguments.points, profiles.chosen(arguments))
+        chosen = models(arguments.points, profiles.chosen(arguments), arguments.accumulation)
     except (ContactError, ImportError) as error:
         parser.error(str(error))
     if arguments.describe:

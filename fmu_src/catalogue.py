@@ -18,24 +18,35 @@ from fmu_src.variables import Table
 
 @dataclass(frozen=True)
 class Model:
-    """An FMU: name of its modules, options of its table, slave and component, and its files in resources/."""
+    """An FMU: name of its modules, options of its table, slave and component, and its files in resources/.
+
+    `view` are options that change only what hosts see of the table, so the kernels do not depend on them.
+    """
 
     name: str
     options: Mapping[str, float]
     resources: Mapping[str, bytes] = field(default_factory=dict)
+    view: Mapping[str, bool] = field(default_factory=dict)
 
     @property
     def table(self) -> Table:
         """Variable table of the FMU."""
-        return self.module("tables").table(**self.options)
+        return self.module("tables").table(**self.all_options)
+
+    @property
+    def all_options(self) -> dict[str, float]:
+        """Options of table, slave and component."""
+        return {**self.options, **self.view}
 
     def module(self, part: str) -> Any:
         """Return the FMU's module in the package `part`: "tables", "python" or "native"."""
         return import_module(f"fmu_src.{part}.{self.name}")
 
 
-def models(points: int, given: Mapping[Kind, Profile] | None = None) -> tuple[Model, ...]:
+def models(points: int, given: Mapping[Kind, Profile] | None = None, accumulation: bool = False) -> tuple[Model, ...]:
     """Return all FMUs: the contact with `points` samples of the separation, the pair with the `given` profiles.
+
+    With `accumulation` the pair has its bins of accumulated damage as outputs.
 
     The default profiles are S1002 and 60E1. The default rail is inclined by 1:40; a given rail is not turned. The separations
     of the wheelset always have `ports.POINTS` samples.
@@ -44,6 +55,12 @@ def models(points: int, given: Mapping[Kind, Profile] | None = None) -> tuple[Mo
     inclination = 0.0 if given and "rail" in given else 1.0 / 40.0
     return (
         Model("wheel_rail_contact", {"points": points}),
-        Model("wheel_rail_pair", {"inclination": inclination}, profiles.resources(both["wheel"], both["rail"])),
+        Model("wheel_rail_contact", {"points": points}, view={"elliptic": True}),
+        Model(
+            "wheel_rail_pair",
+            {"inclination": inclination},
+            profiles.resources(both["wheel"], both["rail"]),
+            {"accumulation": accumulation},
+        ),
         Model("wheelset", {}),
     )

@@ -53,6 +53,9 @@ def fmu(
     smoothing: Annotated[
         float | None, typer.Option(help="Measurement noise in m to smooth out of the files, for example 2e-6.")
     ] = None,
+    accumulation: Annotated[
+        bool, typer.Option("--accumulation", help="Give WheelRailPair the outputs of accumulated damage, 1200 numbers.")
+    ] = False,
     describe: Annotated[
         bool, typer.Option("--describe", help="Print the variables as Markdown and build nothing.")
     ] = False,
@@ -79,4 +82,5 @@ def fmu(
         "smoothing": smoothing,
     }
     words = [f"--{name}={value}" for name, value in options.items() if value is not None]
-    main([*words, *(["--describe"] if describe else [])], "contact fmu")
+    switches = {"--accumulation": accumulation, "--describe": describe}
+    main([*words, *(word for word, on in switches.items() if on)], "contact fmu")

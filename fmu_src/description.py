@@ -13,8 +13,8 @@ from uuid import UUID
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from contact import __version__
-from fmu_src.units import BASE_UNITS, UNITS
-from fmu_src.variables import Causality, Kind, Scalar, Table, Variable
+from fmu_src.units import BASE_UNITS, DISPLAY_UNITS, UNITS, display_unit
+from fmu_src.variables import Causality, Kind, Scalar, Table
 
 LOG_CATEGORIES = {
     "logStatusWarning": "A result that should be used with care",
@@ -63,15 +63,17 @@ def _root(table: Table, interfaces: Interfaces) -> Element:
     )
     for interface, attributes in interfaces.items():
         SubElement(root, interface, {"modelIdentifier": table.name, **attributes})
-    units(root, {scalar.unit for scalar in table.scalars if scalar.row.kind is Kind.REAL})
+    shown = [(r, table.scalars[r]) for row in table.shown for r in table.references(row.name)]
+    units(root, {scalar.unit for _, scalar in shown if scalar.row.kind is Kind.REAL})
     _types(root, table)
     experiment(root, table)
     variables = SubElement(root, "ModelVariables")
-    for reference, scalar in enumerate(table.scalars):
+    for reference, scalar in shown:
         variables.append(_variable(reference, scalar))
+    index = {reference: i for i, (reference, _) in enumerate(shown, start=1)}  # FMI counts variables from 1
     if table.states and "ModelExchange" in interfaces:
-        _derivatives(variables, table)
-    _structure(root, table, follows=not table.states or "ModelExchange" in interfaces)
+        _derivatives(variables, table, index)
+    _structure(root, table, index, follows=not table.states or "ModelExchange" in interfaces)
     return root
 
 
@@ -84,6 +86,9 @@ def units(root: Element, used: Collection[str | tuple[str, ...]]) -> None:
             SubElement(
                 unit, "BaseUnit", {base: str(e) for base, e in zip(BASE_UNITS, exponents, strict=True) if e != 0}
             )
+            if name in DISPLAY_UNITS:
+                shown, factor = DISPLAY_UNITS[name]
+                SubElement(unit, "DisplayUnit", name=shown, factor=number(factor))
 
 
 def experiment(root: Element, table: Table) -> None:
@@ -95,7 +100,7 @@ def experiment(root: Element, table: Table) -> None:
 
 
 def _types(root: Element, table: Table) -> None:
-    enumerations = {row.enumeration.name: row.enumeration for row in table.rows if row.enumeration}
+    enumerations = {row.enumeration.name: row.enumeration for row in table.shown if row.enumeration}
     if not enumerations:
         return
     definitions = SubElement(root, "TypeDefinitions")
@@ -128,6 +133,8 @@ def _type_attributes(scalar: Scalar) -> Iterator[tuple[str, str]]:
         yield "declaredType", row.enumeration.name
     if row.kind is Kind.REAL:
         yield "unit", scalar.unit
+        if shown := display_unit(scalar.unit, row.nominal):
+            yield "displayUnit", shown
     for name, bound in (("min", scalar.minimum), ("max", scalar.maximum)):
         if math.isfinite(bound):
             yield name, number(bound)
@@ -137,23 +144,23 @@ def _type_attributes(scalar: Scalar) -> Iterator[tuple[str, str]]:
         yield "start", number(scalar.start)
 
 
-def _derivatives(variables: Element, table: Table) -> None:
-    """Add the attribute `derivative`, the index of the state, to each derivative."""
+def _derivatives(variables: Element, table: Table, index: Mapping[int, int]) -> None:
+    """Add the attribute `derivative`, the index of the state, to each derivative. `index` is that of each value reference."""
     for state, derivative in zip(table.states, table.derivatives, strict=True):
         (reference,), (of,) = table.references(derivative.name), table.references(state.name)
-        variables[reference][0].set("derivative", str(of + 1))
+        variables[index[reference] - 1][0].set("derivative", str(index[of]))
 
 
-def _structure(root: Element, table: Table, follows: bool) -> None:
+def _structure(root: Element, table: Table, index: Mapping[int, int], follows: bool) -> None:
     """Add ModelStructure. Outputs depend on inputs and states, their initial values on parameters and inputs.
 
     If outputs do not follow inputs at once (`follows` is false), they depend on nothing. An example is a model with states in
     co-simulation.
     """
     structure = SubElement(root, "ModelStructure")
-    outputs = [row for row in table.rows if row.causality is Causality.OUTPUT]
-    inputs = [row for row in table.rows if row.causality is Causality.INPUT and follows]
-    parameters = [row for row in table.rows if row.causality is Causality.PARAMETER]
+    outputs = [row for row in table.shown if row.causality is Causality.OUTPUT]
+    inputs = [row for row in table.shown if row.causality is Causality.INPUT and follows]
+    parameters = [row for row in table.shown if row.causality is Causality.PARAMETER]
     states = table.states if follows else []
     for section, rows, knowns in (
         ("Outputs", outputs, [*inputs, *states]),
@@ -163,11 +170,7 @@ def _structure(root: Element, table: Table, follows: bool) -> None:
         if rows:
             element = SubElement(structure, section)
             for row in rows:
-                _unknown(element, table, row, [known for known in table.knowns(row) if known in knowns])
-
-
-def _unknown(parent: Element, table: Table, row: Variable, knowns: list[Variable]) -> None:
-    """Add one element for each scalar of `row`. FMI counts variables from 1."""
-    dependencies = " ".join(str(reference + 1) for known in knowns for reference in table.references(known.name))
-    for reference in table.references(row.name):
-        SubElement(parent, "Unknown", index=str(reference + 1), dependencies=dependencies)
+                known = [r for known in table.knowns(row) if known in knowns for r in table.references(known.name)]
+                dependencies = " ".join(str(index[reference]) for reference in known)
+                for reference in table.references(row.name):
+                    SubElement(element, "Unknown", index=str(index[reference]), dependencies=dependencies)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from fmu_src.description import ORIGIN, Interfaces, experiment, number, units
+from fmu_src.units import display_unit
 from fmu_src.variables import Causality, Kind, Scalar, Table, Variable
 
 _TYPES = {Kind.REAL: "Float64", Kind.INTEGER: "Int64", Kind.BOOLEAN: "Boolean", Kind.ENUMERATION: "Enumeration"}
@@ -27,7 +28,7 @@ def model_description(table: Table, interfaces: Interfaces, token: str) -> str:
     )
     for interface, attributes in interfaces.items():
         SubElement(root, interface, {"modelIdentifier": table.name, **attributes})
-    units(root, {row.unit for row in (*table.rows, *table.fields) if row.kind is Kind.REAL} | {"s"})
+    units(root, {row.unit for row in (*table.shown, *table.fields) if row.kind is Kind.REAL} | {"s"})
     _types(root, table)
     experiment(root, table)
     _variables(root, table)
@@ -48,7 +49,7 @@ def value_references(table: Table) -> dict[str, int]:
 
 
 def _types(root: Element, table: Table) -> None:
-    enumerations = {row.enumeration.name: row.enumeration for row in table.rows if row.enumeration}
+    enumerations = {row.enumeration.name: row.enumeration for row in table.shown if row.enumeration}
     if not enumerations:
         return
     definitions = SubElement(root, "TypeDefinitions")
@@ -61,7 +62,7 @@ def _types(root: Element, table: Table) -> None:
 def _variables(root: Element, table: Table) -> None:
     references = value_references(table)
     variables = SubElement(root, "ModelVariables")
-    for row in (*table.rows, *table.fields):
+    for row in (*table.shown, *table.fields):
         element = SubElement(
             variables,
             "UInt64" if row.name in table.structural else _TYPES[row.kind],
@@ -98,6 +99,8 @@ def _attributes(row: Variable, scalars: list[Scalar]) -> Iterator[tuple[str, str
         yield "declaredType", row.enumeration.name
     if row.kind is Kind.REAL and isinstance(row.unit, str):  # the elements of an array have one unit or none
         yield "unit", row.unit
+        if shown := display_unit(row.unit, row.nominal):
+            yield "displayUnit", shown
     if row.kind is not Kind.BOOLEAN:
         write = number if row.kind is Kind.REAL else lambda bound: str(int(bound))
         limits = scalars[0] if scalars else row
@@ -114,7 +117,7 @@ def _attributes(row: Variable, scalars: list[Scalar]) -> Iterator[tuple[str, str
 def _structure(root: Element, table: Table) -> None:
     """Add ModelStructure. Outputs depend on inputs and states, their initial values on parameters and inputs."""
     structure = SubElement(root, "ModelStructure")
-    rows, references = (*table.rows, *table.fields), value_references(table)
+    rows, references = (*table.shown, *table.fields), value_references(table)
     outputs = [row for row in rows if row.causality is Causality.OUTPUT]
     inputs = [row for row in rows if row.causality is Causality.INPUT]
     parameters = [row for row in rows if row.causality is Causality.PARAMETER]

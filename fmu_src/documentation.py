@@ -1,8 +1,10 @@
-"""Variables of an FMU as a Markdown table."""
+"""Variables of an FMU as a table, in Markdown and as the page documentation/index.html."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
+from html import escape
 
 from fmu_src.description import number
 from fmu_src.variables import Kind, Table, Variable
@@ -15,15 +17,14 @@ def markdown(table: Table) -> str:
         "",
         table.description,
         "",
-        "| name | | type, unit | start | range | meaning |",
+        f"| {' | '.join(_HEAD)} |",
         "|---|---|---|---|---|---|",
-        *(_line(row) for row in table.rows),
+        *(_line(row) for row in table.shown),
     ]
     if table.fields:
-        counts = " and ".join(f"`{name}`" for name in sorted(table.structural))
         lines += [
             "",
-            f"In FMI 3.0 every array is one variable, {counts} are structural parameters, and there are fields besides:",
+            _about_fields(table),
             "",
             *lines[4:6],
             *(_line(row) for row in table.fields),
@@ -31,17 +32,54 @@ def markdown(table: Table) -> str:
     return "\n".join(lines) + "\n"
 
 
+def page(table: Table) -> str:
+    """Return the page that tools show for an FMU."""
+    fields = f"<p>{escape(_about_fields(table))}</p>{_rows(table.fields)}" if table.fields else ""
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<title>{table.name}</title>
+<style>
+body {{ font: 15px/1.5 system-ui, sans-serif; margin: 2em auto; max-width: 75em; padding: 0 1em; color: #1e2837; }}
+table {{ border-collapse: collapse; }}
+td, th {{ border-bottom: 1px solid #c4cdd6; padding: .3em .8em .3em 0; text-align: left; vertical-align: top; }}
+td:first-child {{ font-family: ui-monospace, monospace; white-space: nowrap; }}
+</style>
+</head>
+<body>
+<h1>{table.name}</h1>
+<p>{escape(table.description)}</p>
+{_rows(table.shown)}
+{fields}
+</body>
+</html>
+"""
+
+
+_HEAD = ("name", "", "type, unit", "start", "range", "meaning")
+
+
+def _about_fields(table: Table) -> str:
+    counts = " and ".join(f"`{name}`" for name in sorted(table.structural))
+    return f"In FMI 3.0 every array is one variable, {counts} are structural parameters, and there are fields besides:"
+
+
+def _rows(rows: Iterable[Variable]) -> str:
+    """Return rows as a table in HTML."""
+    lines = ["".join(f"<th>{name}</th>" for name in _HEAD)]
+    lines += ["".join(f"<td>{escape(cell)}</td>" for cell in _cells(row)) for row in rows]
+    return "<table>\n" + "\n".join(f"<tr>{line}</tr>" for line in lines) + "\n</table>"
+
+
 def _line(row: Variable) -> str:
+    name, *cells = _cells(row)
+    return f"| `{name}` | {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
+
+
+def _cells(row: Variable) -> tuple[str, ...]:
     index = f"[{','.join(f'1..{n}' for n in row.shape)}]" if row.shape else ""
-    cells = (
-        f"`{row.element(index)}`",
-        row.causality,
-        _type(row),
-        _start(row),
-        _range(row),
-        row.description.replace("|", r"\|"),
-    )
-    return f"| {' | '.join(cells)} |"
+    return row.element(index), row.causality, _type(row), _start(row), _range(row), row.description
 
 
 def _type(row: Variable) -> str:

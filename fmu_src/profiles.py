@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import struct
 import zipfile
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +25,8 @@ from contact.geometry.wheelset import Pair
 from fmu_src import archive
 from fmu_src.tables.wheel_rail_pair import RAIL, WHEEL
 
+#: Greatest number of points of a profile that the native FMU reads (`native/c/resources.c`).
+MOST_POINTS = 100_000
 MAGIC: dict[Kind, bytes] = {"wheel": b"wr-wheel", "rail": b"wr-rail\0"}
 _RESOURCES: dict[Kind, str] = {"wheel": WHEEL, "rail": RAIL}
 
@@ -34,8 +37,10 @@ def pack(given: Profile) -> bytes:
     Raises
     ------
     ContactError
-        If the profile cannot touch another one.
+        If the profile has more points than an FMU reads, or cannot touch another one.
     """
+    if given.y.size > MOST_POINTS:
+        raise ContactError(f"profile of {given.y.size} points: an FMU reads at most {MOST_POINTS}")
     other: Profile = profile.rail_60e1() if given.kind == "wheel" else profile.s1002()
     Pair(
         *((given, other) if given.kind == "wheel" else (other, given)), gauge_point=1e-6
@@ -56,6 +61,9 @@ def unpack(resource: bytes, name: str) -> Profile:
     content = resource[16:]
     if not kinds or len(content) < 8 or struct.unpack("<Q", resource[8:16]) != (_checksum(content),):
         raise ContactError(f"resource {name} is not a profile: it is damaged or was not made by fmu_src.profiles")
+    (n,) = struct.unpack("<q", content[:8])
+    if not 4 <= n <= MOST_POINTS or len(content) != 8 + 24 * n:
+        raise ContactError(f"resource {name} is not a profile: it says {n} points")
     y, z, angle = np.frombuffer(content[8:], "<f8").reshape(3, -1)
     return Profile(kinds[0], y, z, angle, name)
 
@@ -78,10 +86,19 @@ def resources(wheel: Profile, rail: Profile) -> dict[str, bytes]:
 
 
 def exchange(fmu: Path, profiles: dict[Kind, Profile]) -> None:
-    """Replace profiles in an FMU file."""
+    """Replace profiles in an FMU file. If this fails, the file is unchanged.
+
+    Raises
+    ------
+    ContactError
+        If the file is not a WheelRailPair FMU.
+    """
     new = {f"resources/{_RESOURCES[kind]}": pack(given) for kind, given in profiles.items()}
-    with zipfile.ZipFile(fmu) as content:
-        files = [(name, content.read(name)) for name in content.namelist()]
+    try:
+        with zipfile.ZipFile(fmu) as content:
+            files = [(name, content.read(name)) for name in content.namelist()]
+    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError) as error:
+        raise ContactError(f"{fmu} is not an FMU, or it is damaged: {error}") from None
     if missing := new.keys() - {name for name, _ in files}:
         raise ContactError(f"{fmu} has no {', '.join(sorted(missing))}: it is not a WheelRailPair FMU")
     archive.write(fmu, [(name, new.get(name, old)) for name, old in files])
@@ -128,7 +145,11 @@ def main() -> None:
     add_options(parser)
     arguments = parser.parse_args()
     try:
-        exchange(arguments.fmu, chosen(arguments))
+        new = chosen(arguments)
+        if not new:
+            parser.print_help()
+            parser.exit(2, "nothing to do: give --wheel, --rail or both\n")
+        exchange(arguments.fmu, new)
     except (ContactError, ImportError, OSError) as error:
         parser.error(str(error))
 

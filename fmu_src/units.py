@@ -1,4 +1,8 @@
-"""Units of the FMUs, as exponents of SI base units."""
+"""Units of the FMUs, as exponents of SI base units, and the units in which tools show them."""
+
+from __future__ import annotations
+
+import math
 
 BASE_UNITS = ("kg", "m", "s", "rad", "K")
 
@@ -38,3 +42,22 @@ UNITS: dict[str, tuple[int, int, int, int, int]] = {
     "m2/m": (0, 1, 0, 0, 0),
     "m3/m": (0, 2, 0, 0, 0),
 }
+
+#: Unit → unit in which tools may show it, how many of these are one, and the range of nominal values for which it is handy.
+_DISPLAYED = {
+    "m": ("mm", 1e3, 0.0, 0.1),
+    "m2": ("mm2", 1e6, 0.0, 1e-2),
+    "N": ("kN", 1e-3, 1e4, math.inf),
+    "Pa": ("MPa", 1e-6, 1e6, math.inf),
+    "rad": ("deg", 180.0 / math.pi, 0.0, math.inf),
+}
+#: Unit → the unit shown and how many of these are one.
+DISPLAY_UNITS = {name: (shown, factor) for name, (shown, factor, *_) in _DISPLAYED.items()}
+
+
+def display_unit(unit: str, nominal: float | None) -> str | None:
+    """Return the unit in which a variable of this nominal value is shown, None for its own."""
+    if unit not in _DISPLAYED:
+        return None
+    shown, _, least, greatest = _DISPLAYED[unit]
+    return shown if least <= (1.0 if nominal is None else nominal) <= greatest else None

@@ -9,8 +9,8 @@ member of an array of structures: `patch[1].area` …
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from itertools import product
 from typing import TypedDict, Unpack
@@ -24,6 +24,7 @@ class Causality(StrEnum):
     PARAMETER = "parameter"
     INPUT = "input"
     OUTPUT = "output"
+    LOCAL = "local"  # computed like an output, but no connector of a host
 
 
 class Kind(StrEnum):
@@ -71,6 +72,8 @@ class Attributes(Limits, total=False):
     shape: tuple[int | str, ...]
     depends: tuple[str, ...] | None
     derivative_of: str | None
+    used: Mapping[str, tuple[str, ...]]
+    twin_of: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,6 +103,11 @@ class Variable:
         Rows (parameters, inputs and continuous states) on which an output depends. None means all of them.
     derivative_of : str, optional
         Row whose time derivative this output is. In model exchange that row is a continuous state.
+    used : mapping
+        Enumeration → its items with which this input or parameter is used; with all of them if it is not named. A value that
+        is not used may be any, even NaN.
+    twin_of : str
+        Row that this one stands for in hosts that do not know its type (`with_twins`).
     """
 
     name: str
@@ -117,6 +125,13 @@ class Variable:
     shape: tuple[int | str, ...] = ()
     depends: tuple[str, ...] | None = None
     derivative_of: str | None = None
+    used: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    twin_of: str = ""
+
+    @property
+    def is_given(self) -> bool:
+        """Whether the host gives the value: a parameter or an input."""
+        return self.causality in (Causality.PARAMETER, Causality.INPUT)
 
     @property
     def kind(self) -> Kind:
@@ -200,9 +215,10 @@ class Scalar:
 
 @dataclass(frozen=True)
 class Table:
-    """Interface of one FMU. The value reference of a scalar is its position in `scalars`.
+    """Interface of one FMU. The value reference of a scalar is its position in `scalars`. Rows that need one get a twin.
 
     The rows are the interface in FMI 2.0. In FMI 3.0 an array is one variable, with the value reference of its first scalar.
+    `hidden` names rows that hosts do not see: they keep their start values, and the code is that of the whole table.
     `fields` are outputs only in FMI 3.0. All fields have the same shape, and the parameters that it names are structural
     parameters in FMI 3.0. The value references of the fields follow those of the scalars, and that of time comes last.
     """
@@ -212,6 +228,7 @@ class Table:
     rows: Sequence[Variable]
     step_size: float  # step size of the default experiment [s]
     fields: Sequence[Variable] = ()
+    hidden: frozenset[str] = frozenset()
     row: dict[str, Variable] = field(init=False)
     span: dict[str, slice] = field(init=False)  # name of a row → positions of its scalars
     scalars: tuple[Scalar, ...] = field(init=False)
@@ -219,6 +236,8 @@ class Table:
     def __post_init__(self) -> None:
         if len({row.shape for row in self.fields}) > 1:
             raise ValueError(f"{self.name}: all fields must have the same shape")
+        object.__setattr__(self, "rows", with_twins(self.rows))
+        object.__setattr__(self, "fields", with_twins(self.fields))
         scalars: list[Scalar] = []
         span: dict[str, slice] = {}
         for row in self.rows:
@@ -239,6 +258,16 @@ class Table:
         return [self.row[row.derivative_of] for row in self.derivatives if row.derivative_of is not None]
 
     @property
+    def shown(self) -> list[Variable]:
+        """Rows that hosts see."""
+        return [row for row in self.rows if not {row.name, row.twin_of} & self.hidden]
+
+    @property
+    def twins(self) -> list[Variable]:
+        """Rows that stand for another one."""
+        return [row for row in self.rows if row.twin_of]
+
+    @property
     def structural(self) -> frozenset[str]:
         """Names of the parameters that determine the shape of the fields."""
         return frozenset(n for row in self.fields for n in row.shape if isinstance(n, str))
@@ -250,8 +279,52 @@ class Table:
 
     def knowns(self, output: Variable) -> list[Variable]:
         """Return the parameters, inputs and continuous states on which `output` depends."""
-        known = [row for row in self.rows if row.causality is not Causality.OUTPUT or row in self.states]
-        return [row for row in known if output.depends is None or row.name in output.depends]
+        known = [row for row in self.shown if row.is_given or row in self.states]
+        return [row for row in known if output.depends is None or {row.name, row.twin_of} & {*output.depends}]
+
+
+def with_twins(rows: Sequence[Variable]) -> tuple[Variable, ...]:
+    """Return the rows with a twin after each row whose type some hosts do not know.
+
+    Some hosts read every output as a Real (CasADi, CoFMUPy). So an output of another type becomes a local variable, and its
+    twin `…_real` is the output. Others have no Enumerations (libcosim). So each Enumeration that a host sets has a twin
+    `…_integer` of type Integer. If that is not 0, it is the value of the Enumeration.
+    """
+    every: list[Variable] = []
+    for row in rows:
+        if row.causality is Causality.OUTPUT and row.kind is not Kind.REAL:
+            every.append(replace(row, causality=Causality.LOCAL))
+            numbers = row.enumeration and ", ".join(
+                f"{i} {name}" for i, (name, _) in enumerate(row.enumeration.items, 1)
+            )
+            every.append(
+                output(
+                    f"{row.name}_real",
+                    f"{row.name} as a Real" + (f": {numbers}" if numbers else ""),
+                    minimum=1 if row.enumeration else row.minimum,
+                    maximum=len(row.enumeration.items) if row.enumeration else row.maximum,
+                    shape=row.shape,
+                    depends=row.depends,
+                    twin_of=row.name,
+                )
+            )
+        elif row.is_given and row.enumeration is not None:
+            every += [
+                row,
+                Variable(
+                    name=f"{row.name}_integer",
+                    description=f"Number of the item of {row.name}, for hosts without Enumerations; 0: {row.name} counts",
+                    causality=row.causality,
+                    integer=True,
+                    start=0,
+                    minimum=0,
+                    maximum=len(row.enumeration.items),
+                    twin_of=row.name,
+                ),
+            ]
+        else:
+            every.append(row)
+    return tuple(every)
 
 
 def identifier(name: str) -> str:

@@ -109,7 +109,7 @@ BAD_SOLVES = [
     ({}, "exactly one"),
     ({"approach": math.inf}, "approach = inf"),
     ({"load": 1.0, "friction": -0.1}, r"friction = -0.1 .* \[0, 1e\+06\]"),
-    ({"load": 1.0, "speed": 0.0}, r"speed = 0 .* \]0, inf\["),
+    ({"load": 1.0, "speed": -1.0}, r"speed = -1 .* \[0, inf\["),
     ({"load": 1.0, "normal": "contact"}, "normal = 'contact' .* analyn"),
     ({"load": 1.0, "tangential": "usetab"}, "tangential = 'usetab' .* fastrip"),
     ({"load": 1.0, "normal": "ANALYN"}, "normal = 'ANALYN' is not a registered method, did you mean 'analyn'"),

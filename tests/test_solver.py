@@ -184,7 +184,7 @@ def test_a_larger_separation_makes_room(way):
         ({}, "exactly one of load and approach is needed; load = None, approach = None"),
         ({"load": 1.0, "approach": 1e-5}, "exactly one of load and approach is needed; load = 1.0, approach = 1e-05"),
         ({"load": 1e3, "friction": -0.1}, r"friction = -0.1 is outside the allowed range \[0, 1e\+06\]"),
-        ({"load": 1e3, "friction": 0.5, "speed": 0.0}, r"speed = 0 is outside the allowed range \]0, inf\["),
+        ({"load": 1e3, "friction": 0.5, "speed": -1.0}, r"speed = -1 is outside the allowed range \[0, inf\["),
         ({"load": -1.0, "friction": 0.5}, r"load = -1 is outside the allowed range \[0, inf\["),
         ({"load": 1e9}, r"load = 1e\+09: .*y = \[-0.0223607, 0.0223607\] m"),
     ],
@@ -223,7 +223,7 @@ def test_arguments_of_another_type_are_named(arguments, message, way):
         ({"n_samples": 2}, r"n_samples = 2 is not an integer in the allowed range \[3, inf\["),
         ({"n_samples": 3.7}, r"n_samples = 3.7 is not an integer"),
         ({"friction": "dry"}, "friction = 'dry' is not a number"),
-        ({"speed": -1.0}, r"speed = -1 is outside the allowed range \]0, inf\["),
+        ({"speed": -1.0}, r"speed = -1 is outside the allowed range \[0, inf\["),
         ({"tangential": "polach", "conformal": True}, "conformal: tangential = 'polach' is only for a plane contact"),
     ],
 )

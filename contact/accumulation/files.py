@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from dataclasses import asdict
 from importlib.metadata import version
 from os import PathLike
 from typing import Any
+
+import numpy as np
 
 from contact.accumulation.histogram import MAXIMA, SUMS, Histogram
 from contact.damage import ArchardMap, Burstow, DamageParameters, PearceSherratt, Usfd
@@ -14,7 +17,7 @@ from contact.errors import ContactError
 from contact.geometry.profile import Profile
 from contact.material import Material
 
-FORMAT = "wheelrail-contact damage histogram 1"
+FORMAT = "wheelrail-contact damage histogram 2"
 
 
 def save(histogram: Histogram, path: str | PathLike[str]) -> None:
@@ -56,7 +59,22 @@ def to_xarray(histogram: Histogram) -> Any:
         "materials": json.dumps(sorted((asdict(material) for material in h.materials), key=str)),
         "parameters": json.dumps(asdict(h.parameters)),
     }
-    return _xarray().Dataset(variables | points, coordinates, attributes)
+    made = _xarray().Dataset(variables | points, coordinates, attributes)
+    made.attrs["checksum"] = _checksum(made)
+    return made
+
+
+def _checksum(stored: Any) -> str:
+    """Return the SHA-256 of all numbers and attributes of a dataset, as text."""
+    found = hashlib.sha256()
+    for name in sorted(map(str, stored.variables)):
+        array = np.ascontiguousarray(stored.variables[name].values, dtype="<f8")
+        found.update(f"{name} {array.shape}".encode() + array.tobytes())
+    for name in sorted(map(str, stored.attrs)):
+        if name != "checksum":
+            value = stored.attrs[name]
+            found.update(f"{name} {value if isinstance(value, str) else float(value)!r}".encode())
+    return found.hexdigest()
 
 
 def load(path: str | PathLike[str]) -> Histogram:
@@ -65,13 +83,19 @@ def load(path: str | PathLike[str]) -> Histogram:
     Raises
     ------
     ContactError
-        If the file contains something else.
+        If the file contains something else or is damaged.
     ImportError
         If xarray is not installed.
     OSError
         If the file does not exist.
     """
-    stored = _xarray().load_dataset(path, engine="scipy")
+    xarray = _xarray()
+    with open(path, "rb"):
+        pass  # a file that does not exist is told from a damaged one
+    try:
+        stored = xarray.load_dataset(path, engine="scipy")
+    except Exception as error:  # noqa: BLE001 - a damaged header leads scipy to any error
+        raise ContactError(f"path = {str(path)!r} is not a {FORMAT}, or it is damaged: {error}") from None
     if stored.attrs.get("format") != FORMAT:
         raise ContactError(f"path = {str(path)!r} is not a {FORMAT}")
     return from_xarray(stored)
@@ -83,11 +107,17 @@ def from_xarray(stored: Any) -> Histogram:
     Raises
     ------
     ContactError
-        If the dataset contains something else.
+        If the dataset contains something else, or has been changed since `to_xarray`.
     """
     given = stored.attrs
     if given.get("format") != FORMAT:
         raise ContactError(f"format = {given.get('format')!r}: the dataset is not a {FORMAT}")
+    try:
+        checksum = _checksum(stored)
+    except (TypeError, ValueError) as error:
+        raise ContactError(f"the dataset is damaged: {error}") from None
+    if checksum != given.get("checksum"):
+        raise ContactError("the dataset is damaged, or was changed: its checksum is not that of its content")
     constants = json.loads(given["parameters"])
     for name, model in _MODELS.items():
         constants[name] = model(**constants[name])

@@ -46,7 +46,10 @@ def read(path: Path, defaults: Mapping[str, Any]) -> list[Case]:
         common, cases = reader(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise ContactError(f"{path} cannot be read: {error.strerror}") from None
-    except ValueError as error:  # includes the errors of tomllib and json, and bytes that are not UTF-8
+    except (
+        ValueError,
+        RecursionError,
+    ) as error:  # includes the errors of tomllib and json, and bytes that are not UTF-8
         raise ContactError(f"{path} cannot be read: {error}") from None
     if not cases:
         raise ContactError(f"{path} holds no case")

@@ -66,10 +66,10 @@ class DamageParameters:
         Raises
         ------
         ContactError
-            If wheel radius or speed is not positive.
+            If the wheel radius is not positive or the speed is negative.
         """
         made = np.zeros(1, DAMAGE_PARAMETERS)[0]
-        made.speed = require_number("speed", speed, 0.0, open_minimum=True)
+        made.speed = require_number("speed", speed, 0.0)
         made.wheel_radius = require_number("wheel_radius", wheel_radius, 0.0, open_minimum=True)
         made.hardness, made.shear_yield = material.hardness, material.shear_yield
         made.with_spin, made.wear_law = self.with_spin, WEAR_LAWS.index(self.wear_law)

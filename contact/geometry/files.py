@@ -93,6 +93,8 @@ def read(
         for name, value in (("kind", kind), ("unit", unit), ("side", side)):
             if value is None:
                 raise ContactError(f"{name} = None: {path.name!r} does not say its {name}; give it")
+    if path.exists() and not path.is_file():  # reading a named pipe would wait for ever
+        raise ContactError(f"path = {str(path)!r} is not a regular file")
     try:
         lines = path.read_text(encoding="latin-1").splitlines()
     except OSError as error:

@@ -29,7 +29,7 @@ class Pose:
 
 @dataclass(frozen=True, slots=True)
 class Velocity:
-    """Velocity of the wheelset: forward > 0, y, z [m/s]; rates of roll, yaw and spin [rad/s].
+    """Velocity of the wheelset: forward ≥ 0, y, z [m/s]; rates of roll, yaw and spin [rad/s].
 
     Spin is the rotation about the axle. None means free rolling at the nominal radius, -forward/nominal_radius.
     """
@@ -42,7 +42,7 @@ class Velocity:
     spin: float | None = None
 
     def __post_init__(self) -> None:
-        require_number("velocity.forward", self.forward, 0.0, open_minimum=True)
+        require_number("velocity.forward", self.forward, 0.0)
         for name in ("y", "z", "roll", "yaw"):
             require_number(f"velocity.{name}", getattr(self, name))
         if self.spin is not None:

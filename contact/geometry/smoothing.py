@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.errors import require_number
+from contact.errors import ContactError, require_number
 
 Array = NDArray[np.float64]
 
@@ -31,7 +31,7 @@ def smoothed(y: Array, z: Array, tolerance: float) -> tuple[Array, Array, Array]
     Raises
     ------
     ContactError
-        If the tolerance is outside its range.
+        If the tolerance is outside its range, or no spline can be laid through the points.
     ImportError
         If scipy is not installed.
     """
@@ -41,6 +41,9 @@ def smoothed(y: Array, z: Array, tolerance: float) -> tuple[Array, Array, Array]
     except ImportError as missing:
         raise ImportError("smoothing needs scipy: pip install 'wheelrail-contact[profiles]'") from missing
     u = np.concatenate(([0.0], np.cumsum(np.hypot(np.diff(y), np.diff(z)))))
-    spline, _ = splprep([y, z], u=u, s=y.size * tolerance**2, k=3)
+    try:
+        spline, _ = splprep([y, z], u=u, s=y.size * tolerance**2, k=3)
+    except (TypeError, ValueError) as error:
+        raise ContactError(f"smoothing = {tolerance:g}: no spline was found through these points: {error}") from None
     (y, z), (dy, dz) = splev(u, spline), splev(u, spline, der=1)
     return y, z, np.unwrap(np.arctan2(dz, dy))

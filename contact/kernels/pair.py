@@ -45,6 +45,10 @@ def _report(patch, case, result, by_y, by_x, contact):
     contact.area, contact.pmax = share * result.area, result.pmax
     contact.longitudinal, contact.lateral = case.vx, case.vy
     contact.spin, contact.approach, contact.gap_error = case.phi, result.approach, result.gap_error
+    contact.rail_y, contact.rail_z = patch.rail_y, patch.rail_z
+    contact.wheel_y, contact.wheel_z = patch.wheel_y, patch.wheel_z
+    creep = math.sqrt(result.Fx**2 + (result.Fy - result.pressure_y) ** 2)
+    contact.used_friction = creep / result.N if result.N > 0.0 else 0.0
     contact.status = result.status
 
 
@@ -65,6 +69,16 @@ def _add_wrench(contact, y_centre, z_centre, total):
     total.Mx += y * z_force - z * y_force + contact.Mx
     total.My += z * fx - x * z_force + my * c - mz * s
     total.Mz += x * y_force - y * fx + my * s + mz * c
+    total.N += n
+    total.used_friction += contact.used_friction * n
+
+
+@kernel
+def _compare_forces(total):
+    """Set what compares the summed forces on the right side: Q, Y, their ratio, and the used friction."""
+    total.Q, total.Y = -total.Fz, -total.Fy
+    total.Y_over_Q = total.Y / total.Q if total.Q > 0.0 else 0.0
+    total.used_friction = total.used_friction / total.N if total.N > 0.0 else 0.0
 
 
 @kernel
@@ -108,7 +122,8 @@ def _clear_contact(contact):
     contact.x, contact.y, contact.z, contact.angle = 0.0, 0.0, 0.0, 0.0
     contact.area, contact.pmax = 0.0, 0.0
     contact.longitudinal, contact.lateral, contact.spin, contact.approach = 0.0, 0.0, 0.0, 0.0
-    contact.gap_error, contact.status = 0.0, 0
+    contact.rail_y, contact.rail_z, contact.wheel_y, contact.wheel_z = 0.0, 0.0, 0.0, 0.0
+    contact.used_friction, contact.gap_error, contact.status = 0.0, 0.0, 0
 
 
 @kernel
@@ -117,6 +132,7 @@ def _clear_total(total):
     total.Fx, total.Fy, total.Fz, total.Mx, total.My, total.Mz, total.z = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     total.n_patches, total.status = 0, Status.NO_CONTACT
     total.pmax, total.area, total.slip_area, total.power, total.gap_error = 0.0, 0.0, 0.0, 0.0, 0.0
+    total.N, total.Q, total.Y, total.Y_over_Q, total.used_friction = 0.0, 0.0, 0.0, 0.0, 0.0
     clear_damage(total)
 
 
@@ -211,6 +227,7 @@ def _solve_at(mode, amount, given, z, enters, bench):
             if enters and bench.ledger.bins.shape[2] > 0:
                 enter(patch, n_strips, damage, bench)
     total.z, total.n_patches = motion.z, n
+    _compare_forces(total)
     _mirror(motion.mirror, n, bench.contacts, total)
     return n
 

@@ -17,6 +17,9 @@ MAX_LOBES = 16
 #: Range of creepages [-] and spin [1/m]: slip beyond any use, and far from where squares overflow.
 LARGEST_CREEPAGE = 1e6
 
+#: Least speed to which creepages of a pair refer [m/s]. A wheelset at standstill has creepages, and those without motion are 0.
+SLOWEST = 1e-3
+
 #: Record → member → meaning. `fmu_src.native.records` makes the C header from it.
 MEANING: dict[str, dict[str, str]] = {}
 
@@ -205,6 +208,11 @@ CONTACT = _record(
     lateral         [-]
     spin            [1/m]
     approach        [m]
+    rail_y          reference point in the rail's profile, right side [m]
+    rail_z          [m]
+    wheel_y         the wheel's point in its profile, right side [m]
+    wheel_z         [m]
+    used_friction   creep force over normal force [-]
     gap_error       [-]
     status:int      Status
     """,
@@ -245,6 +253,11 @@ TOTAL = _record(
     slip_area       [m2]
     power           dissipated energy per metre rolled [N]
     gap_error       greatest of the patches [-]
+    N               sum of the normal forces [N]
+    Q               vertical force of the wheel on the rail, positive down [N]
+    Y               lateral force of the wheel on the rail, positive outwards [N]
+    Y_over_Q        [-]; 0 without vertical force
+    used_friction   sum of the creep forces over that of the normal forces [-]
     """
     + _DAMAGE,
 )

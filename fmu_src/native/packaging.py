@@ -15,16 +15,17 @@ from tempfile import TemporaryDirectory
 import fmpy
 
 import contact
-import fmu_src
 from fmu_src import archive
 from fmu_src.catalogue import Model
 from fmu_src.description import model_description
 from fmu_src.description_fmi3 import model_description as description_fmi3
-from fmu_src.documentation import markdown
+from fmu_src.documentation import markdown, page
+from fmu_src.icon import png
 from fmu_src.native import source
 from fmu_src.native.emit import OWN_LIBM, TRIPLES, objects
 from fmu_src.native.libm import compile_libm
 from fmu_src.native.licences import licences
+from fmu_src.terminals import terminals
 from models import wheelset
 
 _COMMON = {
@@ -66,6 +67,28 @@ FLAGS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-Wall",
 _LINKED_AS = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib"}
 _FMI3 = {"linux64": "x86_64-linux", "win64": "x86_64-windows", "darwin64": "x86_64-darwin"}
 _ZIG = {"linux64": "x86_64-linux-gnu.2.17", "win64": "x86_64-windows-gnu", "darwin64": "x86_64-macos.11.0"}
+#: Folder of sources of the kernels → names of folders and modules in it of which kernels are not made.
+_SOURCES: dict[Path, set[str]] = {
+    Path(contact.__file__).parent: {"cli", "plot", "study", "halfspace"},
+    Path(__file__).parents[1]: {
+        *("python", "archive", "build", "catalogue", "command", "description", "description_fmi3", "documentation"),
+        *(
+            "icon",
+            "lint",
+            "place",
+            "profiles",
+            "ssp",
+            "terminals",
+            "units",
+            "packaging",
+            "source",
+            "licences",
+            "libm",
+            "records",
+        ),
+    },
+    Path(wheelset.__file__).parent: set(),
+}
 #: Section of the documentation in an FMU.
 _TRIED = """
 The libraries are for 64-bit Linux (glibc 2.17 or newer), Windows and macOS (11 or newer, Intel). They need only the C library
@@ -86,7 +109,7 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -
     say : callable
         Called with a message on progress, since the first build takes minutes.
     """
-    component = model.module("native").component(**model.options)
+    component = model.module("native").component(**model.all_options)
     table = component.table
     objects_of = kernels(model, cache, say)
     sources = [*chain.from_iterable(objects_of.values()), *sorted(WRAPPER.iterdir())]
@@ -99,7 +122,14 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -
             (f"documentation/{table.name}.md", (markdown(table) + _TRIED).encode()),
             *((f"resources/{resource}", content) for resource, content in model.resources.items()),
             *((f"documentation/licenses/{name}", text.encode()) for name, text in licences(HEADERS)),
+            ("documentation/index.html", page(table).encode()),
         ]
+        of_version = {
+            folder: [("model.png", png(table.name))],
+            folder / "fmi3": [("terminalsAndIcons/icon.png", png(table.name))],
+        }
+        if found := terminals(table):
+            of_version[folder / "fmi3"].append(("terminalsAndIcons/terminalsAndIcons.xml", found.encode()))
         libraries = {}
         for platform, parts in objects_of.items():
             say(f"linking for {platform}")
@@ -110,6 +140,7 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -
                 [
                     ("modelDescription.xml", description.encode()),
                     *documents,
+                    *of_version[where],
                     *((f"binaries/{names[p]}/{path.name}", path.read_bytes()) for p, path in libraries.items()),
                 ],
             )
@@ -162,8 +193,7 @@ def kernels(model: Model, cache: Path, say: Callable[[str], None]) -> dict[str, 
 def compile_kernels(chosen: Sequence[Model], cache: Path, say: Callable[[str], None]) -> None:
     """Compile the kernels that are not in the cache, in one process, where the models share most of the work."""
     words: list[str | Path] = []
-    for model in chosen:
-        folder = _kept(model, cache)
+    for folder, model in {_kept(model, cache): model for model in chosen}.items():
         if not all(path.exists() for platform in TRIPLES for path in objects(folder, platform)):
             folder.mkdir(parents=True, exist_ok=True)
             words += [model.name, json.dumps(dict(model.options)), folder]
@@ -176,7 +206,8 @@ def _kept(model: Model, cache: Path) -> Path:
     """Return the cache folder of a model's kernels. Its name is a hash of everything that they are made from."""
     options = json.dumps(dict(model.options))
     fingerprint = hashlib.sha256(f"{model.name} {options} {version('numba')} {version('llvmlite')}".encode())
-    for package in (Path(contact.__file__), Path(fmu_src.__file__), Path(wheelset.__file__).parent):
-        for path in sorted(package.parent.rglob("*.py")):
-            fingerprint.update(path.read_bytes())
+    for package, others in _SOURCES.items():
+        for path in sorted(package.rglob("*.py")):
+            if not set(path.relative_to(package).with_suffix("").parts) & others:
+                fingerprint.update(path.read_bytes())
     return cache / fingerprint.hexdigest()[:16]

@@ -13,6 +13,7 @@ from contact.kernels.kalker import N_TABLE, fill_table
 from contact.kernels.normal import influence
 from contact.kernels.normal.between_panels import fill_probes
 from contact.kernels.normal.descent import fill_descent
+from contact.kernels.records import MAX_PATCHES
 from contact.kernels.tangential.table import SHAPE as CREEP
 from fmu_src.native.memory import compiled
 
@@ -65,6 +66,13 @@ def lay_out(work, end, kept, size, centre, plane, creep):
         carray(creep, CREEP),
     )
     return Workspace(families.ANY, rule, tables, space, strips, fields), end
+
+
+@compiled
+def forget_forged(kept):
+    """Forget a warm start that says more panels than there can be, which a host can restore (FMU states)."""
+    if kept.size > 0 and not 0.0 <= kept[0] <= MAX_PATCHES:
+        kept[0] = 0.0
 
 
 @compiled

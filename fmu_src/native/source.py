@@ -49,6 +49,8 @@ def header(component: Component, guid: str) -> str:
 #define N_STATES {len(table.states)}
 #define N_MESSAGES {int(max([0, *component.warnings, *component.failures]))}
 #define N_TOTALS {len(component.totals)}
+#define N_CHOICES {sum(row.is_given for row in table.twins)}
+#define N_MIRRORS {sum(not row.is_given for row in table.twins)}
 #define N_FIELDS {len(table.fields)}
 #define N_RESOURCES {len(component.resources)}
 #define FIELD_SIZE(values) {_field_size(table)}
@@ -63,8 +65,9 @@ def body(component: Component) -> str:
     """Return model.c: the table with start values and ranges, the continuous states, the messages and the totals."""
     table = component.table
     rows = [_variable(scalar, first, component) for row in table.rows for first, scalar in _marked(row.scalars())]
-    rows += [f"{{{_string(row.name)}, {row.kind.name}, FIELD, 0, false, false, 0.0, 0.0, 0.0}}" for row in table.fields]
-    rows += ['{"time", REAL, TIME, 1, false, false, 0.0, 0.0, 0.0}']
+    nothing = "false, false, 0.0, 0.0, 0.0, {{0, 0u}}"
+    rows += [f"{{{_string(row.name)}, {row.kind.name}, FIELD, 0, {nothing}}}" for row in table.fields]
+    rows += [f'{{"time", REAL, TIME, 1, {nothing}}}']
     listed = "\n".join(f"    {row}," for row in rows)
     states = ", ".join(
         f"{{{c_name(state.name)}, {c_name(derivative.name)}, {_number(state.nominal or 1.0)}}}"
@@ -76,6 +79,10 @@ def body(component: Component) -> str:
     sums = ", ".join(
         f"{{{c_name(total)}, {c_name(rates[0])}, {c_name(rates[1]) if len(rates) > 1 else 'ALONE'}}}"
         for total, rates in component.totals.items()
+    )
+    choices, mirrors = (
+        ", ".join(f"{{{c_name(row.name)}, {c_name(row.twin_of)}}}" for row in table.twins if row.is_given is given)
+        for given in (True, False)
     )
     files = ", ".join(
         f"{{{_string(name)}, {_string(magic.rstrip(bytes(1)).decode())}}}" for name, magic in component.resources
@@ -93,6 +100,8 @@ const Variable variables[N_VALUES + N_ACCUMULATED + N_FIELDS + 1] = {{
 const Continuous states[N_STATES] = {{{states}}};
 const Message messages[N_MESSAGES + 1] = {{{messages}}};
 const Total totals[N_TOTALS] = {{{sums}}};
+const Twin choices[N_CHOICES] = {{{choices}}};
+const Twin mirrors[N_MIRRORS] = {{{mirrors}}};
 const Resource resources[N_RESOURCES] = {{{files}}};
 """
 
@@ -113,7 +122,15 @@ def _variable(scalar: Scalar, first: bool, component: Component) -> str:
     size = row.size if first else 0
     flags = f"{str(row.name in component.lazy).lower()}, {str(row.open_minimum).lower()}"
     numbers = ", ".join(_number(x) for x in (scalar.first, scalar.minimum, scalar.maximum))
-    return f"{{{_string(scalar.name)}, {kind}, {_role(row, component)}, {size}, {flags}, {numbers}}}"
+    used = ", ".join(_use(component.table, name, items) for name, items in row.used.items()) or "{0, 0u}"
+    return f"{{{_string(scalar.name)}, {kind}, {_role(row, component)}, {size}, {flags}, {numbers}, {{{used}}}}}"
+
+
+def _use(table: Table, name: str, items: tuple[str, ...]) -> str:
+    """Return the initialiser of a condition: the enumeration, and a bit for each of its items with which a row is used."""
+    enumeration = table.row[name].enumeration
+    assert enumeration is not None
+    return f"{{{c_name(name)}, {sum(1 << enumeration.number(item) for item in items)}u}}"
 
 
 def _field_size(table: Table) -> str:
@@ -128,6 +145,8 @@ def _role(row: Variable, component: Component) -> str:
         return "STATE"
     if row.name in component.accumulated:
         return "ACCUMULATED"
+    if row.causality is Causality.LOCAL:
+        return "OUTPUT"
     return "TOTAL" if row.name in component.totals else row.causality.name
 
 

@@ -27,13 +27,14 @@ from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
 from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
 from fmu_src.native.memory import compiled
-from fmu_src.native.solver import choose, data, fill, lay_out, size_of
+from fmu_src.native.solver import choose, data, fill, forget_forged, lay_out, size_of
 from fmu_src.native.wires import MATERIAL, case_reader, writer
-from fmu_src.tables.solver import DAMAGE_OUTPUTS
+from fmu_src.tables.solver import DAMAGE_OUTPUTS, SURFACE
 from fmu_src.tables.wheel_rail_contact import FLATTEST, GEOMETRY_KIND, LOAD_KIND, table
 from fmu_src.variables import Table, identifier
 
 _CURVATURES, _NORMAL_FORCE = GEOMETRY_KIND.number("Curvatures"), LOAD_KIND.number("NormalForce")
+_CONFORMAL = SURFACE.number("Conformal")
 _DAMAGE_PARAMETERS = np.array([DamageParameters().record(contact.STEEL, 1.0, 1.0)], DAMAGE_PARAMETERS)
 #: Variables → members of CASE.
 _CASE_INPUTS = {
@@ -99,9 +100,9 @@ def _element(strips, fields, row, i, j):
     return fields[row, i, j]
 
 
-def component(points: int) -> Component:
-    """Return the FMU for separations of `points` samples."""
-    interface = table(points)
+def component(points: int, elliptic: bool = False) -> Component:
+    """Return the FMU for separations of `points` samples, or the one that shows only constant curvatures."""
+    interface = table(points, elliptic)
     return Component(
         table=interface,
         entries=lambda: _entries(interface),
@@ -173,20 +174,22 @@ def _poser(table: Table) -> Callable[..., Any]:
         choose(int(v[at.method_normal]), int(v[at.method_tangential]), case)
         by_load = v[at.load_kind] == _NORMAL_FORCE
         case.load_kind = LoadKind.LOAD if by_load else LoadKind.APPROACH
-        case.amount = v[at.load_normal_force] if by_load else v[at.load_approach]
+        case.amount = max(v[at.load_normal_force], 0.0) if by_load else v[at.load_approach]
         curved = v[at.geometry_kind] == _CURVATURES
+        conformal = not curved and v[at.geometry_surface] == _CONFORMAL
         n = HERTZIAN_POINTS if curved else points
+        if not conformal:
+            case.conformal, case.rolling = 0, 0.0
         if curved:
-            case.rolling = 0.0
-            fill_hertzian(v[at.geometry_B0], sep.y[:n], sep.g[:n])
+            fill_hertzian(max(v[at.geometry_B0], FLATTEST), sep.y[:n], sep.g[:n])
         for i in range(n):
             sep.x_c[i] = 0.0
             if curved:
-                sep.A[i], sep.tilt[i] = v[at.geometry_A0], 0.0
+                sep.A[i], sep.tilt[i] = max(v[at.geometry_A0], FLATTEST), 0.0
             else:
                 sep.y[i] = v[at.geometry_y0] + v[at.geometry_dy] * i
                 sep.g[i], sep.A[i] = v[at.geometry_g + i], max(v[at.geometry_A + i], FLATTEST)
-                sep.tilt[i] = v[at.geometry_tilt + i]
+                sep.tilt[i] = v[at.geometry_tilt + i] if conformal else 0.0
         return n
 
     return pose
@@ -261,6 +264,7 @@ def _move(case, j, by):
 @compiled
 def _solve(n, a):
     """Solve the case of `a` with its first `n` samples."""
+    forget_forged(a.own.space.memory)
     a.count[0] = solve_case(_first(a.samples, n), a.case, a.own, a.result)
 
 
@@ -268,7 +272,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
     """Return `Component.entries`. The data arguments are the arrays of `solver.data`."""
     at, n_values = _references(table), len(table.scalars)
     samples = max(table.row["geometry.g"].size, HERTZIAN_POINTS)
-    rows = np.array([_FIELDS[field.name] for field in table.fields])
+    rows = np.array([_FIELDS[field.twin_of or field.name] for field in table.fields])
     pose, report, (steps, difference) = _poser(table), _reporter(table), _differ(table)
 
     @compiled

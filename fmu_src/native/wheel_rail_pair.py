@@ -26,12 +26,12 @@ from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes, turn
 from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.pair import solve_pair
-from contact.kernels.records import CASE, DAMAGE_PARAMETERS, GIVEN, MAX_PATCHES, TOTAL
+from contact.kernels.records import CASE, DAMAGE_PARAMETERS, GIVEN, MAX_PATCHES, SLOWEST, TOTAL
 from contact.kernels.rows import N_PROFILE_ROWS, Bin
 from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
 from fmu_src.native.memory import compiled, numbers_of
-from fmu_src.native.solver import choose, data, fill, lay_out, size_of
+from fmu_src.native.solver import choose, data, fill, forget_forged, lay_out, size_of
 from fmu_src.native.wires import MATERIAL, case_reader, reader, writer
 from fmu_src.profiles import MAGIC
 from fmu_src.tables.solver import DAMAGE_OUTPUTS
@@ -52,6 +52,10 @@ _OUTPUTS = {
     "patches.area": "area",
     "status": "status",
     "gap_error": "gap_error",
+    "wheel.Q": "Q",
+    "wheel.Y": "Y",
+    "wheel.Y_over_Q": "Y_over_Q",
+    "used_friction": "used_friction",
     **DAMAGE_OUTPUTS,
 }
 _steps = compiled(creepage_steps)
@@ -78,9 +82,9 @@ _FAILURES: dict[int, str] = {
 }
 
 
-def component(inclination: float) -> Component:
-    """Return the FMU. `inclination` is the default of `rail.inclination` (tangent)."""
-    interface = table(inclination)
+def component(inclination: float, accumulation: bool = False) -> Component:
+    """Return the FMU. `inclination` is the default of `rail.inclination` (tangent); `accumulation` shows the bins."""
+    interface = table(inclination, accumulation)
     return Component(
         table=interface,
         entries=lambda: entries(interface),
@@ -227,7 +231,7 @@ def _differ(table: Table) -> Callable[..., Any]:
         load. Both sides of a difference are solved from a cold start, so that the tolerance of interacting strips, 1e-4, gives
         the same error on both sides.
         """
-        speed = v[at.velocity_x]
+        speed = max(v[at.velocity_x], SLOWEST)
         creepage = 1e-3 * _steps(
             v[at.friction_coefficient], abs(v[at.force_z]), v[at.material_shear_modulus], v[at.patches_area]
         )[0]  # fmt: skip
@@ -334,8 +338,11 @@ def entries(table: Table) -> dict[str, Callable[..., Any]]:
         read_surface(v, bench.case)
         given, _ = block.records(values, at.pose_y, 1, GIVEN)
         bench.ledger.settings[0].distance = v[at.velocity_x] * h
+        piece = memory.memory_size(size(v))
+        for k in range(MAX_PATCHES):
+            forget_forged(bench.memory[1 + k * piece : 1 + (k + 1) * piece])
         mode = _HEIGHT[int(v[at.load_kind]) - 1]
-        failure = _failure(solve_pair(mode, v[at.load_normal_force], given[0], bench))
+        failure = _failure(solve_pair(mode, max(v[at.load_normal_force], 0.0), given[0], bench))
         if failure > 0:
             return failure
         if not math.isfinite(bench.ledger.bins.sum()):

@@ -18,7 +18,9 @@ from contact import __version__
 from fmu_src import archive
 from fmu_src.catalogue import Model
 from fmu_src.description import model_description
-from fmu_src.documentation import markdown
+from fmu_src.documentation import markdown, page
+from fmu_src.icon import png
+from fmu_src.place import licence
 from fmu_src.python.slave import INTERFACES
 
 #: Packages that may hold the slave: that of an installed wheel, then that of a checkout. The build of a wheel renames the
@@ -32,16 +34,16 @@ from importlib.util import find_spec
 
 try:
     if find_spec("{packages[0]}"):
-        from {packages[0]}.{module} import {name}Slave
+        from {packages[0]}.{module} import {slave}
     else:
-        from {packages[1]}.{module} import {name}Slave
+        from {packages[1]}.{module} import {slave}
 except ImportError as error:
     raise ImportError(
         f"the FMU {name} needs the package wheelrail-contact {version} in the host's Python: {{error}}"
     ) from error
 
 
-class {name}({name}Slave):
+class {name}({slave}):
     def __init__(self, **kwargs):
         super().__init__(**{options!r}, guid="{guid}", **kwargs)
 '''
@@ -61,7 +63,8 @@ def _files(model: Model) -> Iterator[tuple[str, bytes]]:
         version=__version__,
         packages=_PACKAGES,
         module=f"python.{model.name}",
-        options=model.options,
+        slave="".join(part.capitalize() for part in model.name.split("_")) + "Slave",
+        options=model.all_options,
         guid=guid,
     ).encode()
     module = f"{name.lower()}_{hashlib.sha256(script).hexdigest()[:16]}"
@@ -75,6 +78,8 @@ def _files(model: Model) -> Iterator[tuple[str, bytes]]:
     for library in (package / "resources" / "binaries").glob("*/*"):
         yield f"binaries/{library.parent.name}/{name}{library.suffix}", library.read_bytes()
     yield f"documentation/{name}.md", markdown(model.table).encode()
-    for licensed in ("wheelrail-contact", "pythonfmu"):
-        if text := distribution(licensed).read_text("licenses/LICENSE"):
-            yield f"documentation/licenses/{licensed}.txt", text.encode()
+    yield "documentation/index.html", page(model.table).encode()
+    yield "model.png", png(name)
+    yield "documentation/licenses/wheelrail-contact.txt", licence().encode()
+    if text := distribution("pythonfmu").read_text("licenses/LICENSE"):
+        yield "documentation/licenses/pythonfmu.txt", text.encode()

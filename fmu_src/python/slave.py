@@ -51,6 +51,7 @@ class Phase(StrEnum):
     INITIALIZATION = "in initialisation"
     STEPPING = "after initialisation"
     TERMINATED = "after terminate"
+    LOST = "after a state that is not one of this FMU"
 
 
 def guarded(method: Callable[..., Any]) -> Callable[..., Any]:
@@ -107,7 +108,7 @@ class TableSlave(Fmi2Slave):
         self.table = table
         self.guid = guid
         self.phase = Phase.INSTANTIATED
-        self.stop_time = math.inf
+        self.time, self.stop_time = 0.0, math.inf
         self.values = Values(table, [s.first for s in table.scalars])
         self.solved = self.values.copy()  # values of the last step, to which the lazy rows belong
         self.lazy_is_stale = False
@@ -124,6 +125,7 @@ class TableSlave(Fmi2Slave):
             Phase.INITIALIZATION: inputs | exact,
             Phase.STEPPING: inputs,
             Phase.TERMINATED: frozenset[int](),
+            Phase.LOST: frozenset[int](),
         }
         self._readable = {kinds: frozenset(r for r, s in every if s.row.kind in kinds) for kinds in _CALLS}
         self._settable = {(p, kinds): settable[p] & self._readable[kinds] for p in Phase for kinds in _CALLS}
@@ -135,6 +137,8 @@ class TableSlave(Fmi2Slave):
         least = [np.nextafter(s.minimum, np.inf) if s.row.open_minimum else s.minimum for s in scalars]
         self._least = np.maximum(least, -sys.float_info.max)
         self._greatest = np.minimum([s.maximum for s in scalars], sys.float_info.max)
+        self._choices = [(row.name, row.twin_of) for row in table.twins if row.is_given]
+        self._mirrors = [(row.name, row.twin_of) for row in table.twins if not row.is_given]
 
     # ---------------------------------------------------------------- implemented by a model
 
@@ -163,7 +167,8 @@ class TableSlave(Fmi2Slave):
 
     @guarded
     def setup_experiment(self, start_time: float, stop_time: float | None, tolerance: float | None) -> None:
-        """Remember the stop time."""
+        """Remember start and stop time."""
+        self.time = start_time
         self.stop_time = math.inf if stop_time is None else stop_time
 
     @guarded
@@ -178,7 +183,7 @@ class TableSlave(Fmi2Slave):
         try:
             self._update(0.0)
         except ContactError:
-            self.values = self.values.updated(self.refused)  # pythonfmu cannot return an error here
+            self.values = self.values.updated(self._mirrored(self.refused))  # pythonfmu cannot return an error here
             raise
 
     @guarded
@@ -193,17 +198,22 @@ class TableSlave(Fmi2Slave):
             raise ContactError(f"doStep is not allowed {self.phase}")
         require_number("communicationStepSize", step_size, 0.0, open_minimum=True)
         # tolerance for masters that add up steps: their rounding error is less than a thousandth of a step
+        near = 1e-3 * step_size + 16.0 * sys.float_info.epsilon * abs(self.time)
+        require_number("currentCommunicationPoint", current_time, self.time - near, self.time + near)
         require_number("end of the step", current_time + step_size, maximum=self.stop_time + 1e-3 * step_size)
         self._update(step_size)
+        self.time = current_time + step_size
         return True
 
     def _update(self, step_size: float) -> None:
         """Check the ranges of the values and compute the outputs. If this fails, the outputs are unchanged."""
         self.inputs_are_new = False
-        self._check_ranges()
-        self.values = self.values.updated(self.outputs(self.values, step_size))
+        self._choose()
+        given = self._checked_values()
+        new = self._mirrored(self.outputs(given, step_size))
+        self.values = self.values.updated(new)
         if self.lazy:
-            self.solved, self.lazy_is_stale = self.values.copy(), True
+            self.solved, self.lazy_is_stale = given.updated(new), True
 
     @guarded
     def _update_at_start(self) -> None:
@@ -216,13 +226,32 @@ class TableSlave(Fmi2Slave):
         self.lazy_is_stale = False
         self.values = self.values.updated(self.on_demand(self.solved))
 
-    def _check_ranges(self) -> None:
-        """Raise ContactError for the first parameter, input or state that is not finite or outside its range."""
+    def _mirrored(self, rows: Rows) -> Rows:
+        """Return the rows with the twins of those that have one."""
+        return {**rows, **{twin: rows[of] for twin, of in self._mirrors if of in rows}}
+
+    def _choose(self) -> None:
+        """Let the choices that are not 0 be the values of their enumerations."""
+        for twin, of in self._choices:
+            if 0 < self.values[twin] <= self.table.row[twin].maximum:
+                self.values.numbers[self.table.span[of].start] = self.values[twin]
+
+    def _checked_values(self) -> Values:
+        """Return the values, with its start in place of a value that is outside its range and is not used.
+
+        Raise ContactError for the first parameter, input or state that is used and not finite or outside its range.
+        """
         numbers = np.array(self._values_checked(self.values.numbers), dtype=np.float64)
         allowed = (numbers >= self._least) & (numbers <= self._greatest)
-        if not allowed.all():
-            reference = self._checked[int(np.argmin(allowed))]
-            self.table.scalars[reference].check(self.values.numbers[reference])
+        if allowed.all():
+            return self.values
+        values = self.values.copy()
+        for k in np.flatnonzero(~allowed):
+            scalar, reference = self.table.scalars[self._checked[k]], self._checked[k]
+            if self.values.uses(scalar.row):
+                scalar.check(values.numbers[reference])
+            values.numbers[reference] = scalar.first
+        return values
 
     # ---------------------------------------------------------------- get and set
 
@@ -290,6 +319,7 @@ class TableSlave(Fmi2Slave):
         return {
             "guid": self.guid,
             "phase": self.phase,
+            "time": self.time,
             "stop_time": self.stop_time,
             "values": self.values.numbers.copy(),
             "solved": self.solved.numbers.copy(),
@@ -300,10 +330,11 @@ class TableSlave(Fmi2Slave):
 
     @guarded
     def _set_fmu_state(self, state: dict[str, Any]) -> None:
-        if state.get("guid") != self.guid:
-            raise ValueError(f"this is not a state of the FMU {self.table.name}; the call is ignored")
+        if not isinstance(state, dict) or state.get("guid") != self.guid:
+            self.phase = Phase.LOST  # pythonfmu returns OK here, so the next step must not be done
+            raise ValueError(f"this is not a state of the FMU {self.table.name}; set another one")
         self.phase = Phase(state["phase"])
-        self.stop_time = state["stop_time"]
+        self.time, self.stop_time = state["time"], state["stop_time"]
         self.values = Values(self.table, state["values"].copy())
         self.solved = Values(self.table, state["solved"].copy())
         self.lazy_is_stale = state["lazy_is_stale"]

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from contact.errors import ContactError
-from fmu_src.variables import Table
+from fmu_src.variables import Table, Variable
 
 #: Values of some rows by name: a number, or a list for an array.
 Rows = Mapping[str, float | list[float]]
@@ -29,6 +29,10 @@ class Values:
         enumeration = self.table.row[name].enumeration
         assert enumeration is not None
         return enumeration.item(self.numbers[self.table.span[name].start])
+
+    def uses(self, row: Variable) -> bool:
+        """Return whether the value of a parameter or input has any effect."""
+        return all(self.item(name) in items for name, items in row.used.items())
 
     def copy(self) -> Values:
         """Return a copy that later calls do not change."""

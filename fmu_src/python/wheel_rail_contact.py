@@ -28,8 +28,8 @@ class WheelRailContactSlave(TableSlave):
     lazy = ("creep_stiffness",)
     refused: Rows = MappingProxyType({"status": int(Status.OUT_OF_RANGE)})
 
-    def __init__(self, points: int, guid: str, **kwargs: Any) -> None:
-        super().__init__(table(points), guid, **kwargs)
+    def __init__(self, points: int, guid: str, elliptic: bool = False, **kwargs: Any) -> None:
+        super().__init__(table(points, elliptic), guid, **kwargs)
 
     def outputs(self, values: Values, step_size: float) -> Rows:
         """Solve for the present inputs, which are constant over the step."""
@@ -97,11 +97,13 @@ def _solve(values: Values, creepage: Creepage) -> Solution:
         shear_yield=values["material.shear_yield"],
         pressure_limit=values["material.pressure_limit"] or math.inf,
     )
+    fields, curved = _METHODS[values.item("method.tangential")].fields, values.item("geometry.kind") == "Curvatures"
+    conformal = not curved and values.item("geometry.surface") == "Conformal"
     load_driven = values.item("load.kind") == "NormalForce"
     return contact.solve(
-        _separation(values),
+        _separation(values, conformal),
         creepage,
-        load=values["load.normal_force"] if load_driven else None,
+        load=max(values["load.normal_force"], 0.0) if load_driven else None,
         approach=None if load_driven else values["load.approach"],
         friction=friction(values),
         material=material,
@@ -110,17 +112,19 @@ def _solve(values: Values, creepage: Creepage) -> Solution:
         tangential=values.item("method.tangential"),
         n_strips=values["resolution.n_strips"],
         n_elements=values["resolution.n_elements"],
-        conformal=values.item("geometry.surface") == "Conformal" and _METHODS[values.item("method.tangential")].fields,
+        conformal=conformal and fields,
         throw=False,
     )
 
 
-def _separation(values: Values) -> Separation:
+def _separation(values: Values, conformal: bool) -> Separation:
     if values.item("geometry.kind") == "Curvatures":
-        return Separation.hertzian(values["geometry.A0"], values["geometry.B0"])
+        return Separation.hertzian(*(max(values[f"geometry.{name}"], FLATTEST) for name in ("A0", "B0")))
     g = values["geometry.g"]
     A = np.maximum(values["geometry.A"], FLATTEST)
     y = values["geometry.y0"] + values["geometry.dy"] * np.arange(len(g))
+    if not conformal:
+        return Separation(y, g, A)
     return Separation(y, g, A, tilt=values["geometry.tilt"], rolling=values["geometry.rolling"])
 
 

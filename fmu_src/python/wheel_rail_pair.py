@@ -33,8 +33,8 @@ class WheelRailPairSlave(TableSlave):
 
     refused: Rows = MappingProxyType({"status": int(Status.OUT_OF_RANGE)})
 
-    def __init__(self, inclination: float, guid: str, **kwargs: Any) -> None:
-        super().__init__(table(inclination), guid, **kwargs)
+    def __init__(self, inclination: float, guid: str, accumulation: bool = False, **kwargs: Any) -> None:
+        super().__init__(table(inclination, accumulation), guid, **kwargs)
         self.profiles = [profiles.read(Path(self.resources), kind) for kind in ("wheel", "rail")]
         self.parameters = [row.name for row in self.table.rows if row.causality is Causality.PARAMETER]
         self.pair: WheelRailPair | None = None
@@ -72,6 +72,10 @@ class WheelRailPairSlave(TableSlave):
                 "power.friction": power,
                 "status": int(solution.status),
                 "gap_error": solution.gap_error,
+                "wheel.Q": solution.Q,
+                "wheel.Y": solution.Y,
+                "wheel.Y_over_Q": solution.Y_over_Q,
+                "used_friction": solution.used_friction,
                 "total.energy": values["total.energy"] + power * step_size,
                 "total.worn_volume": values["total.worn_volume"] + worn * step_size,
                 "total.distance": values["total.distance"] + values["velocity.x"] * step_size,
@@ -143,7 +147,7 @@ class WheelRailPairSlave(TableSlave):
 def _carried(values: Values) -> dict[str, float]:
     """Return the argument of `WheelRailPair.solve` for the load, none if the height is given."""
     name = {"NormalForce": "load", "VerticalForce": "vertical"}.get(values.item("load.kind"))
-    return {} if name is None else {name: values["load.normal_force"]}
+    return {} if name is None else {name: max(values["load.normal_force"], 0.0)}
 
 
 def _accumulation(values: Values, wheel: Profile, rail: Profile) -> dict[str, Any]:
@@ -177,4 +181,7 @@ def _patch(c: Contact) -> list[float]:
         *(c.angle, c.area, c.max_pressure),
         *(creepage.longitudinal, creepage.lateral, creepage.spin),
         c.approach,
+        *c.on_rail,
+        *c.on_wheel,
+        c.used_friction,
     ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from functools import cache
 from typing import Unpack
 
@@ -38,33 +39,48 @@ _NORMAL_PROBLEM = (
     "method.normal",
     "material.shear_modulus",
     "material.poisson_ratio",
+    "material.pressure_limit",
     "resolution.n_strips",
 )
-#: Least half curvature in the rolling direction [1/m]. Masters that start every connector at 0 give 0 (and no load).
+#: Least half curvature [1/m]. Masters that start every connector at 0 give 0 (and no load).
 FLATTEST = 1e-6
+_SAMPLES = {"geometry.kind": ("Separation",)}
+_CONFORMAL = {**_SAMPLES, "geometry.surface": ("Conformal",)}
+_CURVATURES = {"geometry.kind": ("Curvatures",)}
 _HALF_WIDTH = 0.02  # half width of the default separation [m]
 
 
+#: Rows that `EllipticContact` does not show.
+_OF_SAMPLES = frozenset(f"geometry.{name}" for name in ("kind", "y0", "dy", "surface", "g", "A", "tilt", "rolling"))
+
+
 @cache
-def table(points: int = 41) -> Table:
-    """Return the table for a separation of `points` samples across the track (at least 3)."""
+def table(points: int = 41, elliptic: bool = False) -> Table:
+    """Return the table for a separation of `points` samples across the track (at least 3).
+
+    With `elliptic` it is that of `EllipticContact`: the same model, with constant curvatures only and few inputs.
+    """
     if points < 3:
         raise ValueError(f"points = {points}: a separation has at least 3 points")
     rows = [*_parameters(points), *_inputs(points), *_outputs()]
+    if elliptic:
+        rows = [replace(row, start="Curvatures") if row.name == "geometry.kind" else row for row in rows]
     return Table(
-        "WheelRailContact",
-        "Elastic wheel-rail contact: non-elliptic patch and pressure, creep forces, spin moment and damage. "
+        "EllipticContact" if elliptic else "WheelRailContact",
+        f"Elastic wheel-rail contact: {'elliptic' if elliptic else 'non-elliptic'} patch and pressure, creep forces, spin "
+        "moment and damage. "
         "Forces act on the wheel. Frame: x in the rolling direction, y lateral, z from wheel into rail. As co-simulation has "
         "no feedthrough, the outputs after a step belong to the inputs before it: one communication step late.",
         rows,
         step_size=1e-3,
         fields=list(_fields()),
+        hidden=_OF_SAMPLES if elliptic else frozenset(),
     )
 
 
 def _parameters(points: int) -> Iterable[Variable]:
     yield parameter("geometry.kind", "How the geometry is given", enumeration=GEOMETRY_KIND, start="Separation")
-    yield parameter("geometry.y0", "Lateral position of geometry.g[1]", unit="m", start=-_HALF_WIDTH)
+    yield parameter("geometry.y0", "Lateral position of geometry.g[1]", unit="m", start=-_HALF_WIDTH, used=_SAMPLES)
     yield parameter(
         "geometry.dy",
         "Lateral distance between samples",
@@ -72,12 +88,14 @@ def _parameters(points: int) -> Iterable[Variable]:
         start=2.0 * _HALF_WIDTH / (points - 1),
         minimum=0.0,
         open_minimum=True,
+        used=_SAMPLES,
     )
     yield parameter(
         "geometry.surface",
-        "Surface of the patch; Conformal uses geometry.tilt and geometry.rolling and excludes geometry.kind = Curvatures",
+        "Surface of the patch; Conformal uses geometry.tilt and geometry.rolling; not used when geometry.kind = Curvatures",
         enumeration=solver.SURFACE,
         start="Plane",
+        used=_SAMPLES,
     )
     yield parameter("load.kind", "How the load is given", enumeration=LOAD_KIND, start="NormalForce")
     yield from solver.parameters()
@@ -100,6 +118,7 @@ def _inputs(points: int) -> Iterable[Variable]:
         start=tuple(y * y for y in offsets),
         shape=(points,),
         nominal=1e-4,
+        used=_SAMPLES,
     )
     yield signal(
         "geometry.A",
@@ -108,6 +127,7 @@ def _inputs(points: int) -> Iterable[Variable]:
         start=0.5 / 0.46,
         minimum=0.0,
         shape=(points,),
+        used=_SAMPLES,
     )
     yield signal(
         "geometry.tilt",
@@ -117,6 +137,7 @@ def _inputs(points: int) -> Iterable[Variable]:
         maximum=LARGEST_TILT,
         shape=(points,),
         nominal=0.1,
+        used=_CONFORMAL,
     )
     yield signal(
         "geometry.rolling",
@@ -125,15 +146,16 @@ def _inputs(points: int) -> Iterable[Variable]:
         start=1.0 / 0.46,
         minimum=-LARGEST_ROLLING,
         maximum=LARGEST_ROLLING,
+        used=_CONFORMAL,
     )
     for letter, axis, start in (("A", "in the rolling direction", 0.5 / 0.46), ("B", "across", 1.0)):
         yield signal(
             f"geometry.{letter}0",
-            f"Half curvature {axis}, used when geometry.kind = Curvatures",
+            f"Half curvature {axis}, used when geometry.kind = Curvatures; less than {FLATTEST:g} counts as {FLATTEST:g}",
             unit="1/m",
             start=start,
             minimum=0.0,
-            open_minimum=True,
+            used=_CURVATURES,
         )
     for name, description, unit, nominal in (
         ("longitudinal", "Longitudinal creepage", "1", 1e-3),
@@ -151,11 +173,12 @@ def _inputs(points: int) -> Iterable[Variable]:
         )
     yield signal(
         "load.normal_force",
-        "Normal force, used when load.kind = NormalForce",
+        f"Normal force, used when load.kind = NormalForce; {solver.NO_LOAD}",
         unit="N",
         start=80e3,
-        minimum=0.0,
+        minimum=solver.LEAST_LOAD,
         nominal=1e5,
+        used={"load.kind": ("NormalForce",)},
     )
     yield signal(
         "load.approach",
@@ -163,14 +186,14 @@ def _inputs(points: int) -> Iterable[Variable]:
         unit="m",
         start=8e-5,
         nominal=1e-4,
+        used={"load.kind": ("Approach",)},
     )
     yield signal(
         "speed",
-        "Rolling speed; without speed-dependent friction it scales only rates",
+        "Rolling speed; without speed-dependent friction it scales only rates; at standstill these are 0",
         unit="m/s",
         start=20.0,
         minimum=0.0,
-        open_minimum=True,
         nominal=10.0,
     )
     yield signal("friction.coefficient", "Coefficient of friction", start=0.3, minimum=0.0, maximum=friction.LARGEST)

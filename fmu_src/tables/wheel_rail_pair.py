@@ -10,6 +10,7 @@ from contact import friction
 from contact.accumulation import MAXIMA, SUMS
 from contact.geometry.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL
 from contact.geometry.wheelset import SAMPLES
+from contact.kernels.records import SLOWEST
 from fmu_src.tables import solver
 from fmu_src.variables import Enumeration, Limits, Table, Variable, output, parameter, signal
 
@@ -53,7 +54,7 @@ MOTION = (
     ("pose.z", "m", "Height of the centre, positive down, 0 with both tape circles on the plane of the rails' tops"),
     ("pose.roll", "rad", "Roll angle, positive lowers the right wheel"),
     ("pose.yaw", "rad", "Yaw angle, clockwise seen from above"),
-    ("velocity.x", "m/s", "Forward speed"),
+    ("velocity.x", "m/s", f"Forward speed; creepages below {SLOWEST:g} m/s refer to {SLOWEST:g} m/s"),
     ("velocity.y", "m/s", "Lateral velocity of the centre"),
     ("velocity.z", "m/s", "Vertical velocity of the centre"),
     ("velocity.roll", "rad/s", "Roll rate"),
@@ -70,7 +71,7 @@ _LIMITS: dict[str, Limits] = {
     "pose.roll": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE},
     "pose.yaw": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE},
     "irregularity.roll": {"minimum": -LARGEST_RAIL_ROLL, "maximum": LARGEST_RAIL_ROLL},
-    "velocity.x": {"minimum": 0.0, "open_minimum": True, "nominal": 10.0},
+    "velocity.x": {"minimum": 0.0, "nominal": 10.0},
 }
 _RADIUS, _SPEED = 0.46, 20.0
 _STARTS = {"velocity.x": _SPEED, "velocity.spin": -_SPEED / _RADIUS}
@@ -93,12 +94,28 @@ PATCH = (
     ("lateral", "1", 1e-3, "Lateral creepage, wheel minus rail"),
     ("spin", "rad/m", 0.1, "Spin creepage, wheel minus rail"),
     ("approach", "m", 1e-4, "Rigid approach from first touch, along the normal"),
+    ("rail_y", "m", 1e-2, "Contact position on the profile of the rail, lateral, positive to the field side"),
+    ("rail_z", "m", 1e-2, "Contact position on the profile of the rail, vertical, positive down"),
+    (
+        "wheel_y",
+        "m",
+        1e-2,
+        "Contact position on the profile of the wheel, lateral from the tape circle, positive to the field side",
+    ),
+    ("wheel_z", "m", 1e-2, "Contact position on the profile of the wheel, vertical, positive down"),
+    ("used_friction", "1", 0.1, "Creep force over normal force"),
 )
 
 
+_OF_ACCUMULATION = frozenset((*ACCUMULATED, *(f"accumulation.{name}" for name in ("wear_law", "first", "width"))))
+
+
 @cache
-def table(inclination: float = 1.0 / 40.0) -> Table:
-    """Return the table. `inclination` is the default of `rail.inclination` (tangent)."""
+def table(inclination: float = 1.0 / 40.0, accumulation: bool = False) -> Table:
+    """Return the table. `inclination` is the default of `rail.inclination` (tangent).
+
+    Only with `accumulation` hosts see the damage that accumulates: it has 1200 outputs.
+    """
     return Table(
         "WheelRailPair",
         "One wheel of a wheelset on one rail, with the profiles in resources: contact search, every patch, creep forces "
@@ -108,6 +125,7 @@ def table(inclination: float = 1.0 / 40.0) -> Table:
         "belong to the inputs before it: one communication step late.",
         [*_parameters(inclination), *_inputs(), *_outputs()],
         step_size=1e-3,
+        hidden=frozenset() if accumulation else _OF_ACCUMULATION,
     )
 
 
@@ -186,14 +204,17 @@ def _parameters(inclination: float) -> Iterable[Variable]:
 
 def _inputs() -> Iterable[Variable]:
     for name, unit, description in MOTION:
-        yield signal(name, description, unit=unit, start=_STARTS.get(name, 0.0), **_LIMITS.get(name, {}))
+        used = {"load.kind": ("Position",)} if name == "pose.z" else {}
+        yield signal(name, description, unit=unit, start=_STARTS.get(name, 0.0), used=used, **_LIMITS.get(name, {}))
     yield signal(
         "load.normal_force",
-        "Vertical force on the wheel; load.kind says whether friction carries a part of it; not used with Position",
+        "Vertical force on the wheel; load.kind says whether friction carries a part of it; not used with Position; "
+        + solver.NO_LOAD,
         unit="N",
         start=80e3,
-        minimum=0.0,
+        minimum=solver.LEAST_LOAD,
         nominal=1e5,
+        used={"load.kind": ("NormalForce", "VerticalForce")},
     )
     yield signal("friction.coefficient", "Coefficient of friction", start=0.3, minimum=0.0, maximum=friction.LARGEST)
 
@@ -225,6 +246,12 @@ def _outputs() -> Iterable[Variable]:
         "total.T_gamma", "Wear number times distance since start", unit="J", start=0.0, minimum=0.0, depends=()
     )
     yield solver.gap_error()
+    yield output("wheel.Q", "Vertical force of the wheel on the rail, positive down", unit="N", nominal=1e5)
+    yield output(
+        "wheel.Y", "Lateral force of the wheel on the rail, positive outwards: flange contact", unit="N", nominal=1e4
+    )
+    yield output("wheel.Y_over_Q", "wheel.Y over wheel.Q; 0 without vertical force", nominal=0.1)
+    yield output("used_friction", "Sum of the creep forces of all patches over that of the normal forces", nominal=0.1)
     yield from _accumulated()
 
 

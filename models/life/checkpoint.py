@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import os
+import struct
+import tokenize
 import zipfile
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -14,6 +17,11 @@ from numpy.typing import NDArray
 from contact.errors import ContactError
 
 _FINGERPRINT = "fingerprint"
+#: What reading a damaged archive raises.
+_DAMAGED = (
+    *(OSError, ValueError, KeyError, EOFError, NotImplementedError, RuntimeError, SyntaxError, MemoryError),
+    *(OverflowError, TypeError, zipfile.BadZipFile, struct.error, zlib.error, tokenize.TokenError),
+)
 
 
 def write(path: Path, fingerprint: str, arrays: Mapping[str, NDArray]) -> None:
@@ -45,7 +53,7 @@ def read(path: Path, fingerprint: str) -> dict[str, NDArray] | None:
         with np.load(path, allow_pickle=False) as stored:
             arrays = {name: stored[name] for name in stored.files}
         found = str(arrays.pop(_FINGERPRINT))
-    except (OSError, ValueError, KeyError, zipfile.BadZipFile) as error:
+    except _DAMAGED as error:
         raise ContactError(f"{path} is not a checkpoint: {error}; --fresh ignores it") from None
     if found != fingerprint:
         raise ContactError(f"{path} is the checkpoint of another run; --fresh ignores it, --out sets another folder")

@@ -26,7 +26,7 @@ def read_table(path: str | PathLike[str]) -> dict[str, Any]:
             return tomllib.load(file)
     except OSError as error:
         raise ContactError(f"path = {str(path)!r}: {error.strerror}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except (ValueError, RecursionError) as error:  # also numbers of thousands of digits, and nesting as deep
         raise ContactError(f"{path} is not TOML: {error}") from None
 
 

@@ -4,6 +4,7 @@ import os
 import subprocess
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from urllib.parse import unquote, urlsplit
 
 import fmpy
 import numpy as np
@@ -62,8 +63,8 @@ class Host:
         self.guid = fmpy.read_model_description(str(unzipped)).guid
         self.library = unzipped / "binaries" / platform / f"{name}.{library}"
         self.resources = resources_of(unzipped, own)
-        (model,) = (model for model in models(POINTS) if model.table.name == name)
-        (folder / "model.h").write_text(source.header(model.module("native").component(**model.options), self.guid))
+        (model,) = (model for model in models(POINTS, accumulation=True) if model.table.name == name)
+        (folder / "model.h").write_text(source.header(model.module("native").component(**model.all_options), self.guid))
         (folder / "roles.h").write_text(roles(name))
         self.program = folder / f"host{program}"
         libraries = ["-ldl", "-lpthread", "-lm"] if own == "linux64" else []
@@ -83,6 +84,18 @@ class Host:
         done = subprocess.run(
             list(map(str, words)), input=stdin, capture_output=True, text=True, timeout=3000, env=self.environment
         )
+        assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+        return done.stdout
+
+    def wrong_calls(self, folder: Path, trials: int) -> str:
+        """Call every function of both versions of FMI wrongly, each time in a process of its own. Return what was done."""
+        program = folder / "wrong"
+        flags = ["-std=gnu11", "-O1", f"-I{self.program.parent}", f"-I{HEADERS}"]
+        run(
+            *compiler("linux64"), *flags, HOST / "common.c", HOST / "wrong.c", "-o", program, "-ldl", "-lpthread", "-lm"
+        )
+        words = [program, self.library, self.guid, self.resources, unquote(urlsplit(self.resources).path), trials]
+        done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=3000)
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
         return done.stdout
 

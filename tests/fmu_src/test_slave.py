@@ -26,7 +26,7 @@ TABLE = Table(
     ],
     step_size=0.1,
 )
-MODE, X1, X2, Y, Q1, Q2, STEPS, SLOW = range(8)
+MODE, MODE_INTEGER, X1, X2, Y, Q1, Q2, STEPS, STEPS_REAL, SLOW = range(10)
 
 
 class Quotient(TableSlave):
@@ -105,7 +105,8 @@ def test_a_bad_input_discards_the_step_and_keeps_the_outputs(slave, reference, v
 
 
 @pytest.mark.parametrize(
-    ("time", "step", "name"), [(0.0, 0.0, "Size"), (0.0, -1.0, "Size"), (0.0, math.nan, "Size"), (9.95, 0.1, "end of")]
+    ("time", "step", "name"),
+    [(0.0, 0.0, "Size"), (0.0, -1.0, "Size"), (0.0, math.nan, "Size"), (0.0, 10.1, "end of"), (0.1, 0.1, "Point")],
 )
 def test_an_invalid_step_is_discarded(slave, time, step, name):
     assert slave.do_step(time, step) is False
@@ -113,7 +114,7 @@ def test_an_invalid_step_is_discarded(slave, time, step, name):
 
 
 def test_the_last_step_may_end_at_the_stop_time_but_for_rounding(slave):
-    assert slave.do_step(9.9 + 1e-12, 0.1) is True
+    assert slave.do_step(0.0, 10.0 + 1e-12) is True
 
 
 def test_a_step_before_initialisation_is_discarded():
@@ -217,12 +218,33 @@ def test_a_saved_state_does_not_change_with_the_instance(slave):
     assert slave.get_real([X1]) == [1.0]
 
 
-@pytest.mark.parametrize("state", [b"", b"nonsense", b"{}", b'{"guid": "another"}'])
+@pytest.mark.parametrize("state", [b"", b"nonsense", b"{}", b"[]", b'{"guid": "another"}'])
 def test_a_foreign_state_is_refused(slave, state):
+    """pythonfmu answers OK, so the next step is discarded. A good state heals the instance."""
     before = slave._get_fmu_state()
     slave._set_fmu_state(Quotient._fmu_state_from_bytes(state))
     assert "not a state of the FMU Quotient" in messages(slave, Fmi2Status.error)[0]
-    assert slave._get_fmu_state() == before
+    assert slave.do_step(0.0, 0.1) is False
+    assert "doStep is not allowed after a state" in messages(slave, Fmi2Status.discard)[0]
+    slave._set_fmu_state(before)
+    assert slave.do_step(0.0, 0.1) is True
+
+
+def test_a_step_that_does_not_continue_the_last_one_is_discarded(slave):
+    assert slave.do_step(0.0, 0.1) is True
+    for time in (0.0, 0.2, -0.1):
+        assert slave.do_step(time, 0.1) is False
+    assert slave.get_real([STEPS_REAL]) == [1]
+    assert slave.do_step(0.1 + 1e-12, 0.1) is True
+
+
+def test_the_choice_by_number_is_that_of_the_enumeration():
+    slave = Quotient()
+    slave.set_integer([MODE_INTEGER], [2])
+    slave.enter_initialization_mode()
+    slave.exit_initialization_mode()
+    assert messages(slave, Fmi2Status.error) == ["exit_initialization_mode: ZeroDivisionError: as asked"]
+    assert slave.get_integer([MODE, MODE_INTEGER]) == [2, 2]
 
 
 def test_another_version_of_the_package_is_refused_at_instantiation():

@@ -278,3 +278,37 @@ def test_a_vertical_force_with_friction_differs_from_the_load_of_the_normal_forc
 def test_a_vertical_force_excludes_a_load():
     with pytest.raises(ContactError, match="vertical = 1 excludes load = 2"):
         make().solve(Pose(), vertical=1, load=2)
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+@pytest.mark.parametrize("seed", range(4))
+def test_what_engineers_plot_is_that_of_forces_and_profiles(side, seed):
+    """Q is positive down and Y positive outwards, on the rail. Contact positions lie on the profiles."""
+    pair = make(side)
+    pose, velocity, rail = random_motion(seed)
+    found = pair.solve(pose, velocity, load=80e3, irregularity=rail)
+    outwards = 1.0 if side == "right" else -1.0
+    assert found.Q == -found.force[2] > 0.0
+    assert -outwards * found.force[1] == found.Y
+    assert found.Y_over_Q == found.Y / found.Q
+    creep = [math.hypot(c.Fx, c.Fy) for c in found.contacts]
+    assert found.used_friction == pytest.approx(sum(creep) / sum(c.N for c in found.contacts), rel=1e-12)
+    assert 0.0 < found.used_friction <= 0.3 * (1.0 + 1e-6)
+    for c, force in zip(found.contacts, creep, strict=True):
+        assert c.used_friction == pytest.approx(force / c.N, rel=1e-12)
+        for shape, (y, z) in ((RAIL, c.on_rail), (WHEEL, c.on_wheel)):
+            order = np.argsort(shape.y)
+            assert z == pytest.approx(np.interp(y, shape.y[order], shape.z[order]), abs=5e-6)
+
+
+def test_flange_contact_pushes_the_rail_outwards(right, left):
+    for pair, sign in ((right, 1.0), (left, -1.0)):
+        found = pair.solve(Pose(sign * 7.5e-3), Velocity(20.0), load=80e3, friction=0.0)
+        assert found.Y_over_Q > 0.1
+
+
+def test_a_wheel_at_standstill_has_no_creep(right):
+    found = right.solve(Pose(2e-3), Velocity(0.0), load=80e3)
+    assert found.status == Status.OK
+    assert found.used_friction == 0.0
+    assert all(c.creepage == contact.Creepage(0.0, 0.0, 0.0) for c in found.contacts)

@@ -138,7 +138,7 @@ def _require_wine() -> None:
 
 
 def _build(packaging: str, folder: Path) -> None:
-    command = [sys.executable, ROOT / "build_fmu.py", "--packaging", packaging, "--out", folder]
+    command = [sys.executable, ROOT / "build_fmu.py", "--packaging", packaging, "--accumulation", "--out", folder]
     subprocess.run(command, check=True, cwd=ROOT, timeout=1200)  # long, for the kernels of three FMUs on a busy machine
 
 

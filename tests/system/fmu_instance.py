@@ -30,6 +30,7 @@ class Instance:
             instanceName="instance",
         )
         self.fmu.instantiate(callbacks=self.callbacks, loggingOn=True)
+        self.time = 0.0  # end of the last step
 
     def free(self) -> None:
         """Free only the instance. fmpy's call would also unload the library, which other instances use."""
@@ -63,13 +64,17 @@ class Instance:
         return self.read(name for name, v in self.variables.items() if v.causality in causalities)
 
     def initialize(self, stop_time: float | None = None) -> "Instance":
+        self.time = 0.0
         self.fmu.setupExperiment(startTime=0.0, stopTime=stop_time)
         self.fmu.enterInitializationMode()
         self.fmu.exitInitializationMode()
         return self
 
-    def step(self, time: float = 0.0, h: float = 1e-3) -> None:
-        self.fmu.doStep(time, h)
+    def step(self, time: float | None = None, h: float = 1e-3) -> None:
+        """Do a step from `time`, by default from the end of the last one."""
+        begin = self.time if time is None else time
+        self.fmu.doStep(begin, h)
+        self.time = begin + h
 
 
 def refused(call, status: int) -> None:
@@ -79,7 +84,7 @@ def refused(call, status: int) -> None:
     assert caught.value.status == status
 
 
-def discarded(fmu: Instance, time: float = 0.0, h: float = 1e-3) -> str:
+def discarded(fmu: Instance, time: float | None = None, h: float = 1e-3) -> str:
     """Assert that a step is discarded, and return the message of the FMU."""
     fmu.log.clear()
     refused(lambda: fmu.step(time, h), DISCARD)

@@ -21,6 +21,7 @@ class Instance3:
             instanceName="instance",
         )
         self.fmu.instantiate(loggingOn=True, logMessage=self._log)
+        self.time = 0.0  # end of the last step
 
     def free(self) -> None:
         """Free only the instance. fmpy's call would also unload the library, which other instances use."""
@@ -57,10 +58,16 @@ class Instance3:
         return self
 
     def initialize(self, stop_time: float | None = None) -> "Instance3":
+        self.time = 0.0
         self.fmu.enterInitializationMode(startTime=0.0, stopTime=stop_time)
         self.fmu.exitInitializationMode()
         return self
 
-    def step(self, time: float = 0.0, h: float = 1e-3) -> tuple[bool, bool, bool, float]:
-        """Do a step. Return the flags event handling needed, terminate, early return, and the last successful time."""
-        return self.fmu.doStep(time, h)
+    def step(self, time: float | None = None, h: float = 1e-3) -> tuple[bool, bool, bool, float]:
+        """Do a step from `time`, by default from the end of the last one.
+
+        Return the flags event handling needed, terminate, early return, and the last successful time.
+        """
+        answer = self.fmu.doStep(self.time if time is None else time, h)
+        self.time = answer[3]
+        return answer

@@ -42,7 +42,7 @@ MOTION = {
 
 
 _PATCH = ("n", "fx", "fy", "mx", "my", "mz", "x", "y", "z", "angle", "area", "pmax", "longitudinal", "lateral", "spin")
-_PATCH += ("approach",)
+_PATCH += ("approach", "rail_y", "rail_z", "wheel_y", "wheel_z", "used_friction")
 
 
 def mirrored(values: dict[str, float]) -> dict[str, float]:
@@ -90,14 +90,18 @@ def expected(s: PairSolution, speed: float) -> dict[str, float]:
         "damage.energy_index_max": damage.energy_index,
         "status": s.status,
         "gap_error": s.gap_error,
+        "wheel.Q": s.Q,
+        "wheel.Y": s.Y,
+        "wheel.Y_over_Q": s.Y_over_Q,
+        "used_friction": s.used_friction,
     }
     for k in range(3):
         c = s.contacts[k] if k < len(s.contacts) else None
-        numbers = (0.0,) * 16
+        numbers = (0.0,) * len(_PATCH)
         if c:
             forces, xi = (c.N, c.Fx, c.Fy, c.Mx, c.My, c.Mz), c.creepage
             numbers = (*forces, *c.position, c.angle, c.area, c.max_pressure, xi.longitudinal, xi.lateral, xi.spin)
-            numbers = (*numbers, c.approach)
+            numbers = (*numbers, c.approach, *c.on_rail, *c.on_wheel, c.used_friction)
         outputs |= {f"patch[{k + 1}].{name}": x for name, x in zip(_PATCH, numbers, strict=True)}
     return outputs
 
@@ -106,13 +110,13 @@ def scale(name: str, values: dict[str, float], wanted: dict[str, float]) -> floa
     """Return the scale of an output for differences: its value, or the norm of the quantity to which it belongs."""
     load = max(abs(wanted["force.z"]), 1.0)
     leaf = name.split(".")[-1]
-    if name.startswith("force") or leaf in ("n", "fx", "fy"):
+    if name.startswith("force") or leaf in ("n", "fx", "fy", "Q", "Y"):
         return load
     if name.startswith("moment"):
         return load * 1.0
     if leaf in ("mx", "my", "mz"):
         return load * 1e-2
-    if leaf in ("x", "y", "z"):
+    if leaf in ("x", "y", "z", "rail_y", "rail_z", "wheel_y", "wheel_z", "Y_over_Q", "used_friction"):
         return 1.0
     if leaf in ("longitudinal", "lateral", "angle", "spin", "ratio"):
         return 1.0

@@ -33,7 +33,7 @@ def test_fmpy_finds_no_problem(fmus):
 
 
 def test_the_build_is_reproducible(fmus, tmp_path):
-    for model in models(41):
+    for model in models(41, accumulation=True):
         path = build(model, tmp_path)
         assert path.read_bytes() == (fmus / path.name).read_bytes()
 
@@ -58,7 +58,7 @@ def test_equals_the_solver(fmu):
         "patch.area": solution.area,
         "patch.length": solution.length,
         "patch.width": solution.width,
-        "patch.count": solution.n_patches,
+        "patch.count_real": solution.n_patches,
         "slip.ratio": solution.slip_ratio,
         "power.friction": 30.0 * solution.power_per_metre,
         "damage.T_gamma": damage.T_gamma,
@@ -72,7 +72,7 @@ def test_equals_the_solver(fmu):
         "damage.energy_index_max": damage.energy_index.max,
         "gap_error": solution.gap_error,
         "stiffness.normal": solution.normal_stiffness,
-        "status": solution.status,
+        "status_real": solution.status,
         "total.energy": 30e-3 * solution.power_per_metre,
         "total.worn_volume": 30e-3 * damage.archard.volume,
     }
@@ -155,8 +155,8 @@ def test_lift_off_is_a_valid_result(fmu):
     fmu.update({"load.normal_force": 0.0})
     fmu.step()
     outputs = fmu.all("output")
-    assert outputs["status"] == contact.Status.NO_CONTACT
-    assert not any(value for name, value in outputs.items() if name not in ("status", "approach"))
+    assert outputs["status_real"] == contact.Status.NO_CONTACT
+    assert not any(value for name, value in outputs.items() if name not in ("status_real", "approach"))
     assert not fmu.log
 
 
@@ -193,9 +193,9 @@ def test_a_patch_beyond_the_separation_is_reported_once(fmu):
         ("geometry.g[7]", math.nan, "]-inf, inf["),
         ("geometry.A[1]", -1.0, "[0, inf["),
         ("creepage.spin", math.inf, "[-1e+06, 1e+06]"),
-        ("load.normal_force", -1.0, "[0, inf["),
+        ("load.normal_force", -1001.0, "[-1000, inf["),
         ("friction.coefficient", math.nan, "[0, 1e+06]"),
-        ("speed", 0.0, "]0, inf["),
+        ("speed", -1.0, "[0, inf["),
     ],
 )
 def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(fmu, name, value, allowed):
@@ -232,8 +232,9 @@ def test_a_bad_parameter_is_discarded_by_name(open_fmu, name, value, allowed):
 def test_an_invalid_step_is_discarded(fmu):
     assert "communicationStepSize = 0 is outside" in discarded(fmu, 0.0, 0.0)
     assert "communicationStepSize = -0.001 is outside" in discarded(fmu, 0.0, -1e-3)
-    assert "end of the step = 1.001 is outside" in discarded(fmu, 1.0, 1e-3)
-    fmu.step(0.999, 1e-3)
+    assert "end of the step = 1.1 is outside" in discarded(fmu, 0.0, 1.1)
+    assert "currentCommunicationPoint = 1 is outside" in discarded(fmu, 1.0, 1e-3)
+    fmu.step(0.0, 1.0)
 
 
 def test_a_fixed_parameter_keeps_its_value_after_initialisation(fmu):
@@ -281,7 +282,7 @@ def test_a_start_value_out_of_range_is_not_answered_with_ok(open_fmu):
     instance = open_fmu(NAME)
     instance.fmu.setupExperiment(startTime=0.0)
     instance.fmu.enterInitializationMode()
-    instance.update({"load.normal_force": -1.0})
+    instance.update({"load.normal_force": -1e4})
     instance.fmu.exitInitializationMode()
     assert instance["status"] == contact.Status.OUT_OF_RANGE
     assert any("load.normal_force = -1" in message for _, message in instance.log)

@@ -3,10 +3,14 @@
 import re
 import subprocess
 from pathlib import Path
+from xml.etree import ElementTree
+from zipfile import ZipFile
 
+import fmpy
 import lief
 from contact_case import NAME
 from fmpy.validation import validate_fmu
+from fmu_instance import Instance
 
 import contact
 from fmu_src import lint
@@ -49,7 +53,22 @@ def test_the_windows_library_needs_only_windows(native_folder):
 #: Functions of libc and libm that a library may ask its system for.
 C_LIBRARY = {
     *("bcmp", "calloc", "free", "malloc", "memcmp", "memcpy", "memmove", "memset", "strcmp", "strcpy", "strlen"),
-    *("vsnprintf", "acos", "asin", "asinh", "atan", "atan2", "atanh", "cos", "exp", "log", "pow", "sin", "sincos"),
+    *(
+        "snprintf",
+        "vsnprintf",
+        "acos",
+        "asin",
+        "asinh",
+        "atan",
+        "atan2",
+        "atanh",
+        "cos",
+        "exp",
+        "log",
+        "pow",
+        "sin",
+        "sincos",
+    ),
 }
 
 
@@ -102,3 +121,51 @@ def test_no_path_of_the_build_machine_is_in_the_file(native_folder):
         content = library.read_bytes()
         assert str(Path(contact.__file__).parent).encode() not in content
         assert b"numba" not in content
+
+
+def test_importers_find_pages_pictures_and_terminals(native):
+    """Tools show documentation/index.html and model.png, in FMI 3.0 the icon, and connect terminals of one kind at once."""
+    members = {}
+    for path in native.parent.rglob("*.fmu"):
+        with ZipFile(path) as archive:
+            names, name = set(archive.namelist()), path.stem
+            page = archive.read("documentation/index.html").decode()
+            description = ElementTree.fromstring(archive.read("modelDescription.xml"))
+            assert page.count("<tr>") > 30
+            assert "<code>" not in page
+            icon = "terminalsAndIcons/icon.png" if path.parent.name == "fmi3" else "model.png"
+            assert archive.read(icon).startswith(b"\x89PNG")
+            if path.parent.name == "fmi3" and "terminalsAndIcons/terminalsAndIcons.xml" in names:
+                root = ElementTree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml"))
+                variables = {v.get("name") for v in description.find("ModelVariables")}
+                for terminal in root.iter("Terminal"):
+                    assert {m.get("variableName") for m in terminal} <= variables
+                    members[name, terminal.get("name")] = [m.get("memberName") for m in terminal]
+    assert members["Wheelset", "right"] == members["Wheelset", "left"] == members["WheelRailContact", "contact"]
+    assert set(members["EllipticContact", "contact"]) < set(members["WheelRailContact", "contact"])
+
+
+def test_handy_units_are_offered(native):
+    description = fmpy.read_model_description(str(native))
+    shown = {v.name: v.displayUnit for v in description.modelVariables}
+    assert (shown["pressure.max"], shown["force.x"], shown["approach"]) == ("MPa", "kN", "mm")
+    assert shown["wheel.radius"] is None
+    units = {d.name: d.factor for u in description.unitDefinitions for d in u.displayUnits}
+    assert (units["mm"], units["MPa"], units["kN"]) == (1e3, 1e-6, 1e-3)
+
+
+def test_the_small_variant_is_the_contact_with_curvatures(native, open_native, tmp_path):
+    """It shows few inputs; its code is that of WheelRailContact."""
+    small = Instance(Path(fmpy.extract(str(native.with_name("EllipticContact.fmu")), str(tmp_path))))
+    large = open_native()
+    large.update({"geometry.kind": 2})
+    inputs = [name for name, v in small.variables.items() if v.causality == "input"]
+    assert len(inputs) == 9
+    assert len(small.variables) < 100
+    for instance in (small, large):
+        instance.update({"creepage.longitudinal": 1e-3, "geometry.A0": 1.2, "geometry.B0": 0.7})
+        instance.initialize().step()
+    outputs = small.all("output")
+    assert outputs == {name: value for name, value in large.all("output").items() if name in outputs}
+    assert outputs["force.x"] < -1e4
+    small.free()

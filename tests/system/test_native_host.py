@@ -52,6 +52,22 @@ def test_every_state_meets_every_function_in_fmi_3(host_fmi3):
     assert int(host_fmi3("every_call").split()[0]) > 1000
 
 
+@pytest.mark.parametrize("name", ROLES)
+def test_no_wrong_call_ends_the_host(hosts, name, tmp_path):
+    """A NULL for every pointer of every function of both versions is an Error; random calls return. Each trial is a process.
+
+    2000 random sequences of calls of each version and 2000 forged states, ten times as many in `make soak`.
+    """
+    trials = 20_000 if "SOAK" in os.environ else 2000
+    said = hosts("linux64", name).wrong_calls(tmp_path, trials)
+    (of_2, wrong_2), (of_3, wrong_3) = (map(int, found) for found in re.findall(r"(\d+) functions, (\d+) wrong", said))
+    assert of_2 == 39
+    assert of_3 > 60
+    assert min(wrong_2, wrong_3) > 500
+    (taken,) = re.findall(rf"(\d+) of {trials} forged states taken", said)
+    assert int(taken) > 100  # so they have been tried
+
+
 def test_any_function_in_any_order_does_what_its_state_allows(host):
     """This includes invalid state bytes and values of any size. In the end every call has been made in every state."""
     assert host("fuzz", 1_000_000).split()[0] == "0"

@@ -12,6 +12,7 @@ from contact.kernels.arrays import Search
 from contact.kernels.geometry.curve import Array, Record, advance, at
 from contact.kernels.geometry.plane import Frame, along, normal_gap, project, spread, track_slope
 from contact.kernels.geometry.search import axle, combine, join, lobes, on_wheel, shared, untie
+from contact.kernels.records import SLOWEST
 from contact.kernels.rows import Curve, Sep
 
 Direction = tuple[float, float, float]
@@ -26,7 +27,7 @@ _OPENING = 1.0  # slope at which the gap opens where a profile, or the patch's o
 def creepages(motion: Record, frame: Frame, x: float, y: float, z: float, patch: Record) -> None:
     """Fill the creepages of `patch` at the wheel's point (x, y, z) (theory.md 9.4).
 
-    They are the velocity of the wheel, v + Omega × p, minus that of the rail, divided by V.
+    They are the velocity of the wheel, v + Omega × p, minus that of the rail, divided by V, at least `SLOWEST`.
     """
     lx, ly, lz = axle(motion.roll, motion.yaw)
     wx = motion.roll_rate * math.cos(motion.yaw) + motion.spin * lx
@@ -37,9 +38,10 @@ def creepages(motion: Record, frame: Frame, x: float, y: float, z: float, patch:
     vy = motion.vy + wz * x - wx * pz - motion.rail_vy + motion.rail_roll_rate * (z - motion.rail_z)
     vz = motion.vz + wx * py - wy * x - motion.rail_vz - motion.rail_roll_rate * (y - motion.rail_y)
     c, s = frame[2], frame[3]
-    patch.vx = vx / motion.vx
-    patch.vy = (vy * c + vz * s) / motion.vx
-    patch.phi = (wz * c - wy * s) / motion.vx  # the rail's roll rate is about x, across the normal
+    speed = max(motion.vx, SLOWEST)
+    patch.vx = vx / speed
+    patch.vy = (vy * c + vz * s) / speed
+    patch.phi = (wz * c - wy * s) / speed  # the rail's roll rate is about x, across the normal
 
 
 @kernel

@@ -11,11 +11,41 @@ bool in_range(const Variable *variable, double value)
     return variable->open_minimum ? value > variable->minimum : value >= variable->minimum;
 }
 
-Status check_ranges(const Instance *instance)
+/* Let the choices that are not 0 be the values of their enumerations. */
+void choose(double *values)
 {
-    for (size_t i = 0; i < N_VALUES; i++) {
+    for (int i = 0; i < N_CHOICES; i++)
+        if (values[choices[i].twin] >= 1.0 && in_range(&variables[choices[i].twin], values[choices[i].twin]))
+            values[choices[i].of] = values[choices[i].twin];
+}
+
+/* After this the discrete variables are what their mirrors show. In continuous-time mode they keep what they were. */
+void show_mirrored(double *values)
+{
+    for (int i = 0; i < N_MIRRORS; i++) values[mirrors[i].of] = values[mirrors[i].twin];
+}
+
+/* Whether a value has any effect. The enumerations come before the values that depend on them. */
+static bool is_used(const Variable *variable, const double *values)
+{
+    for (int k = 0; k < MOST_USES && variable->used[k].items; k++)
+        if (!(variable->used[k].items >> (int)values[variable->used[k].enumeration] & 1u)) return false;
+    return true;
+}
+
+/* Whether this value may be computed with, or is not used. */
+bool is_allowed(size_t i, const double *values)
+{
+    if (variables[i].role == OUTPUT) return isfinite(values[i]);
+    return in_range(&variables[i], values[i]) || !is_used(&variables[i], values);
+}
+
+/* Check the first n values, which are in order, since parameters come first. */
+Status check_ranges(const Instance *instance, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
         const Variable *v = &variables[i];
-        if (v->role == OUTPUT || in_range(v, instance->is.values[i])) continue;
+        if (v->role == OUTPUT || is_allowed(i, instance->is.values)) continue;
         return report(instance, LOG_DISCARD, "%s = %g is outside the allowed range %s%g, %g%s", v->name,
                       instance->is.values[i], v->open_minimum || isinf(v->minimum) ? "]" : "[", v->minimum, v->maximum,
                       isinf(v->maximum) ? "[" : "]");
@@ -45,7 +75,10 @@ Status prepare(Instance *instance)
 {
     double *values = instance->is.values;
     int64_t number;
+    Status status;
     if (instance->work && !memcmp(values, instance->prepared, N_PARAMETERS * sizeof(double))) return OK;
+    status = check_ranges(instance, N_PARAMETERS); /* those of a restored state have not been checked */
+    if (status != OK) return status;
     int64_t memory_size = instance->model->memory(values, instance->resources);
     void *block = malloc((size_t)instance->model->size(values, instance->resources) * sizeof(double) + CACHE_LINE);
     double *memory = memory_size == instance->memory_size ? instance->memory : calloc(2 * (size_t)memory_size, sizeof(double));
@@ -70,12 +103,12 @@ Status prepare(Instance *instance)
     return say(instance, number);
 }
 
-/* NaN and infinity must not leave the FMU: restore `before` if an output is not finite. */
+/* NaN and infinity must not leave the FMU: restore `before` if an output is not finite. What the host sets may be anything. */
 static Status keep_finite(Instance *instance, const double *before)
 {
     double *values = instance->is.values;
     for (size_t i = 0; i < N_VALUES; i++) {
-        if (!isfinite(values[i])) {
+        if (!isfinite(values[i]) && !(variables[i].role & (PARAMETER | INPUT))) {
             memcpy(values, before, sizeof instance->is.values);
             return report(instance, LOG_DISCARD, "%s has no finite value for these inputs", variables[i].name);
         }
@@ -107,7 +140,9 @@ Status update(Instance *instance, double h, bool warm)
     double *next, *from;
     size_t memory_bytes;
     int64_t number;
-    Status status = instance->is.is_new ? check_ranges(instance) : OK;
+    Status status = OK;
+    choose(values);
+    if (instance->is.is_new) status = check_ranges(instance, N_VALUES);
     if (status == OK) status = prepare(instance);
     if (status != OK) return status;
     memory_bytes = (size_t)instance->memory_size * sizeof(double);
@@ -124,6 +159,10 @@ Status update(Instance *instance, double h, bool warm)
         return say(instance, number);
     }
     for (int i = 0; i < N_TOTALS; i++) values[totals[i].total] += rate(&totals[i], values) * h;
+    for (int i = 0; i < N_MIRRORS; i++) {
+        values[mirrors[i].twin] = values[mirrors[i].of];
+        if (instance->is.phase == CONTINUOUS) values[mirrors[i].of] = before[mirrors[i].of]; /* changes only at events */
+    }
     status = keep_finite(instance, before);
     if (status != OK) return status;
     if (warm) {

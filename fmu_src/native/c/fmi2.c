@@ -6,6 +6,7 @@
 #include "instance.h"
 
 #define SHARED(call) ((fmi2Status)(call))
+#define NO_NULL(c, ...) REFUSE_NULL(c, fmi2Error, __VA_ARGS__)
 
 static void write_log(const Log *log, const char *name, Status status, const char *category, char *message)
 {
@@ -56,6 +57,7 @@ fmi2Status fmi2Reset(fmi2Component c) { return SHARED(reset(c, __func__)); }
     fmi2Status function(fmi2Component c, const fmi2ValueReference refs[], size_t n, type values[]) \
     { \
         const Instance *instance = c; \
+        NO_NULL(c, IF(n, refs), IF(n, values)); \
         Status status = before_get(c, __func__, refs, n, kinds, n); \
         if (status > WARNING) return SHARED(status); \
         for (size_t k = 0; k < n; k++) values[k] = (type)*numbers(instance, refs[k]); \
@@ -80,6 +82,7 @@ fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference refs[], size_
     fmi2Status function(fmi2Component c, const fmi2ValueReference refs[], size_t n, const type values[]) \
     { \
         Instance *instance = c; \
+        NO_NULL(c, IF(n, refs), IF(n, values)); \
         Status status = before_set(c, __func__, refs, n, kinds, n); \
         if (status != OK) return SHARED(status); \
         for (size_t k = 0; k < n; k++) instance->is.values[refs[k]] = values[k]; \
@@ -104,6 +107,7 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
                                         const fmi2ValueReference knowns[], size_t n_knowns, const fmi2Real seed[],
                                         fmi2Real result[])
 {
+    NO_NULL(c, IF(n_unknowns, unknowns), IF(n_knowns, knowns), IF(n_knowns, seed), IF(n_unknowns, result));
     return SHARED(derivative(c, __func__, unknowns, n_unknowns, knowns, n_knowns, seed, n_knowns,
                              result, n_unknowns));
 }
@@ -163,6 +167,7 @@ static fmi2Status unknown_status(const Instance *instance, const char *function)
 
 fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
 {
+    NO_NULL(c, value);
     REQUIRE_SLAVE(STEPPED);
     if (kind != fmi2DoStepStatus) return unknown_status(c, __func__);
     *value = (fmi2Status)((Instance *)c)->is.last_step;
@@ -171,6 +176,7 @@ fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status 
 
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value)
 {
+    NO_NULL(c, value);
     REQUIRE_SLAVE(STEPPED);
     if (kind != fmi2LastSuccessfulTime) return unknown_status(c, __func__);
     *value = ((Instance *)c)->is.time;
@@ -179,13 +185,15 @@ fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Rea
 
 fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Integer *value)
 {
-    (void)kind, (void)value;
+    (void)kind;
+    NO_NULL(c, value);
     REQUIRE_SLAVE(STEPPED);
     return unknown_status(c, __func__);
 }
 
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value)
 {
+    NO_NULL(c, value);
     REQUIRE_SLAVE(STEPPED);
     if (kind != fmi2Terminated) return unknown_status(c, __func__);
     *value = fmi2False; /* this model never requests termination */
@@ -194,6 +202,7 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2
 
 fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2String *value)
 {
+    NO_NULL(c, value);
     REQUIRE_SLAVE(STEPPED);
     if (kind != fmi2PendingStatus) return unknown_status(c, __func__);
     *value = "";
@@ -227,6 +236,7 @@ fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time) { return SHARED(set_time(
 
 fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info)
 {
+    NO_NULL(c, info);
     Status status = update_discrete(c, __func__);
     if (status == OK) memset(info, 0, sizeof *info);
     return SHARED(status);
@@ -236,27 +246,32 @@ fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean no_set_state
                                        fmi2Boolean *terminate_simulation)
 {
     (void)no_set_state_before;
+    NO_NULL(c, enter_event_mode, terminate_simulation);
     *enter_event_mode = *terminate_simulation = fmi2False;
     return SHARED(completed_step(c, __func__));
 }
 
 fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t n)
 {
+    NO_NULL(c, IF(n, x));
     return SHARED(set_states(c, __func__, x, n));
 }
 
 fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t n)
 {
+    NO_NULL(c, IF(n, x));
     return SHARED(get_states(c, __func__, x, n));
 }
 
 fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real derivatives[], size_t n)
 {
+    NO_NULL(c, IF(n, derivatives));
     return SHARED(get_derivatives(c, __func__, derivatives, n));
 }
 
 fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real nominals[], size_t n)
 {
+    NO_NULL(c, IF(n, nominals));
     return SHARED(get_nominals(c, __func__, nominals, n));
 }
 

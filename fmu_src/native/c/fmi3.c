@@ -3,6 +3,7 @@
 #include "instance.h"
 
 #define SHARED(call) ((fmi3Status)(call))
+#define NO_NULL(c, ...) REFUSE_NULL(c, fmi3Error, __VA_ARGS__)
 
 static void write_log(const Log *log, const char *name, Status status, const char *category, char *message)
 {
@@ -30,9 +31,9 @@ fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi
     return instantiate(MODEL_EXCHANGE, true, name, token, resources, &log, logging);
 }
 
-static fmi3Instance cannot(const Log *log, const char *name, const char *why)
+static fmi3Instance cannot(const Log *log, const char *why)
 {
-    const Instance caller = {.categories = LOG_ERROR, .name = (char *)name, .log = *log};
+    const Instance caller = {.categories = LOG_ERROR, .log = *log};
     report(&caller, LOG_ERROR, "%s", why);
     return NULL;
 }
@@ -46,9 +47,9 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
     const Log log = {write_log, (void (*)(void))logger, environment};
     (void)visible, (void)intermediate, (void)update;
     (void)early_return; /* a step always runs to its end */
-    if (event_mode) return cannot(&log, name, "there is no event mode in co-simulation (hasEventMode is false)");
+    if (event_mode) return cannot(&log, "there is no event mode in co-simulation (hasEventMode is false)");
     if (n_intermediate > 0)
-        return cannot(&log, name, "there are no intermediate updates (providesIntermediateUpdate is false)");
+        return cannot(&log, "there are no intermediate updates (providesIntermediateUpdate is false)");
     return instantiate(CO_SIMULATION, true, name, token, resources, &log, logging);
 }
 
@@ -59,8 +60,8 @@ fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name, fmi3String token
                                                fmi3UnlockPreemptionCallback unlock)
 {
     const Log log = {write_log, (void (*)(void))logger, environment};
-    (void)token, (void)resources, (void)visible, (void)logging, (void)clock, (void)lock, (void)unlock;
-    return cannot(&log, name, "scheduled execution is not provided");
+    (void)name, (void)token, (void)resources, (void)visible, (void)logging, (void)clock, (void)lock, (void)unlock;
+    return cannot(&log, "scheduled execution is not provided");
 }
 
 void fmi3FreeInstance(fmi3Instance c) { release(c); }
@@ -84,6 +85,7 @@ fmi3Status fmi3Reset(fmi3Instance c) { return SHARED(reset(c, __func__)); }
 #define GET(type, kinds) \
     fmi3Status fmi3Get##type(fmi3Instance c, const fmi3ValueReference refs[], size_t n, fmi3##type values[], size_t n_values) \
     { \
+        NO_NULL(c, IF(n, refs), IF(n, values)); \
         Status status = before_get(c, __func__, refs, n, kinds, n_values); \
         if (status > WARNING) return SHARED(status); \
         for (size_t k = 0; k < n; k++) { \
@@ -102,6 +104,7 @@ GET(Boolean, BOOLEAN)
                              size_t n_values) \
     { \
         Instance *instance = c; \
+        NO_NULL(c, IF(n, refs), IF(n, values)); \
         Status status = before_set(c, __func__, refs, n, kinds, n_values); \
         if (status != OK) return SHARED(status); \
         for (size_t k = 0; k < n; k++) { \
@@ -155,6 +158,7 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, const fmi3ValueReference
                                         const fmi3ValueReference knowns[], size_t n_knowns, const fmi3Float64 seed[],
                                         size_t n_seed, fmi3Float64 result[], size_t n_result)
 {
+    NO_NULL(c, IF(n_unknowns, unknowns), IF(n_knowns, knowns), IF(n_seed, seed), IF(n_result, result));
     return SHARED(derivative(c, __func__, unknowns, n_unknowns, knowns, n_knowns, seed, n_seed, result, n_result));
 }
 
@@ -225,10 +229,11 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 h, fmi3Boole
                       fmi3Boolean *event_handling_needed, fmi3Boolean *terminate_simulation, fmi3Boolean *early_return,
                       fmi3Float64 *last_successful_time)
 {
-    Status status = do_step(c, __func__, time, h);
     (void)no_set_state_before;
+    NO_NULL(c, event_handling_needed, terminate_simulation, early_return, last_successful_time);
+    Status status = do_step(c, __func__, time, h);
     *event_handling_needed = *terminate_simulation = *early_return = fmi3False;
-    if (c) *last_successful_time = ((Instance *)c)->is.time;
+    *last_successful_time = ((Instance *)c)->is.time;
     return SHARED(status);
 }
 
@@ -242,6 +247,7 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *needs_update, f
                                     fmi3Boolean *nominals_changed, fmi3Boolean *values_changed,
                                     fmi3Boolean *next_time_defined, fmi3Float64 *next_time)
 {
+    NO_NULL(c, needs_update, terminate_simulation, nominals_changed, values_changed, next_time_defined, next_time);
     *needs_update = *terminate_simulation = *nominals_changed = *values_changed = *next_time_defined = fmi3False;
     *next_time = 0.0;
     return SHARED(update_discrete(c, __func__));
@@ -251,27 +257,32 @@ fmi3Status fmi3CompletedIntegratorStep(fmi3Instance c, fmi3Boolean no_set_state_
                                        fmi3Boolean *terminate_simulation)
 {
     (void)no_set_state_before;
+    NO_NULL(c, enter_event_mode, terminate_simulation);
     *enter_event_mode = *terminate_simulation = fmi3False;
     return SHARED(completed_step(c, __func__));
 }
 
 fmi3Status fmi3SetContinuousStates(fmi3Instance c, const fmi3Float64 x[], size_t n)
 {
+    NO_NULL(c, IF(n, x));
     return SHARED(set_states(c, __func__, x, n));
 }
 
 fmi3Status fmi3GetContinuousStates(fmi3Instance c, fmi3Float64 x[], size_t n)
 {
+    NO_NULL(c, IF(n, x));
     return SHARED(get_states(c, __func__, x, n));
 }
 
 fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance c, fmi3Float64 derivatives[], size_t n)
 {
+    NO_NULL(c, IF(n, derivatives));
     return SHARED(get_derivatives(c, __func__, derivatives, n));
 }
 
 fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance c, fmi3Float64 nominals[], size_t n)
 {
+    NO_NULL(c, IF(n, nominals));
     return SHARED(get_nominals(c, __func__, nominals, n));
 }
 
@@ -281,5 +292,14 @@ fmi3Status fmi3GetEventIndicators(fmi3Instance c, fmi3Float64 indicators[], size
     return SHARED(get_indicators(c, __func__, n));
 }
 
-fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance c, size_t *n) { return SHARED(count_of(c, __func__, N_STATES, n)); }
-fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance c, size_t *n) { return SHARED(count_of(c, __func__, 0, n)); }
+fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance c, size_t *n)
+{
+    NO_NULL(c, n);
+    return SHARED(count_of(c, __func__, N_STATES, n));
+}
+
+fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance c, size_t *n)
+{
+    NO_NULL(c, n);
+    return SHARED(count_of(c, __func__, 0, n));
+}

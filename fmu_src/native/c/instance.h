@@ -48,6 +48,13 @@ typedef enum {
 #define ANY_OUTPUT (OUTPUT | STATE | TOTAL | ACCUMULATED)
 typedef uint32_t Reference;
 
+/* A value that is used only with some items of an enumeration, a bit for each; without bits it is always used. */
+typedef struct {
+    int enumeration;
+    unsigned items;
+} Use;
+enum { MOST_USES = 2 };
+
 typedef struct {
     const char *name;
     Kind kind;
@@ -56,6 +63,7 @@ typedef struct {
     bool lazy;   /* computed by model_lazy only when a host reads it */
     bool open_minimum;
     double start, minimum, maximum;
+    Use used[MOST_USES];
 } Variable;
 
 /* First the variables in `values`, then those that accumulate, then fields and time. In FMI 2.0 each element of an array is a
@@ -85,6 +93,14 @@ typedef struct {
 } Total;
 
 extern const Total totals[N_TOTALS];
+
+/* A variable that stands for another one, whose type some hosts do not know. A choice that is not 0 is the value of its
+ * enumeration. A mirror is an output that shows a local variable as a Real. */
+typedef struct {
+    int twin, of;
+} Twin;
+
+extern const Twin choices[N_CHOICES], mirrors[N_MIRRORS];
 
 /* A message of the model, by number: a warning or the reason to discard a step. There is no text if there is nothing to log. */
 typedef enum { LOG_WARNING = 1, LOG_DISCARD = 2, LOG_ERROR = 4 } Category;
@@ -148,7 +164,7 @@ typedef struct {
     const Model *model; /* kernels for this processor; the results are the same for all */
     Type type;
     bool arrays; /* FMI 3.0: a value reference denotes a whole array */
-    char *name;
+    char name[256]; /* a longer name is cut */
     int categories;
     Log log;
 } Instance;
@@ -160,7 +176,16 @@ typedef struct {
         if (!((instance)->is.phase & (phases))) return refuse(instance, function); \
     } while (0)
 
+/* Refuse a call with a NULL among its instance and its pointers; it has changed nothing. An array of no elements may be NULL. */
+#define REFUSE_NULL(instance, error, ...) \
+    do { \
+        const void *const pointers[] = {__VA_ARGS__}; \
+        if (has_null(instance, __func__, pointers, sizeof pointers / sizeof *pointers)) return error; \
+    } while (0)
+#define IF(n, array) ((n) ? (const void *)(array) : (const void *)"")
+
 /* lifecycle.c */
+bool has_null(const Instance *instance, const char *function, const void *const pointers[], size_t n);
 Status report(const Instance *instance, Category category, const char *format, ...);
 Status refuse(const Instance *instance, const char *function);
 Status choose_log(Instance *instance, const char *function, bool on, size_t n, const char *const names[]);
@@ -214,8 +239,11 @@ Status serialize(Instance *instance, const char *function, void *source, void *b
 Status deserialize(Instance *instance, const char *function, const void *bytes, size_t size, void **target);
 
 /* evaluate.c: compute in place; unless the status is OK, the content is unchanged */
+void choose(double *values);
+void show_mirrored(double *values);
 bool in_range(const Variable *variable, double value);
-Status check_ranges(const Instance *instance);
+bool is_allowed(size_t i, const double *values);
+Status check_ranges(const Instance *instance, size_t n);
 Status prepare(Instance *instance);
 int64_t evaluate(const Instance *instance, double *values, double h); /* does not change the content, but uses working memory */
 Status update(Instance *instance, double h, bool warm);

@@ -1,5 +1,4 @@
 /* Life of an instance from instantiation to free, and its messages. */
-#include <cpuid.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -7,6 +6,11 @@
 #include <string.h>
 
 #include "instance.h"
+
+#if defined(__x86_64__) || defined(_M_X64)
+#define HAS_TWO_KERNELS
+#include <cpuid.h>
+#endif
 
 static const struct {
     Category category;
@@ -58,6 +62,17 @@ Status refuse(const Instance *instance, const char *function)
                   phase_name(instance->is.phase));
 }
 
+bool has_null(const Instance *instance, const char *function, const void *const pointers[], size_t n)
+{
+    if (!instance) return true;
+    for (size_t i = 0; i < n; i++)
+        if (!pointers[i]) {
+            report(instance, LOG_ERROR, "%s: pointer %zu after the instance is NULL; the call is ignored", function, i + 1);
+            return true;
+        }
+    return false;
+}
+
 Status choose_log(Instance *instance, const char *function, bool on, size_t n, const char *const names[])
 {
     int chosen = n == 0 ? LOG_WARNING | LOG_DISCARD | LOG_ERROR : 0;
@@ -66,7 +81,7 @@ Status choose_log(Instance *instance, const char *function, bool on, size_t n, c
         size_t i = 0;
         while (i < N_CATEGORIES && (!names || !names[k] || strcmp(names[k], categories[i].name))) i++;
         if (i == N_CATEGORIES)
-            return report(instance, LOG_ERROR, "log category %s is unknown", names && names[k] ? names[k] : "NULL");
+            return report(instance, LOG_ERROR, "log category %.60s is unknown", names && names[k] ? names[k] : "NULL");
         chosen |= categories[i].category;
     }
     instance->categories = on ? chosen : 0;
@@ -96,6 +111,7 @@ static void restart(Instance *instance)
     int64_t model_field_##cpu(double *, double *, int64_t, const double *); \
     static const Model model_##cpu = {model_memory_##cpu,  model_size_##cpu, model_prepare_##cpu,   model_start_##cpu, \
                                       model_outputs_##cpu, model_lazy_##cpu, model_difference_##cpu, model_field_##cpu};
+#ifdef HAS_TWO_KERNELS
 ENTRIES(v2)
 ENTRIES(v3)
 
@@ -112,13 +128,18 @@ static const Model *model_for_this_processor(void)
     __asm__("xgetbv" : "=a"(saved), "=d"(high) : "c"(0));
     return (saved & wide_registers) == wide_registers ? &model_v3 : &model_v2;
 }
+#else
+ENTRIES(any)
+static const Model *model_for_this_processor(void) { return &model_any; }
+#endif
 
 /* Return a new instance, or log the reason and return NULL. */
 Instance *instantiate(Type type, bool arrays, const char *name, const char *guid, const char *folder, const Log *log,
                       bool logging)
 {
     Instance *instance;
-    const Instance caller = {.categories = LOG_ERROR, .name = (char *)(name ? name : ""), .log = *log};
+    Instance caller = {.categories = LOG_ERROR, .log = *log};
+    snprintf(caller.name, sizeof caller.name, "%.*s", (int)sizeof caller.name - 1, name ? name : "");
     if (!name || !*name) {
         report(&caller, LOG_ERROR, "the instance has no name");
         return NULL;
@@ -128,18 +149,16 @@ Instance *instantiate(Type type, bool arrays, const char *name, const char *guid
         return NULL;
     }
     if (!guid || strcmp(guid, MODEL_GUID)) {
-        report(&caller, LOG_ERROR, "guid %s is not that of this binary, %s: description and binary come from different builds",
+        report(&caller, LOG_ERROR, "guid %.60s is not that of this binary, %s: description and binary come from different builds",
                guid ? guid : "NULL", MODEL_GUID);
         return NULL;
     }
     instance = calloc(1, sizeof *instance);
-    if (instance) instance->name = malloc(strlen(name) + 1);
-    if (!instance || !instance->name) {
+    if (!instance) {
         report(&caller, LOG_ERROR, "out of memory");
-        free(instance);
         return NULL;
     }
-    strcpy(instance->name, name);
+    memcpy(instance->name, caller.name, sizeof instance->name);
     instance->type = type;
     instance->arrays = arrays;
     instance->model = model_for_this_processor();
@@ -157,7 +176,6 @@ void release(Instance *instance)
     free_work(instance);
     free(instance->memory);
     free(instance->resources);
-    free(instance->name);
     free(instance);
 }
 

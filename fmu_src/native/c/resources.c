@@ -23,26 +23,35 @@ static int hexadecimal(char c)
     return found ? (int)(found - digits) % 16 : -1;
 }
 
-/* Return the path of a file URI, or a copy of any other text; NULL for NULL. file:///a%20b and file:/a%20b give /a b. */
+/* Whether a text begins with these small letters, written in small or capital letters. */
+static bool begins(const char *text, const char *letters)
+{
+    for (; *letters; text++, letters++)
+        if (*text != *letters && (*letters < 'a' || *letters > 'z' || *text != *letters - 'a' + 'A')) return false;
+    return true;
+}
+
+/* Return the path of a file URI, or a copy of any other text; NULL for NULL. file:///a%20b and file:/a%20b give /a b. The
+ * query and the fragment of a URI are no part of its path. */
 char *path_of(const char *location)
 {
     char *path, *end;
     if (!location) return NULL;
     end = path = malloc(strlen(location) + 1);
     if (!path) return NULL;
-    if (strncmp(location, "file:", 5)) return strcpy(path, location);
+    if (!begins(location, "file:")) return strcpy(path, location);
     location += 5;
-    if (!strncmp(location, "//localhost/", 12)) location += 11;
+    if (begins(location, "//localhost/")) location += 11;
     if (!strncmp(location, "///", 3)) location += 2;
-#ifdef _WIN32
-    if (location[0] == '/' && location[1] && location[2] == ':') location++; /* /C:/a becomes C:/a */
-#endif
-    while (*location) {
+    while (*location && *location != '?' && *location != '#') {
         int high = *location == '%' ? hexadecimal(location[1]) : -1, low = high >= 0 ? hexadecimal(location[2]) : -1;
         *end++ = low >= 0 ? (char)(16 * high + low) : *location;
         location += low >= 0 ? 3 : 1;
     }
     *end = '\0';
+#ifdef _WIN32
+    if (path[0] == '/' && path[1] && path[2] == ':') memmove(path, path + 1, (size_t)(end - path)); /* /C:/a becomes C:/a */
+#endif
     return path;
 }
 

@@ -1,4 +1,5 @@
 /* Co-simulation and model exchange. */
+#include <float.h>
 #include <math.h>
 
 #include "instance.h"
@@ -13,6 +14,9 @@ Status do_step(Instance *instance, const char *function, double time, double h)
     if (!isfinite(h) || h <= 0.0)
         return report(instance, LOG_ERROR, "communicationStepSize = %g is outside the allowed range ]0, inf[", h);
     /* tolerance for masters that add up steps: their rounding error is less than a thousandth of a step */
+    if (fabs(time - instance->is.time) > 1e-3 * h + 16.0 * DBL_EPSILON * fabs(time))
+        return report(instance, LOG_ERROR, "currentCommunicationPoint = %.17g does not continue the last step, which ended at %.17g",
+                      time, instance->is.time);
     if (time + h > instance->is.stop_time + 1e-3 * h)
         return report(instance, LOG_ERROR, "end of the step = %g is after the stopTime = %g", time + h,
                       instance->is.stop_time);
@@ -30,10 +34,11 @@ Status enter_event(Instance *instance, const char *function)
 {
     REQUIRE(instance, function, EVENT | CONTINUOUS);
     instance->is.phase = EVENT;
+    show_mirrored(instance->is.values);
     return OK;
 }
 
-/* There are no events, so nothing is needed and nothing changes. */
+/* The model has no events of its own, so nothing is needed and nothing changes. */
 Status update_discrete(Instance *instance, const char *function)
 {
     REQUIRE(instance, function, EVENT);

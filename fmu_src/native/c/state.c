@@ -1,12 +1,17 @@
-/* FMU states: content and warm start in one block. The block is also the serialised form. */
+/* FMU states: content and warm start in one block. The block is also the serialised form. A host may pass any block, so what
+ * could break the kernels is checked: whose state it is, its sizes, its phase, and that outputs belong to allowed values. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "instance.h"
 
+enum { GUID_ROOM = (sizeof MODEL_GUID + 7) / 8 * 8 }; /* no padding after it, which the checksum would not cover */
+static const char own_guid[GUID_ROOM] = MODEL_GUID;
+
 typedef struct {
-    uint64_t checksum; /* of all bytes after it */
-    char guid[sizeof MODEL_GUID];
+    char guid[GUID_ROOM]; /* first, since a state of another FMU may be shorter than this one */
+    uint64_t checksum; /* of all bytes after it, written when it is serialised */
     int64_t size;      /* of the whole block in bytes */
     int64_t type;
     uint64_t resources_hash;
@@ -25,10 +30,34 @@ uint64_t hash(const void *content, size_t size)
 
 static uint64_t checksum(const State *state)
 {
-    return hash(state->guid, (size_t)state->size - offsetof(State, guid));
+    return hash(&state->size, (size_t)state->size - offsetof(State, size));
 }
 
 static size_t memory_bytes(int64_t memory_size) { return 2 * (size_t)memory_size * sizeof(double); }
+
+static bool is_ours(const State *state) { return !memcmp(state->guid, own_guid, sizeof own_guid); }
+
+/* Whether this is a phase of an instance of this type. */
+static bool is_phase(int64_t phase, Type type)
+{
+    const int64_t of_type = type == CO_SIMULATION ? STEP_COMPLETE | STEP_FAILED : EVENT | CONTINUOUS;
+    const int64_t all = INSTANTIATED | CONFIGURATION | INITIALIZATION | TERMINATED | BROKEN | of_type;
+    return phase > 0 && !(phase & (phase - 1)) && (phase & all) == phase;
+}
+
+/* Whether an instance can have this content. Values that the host has just set may be any: the next computation checks them. */
+static bool is_possible(const Instance *instance, const State *state)
+{
+    const Content *is = &state->is;
+    if (!is_phase(is->phase, instance->type) || is->last_step < OK || is->last_step > ERROR) return false;
+    if (is->is_new >> 1 || is->lazy_stale >> 1) return false;
+    if (!isfinite(is->time) || !isfinite(is->accepted_time) || isnan(is->stop_time)) return false;
+    for (size_t i = 0; i < N_VALUES; i++)
+        if (!is_allowed(i, is->solved) || !(is->is_new || is_allowed(i, is->values))) return false;
+    /* working memory is laid out for the parameters in `values` and then used with `solved` */
+    if (is->is_new && is->phase & (INSTANTIATED | CONFIGURATION | INITIALIZATION)) return true;
+    return !memcmp(is->values, is->solved, N_PARAMETERS * sizeof(double));
+}
 
 Status get_state(Instance *instance, const char *function, void **target)
 {
@@ -44,7 +73,7 @@ Status get_state(Instance *instance, const char *function, void **target)
         free(*target);
     }
     *target = state;
-    memcpy(state->guid, MODEL_GUID, sizeof MODEL_GUID);
+    memcpy(state->guid, own_guid, sizeof own_guid);
     state->size = (int64_t)size;
     state->type = instance->type;
     state->resources_hash = instance->resources_hash;
@@ -59,6 +88,7 @@ Status set_state(Instance *instance, const char *function, const void *source)
     const State *state = source;
     REQUIRE(instance, function, ANY);
     if (!state) return report(instance, LOG_ERROR, "%s: the state is NULL", function);
+    if (!is_ours(state)) return report(instance, LOG_ERROR, "%s: this is not a state of this FMU", function);
     if (state->type != (int64_t)instance->type)
         return report(instance, LOG_ERROR, "%s: the state is from the other FMI type", function);
     if (state->resources_hash != instance->resources_hash)
@@ -91,6 +121,7 @@ Status state_size(Instance *instance, const char *function, const void *state, s
 {
     REQUIRE(instance, function, ANY);
     if (!state || !size) return report(instance, LOG_ERROR, "%s: the state is NULL", function);
+    if (!is_ours(state)) return report(instance, LOG_ERROR, "%s: this is not a state of this FMU", function);
     *size = (size_t)((const State *)state)->size;
     return OK;
 }
@@ -99,8 +130,8 @@ Status serialize(Instance *instance, const char *function, void *source, void *b
 {
     State *state = source;
     REQUIRE(instance, function, ANY);
-    if (!state || !bytes || size < (size_t)state->size)
-        return report(instance, LOG_ERROR, "%s: the state is NULL or the buffer is too small", function);
+    if (!state || !bytes || !is_ours(state) || size < (size_t)state->size)
+        return report(instance, LOG_ERROR, "%s: the state is not one of this FMU or the buffer is too small", function);
     state->checksum = checksum(state);
     memcpy(bytes, state, (size_t)state->size);
     return OK;
@@ -117,10 +148,10 @@ Status deserialize(Instance *instance, const char *function, const void *bytes, 
     state = malloc(size);
     if (!state) return report(instance, LOG_ERROR, "out of memory");
     memcpy(state, bytes, size);
-    valid = !memcmp(state->guid, MODEL_GUID, sizeof MODEL_GUID) && state->size >= (int64_t)sizeof *state &&
+    valid = is_ours(state) && state->size >= (int64_t)sizeof *state &&
             (uint64_t)state->size <= size && state->memory_size >= 0 &&
             memory_bytes(state->memory_size) == (size_t)state->size - sizeof *state &&
-            state->checksum == checksum(state);
+            state->checksum == checksum(state) && is_possible(instance, state);
     if (!valid) {
         free(state);
         return report(instance, LOG_ERROR, "%s: these bytes are not a state of this FMU", function);

@@ -133,7 +133,8 @@ Status derivative(Instance *instance, const char *function, const Reference unkn
     if (status == OK)
         status = check(instance, knowns, n_knowns, REAL, INPUT | (instance->is.phase == INITIALIZATION ? PARAMETER : STATE),
                        n_seed, function);
-    if (status == OK) status = check_ranges(instance);
+    choose(instance->is.values);
+    if (status == OK) status = check_ranges(instance, N_VALUES);
     if (status == OK) status = prepare(instance);
     if (status != OK) return status;
 

@@ -71,7 +71,7 @@ static fmi2FMUstate saved;
 static fmi2Byte bytes[1 << 16];
 static size_t size;
 static const double one = 1.0, newton = 5e4;
-static double number;
+static double number, at; /* the time of the instance */
 static fmi2Integer integer;
 static const fmi2Integer first = 1;
 static fmi2Boolean flag, other;
@@ -111,9 +111,11 @@ static fmi2EventInfo info;
     X(SetRealInputDerivatives(c, &load, 1, &first, &one), 0, 0, SAME) \
     X(GetRealOutputDerivatives(c, NULL, 0, NULL, NULL), STEP | FAIL | TERM, 0, SAME) \
     X(GetRealOutputDerivatives(c, &force, 1, &first, &number), 0, 0, SAME) \
-    X(DoStep(c, 0.0, 1e-3, fmi2True), STEP | FAIL, 0, STEP) \
-    X(DoStep(c, 0.0, 0.0, fmi2True), 0, 0, SAME) \
-    X(DoStep(c, 0.0, 11.0, fmi2True), 0, 0, SAME) \
+    X(DoStep(c, at, 1e-3, fmi2True), STEP | FAIL, 0, STEP) \
+    X(DoStep(c, at, 0.0, fmi2True), 0, 0, SAME) \
+    X(DoStep(c, at + 1e-3, 1e-3, fmi2True), 0, 0, SAME) \
+    X(DoStep(c, at - 1e-3, 1e-3, fmi2True), 0, 0, SAME) \
+    X(DoStep(c, at, 11.0, fmi2True), 0, 0, SAME) \
     X(DoStep(c, NAN, 1e-3, fmi2True), 0, 0, SAME) \
     X(CancelStep(c), 0, 0, SAME) \
     X(GetStatus(c, fmi2DoStepStatus, &status), STEP | FAIL | TERM, 0, SAME) \
@@ -164,6 +166,7 @@ void every_call(void)
             fmi2Component c = in_state(states[i].state, states[i].type);
             keep(c);
             int before = messages;
+            at = 0.0;
             fmi2Status answer = perform(row, c);
             if (rows[row].legal[states[i].type] & states[i].state)
                 check(answer == fmi2OK && messages == before, rows[row].name, states[i].name);
@@ -215,6 +218,7 @@ void fuzz(int n)
         }
         int row = (int)draw(N_ROWS), legal = rows[row].legal[type] & state, after = rows[row].after;
         if ((after == TERM || after == INST) && draw(8)) continue; /* rarely, otherwise no other state would be reached */
+        at = reached(c);
         fmi2Status answer = perform(row, c);
         check(legal ? answer <= fmi2Discard : answer == fmi2Error, rows[row].name, "at random");
         done[row][type][state]++;

@@ -65,6 +65,12 @@ void coarsen(fmi2Component c)
     SetInteger(c, resolution, sizeof resolution / sizeof *resolution, least);
 }
 
+double reached(fmi2Component c)
+{
+    double time = 0.0;
+    return GetRealStatus(c, fmi2LastSuccessfulTime, &time) == fmi2OK ? time : 0.0;
+}
+
 double any(fmi2Component c, fmi2ValueReference r)
 {
     double value;

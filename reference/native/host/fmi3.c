@@ -198,6 +198,8 @@ static fmi3Instance in_state(int state, Type type)
     X(step(c, 0.0, 1e-3), STEP | FAIL, 0) \
     X(step(c, 0.0, 0.0), 0, 0) \
     X(step(c, 0.0, 11.0), 0, 0) \
+    X(step(c, 1e-3, 1e-3), 0, 0) \
+    X(step(c, -1e-3, 1e-3), 0, 0) \
     X(step(c, NAN, 1e-3), 0, 0) \
     X(EnterEventMode(c), 0, EVENT | CONT) \
     X(UpdateDiscreteStates(c, flag, flag + 1, flag + 2, flag + 3, flag + 4, &number), 0, EVENT) \
@@ -341,7 +343,7 @@ static void random_calls(int n)
             break;
         default:
             number = 0.0;
-            step(c, 0.0, 1e-3);
+            step(c, get(c, seconds), 1e-3);
             if (GetFloat64(c, &r, 1, &number, 1) == fmi3OK && r >= V_force_x) check(isfinite(number), "finite output", "");
         }
     }
@@ -366,7 +368,7 @@ static void speed(int n)
     for (int i = 0; i < n; i++) SetFloat64(c, geometry, 2, values, 2 * SAMPLES);
     printf("set geometry %.2f us\n", (now() - begin) / n);
     begin = now();
-    for (int i = 0; i < n; i++) step(c, 0.0, 1e-3);
+    for (int i = 0; i < n; i++) step(c, 1e-3 * i, 1e-3);
     printf("step %.2f us\n", (now() - begin) / n);
     begin = now();
     for (int i = 0; i < n; i++) GetFloat64(c, tractions, 3, fields, 3 * ELEMENTS);

@@ -25,7 +25,8 @@ static double *work;
 static int64_t (*kernel)(double *, double *);
 
 static void outputs(void) { kernel(values, work); }
-static void step(void) { DoStep(c, 0.0, 1e-3, fmi2True); }
+static double reached_by_c;
+static void step(void) { DoStep(c, reached_by_c, 1e-3, fmi2True), reached_by_c += 1e-3; }
 static void set_inputs(void) { SetReal(c, references, N_INPUTS, inputs); }
 
 /* Least time of one call of each of two functions, which alternate. */

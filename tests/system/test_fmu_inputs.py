@@ -1,0 +1,170 @@
+"""What hosts give that know little of the model: zeros, noise, and anything where it is not used, in both packagings."""
+
+import math
+from contextlib import suppress
+from pathlib import Path
+
+import fmpy
+import pytest
+from fmpy.fmi1 import FMICallException
+from fmu_instance import DISCARD, Instance, refused
+
+from contact import Status
+from fmu_src.tables import wheel_rail_contact, wheel_rail_pair
+from fmu_src.variables import Causality
+
+CONTACT, PAIR = "WheelRailContact", "WheelRailPair"
+TABLES = {CONTACT: wheel_rail_contact.table(), PAIR: wheel_rail_pair.table()}
+NO_LOAD = {"load.normal_force": 0.0}
+#: Choices of an FMU by which every input is used or not used at some time.
+CHOICES = [
+    (CONTACT, {"geometry.kind": 1, "load.kind": 1}),
+    (CONTACT, {"geometry.kind": 1, "load.kind": 2}),
+    (CONTACT, {"geometry.kind": 1, "load.kind": 1, "geometry.surface": 2}),
+    (CONTACT, {"geometry.kind": 2, "load.kind": 1}),
+    (CONTACT, {"geometry.kind": 2, "load.kind": 2, "geometry.surface": 2}),
+    (PAIR, {"load.kind": 1}),
+    (PAIR, {"load.kind": 2}),
+    (PAIR, {"load.kind": 3}),
+]
+
+
+@pytest.fixture(params=["native", "python"])
+def make(request, native, fmus, tmp_path):
+    """Return a function that instantiates an FMU by name, with parameters, before its initialisation."""
+    folder, made = native.parent if request.param == "native" else fmus, []
+
+    def make(name: str, parameters: dict | None = None) -> Instance:
+        directory = Path(fmpy.extract(str(folder / f"{name}.fmu"), str(tmp_path / f"{name}-{len(made)}")))
+        made.append(Instance(directory))
+        made[-1].update(parameters or {})
+        return made[-1]
+
+    yield make
+    for instance in made:
+        instance.free()
+
+
+def inputs(name: str) -> list:
+    return [s for s in TABLES[name].scalars if s.row.causality is Causality.INPUT]
+
+
+def is_used(row, parameters: dict) -> bool:
+    table = TABLES[row[0]]
+    return all(
+        table.row[of].enumeration.item(parameters.get(of, 1)) in items for of, items in table.row[row[1]].used.items()
+    )
+
+
+@pytest.mark.parametrize(("name", "parameters"), CHOICES)
+def test_an_input_that_is_not_used_may_be_anything(make, name, parameters):
+    """It changes no output, and the step is done."""
+    fmu, plain = make(name, parameters), make(name, parameters)
+    unused = [s.name for s in inputs(name) if not is_used((name, s.row.name), parameters)]
+    assert unused
+    for value in (math.nan, math.inf, -1e300, -1.0):
+        fmu.fmu.reset(), fmu.update(parameters), fmu.update(dict.fromkeys(unused, value))
+        plain.fmu.reset(), plain.update(parameters)
+        for instance in (fmu, plain):
+            instance.initialize().step()
+        assert fmu.all("output") == plain.all("output")
+
+
+@pytest.mark.parametrize(("name", "parameters"), CHOICES)
+def test_all_inputs_at_zero_give_no_contact_or_a_valid_answer(make, name, parameters):
+    fmu = make(name, parameters)
+    fmu.update({s.name: 0.0 for s in inputs(name)})
+    fmu.initialize().step()
+    outputs = fmu.all("output")
+    assert all(map(math.isfinite, outputs.values()))
+    if parameters["load.kind"] != 2 or name == CONTACT:
+        assert outputs["status_real"] == Status.NO_CONTACT
+        assert outputs["force.x"] == outputs["force.y"] == 0.0
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_a_small_negative_load_is_no_load_and_a_large_one_a_wrong_sign(make, name):
+    fmu = make(name).initialize()
+    for load in (-1e-9, -1.0, -999.0):
+        fmu.update({"load.normal_force": load})
+        fmu.step()
+        assert fmu["status_real"] == Status.NO_CONTACT
+    fmu.update({"load.normal_force": -80e3})
+    refused(fmu.step, DISCARD)
+
+
+def test_a_contact_at_standstill_has_forces_and_no_rates(make):
+    fmu, rolling = make(CONTACT), make(CONTACT)
+    for instance, speed in ((fmu, 0.0), (rolling, 20.0)):
+        instance.update({"speed": speed, "creepage.longitudinal": 1e-3})
+        instance.initialize().step()
+    assert fmu["force.x"] == rolling["force.x"] < -1e4
+    assert fmu["power.friction"] == fmu["total.energy"] == 0.0
+
+
+def test_a_wheel_at_standstill_has_creep_forces_only_if_it_moves(make):
+    """Without motion all creepages are 0. A wheel that slides at standstill slips fully."""
+    fmu = make(PAIR)
+    fmu.update({"velocity.x": 0.0, "velocity.spin": 0.0})
+    fmu.initialize().step()
+    assert fmu["status_real"] == Status.OK
+    assert fmu["force.x"] == 0.0
+    assert fmu["wheel.Q"] == pytest.approx(80e3, rel=1e-6)
+    fmu.update({"velocity.spin": -1.0})
+    fmu.step()
+    assert fmu["status_real"] == Status.SATURATED
+    assert fmu["force.x"] == pytest.approx(0.3 * 80e3, rel=0.01)
+
+
+@pytest.mark.parametrize("name", [CONTACT, PAIR, "Wheelset"])
+def test_default_start_values_give_a_meaningful_first_step(make, name):
+    fmu = make(name).initialize()
+    fmu.step()
+    outputs = fmu.all("output")
+    assert all(map(math.isfinite, outputs.values()))
+    if name == "Wheelset":
+        assert outputs["right.load.normal_force"] == pytest.approx(outputs["left.load.normal_force"], rel=0.2) != 0.0
+    else:
+        assert outputs["status_real"] in (Status.OK, Status.SATURATED)
+        assert outputs["pressure.max"] > 5e8
+
+
+@pytest.mark.parametrize(
+    ("twin", "choices"),
+    [("method.normal", (2, 3)), ("method.tangential", (2, 4)), ("load.kind", (2,)), ("friction.law", (3,))],
+)
+def test_a_choice_by_number_is_the_choice_by_item(make, twin, choices):
+    for choice in choices:
+        fmu, other = make(CONTACT, {f"{twin}_integer": choice}), make(CONTACT, {twin: choice})
+        for instance in (fmu, other):
+            instance.update({"creepage.longitudinal": 2e-3})
+            instance.initialize().step()
+        assert fmu.all("output") == other.all("output")
+        assert fmu[twin] == choice
+
+
+def test_the_number_wins_in_any_order_and_0_leaves_the_item(make):
+    """Hosts that set every parameter also set those that the user has not changed."""
+    fmu = make(CONTACT, {"method.tangential_integer": 2, "method.tangential": 1})
+    other = make(CONTACT, {"method.tangential": 2, "method.tangential_integer": 0})
+    for instance in (fmu, other):
+        instance.update({"creepage.longitudinal": 2e-3})
+        instance.initialize().step()
+    assert fmu["force.x"] == other["force.x"] != 0.0
+    assert fmu["method.tangential"] == other["method.tangential"] == 2
+
+
+def test_a_number_of_no_item_is_refused_by_its_name(make):
+    fmu = make(CONTACT, {"method.normal_integer": 99})
+    with suppress(FMICallException):  # pythonfmu returns OK here
+        fmu.initialize()
+    assert "method.normal_integer = 99 is outside the allowed range [0, " in fmu.log[-1][1]
+
+
+def test_every_real_twin_shows_its_variable(make):
+    fmu = make(PAIR).initialize()
+    for load in (80e3, 0.0, 50e3):
+        fmu.update({"load.normal_force": load})
+        fmu.step()
+        assert fmu["status_real"] == fmu["status"]
+        assert fmu["patches.count_real"] == fmu["patches.count"] == (load > 0.0)

@@ -1,0 +1,84 @@
+"""The native FMUs in hosts that nobody here wrote, by the scripts of `examples/hosts`. Each runs in a process of its own.
+
+`HOSTS_PYTHON` names the interpreter in which the hosts are installed, if that is not the one of the tests:
+``pip install casadi pathsim-fmi fmuloader ecospy tbb libcosimpy``.
+"""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import contact
+from contact import Creepage, Separation
+from fmu_src.tables.wheel_rail_contact import table
+
+EXAMPLES = Path(__file__).parents[2] / "examples" / "hosts"
+PYTHON = os.environ.get("HOSTS_PYTHON", sys.executable)
+
+
+def run(host: str, script: str, *words: object) -> dict[str, list[float]]:
+    """Run a script and return the numbers that it prints, by the words before them. Skip if `host` is not installed."""
+    environment = os.environ | {"LD_LIBRARY_PATH": str(Path(PYTHON).parents[1] / "lib"), "PYTHONPATH": ""}
+    found = subprocess.run([PYTHON, "-c", f"import {host}"], capture_output=True, text=True, env=environment)
+    if found.returncode:
+        pytest.skip(f"{host.upper()} IS NOT TESTED: {found.stderr.strip().splitlines()[-1]}")
+    done = subprocess.run(
+        [PYTHON, EXAMPLES / script, *map(str, words)], capture_output=True, text=True, env=environment, timeout=600
+    )
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    numbers: dict[str, list[float]] = {}
+    for words_before, number in re.findall(r"^([\w./ ]+) (-?[\d.e+-]+)$", done.stdout, re.MULTILINE):
+        numbers.setdefault(words_before, []).append(float(number))
+    return numbers
+
+
+def solved(creepage: float = 1e-3, **options: str) -> contact.Solution:
+    """Return the solution of the default parameters, in which one creepage is not 0."""
+    start = {row.name: row.start for row in table().rows}
+    y = [start["geometry.y0"] + start["geometry.dy"] * i for i in range(len(start["geometry.g"]))]
+    separation = Separation(y, start["geometry.g"], start["geometry.A"])
+    return contact.solve(separation, Creepage(creepage, 0.0, 0.0), load=start["load.normal_force"], **options)
+
+
+def test_casadi_has_the_contact_as_a_function_with_its_jacobian(native, open_native):
+    found = run("casadi", "casadi_sensitivity.py", native)
+    assert found["force.x"] == [pytest.approx(solved().Fx, rel=1e-12)]
+    fmu = open_native("ModelExchange")
+    fmu.update({"creepage.longitudinal": 1e-3})
+    fmu.initialize()
+    references = [[fmu.variables[name].valueReference] for name in ("force.x", "creepage.longitudinal")]
+    (slope,) = fmu.fmu.getDirectionalDerivative(*references, [1.0])
+    assert found["d force.x/d creepage"] == [pytest.approx(slope, rel=1e-9)]
+
+
+def test_pathsim_steps_the_contact(native):
+    """The force is that of the tenth step, which starts from the ninth."""
+    assert run("pathsim_fmi", "pathsim_contact.py", native)["force.x"] == [pytest.approx(solved().Fx, rel=1e-4)]
+
+
+def test_fmuloader_gives_the_same_digits(native):
+    assert run("fmuloader", "fmuloader_contact.py", native)["force.x"] == [pytest.approx(solved().Fx, rel=1e-12)]
+
+
+def test_libcosim_chooses_a_method_by_its_number(native):
+    names = list(contact.methods().batched.tangential)
+    for number in (1, 2):
+        found = run("libcosimpy", "libcosim_contact.py", native, number)
+        assert found["force.x"] == [pytest.approx(solved(tangential=names[number - 1]).Fx, rel=1e-4)]
+        assert found["status"] == [contact.Status.OK]
+
+
+def test_cofmupy_couples_two_contacts(native):
+    """The third step starts from the second, which started from the first."""
+    assert run("cofmupy", "cofmupy_contact.py", native)["force.x"] == [pytest.approx(solved().Fx, rel=1e-4)]
+
+
+def test_ecos_runs_the_coupled_wheelset(native):
+    """At 28 m/s the wheelset hunts with a growing amplitude of millimetres."""
+    lateral = run("ecospy", "ecos_coupled.py", native.with_name("coupled.ssp"))["lateral"]
+    assert len(lateral) == 4
+    assert all(1e-3 < abs(y) < 6e-3 for y in lateral)

@@ -1,0 +1,158 @@
+"""Damaged and hostile files: every reader says what is wrong with a ContactError, and none takes them for good."""
+
+import os
+import zipfile
+
+import numpy as np
+import pytest
+
+import contact
+from contact.accumulation import Histogram
+from contact.cli import cases
+from contact.geometry import profile
+from fmu_src import archive, profiles
+from models.life import checkpoint, declared
+
+
+def damaged(content: bytes, number: int) -> list[bytes]:
+    """Return copies with changed bytes, cut off, or with a piece that stands twice; ten times as many in `make soak`."""
+    number *= 10 if "SOAK" in os.environ else 1
+    rng, copies = np.random.default_rng(number), []
+    for k in range(number):
+        copy = bytearray(content)
+        at = int(rng.integers(len(copy)))
+        if k % 3 == 0:
+            copy[at] ^= 1 << int(rng.integers(8))
+        elif k % 3 == 1:
+            del copy[at:]
+        else:
+            copy[at:at] = copy[at : at + int(rng.integers(1, 64))]
+        copies.append(bytes(copy))
+    return copies
+
+
+def refused(read, path, copies: list[bytes], *arguments) -> None:
+    """Assert that no copy is taken for good, and that each is refused with a ContactError."""
+    for copy in copies:
+        path.write_bytes(copy)
+        with pytest.raises(contact.ContactError):
+            read(path, *arguments)
+
+
+@pytest.fixture
+def histogram():
+    return Histogram(profile.s1002(), width=1e-3, radius=0.46)
+
+
+@pytest.mark.slow
+def test_a_damaged_histogram_is_refused(histogram, tmp_path):
+    pytest.importorskip("xarray", reason="HISTOGRAMS IN FILES ARE NOT TESTED: xarray is not installed")
+    from contact.accumulation import files
+
+    path = tmp_path / "histogram.nc"
+    files.save(histogram, path)
+    good = path.read_bytes()
+    assert files.load(path).profile.name == histogram.profile.name
+    # padding between the parts of the format may hold anything, so what is taken must be equal
+    for copy in damaged(good, 300):
+        path.write_bytes(copy)
+        try:
+            found = files.load(path)
+        except contact.ContactError:
+            continue
+        assert files.to_xarray(found).attrs["checksum"] == files.to_xarray(histogram).attrs["checksum"]
+    with pytest.raises(FileNotFoundError):
+        files.load(tmp_path / "nothing.nc")
+
+
+def test_a_damaged_checkpoint_is_refused(tmp_path):
+    path = tmp_path / "run.npz"
+    checkpoint.write(path, "mine", {"rows": np.arange(30.0), "wheel": np.ones((4, 5))})
+    good = path.read_bytes()
+    refused(checkpoint.read, path, [good[:n] for n in range(0, len(good), 7)], "mine")
+    for copy in damaged(good, 600):
+        path.write_bytes(copy)
+        try:
+            found = checkpoint.read(path, "mine")
+        except contact.ContactError:
+            continue
+        assert found is not None
+        np.testing.assert_array_equal(found["rows"], np.arange(30.0))
+
+
+def test_a_damaged_fmu_keeps_its_content_and_is_refused(tmp_path):
+    path = tmp_path / "WheelRailPair.fmu"
+    new = {"wheel": profile.s1002()}
+    for copy in (b"", b"PK", b"no archive" * 100):
+        path.write_bytes(copy)
+        with pytest.raises(contact.ContactError, match="is not an FMU"):
+            profiles.exchange(path, new)
+        assert path.read_bytes() == copy
+    archive.write(path, [("modelDescription.xml", b"<a/>"), ("resources/wheel.profile", bytes(5000))])
+    good = bytearray(path.read_bytes())
+    good[good.index(b"wheel.profile") + 20] ^= 0xFF  # inside the compressed bytes
+    path.write_bytes(good)
+    with pytest.raises(contact.ContactError, match="is not an FMU"):
+        profiles.exchange(path, new)
+
+
+@pytest.mark.parametrize("text", ["x = " + "9" * 5000, "x = " + "[" * 20000, "x = \x00", "\xff"])
+def test_toml_of_an_attacker_is_refused(tmp_path, text):
+    path = tmp_path / "case.toml"
+    path.write_text(text, encoding="latin-1")
+    for read in (declared.read_table, lambda path: cases.read(path, {})):
+        with pytest.raises(contact.ContactError):
+            read(path)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes here")
+def test_a_named_pipe_is_no_profile(tmp_path):
+    """Opening it to read would wait for a writer."""
+    path = tmp_path / "rail.prr"
+    os.mkfifo(path)
+    with pytest.raises(contact.ContactError, match="is not a regular file"):
+        profile.read(path)
+
+
+def test_points_that_cannot_be_smoothed_are_refused(tmp_path):
+    pytest.importorskip("scipy")
+    from contact.geometry.smoothing import smoothed
+
+    with pytest.raises(contact.ContactError, match="no spline was found"):
+        smoothed(np.array([0.0, 1.0, 1.0, 2.0]), np.array([0.0, 1.0, 1.0, 2.0]), 0.0)
+
+
+def test_a_file_that_cannot_be_written_leaves_the_old_one(tmp_path):
+    """As on a full disk: the new archive is written beside the old one, which it replaces only when it is complete."""
+    path = tmp_path / "user.fmu"
+    archive.write(path, [("a", b"old")])
+    before = path.read_bytes()
+
+    def content():
+        yield "a", b"new"
+        yield "b", None  # writing this fails
+
+    with pytest.raises(TypeError):
+        archive.write(path, content())
+    assert path.read_bytes() == before
+    assert os.listdir(tmp_path) == ["user.fmu"]
+    archive.write(path, [("a", b"new")])
+    assert zipfile.ZipFile(path).read("a") == b"new"
+
+
+def test_the_command_without_options_does_nothing_and_says_how(tmp_path, monkeypatch, capsys):
+    path = tmp_path / "user.fmu"
+    path.write_bytes(b"anything")
+    monkeypatch.setattr("sys.argv", ["profiles", str(path)])
+    with pytest.raises(SystemExit) as end:
+        profiles.main()
+    assert end.value.code == 2
+    said = capsys.readouterr()
+    assert "--wheel" in said.out
+    assert "give --wheel, --rail or both" in said.err
+
+
+def test_a_profile_of_more_points_than_the_fmu_reads_is_refused():
+    y = np.linspace(-0.03, 0.03, profiles.MOST_POINTS + 1)
+    with pytest.raises(contact.ContactError, match="100001 points: an FMU reads at most 100000"):
+        profiles.pack(profile.Profile("rail", y, 5.0 * y**2, 10.0 * y, "fine"))
