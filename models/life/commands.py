@@ -14,6 +14,7 @@ from contact.cli.progress import progress_bar
 from models.life import checkpoint, declared_set, scenario
 from models.life.run import Run
 from models.life.scale import Workers
+from models.life.trust import Trust
 from models.life.wear import Life
 
 _STEPS = 100  # steps between two readings of the clock
@@ -48,7 +49,7 @@ def complete(started: Run, path: Path, fresh: bool, every: float) -> None:
     Checkpoints are written to `path` every `every` seconds. `fresh` ignores an existing checkpoint.
     """
     fingerprint = started.scenario.fingerprint
-    saved = None if fresh else checkpoint.read(path, fingerprint)
+    saved = checkpoint.read(path, fingerprint, fresh)
     if saved is not None:
         started.restore(saved)
         typer.echo(f"continues at {started.distance:.1f} m from {path}", err=True)
@@ -64,8 +65,8 @@ def complete(started: Run, path: Path, fresh: bool, every: float) -> None:
                     checkpoint.write(path, fingerprint, started.save())
                     looked = time.monotonic()
         except KeyboardInterrupt:
-            # The checkpoint on disk is complete, also if a step was interrupted. Only the last seconds are lost.
-            stop(f"interrupted at {started.distance:.1f} m; the same command continues from {path}", 130)
+            # A checkpoint on disk is complete, also if a step was interrupted. Only the last seconds are lost.
+            stop(f"interrupted at {started.distance:.1f} m; {_resumable(path)}", 130)
 
 
 @reported
@@ -75,40 +76,47 @@ def wear(
     fresh: Fresh = False,
     workers: Annotated[int, typer.Option(help="Processes of this machine; more than one need dask.")] = 1,
     scheduler: Annotated[str | None, typer.Option(help="Address of a dask scheduler, tcp://host:8786.")] = None,
+    go_on: Annotated[bool, typer.Option("--go-on", help="Go on if the energy of a run does not close.")] = False,
 ) -> None:
     """Compute the wear of a wheel over a mileage: run a set of scenarios, change the profile, and repeat.
 
     If the command is interrupted, call it again: it continues from the last complete step. The result does not depend on the
-    number of workers.
+    number of workers. It stops if the energy of a run does not close to 2 % of its dissipation.
     """
     drawing()
     require_extra("xarray")
     folder = out or Path("out") / file.stem
     life = Life(declared_set.read(file))
     path, fingerprint = folder / "checkpoint.npz", life.plan.fingerprint
-    saved = None if fresh else checkpoint.read(path, fingerprint)
+    saved = checkpoint.read(path, fingerprint, fresh)
     if saved is not None:
         life.restore(saved)
         typer.echo(f"continues at {1e-3 * life.mileage:.0f} km from {path}", err=True)
     try:
         with Workers(workers, scheduler) as pool, progress_bar() as bar:
             while not life.ended:
-                _wear_on(life, pool, bar)
+                _wear_on(life, pool, bar, go_on)
                 checkpoint.write(path, fingerprint, life.save())
     except ImportError as missing:
         stop(str(missing), 1)
     except KeyboardInterrupt:
-        stop(f"interrupted at {1e-3 * life.mileage:.0f} km; the same command continues from {path}", 130)
+        stop(f"interrupted at {1e-3 * life.mileage:.0f} km; {_resumable(path)}", 130)
     from models.life import wear_report
 
     _write(folder, lambda: wear_report.dataset(life), lambda: wear_report.page_of(life))
     typer.echo(f"{1e-3 * life.mileage:.0f} km in {len(life.wheels) - 1} steps, ended by {life.ended}", err=True)
+    _warn(life.trust)
 
 
-def _wear_on(life: Life, pool: Workers, bar: Callable[[float, str], None]) -> None:
+def _resumable(path: Path) -> str:
+    """Return what the same command will do."""
+    return f"the same command continues from {path}" if path.exists() else "there is no checkpoint yet"
+
+
+def _wear_on(life: Life, pool: Workers, bar: Callable[[float, str], None], go_on: bool) -> None:
     """Compute one wear step. The bar shows the mileage and the number of runs done in this step."""
     done, mileage = life.mileage / life.plan.declared.mileage, 1e-3 * life.mileage
-    life.step(pool, lambda k, n: bar(done, f"{mileage:.0f} km, run {k} of {n}"))
+    life.step(pool, lambda k, n: bar(done, f"{mileage:.0f} km, run {k} of {n}"), go_on=go_on)
 
 
 def _finish(finished: Run, folder: Path) -> None:
@@ -117,6 +125,13 @@ def _finish(finished: Run, folder: Path) -> None:
 
     _write(folder, lambda: result.dataset(finished), lambda: report.page_of(finished))
     (folder / "checkpoint.npz").unlink(missing_ok=True)
+    _warn(finished.trust)
+
+
+def _warn(trust: Trust) -> None:
+    """Print the warnings, each on a line of its own."""
+    for sentence in trust.warnings:
+        typer.echo(f"warning: {sentence}", err=True)
 
 
 def _write(folder: Path, dataset: Callable[[], Any], page: Callable[[], str]) -> None:

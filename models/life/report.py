@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import MISSING, Field, fields, is_dataclass
 from functools import partial
+from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from contact.study.page import document, faint, html_of, picture
 from contact.study.table import Table, number
 from models.life.harvest import BODIES
 from models.life.run import BALANCE, Run
+from models.life.trust import TRUST, Trust
 from models.wheelset.ports import SIDES
 
 if TYPE_CHECKING:
@@ -48,8 +50,17 @@ def _resized(figure: Figure, width: float) -> Figure:
     return figure
 
 
+def warned(trust: Trust) -> Iterator[str]:
+    """Yield the warnings as paragraphs in bold."""
+    for sentence in trust.warnings:
+        yield f"<p><strong>{escape(sentence)}</strong></p>"
+
+
 def _parts(run: Run) -> Iterator[str]:
+    trust = run.trust
+    yield from warned(trust)
     yield html_of(_summary(run))
+    yield html_of(_trusted(trust))
     for heading, panels in _panels(run.series).items():
         yield f"<h2>{heading}</h2>"
         yield illustrated(partial(plot.time_histories, run.series["distance"], panels, xlabel="distance [m]"), heading)
@@ -100,7 +111,7 @@ def _summary(run: Run) -> Table:
     s, wheels = run.series, [run.harvest.histograms[side, "wheel"] for side in SIDES]
     rows = [("samples", str(s["distance"].size))]
     if s["distance"].size:
-        ratio = max(np.abs(s[f"{side}_lateral_force"] / s[f"{side}_vertical_force"]).max() for side in SIDES)
+        ratio = max(_quotient(s[f"{side}_lateral_force"], s[f"{side}_vertical_force"]) for side in SIDES)
         rows += [
             ("lateral displacement, greatest", f"{1e3 * np.abs(s['lateral'] - s['alignment']).max():.3g} mm"),
             ("lateral over vertical force, greatest", f"{ratio:.3g}"),
@@ -111,6 +122,17 @@ def _summary(run: Run) -> Table:
         deepest = max(h.per("metre")["wear"].max() for h in wheels)
         rows.append(("wear of a wheel, deepest", f"{1e12 * deepest:.3g} µm per 1000 km"))
     return Table("The run in numbers", [("", ""), ("", "")], rows)
+
+
+def _quotient(lateral: np.ndarray, vertical: np.ndarray) -> float:
+    """Return the largest |Y/Q| of the samples in which the wheel carries a load; 0 if there are none."""
+    loaded = vertical > 0.0
+    return float(np.abs(lateral[loaded] / vertical[loaded]).max(initial=0.0))
+
+
+def _trusted(trust: Trust) -> Table:
+    rows = [(TRUST[name][1], number(value)) for name, value in trust.as_dict().items()]
+    return Table("How far to trust it", [("", ""), ("", "")], rows)
 
 
 def _damage(both: dict[str, Histogram]) -> Table:

@@ -20,7 +20,8 @@ def dataset(run: Run) -> Any:
     """Return the result as an `xarray.Dataset`: time series over `distance`, and histograms of damage.
 
     The names of the histograms have prefixes like ``right_wheel_``. The attributes contain the scenario, and energies with
-    the prefix ``balance_`` (`models.life.run.BALANCE`). The same scenario gives the same bytes at any time and on any
+    the prefix ``balance_`` (`models.life.run.BALANCE`), and measures of trust with the prefix ``trust_``
+    (`models.life.trust.TRUST`). The same scenario gives the same bytes at any time and on any
     machine.
     """
     import xarray
@@ -39,6 +40,8 @@ def dataset(run: Run) -> Any:
         "fingerprint": scenario.fingerprint,
         "step": scenario.step,
         **{f"balance_{name}": value for name, value in run.balance.items()},
+        **{f"trust_{name}": value for name, value in run.trust.as_dict().items()},
+        "warnings": " ".join(run.trust.warnings),
     }
     distance = series.pop("distance")
     whole = xarray.Dataset(series, {"distance": distance}, attributes)

@@ -9,7 +9,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from contact.damage import DamageParameters
+from contact.damage import Burstow, DamageParameters
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry import profile
@@ -124,6 +124,10 @@ class Declaration:
         require_number("seed", self.seed, 0)
         if isinstance(self.speed, float):
             require_number("speed", self.speed, 1.0, 150.0)
+        if self.damage.burstow != Burstow():
+            raise ContactError(
+                "damage.burstow: a run does not accumulate Burstow's index, so its constants would have no effect; remove it"
+            )
         factor = as_friction(self.friction).gauge_factor
         if factor != 1.0:
             raise ContactError(
@@ -157,6 +161,12 @@ class Scenario:
         """Return the speed [m/s] at the distance `s` [m]."""
         given = self.declared.speed
         return given(s) if isinstance(given, Speed) else given
+
+    @property
+    def fastest(self) -> float:
+        """Greatest speed of the scenario [m/s]."""
+        given = self.declared.speed
+        return max(given.values) if isinstance(given, Speed) else given
 
     @property
     def parameters(self) -> WheelsetParameters:

@@ -19,6 +19,7 @@ from models.life.harvest import Harvest
 from models.life.run import Run
 from models.life.scale import Workers
 from models.life.scenario import Scenario
+from models.life.trust import TRUST, Trust, worst
 from models.wheelset.ports import SIDES
 
 Array = NDArray[np.float64]
@@ -36,16 +37,16 @@ COLUMNS = {
     "flange_thickness": ("m", "Sd"),
     "qR": ("m", "qR"),
     "tread_depth": ("m", "depth worn off at the tape circle since the start"),
-    "untrusted": ("1", "contacts without a trustworthy solution in the runs of the step"),
+    **{name: (unit, f"{what}: worst of the runs, or sum") for name, (unit, what) in TRUST.items()},
 }
 
 
 def harvest(scenario: Scenario) -> dict[str, Array]:
-    """Run a scenario. Return its damage as from `Harvest.save`, and the number of contacts without trustworthy solution."""
+    """Run a scenario. Return its damage as from `Harvest.save`, and the members of its `Trust` as an array."""
     run = Run(scenario)
     while not run.done:
         run.advance()
-    return run.harvest.save() | {"untrusted": np.array(run.balance["untrusted"])}
+    return run.harvest.save() | {"trust": np.array(list(run.trust.as_dict().values()))}
 
 
 class Life:
@@ -95,7 +96,9 @@ class Life:
             return limit
         return "mileage" if self.mileage >= self.plan.declared.mileage else ""
 
-    def step(self, workers: Workers, watch: Callable[[int, int], None] = lambda done, total: None) -> None:
+    def step(
+        self, workers: Workers, watch: Callable[[int, int], None] = lambda done, total: None, *, go_on: bool = False
+    ) -> None:
         """Run all scenarios on the present wheel, and wear it up to the limits of a step (`Steps`).
 
         Parameters
@@ -103,15 +106,23 @@ class Life:
         workers : Workers
         watch : callable
             Called with the number of runs done and the total number.
+        go_on : bool
+            Wear the profile also if the energy of a run does not close (`models.life.trust`).
 
         Raises
         ------
         ContactError
-            If a run fails, as `Run.advance`, or if there is no wear.
+            If a run fails, as `Run.advance`, if its energy does not close, if there is no wear, or if the steps become too
+            short (`Steps.length`). The wheel is then as before.
         """
         number = len(self.wheels) - 1
         scenarios = [each.worn(self.wheel, number) for each in self.plan.scenarios]
         found = workers.map(harvest, scenarios, watch)
+        trusts = [Trust(*saved["trust"].tolist()) for saved in found]
+        trust = worst(trusts)
+        if not trust.closes and not go_on:
+            which = scenarios[trusts.index(max(trusts, key=lambda each: abs(each.residual)))]
+            raise ContactError(f"{self.plan.name}: step {number + 1}, {which.name}: {trust.warnings[0]}")
         harvests = [Harvest(each) for each in scenarios]
         for each, saved in zip(harvests, found, strict=True):
             each.restore(saved)
@@ -133,7 +144,7 @@ class Life:
             "area_smoothed": _area_between(self.wheel, wheel),
             "mass": DENSITY * length * total.volume,
             "energy": length * float(np.dot(self.plan.weights, energies)),
-            "untrusted": float(sum(saved["untrusted"] for saved in found)),
+            **trust.as_dict(),
         }
         self.rows.append(self._row(self.mileage + length, booked, wheel))
         self.wheels.append(wheel)
@@ -144,6 +155,11 @@ class Life:
         """Return a scenario's share of the damage per metre of the mix, as the mean of both wheels."""
         both = reduce(add, (each.histograms[side, "wheel"] for side in SIDES))
         return both.scaled(weight / both.distance)
+
+    @property
+    def trust(self) -> Trust:
+        """How far the runs of all steps can be trusted."""
+        return worst([Trust(*(float(row[list(COLUMNS).index(name)]) for name in TRUST)) for row in self.rows])
 
     def _row(self, mileage: float, booked: dict[str, float], wheel: Profile) -> Array:
         size = Flange.measured(wheel)

@@ -12,7 +12,8 @@ import numpy as np
 from contact import plot
 from contact.study.page import document, faint, html_of
 from contact.study.table import Table, number
-from models.life.report import illustrated
+from models.life.report import illustrated, warned
+from models.life.trust import TRUST
 from models.life.wear import COLUMNS, DENSITY, Life
 
 FORMAT = "wheelrail-contact wear run 1"
@@ -61,6 +62,7 @@ def dataset(life: Life) -> Any:
         "scenarios": json.dumps([repr(each.declared) for each in life.plan.scenarios]),
         "fingerprint": life.plan.fingerprint,
         "ended": life.ended,
+        "warnings": " ".join(life.trust.warnings),
     }
     return xarray.Dataset(variables, coordinates, attributes)
 
@@ -78,6 +80,7 @@ def page_of(life: Life) -> str:
 
 
 def _parts(life: Life) -> Iterator[str]:
+    yield from warned(life.trust)
     yield html_of(_steps(life))
     before, after = life.plan.wheel, life.wheel
     deepest = float(np.hypot(after.y - before.y, after.z - before.z).max())
@@ -156,6 +159,6 @@ def _balance(life: Life) -> Table:
         ("mass worn off a wheel", number(1e3 * mass), "g"),
         ("frictional energy of a wheel", number(1e-6 * energy), "MJ"),
         ("mass for energy", number(1e9 * mass / energy) if energy > 0.0 else "", "µg/J"),
-        ("contacts without a trustworthy solution", number(float(life["untrusted"].sum())), ""),
+        *((what, number(life.trust.as_dict()[name]), "") for name, (_, what) in TRUST.items()),
     ]
     return Table("Energy and worn mass", [("", ""), ("value", ""), ("", "unit")], rows)
