@@ -20,6 +20,8 @@ from contact.solver import N_ELEMENTS, N_STRIPS, require_resolution
 from models.life.declared import build, read_table
 from models.life.track import Line, Speed, Track
 from models.life.vehicle import Vehicle
+from models.vehicle.declared import VehicleDeclaration
+from models.vehicle.declared import read as read_vehicle
 from models.wheelset.parameters import WheelsetParameters
 
 _CREEP_COEFFICIENT = (
@@ -104,6 +106,8 @@ class Declaration:
     length : distance to run [m], longer than recording.settling
     speed : a number [m/s], 1 to 150, or a `Speed`
     seed : seed of the random irregularities, not negative
+    vehicle : file of a vehicle relative to the scenario's file, or one of the included ones, `manchester` and `wheelset`
+        (`models.vehicle`). Without it the run is that of the quasi-static wheelset of the table `wheelset`.
     track, wheelset, friction, profiles, methods, damage, recording : separate tables
     """
 
@@ -111,6 +115,7 @@ class Declaration:
     length: float
     speed: float | Speed
     seed: int = 0
+    vehicle: str | None = None
     track: Track = field(default_factory=Track)
     wheelset: Vehicle = field(default_factory=Vehicle)
     friction: float | Friction = 0.3
@@ -146,12 +151,15 @@ class Scenario:
         Profiles of the right side. The left side is the mirror image.
     draw : tuple of int
         Number of the realisation of the irregularities, in addition to the seed. In a wear run it is the mileage step.
+    vehicle : VehicleDeclaration, optional
+        None is the quasi-static wheelset of `models.wheelset`.
     """
 
     declared: Declaration
     wheel: Profile
     rail: Profile
     draw: tuple[int, ...] = ()
+    vehicle: VehicleDeclaration | None = None
 
     @property
     def name(self) -> str:
@@ -169,6 +177,12 @@ class Scenario:
         return max(given.values) if isinstance(given, Speed) else given
 
     @property
+    def slowest(self) -> float:
+        """Least speed of the scenario [m/s]."""
+        given = self.declared.speed
+        return min(given.values) if isinstance(given, Speed) else given
+
+    @property
     def parameters(self) -> WheelsetParameters:
         """Parameters of the wheelset at the start."""
         return self.declared.wheelset.parameters(self.wheel, self.rail, self.speed(0.0))
@@ -183,9 +197,8 @@ class Scenario:
         given = self.declared.recording.step
         if given is not None:
             return given
-        p, speeds = self.parameters, self.declared.speed
-        slowest = min(speeds.values) if isinstance(speeds, Speed) else speeds
-        stable = p.spin_inertia * slowest / (_CREEP_COEFFICIENT * p.radius**2)
+        p = self.parameters
+        stable = p.spin_inertia * self.slowest / (_CREEP_COEFFICIENT * p.radius**2)
         return min(_LONGEST_STEP, _SHARE_OF_STABLE * stable * min(1.0, (109.1e3 / p.axle_load) ** (2.0 / 3.0)))
 
     def line(self) -> Line:
@@ -200,7 +213,9 @@ class Scenario:
     @property
     def fingerprint(self) -> str:
         """Hash of the input. Runs with the same fingerprint have the same result."""
-        digest = hashlib.sha256(f"{version('wheelrail-contact')} {self.declared!r} {self.draw!r}".encode())
+        digest = hashlib.sha256(
+            f"{version('wheelrail-contact')} {self.declared!r} {self.vehicle!r} {self.draw!r}".encode()
+        )
         for shape in (self.wheel, self.rail):
             for row in (shape.y, shape.z, shape.angle):
                 digest.update(row.tobytes())
@@ -226,4 +241,7 @@ def from_table(table: dict[str, Any], path: Path) -> Scenario:
         wheel, rail = declared.profiles.load(path.parent)
     except (ContactError, OSError) as error:
         raise ContactError(f"{path.name}.profiles: {error}") from None
-    return Scenario(declared, wheel, rail)
+    if declared.vehicle is None:
+        return Scenario(declared, wheel, rail)
+    beside = path.parent / declared.vehicle
+    return Scenario(declared, wheel, rail, vehicle=read_vehicle(beside if beside.is_file() else declared.vehicle))

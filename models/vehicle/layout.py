@@ -99,6 +99,17 @@ class Book(IntEnum):
     DISTANCE = 14
 
 
+class Sum(IntEnum):
+    """Sums of a wheel over steps; divided by the number of steps they are means."""
+
+    STEPS = 0
+    LATERAL = 1  # [N]
+    VERTICAL = 2
+    LONGITUDINAL = 3
+    T_GAMMA = 4
+    DISSIPATION = 5
+
+
 BODY = np.dtype(
     [
         ("mass", "f8"),
@@ -172,6 +183,7 @@ class State(NamedTuple):
     inner: Array  # elongation of the dampers of series elements [m], shape (elements, 3)
     rails: Array  # y, z and their rates under each wheel, shape (wheelsets, 2, 4)
     loads: Array  # normal forces of the last step [N], shape (wheelsets, 2)
+    sums: Array  # over the steps since it was cleared, shape (2 wheelsets, len(Sum))
     books: Array
 
 

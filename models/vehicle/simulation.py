@@ -25,7 +25,7 @@ from models.vehicle.assembly import Assembly, assemble
 from models.vehicle.benches import Benches, gather
 from models.vehicle.course import BEYOND, SPACING
 from models.vehicle.declared import VehicleDeclaration
-from models.vehicle.layout import Axis, Book, Model, Row, Scratch, State, scratch
+from models.vehicle.layout import Axis, Book, Model, Row, Scratch, State, Sum, scratch
 
 Array = NDArray[np.float64]
 
@@ -93,10 +93,16 @@ class Simulation:
             np.array([members["mu"], members["kinetic"]]), np.array([SPACING, -BEYOND]),
         )  # fmt: skip
         n = len(made.names)
+        axles = made.wheelsets.size
         self.state = State(
-            np.zeros((n, 6)), np.zeros((n, 6)), np.zeros((made.elements.size, 3)),
-            np.zeros((made.wheelsets.size, 2, 4)), np.zeros((made.wheelsets.size, 2)), np.zeros(len(Book)),
-        )  # fmt: skip
+            q=np.zeros((n, 6)),
+            u=np.zeros((n, 6)),
+            inner=np.zeros((made.elements.size, 3)),
+            rails=np.zeros((axles, 2, 4)),
+            loads=np.zeros((axles, 2)),
+            sums=np.zeros((n_wheels, len(Sum))),
+            books=np.zeros(len(Book)),
+        )
         self.scratch: Scratch = scratch(n, made.wheelsets.size)
         self._pairs = [
             self._pair(SIDES[k % 2], wheel, rail, ledgers[k] if ledgers else workspace.closed_ledger())

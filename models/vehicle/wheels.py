@@ -10,7 +10,7 @@ from contact.kernels.layout import Height, Status
 from contact.kernels.pair import solve_pair
 from models.vehicle.benches import bench_of
 from models.vehicle.frames import linear, place_on, smooth
-from models.vehicle.layout import TO_LEFT, Axis, Book, Frame, Row
+from models.vehicle.layout import TO_LEFT, Axis, Book, Frame, Row, Sum
 
 #: Share of load times approach that a contact stores: exact for an elliptic one.
 _ELASTIC = 0.4
@@ -89,7 +89,7 @@ def _report(bench, n, speed, wheel):
 
 @kernel
 def count(model, state, wheels, most):
-    """Count impacts (rises above `most` static loads), lifted wheels and untrustworthy contacts since the last step."""
+    """Count impacts (rises above `most` static loads), lifted wheels and untrustworthy contacts; add to the sums."""
     books = state.books
     for w in range(wheels.size):
         before, now = state.loads[w // 2, w % 2], wheels[w].normal
@@ -101,6 +101,13 @@ def count(model, state, wheels, most):
         if wheels[w].status >= Status.OUT_OF_RANGE.value:
             books[Book.UNTRUSTED] += 1.0
         state.loads[w // 2, w % 2] = now
+        sums, wheel = state.sums[w], wheels[w]
+        sums[Sum.STEPS] += 1.0
+        sums[Sum.LATERAL] += wheel.lateral
+        sums[Sum.VERTICAL] += wheel.vertical
+        sums[Sum.LONGITUDINAL] += wheel.longitudinal
+        sums[Sum.T_GAMMA] += wheel.T_gamma
+        sums[Sum.DISSIPATION] += wheel.dissipation
 
 
 @kernel
