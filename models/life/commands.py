@@ -16,8 +16,9 @@ from models.life.run import Run
 from models.life.scale import Workers
 from models.life.trust import Trust
 from models.life.wear import Life
+from models.vehicle.run import VehicleRun
 
-_STEPS = 100  # steps between two readings of the clock
+_SHOWN = 0.2  # between two changes of the progress bar [s]
 
 Declared = Annotated[Path, typer.Argument(help="TOML file.", show_default=False)]
 Out = Annotated[Path | None, typer.Option(help="Folder for the results; default out/ and the file's name.")]
@@ -31,19 +32,20 @@ def run(
     fresh: Fresh = False,
     every: Annotated[float, typer.Option(help="Seconds between two checkpoints.")] = 15.0,
 ) -> None:
-    """Run a scenario: a wheelset over a track, with time series, damage of wheels and rails, and a report.
+    """Run a scenario: a vehicle or a wheelset over a track, with time series, damage of wheels and rails, and a report.
 
     If the command is interrupted, call it again: it continues from the last checkpoint, with the same result bit for bit.
     """
     drawing()
     require_extra("xarray")
     folder = out or Path("out") / file.stem
-    started = Run(scenario.read(file))
+    read = scenario.read(file)
+    started = Run(read) if read.vehicle is None else VehicleRun(read)
     complete(started, folder / "checkpoint.npz", fresh, every)
     _finish(started, folder)
 
 
-def complete(started: Run, path: Path, fresh: bool, every: float) -> None:
+def complete(started: Run | VehicleRun, path: Path, fresh: bool, every: float) -> None:
     """Complete a run, from its checkpoint if there is one, with a progress bar.
 
     Checkpoints are written to `path` every `every` seconds. `fresh` ignores an existing checkpoint.
@@ -53,17 +55,18 @@ def complete(started: Run, path: Path, fresh: bool, every: float) -> None:
     if saved is not None:
         started.restore(saved)
         typer.echo(f"continues at {started.distance:.1f} m from {path}", err=True)
-    looked = time.monotonic()
+    written = shown = time.monotonic()
     with progress_bar() as bar:
         try:
             while not started.done:
                 started.advance()
-                if started.steps % _STEPS:
-                    continue
-                bar(started.share, f"{started.distance:.0f} m of {started.scenario.name}")
-                if time.monotonic() - looked >= every:
+                now = time.monotonic()
+                if now - shown >= _SHOWN:
+                    bar(started.share, f"{started.distance:.0f} m of {started.scenario.name}")
+                    shown = now
+                if now - written >= every:
                     checkpoint.write(path, fingerprint, started.save())
-                    looked = time.monotonic()
+                    written = time.monotonic()
         except KeyboardInterrupt:
             # A checkpoint on disk is complete, also if a step was interrupted. Only the last seconds are lost.
             stop(f"interrupted at {started.distance:.1f} m; {_resumable(path)}", 130)
@@ -119,11 +122,15 @@ def _wear_on(life: Life, pool: Workers, bar: Callable[[float, str], None], go_on
     life.step(pool, lambda k, n: bar(done, f"{mileage:.0f} km, run {k} of {n}"), go_on=go_on)
 
 
-def _finish(finished: Run, folder: Path) -> None:
+def _finish(finished: Run | VehicleRun, folder: Path) -> None:
     """Write result and report to the folder, and delete the checkpoint."""
     from models.life import report, result
+    from models.vehicle import report as of_vehicle
 
-    _write(folder, lambda: result.dataset(finished), lambda: report.page_of(finished))
+    def page() -> str:
+        return report.page_of(finished) if isinstance(finished, Run) else of_vehicle.page_of(finished)
+
+    _write(folder, lambda: result.dataset(finished), page)
     (folder / "checkpoint.npz").unlink(missing_ok=True)
     _warn(finished.trust)
 

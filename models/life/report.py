@@ -60,7 +60,7 @@ def _parts(run: Run) -> Iterator[str]:
     trust = run.trust
     yield from warned(trust)
     yield html_of(_summary(run))
-    yield html_of(_trusted(trust))
+    yield html_of(trusted(trust))
     for heading, panels in _panels(run.series).items():
         yield f"<h2>{heading}</h2>"
         yield illustrated(partial(plot.time_histories, run.series["distance"], panels, xlabel="distance [m]"), heading)
@@ -69,7 +69,7 @@ def _parts(run: Run) -> Iterator[str]:
         if not all(h.distance > 0.0 for h in both.values()):
             continue
         yield f"<h2>Damage of the {body}s</h2>"
-        yield html_of(_damage(both))
+        yield html_of(damaged(both))
         yield illustrated(
             partial(plot.wear, both, f"wear of both {body}s: the share of each in their mean"),
             f"Wear over the profile of the {body}s",
@@ -79,7 +79,7 @@ def _parts(run: Run) -> Iterator[str]:
     yield faint("; ".join(f"{name}: {what}" for name, what in BALANCE.items()) + ".")
     yield "<h2>Declaration</h2>"
     for entry in fields(run.scenario.declared):
-        yield faint(f"{entry.name}: {_told(getattr(run.scenario.declared, entry.name))}")
+        yield faint(f"{entry.name}: {told(getattr(run.scenario.declared, entry.name))}")
     yield faint(f"fingerprint {run.scenario.fingerprint}, step {1e3 * run.scenario.step:.4g} ms, {run.steps} steps")
 
 
@@ -130,12 +130,14 @@ def _quotient(lateral: np.ndarray, vertical: np.ndarray) -> float:
     return float(np.abs(lateral[loaded] / vertical[loaded]).max(initial=0.0))
 
 
-def _trusted(trust: Trust) -> Table:
+def trusted(trust: Trust) -> Table:
+    """Return the measures of trust as a table."""
     rows = [(TRUST[name][1], number(value)) for name, value in trust.as_dict().items()]
     return Table("How far to trust it", [("", ""), ("", "")], rows)
 
 
-def _damage(both: dict[str, Histogram]) -> Table:
+def damaged(both: dict[str, Histogram]) -> Table:
+    """Return the damage of wheels or of rails, by name, as a table."""
     rows = []
     for side, h in both.items():
         rolled = h.distance
@@ -153,7 +155,7 @@ def _damage(both: dict[str, Histogram]) -> Table:
     return Table(
         "Per kilometre rolled",
         [
-            ("side", ""),
+            ("", ""),
             ("worn", "mm³/km"),
             ("deepest", deepest),
             ("mean T-gamma", "N"),
@@ -173,18 +175,18 @@ def _energy(run: Run) -> Table:
     )
 
 
-def _told(value: object) -> str:
+def told(value: object) -> str:
     """Return a declared value as text. Members with their default value are left out."""
     if isinstance(value, tuple):
-        return "; ".join(map(_told, value)) or "none"
+        return "; ".join(map(told, value)) or "none"
     if not is_dataclass(value):
         return str(value)
-    told = [
-        f"{entry.name} {_told(member)}"
+    changed = [
+        f"{entry.name} {told(member)}"
         for entry in fields(value)
         if (member := getattr(value, entry.name)) != _default(entry)
     ]
-    return ", ".join(told) or "default"
+    return ", ".join(changed) or "default"
 
 
 def _default(entry: Field[Any]) -> object:

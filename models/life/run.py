@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact import Status
+from contact.accumulation import Histogram
 from contact.errors import ContactError
 from contact.geometry.wheelset import Pose, Velocity
 from contact.solution import CaseForces
@@ -196,6 +197,20 @@ class Run:
         for i, problem in enumerate(problems):
             row += [normal[i], frames[i, dynamics.Frame.ANGLE], lateral[i], vertical[i], *problem[CREEPAGE], *found[i]]
         self._rows.append(np.array(row))
+
+    @property
+    def columns(self) -> dict[str, tuple[str, str]]:
+        """Column of the time series → unit and meaning."""
+        return COLUMNS
+
+    @property
+    def step(self) -> float:
+        """Step of the coupled system [s]."""
+        return self._h
+
+    def damage(self) -> dict[tuple[str, str], Histogram]:
+        """Return the damage of both wheels and rails: (side, "wheel" or "rail") → histogram."""
+        return {(side, body): histogram for (side, body), histogram in self.harvest.histograms.items()}
 
     @property
     def series(self) -> dict[str, Array]:

@@ -271,7 +271,7 @@ class VehicleRun:
 
         return linear.critical_speed(at_speed, tolerance=1.0)
 
-    def harvest(self) -> dict[tuple[str, str, str], Histogram]:
+    def damage(self) -> dict[tuple[str, str, str], Histogram]:
         """Return the histograms of all wheels and rails, filled with the damage so far."""
         simulation, methods = self.simulation, {f"{self._options.normal} + {self._options.tangential}"}
         for number, i in enumerate(simulation.model.wheelsets):
