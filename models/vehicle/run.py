@@ -112,8 +112,9 @@ class VehicleRun:
         }
         ledgers = tuple(ledger(*self._pair(name, side), options.n_strips) for name in names for side in SIDES)
         track = lay(d.track, d.length, scenario.speed, (d.seed, *scenario.draw), d.recording.settling)
+        ahead = max(axle.at for axle in vehicle.wheelsets) + 1.0  # all axles start before the irregularities
         self.simulation = Simulation(
-            vehicle, track, scenario.wheel, scenario.rail, scenario.friction, options, ledgers=ledgers
+            vehicle, track, scenario.wheel, scenario.rail, scenario.friction, options, ledgers=ledgers, start=-ahead
         )
         self.step = d.recording.step or min(_LONGEST_STEP, 0.7 * self._stable(vehicle))
         self._require_stable()
@@ -166,7 +167,7 @@ class VehicleRun:
     @property
     def share(self) -> float:
         """Share of the length that has been run, 0 to 1."""
-        return min(self.distance / self.scenario.declared.length, 1.0)
+        return min(max(self.distance / self.scenario.declared.length, 0.0), 1.0)
 
     def advance(self) -> None:
         """Advance by one sample: as many steps as fit in its spacing. The last one counts for the damage of all.
