@@ -59,6 +59,7 @@ coupling: $(READY) ## write the largest stable steps of the coupling schemes to 
 bench: $(READY)  ## print the speed tables
 	PYTHONPATH=. $(BIN)/python benchmarks/speed.py
 	PYTHONPATH=. $(BIN)/python benchmarks/pose_times.py
+	PYTHONPATH=. $(BIN)/python benchmarks/vehicle_speed.py
 	PYTHONPATH=. $(BIN)/python benchmarks/fmu_speed.py
 	PYTHONPATH=. $(BIN)/python benchmarks/compile_times.py
 

@@ -22,8 +22,10 @@ from models.vehicle.simulation import ContactOptions, Simulation
 Array = NDArray[np.float64]
 
 _INSTANT = 1e-6  # step from which the accelerations are taken [s]
-_PLACE = 100.0  # of the vehicle in the curve [m]
-_MOST = 60  # iterations
+_TRANSITION = 40.0  # at the start of the curve [m]
+_SETTLING = 4.0  # time in the curve before equilibrium is looked for [s]
+_STEP = 3e-4  # of that run [s]
+_MOST = 25  # iterations
 _TOLERANCE = 1e-3  # of the accelerations [m/s²], [rad/s²]
 
 
@@ -46,14 +48,14 @@ class Curving:
 
 
 class Equilibrium:
-    """A vehicle in a circular curve to the right, brought to equilibrium by Newton's method.
+    """A vehicle in a circular curve, brought to equilibrium by Newton's method from a state near it.
 
     The unknowns are the free coordinates, the spins and the displacements of the rails; the equations are that nothing is
     accelerated while all bodies go round with their frames.
     """
 
     def __init__(self, simulation: Simulation, speed: float) -> None:
-        self.simulation, self._speed = simulation, speed
+        self.simulation, self._speed, self._place = simulation, speed, simulation.distance
         state = simulation.state
         free = coordinates(simulation)
         axles = [(int(i), int(Axis.PITCH)) for i in simulation.model.wheelsets]
@@ -72,9 +74,9 @@ class Equilibrium:
         for (array, at), value in zip(self._unknown, x, strict=True):
             array[at] = value
         state.books[:] = 0.0
-        state.books[Book.DISTANCE] = _PLACE
+        state.books[Book.DISTANCE] = self._place
         state.rails[:, :, 2:] = 0.0
-        lay_frames(model, _PLACE, self._speed, simulation.scratch.frames)
+        lay_frames(model, self._place, self._speed, simulation.scratch.frames)
         for i, body in enumerate(model.bodies):
             for j in Axis:
                 if not (body["wheelset"] and j == Axis.PITCH):
@@ -129,9 +131,8 @@ def in_curve(
     cant: float = 0.0,
     friction: float | Friction = 0.3,
     options: ContactOptions | None = None,
-    start: Array | None = None,
 ) -> Curving:
-    """Return the equilibrium of a vehicle in a curve to the right.
+    """Return the equilibrium of a vehicle in a curve to the right. It runs into the curve, then Newton's method takes over.
 
     Parameters
     ----------
@@ -143,19 +144,18 @@ def in_curve(
         [m/s], height of the outer rail [m].
     friction : float or Friction
     options : ContactOptions, optional
-    start : ndarray, optional
-        Coordinates to start from, those of a wider curve.
 
     Raises
     ------
     ContactError
         If no equilibrium is found.
     """
-    curve = Curve(start=0.0, radius=radius, length=2.0 * _PLACE, transition=1.0, cant=cant)
-    track = lay(Track(curves=(curve,)), 2.0 * _PLACE, lambda s: speed, (0,), 0.0)
-    simulation = Simulation(vehicle, track, *profiles, friction, options, start=_PLACE)
-    if start is not None:
-        simulation.state.q[:] = start
+    half = 0.5 * max(abs(body.at) for body in vehicle.wheelsets)
+    length = _TRANSITION + 4.0 * half + speed * _SETTLING
+    curve = Curve(start=2.0 * half, radius=radius, length=2.0 * length, transition=_TRANSITION, cant=cant)
+    track = lay(Track(curves=(curve,)), 2.0 * length, lambda s: speed, (0,), 0.0)
+    simulation = Simulation(vehicle, track, *profiles, friction, options)
+    simulation.advance(_STEP, round(length / speed / _STEP))
     Equilibrium(simulation, speed).find()
     simulation.advance(_INSTANT)
     return Curving(radius, speed, cant, simulation.state.q.copy(), simulation.wheels.copy())
@@ -178,24 +178,13 @@ def over_radius(
     ContactError
         If no equilibrium is found, or the acceleration needs no speed.
     """
-    found: list[Curving] = []
+    found = []
     for radius in sorted(radii, reverse=True):
         square = radius * (lateral_acceleration + 9.81 * cant / 1.5)
         if square <= 0.0:
             raise ContactError(
                 f"lateral_acceleration = {lateral_acceleration:g} m/s² with cant = {cant:g} m has no speed"
             )
-        start = found[-1].q if found else None
-        found.append(
-            in_curve(
-                vehicle,
-                profiles,
-                radius,
-                speed=math.sqrt(square),
-                cant=cant,
-                friction=friction,
-                options=options,
-                start=start,
-            )
-        )
+        speed = math.sqrt(square)
+        found.append(in_curve(vehicle, profiles, radius, speed=speed, cant=cant, friction=friction, options=options))
     return found

@@ -10,7 +10,7 @@ from contact.geometry import profile
 from models.life.spectra import Irregularities
 from models.life.track import Curve, Friction, Track
 from models.vehicle.declared import Damper, Rail, read
-from models.vehicle.layout import Axis, Book
+from models.vehicle.layout import Axis, Book, Sum
 from tests.vehicle.parts import simulation
 
 ROUGH = {
@@ -32,8 +32,9 @@ def test_vehicle_at_rest_on_straight_track_stays_at_rest():
     """Preloads carry the weights, and the wheels their static loads."""
     sim = simulation("manchester", speed=20.0)
     sim.advance(4e-4, 500)
-    assert np.abs(sim.state.q[:, [Axis.Y, Axis.ROLL, Axis.PITCH, Axis.YAW]]).max() < 1e-6
-    assert sim.wheels["vertical"] == pytest.approx(54546.0, rel=2e-4)
+    assert not sim.state.q[:, [Axis.Y, Axis.ROLL, Axis.YAW]].any()
+    assert np.abs(sim.state.q).max() < 3e-4  # the rolling resistance of spin, and the wheels' approach
+    assert sim.wheels["vertical"] == pytest.approx(54546.0, rel=1e-3)
 
 
 @pytest.mark.parametrize("direction", ["right", "left"])
@@ -122,7 +123,8 @@ def test_a_torque_drives_the_axle_and_its_work_is_in_the_balance():
     driven = dataclasses.replace(wheelset, wheelsets=(dataclasses.replace(wheelset.wheelsets[0], torque=2000.0),))
     sim = simulation(driven, length=30.0)
     sim.advance(2e-4, 5000)
-    assert sim.wheels["longitudinal"].sum() == pytest.approx(2000.0 / 0.46, rel=0.02)
+    pulled = sim.state.sums[:, Sum.LONGITUDINAL].sum() / 5000.0  # the axle swings on its springs, undamped
+    assert pulled == pytest.approx(2000.0 / 0.46, rel=0.02)
     assert sim.state.books[Book.TORQUE] == pytest.approx(2000.0 / 0.46 * 20.0, rel=0.02)
     assert abs(residual(sim)) < 5e-3
 

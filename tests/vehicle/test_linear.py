@@ -74,7 +74,7 @@ def test_growth_changes_sign_at_the_critical_speed_and_motion_agrees():
         sizes = []
         for _ in range(4):
             path = []
-            for _ in range(100):
+            for _ in range(200):
                 sim.advance(2e-4, 10)
                 path.append(sim.state.q[1, Axis.Y])
             sizes.append(np.ptp(path))
