@@ -18,10 +18,10 @@ from models.life.spectra import Irregularities
 from models.life.track import Curve, Track
 from models.vehicle.course import lay
 from models.vehicle.declared import read
-from models.vehicle.frames import lay_frames
-from models.vehicle.layout import Book
+from models.vehicle.kernels.frames import lay_frames
+from models.vehicle.kernels.layout import Book
+from models.vehicle.kernels.wheels import press
 from models.vehicle.simulation import ContactOptions, Simulation
-from models.vehicle.wheels import press
 
 STEP = 4.6e-4  # [s]
 ROUGH = Irregularities(spectrum="ERRI B176 low")

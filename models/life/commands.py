@@ -14,6 +14,7 @@ from contact.cli.progress import progress_bar
 from models.life import checkpoint, declared_set, scenario
 from models.life.run import Run
 from models.life.scale import Workers
+from models.life.start import start
 from models.life.trust import Trust
 from models.life.wear import Life
 from models.vehicle.run import VehicleRun
@@ -39,8 +40,7 @@ def run(
     drawing()
     require_extra("xarray")
     folder = out or Path("out") / file.stem
-    read = scenario.read(file)
-    started = Run(read) if read.vehicle is None else VehicleRun(read)
+    started = start(scenario.read(file))
     complete(started, folder / "checkpoint.npz", fresh, every)
     _finish(started, folder)
 

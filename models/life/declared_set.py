@@ -142,8 +142,8 @@ def read(path: str | PathLike[str]) -> ScenarioSet:
     first = scenarios[0]
     for share, other in zip(declared.scenarios, scenarios, strict=True):
         same = np.array_equal(first.wheel.y, other.wheel.y) and np.array_equal(first.wheel.z, other.wheel.z)
-        if not same or (first.parameters.radius, first.declared.recording.bins, first.declared.damage) != (
-            other.parameters.radius,
+        if not same or (first.radius, first.declared.recording.bins, first.declared.damage) != (
+            other.radius,
             other.declared.recording.bins,
             other.declared.damage,
         ):

@@ -228,6 +228,11 @@ class Run:
         return dict(zip(BALANCE, (*values, counted, float(self.harvest.energy.sum()), untrusted), strict=True))
 
     @property
+    def energy(self) -> float:
+        """Frictional energy of both wheels where damage was counted [J]."""
+        return float(self.harvest.energy.sum())
+
+    @property
     def trust(self) -> Trust:
         """How far the run can be trusted."""
         balance = self.balance

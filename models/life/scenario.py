@@ -171,6 +171,11 @@ class Scenario:
         return given(s) if isinstance(given, Speed) else given
 
     @property
+    def radius(self) -> float:
+        """Nominal radius of the wheels [m]."""
+        return self.parameters.radius if self.vehicle is None else self.vehicle.radius
+
+    @property
     def fastest(self) -> float:
         """Greatest speed of the scenario [m/s]."""
         given = self.declared.speed

@@ -73,7 +73,7 @@ def page_of(life: Life) -> str:
     about = [
         f"{life.mileage * _KM:.0f} km in {len(life.wheels) - 1} steps, ended by: {life.ended or 'nothing yet'}. "
         f"A step wears off at most {1e6 * steps.depth:g} µm; its depth is smoothed over {1e3 * steps.smoothing:g} mm.",
-        "Both wheels have the same wear, the mean over both wheels of the runs. The rails do not wear. The law is Archard's "
+        "All wheels have the same wear, the mean over the wheels of the runs. The rails do not wear. The law is Archard's "
         "with the KTH map for dry steel. The amount of wear depends on its constants (docs/theory.md), the shape less so.",
     ]
     return document(life.plan.name, about, _parts(life))
@@ -150,7 +150,7 @@ def _steps(life: Life) -> Table:
 def _balance(life: Life) -> Table:
     mass, energy = float(life["mass"].sum()), float(life["energy"].sum())
     area, smoothed = float(life["area"].sum()), float(life["area_smoothed"].sum())
-    whole = 2.0 * np.pi * life.plan.scenarios[0].parameters.radius * area
+    whole = 2.0 * np.pi * life.plan.scenarios[0].radius * area
     rows = [
         ("cross-section worn off, before smoothing", number(1e6 * area), "mm²"),
         ("the same between the profiles, after smoothing", number(1e6 * smoothed), "mm²"),

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from contact.errors import ContactError
 from models.vehicle.declared import Body, Damper, Joint, Spring, Stop, VehicleDeclaration, Wheelset
-from models.vehicle.layout import BODY, ELEMENT, LINK, Axis, Kind
+from models.vehicle.kernels.layout import BODY, ELEMENT, LINK, Axis, Kind
 
 Array = NDArray[np.float64]
 
@@ -18,7 +18,7 @@ _HELD = ("x", "y", "z", "roll", "pitch", "yaw")
 
 
 class Assembly(NamedTuple):
-    """Arrays of a vehicle, as in `models.vehicle.layout.Model`."""
+    """Arrays of a vehicle, as in `models.vehicle.kernels.layout.Model`."""
 
     names: tuple[str, ...]
     bodies: NDArray

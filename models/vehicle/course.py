@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from models.life.track import RAIL_DISTANCE, Track
-from models.vehicle.layout import Row
+from models.vehicle.kernels.layout import Row
 
 Array = NDArray[np.float64]
 

@@ -14,8 +14,8 @@ from contact.geometry.profile import Profile
 from models.life.track import Curve, Track
 from models.vehicle.course import lay
 from models.vehicle.declared import VehicleDeclaration
-from models.vehicle.frames import carried, lay_frames
-from models.vehicle.layout import Axis, Book
+from models.vehicle.kernels.frames import carried, lay_frames
+from models.vehicle.kernels.layout import Axis, Book
 from models.vehicle.linear import coordinates
 from models.vehicle.simulation import ContactOptions, Simulation
 

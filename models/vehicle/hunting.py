@@ -14,7 +14,7 @@ from contact.geometry.profile import Profile
 from models.life.track import Track
 from models.vehicle.course import lay
 from models.vehicle.declared import VehicleDeclaration
-from models.vehicle.layout import Axis
+from models.vehicle.kernels.layout import Axis
 from models.vehicle.simulation import ContactOptions, Simulation
 
 Array = NDArray[np.float64]

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError
-from models.vehicle.layout import Axis
+from models.vehicle.kernels.layout import Axis
 from models.vehicle.simulation import Simulation
 
 Array = NDArray[np.float64]

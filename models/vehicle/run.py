@@ -15,7 +15,7 @@ from models.life.trust import Trust
 from models.vehicle import linear
 from models.vehicle.course import lay
 from models.vehicle.declared import VehicleDeclaration
-from models.vehicle.layout import Axis, Book, Frame, Row, Sum
+from models.vehicle.kernels.layout import Axis, Book, Frame, Row, Sum
 from models.vehicle.ledgers import BODIES, fill, ledger
 from models.vehicle.simulation import SIDES, ContactOptions, Simulation
 
@@ -244,6 +244,11 @@ class VehicleRun:
             "residual": float(books[Book.RESIDUAL]),
             "counted": self._counted,
         }
+
+    @property
+    def energy(self) -> float:
+        """Frictional energy of all wheels where damage was counted [J]."""
+        return self._counted
 
     @property
     def trust(self) -> Trust:

@@ -20,12 +20,12 @@ from contact.material import STEEL, Material
 from contact.pair import WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.solver import N_ELEMENTS, N_STRIPS
-from models.vehicle import motion
 from models.vehicle.assembly import Assembly, assemble
-from models.vehicle.benches import Benches, gather
 from models.vehicle.course import BEYOND, SPACING
 from models.vehicle.declared import VehicleDeclaration
-from models.vehicle.layout import Axis, Book, Model, Row, Scratch, State, Sum, scratch
+from models.vehicle.kernels import motion
+from models.vehicle.kernels.benches import Benches, gather
+from models.vehicle.kernels.layout import Axis, Book, Model, Row, Scratch, State, Sum, scratch
 
 Array = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ from contact.geometry import profile
 from models.life.track import Curve, Track
 from models.vehicle import curving, hunting, linear
 from models.vehicle.declared import read
-from models.vehicle.layout import Sum
+from models.vehicle.kernels.layout import Sum
 from tests.vehicle.parts import FAST, simulation
 
 PROFILES = profile.s1002(), profile.rail_60e1()

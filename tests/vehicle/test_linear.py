@@ -9,7 +9,7 @@ import pytest
 from contact.geometry import profile
 from models.vehicle import linear
 from models.vehicle.declared import read
-from models.vehicle.layout import Axis
+from models.vehicle.kernels.layout import Axis
 from tests.vehicle.parts import simulation
 
 #: Own calculation with 18 degrees of freedom, wheelsets held, no effect of weights: frequencies without dampers, with them

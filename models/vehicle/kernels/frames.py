@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from contact._jit import kernel
-from models.vehicle.layout import Axis, Frame, Row
+from models.vehicle.kernels.layout import Axis, Frame, Row
 
 
 @kernel

@@ -8,9 +8,9 @@ from contact._jit import kernel
 from contact.kernels.geometry.search import axle
 from contact.kernels.layout import Height, Status
 from contact.kernels.pair import solve_pair
-from models.vehicle.benches import bench_of
-from models.vehicle.frames import linear, place_on, smooth
-from models.vehicle.layout import TO_LEFT, Axis, Book, Frame, Row, Sum
+from models.vehicle.kernels.benches import bench_of
+from models.vehicle.kernels.frames import linear, place_on, smooth
+from models.vehicle.kernels.layout import TO_LEFT, Axis, Book, Frame, Row, Sum
 
 #: Share of load times approach that a contact stores: exact for an elliptic one.
 _ELASTIC = 0.4

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from contact._jit import kernel
-from models.vehicle.elements import pull
-from models.vehicle.frames import carried, drift, gyrate, lay_frames, speed_at
-from models.vehicle.layout import Axis, Book, Frame
-from models.vehicle.wheels import count, press, rail_energy, sink
+from models.vehicle.kernels.elements import pull
+from models.vehicle.kernels.frames import carried, drift, gyrate, lay_frames, speed_at
+from models.vehicle.kernels.layout import Axis, Book, Frame
+from models.vehicle.kernels.wheels import count, press, rail_energy, sink
 
 #: A normal force above this multiple of the static one is an impact.
 _IMPACT = 2.0
