@@ -71,8 +71,8 @@ docs: $(READY_FOR_DOCS) ## build the documentation site in build/docs/html; warn
 	$(BIN)/python -m sphinx -W --keep-going -q -b html docs build/docs/html
 	@echo "build/docs/html/index.html"
 
-pictures: $(READY) ## make the pictures of the README
-	$(BIN)/python docs/pictures/make.py
+pictures: $(READY) ## make the pictures of the README and of the page on vehicles
+	PYTHONPATH=. $(BIN)/python docs/pictures/make.py
 
 format: $(READY) ## format the code
 	$(BIN)/ruff format .

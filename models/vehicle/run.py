@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -263,7 +264,7 @@ class VehicleRun:
             speed_ratio=self.scenario.fastest / self.critical_speed,
         )
 
-    @property
+    @cached_property
     def critical_speed(self) -> float:
         """Linear critical speed on straight track [m/s]; inf above 150 m/s."""
         vehicle = self.scenario.vehicle
@@ -275,7 +276,7 @@ class VehicleRun:
                 vehicle, track, self.scenario.wheel, self.scenario.rail, self.scenario.friction, self._options
             )
 
-        return linear.critical_speed(at_speed, tolerance=1.0)
+        return linear.critical_speed(at_speed, tolerance=2.0)
 
     def damage(self) -> dict[tuple[str, str, str], Histogram]:
         """Return the histograms of all wheels and rails, filled with the damage so far."""
