@@ -8,10 +8,12 @@ import pytest
 
 from contact.errors import ContactError
 from contact.geometry import profile
-from models.life import checkpoint, result
+from models.life import checkpoint, declared_set, result
+from models.life.scale import Workers
 from models.life.scenario import Declaration, Methods, Profiles, Recording, Scenario
 from models.life.spectra import Irregularities
 from models.life.track import Track
+from models.life.wear import Life
 from models.vehicle import assess, report
 from models.vehicle.declared import read
 from models.vehicle.run import VehicleRun
@@ -108,3 +110,23 @@ def test_guiding_force_of_both_wheels_is_below_prudhommes_limit():
     assert (found.quotient, found.guiding) == pytest.approx((0.4, 1.5e4))
     assert found.prudhomme == pytest.approx(1e4 + 1.1e5 / 3.0)
     assert found.unloading == pytest.approx(1.0 - 5.0 / 5.5)
+
+
+def test_a_wear_study_takes_vehicles(tmp_path):
+    """All wheels wear alike, by their mean."""
+    (tmp_path / "straight.toml").write_text(
+        'name = "s"\nlength = 6.0\nspeed = 20.0\nvehicle = "wheelset"\n'
+        '[methods]\nnormal = "analyn"\ntangential = "fastrip"\nstrips = 20\nelements = 12\n'
+        '[track.alignment]\nspectrum = "ERRI B176 low"\n[recording]\nsettling = 2.0\n',
+        encoding="utf-8",
+    )
+    (tmp_path / "set.toml").write_text(
+        'name = "set"\nmileage = 1e6\namplitudes = [3e-3]\n[[scenarios]]\nfile = "straight.toml"\nweight = 1.0\n',
+        encoding="utf-8",
+    )
+    life = Life(declared_set.read(tmp_path / "set.toml"))
+    with Workers() as pool:
+        life.step(pool)
+    assert life.mileage == pytest.approx(1e6)
+    assert life["mass"][-1] > 0.0
+    assert abs(life["residual"][-1]) < 0.02
