@@ -12,8 +12,8 @@ from models.life.run import Book, Run
 from models.life.scale import Workers
 from models.life.trust import Trust, worst
 from models.life.wear import Life
+from tests.life.short_run import completed, scenario
 from tests.life.short_set import written
-from tests.life.test_run import completed, scenario
 
 GOOD = Trust(residual=0.001, impacts=0.0, lifted=0.0, untrusted=0.0, speed_ratio=0.5)
 BAD = Trust(residual=-0.49, impacts=3.0, lifted=2.0, untrusted=7.0, speed_ratio=1.2)
