@@ -22,7 +22,7 @@ def ellipse() -> contact.Separation:
 
 
 #: Folders in which every test is slow: whole FMUs, and runs over a line.
-SLOW = {"system", "life"}
+SLOW = {"system", "life", "vehicle"}
 
 
 @pytest.hookimpl(tryfirst=True)  # before pytest evaluates -m

@@ -129,6 +129,14 @@ class Declaration:
         require_number("seed", self.seed, 0)
         if isinstance(self.speed, float):
             require_number("speed", self.speed, 1.0, 150.0)
+        if self.vehicle is None:
+            for name in ("vertical", "cross_level", "gauge", "measured", "friction"):
+                if getattr(self.track, name) is not None:
+                    raise ContactError(
+                        f"track.{name} needs a vehicle; the quasi-static wheelset takes the alignment only"
+                    )
+        elif self.wheelset != Vehicle():
+            raise ContactError(f"wheelset and vehicle = {self.vehicle!r} exclude each other")
         if self.damage.burstow != Burstow():
             raise ContactError(
                 "damage.burstow: a run does not accumulate Burstow's index, so its constants would have no effect; remove it"
@@ -221,6 +229,8 @@ class Scenario:
         digest = hashlib.sha256(
             f"{version('wheelrail-contact')} {self.declared!r} {self.vehicle!r} {self.draw!r}".encode()
         )
+        if self.declared.track.measured is not None:
+            digest.update(Path(self.declared.track.measured).read_bytes())
         for shape in (self.wheel, self.rail):
             for row in (shape.y, shape.z, shape.angle):
                 digest.update(row.tobytes())
@@ -242,6 +252,11 @@ def read(path: str | PathLike[str]) -> Scenario:
 def from_table(table: dict[str, Any], path: Path) -> Scenario:
     """Return the scenario from the tables of the file `path`."""
     declared = build(Declaration, table, path.name)
+    if declared.track.measured is not None:
+        measured = path.parent / declared.track.measured
+        if not measured.is_file():
+            raise ContactError(f"{path.name}.track.measured = {declared.track.measured!r} is no file beside it")
+        declared = replace(declared, track=replace(declared.track, measured=str(measured)))
     try:
         wheel, rail = declared.profiles.load(path.parent)
     except (ContactError, OSError) as error:

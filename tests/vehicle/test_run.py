@@ -11,8 +11,10 @@ from contact.geometry import profile
 from models.life import checkpoint, declared_set, result
 from models.life.scale import Workers
 from models.life.scenario import Declaration, Methods, Profiles, Recording, Scenario
+from models.life.scenario import read as read_scenario
 from models.life.spectra import Irregularities
 from models.life.track import Track
+from models.life.vehicle import Vehicle
 from models.life.wear import Life
 from models.vehicle import assess, report
 from models.vehicle.declared import read
@@ -130,3 +132,27 @@ def test_a_wear_study_takes_vehicles(tmp_path):
     assert life.mileage == pytest.approx(1e6)
     assert life["mass"][-1] > 0.0
     assert abs(life["residual"][-1]) < 0.02
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"vehicle": None, "track": Track(gauge=Irregularities(spectrum="FRA 5"))}, r"track\.gauge needs a vehicle"),
+        ({"wheelset": Vehicle(mass=2000.0)}, r"wheelset and vehicle = 'wheelset' exclude each other"),
+    ],
+)
+def test_what_would_have_no_effect_is_refused(changes, said):
+    with pytest.raises(ContactError, match=said):
+        Declaration(**({"name": "x", "length": 60.0, "speed": 20.0, "vehicle": "wheelset"} | changes))
+
+
+def test_a_measured_series_lies_beside_its_scenario_and_is_part_of_the_fingerprint(tmp_path):
+    text = 'name = "s"\nlength = 60.0\nspeed = 20.0\nvehicle = "wheelset"\n[track]\nmeasured = "t.csv"\n'
+    (tmp_path / "s.toml").write_text(text, encoding="utf-8")
+    with pytest.raises(ContactError, match="is no file beside it"):
+        read_scenario(tmp_path / "s.toml")
+    prints = []
+    for value in (0, 1):
+        (tmp_path / "t.csv").write_text("h\n" + "".join(f"{s},{value},0,0,0\n" for s in range(5)), encoding="utf-8")
+        prints.append(read_scenario(tmp_path / "s.toml").fingerprint)
+    assert prints[0] != prints[1]
