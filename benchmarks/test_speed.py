@@ -17,8 +17,9 @@ import reference
 from contact import workspace
 from contact.case import cases, set_surface
 from contact.friction import Friction
-from contact.kernels.layout import RESULT, LoadKind
+from contact.kernels.enumerations import LoadKind
 from contact.kernels.pipeline import solve_cases
+from contact.kernels.records import RESULT
 
 PATCH = next(case for case in reference.patches() if case["name"].startswith("c40_dy+0"))
 SEPARATION = contact.Separation(np.array(PATCH["y"]) * 1e-3, np.array(PATCH["g"]) * 1e-3, np.array(PATCH["A"]) * 1e3)
@@ -46,6 +47,7 @@ def kernel_loop(normal: str, tangential: str, n_strips: int, n_elements: int, *,
     problems, results = cases_of(CASES, *methods)
 
     def call() -> None:
+        own.space.memory[0] = 0.0
         solve_cases(0, CASES, SEPARATION.samples, bounds, which, problems, own, results)
 
     call()

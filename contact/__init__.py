@@ -13,8 +13,9 @@ from contact.forces import forces
 from contact.hertz import HertzContact, hertz
 from contact.material import STEEL, Material
 from contact.registry import Method, Methods, methods
+from contact.resultants import Forces
 from contact.separation import Separation
-from contact.solution import Forces, Solution, Status, Strips
+from contact.solution import Solution, Status, Strips
 from contact.solve import solve
 from contact.solver import THESIS, Solver
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.friction import Friction
-from contact.kernels.layout import CASE
+from contact.kernels.records import CASE
 from contact.material import Material
 from contact.registry import Method
 

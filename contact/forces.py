@@ -15,13 +15,14 @@ from contact.case import set_surface
 from contact.creepage import LARGEST_CREEPAGE, Creepage
 from contact.errors import ContactError
 from contact.friction import LARGEST, Friction
-from contact.kernels.layout import RESULT, LoadKind
-from contact.kernels.memory import Samples
+from contact.kernels.arrays import Samples
+from contact.kernels.enumerations import LoadKind
 from contact.kernels.pipeline import solve_cases
+from contact.kernels.records import RESULT
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
+from contact.resultants import Forces
 from contact.separation import Separation
-from contact.solution import Forces
 from contact.solver import N_ELEMENTS, N_STRIPS, require_conformal, require_resolution
 
 Array = NDArray[np.float64]
@@ -131,6 +132,7 @@ def forces(
         with_fields = conformal or material.pressure_limit < np.inf  # both compute the forces from the fields
         arrays = workspace.allocate(method, rolling, material.poisson_ratio, size, fields=with_fields)
         for first in chunks:
+            arrays.space.memory[0] = 0.0
             solve_cases(first, min(first + _CHUNK, count), samples, bounds, which, cases, arrays, results)
 
     pieces = min(threads or cores(), -(-count // _CHUNK))

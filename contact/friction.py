@@ -213,7 +213,7 @@ class Friction:
         return replace(self, border=scale * (self.border - y), border_width=scale * self.border_width)
 
     def members(self) -> dict[str, float | int]:
-        """Return the members of a CASE record (`contact.kernels.layout.CASE`) that describe the surface, by name."""
+        """Return the members of a CASE record (`contact.kernels.records`) that describe the surface, by name."""
         return {
             "law": LAWS.index(self.law),
             "mu": self.static,

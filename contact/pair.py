@@ -16,8 +16,8 @@ from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.wheelset import Pair
-from contact.kernels.layout import Height, NoAnswer
-from contact.kernels.memory import Bench, Ledger
+from contact.kernels.arrays import Bench, Ledger
+from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.pair import solve_pair
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
@@ -141,12 +141,12 @@ class WheelRailPair:
         and use a plane.
     damage : DamageParameters, optional
         Constants of the damage models.
-    ledger : contact.kernels.memory.Ledger, optional
+    ledger : contact.kernels.arrays.Ledger, optional
         Bins over both profiles in which `solve(…, distance=…)` adds up wear and damage.
 
     Attributes
     ----------
-    bench : contact.kernels.memory.Bench
+    bench : contact.kernels.arrays.Bench
         All arrays, as the kernel uses them. Only `bench.memory` carries over from one call to the next.
 
     Raises

@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from contact.errors import ContactError, suggestion
-from contact.kernels.layout import Normal, NormalFamily, Tangential, TangentialFamily
+from contact.kernels.enumerations import Normal, NormalFamily, Tangential, TangentialFamily
 from contact.notebook import table
 
 #: The default methods. The strip half space starts from ANALYN, and mapped FaStrip corrects FaStrip (docs/accuracy.md).
@@ -312,7 +312,7 @@ _TANGENTIAL = (
     Method(
         "linear_saturated",
         Tangential.LINEAR_SATURATED,
-        "Kalker's linear theory, cut at friction",
+        "Kalker's linear theory, limited by friction",
         "thesis, ch. 5",
         False,
         True,

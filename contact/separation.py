@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError, require_number
-from contact.kernels.memory import Samples
+from contact.kernels.arrays import Samples
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
 from contact.notebook import Sketch
 

@@ -1,4 +1,4 @@
-"""`Solution`, the record that every solver returns, and `Forces` for arrays of cases."""
+"""`Solution`, the record that every solver returns."""
 
 from __future__ import annotations
 
@@ -12,18 +12,20 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact.absence import only_with_fields
 from contact.creepage import Creepage
+from contact.kernels.arrays import Workspace
+from contact.kernels.enumerations import Status
 from contact.kernels.friction import of_case
-from contact.kernels.layout import CASE, RESULT, Field, Status, Strip
-from contact.kernels.memory import Workspace
+from contact.kernels.records import CASE, RESULT
+from contact.kernels.rows import Field, Strip
 from contact.material import Material
-from contact.notebook import Sketch, beside, table
+from contact.notebook import beside, table
+from contact.pressure import pressure_at, sketch
 from contact.registry import methods
 
 if TYPE_CHECKING:
     from contact.damage import Damage
 
 Array = NDArray[np.float64]
-Numbers = float | Array
 Records = NDArray[np.void]
 
 #: A `gap_error` above this means that the largest pressure may be wrong by a fifth (docs/limits.md).
@@ -206,7 +208,7 @@ class Solution:
             ("energy per metre", f"{self.power_per_metre:.4g} J/m"),
         )
         shown = table((), numbers, f"{self.normal} + {self.tangential}")
-        return beside(shown, _sketch(self.strips)) if self.strips.y.size else shown
+        return beside(shown, sketch(self.strips)) if self.strips.y.size else shown
 
     @property
     def has_fields(self) -> bool:
@@ -242,61 +244,7 @@ class Solution:
         Across the strips, a² and p0·a are interpolated by the parabola through the nearest three strips or edges. Both
         vanish at the edges of a patch. The interpolation is exact for an ellipse.
         """
-        x, y = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64))
-        result = np.zeros(x.shape)
-        for k, (low, high) in enumerate(self.patch_edges):
-            own = self.strips.patch == k
-            knots = np.r_[low, self.strips.y[own], high]
-            a, p0 = self.strips.a[own], self.strips.p0[own]
-            inside = (y > low) & (y < high)
-            centre = np.interp(y[inside], self.strips.y[own], self.strips.x_c[own])
-            a2 = np.maximum(_parabolic(knots, np.r_[0.0, a**2, 0.0], y[inside]), 0.0)
-            load = np.maximum(_parabolic(knots, np.r_[0.0, p0 * a, 0.0], y[inside]), 0.0)
-            square = a2 - (x[inside] - centre) ** 2
-            limit, load = (
-                self.material.pressure_limit,
-                load * _elastic_over_limited(load, a2, self.material.pressure_limit),
-            )
-            result[inside] += np.where(  # a sum, because the ellipses of multi_hertz may overlap
-                square > 0.0,
-                np.minimum(load * np.sqrt(np.maximum(square, 0.0)) / np.where(a2 > 0.0, a2, 1.0), limit),
-                0.0,
-            )
-        return result
-
-
-@dataclass(frozen=True, slots=True)
-class Forces:
-    """Results of arrays of cases. Each member is an array of the input's broadcast shape; units and signs as in `Solution`."""
-
-    Fx: Numbers
-    Fy: Numbers
-    Mz: Numbers
-    N: Numbers
-    approach: Numbers
-    max_pressure: Numbers
-    area: Numbers
-    slip_ratio: Numbers
-    power_per_metre: Numbers
-    status: int | NDArray[np.int64]
-    gap_error: Numbers
-
-
-@dataclass(frozen=True, slots=True)
-class CaseForces(Forces):
-    """Results of one case: `Forces` with numbers instead of arrays."""
-
-    Fx: float
-    Fy: float
-    Mz: float
-    N: float
-    approach: float
-    max_pressure: float
-    area: float
-    slip_ratio: float
-    power_per_metre: float
-    status: Status
-    gap_error: float
+        return pressure_at(self, x, y)
 
 
 def _attributes(
@@ -378,47 +326,3 @@ def _own(array: Any) -> Any:
     own = array.copy()
     own.setflags(write=False)
     return own
-
-
-def _sketch(strips: Strips) -> str:
-    """Return two SVGs: the strips, shaded by their peak pressure, and below them the peak pressure over y."""
-    y, dy, x_c, a, p0 = (1e3 * value for value in (strips.y, strips.dy, strips.x_c, strips.a, 1e-9 * strips.p0))
-    ends = float((y - 0.5 * dy).min()), float((y + 0.5 * dy).max())
-    extent = float((x_c - a).min()), float((x_c + a).max())
-    seen = Sketch(ends, extent, ("y [mm]", "x [mm], rolling direction"), "contact patch", width=200.0, equal=True)
-    pressure = Sketch(
-        ends, (0.0, float(p0.max())), ("y [mm]", "peak pressure [MPa]"), "peak pressure", width=200.0, height=70.0
-    )
-    seen.bars(y, dy, x_c - a, x_c + a, 0.1 + 0.8 * p0 / max(float(p0.max()), 1e-300))
-    for k in np.unique(strips.patch):
-        own = strips.patch == k
-        seen.area(np.r_[y[own], y[own][::-1]], np.r_[(x_c - a)[own], (x_c + a)[own][::-1]], 0.0)
-        pressure.area(np.r_[y[own][0], y[own], y[own][-1]], np.r_[0.0, p0[own], 0.0])
-    return f"{seen.svg()}<br/>{pressure.svg()}"
-
-
-def _elastic_over_limited(load: Array, a2: Array, limit: float) -> Array | float:
-    """Return the elastic load over the load of strips whose pressure is limited to `limit` [Pa].
-
-    `load` is peak pressure times half length a of each strip [N/m], and `a2` is a² [m²]. The function inverts
-    `contact.kernels.normal.press.kept` by interpolation, with an error of 1e-5.
-    """
-    if limit == np.inf:
-        return 1.0
-    c = np.sin(np.linspace(1e-3, 0.5 * np.pi, 2001))
-    share = 2.0 / np.pi * (c * np.sqrt(1.0 - c * c) + np.arcsin(c))
-    peak = load / np.sqrt(np.where(a2 > 0.0, a2, 1.0)) / limit
-    return np.asarray(1.0 / np.interp(-peak, -share / c, share))
-
-
-def _parabolic(knots: Array, values: Array, at: Array) -> Array:
-    """Return, at each point of `at`, the parabola through the three nearest knots."""
-    i = np.clip(np.searchsorted(knots, at) - 1, 0, knots.size - 2)
-    closer = at - knots[i] > knots[i + 1] - at
-    i = np.clip(i + closer, 1, knots.size - 2)
-    u, v, w = knots[i - 1], knots[i], knots[i + 1]
-    return (
-        values[i - 1] * (at - v) * (at - w) / ((u - v) * (u - w))
-        + values[i] * (at - u) * (at - w) / ((v - u) * (v - w))
-        + values[i + 1] * (at - u) * (at - v) / ((w - u) * (w - v))
-    )

@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 
 from contact import force_table, kalker
 from contact.kernels import families, memory, quadrature
+from contact.kernels.arrays import Bench, Ledger, Rule, Search, Size, Tables, Workspace
 from contact.kernels.damage.deposit import arc_length
-from contact.kernels.layout import N_BIN_ROWS
-from contact.kernels.memory import Bench, Ledger, Rule, Search, Size, Tables, Workspace
 from contact.kernels.normal import influence
+from contact.kernels.normal.between_panels import fill_probes
 from contact.kernels.normal.descent import fill_descent
+from contact.kernels.rows import Bin
 from contact.registry import Method
 
 Array = NDArray[np.float64]
@@ -63,6 +64,7 @@ def rule(n_strips: int, n_elements: int, interacting: bool) -> Rule:
     quadrature.fill_fejer(*made.across)
     quadrature.fill_elements(made.elements)
     quadrature.fill_panel(made.cosines, made.cosine_logs)
+    fill_probes(made.cosines, made.probes, made.spread)
     if made.columns.size > 1:
         fill_descent(
             *strip_tables(), made.columns, made.descent
@@ -151,7 +153,7 @@ def ledger(wheel: Array, rail: Array, n_strips: int, n_bins: int, first: float, 
     first, width : float
         Arc length of the start of the first bin, and width of a bin [m].
     """
-    made: Ledger = _laid(memory.lay_ledger, wheel, rail, np.zeros((2, N_BIN_ROWS, n_bins)), n_strips)
+    made: Ledger = _laid(memory.lay_ledger, wheel, rail, np.zeros((2, len(Bin), n_bins)), n_strips)
     arc_length(made.wheel, made.wheel_arc)
     arc_length(made.rail, made.rail_arc)
     made.settings["start"], made.settings["width"] = first / width, width
@@ -161,7 +163,7 @@ def ledger(wheel: Array, rail: Array, n_strips: int, n_bins: int, first: float, 
 def closed_ledger() -> Ledger:
     """Return a ledger without bins, which records nothing."""
     nothing = np.zeros((2, 0))
-    return _laid(memory.lay_ledger, nothing, nothing, np.zeros((2, N_BIN_ROWS, 0)), 0)
+    return _laid(memory.lay_ledger, nothing, nothing, np.zeros((2, len(Bin), 0)), 0)
 
 
 def bench(size: tuple[int, int, int], of_search: Search, arrays: Workspace, of_ledger: Ledger) -> Bench:

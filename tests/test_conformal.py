@@ -10,7 +10,8 @@ from contact.geometry import profile, wheelset
 from contact.geometry.wheelset import Pair, Pose
 from contact.halfspace.gap import Gap
 from contact.kernels.conformal import bend, surface_at
-from contact.kernels.layout import CASE, N_STRIP_ROWS, Strip
+from contact.kernels.records import CASE
+from contact.kernels.rows import Strip
 from contact.pair import WheelRailPair
 
 Y = np.linspace(-15e-3, 15e-3, 121)
@@ -55,7 +56,7 @@ def test_the_height_is_the_integral_of_a_slope_that_is_linear_between_samples():
 def test_strips_have_the_exact_change_of_radius_and_the_spin_of_their_angle():
     """A wheel of radius r rolls straight at a contact angle: ξ(y) = -(r(y) - r0)/r0, phi(y) = sin(angle + Δ)/r0."""
     r0, angle, bow = 0.46, -0.3, 12.0
-    case, strips = np.zeros(1, CASE)[0], np.zeros((N_STRIP_ROWS, 3))
+    case, strips = np.zeros(1, CASE)[0], np.zeros((len(Strip), 3))
     case.phi, case.vx, case.vy = math.sin(angle) / r0, 0.0, 5e-3
     strips[Strip.Y] = y = np.array([-8e-3, 0.0, 6e-3])
     case.rolling = math.cos(angle) / r0

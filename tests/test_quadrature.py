@@ -7,7 +7,7 @@ import pytest
 
 from contact import workspace
 from contact.kernels import quadrature
-from contact.kernels.layout import Element
+from contact.kernels.rows import Element
 
 
 @pytest.mark.parametrize("n", [1, 2, 3, 4, 7, 40, 41, 1000])

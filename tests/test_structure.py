@@ -101,6 +101,32 @@ def test_private_modules_of_contact_stay_in_contact():
     assert used == PRIVATE
 
 
+def counted_names(path: Path) -> list[str]:
+    """Return the names to which a file assigns a list of numbers, as in ``A, B, C = range(3)``."""
+    names: list[str] = []
+    for node in ast.parse(path.read_text(encoding="utf-8")).body:
+        if not (isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple)):
+            continue
+        value = node.value
+        counted = isinstance(value, ast.Call) and getattr(value.func, "id", "") in {"range", "map"}
+        if counted or (isinstance(value, ast.GeneratorExp) and "range" in ast.dump(value)):
+            names += [ast.unparse(target) for target in node.targets[0].elts]
+    return names
+
+
+def test_rows_and_states_are_enumerations():
+    """An `IntEnum` names them. So nobody imports a list of row names."""
+    counted = {path.relative_to(ROOT).as_posix(): counted_names(path) for path in sources("contact", "fmu_src")}
+    assert {path: names for path, names in counted.items() if names} == {}
+
+
+@pytest.mark.parametrize("line", ["A, B = range(2)", "A, B = (16 * row for row in range(2))"])
+def test_counted_names_are_found(line, tmp_path):
+    path = tmp_path / "some.py"
+    path.write_text(line + "\nC, D = 1.0, 2.0\n")
+    assert counted_names(path) == ["A", "B"]
+
+
 def is_private_module(parts: list[str]) -> bool:
     path = ROOT.joinpath(*parts)
     private = parts[-1].startswith("_") and not parts[-1].startswith("__")

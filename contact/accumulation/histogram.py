@@ -16,7 +16,8 @@ from contact.errors import ContactError, require_number
 from contact.geometry.profile import Profile
 from contact.geometry.records import Patch
 from contact.kernels.damage import deposit
-from contact.kernels.layout import LEDGER, N_BIN_ROWS
+from contact.kernels.records import LEDGER
+from contact.kernels.rows import Bin
 from contact.material import Material
 from contact.notebook import Sketch
 from contact.solution import Solution
@@ -158,7 +159,7 @@ class Histogram:
             )
         done = assess(solution, patch.rolling_radius, self.parameters)
         n = solution.strips.y.size
-        rates, edges = np.empty((N_BIN_ROWS, n)), np.empty((2, n))
+        rates, edges = np.empty((len(Bin), n)), np.empty((2, n))
         y, z = patch.on_wheel if self.profile.kind == "wheel" else patch.on_rail
         mirror = math.copysign(1.0, patch.position[1])  # the right rail lies at positive y
         off = deposit.place(self._rows, self.arc, (y, z), patch.angle, mirror, done.strips, n, edges)

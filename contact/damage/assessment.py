@@ -15,18 +15,8 @@ from contact.damage.pearce_sherratt import PearceSherratt
 from contact.damage.usfd import Usfd
 from contact.errors import ContactError, require_number
 from contact.kernels.damage.assess import damage_kernel
-from contact.kernels.layout import (
-    CASE,
-    DAMAGE,
-    DAMAGE_PARAMETERS,
-    N_DAMAGE_FIELDS,
-    N_FIELD_ROWS,
-    N_STRIP_ROWS,
-    RESULT,
-    DamageField,
-    Field,
-    Strip,
-)
+from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, RESULT
+from contact.kernels.rows import DamageField, Field, Strip
 from contact.material import Material
 from contact.registry import methods
 
@@ -69,7 +59,7 @@ class DamageParameters:
             raise ContactError(f"wear_law = {self.wear_law!r} is unknown; allowed: {', '.join(WEAR_LAWS)}")
 
     def record(self, material: Material, wheel_radius: float, speed: float) -> np.record:
-        """Return the constants as the record DAMAGE_PARAMETERS of `contact.kernels.layout`.
+        """Return the constants as the record DAMAGE_PARAMETERS of `contact.kernels.records`.
 
         `wheel_radius` is in m, `speed` in m/s.
 
@@ -219,7 +209,7 @@ class Assessed(NamedTuple):
 def assess(solution: Solution, wheel_radius: float = 0.46, parameters: DamageParameters | None = None) -> Assessed:
     """Return the results of `evaluate` as the kernel's arrays. Parameters as in `evaluate`."""
     strips, fields, case, result = _arrays(solution)
-    damage, damage_fields = np.zeros(1, DAMAGE)[0], np.zeros((N_DAMAGE_FIELDS, *solution.p.shape))
+    damage, damage_fields = np.zeros(1, DAMAGE)[0], np.zeros((len(DamageField), *solution.p.shape))
     constants = (parameters or DamageParameters()).record(solution.material, wheel_radius, solution.speed)
     damage_kernel(strips, strips.shape[1], fields, case, result, constants, damage_fields, damage)
     return Assessed(strips, fields, constants, damage, damage_fields)
@@ -228,14 +218,14 @@ def assess(solution: Solution, wheel_radius: float = 0.46, parameters: DamagePar
 def _arrays(solution: Solution) -> tuple[Array, Array, np.record, np.record]:
     """Return strips, fields, case and result of a solution as the kernel's arrays. Rows that it does not read are zero."""
     shape = solution.p.shape
-    strips = np.zeros((N_STRIP_ROWS, shape[0]))
+    strips = np.zeros((len(Strip), shape[0]))
     strips[Strip.Y], strips[Strip.DY], strips[Strip.A] = solution.strips.y, solution.strips.dy, solution.strips.a
     creepage, given = solution.creepage, solution.strips
     strips[Strip.VX] = creepage.longitudinal if given.longitudinal is None else given.longitudinal
     strips[Strip.VY] = creepage.lateral if given.lateral is None else given.lateral
     strips[Strip.PHI] = creepage.spin if given.spin is None else given.spin
     strips[Strip.TILT] = 0.0 if given.tilt is None else given.tilt
-    fields = np.zeros((N_FIELD_ROWS, *shape))
+    fields = np.zeros((len(Field), *shape))
     fields[Field.X], fields[Field.P] = solution.x, solution.p
     fields[Field.DX] = solution.dA / strips[Strip.DY][:, None]
     if solution.has_fields:

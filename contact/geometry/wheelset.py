@@ -29,9 +29,11 @@ from contact.creepage import Creepage
 from contact.errors import ContactError, require_integer, require_number
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Patch, Pose, Velocity
-from contact.kernels.geometry.prepare import cut, facing, move, rail_origin
+from contact.kernels.enumerations import Height, NoAnswer
+from contact.kernels.geometry.prepare import facing, move, rail_origin, take_nodes
 from contact.kernels.geometry.settle import DEEPEST, first_touch, settle
-from contact.kernels.layout import GIVEN, MAX_PATCHES, Curve, Height, NoAnswer
+from contact.kernels.records import GIVEN, MAX_PATCHES
+from contact.kernels.rows import Curve
 from contact.material import STEEL, Material
 from contact.separation import Separation
 
@@ -79,8 +81,8 @@ class Pair:
     Attributes
     ----------
     patches, separations : ndarray
-        Result of the last search, in the rows of `contact.kernels.layout` (right side). Only one thread may search.
-    space : contact.kernels.memory.Search
+        Result of the last search on the right side: records PATCH, and rows `Sep` for each. Only one thread may search.
+    space : contact.kernels.arrays.Search
         All arrays of the search, as kernels use them.
 
     Raises
@@ -176,7 +178,7 @@ class Pair:
     def given(
         self, pose: Pose, velocity: Velocity | None = None, irregularity: Irregularity | None = None
     ) -> np.record:
-        """Return the motion as the GIVEN record of `contact.kernels.layout`. The default velocity is steady rolling."""
+        """Return the motion as the record GIVEN of `contact.kernels.records`. The default velocity is steady rolling."""
         velocity, rail = velocity or _ROLLING, irregularity or _IDEAL
         for name, argument, kind in (
             ("pose", pose, Pose),
@@ -310,7 +312,7 @@ def _facing(profile: Profile) -> Array:
     if low == high:
         raise ContactError(f"{profile!r} is steep at y = {profile.y[low]:g} m; is its unit or its side wrong?")
     curve = np.empty((3, high - low))
-    cut(rows, low, high, curve)
+    take_nodes(rows, low, high, curve)
     return curve
 
 

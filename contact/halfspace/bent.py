@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from contact.creepage import Creepage
 from contact.kernels.conformal import bend
-from contact.kernels.layout import CASE, N_STRIP_ROWS, Strip
+from contact.kernels.records import CASE
+from contact.kernels.rows import Strip
 from contact.separation import Separation
 
 Array = NDArray[np.float64]
@@ -35,7 +36,7 @@ class Bent(NamedTuple):
     @classmethod
     def of(cls, separation: Separation, creepage: Creepage, y: Array) -> Bent:
         """Return rows at `y` [m] on the curved surface of a separation (`contact.kernels.conformal`)."""
-        case, strips = np.zeros(1, CASE)[0], np.zeros((N_STRIP_ROWS, y.size))
+        case, strips = np.zeros(1, CASE)[0], np.zeros((len(Strip), y.size))
         case.vx, case.vy, case.phi = creepage.longitudinal, creepage.lateral, creepage.spin
         strips[Strip.Y] = y
         case.rolling = separation.rolling

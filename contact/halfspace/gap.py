@@ -12,8 +12,8 @@ from contact._jit import kernel
 from contact.errors import ContactError
 from contact.kernels import cubic
 from contact.kernels.cubic import locate, slopes
-from contact.kernels.layout import MAX_PATCHES
 from contact.kernels.normal.lay import find_patches, least_point
+from contact.kernels.records import MAX_PATCHES
 from contact.separation import Separation
 
 Array = NDArray[np.float64]

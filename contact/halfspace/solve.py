@@ -20,7 +20,7 @@ from contact.halfspace.norm import Normal, norm
 from contact.halfspace.solution import GridSolution, assemble
 from contact.halfspace.tang import Tangential, tang
 from contact.kernels.friction import of_bodies
-from contact.kernels.layout import CASE
+from contact.kernels.records import CASE
 from contact.material import Material
 from contact.separation import Separation
 from contact.solution import Solution, Status

@@ -16,7 +16,7 @@ curvature on the elastic bodies (about 5 %, thesis 8.1).
 import math
 
 from contact._jit import kernel
-from contact.kernels.layout import Field, Strip
+from contact.kernels.rows import Field, Strip
 
 
 @kernel

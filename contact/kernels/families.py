@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from contact.kernels.layout import NormalFamily, TangentialFamily
+from contact.kernels.enumerations import NormalFamily, TangentialFamily
 
 
 class Analyn(NamedTuple):

@@ -3,7 +3,7 @@
 import math
 
 from contact._jit import kernel
-from contact.kernels.layout import FrictionLaw, SlipVelocity, TangentialFamily
+from contact.kernels.enumerations import FrictionLaw, SlipVelocity, TangentialFamily
 
 #: Upper limit of the heat of a strip. Products of such numbers do not overflow.
 _MOST_HEAT = 1e100

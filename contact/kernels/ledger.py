@@ -2,12 +2,12 @@
 
 from contact._jit import kernel
 from contact.kernels.damage.deposit import deposit, place, strip_rates
-from contact.kernels.layout import Body
+from contact.kernels.rows import Body
 
 
 @kernel
 def enter(patch, n, damage, bench):
-    """Add the damage by the `n` strips of one patch to both profiles of the ledger of a `memory.Bench`.
+    """Add the damage by the `n` strips of one patch to both profiles of the ledger of a `arrays.Bench`.
 
     The strips are those of the right side.
     """

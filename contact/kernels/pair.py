@@ -3,14 +3,16 @@
 import math
 
 from contact._jit import kernel
+from contact.kernels.arrays import Samples, Space, Workspace
 from contact.kernels.damage.assess import clear_damage, damage_kernel
+from contact.kernels.enumerations import Height, LoadKind, NoAnswer, Status
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.search import axle
 from contact.kernels.geometry.settle import settle
-from contact.kernels.layout import LARGEST_CREEPAGE, MAX_PATCHES, Height, LoadKind, NoAnswer, Sep, Status, Strip
 from contact.kernels.ledger import enter
-from contact.kernels.memory import Samples, Space, Workspace
 from contact.kernels.pipeline import solve_case
+from contact.kernels.records import LARGEST_CREEPAGE, MAX_PATCHES
+from contact.kernels.rows import Sep, Strip
 
 #: Heights that are tried for a vertical force, of which the residual should be and may be, and the furthest height [m].
 _MAX_HEIGHTS, _TOLERANCE, _ACCEPTABLE, _FURTHEST = 40, 1e-9, 1e-3, 1.0

@@ -4,12 +4,13 @@ import math
 
 from contact._jit import chosen_by, inlined, kernel
 from contact.kernels import cubic, families
+from contact.kernels.arrays import Arrays, Samples
 from contact.kernels.conformal import bend, project
+from contact.kernels.enumerations import Status, Tangential, TangentialFamily
 from contact.kernels.friction import of_bodies, of_case, over_profile
-from contact.kernels.layout import Element, Field, Status, Strip, Tangential, TangentialFamily
-from contact.kernels.memory import Arrays, Samples
 from contact.kernels.normal.gap_error import gap_error
-from contact.kernels.normal.press import fill_cut, press, share_of
+from contact.kernels.normal.press import fill_limited, press, share_of
+from contact.kernels.rows import Element, Field, Strip
 from contact.kernels.tangential.creep_force import creep_force
 from contact.kernels.tangential.ellipses import Part, end_of_patch, place_in_load, stiffness_of
 from contact.kernels.tangential.fastrip import fastrip
@@ -58,7 +59,7 @@ def _limit_pressure(strips, n, limit, elements, fields, N):
     for i in range(n):
         p0 = strips[Strip.P0, i]
         if p0 > limit and i < fields.shape[1]:
-            fill_cut(elements, p0, limit, fields[Field.P, i])
+            fill_limited(elements, p0, limit, fields[Field.P, i])
         strips[Strip.P0, i] = p0 * share_of(p0, limit)
         total += 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
     for i in range(n):  # what the iteration has left over
@@ -236,7 +237,7 @@ def solve_case(sep, cases, own, results):
     Parameters
     ----------
     sep : Samples
-    cases, results : arrays of one record CASE and RESULT of `layout`
+    cases, results : arrays of one record CASE and RESULT
         The case is only read. An array is cheaper to pass from Python than a record.
     own : Workspace
         `contact.workspace.allocate` makes a fitting one. Where fields have a single row, only strips and result have a meaning.
@@ -258,13 +259,17 @@ def solve_case(sep, cases, own, results):
 
 @kernel
 def solve_cases(first, last, samples, bounds, which, cases, own, results):
-    """Solve cases[first:last] one after the other. Separation k is samples[bounds[k]:bounds[k+1]], case c uses which[c].
+    """Solve cases[first:last] one after the other. Return the strip count of the last one.
 
-    No case starts from another one, so their order does not matter.
+    Separation k is samples[bounds[k]:bounds[k+1]], and case c uses which[c]. The first case starts from `own.space.memory`,
+    all others from nothing. This is the only kernel that Python calls for single cases too, so each method is compiled once.
     """
     y, g, A, x_c, tilt = samples
+    n = 0
     for c in range(first, last):
         low, high = bounds[which[c]], bounds[which[c] + 1]
-        own.space.memory[0] = 0.0
+        if c > first:
+            own.space.memory[0] = 0.0
         sep = Samples(y[low:high], g[low:high], A[low:high], x_c[low:high], tilt[low:high])
-        solve_case(sep, cases[c : c + 1], own, results[c : c + 1])
+        n = solve_case(sep, cases[c : c + 1], own, results[c : c + 1])
+    return n

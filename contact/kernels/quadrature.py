@@ -3,7 +3,7 @@
 import math
 
 from contact._jit import kernel
-from contact.kernels.layout import Element
+from contact.kernels.rows import Element
 
 
 @kernel

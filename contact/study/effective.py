@@ -14,8 +14,9 @@ from contact import force_table as table
 from contact import friction, workspace
 from contact.case import cases, set_surface
 from contact.errors import ContactError
-from contact.kernels.layout import RESULT, Strip
 from contact.kernels.pipeline import press_case
+from contact.kernels.records import RESULT
+from contact.kernels.rows import Strip
 from contact.kernels.tangential.ellipses import equivalent_ellipse
 from contact.kernels.tangential.fastrip_mapped import roll_patch
 from contact.kernels.tangential.mapping import elastic_centre

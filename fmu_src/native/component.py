@@ -71,7 +71,7 @@ class Component:
         Parameter, an enumeration. With its first item nothing is added up: the memory of these rows is left out and the rows
         are zero.
     warnings, failures : mapping
-        Number → text. The number may be a member of an enumeration of `contact.kernels.layout`. A failure discards the step.
+        Number → text. The number may be a member of an enumeration of the kernels. A failure discards the step.
     """
 
     table: Table

@@ -1,4 +1,4 @@
-"""Helpers for the entries that C calls. Arrays over raw memory come from `contact.kernels.memory`."""
+"""Helpers for the entries that C calls. Arrays over raw memory come from `contact.kernels.block`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Write records.h: the records and enumerations of `contact.kernels.layout` in C.
+"""Write records.h: `contact.kernels.records` and `contact.kernels.enumerations` in C.
 
 Kernels, Python and C share memory with one definition. The header asserts sizes and offsets, so each build of an FMU proves
 that the platform's C compiler lays out records as numpy does.
@@ -12,21 +12,11 @@ from enum import IntEnum
 
 import numpy as np
 
-from contact.kernels import layout
+from contact.kernels import enumerations, records
 
-#: Enumerations that name the values of a member or the result of a kernel. The others name rows of arrays.
-ENUMERATIONS: tuple[type[IntEnum], ...] = (
-    layout.LoadKind,
-    layout.Normal,
-    layout.NormalFamily,
-    layout.Tangential,
-    layout.TangentialFamily,
-    layout.FrictionLaw,
-    layout.SlipVelocity,
-    layout.Status,
-    layout.Height,
-    layout.NoAnswer,
-    layout.WearLaw,
+#: All enumerations, in the order of their definition.
+ENUMERATIONS: tuple[type[IntEnum], ...] = tuple(
+    kind for kind in vars(enumerations).values() if isinstance(kind, type) and issubclass(kind, IntEnum) and list(kind)
 )
 _CONSTANTS = ("MAX_PATCHES", "MAX_LOBES", "LARGEST_CREEPAGE")
 _TYPES = {np.dtype(np.float64): "double", np.dtype(np.int64): "int64_t"}
@@ -34,10 +24,10 @@ _TYPES = {np.dtype(np.float64): "double", np.dtype(np.int64): "int64_t"}
 
 def header() -> str:
     """Return the text of records.h."""
-    constants = "\n".join(f"#define CONTACT_{name} {getattr(layout, name)!r}" for name in _CONSTANTS)
+    constants = "\n".join(f"#define CONTACT_{name} {getattr(records, name)!r}" for name in _CONSTANTS)
     enumerations = "\n\n".join(map(_enumeration, ENUMERATIONS))
-    records = "\n\n".join(_record(name, dtype) for name, dtype in RECORDS.items())
-    return f"""/* Generated from contact/kernels/layout.py: records, the values of their members, constants. */
+    structs = "\n\n".join(_record(name, dtype) for name, dtype in RECORDS.items())
+    return f"""/* Generated from contact/kernels/records.py and enumerations.py. */
 #ifndef RECORDS_H
 #define RECORDS_H
 #include <stddef.h>
@@ -47,7 +37,7 @@ def header() -> str:
 
 {enumerations}
 
-{records}
+{structs}
 
 #endif
 """
@@ -66,7 +56,7 @@ def c_name(name: str) -> str:
 
 
 #: Record → its numpy type, in the order of the definition.
-RECORDS: dict[str, np.dtype] = {name: getattr(layout, name.upper()) for name in layout.MEANING}
+RECORDS: dict[str, np.dtype] = {name: getattr(records, name.upper()) for name in records.MEANING}
 
 
 def _enumeration(kind: type[IntEnum]) -> str:
@@ -87,7 +77,7 @@ def _record(name: str, dtype: np.dtype) -> str:
 def _members(name: str, dtype: np.dtype) -> Iterator[str]:
     for member, (kind, *_) in _fields(dtype):
         base, shape = kind.subdtype or (kind, ())
-        meaning = layout.MEANING[name][member]
+        meaning = records.MEANING[name][member]
         extent = "".join(f"[{n}]" for n in shape)
         yield f"    {_TYPES[base]} {member}{extent};" + (f" /* {meaning} */" if meaning else "")
 

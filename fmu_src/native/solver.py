@@ -8,9 +8,10 @@ from numba import carray
 import contact
 from contact import force_table, kalker, material, workspace
 from contact.kernels import families, memory, quadrature
+from contact.kernels.arrays import Size, Tables, Workspace
 from contact.kernels.kalker import N_TABLE, fill_table
-from contact.kernels.memory import Size, Tables, Workspace
 from contact.kernels.normal import influence
+from contact.kernels.normal.between_panels import fill_probes
 from contact.kernels.normal.descent import fill_descent
 from contact.kernels.tangential.table import SHAPE as CREEP
 from fmu_src.native.memory import compiled
@@ -73,6 +74,7 @@ def fill(own, poisson_ratio, published):
     quadrature.fill_fejer(rule.across.nodes, rule.across.weights)
     quadrature.fill_elements(rule.elements)
     quadrature.fill_panel(rule.cosines, rule.cosine_logs)
+    fill_probes(rule.cosines, rule.probes, rule.spread)
     if rule.columns.size > 1:
         fill_descent(tables.centre, tables.plane, rule.columns, rule.descent)
         influence.fill_columns(rule.cosine_logs, tables.centre, rule.columns)

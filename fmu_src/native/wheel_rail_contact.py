@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections import namedtuple
 from collections.abc import Callable
+from enum import IntEnum, auto
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,22 +16,13 @@ from numba import carray
 import contact
 from contact import Status
 from contact.damage import DamageParameters
-from contact.kernels import memory
+from contact.kernels import block, memory
+from contact.kernels.arrays import Samples, Workspace
 from contact.kernels.damage.assess import damage_kernel
-from contact.kernels.layout import (
-    CASE,
-    DAMAGE,
-    DAMAGE_PARAMETERS,
-    MAX_PATCHES,
-    N_DAMAGE_FIELDS,
-    N_FIELD_ROWS,
-    RESULT,
-    Field,
-    LoadKind,
-    Strip,
-)
-from contact.kernels.memory import Samples, Workspace
+from contact.kernels.enumerations import LoadKind
 from contact.kernels.pipeline import solve_case
+from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, MAX_PATCHES, RESULT
+from contact.kernels.rows import DamageField, Field, Strip
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
 from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
@@ -70,13 +62,22 @@ _OUTPUTS = {
     "gap_error": "gap_error",
 }
 _steps = compiled(creepage_steps)
-#: Field of the table → row of the solver's fields, or one of the three numbers that are computed from the strips.
-_PATCH, _Y, _AREA = range(N_FIELD_ROWS, N_FIELD_ROWS + 3)
+
+
+class _OfStrip(IntEnum):
+    """Numbers of an element that are computed from its strip. They follow the rows of the solver's fields."""
+
+    PATCH = len(Field)
+    Y = auto()
+    AREA = auto()
+
+
+#: Field of the table → its row.
 _FIELDS = {
-    "field.patch": _PATCH,
+    "field.patch": _OfStrip.PATCH,
     "field.x": Field.X,
-    "field.y": _Y,
-    "field.area": _AREA,
+    "field.y": _OfStrip.Y,
+    "field.area": _OfStrip.AREA,
     "field.pressure": Field.P,
     "field.traction_x": Field.QX,
     "field.traction_y": Field.QY,
@@ -89,11 +90,11 @@ _FIELDS = {
 @compiled
 def _element(strips, fields, row, i, j):
     """Return the value of one element. `row` is a value of `_FIELDS`."""
-    if row == _PATCH:
+    if row == _OfStrip.PATCH:
         return strips[Strip.PATCH, i] + 1.0
-    if row == _Y:
+    if row == _OfStrip.Y:
         return strips[Strip.Y, i]
-    if row == _AREA:
+    if row == _OfStrip.AREA:
         return strips[Strip.DY, i] * fields[Field.DX, i, j]
     return fields[row, i, j]
 
@@ -131,18 +132,18 @@ def _lay(work, size, kept, constants):
     centre, plane, creep = constants
     own, end = lay_out(work, kept.size, kept, size, centre, plane, creep)
     n, capacity = size.n_samples, MAX_PATCHES * size.n_strips
-    y, end = memory.vector(work, end, n)
-    g, end = memory.vector(work, end, n)
-    A, end = memory.vector(work, end, n)
-    x_c, end = memory.vector(work, end, n)
-    tilt, end = memory.vector(work, end, n)
-    case, end = memory.records(work, end, 1, CASE)
-    result, end = memory.records(work, end, 1, RESULT)
-    parameters, end = memory.records(work, end, 1, DAMAGE_PARAMETERS)
-    damage_fields, end = memory.cube(work, end, N_DAMAGE_FIELDS, capacity, size.n_elements)
-    damage, end = memory.records(work, end, 1, DAMAGE)
-    count, end = memory.vector(work, end, 1)
-    shown, total = memory.matrix(work, end, capacity, size.n_elements)
+    y, end = block.vector(work, end, n)
+    g, end = block.vector(work, end, n)
+    A, end = block.vector(work, end, n)
+    x_c, end = block.vector(work, end, n)
+    tilt, end = block.vector(work, end, n)
+    case, end = block.records(work, end, 1, CASE)
+    result, end = block.records(work, end, 1, RESULT)
+    parameters, end = block.records(work, end, 1, DAMAGE_PARAMETERS)
+    damage_fields, end = block.cube(work, end, len(DamageField), capacity, size.n_elements)
+    damage, end = block.records(work, end, 1, DAMAGE)
+    count, end = block.vector(work, end, 1)
+    shown, total = block.matrix(work, end, capacity, size.n_elements)
     samples = Samples(y, g, A, x_c, tilt)
     return Arrays(own, samples, case, result, parameters, damage_fields, damage, count, shown), end, total
 
@@ -277,7 +278,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
 
     @compiled
     def arrange(v, work, centre, plane, creep):
-        kept, _ = memory.vector(work, 0, memory.memory_size(size(v)))
+        kept, _ = block.vector(work, 0, memory.memory_size(size(v)))
         return _lay(work, size(v), kept, (centre, plane, creep))
 
     def model_memory(values, published, centre, plane, creep):

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections import namedtuple
 from collections.abc import Callable
+from enum import IntEnum, auto
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,23 +19,15 @@ import contact
 from contact import Status
 from contact.damage import DamageParameters
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
-from contact.kernels import memory, quadrature
+from contact.kernels import block, memory, quadrature
+from contact.kernels.block import ahead
 from contact.kernels.damage.deposit import arc_length
-from contact.kernels.geometry.prepare import cut, facing, rail_origin, turn
+from contact.kernels.enumerations import Height, NoAnswer
+from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes, turn
 from contact.kernels.geometry.settle import DEEPEST
-from contact.kernels.layout import (
-    CASE,
-    DAMAGE_PARAMETERS,
-    GIVEN,
-    MAX_PATCHES,
-    N_BIN_ROWS,
-    N_PROFILE_ROWS,
-    TOTAL,
-    Height,
-    NoAnswer,
-)
-from contact.kernels.memory import ahead
 from contact.kernels.pair import solve_pair
+from contact.kernels.records import CASE, DAMAGE_PARAMETERS, GIVEN, MAX_PATCHES, TOTAL
+from contact.kernels.rows import N_PROFILE_ROWS, Bin
 from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
 from fmu_src.native.memory import compiled, numbers_of
@@ -63,15 +56,25 @@ _OUTPUTS = {
 }
 _steps = compiled(creepage_steps)
 
-#: Reasons to discard a step. Their numbers follow those of the statuses.
-_NO_OVERLAP, _NOT_SETTLED, _TOO_DEEP, _GAUGE_POINT, _STEEP, _ENDLESS = range(max(Status) + 1, max(Status) + 7)
-_FAILURES = {
-    _NO_OVERLAP: "pose.y: the profiles of wheel and rail do not overlap",
-    _NOT_SETTLED: "load.normal_force: no height was found at which the wheel carries this load on this rail",
-    _TOO_DEEP: f"pose.z: the wheel lies more than {DEEPEST:g} m inside its rail",
-    _GAUGE_POINT: "track.gauge_point: the rail reaches no deeper on its gauge side",
-    _STEEP: "rail.inclination: the rail is steep at its top",
-    _ENDLESS: "the accumulated damage has no finite value for these inputs",
+
+class _Failure(IntEnum):
+    """Reasons to discard a step. Their numbers follow those of the statuses."""
+
+    NO_OVERLAP = max(Status) + 1
+    NOT_SETTLED = auto()
+    TOO_DEEP = auto()
+    GAUGE_POINT = auto()
+    STEEP = auto()
+    ENDLESS = auto()
+
+
+_FAILURES: dict[int, str] = {
+    _Failure.NO_OVERLAP: "pose.y: the profiles of wheel and rail do not overlap",
+    _Failure.NOT_SETTLED: "load.normal_force: no height was found at which the wheel carries this load on this rail",
+    _Failure.TOO_DEEP: f"pose.z: the wheel lies more than {DEEPEST:g} m inside its rail",
+    _Failure.GAUGE_POINT: "track.gauge_point: the rail reaches no deeper on its gauge side",
+    _Failure.STEEP: "rail.inclination: the rail is steep at its top",
+    _Failure.ENDLESS: "the accumulated damage has no finite value for these inputs",
 }
 
 
@@ -119,13 +122,13 @@ def _references(table: Table) -> Any:
 @compiled
 def _lay_start(work, piece, n_bins, resources):
     """Lay out `Start` in `work`. Return it and the index where it ends."""
-    kept, end = memory.vector(work, 0, 1 + MAX_PATCHES * piece)
-    bins, end = memory.cube(work, end, 2, N_BIN_ROWS, n_bins)
-    counts, end = memory.vector(work, end, 2)
+    kept, end = block.vector(work, 0, 1 + MAX_PATCHES * piece)
+    bins, end = block.cube(work, end, 2, len(Bin), n_bins)
+    counts, end = block.vector(work, end, 2)
     n_wheel = int(carray(resources, (1,))[0])
     wheel = carray(ahead(resources, 1), (N_PROFILE_ROWS, n_wheel))
     n_rail = int(carray(ahead(resources, 1 + N_PROFILE_ROWS * n_wheel), (1,))[0])
-    turned, end = memory.matrix(work, end, N_PROFILE_ROWS, n_rail)
+    turned, end = block.matrix(work, end, N_PROFILE_ROWS, n_rail)
     return Start(kept, bins, counts, wheel, turned), end
 
 
@@ -146,8 +149,8 @@ def _place(wheel, turned, counts, search):
     wheel_from, wheel_to = facing(wheel, True)
     rail_from, rail_to = facing(turned, False)
     counts[0], counts[1] = wheel_to - wheel_from, rail_to - rail_from
-    cut(wheel, wheel_from, wheel_to, search.wheel)
-    cut(turned, rail_from, rail_to, search.rail)
+    take_nodes(wheel, wheel_from, wheel_to, search.wheel)
+    take_nodes(turned, rail_from, rail_to, search.rail)
     quadrature.fill_fejer(search.across.nodes, search.across.weights)
 
 
@@ -245,11 +248,11 @@ def _differ(table: Table) -> Callable[..., Any]:
 def _failure(code):
     """Return the number of the failure for a value of `NoAnswer`, 0 for none."""
     if code == NoAnswer.NO_OVERLAP:
-        return _NO_OVERLAP
+        return _Failure.NO_OVERLAP
     if code == NoAnswer.NOT_SETTLED:
-        return _NOT_SETTLED
+        return _Failure.NOT_SETTLED
     if code == NoAnswer.TOO_DEEP:
-        return _TOO_DEEP
+        return _Failure.TOO_DEEP
     return 0
 
 
@@ -275,7 +278,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
 
     def model_memory(values, resources, published, centre, plane, creep):
         v = carray(values, (n_values,))
-        return 1 + MAX_PATCHES * memory.memory_size(size(v)) + 2 * N_BIN_ROWS * n_bins(v)
+        return 1 + MAX_PATCHES * memory.memory_size(size(v)) + 2 * len(Bin) * n_bins(v)
 
     def model_size(values, resources, published, centre, plane, creep):
         v = carray(values, (n_values,))
@@ -291,10 +294,10 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         turn(rail, -math.atan(v[at.rail_inclination]), turned)
         (wheel_from, wheel_to), (rail_from, rail_to) = facing(wheel, True), facing(turned, False)
         if wheel_to - wheel_from < 3 or rail_to - rail_from < 3:
-            return _STEEP
+            return _Failure.STEEP
         origin_y, origin_z, deepest = rail_origin(turned, v[at.track_gauge], v[at.track_gauge_point])
         if deepest < v[at.track_gauge_point]:
-            return _GAUGE_POINT
+            return _Failure.GAUGE_POINT
         counts = wheel_to - wheel_from, rail_to - rail_from
         bench, _ = _lay(work, end, start, counts, size(v), (centre, plane, creep))
         _place(wheel, turned, start.counts, bench.search)
@@ -311,14 +314,14 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         v = carray(values, (n_values,))
         bench = arrange(v, work, resources, (centre, plane, creep))
         read_surface(v, bench.case)
-        given, _ = memory.records(values, at.pose_y, 1, GIVEN)
+        given, _ = block.records(values, at.pose_y, 1, GIVEN)
         bench.ledger.settings[0].distance = v[at.velocity_x] * h
         mode = _HEIGHT[int(v[at.load_kind]) - 1]
         failure = _failure(solve_pair(mode, v[at.load_normal_force], given[0], bench))
         if failure > 0:
             return failure
         if not math.isfinite(bench.ledger.bins.sum()):
-            return _ENDLESS
+            return _Failure.ENDLESS
         report(v, bench)
         return bench.total[0].status
 

@@ -16,9 +16,11 @@ from numba import carray
 from contact.geometry import profile
 from contact.geometry.profile import Profile
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
-from contact.kernels.geometry.prepare import cut, facing, rail_origin, turn
-from contact.kernels.layout import GIVEN, MAX_PATCHES, N_PROFILE_ROWS
-from contact.kernels.memory import lay_search, matrix, records, vector
+from contact.kernels.block import matrix, records, vector
+from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes, turn
+from contact.kernels.memory import lay_search
+from contact.kernels.records import GIVEN, MAX_PATCHES
+from contact.kernels.rows import N_PROFILE_ROWS
 from fmu_src.native.component import Component
 from fmu_src.native.memory import compiled
 from fmu_src.tables.wheelset import table
@@ -180,8 +182,8 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         w.given[0] = _STANDSTILL[0]
         w.constants[:] = 0.0
         for found, mirror in ((w.right, 1.0), (w.left, -1.0)):
-            cut(wheel_rows, wheel_from, wheel_to, found.wheel)
-            cut(turned, rail_from, rail_to, found.rail)
+            take_nodes(wheel_rows, wheel_from, wheel_to, found.wheel)
+            take_nodes(turned, rail_from, rail_to, found.rail)
             prepare_search(v, found, mirror, origin_y, origin_z)
         c = w.constants
         c[dynamics.Constant.MASS], c[dynamics.Constant.YAW_INERTIA], c[dynamics.Constant.SPIN_INERTIA] = (

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numba import carray
 
-from contact.kernels.layout import CASE
+from contact.kernels.records import CASE
 from fmu_src.native.memory import compiled, integers_of, numbers_of
 from fmu_src.variables import Table
 
-#: Inputs and parameters of a contact → members of `contact.kernels.layout.CASE`.
+#: Inputs and parameters of a contact → members of the record CASE.
 SURFACE = {
     "friction.coefficient": "mu",
     "friction.law": "law",

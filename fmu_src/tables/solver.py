@@ -222,7 +222,7 @@ def parameters() -> Iterable[Variable]:
     )
 
 
-#: Outputs of `damage` ← members of `contact.kernels.layout.DAMAGE` and TOTAL.
+#: Outputs of `damage` ← members of the records DAMAGE and TOTAL.
 DAMAGE_OUTPUTS = {
     "damage.T_gamma": "T_gamma",
     "damage.wear_rate_pearce_sherratt": "pearce_sherratt",

@@ -8,7 +8,7 @@ from typing import Unpack
 
 from contact import friction
 from contact.creepage import LARGEST_CREEPAGE
-from contact.kernels.layout import MAX_PATCHES
+from contact.kernels.records import MAX_PATCHES
 from contact.separation import LARGEST_ROLLING, LARGEST_TILT
 from fmu_src.tables import solver
 from fmu_src.variables import Attributes, Enumeration, Table, Variable, output, parameter, signal

@@ -47,7 +47,7 @@ ACCUMULATED = tuple(f"accumulated.{body}.{name}" for body in BODIES for name in 
 WHEEL, RAIL = "wheel.profile", "rail.profile"
 RESOURCES = (WHEEL, RAIL)
 
-#: Inputs in the order of the kernels (`contact.kernels.layout`): name, unit, description.
+#: Inputs in the order of the record GIVEN: name, unit, description.
 MOTION = (
     ("pose.y", "m", "Lateral position of the wheelset's centre, positive to the right"),
     ("pose.z", "m", "Height of the centre, positive down, 0 with both tape circles on the plane of the rails' tops"),
@@ -75,7 +75,7 @@ _LIMITS: dict[str, Limits] = {
 _RADIUS, _SPEED = 0.46, 20.0
 _STARTS = {"velocity.x": _SPEED, "velocity.spin": -_SPEED / _RADIUS}
 
-#: Outputs of a patch in the order of `contact.kernels.layout`: name after `patch[k].`, unit, nominal, description.
+#: Outputs of a patch in the order of the record CONTACT: name after `patch[k].`, unit, nominal, description.
 PATCH = (
     ("n", "N", 1e5, "Normal force"),
     ("fx", "N", 1e4, "Longitudinal creep force on the wheel"),

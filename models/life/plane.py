@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from contact import Creepage, Separation, Solver
 from contact.friction import Friction
-from contact.solution import CaseForces
+from contact.resultants import CaseForces
 from models.life.scenario import Methods
 from models.wheelset import ports
 from models.wheelset.parameters import WheelsetParameters

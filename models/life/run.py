@@ -12,7 +12,7 @@ from contact import Status
 from contact.accumulation import Histogram
 from contact.errors import ContactError
 from contact.geometry.wheelset import Pose, Velocity
-from contact.solution import CaseForces
+from contact.resultants import CaseForces
 from models.life.harvest import Harvest
 from models.life.plane import PlaneContact
 from models.life.scenario import Scenario

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from contact.errors import ContactError, require_number
 from contact.geometry.wheelset import Pair
-from contact.kernels.layout import GIVEN
+from contact.kernels.records import GIVEN
 from models.wheelset import dynamics, motion
 from models.wheelset.parameters import WheelsetParameters
 from models.wheelset.ports import POINTS, SIDES

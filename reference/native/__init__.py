@@ -8,7 +8,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 
-from contact.kernels.layout import MAX_PATCHES
+from contact.kernels.records import MAX_PATCHES
 from contact.solver import N_ELEMENTS, N_STRIPS
 from fmu_src.catalogue import models
 from fmu_src.native import source

@@ -13,7 +13,8 @@ from contact.errors import ContactError
 from contact.geometry.profile import Profile, cone, named, rail_60e1, rail_arc
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.kernels.damage import deposit
-from contact.kernels.layout import LEDGER, N_BIN_ROWS, N_STRIP_ROWS, Bin, Strip
+from contact.kernels.records import LEDGER
+from contact.kernels.rows import Bin, Strip
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 
 WHEEL, RAIL = named("1/40"), rail_60e1()
@@ -142,11 +143,11 @@ def test_a_strip_is_divided_among_bins_by_overlap_and_the_outer_bins_take_the_re
     width, start, distance, dy = 0.7, 3.0, 2.0, 0.1
     edges = width * (start + np.array([[0.5, 1.2, -2.0, 2.5], [2.5, 1.4, -1.0, 4.5]]))
     expected = np.array([[0.25, 0.5, 0.25], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
-    strips = np.zeros((N_STRIP_ROWS, 4))
+    strips = np.zeros((len(Strip), 4))
     strips[Strip.DY] = dy
-    rates = np.arange(1.0, 4.0 * N_BIN_ROWS + 1.0).reshape(N_BIN_ROWS, 4)
+    rates = np.arange(1.0, 4.0 * len(Bin) + 1.0).reshape(len(Bin), 4)
     for is_wheel in (True, False):
-        bins = np.zeros((N_BIN_ROWS, 3))
+        bins = np.zeros((len(Bin), 3))
         settings = np.array([(start, width, distance)], LEDGER)[0]
         deposit.deposit(rates, edges, strips, 4, settings, 1.0, is_wheel, bins)
         for row in range(Bin.ENERGY_INDEX_MAX):

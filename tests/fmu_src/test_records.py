@@ -7,7 +7,8 @@ import pytest
 pytest.importorskip("ziglang")
 
 from contact import Status
-from contact.kernels import layout
+from contact.kernels import records as defined
+from contact.kernels.enumerations import LoadKind
 from fmu_src.catalogue import models
 from fmu_src.native import records, source
 from fmu_src.native.packaging import HEADERS, WRAPPER, compiler, run
@@ -60,7 +61,7 @@ def test_a_program_finds_members_where_numpy_does(tmp_path):
 
 def test_all_members_are_there_with_their_meaning():
     text = records.header()
-    assert set(records.RECORDS) == set(layout.MEANING)
+    assert set(records.RECORDS) == set(defined.MEANING)
     assert "double edges[8]; /* lateral edges of the patches, two each [m] */" in text
     assert "int64_t law; /* FrictionLaw */" in text
     assert "#define CONTACT_MAX_PATCHES 4\n" in text
@@ -68,7 +69,7 @@ def test_all_members_are_there_with_their_meaning():
 
 def test_enumerators_are_prefixed():
     assert records.enumerator(Status.NOT_CONVERGED) == "CONTACT_STATUS_NOT_CONVERGED"
-    assert records.enumerator(layout.LoadKind.LOAD) == "CONTACT_LOAD_KIND_LOAD"
+    assert records.enumerator(LoadKind.LOAD) == "CONTACT_LOAD_KIND_LOAD"
     assert records.enumerator(7) == "7"
 
 

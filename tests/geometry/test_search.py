@@ -8,7 +8,8 @@ from scipy.interpolate import CubicHermiteSpline
 
 from contact.geometry import profile, wheelset
 from contact.kernels.geometry import search
-from contact.kernels.layout import LOBE, MAX_LOBES, N_LINE_ROWS, Curve
+from contact.kernels.records import LOBE, MAX_LOBES
+from contact.kernels.rows import N_LINE_ROWS, Curve
 
 RADIUS, TAPE = 0.460, 0.750
 WHEEL = wheelset._facing(profile.s1002())

@@ -9,7 +9,7 @@ from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose
 from contact.kernels.geometry import search
 from contact.kernels.geometry.settle import carried
-from contact.kernels.layout import LOBE, MAX_LOBES
+from contact.kernels.records import LOBE, MAX_LOBES
 
 
 def two_lobes(gap, degrees, steepness=0.0):

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from contact import workspace
-from contact.kernels.layout import N_VECTOR_ROWS, Vector
 from contact.kernels.normal import influence
 from contact.kernels.normal.descent import FEWEST, MOST, N_LAYERS, descend, has_one_run
 from contact.kernels.normal.elimination import eliminate
 from contact.kernels.normal.panels import _is_overlapped, _summarise
+from contact.kernels.rows import N_VECTOR_ROWS, Vector
 
 
 @pytest.mark.parametrize("m", [1, 2, 5, 14, 16, 31])

@@ -10,7 +10,7 @@ from contact.damage import WEAR_LAWS, DamageParameters
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.kernels.layout import Bin, Body
+from contact.kernels.rows import Bin, Body
 from contact.pair import WheelRailPair
 
 BODIES = {"wheel": profile.s1002(), "rail": profile.rail_60e1(1 / 20, breakpoints="UIC 519")}

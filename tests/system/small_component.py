@@ -15,7 +15,7 @@ if __name__ == "__main__" and any(os.environ.get(name) != value for name, value 
 
 import numpy as np
 
-from contact.kernels.memory import vector
+from contact.kernels.block import vector
 from fmu_src.native.component import SIGNATURES, Component
 from fmu_src.native.emit import emit
 from fmu_src.native.memory import compiled

@@ -15,7 +15,7 @@ from random_cases import random_case
 from thesis_case import THESIS
 
 import contact
-from contact.kernels.layout import MAX_PATCHES
+from contact.kernels.records import MAX_PATCHES
 from contact.solver import N_ELEMENTS, N_STRIPS
 
 SHAPE = (MAX_PATCHES, N_STRIPS, N_ELEMENTS)

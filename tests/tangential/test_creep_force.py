@@ -10,7 +10,7 @@ import contact
 from contact import kalker
 from contact.friction import Friction
 from contact.kernels.tangential.carter import carter, creepage_of_full_slip
-from contact.kernels.tangential.linear import cubic
+from contact.kernels.tangential.linear import smoothed
 from contact.kernels.tangential.polach import polach
 from contact.kernels.tangential.vermeulen_johnson import slopes, vermeulen_johnson
 
@@ -72,11 +72,11 @@ def test_slopes_at_vanishing_creepage_are_kalkers(law, hertzian):
 def test_the_cubic_law_is_one_minus_a_cube_and_smooth_where_it_ends():
     """Thesis Eq. 5.4: F/(mu N) = 1 - (1 - f/3)³, stick zone (1 - f/3)² of the patch."""
     for f in (0.1, 1.0, 2.5, 2.999):
-        factor, slip = cubic(f, 1.0)
+        factor, slip = smoothed(f, 1.0)
         assert factor * f == pytest.approx(1.0 - (1.0 - f / 3.0) ** 3, rel=1e-14)
         assert slip == pytest.approx(1.0 - (1.0 - f / 3.0) ** 2, rel=1e-14)
-    assert cubic(3.0, 1.0) == (1.0 / 3.0, 1.0)
-    assert cubic(0.0, 0.0) == (1.0, 0.0)
+    assert smoothed(3.0, 1.0) == (1.0 / 3.0, 1.0)
+    assert smoothed(0.0, 0.0) == (1.0, 0.0)
 
 
 def test_saturated_laws_end_at_mu_N_against_the_linear_force(ellipse):

@@ -11,7 +11,8 @@ from contact.kernels.damage.pearce_sherratt import pearce_sherratt_kernel
 from contact.kernels.damage.stress_index import stress_index_kernel
 from contact.kernels.damage.t_gamma import t_gamma_kernel
 from contact.kernels.damage.usfd import usfd_kernel
-from contact.kernels.layout import DamageField, Field, Strip, TangentialFamily
+from contact.kernels.enumerations import TangentialFamily
+from contact.kernels.rows import DamageField, Field, Strip
 
 
 @kernel
@@ -30,7 +31,7 @@ def strip_width(strips, i):
 
 @kernel
 def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, damage):
-    """Fill `damage` and the first `n` strips of `damage_fields` from a solved case (see `contact.kernels.layout`).
+    """Fill `damage` and the first `n` strips of `damage_fields` from a solved case (see `DamageField`).
 
     The depth of an element is spread over the circumference, so it is in metres per metre rolled. The volume is that of
     all strips, ∬ k p |s|/H dA over the surface. The energy index uses the rigid slip of each strip at its position on

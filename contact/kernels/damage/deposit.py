@@ -9,7 +9,8 @@ import math
 from contact._jit import kernel
 from contact.kernels.damage.assess import strip_width
 from contact.kernels.damage.usfd import usfd_kernel
-from contact.kernels.layout import Bin, Curve, DamageField, Field, Strip, WearLaw
+from contact.kernels.enumerations import WearLaw
+from contact.kernels.rows import Bin, Curve, DamageField, Field, Strip
 
 _LEAST_COSINE = 0.17  # of the angle between profile and contact plane, 80°; at larger angles it does not face the plane
 

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from contact._jit import kernel
 from contact.kernels.cubic import value_and_slope
-from contact.kernels.layout import Curve
+from contact.kernels.rows import Curve
 
 Array = NDArray[np.float64]
-Record = Any  # a record of `contact.kernels.layout`
+Record = Any  # a record of `contact.kernels.records`
 
 
 @kernel

@@ -8,11 +8,11 @@ normal.
 import math
 
 from contact._jit import kernel
+from contact.kernels.arrays import Search
 from contact.kernels.geometry.curve import Array, Record, advance, at
 from contact.kernels.geometry.plane import Frame, along, normal_gap, project, spread, track_slope
 from contact.kernels.geometry.search import axle, combine, join, lobes, on_wheel, shared, untie
-from contact.kernels.layout import Curve, Sep
-from contact.kernels.memory import Search
+from contact.kernels.rows import Curve, Sep
 
 Direction = tuple[float, float, float]
 

@@ -10,7 +10,7 @@ import math
 from contact._jit import kernel
 from contact.kernels.cubic import interior_minimum
 from contact.kernels.geometry.curve import Array, advance, at
-from contact.kernels.layout import Curve
+from contact.kernels.rows import Curve
 
 Frame = tuple[float, float, float, float]
 

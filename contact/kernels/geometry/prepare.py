@@ -8,7 +8,7 @@ import math
 from contact._jit import kernel
 from contact.kernels import cubic
 from contact.kernels.geometry.curve import Array, Record
-from contact.kernels.layout import Curve
+from contact.kernels.rows import Curve
 
 #: Largest slope angles of the parts that take part in the search [rad]. The roll comes in addition.
 STEEPEST_WHEEL, STEEPEST_RAIL = math.radians(80.0), math.radians(86.0)
@@ -58,7 +58,7 @@ def facing(profile: Array, is_wheel: bool) -> tuple[int, int]:
 
 
 @kernel
-def cut(profile: Array, low: int, high: int, curve: Array) -> None:
+def take_nodes(profile: Array, low: int, high: int, curve: Array) -> None:
     """Fill `curve` with the nodes low … high - 1 of a profile: rows y, z, dz/dy."""
     for i in range(low, high):
         curve[Curve.Y, i - low], curve[Curve.Z, i - low] = profile[Curve.Y, i], profile[Curve.Z, i]

@@ -10,7 +10,8 @@ import math
 from contact._jit import kernel
 from contact.kernels import cubic
 from contact.kernels.geometry.curve import Array, Record, advance, at
-from contact.kernels.layout import MAX_LOBES, Curve
+from contact.kernels.records import MAX_LOBES
+from contact.kernels.rows import Curve
 
 _COINCIDENT = 1e-9  # [m] distance below which points coincide
 _GAUSS_T = 0.5 * math.sqrt(0.6)  # outer nodes of three-point Gauss, from the middle of an interval of length 1

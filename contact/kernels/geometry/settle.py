@@ -6,13 +6,14 @@ These are the entry kernels of the geometry. They return the number of patches o
 import math
 
 from contact._jit import kernel
+from contact.kernels.arrays import Samples, Search
+from contact.kernels.enumerations import Height, LoadKind, NoAnswer
 from contact.kernels.geometry.curve import Array, Record
 from contact.kernels.geometry.frame import describe_all
 from contact.kernels.geometry.search import place, touch, trace, vertical_gap
-from contact.kernels.layout import Height, LoadKind, NoAnswer, Sep
-from contact.kernels.memory import Samples, Search
 from contact.kernels.normal.analyn import analyn
 from contact.kernels.result import clear
+from contact.kernels.rows import Sep
 
 _MAX_ITERATIONS = 60
 _TOLERANCE = 1e-11  # of the load; it becomes noise of the height and of difference quotients of FMUs

@@ -19,9 +19,10 @@ import math
 from contact._jit import kernel
 from contact.kernels import cubic
 from contact.kernels.cubic import locate, slopes
+from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.hertz import local_factors
-from contact.kernels.layout import LoadKind, Sample, Status, Strip
 from contact.kernels.normal.lay import at_end, find_patches, lay_strips, least_point
+from contact.kernels.rows import Sample, Strip
 
 #: Half base of the second difference that gives B(y) [m]: a triangular average of g'' with standard deviation 1 mm.
 CURVATURE_HALF_BASE = 2.45e-3

@@ -8,12 +8,11 @@ specific to it.
 import math
 
 from contact._jit import kernel
-from contact.kernels.layout import LoadKind, Normal, Status, Strip
+from contact.kernels.enumerations import LoadKind, Normal, Status
 from contact.kernels.normal import semi_winkler as sw
 from contact.kernels.normal import srst as sr
 from contact.kernels.normal import stripes
 from contact.kernels.normal.analyn import NO_OVERLAP, fill_strips
-from contact.kernels.normal.cut import carried, cut, equivalent_aspect, press, share_gap
 from contact.kernels.normal.deepest import deepest, unit_load
 from contact.kernels.normal.kik_piotrowski import PENETRATION, deepest_half_length
 from contact.kernels.normal.kik_piotrowski_2008 import stretch
@@ -22,7 +21,9 @@ from contact.kernels.normal.lay import at_end
 from contact.kernels.normal.linder import local_ellipses
 from contact.kernels.normal.multi_hertz import beyond, multi_hertz
 from contact.kernels.normal.pascal_sauvage import one_ellipse
+from contact.kernels.normal.virtual_penetration import carried, cut, equivalent_aspect, set_pressures, share_gap
 from contact.kernels.normal.winkler import winkler
+from contact.kernels.rows import Strip
 
 #: Number of secant steps before bisection, which converges to a step of the load, and limit of iterations.
 _SECANT_ITERATIONS, MAX_ITERATIONS = 20, 70
@@ -80,7 +81,7 @@ def _load_at(case, sep, delta, point, across, work, strips, edges):
     elif method == Normal.SRST:
         sr.srst(strips, n_strips, modulus, point)
     elif method != Normal.SEMI_WINKLER:
-        press(strips, n_strips, edges, at, a0, delta, modulus)
+        set_pressures(strips, n_strips, edges, at, a0, delta, modulus)
     return carried(strips, n_strips), n_strips, touches_end
 
 

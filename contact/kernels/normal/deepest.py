@@ -6,9 +6,9 @@ from typing import NamedTuple
 from contact._jit import kernel
 from contact.kernels.cubic import locate, slopes
 from contact.kernels.hertz import local_factors
-from contact.kernels.layout import Sample
 from contact.kernels.normal.analyn import floored, lateral_curvature
 from contact.kernels.normal.lay import least_point
+from contact.kernels.rows import Sample
 
 
 class Deepest(NamedTuple):

@@ -8,10 +8,10 @@ with its a/b. The inverse removes three quarters of an error or more at every st
 import math
 
 from contact._jit import kernel
-from contact.kernels.layout import Vector
 from contact.kernels.normal.elimination import eliminate
 from contact.kernels.normal.influence import at_centre, in_row, logarithm, row_at
 from contact.kernels.quadrature import on_circle
+from contact.kernels.rows import Vector
 
 #: Layers of the table: ln(a/b) of the first layer, step between layers, number of layers.
 _LOW, _STEP, N_LAYERS = -3.0, 0.7, 10

@@ -10,9 +10,9 @@ import math
 
 from contact._jit import kernel
 from contact.kernels import cubic
-from contact.kernels.layout import Strip
+from contact.kernels.normal.between_panels import IN_LINE
 from contact.kernels.normal.influence import anywhere, at_centre
-from contact.kernels.normal.strip_system import IN_LINE
+from contact.kernels.rows import Strip
 
 #: Number of strips at which the gap is evaluated.
 PROBES = 8

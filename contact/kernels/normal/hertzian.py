@@ -4,10 +4,11 @@ import math
 
 from contact._jit import kernel
 from contact.kernels.cubic import locate
-from contact.kernels.layout import LoadKind, Status, Strip
+from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.normal.analyn import NO_OVERLAP
 from contact.kernels.normal.deepest import deepest, unit_load
 from contact.kernels.normal.lay import lay_strips
+from contact.kernels.rows import Strip
 
 
 @kernel

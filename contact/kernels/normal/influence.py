@@ -19,6 +19,7 @@ from contact.kernels.hertz import elliptic_integrals
 _LN_T_MIN, _LN_T_MAX = math.log(1e-5), math.log(1e5)
 _N_CENTRE = 401
 _CENTRE_STEP = (_LN_T_MAX - _LN_T_MIN) / (_N_CENTRE - 1)
+_PER_CENTRE_STEP = 1.0 / _CENTRE_STEP
 
 _X_MAX, _N_X = 4.0, 201
 _X_STEP = _X_MAX / (_N_X - 1)
@@ -108,7 +109,7 @@ def fill(centre, plane):
 @kernel
 def at_centre(centre, log_t):
     """Return U(0, t) for t > 0 given by its logarithm. The error is below 1e-7."""
-    u = (log_t - _LN_T_MIN) / _CENTRE_STEP
+    u = (log_t - _LN_T_MIN) * _PER_CENTRE_STEP
     if not u > 0.0:  # written so that NaN does not become an index, here and below
         t = math.exp(log_t)
         return 2.0 * t * (math.log(4.0) - log_t)

@@ -16,7 +16,7 @@ small step (0.8 % of the load for two equal patches).
 import math
 
 from contact._jit import kernel
-from contact.kernels.layout import Strip
+from contact.kernels.rows import Strip
 
 
 @kernel

@@ -22,9 +22,9 @@ import math
 
 from contact._jit import kernel
 from contact.kernels.hertz import local_factors
-from contact.kernels.layout import Sample
 from contact.kernels.normal.analyn import floored
 from contact.kernels.normal.lay import find_patches
+from contact.kernels.rows import Sample
 
 
 @kernel

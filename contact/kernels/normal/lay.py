@@ -7,7 +7,8 @@ interval.
 
 from contact._jit import kernel
 from contact.kernels import cubic
-from contact.kernels.layout import MAX_PATCHES, Strip
+from contact.kernels.records import MAX_PATCHES
+from contact.kernels.rows import Strip
 
 
 @kernel

@@ -13,7 +13,7 @@ theory.md 5.
 import math
 
 from contact._jit import kernel
-from contact.kernels.layout import Strip
+from contact.kernels.rows import Strip
 
 
 @kernel

@@ -22,8 +22,9 @@ import numpy as np
 from contact._jit import kernel
 from contact.kernels.cubic import locate, slopes
 from contact.kernels.hertz import local_factors
-from contact.kernels.layout import MAX_PATCHES, Sample, Strip
 from contact.kernels.normal.analyn import floored, lateral_curvature
+from contact.kernels.records import MAX_PATCHES
+from contact.kernels.rows import Sample, Strip
 
 #: A secondary contact with a smaller share of the approach is neglected.
 _LEAST_SHARE = 1e-4

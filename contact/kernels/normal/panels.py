@@ -5,9 +5,10 @@ import math
 from contact._jit import kernel
 from contact.kernels import cubic
 from contact.kernels.cubic import locate
-from contact.kernels.layout import MAX_PATCHES, Sample, Strip, Vector
 from contact.kernels.normal.descent import END_LENGTH, END_SLOPE, END_STEP, END_VALUE
 from contact.kernels.normal.strip_system import displacement_outside
+from contact.kernels.records import MAX_PATCHES
+from contact.kernels.rows import Sample, Strip, Vector
 
 _END_RANGE = (-3.0, 20.0)  # of one move outwards before the factor END_STEP, in widths of the end strip
 #: Squared ratio of pressures from which on a frozen end still moves outwards: they rise towards the corner of a punch.
@@ -16,6 +17,8 @@ _PUNCH = 1.0
 NO_PANEL = 1e-5
 #: Overlap outside the panels, over the approach, that counts as missed contact: early, and at convergence.
 EARLY_GHOST, GHOST = 2e-2, 1e-3
+#: Share of the overlap's width that a new panel leaves free at either end. An elastic patch is narrower than the overlap.
+OPENED = 0.15
 
 
 @kernel
@@ -255,6 +258,7 @@ def extend_to_ghosts(sep, g_least, delta, least, unit, n_panels, panels, own):
             p = n_panels
             n_panels += 1
             low, high = y[max(i - 1, 0)], y[min(k + 1, size - 1)]
+            low, high = low + OPENED * (high - low), high - OPENED * (high - low)
             panels[2 * p], panels[2 * p + 1] = low, high
             reference = 0.0
             for j in range(n):

@@ -12,8 +12,8 @@ import math
 from contact._jit import kernel
 from contact.kernels.cubic import locate
 from contact.kernels.hertz import local_factors
-from contact.kernels.layout import Strip
 from contact.kernels.normal.multi_hertz import lay_ellipse
+from contact.kernels.rows import Strip
 
 #: Range of ln(B/A) in which the equivalent curvature is searched.
 _LOW, _HIGH = -16.0, 16.0

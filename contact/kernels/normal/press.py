@@ -1,24 +1,25 @@
 """The normal problem by any method, and its elastic-perfectly plastic limit (theory.md 8.4).
 
-No element bears more than the limit p_c: the pressure of the elastic solution is cut there, and the bodies approach until what
-is left carries the load (after Sebès et al. 2014). A strip of peak p0 and half length a keeps
+No element bears more than the limit p_c. The elastic pressure is limited to it, and the bodies approach until the rest carries
+the load (after Sebès et al. 2014). A strip of peak p0 and half length a keeps
 
     N' = π/2 p0 a · kept(p_c/p0),   kept(c) = 2/π (c √(1 - c²) + asin c).
 
-The cut load rises with the elastic one, so the problem has one solution. For what works on semi-ellipses - load and moments of
-a strip, the tangential problem - the strip gets the peak p0·kept of the semi-ellipse with its load and length.
+The limited load rises with the elastic one, so the problem has one solution. Load, moments and the
+tangential problem work on semi-ellipses. For them a strip gets the peak p0·kept of the semi-ellipse with its load and length.
 """
 
 import math
 
 from contact._jit import chosen_by, inlined, kernel
 from contact.kernels import families
-from contact.kernels.layout import Element, LoadKind, NormalFamily, Status, Strip
+from contact.kernels.enumerations import LoadKind, NormalFamily, Status
 from contact.kernels.normal.analyn import analyn
 from contact.kernels.normal.by_approach import by_approach
 from contact.kernels.normal.hertzian import hertzian
 from contact.kernels.normal.strip_halfspace import strip_halfspace
 from contact.kernels.result import clear
+from contact.kernels.rows import Element, Strip
 
 #: Of the load on which the iteration stops; what is left is taken by the pressure. Cap, and steps of the stiffness: interacting
 #: strips are solved to 1e-4 only.
@@ -38,7 +39,7 @@ def share_of(p0, limit):
 
 
 @kernel
-def fill_cut(elements, p0, limit, row):
+def fill_limited(elements, p0, limit, row):
     """Fill the mean limited pressure of each element of a strip with p0 > limit. They add up to the strip's load."""
     c = limit / p0
     t = math.sqrt(1.0 - c * c)
@@ -103,7 +104,7 @@ chosen_by(
 
 
 @kernel
-def _cut_load(strips, n, limit):
+def _limited_load(strips, n, limit):
     """Return the load of `n` elastic strips after their pressure is limited [N]."""
     N = 0.0
     for i in range(n):
@@ -123,22 +124,22 @@ def _solve_elastic(family, sep, case, own, result):
 def _find_elastic_load(family, load, n, sep, case, own, result):
     """Find the elastic load of `case` whose limited pressure carries `load` by a bracketed secant; return the strip count."""
     limit = case.pressure_limit
-    before, cut_before, low, high = 0.0, 0.0, 0.0, math.inf
-    now, cut = load, _cut_load(own.strips, n, limit)
+    before, previous, low, high = 0.0, 0.0, 0.0, math.inf
+    now, carried = load, _limited_load(own.strips, n, limit)
     for _ in range(_MAX_ITERATIONS):
-        if abs(cut - load) <= _TOLERANCE * load or (high < math.inf and high - low <= 1e-14 * high):
+        if abs(carried - load) <= _TOLERANCE * load or (high < math.inf and high - low <= 1e-14 * high):
             return n
-        if cut < load:
+        if carried < load:
             low = now
         else:
             high = now
-        new = now + (load - cut) * (now - before) / (cut - cut_before) if cut != cut_before else -1.0
+        new = now + (load - carried) * (now - before) / (carried - previous) if carried != previous else -1.0
         if not low < new < high:
             new = 0.5 * (low + high) if high < math.inf else 2.0 * now
-        before, cut_before, now = now, cut, min(new, 4.0 * now)
+        before, previous, now = now, carried, min(new, 4.0 * now)
         case.amount = now
         n = _solve_elastic(family, sep, case, own, result)
-        cut = _cut_load(own.strips, n, limit)
+        carried = _limited_load(own.strips, n, limit)
     if result.status == Status.OK:
         result.status = Status.NOT_CONVERGED
     return n
@@ -148,9 +149,8 @@ def _find_elastic_load(family, load, n, sep, case, own, result):
 def press(family, sep, case, own, result):
     """Solve the normal problem by the kernel of the marker `family`; return the strip count.
 
-    The strips hold the elastic pressure, uncut, `result` what is left.
-
-    Where it is cut the load that was asked for, or at an approach what the cut leaves, is in `result.N`.
+    The strips hold the elastic pressure, `result` the limited one. Where the limit is reached, `result.N` is the load that
+    was asked for or, at a given approach, the load of the limited pressure.
     """
     n = _solve_elastic(family, sep, case, own, result)
     strips, limit, top = own.strips, case.pressure_limit, 0.0
@@ -159,20 +159,20 @@ def press(family, sep, case, own, result):
     if not 0.0 < limit < top:
         return n
     own.space.case[0] = case
-    trial = own.space.case[0]  # the elastic problem whose cut pressure answers
+    trial = own.space.case[0]  # the elastic problem whose limited pressure is the solution
     by_load = case.load_kind == LoadKind.LOAD
     if by_load:
         n = _find_elastic_load(family, case.amount, n, sep, trial, own, result)
     elastic_N, approach, status = trial.amount, result.approach, result.status
-    cut = _cut_load(strips, n, limit)
-    # the slope of the cut load, from a step in the approach; then back
+    carried = _limited_load(strips, n, limit)
+    # the slope of the limited load, from a step in the approach; then back
     coarse = case.normal_family == NormalFamily.STRIP_HALFSPACE
     step = (_COARSE_DIFFERENCE if coarse else _DIFFERENCE) * (approach - result.touch)
     trial.load_kind, trial.amount = LoadKind.APPROACH, approach + step
-    further = _cut_load(strips, _solve_elastic(family, sep, trial, own, result), limit)
+    further = _limited_load(strips, _solve_elastic(family, sep, trial, own, result), limit)
     trial.load_kind, trial.amount = case.load_kind, elastic_N
     n = _solve_elastic(family, sep, trial, own, result)
     result.status = max(status, result.status)
-    result.stiffness = max(further - cut, 0.0) / step
-    result.N = case.amount if by_load else cut
+    result.stiffness = max(further - carried, 0.0) / step
+    result.N = case.amount if by_load else carried
     return n

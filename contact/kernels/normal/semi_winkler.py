@@ -20,10 +20,10 @@ import math
 
 from contact._jit import kernel
 from contact.kernels.cubic import locate, slopes
-from contact.kernels.layout import Sample, Strip
 from contact.kernels.normal.analyn import floored, lateral_curvature
 from contact.kernels.normal.deepest import unit_load
 from contact.kernels.normal.lay import least_point
+from contact.kernels.rows import Sample, Strip
 
 #: Row of `work` that holds B(y).
 _B = Sample.SHARE

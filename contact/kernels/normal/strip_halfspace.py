@@ -15,8 +15,9 @@ import math
 
 from contact._jit import kernel
 from contact.kernels.cubic import locate
-from contact.kernels.layout import MAX_PATCHES, LoadKind, Sample, Status, Strip, Vector
+from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.normal.analyn import analyn
+from contact.kernels.normal.between_panels import distances
 from contact.kernels.normal.descent import descend, has_one_run
 from contact.kernels.normal.mixing import advance, mix
 from contact.kernels.normal.panels import (
@@ -33,10 +34,11 @@ from contact.kernels.normal.panels import (
 )
 from contact.kernels.normal.strip_system import (
     assemble,
-    distances,
     edge_displacements,
     solve_active,
 )
+from contact.kernels.records import MAX_PATCHES
+from contact.kernels.rows import Sample, Strip, Vector
 
 MAX_ITERATIONS = 40
 #: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops.
@@ -209,7 +211,7 @@ def strip_halfspace(sep, case, own, result):
     if n_panels == 0:
         n_panels = start_panels(n_strips, n, strips, result, panels, rule.cosines, vectors)
 
-    converged, descending, best = False, False, math.inf
+    converged, descending, searched, best = False, False, False, math.inf
     delta, iteration, known, error, load, last_error = 0.0, 0, 0, math.inf, 0.0, math.inf
     for iteration in range(MAX_ITERATIONS):
         total = n * n_panels
@@ -226,16 +228,16 @@ def strip_halfspace(sep, case, own, result):
         error, load = 0.0, 0.0
         for i in range(total):
             vectors[Vector.R, i] = 0.0
-            if vectors[Vector.P, i] > 0.0:
+            weight = vectors[Vector.P, i] * vectors[Vector.A, i] * vectors[Vector.HALF, i]
+            load += weight
+            if weight > 0.0 and 0 < i % n < n - 1:  # the ends of a panel follow their own rule
                 overlap = delta - vectors[Vector.GAP, i] - vectors[Vector.U, i]
                 ratio = overlap / (vectors[Vector.CURVATURE, i] * vectors[Vector.A, i] ** 2)
                 r = 0.5 * math.log(min(max(ratio, 0.2), 5.0))
                 if vectors[Vector.FLOORED, i] != 0.0:
                     r = max(r, 0.0)
                 vectors[Vector.R, i] = r
-                weight = vectors[Vector.P, i] * vectors[Vector.A, i] * vectors[Vector.HALF, i]
-                load += weight
-                error += 0.0 if i % n in (0, n - 1) else weight * abs(r)
+                error += weight * abs(r)
         before = n_panels
         n_panels = remove_unloaded(n, n_panels, panels, vectors)
         if n_panels == 0:
@@ -263,7 +265,8 @@ def strip_halfspace(sep, case, own, result):
         else:
             settled = not cut and error < TOLERANCE * load and moved < 2.0 * TOLERANCE
         ghosts = False
-        if settled or iteration == 1:
+        if settled or not (searched or cut):
+            searched = True
             least = GHOST if settled else EARLY_GHOST
             n_panels, ghosts = extend_to_ghosts(sep, g_least, delta, least, unit, n_panels, panels, own)
             if settled and not ghosts:

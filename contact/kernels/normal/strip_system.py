@@ -3,53 +3,36 @@
 import math
 
 from contact._jit import kernel
-from contact.kernels.layout import Vector
+from contact.kernels.normal.between_panels import IN_LINE, add_others, assemble_others
 from contact.kernels.normal.elimination import eliminate
-from contact.kernels.normal.influence import anywhere, at_centre, column, in_row, logarithm, row_at
-
-#: Offset along x over the half length below which strips count as in line. The table off the centre line is not more exact.
-IN_LINE = 0.01
+from contact.kernels.normal.influence import at_centre, column, in_row, logarithm, row_at
+from contact.kernels.rows import Vector
 
 
 @kernel
-def distances(panels, n_panels, own):
-    """Fill `own.space.logs[i, k]` with ln|Y_k - y_i| of every strip i to every edge k of other panels; n + 1 edges a panel.
+def _fill_off_line(first, n, half, own, unit):
+    """Fill the influence of a panel's strips on each other where they lie off each other's centre.
 
-    Within a panel strips lie at fixed cosines. There a constant table plus ln of the panel's half width is used
-    instead.
+    The panel begins at strip `first` and has the half width `half`. Strips in line are filled only if there is no table
+    of columns.
     """
-    cosines, vectors, logs = own.rule.cosines, own.space.vectors, own.space.logs
-    n = cosines.size - 1
-    for p in range(n_panels):
-        least = 0.5e-12 * (panels[2 * p + 1] - panels[2 * p])
-        for q in range(n_panels):
-            if p == q:
-                continue
-            centre, half = 0.5 * (panels[2 * q] + panels[2 * q + 1]), 0.5 * (panels[2 * q + 1] - panels[2 * q])
-            for i in range(p * n, p * n + n):
-                for k in range(n + 1):
-                    distance = abs(centre + half * cosines[k] - vectors[Vector.Y, i])
-                    logs[i, q * (n + 1) + k] = math.log(max(distance, least))
-
-
-@kernel
-def _fill_skewed(first, j, n, own, ln_a, scale):
-    """Fill the column of strip j within its panel where strips lie off each other's centre.
-
-    The panel begins at strip `first`. Strips in line are filled only if there is no table of columns.
-    """
-    cosine_logs, vectors, row = own.rule.cosine_logs, own.space.vectors, own.space.matrix[j]
+    cosine_logs, vectors, matrix = own.rule.cosine_logs, own.space.vectors, own.space.matrix
     centre, plane = own.tables.centre, own.tables.plane
-    tabulated, k = own.rule.columns.shape[1] == n, j - first
-    for i in range(n):
-        X = abs(vectors[Vector.XC, first + i] - vectors[Vector.XC, j]) / vectors[Vector.A, j]
-        left, right, sign = cosine_logs[i, k] - ln_a, cosine_logs[i, k + 1] - ln_a, 1.0 if i == k else -1.0
-        if X > IN_LINE:
-            place, share, ln_X = row_at(X, logarithm(X))
-            low, high = in_row(plane, place, share, left - ln_X), in_row(plane, place, share, right - ln_X)
-            row[first + i] = scale * abs(high + sign * low)
-        elif not tabulated:
-            row[first + i] = scale * abs(at_centre(centre, right) + sign * at_centre(centre, left))
+    tabulated = own.rule.columns.shape[1] == n
+    loci = vectors[Vector.XC, first : first + n]
+    for k in range(n):
+        a, row = vectors[Vector.A, first + k], matrix[first + k, first : first + n]
+        ln_a, scale, inverse, locus = math.log(a / half), a * unit, 1.0 / a, loci[k]
+        for i in range(n):
+            X = abs(loci[i] - locus) * inverse
+            left, right = cosine_logs[i, k] - ln_a, cosine_logs[i, k + 1] - ln_a
+            if X > IN_LINE:
+                place, share, ln_X = row_at(X, logarithm(X))
+                low, high = in_row(plane, place, share, left - ln_X), in_row(plane, place, share, right - ln_X)
+                row[i] = scale * abs(high - low)
+            elif not tabulated:
+                low = at_centre(centre, left)
+                row[i] = scale * abs(at_centre(centre, right) + (low if i == k else -low))
 
 
 @kernel
@@ -58,71 +41,58 @@ def assemble(panels, n_panels, own, skewed, unit):
 
     `unit` is 1/(pi E*). `skewed` says whether strips lie off each other's centre.
     """
-    columns, vectors, logs, matrix = own.rule.columns, own.space.vectors, own.space.logs, own.space.matrix
-    centre, plane = own.tables.centre, own.tables.plane
+    columns, vectors, matrix = own.rule.columns, own.space.vectors, own.space.matrix
     n = own.rule.cosines.size - 1
     tabulated = columns.shape[1] == n
-    for j in range(n * n_panels):
-        panel = j // n
-        first, k = panel * n, j + panel  # k is the first of its two edges
-        a = vectors[Vector.A, j]
-        scale, ln_a = a * unit, math.log(a)
-        ln_share = ln_a - math.log(0.5 * (panels[2 * panel + 1] - panels[2 * panel]))
-        if tabulated:
-            column(columns, j - first, ln_share, scale, matrix[j, first : first + n])
+    for p in range(n_panels):
+        first, half = p * n, 0.5 * (panels[2 * p + 1] - panels[2 * p])
+        for k in range(n if tabulated else 0):
+            a = vectors[Vector.A, first + k]
+            column(columns, k, math.log(a / half), a * unit, matrix[first + k, first : first + n])
         if skewed or not tabulated:
-            _fill_skewed(first, j, n, own, ln_share, scale)
-        for i in range(n * n_panels if n_panels > 1 else 0):
-            if first <= i < first + n:
-                continue
-            left, right = logs[i, k] - ln_a, logs[i, k + 1] - ln_a
-            X = abs(vectors[Vector.XC, i] - vectors[Vector.XC, j]) / a
-            if X > IN_LINE:
-                low, high = anywhere(plane, X, left), anywhere(plane, X, right)
-            else:
-                low, high = at_centre(centre, left), at_centre(centre, right)
-            matrix[j, i] = scale * abs(high - low)
+            _fill_off_line(first, n, half, own, unit)
+    if n_panels > 1:
+        assemble_others(n_panels, own, unit)
 
 
 @kernel
-def _add_panel(p, q, n, logs, ln_unit, vectors, plane):
-    """Add to Vector.U the displacement at the ends of panel p's strips by panel q.
+def _add_panel(first, n, logs, ln_unit, vectors, plane):
+    """Add to Vector.U the displacement at the ends of a panel's strips by the panel itself.
 
-    `logs` + `ln_unit` are ln|Y_k - y_i|. `logs` are those of all panels or, for p = q, those within one panel.
+    `first` is the panel's first strip. `logs` + `ln_unit` are ln|Y_k - y_i|. The end strips are left out: their lengths
+    follow from their neighbours.
     """
-    row, edge = (0, 0) if p == q else (p * n, q * (n + 1))
-    first, last = q * n, (q + 1) * n
+    last = first + n
     logs_a, inverses = vectors[Vector.Q1, first:last], vectors[Vector.Q2, first:last]
     forces = vectors[Vector.R, first:last]
-    for k in range(n):
-        i = p * n + k
+    for k in range(1, n - 1):
+        i = first + k
         if vectors[Vector.P, i] == 0.0:
             continue
-        a, ln_a, at = vectors[Vector.A, i], vectors[Vector.Q1, i], logs[row + k, edge : edge + n + 1]
+        a, ln_a, at = vectors[Vector.A, i], vectors[Vector.Q1, i], logs[k]
         u = 0.0
         for m in range(n):
             place, share, start = row_at(a * inverses[m], ln_a - logs_a[m])
             start += logs_a[m] - ln_unit
             low, high = in_row(plane, place, share, at[m] - start), in_row(plane, place, share, at[m + 1] - start)
-            u += forces[m] * (low + high if m == i - first else abs(high - low))
+            u += forces[m] * (low + high if m == k else abs(high - low))
         vectors[Vector.U, i] += u
 
 
 @kernel
-def _add_skewed_panel(p, q, n, logs, ln_unit, vectors, plane):
+def _add_skewed_panel(first, n, logs, ln_unit, vectors, plane):
     """Add to Vector.U what `_add_panel` adds, under yaw.
 
     The mean of both ends is taken for strips that lie off each other's centre.
     """
-    row, edge = (0, 0) if p == q else (p * n, q * (n + 1))
-    first, last = q * n, (q + 1) * n
+    last = first + n
     logs_a, inverses = vectors[Vector.Q1, first:last], vectors[Vector.Q2, first:last]
     forces, loci = vectors[Vector.R, first:last], vectors[Vector.XC, first:last]
-    for k in range(n):
-        i = p * n + k
+    for k in range(1, n - 1):
+        i = first + k
         if vectors[Vector.P, i] == 0.0:
             continue
-        a, x, at = vectors[Vector.A, i], vectors[Vector.XC, i], logs[row + k, edge : edge + n + 1]
+        a, x, at = vectors[Vector.A, i], vectors[Vector.XC, i], logs[k]
         u = 0.0
         for m in range(n):
             shift, ln_a = loci[m] - x, logs_a[m] - ln_unit
@@ -130,7 +100,7 @@ def _add_skewed_panel(p, q, n, logs, ln_unit, vectors, plane):
             X = abs(a + shift) * inverses[m]
             place, share, start = row_at(X, logarithm(X))
             low, high = in_row(plane, place, share, left - start), in_row(plane, place, share, right - start)
-            one = low + high if m == i - first else abs(high - low)
+            one = low + high if m == k else abs(high - low)
             if shift != 0.0:
                 X = abs(a - shift) * inverses[m]
                 place, share, start = row_at(X, logarithm(X))
@@ -142,8 +112,8 @@ def _add_skewed_panel(p, q, n, logs, ln_unit, vectors, plane):
 
 @kernel
 def edge_displacements(panels, n_panels, own, skewed, unit):
-    """Fill Vector.U with the displacement at the ends of every loaded strip [m]."""
-    cosine_logs, vectors, logs, plane = own.rule.cosine_logs, own.space.vectors, own.space.logs, own.tables.plane
+    """Fill Vector.U with the displacement at the ends of every loaded strip between the end strips of its panel [m]."""
+    cosine_logs, vectors, plane = own.rule.cosine_logs, own.space.vectors, own.tables.plane
     n = cosine_logs.shape[0]
     for j in range(n * n_panels):
         vectors[Vector.Q1, j] = math.log(vectors[Vector.A, j])
@@ -153,14 +123,11 @@ def edge_displacements(panels, n_panels, own, skewed, unit):
     for p in range(n_panels):
         ln_half = math.log(0.5 * (panels[2 * p + 1] - panels[2 * p]))
         if skewed:
-            _add_skewed_panel(p, p, n, cosine_logs, ln_half, vectors, plane)
+            _add_skewed_panel(p * n, n, cosine_logs, ln_half, vectors, plane)
         else:
-            _add_panel(p, p, n, cosine_logs, ln_half, vectors, plane)
-        for q in range(n_panels):
-            if q != p and skewed:
-                _add_skewed_panel(p, q, n, logs, 0.0, vectors, plane)
-            elif q != p:
-                _add_panel(p, q, n, logs, 0.0, vectors, plane)
+            _add_panel(p * n, n, cosine_logs, ln_half, vectors, plane)
+        if n_panels > 1:
+            add_others(p, n_panels, own)
 
 
 @kernel

@@ -18,8 +18,8 @@ import math
 from contact._jit import kernel
 from contact.kernels.cubic import slopes
 from contact.kernels.hertz import local_factors
-from contact.kernels.layout import Sample
 from contact.kernels.normal.analyn import floored, lateral_curvature
+from contact.kernels.rows import Sample
 
 
 @kernel

@@ -18,8 +18,8 @@ differ by 16 % in L2.
 import math
 
 from contact._jit import kernel
-from contact.kernels.layout import Strip
 from contact.kernels.normal.deepest import unit_load
+from contact.kernels.rows import Strip
 
 #: Peak of the semi-ellipse over that of the parabola with the same length and load.
 ELLIPSE_OVER_PARABOLA = 8.0 / (3.0 * math.pi)

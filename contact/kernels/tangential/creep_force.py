@@ -10,7 +10,8 @@ import math
 
 from contact._jit import kernel
 from contact.kernels import kalker
-from contact.kernels.layout import Field, Strip, Tangential
+from contact.kernels.enumerations import Tangential
+from contact.kernels.rows import Field, Strip
 from contact.kernels.tangential.carter import carter, creepage_of_full_slip
 from contact.kernels.tangential.ellipses import equivalent_ellipse
 from contact.kernels.tangential.fastsim import NO_FRICTION

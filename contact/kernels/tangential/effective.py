@@ -18,10 +18,10 @@ import math
 
 from contact._jit import kernel
 from contact.kernels import kalker
-from contact.kernels.layout import Strip
+from contact.kernels.rows import Strip
 from contact.kernels.tangential.ellipses import mean_ellipse
 from contact.kernels.tangential.fastsim import NO_FRICTION
-from contact.kernels.tangential.table import EFFECTIVE, interpolated, signs, units
+from contact.kernels.tangential.table import Part, interpolated, signs, units
 
 
 @kernel
@@ -54,7 +54,7 @@ def set_effective(strips, first, last, case, centre, tables):
     X, Y, spin = unit_x * vx, unit_y * vy, unit_spin * phi
     sign_x, sign_y = signs(X, Y, spin)
     to_x, to_y, to_spin, exponent = interpolated(
-        log_aspect, sign_x * X, sign_y * Y, sign_y * spin, EFFECTIVE, tables.creep
+        log_aspect, sign_x * X, sign_y * Y, sign_y * spin, Part.EFFECTIVE, tables.creep
     )
     r = math.sqrt(X * X + Y * Y + spin * spin)
     to_spin *= sign_y * r / unit_spin

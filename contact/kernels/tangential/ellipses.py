@@ -6,7 +6,7 @@ from typing import NamedTuple
 from contact._jit import kernel
 from contact.kernels import kalker
 from contact.kernels.friction import slope_of_case
-from contact.kernels.layout import Strip
+from contact.kernels.rows import Strip
 
 
 class Part(NamedTuple):

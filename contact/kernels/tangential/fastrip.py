@@ -30,60 +30,55 @@ docs/accuracy.md; the published method has .0164):
 """
 
 import math
+from enum import auto
 
 from contact._jit import kernel
 from contact.kernels import kalker
-from contact.kernels.layout import Element, Field, Strip, Tangential
+from contact.kernels.enumerations import Tangential
+from contact.kernels.rows import Element, Field, Strip
 from contact.kernels.tangential.ellipses import equivalent_ellipse
 from contact.kernels.tangential.fastsim import NO_FRICTION
-from contact.kernels.tangential.lanes import (
-    FALL,
-    FLUX,
-    HEATING,
-    LANES,
-    N_LANE_ROWS,
-    NOW_SLIDES,
-    NOW_SLIP,
-    NOW_STICK,
-    NOW_X,
-    NOW_Y,
-    SLIP,
-    keep,
-    recall,
-)
-from contact.kernels.tangential.march import FREE_BEHIND_MARCH, ROW_CAME, ROW_START, ROW_X, ROW_Y, ROW_Z, Even, march
+from contact.kernels.tangential.lanes import LANES, N_LANE_ROWS, Now, Row, Varying, after, keep, recall
+from contact.kernels.tangential.march import Even, March, march
 from contact.kernels.tangential.strip_theory import coefficients, inner_resultants, outer_resultants, stick_zone
 from contact.kernels.tangential.varying import begin_varying, soften, varies
 
-_NOW_SX, _NOW_SY = NOW_SLIP, NOW_SLIDES  # where `_to_fields` puts the slip velocity
 
-# rows of `lanes` after those of the march
-(
-    _A,
-    _Y,
-    _XC,
-    _BOUND,  # mu p0
-    _C11,
-    _C22,
-    _C23,
-    _ROOT_ASPECT,  # √(a/b) = a/c
-    _E,  # half length of the slip zone over a
-    _KAPPA,
-    _LAMBDA,
-    _LAMBDA1,
-    _LOAD,  # ∫√(1-s²) over the stick zone, and ∫s√(1-s²)
-    _MOMENT,
-    _FLEXIBILITY_X,  # strain over s of a traction mu·p (theory.md 4.3)
-    _FLEXIBILITY_Y,
-    _VX,
-    _VY,
-    _SPIN,  # phi·a
-    _STRAIN,  # slip velocity after the stick zone over √((1-s)(2e-1-s)), by strip theory (theory.md 4.3)
-    _FX,  # sums over the slip zone, over mu p0
-    _FY,
-    _MZ,
-    _POWER,
-) = (FREE_BEHIND_MARCH + row * LANES for row in range(24))
+class _Lane(Row):
+    """Rows of `lanes` after those of the march."""
+
+    A = after(March)
+    Y = auto()
+    XC = auto()
+    BOUND = auto()  # mu p0
+    C11 = auto()
+    C22 = auto()
+    C23 = auto()
+    ROOT_ASPECT = auto()  # √(a/b) = a/c
+    E = auto()  # half length of the slip zone over a
+    KAPPA = auto()
+    LAMBDA = auto()
+    LAMBDA1 = auto()
+    LOAD = auto()  # ∫√(1-s²) over the stick zone, and ∫s√(1-s²)
+    MOMENT = auto()
+    FLEXIBILITY_X = auto()  # strain over s of a traction mu·p (theory.md 4.3)
+    FLEXIBILITY_Y = auto()
+    VX = auto()
+    VY = auto()
+    SPIN = auto()  # phi·a
+    STRAIN = auto()  # slip velocity after the stick zone over √((1-s)(2e-1-s)), by strip theory (theory.md 4.3)
+    FX = auto()  # sums over the slip zone, over mu p0
+    FY = auto()
+    MZ = auto()
+    POWER = auto()
+
+
+class _Shown(Row):
+    """Rows of `Now` in which `_to_fields` puts the slip velocity."""
+
+    SX = Now.SLIP
+    SY = Now.SLIDES
+
 
 #: Squared share of the bound up to which a particle of the slip zone counts as sticking again.
 _AT_BOUND = 1.0 - 1e-9
@@ -98,22 +93,32 @@ def _set_block(part, block, case, c_patch, own):
     for l in range(LANES):
         i = min(block + l, part.last - 1)
         a, bound = strips[Strip.A, i], case.mu * strips[Strip.BOUND, i]
-        lanes[_A + l], lanes[_Y + l], lanes[_XC + l] = a, strips[Strip.Y, i], strips[Strip.XC, i]
-        lanes[_VX + l], lanes[_VY + l], lanes[_SPIN + l] = (
+        lanes[_Lane.A + l], lanes[_Lane.Y + l], lanes[_Lane.XC + l] = a, strips[Strip.Y, i], strips[Strip.XC, i]
+        lanes[_Lane.VX + l], lanes[_Lane.VY + l], lanes[_Lane.SPIN + l] = (
             strips[Strip.VX, i],
             strips[Strip.VY, i],
             strips[Strip.PHI, i],
         )
-        lanes[_BOUND + l] = bound if a > 0.0 and bound > least else 0.0
+        lanes[_Lane.BOUND + l] = bound if a > 0.0 and bound > least else 0.0
         c11, c22, c23, _ = kalker.coefficients(table, strips[Strip.ASPECT, i])
         root_aspect = math.exp(0.5 * strips[Strip.ASPECT, i])
         if case.tangential == Tangential.STRIP_THEORY:
             c11, c22, c23 = coefficients(root_aspect, nu)
-        lanes[_C11 + l], lanes[_C22 + l], lanes[_C23 + l], lanes[_ROOT_ASPECT + l] = c11, c22, c23, root_aspect
+        lanes[_Lane.C11 + l], lanes[_Lane.C22 + l], lanes[_Lane.C23 + l], lanes[_Lane.ROOT_ASPECT + l] = (
+            c11,
+            c22,
+            c23,
+            root_aspect,
+        )
     for l in range(LANES):
-        a, y, xc, bound = lanes[_A + l], lanes[_Y + l], lanes[_XC + l], lanes[_BOUND + l]
-        c11, c22, c23, root_aspect = lanes[_C11 + l], lanes[_C22 + l], lanes[_C23 + l], lanes[_ROOT_ASPECT + l]
-        rigid_x, rigid_y, phi = lanes[_VX + l], lanes[_VY + l], lanes[_SPIN + l]
+        a, y, xc, bound = lanes[_Lane.A + l], lanes[_Lane.Y + l], lanes[_Lane.XC + l], lanes[_Lane.BOUND + l]
+        c11, c22, c23, root_aspect = (
+            lanes[_Lane.C11 + l],
+            lanes[_Lane.C22 + l],
+            lanes[_Lane.C23 + l],
+            lanes[_Lane.ROOT_ASPECT + l],
+        )
+        rigid_x, rigid_y, phi = lanes[_Lane.VX + l], lanes[_Lane.VY + l], lanes[_Lane.SPIN + l]
         spin2 = (phi * c_patch) ** 2
         at_x, at_y = rigid_x - phi * part.y, rigid_y + phi * part.x  # at the patch's place, about which the spin counts
         live = 1.0 if bound > 0.0 else 0.0
@@ -129,24 +134,31 @@ def _set_block(part, block, case, c_patch, own):
         w = w if w < 1.0 else 1.0
         single = w * (at_x * at_x + at_y * at_y + spin2) / (at_x * at_x * L1 + at_y * at_y * L2 + spin2 * L3 + 1e-300)
         L1, L2, L3 = L1 / (1.0 - w + single * L1), L2 / (1.0 - w + single * L2), L3 / (1.0 - w + single * L3)
-        lanes[ROW_X + l] = at_x * L1 - phi * (y - part.y) * L3
-        lanes[ROW_Y + l] = at_y * L2 + phi * (xc - part.x) * L3
-        lanes[ROW_Z + l] = phi * a * L3
+        lanes[March.X + l] = at_x * L1 - phi * (y - part.y) * L3
+        lanes[March.Y + l] = at_y * L2 + phi * (xc - part.x) * L3
+        lanes[March.Z + l] = phi * a * L3
         vx, vy = rigid_x - phi * y, rigid_y + phi * xc
-        lanes[_VX + l], lanes[_VY + l], lanes[_SPIN + l] = vx, vy, phi * a
-        lanes[_FLEXIBILITY_X + l] = 0.5 * math.pi**2 * bound / (G * c11)
-        lanes[_FLEXIBILITY_Y + l] = 0.5 * math.pi**2 * bound / (G * c22)
+        lanes[_Lane.VX + l], lanes[_Lane.VY + l], lanes[_Lane.SPIN + l] = vx, vy, phi * a
+        lanes[_Lane.FLEXIBILITY_X + l] = 0.5 * math.pi**2 * bound / (G * c11)
+        lanes[_Lane.FLEXIBILITY_Y + l] = 0.5 * math.pi**2 * bound / (G * c22)
         amended = -2.0 * (1.0 - nu) / math.pi**2 * unit
-        lanes[_KAPPA + l], lanes[_LAMBDA + l] = amended * c11 * vx, amended * c22 * vy
-        lanes[_LAMBDA1 + l] = -1.5 / math.pi * a * across * phi * unit  # psi
+        lanes[_Lane.KAPPA + l], lanes[_Lane.LAMBDA + l] = amended * c11 * vx, amended * c22 * vy
+        lanes[_Lane.LAMBDA1 + l] = -1.5 / math.pi * a * across * phi * unit  # psi
     for l in range(LANES):
         e, kappa, lam, lam1 = 1.0, 0.0, 0.0, 0.0
-        if lanes[_BOUND + l] > 0.0:
-            e, kappa, lam, lam1 = stick_zone(lanes[_KAPPA + l], lanes[_LAMBDA + l], lanes[_LAMBDA1 + l], nu)
-        lanes[_E + l], lanes[_KAPPA + l], lanes[_LAMBDA + l], lanes[_LAMBDA1 + l] = e, kappa, lam, lam1
-        lanes[_LOAD + l], lanes[_MOMENT + l] = outer_resultants(e)
-        lanes[_STRAIN + l] = math.sqrt(
-            (lanes[_FLEXIBILITY_X + l] * kappa) ** 2 + (lanes[_FLEXIBILITY_Y + l] * lam1) ** 2
+        if lanes[_Lane.BOUND + l] > 0.0:
+            e, kappa, lam, lam1 = stick_zone(
+                lanes[_Lane.KAPPA + l], lanes[_Lane.LAMBDA + l], lanes[_Lane.LAMBDA1 + l], nu
+            )
+        lanes[_Lane.E + l], lanes[_Lane.KAPPA + l], lanes[_Lane.LAMBDA + l], lanes[_Lane.LAMBDA1 + l] = (
+            e,
+            kappa,
+            lam,
+            lam1,
+        )
+        lanes[_Lane.LOAD + l], lanes[_Lane.MOMENT + l] = outer_resultants(e)
+        lanes[_Lane.STRAIN + l] = math.sqrt(
+            (lanes[_Lane.FLEXIBILITY_X + l] * kappa) ** 2 + (lanes[_Lane.FLEXIBILITY_Y + l] * lam1) ** 2
         )
 
 
@@ -154,11 +166,11 @@ def _set_block(part, block, case, c_patch, own):
 def _keep_direction(lanes, trace):
     """Fill `trace` with one direction of slip for each strip, as in strip theory (thesis 4.23-4.26). No march is made."""
     for l in range(LANES):
-        lanes[ROW_START + l], lanes[ROW_CAME + l] = 0.0, -2.0
-        x, y = lanes[_KAPPA + l], lanes[_LAMBDA + l]
-        if lanes[_E + l] >= 1.0:
-            x, y = -lanes[_VX + l], -lanes[_VY + l]
-        lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_SLIDES + l] = x, y, 0.0
+        lanes[March.START + l], lanes[March.CAME + l] = 0.0, -2.0
+        x, y = lanes[_Lane.KAPPA + l], lanes[_Lane.LAMBDA + l]
+        if lanes[_Lane.E + l] >= 1.0:
+            x, y = -lanes[_Lane.VX + l], -lanes[_Lane.VY + l]
+        lanes[Now.X + l], lanes[Now.Y + l], lanes[Now.SLIDES + l] = x, y, 0.0
     for k in range(trace.shape[0]):
         keep(lanes, trace[k])
 
@@ -169,14 +181,14 @@ def _slip(lanes, l, s):
 
     After a stick zone it is strip theory's. In a strip that slips as a whole it is rigid and elastic slip.
     """
-    ex, ey = lanes[NOW_X + l], lanes[NOW_Y + l]
+    ex, ey = lanes[Now.X + l], lanes[Now.Y + l]
     slides = 1.0 if ex * ex + ey * ey > _AT_BOUND else 0.0
-    sx = lanes[_VX + l] + lanes[_FLEXIBILITY_X + l] * ex * s
-    sy = lanes[_VY + l] + (lanes[_SPIN + l] + lanes[_FLEXIBILITY_Y + l] * ey) * s
+    sx = lanes[_Lane.VX + l] + lanes[_Lane.FLEXIBILITY_X + l] * ex * s
+    sy = lanes[_Lane.VY + l] + (lanes[_Lane.SPIN + l] + lanes[_Lane.FLEXIBILITY_Y + l] * ey) * s
     slip = -(sx * ex + sy * ey)
-    slip = slip if slip > 0.0 and lanes[_E + l] >= 1.0 else 0.0
-    behind = 2.0 * lanes[_E + l] - 1.0 - s
-    return slides * (slip + lanes[_STRAIN + l] * math.sqrt((1.0 - s) * 0.5 * (behind + abs(behind))))
+    slip = slip if slip > 0.0 and lanes[_Lane.E + l] >= 1.0 else 0.0
+    behind = 2.0 * lanes[_Lane.E + l] - 1.0 - s
+    return slides * (slip + lanes[_Lane.STRAIN + l] * math.sqrt((1.0 - s) * 0.5 * (behind + abs(behind))))
 
 
 @kernel
@@ -189,7 +201,7 @@ def _slip_zone(elements, lanes, trace, falling, block, n, fields):
     varies along the strip, or None. numba compiles each on its own, the second without the code for varying friction.
     """
     for l in range(LANES):
-        lanes[_FX + l], lanes[_FY + l], lanes[_MZ + l], lanes[_POWER + l] = 0.0, 0.0, 0.0, 0.0
+        lanes[_Lane.FX + l], lanes[_Lane.FY + l], lanes[_Lane.MZ + l], lanes[_Lane.POWER + l] = 0.0, 0.0, 0.0, 0.0
     load_before, moment_before = 0.0, 0.0
     for k in range(elements.shape[1]):
         s, weight = elements[Element.S, k], elements[Element.SINE, k] * elements[Element.DX, k]
@@ -197,32 +209,35 @@ def _slip_zone(elements, lanes, trace, falling, block, n, fields):
         recall(lanes, trace[k])
         sticks = 0
         for l in range(lanes.size // N_LANE_ROWS):  # as in `_normalise`, so that it is not unrolled
-            sticks += 1 if lanes[NOW_SLIDES + l] < 0.5 and load_end > lanes[_LOAD + l] else 0
+            sticks += 1 if lanes[Now.SLIDES + l] < 0.5 and load_end > lanes[_Lane.LOAD + l] else 0
         if sticks > 0:
             _normalise(s, lanes)
         if falling is not None:
             for l in range(LANES):
                 slip = _slip(lanes, l, s)
-                lanes[SLIP + l], lanes[FLUX + l] = slip, lanes[HEATING + l] * elements[Element.SINE, k] * slip
-                lanes[NOW_STICK + l] = 0.0  # the sums take only the part after the stick zone
+                lanes[Varying.SLIP + l], lanes[Varying.FLUX + l] = (
+                    slip,
+                    lanes[Varying.HEATING + l] * elements[Element.SINE, k] * slip,
+                )
+                lanes[Now.STICK + l] = 0.0  # the sums take only the part after the stick zone
             soften(falling, k, elements, lanes, trace)
         for l in range(LANES):
-            load_from, ex, ey = lanes[_LOAD + l], lanes[NOW_X + l], lanes[NOW_Y + l]
+            load_from, ex, ey = lanes[_Lane.LOAD + l], lanes[Now.X + l], lanes[Now.Y + l]
             first = load_before if load_before > load_from else load_from
             last = load_end if load_end > load_from else load_from
-            moment_from = lanes[_MOMENT + l]
+            moment_from = lanes[_Lane.MOMENT + l]
             moment_start = moment_before if load_before > load_from else moment_from
             share, share_s = last - first, moment_end - moment_start
             share_s = share_s if load_end > load_from else 0.0
             slip, amount = _slip(lanes, l, s), weight
             if falling is not None:
-                fall = lanes[FALL + l]
+                fall = lanes[Varying.FALL + l]
                 share, share_s, amount = share * fall, share_s * fall, weight * fall
-            lanes[_FX + l] += share * ex
-            lanes[_FY + l] += share * ey
-            lanes[_MZ + l] += share_s * ey
-            lanes[_POWER + l] += amount * slip
-            lanes[NOW_SLIP + l] = slip
+            lanes[_Lane.FX + l] += share * ex
+            lanes[_Lane.FY + l] += share * ey
+            lanes[_Lane.MZ + l] += share_s * ey
+            lanes[_Lane.POWER + l] += amount * slip
+            lanes[Now.SLIP + l] = slip
         if n <= fields.shape[1]:  # else only forces are wanted
             _to_fields(s, elements[Element.SINE, k], lanes, falling)
             _write(k, block, n, lanes, fields)
@@ -237,12 +252,12 @@ def _normalise(s, lanes):
     s). After slip it is 1.
     """
     for l in range(lanes.size // N_LANE_ROWS):
-        x, y, start = lanes[NOW_X + l], lanes[NOW_Y + l], lanes[ROW_START + l]
+        x, y, start = lanes[Now.X + l], lanes[Now.Y + l], lanes[March.START + l]
         used = x * x + y * y
         most = used if used > start else start
-        most = 1.0 if s < lanes[ROW_CAME + l] else most
+        most = 1.0 if s < lanes[March.CAME + l] else most
         per_most = 1.0 / (math.sqrt(most) + 1e-300)
-        lanes[NOW_X + l], lanes[NOW_Y + l] = x * per_most, y * per_most
+        lanes[Now.X + l], lanes[Now.Y + l] = x * per_most, y * per_most
 
 
 @kernel
@@ -250,27 +265,27 @@ def _to_fields(s, sine, lanes, falling):
     """Replace the output of the march by that of the fields: traction over mu p0, slip velocity, and 1 in stick."""
     per_square, sticks = 1.0 / (sine * sine), 0
     for l in range(lanes.size // N_LANE_ROWS):
-        ex, ey, slip = lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_SLIP + l]
-        stick = 1.0 if s > 2.0 * lanes[_E + l] - 1.0 else 0.0
+        ex, ey, slip = lanes[Now.X + l], lanes[Now.Y + l], lanes[Now.SLIP + l]
+        stick = 1.0 if s > 2.0 * lanes[_Lane.E + l] - 1.0 else 0.0
         sticks += 1 if stick > 0.5 else 0
         again = 1.0 if ex * ex + ey * ey <= _AT_BOUND else 0.0
         size = sine
         if falling is not None:
-            size = sine * lanes[FALL + l]
-        lanes[NOW_X + l], lanes[NOW_Y + l] = size * ex, size * ey
-        lanes[_NOW_SX + l], lanes[_NOW_SY + l] = -slip * ex, -slip * ey
-        lanes[NOW_STICK + l] = again if again > stick else stick
+            size = sine * lanes[Varying.FALL + l]
+        lanes[Now.X + l], lanes[Now.Y + l] = size * ex, size * ey
+        lanes[_Shown.SX + l], lanes[_Shown.SY + l] = -slip * ex, -slip * ey
+        lanes[Now.STICK + l] = again if again > stick else stick
     if sticks == 0:
         return
     beyond = 0
     for l in range(lanes.size // N_LANE_ROWS):
-        e = lanes[_E + l]
+        e = lanes[_Lane.E + l]
         stick = 1.0 if s > 2.0 * e - 1.0 else 0.0
         S2 = (1.0 - e) * (1.0 - e) - (s - e) * (s - e)
         S = math.sqrt(0.5 * (S2 + abs(S2)))  # no selection: the compiler would make a branch around the root
-        qx, qy = lanes[_KAPPA + l] * (sine - S), lanes[_LAMBDA + l] * sine - lanes[_LAMBDA1 + l] * S
-        lanes[NOW_X + l] += stick * (qx - lanes[NOW_X + l])
-        lanes[NOW_Y + l] += stick * (qy - lanes[NOW_Y + l])
+        qx, qy = lanes[_Lane.KAPPA + l] * (sine - S), lanes[_Lane.LAMBDA + l] * sine - lanes[_Lane.LAMBDA1 + l] * S
+        lanes[Now.X + l] += stick * (qx - lanes[Now.X + l])
+        lanes[Now.Y + l] += stick * (qy - lanes[Now.Y + l])
         beyond += 1 if stick * (qx * qx + qy * qy) * per_square > 1.0 else 0
     if beyond > 0:
         _scale_to_bound(per_square, lanes)
@@ -283,21 +298,21 @@ def _scale_to_bound(per_square, lanes):
     This is for the fields. The closed-form resultants do not need it.
     """
     for l in range(lanes.size // N_LANE_ROWS):
-        qx, qy, stick = lanes[NOW_X + l], lanes[NOW_Y + l], lanes[NOW_STICK + l]
+        qx, qy, stick = lanes[Now.X + l], lanes[Now.Y + l], lanes[Now.STICK + l]
         used = stick * (qx * qx + qy * qy) * per_square
         per_excess = 1.0 / math.sqrt(used if used > 1.0 else 1.0)
-        lanes[NOW_X + l], lanes[NOW_Y + l] = qx * per_excess, qy * per_excess
+        lanes[Now.X + l], lanes[Now.Y + l] = qx * per_excess, qy * per_excess
 
 
 @kernel
 def _write(k, block, n, lanes, fields):
     """Fill traction, slip and stick flag of element k of a block's strips. A strip that carries no load gets zeros."""
     for l in range(min(LANES, n - block)):
-        row, bound = block + l, lanes[_BOUND + l]
+        row, bound = block + l, lanes[_Lane.BOUND + l]
         live = 1.0 if bound > 0.0 else 0.0
-        fields[Field.QX, row, k], fields[Field.QY, row, k] = bound * lanes[NOW_X + l], bound * lanes[NOW_Y + l]
-        fields[Field.SX, row, k], fields[Field.SY, row, k] = live * lanes[_NOW_SX + l], live * lanes[_NOW_SY + l]
-        fields[Field.STICK, row, k] = live * lanes[NOW_STICK + l]
+        fields[Field.QX, row, k], fields[Field.QY, row, k] = bound * lanes[Now.X + l], bound * lanes[Now.Y + l]
+        fields[Field.SX, row, k], fields[Field.SY, row, k] = live * lanes[_Shown.SX + l], live * lanes[_Shown.SY + l]
+        fields[Field.STICK, row, k] = live * lanes[Now.STICK + l]
 
 
 @kernel
@@ -315,27 +330,31 @@ def fastrip(part, case, own, result):
         else:
             march(Even(False), elements, lanes, trace)
         if varies(case):
-            begin_varying(strips, block, last, case, _BOUND, lanes)
+            begin_varying(strips, block, last, case, lanes[_Lane.BOUND : _Lane.BOUND + LANES], lanes)
             _slip_zone(elements, lanes, trace, case, block, last, fields)
         else:
             _slip_zone(elements, lanes, trace, None, block, last, fields)
         for l in range(min(LANES, last - block)):
             i = block + l
             a, dy, y, xc = strips[Strip.A, i], strips[Strip.DY, i], strips[Strip.Y, i], strips[Strip.XC, i]
-            bound, e = lanes[_BOUND + l], lanes[_E + l]
+            bound, e = lanes[_Lane.BOUND + l], lanes[_Lane.E + l]
             slip_area += 2.0 * a * e * dy
             if bound == 0.0:
                 continue
-            outer, outer_s = lanes[_LOAD + l], lanes[_MOMENT + l]
+            outer, outer_s = lanes[_Lane.LOAD + l], lanes[_Lane.MOMENT + l]
             inner, inner_s = inner_resultants(e)
             strip = bound * a * dy
-            fx = strip * (lanes[_KAPPA + l] * (outer - inner) + lanes[_FX + l])
-            fy = strip * (lanes[_LAMBDA + l] * outer - lanes[_LAMBDA1 + l] * inner + lanes[_FY + l])
-            mz = strip * a * (lanes[_LAMBDA + l] * outer_s - lanes[_LAMBDA1 + l] * inner_s + lanes[_MZ + l])
+            fx = strip * (lanes[_Lane.KAPPA + l] * (outer - inner) + lanes[_Lane.FX + l])
+            fy = strip * (lanes[_Lane.LAMBDA + l] * outer - lanes[_Lane.LAMBDA1 + l] * inner + lanes[_Lane.FY + l])
+            mz = (
+                strip
+                * a
+                * (lanes[_Lane.LAMBDA + l] * outer_s - lanes[_Lane.LAMBDA1 + l] * inner_s + lanes[_Lane.MZ + l])
+            )
             Fx += fx
             Fy += fy
             Mz += mz + xc * fy - y * fx
-            power += strip * lanes[_POWER + l]
+            power += strip * lanes[_Lane.POWER + l]
     result.Fx += Fx
     result.Fy += Fy
     result.Mz += Mz

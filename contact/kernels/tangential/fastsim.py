@@ -19,32 +19,28 @@ on the ratio of the creepages, however small they are.
 """
 
 import math
+from enum import auto
 
 from contact._jit import kernel
-from contact.kernels.layout import Element, Field, Strip, Tangential
+from contact.kernels.enumerations import Tangential
 from contact.kernels.normal.linder import local_ellipse
+from contact.kernels.rows import Element, Field, Strip
 from contact.kernels.tangential.ellipses import equivalent_ellipse, flexibilities, weighted
-from contact.kernels.tangential.lanes import (
-    FALL,
-    FLUX,
-    HEATING,
-    LANES,
-    NOW_SLIDES,
-    NOW_SLIP,
-    NOW_STICK,
-    NOW_X,
-    NOW_Y,
-    SLIP,
-    TRACE_FALL,
-)
-from contact.kernels.tangential.march import FREE_BEHIND_MARCH, ROW_X, ROW_Y, ROW_Z, Even, march
+from contact.kernels.tangential.lanes import LANES, Now, Row, Trace, Varying, after
+from contact.kernels.tangential.march import Even, March, march
 from contact.kernels.tangential.varying import begin_varying, soften, varies
 
 #: A traction bound below this fraction of G counts as zero. Creepage divided by it would overflow.
 NO_FRICTION = 1e-15
 
-# rows of `lanes` after those of the march
-_PEAK, _L1, _L2, _PER_LENGTH = (FREE_BEHIND_MARCH + row * LANES for row in range(4))
+
+class _Lane(Row):
+    """Rows of `lanes` after those of the march."""
+
+    PEAK = after(March)
+    L1 = auto()
+    L2 = auto()
+    PER_LENGTH = auto()
 
 
 @kernel
@@ -75,23 +71,25 @@ def _peak_per_load(part, strips, elements, mu, elliptic):
 @kernel
 def _slip(lanes, trace, k, l):
     """Return the slip over V (sx, sy) of element k in lane l."""
-    slip = trace[k, NOW_SLIP + l] * lanes[_PER_LENGTH + l]
-    return -lanes[_L1 + l] * slip * trace[k, NOW_X + l], -lanes[_L2 + l] * slip * trace[k, NOW_Y + l]
+    slip = trace[k, Now.SLIP + l] * lanes[_Lane.PER_LENGTH + l]
+    return -lanes[_Lane.L1 + l] * slip * trace[k, Now.X + l], -lanes[_Lane.L2 + l] * slip * trace[k, Now.Y + l]
 
 
 @kernel
 def _fill_friction(case, elliptic, elements, lanes, trace):
-    """Fill TRACE_FALL of `trace` with the coefficients of friction along the strips of a block, over those at rest."""
+    """Fill the column FALL of `trace` with the coefficients of friction along the strips of a block, over those at rest."""
     for k in range(elements.shape[1]):
         size = elements[Element.SINE, k] if elliptic else elements[Element.SINE, k] ** 2
         for l in range(LANES):
             sx, sy = _slip(lanes, trace, k, l)
-            lanes[SLIP + l] = math.sqrt(sx * sx + sy * sy)
-            lanes[FLUX + l] = -lanes[HEATING + l] * size * (sx * trace[k, NOW_X + l] + sy * trace[k, NOW_Y + l])
-            lanes[NOW_STICK + l] = trace[k, NOW_STICK + l] if lanes[_PEAK + l] > 0.0 else 0.0
+            lanes[Varying.SLIP + l] = math.sqrt(sx * sx + sy * sy)
+            lanes[Varying.FLUX + l] = (
+                -lanes[Varying.HEATING + l] * size * (sx * trace[k, Now.X + l] + sy * trace[k, Now.Y + l])
+            )
+            lanes[Now.STICK + l] = trace[k, Now.STICK + l] if lanes[_Lane.PEAK + l] > 0.0 else 0.0
         soften(case, k, elements, lanes, trace)
         for l in range(LANES):
-            trace[k, TRACE_FALL + l] = lanes[FALL + l]
+            trace[k, Trace.FALL + l] = lanes[Varying.FALL + l]
 
 
 @kernel
@@ -120,32 +118,32 @@ def fastsim(part, case, own, result):
                 local_a, local_b = _local_axes(strips, i, method, a0, result.edges)
                 L1, L2, L3 = flexibilities(G, local_a, local_b, table)
             vx, vy, phi = strips[Strip.VX, i], strips[Strip.VY, i], strips[Strip.PHI, i]
-            lanes[_PEAK + l], lanes[_L1 + l], lanes[_L2 + l] = peak if scale > 0.0 else 0.0, L1, L2
-            lanes[_PER_LENGTH + l] = lanes[_PEAK + l] / a if a > 0.0 else 0.0
+            lanes[_Lane.PEAK + l], lanes[_Lane.L1 + l], lanes[_Lane.L2 + l] = peak if scale > 0.0 else 0.0, L1, L2
+            lanes[_Lane.PER_LENGTH + l] = lanes[_Lane.PEAK + l] / a if a > 0.0 else 0.0
             vx, vy = vx - phi * part.y, vy + phi * part.x  # L3 belongs to the spin about the patch's own place
-            lanes[ROW_X + l] = scale * (vx / L1 - phi * (strips[Strip.Y, i] - part.y) / L3)
-            lanes[ROW_Y + l] = scale * (vy / L2 + phi * (strips[Strip.XC, i] - part.x) / L3)
-            lanes[ROW_Z + l] = scale * a * phi / L3
+            lanes[March.X + l] = scale * (vx / L1 - phi * (strips[Strip.Y, i] - part.y) / L3)
+            lanes[March.Y + l] = scale * (vy / L2 + phi * (strips[Strip.XC, i] - part.x) / L3)
+            lanes[March.Z + l] = scale * a * phi / L3
         march(Even(elliptic), elements, lanes, trace)
         if falling:
-            begin_varying(strips, block, part.last, case, _PEAK, lanes)
+            begin_varying(strips, block, part.last, case, lanes[_Lane.PEAK : _Lane.PEAK + LANES], lanes)
             _fill_friction(case, elliptic, elements, lanes, trace)
         for l in range(min(LANES, part.last - block)):
             i = block + l
             row = min(i, fields.shape[1] - 1)  # one row serves all strips if only forces are wanted
             a, y, dy = strips[Strip.A, i], strips[Strip.Y, i], strips[Strip.DY, i]
-            peak = lanes[_PEAK + l]
+            peak = lanes[_Lane.PEAK + l]
             frictionless = peak <= 0.0
             for k in range(elements.shape[1]):
-                ex, ey = trace[k, NOW_X + l], trace[k, NOW_Y + l]
-                stick = trace[k, NOW_STICK + l]
+                ex, ey = trace[k, Now.X + l], trace[k, Now.Y + l]
+                stick = trace[k, Now.STICK + l]
                 size = peak * (elements[Element.SINE, k] if elliptic else elements[Element.SINE, k] ** 2)
                 qx, qy = size * ex, size * ey
                 sx, sy = _slip(lanes, trace, k, l)
                 stick = 0.0 if frictionless else stick
-                slides = trace[k, NOW_SLIDES + l]
+                slides = trace[k, Now.SLIDES + l]
                 if falling:
-                    fall = trace[k, TRACE_FALL + l]
+                    fall = trace[k, Trace.FALL + l]
                     used = math.sqrt(ex * ex + ey * ey)
                     if fall < 1.0 and used > fall:
                         qx, qy = qx * (fall / used), qy * (fall / used)
@@ -159,7 +157,7 @@ def fastsim(part, case, own, result):
                 Mz += ((strips[Strip.XC, i] + a * elements[Element.S, k]) * qy - y * qx) * dA
                 power -= (qx * sx + qy * sy) * dA
                 slip_area += (1.0 - stick) * elements[Element.STEP, k] * a * dy
-            slides = 1.0 if frictionless else trace[elements.shape[1] - 1, NOW_SLIDES + l]
+            slides = 1.0 if frictionless else trace[elements.shape[1] - 1, Now.SLIDES + l]
             slip_area += slides * (1.0 + elements[Element.S, -1]) * a * dy  # after the middle of the last element
     result.Fx += Fx
     result.Fy += Fy

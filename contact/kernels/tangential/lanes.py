@@ -10,24 +10,62 @@ One strip after the other took 17 ns per element, eight lanes 7. Sixteen take fo
 works while another waits. 32 are no faster and leave more lanes empty.
 """
 
+from enum import IntEnum, auto
+
 from contact._jit import kernel
 
 LANES = 16
 
-#: First rows of `lanes`: output of the present element, which is copied to a row of `trace`.
-NOW_X, NOW_Y, NOW_SLIP, NOW_SLIDES, NOW_STICK = (row * LANES for row in range(5))
-N_TRACE = 5
-FREE_ROW = N_TRACE * LANES
 
-#: Number of rows of `lanes`. The largest user needs 44. The last six are for friction that varies along the strips.
+class Row(IntEnum):
+    """Rows of `lanes`. The value of a row is the index of its first lane, so lane l is ``lanes[Now.X + l]``."""
+
+    @staticmethod
+    def _generate_next_value_(name, start, count, last_values):
+        return last_values[-1] + LANES
+
+
+def after(rows: type[Row]) -> int:
+    """Return the value of the first row after `rows`."""
+    return max(rows) + LANES
+
+
+class Now(Row):
+    """Output of the present element, which is copied to the first columns of a row of `trace`."""
+
+    X = 0
+    Y = auto()
+    SLIP = auto()
+    SLIDES = auto()
+    STICK = auto()
+
+
+class Trace(Row):
+    """Columns of `trace` after the output, for friction that varies along the strips."""
+
+    HEAT = after(Now)  # of an element
+    FALL = auto()  # its coefficient over that at rest
+
+
+#: Number of rows of `lanes`. The largest user needs 44 and those for friction that varies.
 N_LANE_ROWS = 50
-SLIP, FLUX, HEATING, SLOWED, WARM, FALL = (row * LANES for row in range(N_LANE_ROWS - 6, N_LANE_ROWS))
-#: Columns of `trace` after the output of elements, for such friction: heat of an element, its coefficient over that at rest.
-TRACE_HEAT, TRACE_FALL = N_TRACE * LANES, (N_TRACE + 1) * LANES
-TRACE_WIDTH = (N_TRACE + 2) * LANES
+TRACE_WIDTH = after(Trace)
+
+
+class Varying(Row):
+    """The last rows of `lanes`: friction that varies along the strips (`varying`)."""
+
+    SLIP = (N_LANE_ROWS - 6) * LANES
+    FLUX = auto()
+    HEATING = auto()
+    SLOWED = auto()
+    WARM = auto()
+    FALL = auto()
+
 
 #: Upper limit of the normalised distance over which a direction turns in one step. At it, the turn is complete.
 FAR = 1e3
+_OUTPUT = after(Now)  # length of the output of an element
 
 
 @kernel
@@ -82,12 +120,12 @@ def turned(ex, ey, wx, wy, w, rest):
 @kernel
 def keep(lanes, row):
     """Copy the output of the present element from `lanes` to its row of the trace."""
-    for j in range(N_TRACE * LANES):
+    for j in range(_OUTPUT):
         row[j] = lanes[j]
 
 
 @kernel
 def recall(lanes, row):
     """Copy a row of the trace back to `lanes`."""
-    for j in range(N_TRACE * LANES):
+    for j in range(_OUTPUT):
         lanes[j] = row[j]

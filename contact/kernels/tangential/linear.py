@@ -28,14 +28,14 @@ def linear(creepage, G, c, coefficients):
 
 
 @kernel
-def cut(force, limit):
-    """Return factor and share of slip by which a linear `force` is cut at `limit`."""
+def capped(force, limit):
+    """Return the factor that keeps a linear `force` below `limit`, and the share of slip."""
     return (1.0, 0.0) if force <= limit else (limit / force, 1.0)
 
 
 @kernel
-def cubic(force, limit):
-    """Return factor and share of slip of the cubic saturation."""
+def smoothed(force, limit):
+    """Return the factor by Johnson's and Vermeulen's cubic, and the share of slip."""
     if force <= 0.0:
         return 1.0, 0.0
     if force >= 3.0 * limit:
@@ -47,7 +47,7 @@ def cubic(force, limit):
 
 @kernel
 def saturated(Fx, Fy, limit, smoothly):
-    """Return Fx, Fy, Mz [N, N, N m] and the share of slip from the linear force, cut or `smoothly` bounded."""
+    """Return Fx, Fy, Mz [N, N, N m] and the share of slip from the linear force, bounded at once or `smoothly`."""
     force = math.sqrt(Fx * Fx + Fy * Fy)
-    factor, slip = cubic(force, limit) if smoothly else cut(force, limit)
+    factor, slip = smoothed(force, limit) if smoothly else capped(force, limit)
     return factor * Fx, factor * Fy, 0.0, slip

@@ -4,7 +4,7 @@ import math
 
 from contact._jit import kernel
 from contact.kernels import kalker
-from contact.kernels.layout import Strip
+from contact.kernels.rows import Strip
 
 #: Share of a strip's own ln(a/b), from the curvatures, against that of the equivalent ellipse (theory.md 4.4).
 OWN_ASPECT = 0.6

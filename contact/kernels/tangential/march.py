@@ -18,44 +18,32 @@ flexibility).
 """
 
 import math
+from enum import auto
 from typing import Any, NamedTuple
 
 from contact._jit import chosen_by, kernel
-from contact.kernels.layout import Element
-from contact.kernels.tangential.lanes import (
-    FAR,
-    FREE_ROW,
-    LANES,
-    NOW_SLIDES,
-    NOW_SLIP,
-    NOW_STICK,
-    NOW_X,
-    NOW_Y,
-    decay_and_lag,
-    keep,
-    turned,
-)
+from contact.kernels.rows import Element
+from contact.kernels.tangential.lanes import FAR, LANES, Now, Row, after, decay_and_lag, keep, turned
 
-# Rows of `lanes`. The caller sets X, Y, Z. The march fills START with the squared utilisation of the bound at the leading edge
-# and CAME with the s of the element where a particle first slides, or -2.
-(
-    ROW_X,
-    ROW_Y,
-    ROW_Z,
-    ROW_START,
-    ROW_CAME,
-    TX,  # traction
-    TY,
-    SLIPS,  # 1 in slip
-    USED,  # utilisation of the bound, squared
-    TRIAL_X,  # traction in stick, with its utilisation squared
-    TRIAL_Y,
-    TRIAL_USED,
-    LEFT,  # share of the step that is left when a strip begins to slide
-    EX,  # direction of the traction in slip
-    EY,
-) = (FREE_ROW + row * LANES for row in range(15))
-FREE_BEHIND_MARCH = FREE_ROW + 15 * LANES
+
+class March(Row):
+    """Rows of `lanes` of every march. The caller sets X, Y and Z."""
+
+    X = after(Now)  # rigid slip (X, Y + Z s)
+    Y = auto()
+    Z = auto()
+    START = auto()  # squared utilisation of the bound at the leading edge
+    CAME = auto()  # s of the element where a particle first slides, or -2
+    TX = auto()  # traction
+    TY = auto()
+    SLIPS = auto()  # 1 in slip
+    USED = auto()  # utilisation of the bound, squared
+    TRIAL_X = auto()  # traction in stick, with its utilisation squared
+    TRIAL_Y = auto()
+    TRIAL_USED = auto()
+    LEFT = auto()  # share of the step that is left when a strip begins to slide
+    EX = auto()  # direction of the traction in slip
+    EY = auto()
 
 
 class Even(NamedTuple):
@@ -65,7 +53,7 @@ class Even(NamedTuple):
 
 
 def begin(rule: Any, lanes: Any) -> None:
-    """Set the state at the leading edge: the rows TX to LEFT, and EX, EY."""
+    """Set the state at the leading edge: the rows of `March` from START on."""
     raise NotImplementedError
 
 
@@ -82,8 +70,8 @@ def height_at(rule: Any, s: float) -> float:
 def slide(rule: Any, place: Any, bound: float, slope: float, lanes: Any) -> int:
     """Turn the direction of all strips that slide. The others keep the trial traction. Return how many have a negative slip.
 
-    `place` holds s, the step to it, its middle and ∫ds/g. The rows TRIAL_X to TRIAL_USED get the direction before the
-    step and whether the strip slid.
+    `place` holds s, the step to it, its middle and ∫ds/g. The rows TRIAL_X to TRIAL_USED get the direction before the step
+    and whether the strip slid.
     """
     raise NotImplementedError
 
@@ -94,7 +82,7 @@ def slip_at(rule: Any, s: float, slope: float, x: float, y: float, lanes: Any, l
 
 
 def leave(rule: Any, s: float, k: int, elements: Any, lanes: Any) -> None:
-    """Complete the output of element k in the rows NOW_X to NOW_STICK."""
+    """Complete the output of element k in the rows of `Now`."""
     raise NotImplementedError
 
 
@@ -114,12 +102,12 @@ def march(rule, elements, lanes, trace):
         per_bound = 1.0 / bound
         begins, sliding = 0, 0
         for l in range(LANES):
-            x = lanes[TX + l] - step * lanes[ROW_X + l]
-            y = lanes[TY + l] - step * (lanes[ROW_Y + l] + lanes[ROW_Z + l] * middle)
+            x = lanes[March.TX + l] - step * lanes[March.X + l]
+            y = lanes[March.TY + l] - step * (lanes[March.Y + l] + lanes[March.Z + l] * middle)
             used = (x * x + y * y) * per_bound * per_bound
-            lanes[TRIAL_X + l], lanes[TRIAL_Y + l], lanes[TRIAL_USED + l] = x, y, used
-            sliding += 1 if lanes[SLIPS + l] > 0.5 else 0
-            begins += 1 if used > 1.0 and lanes[SLIPS + l] < 0.5 else 0
+            lanes[March.TRIAL_X + l], lanes[March.TRIAL_Y + l], lanes[March.TRIAL_USED + l] = x, y, used
+            sliding += 1 if lanes[March.SLIPS + l] > 0.5 else 0
+            begins += 1 if used > 1.0 and lanes[March.SLIPS + l] < 0.5 else 0
         if begins > 0:
             _begin_to_slide(s, lanes)
         if begins + sliding > 0:
@@ -128,10 +116,10 @@ def march(rule, elements, lanes, trace):
                 _end_slip(rule, (before, s, step), slope_before, slope, bound, lanes)
         else:
             for l in range(LANES):
-                x, y = lanes[TRIAL_X + l], lanes[TRIAL_Y + l]
-                lanes[TX + l], lanes[TY + l], lanes[USED + l] = x, y, lanes[TRIAL_USED + l]
-                lanes[NOW_X + l], lanes[NOW_Y + l] = x * per_bound, y * per_bound
-                lanes[NOW_SLIP + l], lanes[NOW_SLIDES + l], lanes[NOW_STICK + l] = 0.0, 0.0, 1.0
+                x, y = lanes[March.TRIAL_X + l], lanes[March.TRIAL_Y + l]
+                lanes[March.TX + l], lanes[March.TY + l], lanes[March.USED + l] = x, y, lanes[March.TRIAL_USED + l]
+                lanes[Now.X + l], lanes[Now.Y + l] = x * per_bound, y * per_bound
+                lanes[Now.SLIP + l], lanes[Now.SLIDES + l], lanes[Now.STICK + l] = 0.0, 0.0, 1.0
         leave(rule, s, k, elements, lanes)
         keep(lanes, trace[k])
 
@@ -140,18 +128,23 @@ def march(rule, elements, lanes, trace):
 def _begin_to_slide(s, lanes):
     """Set the direction where a trial traction passes the bound, and the share of the step that is left."""
     for l in range(LANES):
-        x, y, used, before = lanes[TX + l], lanes[TY + l], lanes[TRIAL_USED + l], lanes[USED + l]
-        comes = 1.0 - lanes[SLIPS + l] if used > 1.0 else 0.0
+        x, y, used, before = (
+            lanes[March.TX + l],
+            lanes[March.TY + l],
+            lanes[March.TRIAL_USED + l],
+            lanes[March.USED + l],
+        )
+        comes = 1.0 - lanes[March.SLIPS + l] if used > 1.0 else 0.0
         gap = used - before
         share = (1.0 - before) / (gap if gap > 1e-12 else 1.0)
-        x, y = x + share * (lanes[TRIAL_X + l] - x), y + share * (lanes[TRIAL_Y + l] - y)
+        x, y = x + share * (lanes[March.TRIAL_X + l] - x), y + share * (lanes[March.TRIAL_Y + l] - y)
         per_size = 1.0 / (math.sqrt(x * x + y * y) + 1e-300)
         # sums instead of selections: the compiler would put roots and divisions in a branch
-        lanes[EX + l] += comes * (x * per_size - lanes[EX + l])
-        lanes[EY + l] += comes * (y * per_size - lanes[EY + l])
-        lanes[LEFT + l] = 1.0 - comes * share
-        came = lanes[ROW_CAME + l]
-        lanes[ROW_CAME + l] = s if comes > 0.5 and s > came else came
+        lanes[March.EX + l] += comes * (x * per_size - lanes[March.EX + l])
+        lanes[March.EY + l] += comes * (y * per_size - lanes[March.EY + l])
+        lanes[March.LEFT + l] = 1.0 - comes * share
+        came = lanes[March.CAME + l]
+        lanes[March.CAME + l] = s if comes > 0.5 and s > came else came
 
 
 @kernel
@@ -160,8 +153,8 @@ def _end_slip(rule, place, slope_before, slope, bound, lanes):
     before, s, step = place
     per_bound = 1.0 / bound
     for l in range(LANES):
-        x, y, ex, ey = lanes[TRIAL_X + l], lanes[TRIAL_Y + l], lanes[EX + l], lanes[EY + l]
-        slid = lanes[TRIAL_USED + l]
+        x, y, ex, ey = lanes[March.TRIAL_X + l], lanes[March.TRIAL_Y + l], lanes[March.EX + l], lanes[March.EY + l]
+        slid = lanes[March.TRIAL_USED + l]
         slip_before = slip_at(rule, before, slope_before, x, y, lanes, l)
         slip = slip_at(rule, s, slope, ex, ey, lanes, l)
         share = slip_before / (slip_before - slip + 1e-300)
@@ -169,20 +162,20 @@ def _end_slip(rule, place, slope_before, slope, bound, lanes):
         ux, uy = x + share * (ex - x), y + share * (ey - y)
         at, left = before - share * step, (1.0 - share) * step
         size = height_at(rule, at) * (1.5 - 0.5 * (ux * ux + uy * uy))
-        stick_x = size * ux - left * lanes[ROW_X + l]
-        stick_y = size * uy - left * (lanes[ROW_Y + l] + 0.5 * lanes[ROW_Z + l] * (at + s))
+        stick_x = size * ux - left * lanes[March.X + l]
+        stick_y = size * uy - left * (lanes[March.Y + l] + 0.5 * lanes[March.Z + l] * (at + s))
         used = (stick_x * stick_x + stick_y * stick_y) * per_bound * per_bound
         stops = slip < 0.0 and slid > 0.5 and used < 1.0
-        shown = lanes[NOW_SLIP + l] if lanes[NOW_SLIP + l] > 0.0 else 0.0
-        lanes[NOW_SLIP + l] = 0.0 if stops else shown
-        lanes[NOW_X + l] = stick_x * per_bound if stops else lanes[NOW_X + l]
-        lanes[NOW_Y + l] = stick_y * per_bound if stops else lanes[NOW_Y + l]
-        lanes[TX + l] = stick_x if stops else lanes[TX + l]
-        lanes[TY + l] = stick_y if stops else lanes[TY + l]
-        lanes[USED + l] = used if stops else lanes[USED + l]
-        lanes[SLIPS + l] = 0.0 if stops else lanes[SLIPS + l]
-        lanes[NOW_SLIDES + l] = 0.0 if stops else lanes[NOW_SLIDES + l]
-        lanes[NOW_STICK + l] = 1.0 - share if stops else lanes[NOW_STICK + l]
+        shown = lanes[Now.SLIP + l] if lanes[Now.SLIP + l] > 0.0 else 0.0
+        lanes[Now.SLIP + l] = 0.0 if stops else shown
+        lanes[Now.X + l] = stick_x * per_bound if stops else lanes[Now.X + l]
+        lanes[Now.Y + l] = stick_y * per_bound if stops else lanes[Now.Y + l]
+        lanes[March.TX + l] = stick_x if stops else lanes[March.TX + l]
+        lanes[March.TY + l] = stick_y if stops else lanes[March.TY + l]
+        lanes[March.USED + l] = used if stops else lanes[March.USED + l]
+        lanes[March.SLIPS + l] = 0.0 if stops else lanes[March.SLIPS + l]
+        lanes[Now.SLIDES + l] = 0.0 if stops else lanes[Now.SLIDES + l]
+        lanes[Now.STICK + l] = 1.0 - share if stops else lanes[Now.STICK + l]
 
 
 @kernel
@@ -190,13 +183,13 @@ def _begin_even(rule, lanes):
     # at the edge the traction of stick rises |W|/2 times as fast as the parabola; the ellipse is infinitely steep there
     steepest, start = (math.inf, 0.0) if rule.elliptic else (2.0, 0.25)
     for l in range(LANES):
-        x, y = lanes[ROW_X + l], lanes[ROW_Y + l] + lanes[ROW_Z + l]
+        x, y = lanes[March.X + l], lanes[March.Y + l] + lanes[March.Z + l]
         size = math.sqrt(x * x + y * y) + 1e-300
-        lanes[TX + l], lanes[TY + l], lanes[LEFT + l] = 0.0, 0.0, 1.0
-        lanes[EX + l], lanes[EY + l] = -x / size, -y / size
-        lanes[SLIPS + l] = 1.0 if size > steepest else 0.0
-        lanes[ROW_START + l] = lanes[USED + l] = start * size * size
-        lanes[ROW_CAME + l] = 1.0 if size > steepest else -2.0
+        lanes[March.TX + l], lanes[March.TY + l], lanes[March.LEFT + l] = 0.0, 0.0, 1.0
+        lanes[March.EX + l], lanes[March.EY + l] = -x / size, -y / size
+        lanes[March.SLIPS + l] = 1.0 if size > steepest else 0.0
+        lanes[March.START + l] = lanes[March.USED + l] = start * size * size
+        lanes[March.CAME + l] = 1.0 if size > steepest else -2.0
 
 
 @kernel
@@ -219,9 +212,9 @@ def _slide_even(rule, place, bound, slope, lanes):
     per_bound = 1.0 / bound
     ends = 0
     for l in range(LANES):
-        X, Y, Z, slid = lanes[ROW_X + l], lanes[ROW_Y + l], lanes[ROW_Z + l], lanes[SLIPS + l]
-        x, y, left = lanes[EX + l], lanes[EY + l], lanes[LEFT + l]
-        trial_x, trial_y, used = lanes[TRIAL_X + l], lanes[TRIAL_Y + l], lanes[TRIAL_USED + l]
+        X, Y, Z, slid = lanes[March.X + l], lanes[March.Y + l], lanes[March.Z + l], lanes[March.SLIPS + l]
+        x, y, left = lanes[March.EX + l], lanes[March.EY + l], lanes[March.LEFT + l]
+        trial_x, trial_y, used = lanes[March.TRIAL_X + l], lanes[March.TRIAL_Y + l], lanes[March.TRIAL_USED + l]
         wx, wy = X, Y + Z * middle
         far = left * stretch * math.sqrt(wx * wx + wy * wy)
         rest, lag = decay_and_lag(far if far < FAR else FAR)
@@ -231,21 +224,21 @@ def _slide_even(rule, place, bound, slope, lanes):
         slip = -(X * ex + (Y + Z * s) * ey) - slope
         slides = 1.0 if used > 1.0 else slid
         ends += 1 if slides > 0.5 and slip < 0.0 else 0
-        lanes[EX + l], lanes[EY + l] = ex, ey
-        lanes[NOW_X + l] = ex if slides > 0.5 else trial_x * per_bound
-        lanes[NOW_Y + l] = ey if slides > 0.5 else trial_y * per_bound
-        lanes[TX + l] = bound * ex if slides > 0.5 else trial_x
-        lanes[TY + l] = bound * ey if slides > 0.5 else trial_y
-        lanes[SLIPS + l], lanes[USED + l], lanes[LEFT + l] = slides, used, 1.0
-        lanes[NOW_SLIP + l], lanes[NOW_SLIDES + l] = slip * slides, slides
-        lanes[NOW_STICK + l] = (1.0 - slid) * (1.0 - left) if slides > 0.5 else 1.0
-        lanes[TRIAL_X + l], lanes[TRIAL_Y + l], lanes[TRIAL_USED + l] = x, y, slid
+        lanes[March.EX + l], lanes[March.EY + l] = ex, ey
+        lanes[Now.X + l] = ex if slides > 0.5 else trial_x * per_bound
+        lanes[Now.Y + l] = ey if slides > 0.5 else trial_y * per_bound
+        lanes[March.TX + l] = bound * ex if slides > 0.5 else trial_x
+        lanes[March.TY + l] = bound * ey if slides > 0.5 else trial_y
+        lanes[March.SLIPS + l], lanes[March.USED + l], lanes[March.LEFT + l] = slides, used, 1.0
+        lanes[Now.SLIP + l], lanes[Now.SLIDES + l] = slip * slides, slides
+        lanes[Now.STICK + l] = (1.0 - slid) * (1.0 - left) if slides > 0.5 else 1.0
+        lanes[March.TRIAL_X + l], lanes[March.TRIAL_Y + l], lanes[March.TRIAL_USED + l] = x, y, slid
     return ends
 
 
 @kernel
 def _slip_even(rule, s, slope, x, y, lanes, l):
-    return -(lanes[ROW_X + l] * x + (lanes[ROW_Y + l] + lanes[ROW_Z + l] * s) * y) - slope
+    return -(lanes[March.X + l] * x + (lanes[March.Y + l] + lanes[March.Z + l] * s) * y) - slope
 
 
 @kernel

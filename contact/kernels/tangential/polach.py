@@ -9,7 +9,7 @@ lateral force of spin is
     F_yS = (9/16) a mu N kappa (eps_S (D³/3 - D²/2 + 1/6) - (1 - D²)^(3/2)/3) phi/v_C.
 
 At vanishing creepage the forces are Kalker's. The law has no moment. [R], checked against a public conversion of
-Polach's program and the linear limit. Two things are ours. The resultant is cut at mu N, because lateral creepage with
+Polach's program and the linear limit. Two things are ours. The resultant is limited to mu N, because lateral creepage with
 spin would exceed it. The share of slip, (k_A eps)²/(1 + (k_A eps)²), follows from Polach's traction and never reaches
 1.
 

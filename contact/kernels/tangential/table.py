@@ -13,7 +13,7 @@ The file holds Fx/(mu N), Fy/(mu N), Mz/(mu N c) and the share of slip at Poisso
 full slip. The interpolated quantity is the difference to the linear theory's force times R0 rho (1 - rho)/r. Its slope
 at rho = 0 is zero, so the slopes at vanishing creepage are exactly Kalker's. The interpolation is cubic convolution
 (Catmull and Rom), which is once continuously differentiable. Beyond the ends of the table's a/b the difference is that
-of the end. The resultant is cut at mu N, because interpolation may exceed it.
+of the end. The resultant is limited to mu N, because interpolation may exceed it.
 
 On 300 random ellipses and creepages that are not in the table the force differs from that of the half space by .0023 of
 mu N in the mean, .0091 at the 95th percentile and .026 at most. The moment differs by .0025 of mu N c
@@ -23,6 +23,7 @@ mu N in the mean, .0091 at the 95th percentile and .026 at most. The moment diff
 from __future__ import annotations
 
 import math
+from enum import IntEnum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,8 +37,13 @@ N_ASPECT, N_ALPHA, N_BETA, N_RHO = 9, 5, 13, 9
 LOG_ASPECT_MAX, R0 = math.log(10.0), 1.5
 #: Shape of the array that kernels take: one more node on every side, and twice four numbers.
 SHAPE = (N_ASPECT + 2, N_ALPHA + 2, N_BETA + 2, N_RHO + 2, 8)
-#: Index of the first of the four numbers of forces and of effective creepages (`contact.kernels.tangential.effective`).
-FORCES, EFFECTIVE = 0, 4
+
+
+class Part(IntEnum):
+    """First of the four numbers of a node that belong to forces, and to effective creepages (`tangential.effective`)."""
+
+    FORCES = 0
+    EFFECTIVE = 4
 
 
 @kernel
@@ -126,7 +132,7 @@ def lookup(creepage, G, c, log_aspect, coefficients, limit, table):
     sign_x, sign_y = signs(X, Y, Z)
     X, Y, Z = sign_x * X, sign_y * Y, sign_y * Z
     spin = weight * Z
-    Fx, Fy, Mz, slip = interpolated(log_aspect, X, Y, spin, FORCES, table)
+    Fx, Fy, Mz, slip = interpolated(log_aspect, X, Y, spin, Part.FORCES, table)
     r = math.sqrt(X * X + Y * Y + spin * spin)
     linear = R0 * R0 / ((r + R0) * (r + R0))  # R0 rho (1 - rho) over r
     Fx, Fy = Fx - linear * X, Fy - linear * (Y + Z)

@@ -18,7 +18,7 @@ import math
 
 from contact._jit import kernel
 from contact.kernels.hertz import elliptic_integrals
-from contact.kernels.tangential.linear import cubic
+from contact.kernels.tangential.linear import smoothed
 
 _NEARLY_CIRCULAR = 1e-3
 
@@ -44,7 +44,7 @@ def vermeulen_johnson(vx, vy, G, a, b, nu, limit):
     """Return Fx, Fy, Mz [N, N, N m] and the share of slip. `limit` is mu N."""
     c11, c22 = slopes(a / b, nu)
     Fx, Fy = -c11 * G * a * b * vx, -c22 * G * a * b * vy
-    factor, slip = cubic(math.sqrt(Fx * Fx + Fy * Fy), limit)
+    factor, slip = smoothed(math.sqrt(Fx * Fx + Fy * Fy), limit)
     k = math.sqrt(1.0 - slip)
     moment = -a * k * k * k * Fy / 3.0  # 1 - k is a third of the linear force over mu N
     return factor * Fx, factor * Fy, moment, slip

@@ -58,6 +58,13 @@ int whole(fmi2Component c, fmi2ValueReference r)
     return value;
 }
 
+void coarsen(fmi2Component c)
+{
+    static const fmi2ValueReference resolution[] = RESOLUTION;
+    static const fmi2Integer least[] = COARSEST;
+    SetInteger(c, resolution, sizeof resolution / sizeof *resolution, least);
+}
+
 double any(fmi2Component c, fmi2ValueReference r)
 {
     double value;

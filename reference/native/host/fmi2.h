@@ -33,6 +33,7 @@ fmi2Status set_real(fmi2Component c, fmi2ValueReference r, double value);
 fmi2Status set_integer(fmi2Component c, fmi2ValueReference r, int value);
 double real(fmi2Component c, fmi2ValueReference r);
 int whole(fmi2Component c, fmi2ValueReference r);
+void coarsen(fmi2Component c); /* set the coarsest resolution, for tests that are not about numbers */
 double any(fmi2Component c, fmi2ValueReference r); /* value of a Real or an Integer of a `quiet` instance */
 
 /* calls.c: legality of calls */

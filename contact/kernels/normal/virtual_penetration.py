@@ -10,9 +10,9 @@ import math
 from contact._jit import kernel
 from contact.kernels import cubic
 from contact.kernels.cubic import locate, slopes
-from contact.kernels.layout import Sample, Strip
 from contact.kernels.normal.influence import centre_slope
 from contact.kernels.normal.lay import at_end, find_patches, lay_strips
+from contact.kernels.rows import Sample, Strip
 
 
 @kernel
@@ -89,7 +89,7 @@ def displacement(strips, n, edges, at, a_at, peak):
 
 
 @kernel
-def press(strips, n, edges, at, a_at, delta, modulus):
+def set_pressures(strips, n, edges, at, a_at, delta, modulus):
     """Set p0 = kappa·a [Pa] such that the displacement at `at`, with the half length `a_at`, is delta.
 
     One kappa serves all patches, so the load stays continuous where patches appear and merge.

@@ -1,0 +1,119 @@
+"""Displacement of each panel of strips by the other panels: found at a few probes, interpolated between them.
+
+Panels do not overlap, so the displacement by other panels is smooth across a panel. It is calculated at `PROBES` strips
+that lie nearly at Chebyshev's nodes. The polynomial through them serves the other strips.
+"""
+
+import math
+
+from contact._jit import kernel
+from contact.kernels.normal.influence import anywhere, at_centre, in_row, logarithm, row_at
+from contact.kernels.rows import Vector
+
+#: Number of strips of a panel at which the displacement by other panels is calculated.
+PROBES = 6
+#: Offset along x over the half length below which strips count as in line. The table off the centre line is not more exact.
+IN_LINE = 0.01
+
+
+@kernel
+def fill_probes(cosines, probes, spread):
+    """Fill the numbers of the strips that are probes, and spread[k, i].
+
+    This is the polynomial that is 1 at probe k and 0 at the other probes, at the middle of strip i. Probes lie
+    symmetrically. With fewer strips than probes, those left over count nothing.
+    """
+    n = spread.shape[1]
+    count = min(n, PROBES)
+    for k in range((count + 1) // 2):
+        probes[k] = (2 * k + 1) * n // (2 * count)
+        probes[count - 1 - k] = n - 1 - probes[k]
+    for k in range(count):
+        at_own = cosines[int(probes[k])] + cosines[int(probes[k]) + 1]
+        for i in range(n):
+            at, value = cosines[i] + cosines[i + 1], 1.0
+            for m in range(count):
+                at_other = cosines[int(probes[m])] + cosines[int(probes[m]) + 1]
+                value *= (at - at_other) / (at_own - at_other) if m != k else 1.0
+            spread[k, i] = value
+
+
+@kernel
+def _spread(u, spread, out):
+    """Fill `out` with the displacement at all strips of a panel, from `u` at its probes."""
+    u0, u1, u2, u3, u4, u5 = u[0], u[1], u[2], u[3], u[4], u[5]
+    s0, s1, s2, s3, s4, s5 = spread[0], spread[1], spread[2], spread[3], spread[4], spread[5]
+    for i in range(out.size):
+        out[i] = u0 * s0[i] + u1 * s1[i] + u2 * s2[i] + u3 * s3[i] + u4 * s4[i] + u5 * s5[i]
+
+
+@kernel
+def distances(panels, n_panels, own):
+    """Fill `own.space.logs[i, k]` with ln|Y_k - y_i| of every probe i to every edge k of other panels; n + 1 edges a panel."""
+    cosines, vectors, logs = own.rule.cosines, own.space.vectors, own.space.logs
+    n = cosines.size - 1
+    for p in range(n_panels):
+        least = 0.5e-12 * (panels[2 * p + 1] - panels[2 * p])
+        for q in range(n_panels):
+            if p == q:
+                continue
+            centre, half = 0.5 * (panels[2 * q] + panels[2 * q + 1]), 0.5 * (panels[2 * q + 1] - panels[2 * q])
+            for m in range(PROBES):
+                at = vectors[Vector.Y, p * n + int(own.rule.probes[m])]
+                for k in range(n + 1):
+                    logs[p * PROBES + m, q * (n + 1) + k] = math.log(max(abs(centre + half * cosines[k] - at), least))
+
+
+@kernel
+def assemble_others(n_panels, own, unit):
+    """Fill `own.space.matrix[j, i]` for every strip j and the strips i of the other panels.
+
+    It is the displacement on the centre line of strip i by unit peak pressure on strip j. `unit` is 1/(pi E*).
+    """
+    vectors, logs, matrix, at_probes = own.space.vectors, own.space.logs, own.space.matrix, own.space.vectors[Vector.Q1]
+    probes, spread, centre, plane = own.rule.probes, own.rule.spread, own.tables.centre, own.tables.plane
+    n = spread.shape[1]
+    for q in range(n_panels):
+        for j in range(q * n, q * n + n):
+            a, row = vectors[Vector.A, j], matrix[j]
+            scale, ln_a, inverse = a * unit, math.log(a), 1.0 / a
+            for p in range(n_panels):
+                for m in range(PROBES if p != q else 0):
+                    at = logs[p * PROBES + m]
+                    left, right = at[j + q] - ln_a, at[j + q + 1] - ln_a
+                    X = abs(vectors[Vector.XC, p * n + int(probes[m])] - vectors[Vector.XC, j]) * inverse
+                    if X > IN_LINE:
+                        at_probes[m] = scale * abs(anywhere(plane, X, right) - anywhere(plane, X, left))
+                    else:
+                        at_probes[m] = scale * abs(at_centre(centre, right) - at_centre(centre, left))
+                if p != q:
+                    _spread(at_probes, spread, row[p * n : p * n + n])
+
+
+@kernel
+def add_others(p, n_panels, own):
+    """Add to Vector.U the displacement at the ends of panel p's strips by the other panels, the mean of both ends.
+
+    The rows Q1, Q2 and R of the vectors hold ln a, 1/a and p0·a/(pi E*).
+    """
+    vectors, logs, spread, plane = own.space.vectors, own.space.logs, own.rule.spread, own.tables.plane
+    n, U = spread.shape[1], vectors[Vector.U, p * spread.shape[1] : (p + 1) * spread.shape[1]]
+    logs_a, inverses = vectors[Vector.Q1], vectors[Vector.Q2]
+    forces, loci = vectors[Vector.R], vectors[Vector.XC]
+    for m in range(PROBES):
+        strip = p * n + int(own.rule.probes[m])
+        a, x, at, u = vectors[Vector.A, strip], loci[strip], logs[p * PROBES + m], 0.0
+        for q in range(n_panels):
+            for j in range(q * n, q * n + n if q != p else 0):
+                shift, left, right = loci[j] - x, at[j + q] - logs_a[j], at[j + q + 1] - logs_a[j]
+                X = abs(a + shift) * inverses[j]
+                place, share, ln_X = row_at(X, logarithm(X))
+                one = abs(in_row(plane, place, share, right - ln_X) - in_row(plane, place, share, left - ln_X))
+                if shift != 0.0:
+                    X = abs(a - shift) * inverses[j]
+                    place, share, ln_X = row_at(X, logarithm(X))
+                    other = in_row(plane, place, share, right - ln_X) - in_row(plane, place, share, left - ln_X)
+                    one = 0.5 * (one + abs(other))
+                u += forces[j] * one
+        for i in range(n):
+            U[i] += spread[m, i] * u

@@ -1,0 +1,164 @@
+"""Rows of the arrays that kernels share: ``strips[Strip.Y, i]``. The rows of `lanes` are in `tangential.lanes`."""
+
+from enum import IntEnum
+
+from numba import types
+from numba.extending import overload
+
+
+class Strip(IntEnum):
+    """Rows of `strips`: longitudinal strips of all patches, one panel of strips after the other."""
+
+    Y = 0
+    DY = 1
+    XC = 2
+    A = 3  # half length
+    P0 = 4  # peak of the semi-elliptic pressure, or of the one with the strip's load where the pressure is limited
+    ASPECT = 5
+    PATCH = 6
+    BOUND = 7  # peak over the patch's coefficient of friction of the semi-ellipse that bounds the traction
+    VX = 8  # creepages: rigid slip VX - PHI·y, VY + PHI·x
+    VY = 9
+    PHI = 10
+    TILT = 11  # slope of the surface against the plane; 0 where it is one
+    TO_X = 12  # what effective creepages add to those of the strip, and to the exponent of mapped strip marching
+    TO_Y = 13
+    TO_PHI = 14
+    TO_EXPONENT = 15
+
+
+class Field(IntEnum):
+    """Rows of `fields[row, strip, element]`; element 0 is at the leading edge, x = x_c + a."""
+
+    X = 0
+    DX = 1
+    P = 2
+    QX = 3
+    QY = 4
+    SX = 5
+    SY = 6
+    STICK = 7
+
+
+class DamageField(IntEnum):
+    """Rows of `damage_fields[row, strip, element]`."""
+
+    DEPTH = 0
+    STRESS_INDEX = 1
+    ENERGY_INDEX = 2
+
+
+class Element(IntEnum):
+    """Rows of `elements[row, k]`: constants of element k of a strip from the leading edge, x = x_c + a·s, s = cos(angle)."""
+
+    S = 0
+    SINE = 1  # √(1 - s²), the semi-elliptic pressure over its peak
+    DX = 2  # width over a
+    STEP = 3  # s of the element before (or of the edge) minus s
+    MIDDLE = 4  # s half-way to the element before
+    ATANH = 5  # ∫ds/(1 - s²) from the element before; infinite from the edge
+    ANGLE_END = 6  # angle of the trailing side of the element
+    LOAD_END = 7  # ∫√(1 - s²) ds from the leading edge to the trailing side
+    MOMENT_END = 8  # ∫s√(1 - s²) ds likewise
+    END = 9  # s of the trailing side
+
+
+class Sample(IntEnum):
+    """Rows of the work array of the normal methods, as long as the separation."""
+
+    GAP_SLOPE = 0
+    EFFECTIVE_GAP = 1
+    EFFECTIVE_SLOPE = 2
+    STRETCHED_A = 3
+    SHARE = 4
+    NR = 5
+    LOG_ASPECT = 6
+
+
+class Sep(IntEnum):
+    """Rows of `separations[k, row, sample]`."""
+
+    Y = 0
+    G = 1
+    A = 2
+    XC = 3
+    TILT = 4  # slope of the mean of both surfaces against the plane
+
+
+class Curve(IntEnum):
+    """Rows of a curve z(y), of a profile (with the angle of its tangent) and of a trace line (with the gap above it)."""
+
+    Y = 0
+    Z = 1
+    SLOPE = 2  # dz/dy of a curve
+    ANGLE = 2  # of the tangent of a profile [rad]
+    GAP = 3  # rail minus wheel at pose.z = 0 [m]
+    OPENING = 4  # its slope along y [-]
+
+
+class Vector(IntEnum):
+    """Rows of the vectors of interacting strips, one number a strip of all panels."""
+
+    Y = 0
+    HALF = 1
+    GAP = 2
+    A = 3
+    CURVATURE = 4
+    XC = 5
+    P = 6
+    Q1 = 7
+    Q2 = 8
+    R = 9
+    R_OLD = 10
+    LN_A = 11
+    STEP = 12
+    ACTIVE = 13
+    INDEX = 14
+    FLOORED = 15  # the half length stands at its lower bound
+    U = 16  # displacement at the strip's ends
+    REACH = 17  # displacement by the strip's load at unit distance
+    SPREAD = 18  # mean square of its points' distances from its middle
+    REACH_OF_PANEL = 19  # in the panel's first strip, as the next two
+    SPREAD_OF_PANEL = 20
+    MIDDLE_OF_PANEL = 21
+    LN_LENGTH = 22  # ln of the half length with which the pressures were found
+    BEST = 23  # ln a of the best iterate; in the end strips the ends of their panel
+    STEPS = 24  # first of DEPTH rows: steps of the last iterations
+    CHANGES = 27  # first of DEPTH rows: changes of the residual
+
+
+#: Steps of the strip half space's iteration that are remembered.
+DEPTH = 3
+
+
+class Bin(IntEnum):
+    """Rows of `rates[row, strip]` per metre rolled and of `bins[row, bin]`; the names of `contact.accumulation`."""
+
+    ROLLED = 0
+    WEAR = 1
+    VOLUME = 2
+    T_GAMMA = 3
+    ENERGY_INDEX = 4
+    STRESS_EXCEEDANCE = 5
+    FATIGUE_EXCEEDANCE = 6
+    ENERGY_INDEX_MAX = 7  # a maximum; the others are sums
+
+
+class Body(IntEnum):
+    """First index of `bins[body, row, bin]`."""
+
+    WHEEL = 0
+    RAIL = 1
+
+
+#: Number of rows y, z and angle of a profile, of all rows of a trace line, and of vectors.
+N_PROFILE_ROWS, N_LINE_ROWS, N_VECTOR_ROWS = 3, 5, Vector.CHANGES + DEPTH
+
+
+@overload(len)
+def _number_of_rows(rows):
+    """Let kernels call ``len(Strip)``, as Python does."""
+    if not isinstance(rows, types.IntEnumClass):
+        return None
+    count = len(rows.instance_class)
+    return lambda rows: count

@@ -1,0 +1,46 @@
+"""`Forces` of arrays of cases, and `CaseForces` of one case: what is known of a contact without its fields."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.kernels.enumerations import Status
+
+Numbers = float | NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Forces:
+    """Results of arrays of cases. Each member is an array of the input's broadcast shape; units and signs as in `Solution`."""
+
+    Fx: Numbers
+    Fy: Numbers
+    Mz: Numbers
+    N: Numbers
+    approach: Numbers
+    max_pressure: Numbers
+    area: Numbers
+    slip_ratio: Numbers
+    power_per_metre: Numbers
+    status: int | NDArray[np.int64]
+    gap_error: Numbers
+
+
+@dataclass(frozen=True, slots=True)
+class CaseForces(Forces):
+    """Results of one case: `Forces` with numbers instead of arrays."""
+
+    Fx: float
+    Fy: float
+    Mz: float
+    N: float
+    approach: float
+    max_pressure: float
+    area: float
+    slip_ratio: float
+    power_per_metre: float
+    status: Status
+    gap_error: float
