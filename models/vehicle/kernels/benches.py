@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact._jit import kernel
-from contact.kernels.layout import CASE, CONTACT, LEDGER, MAX_PATCHES, MOTION, N_LINE_ROWS, N_PROFILE_ROWS, TOTAL
 from contact.kernels.memory import Bench, Ledger, Search
+from contact.kernels.records import CASE, CONTACT, LEDGER, MAX_PATCHES, MOTION, TOTAL
+from contact.kernels.rows import N_LINE_ROWS, N_PROFILE_ROWS
 from contact.pair import WheelRailPair
 
 Array = NDArray[np.float64]

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.kernels.layout import GIVEN
+from contact.kernels.records import GIVEN
 
 Array = NDArray[np.float64]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from contact._jit import kernel
+from contact.kernels.enumerations import Height, Status
 from contact.kernels.geometry.search import axle
-from contact.kernels.layout import Height, Status
 from contact.kernels.pair import solve_pair
 from models.vehicle.kernels.benches import bench_of
 from models.vehicle.kernels.frames import linear, place_on, smooth
