@@ -59,6 +59,7 @@ coupling: $(READY) ## write the largest stable steps of the coupling schemes to 
 bench: $(READY)  ## print the speed tables
 	PYTHONPATH=. $(BIN)/python benchmarks/speed.py
 	PYTHONPATH=. $(BIN)/python benchmarks/pose_times.py
+	PYTHONPATH=. $(BIN)/python benchmarks/vehicle_speed.py
 	PYTHONPATH=. $(BIN)/python benchmarks/fmu_speed.py
 	PYTHONPATH=. $(BIN)/python benchmarks/compile_times.py
 
@@ -76,8 +77,8 @@ docs: $(READY_FOR_DOCS) dist/explorer.html ## build the documentation site in bu
 	$(BIN)/python -m sphinx -W --keep-going -q -b html docs build/docs/html
 	@echo "build/docs/html/index.html"
 
-pictures: $(READY) ## make the pictures of the README
-	$(BIN)/python docs/pictures/make.py
+pictures: $(READY) ## make the pictures of the README and of the page on vehicles
+	PYTHONPATH=. $(BIN)/python docs/pictures/make.py
 
 format: $(READY) ## format the code
 	$(BIN)/ruff format .

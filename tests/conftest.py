@@ -22,7 +22,7 @@ def ellipse() -> contact.Separation:
 
 
 #: Folders in which every test is slow: whole FMUs, runs over a line, and the page with the compiled kernels.
-SLOW = {"system", "life", "explorer"}
+SLOW = {"system", "life", "vehicle", "explorer"}
 
 
 @pytest.hookimpl(tryfirst=True)  # before pytest evaluates -m

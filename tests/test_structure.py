@@ -11,6 +11,11 @@ FOLDERS = ("contact", "fmu_src", "models", "reference", "tests", "benchmarks", "
 #: Files that may import a private module of `contact` (leading underscore) → names that they may import.
 PRIVATE = {
     "fmu_src/place.py": {"contact._jit.cache_directory"},  # folder of compiled kernels
+    **{
+        f"models/vehicle/kernels/{name}.py": {"contact._jit.kernel"}
+        for name in ("benches", "elements", "frames", "motion", "wheels")
+    },
+    "models/vehicle/simulation.py": {"contact._jit.compiled_for"},
     "models/wheelset/dynamics.py": {"contact._jit.kernel"},
     "models/wheelset/motion.py": {"contact._jit.kernel"},
     "tests/test_jit.py": {"contact._jit"},  # the test of that module

@@ -7,6 +7,7 @@ from contact.kernels.arrays import Samples, Space, Workspace
 from contact.kernels.damage.assess import clear_damage, damage_kernel
 from contact.kernels.enumerations import Height, LoadKind, NoAnswer, Status
 from contact.kernels.geometry.prepare import move
+from contact.kernels.geometry.search import axle
 from contact.kernels.geometry.settle import settle
 from contact.kernels.ledger import enter
 from contact.kernels.pipeline import solve_case
@@ -24,19 +25,25 @@ def _bounded(creepage):
 
 
 @kernel
-def _pressure_centre(strips, n):
-    """Return the moments ∬ y p dA and ∬ x p dA of the pressure [N m]. A strip carries π/2 p0 a per unit of width."""
-    by_y, by_x = 0.0, 0.0
+def _pressure_wrench(strips, n):
+    """Return the moments ∬ y p dA and ∬ x p dA of the pressure [N m], its lateral force [N] and the spin moment of this.
+
+    The last two vanish in a plane. A strip carries π/2 p0 a per unit of width.
+    """
+    by_y, by_x, lateral, spin = 0.0, 0.0, 0.0, 0.0
     for i in range(n):
         load = 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
         by_y += load * strips[Strip.Y, i]
         by_x += load * strips[Strip.XC, i]
-    return by_y, by_x
+        lateral += load * strips[Strip.TILT, i]
+        spin += load * strips[Strip.TILT, i] * strips[Strip.XC, i]
+    return by_y, by_x, lateral, spin
 
 
 @kernel
-def _report(patch, case, result, by_y, by_x, contact):
+def _report(patch, case, result, pressure, contact):
     """Fill the contact of one patch on the right side. Forces, moments and area are multiplied by the patch's share."""
+    by_y, by_x, _, _ = pressure
     share = patch.share
     contact.N, contact.Fx, contact.Fy = share * result.N, share * result.Fx, share * result.Fy
     contact.Mx, contact.My, contact.Mz = -share * by_y, share * by_x, share * result.Mz
@@ -53,22 +60,29 @@ def _report(patch, case, result, by_y, by_x, contact):
 
 
 @kernel
-def _add_wrench(contact, y_centre, z_centre, total):
-    """Add force and moment of a contact about the wheelset's centre (0, y, z), in track coordinates.
+def _add_wrench(contact, pressure, share, motion, total):
+    """Add force and moment of a contact about the wheelset's centre (0, y, z - radius), in track coordinates.
 
     The frame's axes are x, (0, c, s) and (0, -s, c); the pressure acts along -z of the frame.
     """
     c, s = math.cos(contact.angle), math.sin(contact.angle)
     fx, fy, n = contact.Fx, contact.Fy, contact.N
     y_force, z_force = fy * c + n * s, fy * s - n * c
-    x, y, z = contact.x, contact.y - y_centre, contact.z - z_centre
+    x, y, z = contact.x, contact.y - motion.y, contact.z - motion.z + motion.radius
     my, mz = contact.My, contact.Mz
+    # The pressure on a body of revolution has no moment about its axle. In one plane for all strips it has, under yaw,
+    # because each strip's own normal meets the axle and the plane's does not. That part is taken away.
+    _, _, lateral, spin = pressure
+    y_press, z_press = share * lateral * c + n * s, share * lateral * s - n * c
+    lx, ly, lz = axle(motion.roll, motion.yaw)
+    turning = lx * (y * z_press - z * y_press + contact.Mx) + ly * (-x * z_press + my * c - share * spin * s)
+    turning += lz * (x * y_press + my * s + share * spin * c)
     total.Fx += fx
     total.Fy += y_force
     total.Fz += z_force
-    total.Mx += y * z_force - z * y_force + contact.Mx
-    total.My += z * fx - x * z_force + my * c - mz * s
-    total.Mz += x * y_force - y * fx + my * s + mz * c
+    total.Mx += y * z_force - z * y_force + contact.Mx - turning * lx
+    total.My += z * fx - x * z_force + my * c - mz * s - turning * ly
+    total.Mz += x * y_force - y * fx + my * s + mz * c - turning * lz
     total.N += n
     total.used_friction += contact.used_friction * n
 
@@ -219,12 +233,12 @@ def _solve_at(mode, amount, given, z, enters, bench):
     for k in range(n):
         patch, contact = search.patches[k], bench.contacts[k]
         n_strips = solve_patch(k, mode == Height.LOAD, bench)
-        by_y, by_x = _pressure_centre(own.strips, n_strips)
-        _report(patch, case, result, by_y, by_x, contact)
+        pressure = _pressure_wrench(own.strips, n_strips)
+        _report(patch, case, result, pressure, contact)
         if n_strips > 0:
-            _add_wrench(contact, motion.y, motion.z - motion.radius, total)
+            _add_wrench(contact, pressure, patch.share, motion, total)
             _add_results(result, damage, patch.share, total)
-            if enters and bench.ledger.bins.shape[2] > 0:
+            if enters and bench.ledger.bins.shape[2] > 0 and bench.ledger.settings[0].distance > 0.0:
                 enter(patch, n_strips, damage, bench)
     total.z, total.n_patches = motion.z, n
     _compare_forces(total)

@@ -39,14 +39,16 @@ def write(path: Path, fingerprint: str, arrays: Mapping[str, NDArray]) -> None:
     os.replace(beside, path)
 
 
-def read(path: Path, fingerprint: str) -> dict[str, NDArray] | None:
-    """Return the arrays, or None if there is no such file.
+def read(path: Path, fingerprint: str, fresh: bool = False) -> dict[str, NDArray] | None:
+    """Return the arrays, or None if there is no such file. `fresh` removes the file.
 
     Raises
     ------
     ContactError
         If the file is not a checkpoint, or belongs to a run with other input, profiles or version of this package.
     """
+    if fresh:
+        path.unlink(missing_ok=True)
     if not path.exists():
         return None
     try:

@@ -14,9 +14,12 @@ from contact.cli.progress import progress_bar
 from models.life import checkpoint, declared_set, scenario
 from models.life.run import Run
 from models.life.scale import Workers
+from models.life.start import start
+from models.life.trust import Trust
 from models.life.wear import Life
+from models.vehicle.run import VehicleRun
 
-_STEPS = 100  # steps between two readings of the clock
+_SHOWN = 0.2  # between two changes of the progress bar [s]
 
 Declared = Annotated[Path, typer.Argument(help="TOML file.", show_default=False)]
 Out = Annotated[Path | None, typer.Option(help="Folder for the results; default out/ and the file's name.")]
@@ -30,42 +33,43 @@ def run(
     fresh: Fresh = False,
     every: Annotated[float, typer.Option(help="Seconds between two checkpoints.")] = 15.0,
 ) -> None:
-    """Run a scenario: a wheelset over a track, with time series, damage of wheels and rails, and a report.
+    """Run a scenario: a vehicle or a wheelset over a track, with time series, damage of wheels and rails, and a report.
 
     If the command is interrupted, call it again: it continues from the last checkpoint, with the same result bit for bit.
     """
     drawing()
     require_extra("xarray")
     folder = out or Path("out") / file.stem
-    started = Run(scenario.read(file))
+    started = start(scenario.read(file))
     complete(started, folder / "checkpoint.npz", fresh, every)
     _finish(started, folder)
 
 
-def complete(started: Run, path: Path, fresh: bool, every: float) -> None:
+def complete(started: Run | VehicleRun, path: Path, fresh: bool, every: float) -> None:
     """Complete a run, from its checkpoint if there is one, with a progress bar.
 
     Checkpoints are written to `path` every `every` seconds. `fresh` ignores an existing checkpoint.
     """
     fingerprint = started.scenario.fingerprint
-    saved = None if fresh else checkpoint.read(path, fingerprint)
+    saved = checkpoint.read(path, fingerprint, fresh)
     if saved is not None:
         started.restore(saved)
         typer.echo(f"continues at {started.distance:.1f} m from {path}", err=True)
-    looked = time.monotonic()
+    written = shown = time.monotonic()
     with progress_bar() as bar:
         try:
             while not started.done:
                 started.advance()
-                if started.steps % _STEPS:
-                    continue
-                bar(started.share, f"{started.distance:.0f} m of {started.scenario.name}")
-                if time.monotonic() - looked >= every:
+                now = time.monotonic()
+                if now - shown >= _SHOWN:
+                    bar(started.share, f"{started.distance:.0f} m of {started.scenario.name}")
+                    shown = now
+                if now - written >= every:
                     checkpoint.write(path, fingerprint, started.save())
-                    looked = time.monotonic()
+                    written = time.monotonic()
         except KeyboardInterrupt:
-            # The checkpoint on disk is complete, also if a step was interrupted. Only the last seconds are lost.
-            stop(f"interrupted at {started.distance:.1f} m; the same command continues from {path}", 130)
+            # A checkpoint on disk is complete, also if a step was interrupted. Only the last seconds are lost.
+            stop(f"interrupted at {started.distance:.1f} m; {_resumable(path)}", 130)
 
 
 @reported
@@ -75,48 +79,66 @@ def wear(
     fresh: Fresh = False,
     workers: Annotated[int, typer.Option(help="Processes of this machine; more than one need dask.")] = 1,
     scheduler: Annotated[str | None, typer.Option(help="Address of a dask scheduler, tcp://host:8786.")] = None,
+    go_on: Annotated[bool, typer.Option("--go-on", help="Go on if the energy of a run does not close.")] = False,
 ) -> None:
     """Compute the wear of a wheel over a mileage: run a set of scenarios, change the profile, and repeat.
 
     If the command is interrupted, call it again: it continues from the last complete step. The result does not depend on the
-    number of workers.
+    number of workers. It stops if the energy of a run does not close to 2 % of its dissipation.
     """
     drawing()
     require_extra("xarray")
     folder = out or Path("out") / file.stem
     life = Life(declared_set.read(file))
     path, fingerprint = folder / "checkpoint.npz", life.plan.fingerprint
-    saved = None if fresh else checkpoint.read(path, fingerprint)
+    saved = checkpoint.read(path, fingerprint, fresh)
     if saved is not None:
         life.restore(saved)
         typer.echo(f"continues at {1e-3 * life.mileage:.0f} km from {path}", err=True)
     try:
         with Workers(workers, scheduler) as pool, progress_bar() as bar:
             while not life.ended:
-                _wear_on(life, pool, bar)
+                _wear_on(life, pool, bar, go_on)
                 checkpoint.write(path, fingerprint, life.save())
     except ImportError as missing:
         stop(str(missing), 1)
     except KeyboardInterrupt:
-        stop(f"interrupted at {1e-3 * life.mileage:.0f} km; the same command continues from {path}", 130)
+        stop(f"interrupted at {1e-3 * life.mileage:.0f} km; {_resumable(path)}", 130)
     from models.life import wear_report
 
     _write(folder, lambda: wear_report.dataset(life), lambda: wear_report.page_of(life))
     typer.echo(f"{1e-3 * life.mileage:.0f} km in {len(life.wheels) - 1} steps, ended by {life.ended}", err=True)
+    _warn(life.trust)
 
 
-def _wear_on(life: Life, pool: Workers, bar: Callable[[float, str], None]) -> None:
+def _resumable(path: Path) -> str:
+    """Return what the same command will do."""
+    return f"the same command continues from {path}" if path.exists() else "there is no checkpoint yet"
+
+
+def _wear_on(life: Life, pool: Workers, bar: Callable[[float, str], None], go_on: bool) -> None:
     """Compute one wear step. The bar shows the mileage and the number of runs done in this step."""
     done, mileage = life.mileage / life.plan.declared.mileage, 1e-3 * life.mileage
-    life.step(pool, lambda k, n: bar(done, f"{mileage:.0f} km, run {k} of {n}"))
+    life.step(pool, lambda k, n: bar(done, f"{mileage:.0f} km, run {k} of {n}"), go_on=go_on)
 
 
-def _finish(finished: Run, folder: Path) -> None:
+def _finish(finished: Run | VehicleRun, folder: Path) -> None:
     """Write result and report to the folder, and delete the checkpoint."""
     from models.life import report, result
+    from models.vehicle import report as of_vehicle
 
-    _write(folder, lambda: result.dataset(finished), lambda: report.page_of(finished))
+    def page() -> str:
+        return report.page_of(finished) if isinstance(finished, Run) else of_vehicle.page_of(finished)
+
+    _write(folder, lambda: result.dataset(finished), page)
     (folder / "checkpoint.npz").unlink(missing_ok=True)
+    _warn(finished.trust)
+
+
+def _warn(trust: Trust) -> None:
+    """Print the warnings, each on a line of its own."""
+    for sentence in trust.warnings:
+        typer.echo(f"warning: {sentence}", err=True)
 
 
 def _write(folder: Path, dataset: Callable[[], Any], page: Callable[[], str]) -> None:

@@ -17,6 +17,9 @@ from models.life.declared import build, read_table
 from models.life.flange import Flange
 from models.life.scenario import Scenario
 
+#: A study in which the depth allows less than this share of the wished step stops.
+LEAST_SHARE = 0.01
+
 
 @dataclass(frozen=True, kw_only=True)
 class Share:
@@ -50,9 +53,21 @@ class Steps:
         require_number("smoothing", self.smoothing, 5e-4, 0.02)
 
     def length(self, rate: float, left: float) -> float:
-        """Return the mileage of a step [m] for a smoothed wear `rate` [m/m] and the remaining mileage `left` [m]."""
+        """Return the mileage of a step [m] for a smoothed wear `rate` [m/m] and the remaining mileage `left` [m].
+
+        Raises
+        ------
+        ContactError
+            If the depth allows less than `LEAST_SHARE` of the wished step.
+        """
         allowed = min(self.distance, left)
-        return min(allowed, self.depth / rate) if rate * allowed > self.depth else allowed
+        length = min(allowed, self.depth / rate) if rate * allowed > self.depth else allowed
+        if length < LEAST_SHARE * allowed:
+            raise ContactError(
+                f"a step of {1e-3 * allowed:g} km would wear off {1e6 * rate * allowed:.3g} µm at the deepest place. "
+                f"steps.depth = {1e6 * self.depth:g} µm allows {1e-3 * length:.3g} km, below {100.0 * LEAST_SHARE:g} % of it"
+            )
+        return length
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -127,8 +142,8 @@ def read(path: str | PathLike[str]) -> ScenarioSet:
     first = scenarios[0]
     for share, other in zip(declared.scenarios, scenarios, strict=True):
         same = np.array_equal(first.wheel.y, other.wheel.y) and np.array_equal(first.wheel.z, other.wheel.z)
-        if not same or (first.parameters.radius, first.declared.recording.bins, first.declared.damage) != (
-            other.parameters.radius,
+        if not same or (first.radius, first.declared.recording.bins, first.declared.damage) != (
+            other.radius,
             other.declared.recording.bins,
             other.declared.damage,
         ):

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import MISSING, Field, fields, is_dataclass
 from functools import partial
+from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from contact.study.page import document, faint, html_of, picture
 from contact.study.table import Table, number
 from models.life.harvest import BODIES
 from models.life.run import BALANCE, Run
+from models.life.trust import TRUST, Trust
 from models.wheelset.ports import SIDES
 
 if TYPE_CHECKING:
@@ -48,8 +50,17 @@ def _resized(figure: Figure, width: float) -> Figure:
     return figure
 
 
+def warned(trust: Trust) -> Iterator[str]:
+    """Yield the warnings as paragraphs in bold."""
+    for sentence in trust.warnings:
+        yield f"<p><strong>{escape(sentence)}</strong></p>"
+
+
 def _parts(run: Run) -> Iterator[str]:
+    trust = run.trust
+    yield from warned(trust)
     yield html_of(_summary(run))
+    yield html_of(trusted(trust))
     for heading, panels in _panels(run.series).items():
         yield f"<h2>{heading}</h2>"
         yield illustrated(partial(plot.time_histories, run.series["distance"], panels, xlabel="distance [m]"), heading)
@@ -58,7 +69,7 @@ def _parts(run: Run) -> Iterator[str]:
         if not all(h.distance > 0.0 for h in both.values()):
             continue
         yield f"<h2>Damage of the {body}s</h2>"
-        yield html_of(_damage(both))
+        yield html_of(damaged(both))
         yield illustrated(
             partial(plot.wear, both, f"wear of both {body}s: the share of each in their mean"),
             f"Wear over the profile of the {body}s",
@@ -68,7 +79,7 @@ def _parts(run: Run) -> Iterator[str]:
     yield faint("; ".join(f"{name}: {what}" for name, what in BALANCE.items()) + ".")
     yield "<h2>Declaration</h2>"
     for entry in fields(run.scenario.declared):
-        yield faint(f"{entry.name}: {_told(getattr(run.scenario.declared, entry.name))}")
+        yield faint(f"{entry.name}: {told(getattr(run.scenario.declared, entry.name))}")
     yield faint(f"fingerprint {run.scenario.fingerprint}, step {1e3 * run.scenario.step:.4g} ms, {run.steps} steps")
 
 
@@ -100,7 +111,7 @@ def _summary(run: Run) -> Table:
     s, wheels = run.series, [run.harvest.histograms[side, "wheel"] for side in SIDES]
     rows = [("samples", str(s["distance"].size))]
     if s["distance"].size:
-        ratio = max(np.abs(s[f"{side}_lateral_force"] / s[f"{side}_vertical_force"]).max() for side in SIDES)
+        ratio = max(_quotient(s[f"{side}_lateral_force"], s[f"{side}_vertical_force"]) for side in SIDES)
         rows += [
             ("lateral displacement, greatest", f"{1e3 * np.abs(s['lateral'] - s['alignment']).max():.3g} mm"),
             ("lateral over vertical force, greatest", f"{ratio:.3g}"),
@@ -113,7 +124,20 @@ def _summary(run: Run) -> Table:
     return Table("The run in numbers", [("", ""), ("", "")], rows)
 
 
-def _damage(both: dict[str, Histogram]) -> Table:
+def _quotient(lateral: np.ndarray, vertical: np.ndarray) -> float:
+    """Return the largest |Y/Q| of the samples in which the wheel carries a load; 0 if there are none."""
+    loaded = vertical > 0.0
+    return float(np.abs(lateral[loaded] / vertical[loaded]).max(initial=0.0))
+
+
+def trusted(trust: Trust) -> Table:
+    """Return the measures of trust as a table."""
+    rows = [(TRUST[name][1], number(value)) for name, value in trust.as_dict().items()]
+    return Table("How far to trust it", [("", ""), ("", "")], rows)
+
+
+def damaged(both: dict[str, Histogram]) -> Table:
+    """Return the damage of wheels or of rails, by name, as a table."""
     rows = []
     for side, h in both.items():
         rolled = h.distance
@@ -131,7 +155,7 @@ def _damage(both: dict[str, Histogram]) -> Table:
     return Table(
         "Per kilometre rolled",
         [
-            ("side", ""),
+            ("", ""),
             ("worn", "mm³/km"),
             ("deepest", deepest),
             ("mean T-gamma", "N"),
@@ -151,18 +175,18 @@ def _energy(run: Run) -> Table:
     )
 
 
-def _told(value: object) -> str:
+def told(value: object) -> str:
     """Return a declared value as text. Members with their default value are left out."""
     if isinstance(value, tuple):
-        return "; ".join(map(_told, value)) or "none"
+        return "; ".join(map(told, value)) or "none"
     if not is_dataclass(value):
         return str(value)
-    told = [
-        f"{entry.name} {_told(member)}"
+    changed = [
+        f"{entry.name} {told(member)}"
         for entry in fields(value)
         if (member := getattr(value, entry.name)) != _default(entry)
     ]
-    return ", ".join(told) or "default"
+    return ", ".join(changed) or "default"
 
 
 def _default(entry: Field[Any]) -> object:

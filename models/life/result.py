@@ -9,25 +9,25 @@ from typing import Any
 
 from contact.accumulation import Histogram, from_xarray, to_xarray
 from contact.errors import ContactError
-from models.life.harvest import BODIES
-from models.life.run import BALANCE, COLUMNS, Run
-from models.wheelset.ports import SIDES
+from models.life.run import BALANCE, Run
+from models.vehicle.run import VehicleRun
 
 FORMAT = "wheelrail-contact run 1"
 
 
-def dataset(run: Run) -> Any:
+def dataset(run: Run | VehicleRun) -> Any:
     """Return the result as an `xarray.Dataset`: time series over `distance`, and histograms of damage.
 
-    The names of the histograms have prefixes like ``right_wheel_``. The attributes contain the scenario, and energies with
-    the prefix ``balance_`` (`models.life.run.BALANCE`). The same scenario gives the same bytes at any time and on any
+    The names of the histograms have prefixes like ``right_wheel_``, of a vehicle like ``wheelset_1_right_wheel_``. The
+    attributes contain the scenario, energies with the prefix ``balance_`` (`models.life.run.BALANCE`), and measures of trust
+    with the prefix ``trust_`` (`models.life.trust.TRUST`). The same scenario gives the same bytes at any time and on any
     machine.
     """
     import xarray
 
     scenario = run.scenario
     series = {
-        name: ("distance", values, {"units": COLUMNS[name][0], "long_name": COLUMNS[name][1]})
+        name: ("distance", values, {"units": run.columns[name][0], "long_name": run.columns[name][1]})
         for name, values in run.series.items()
     }
     attributes = {
@@ -37,26 +37,27 @@ def dataset(run: Run) -> Any:
         "scenario": repr(scenario.declared),
         "draw": json.dumps(scenario.draw),
         "fingerprint": scenario.fingerprint,
-        "step": scenario.step,
+        "step": run.step,
         **{f"balance_{name}": value for name, value in run.balance.items()},
+        **{f"trust_{name}": value for name, value in run.trust.as_dict().items()},
+        "warnings": " ".join(run.trust.warnings),
     }
     distance = series.pop("distance")
     whole = xarray.Dataset(series, {"distance": distance}, attributes)
-    for side in SIDES:
-        for body in BODIES:
-            whole = _joined(whole, to_xarray(run.harvest.histograms[side, body]), _prefix(side, body))
+    for key, histogram in run.damage().items():
+        whole = _joined(whole, to_xarray(histogram), _prefix(key))
     return whole
 
 
-def histogram(stored: Any, side: str, body: str) -> Histogram:
+def histogram(stored: Any, *key: str) -> Histogram:
     """Return one histogram of a result.
 
     Parameters
     ----------
     stored : xarray.Dataset
         Dataset from `dataset`, or read from its file.
-    side : {"right", "left"}
-    body : {"wheel", "rail"}
+    *key : str
+        "right" or "left", and "wheel" or "rail"; before them the name of the wheelset, if the run is that of a vehicle.
 
     Raises
     ------
@@ -65,7 +66,7 @@ def histogram(stored: Any, side: str, body: str) -> Histogram:
     """
     if stored.attrs.get("format") != FORMAT:
         raise ContactError(f"format = {stored.attrs.get('format')!r}: the dataset is not a {FORMAT}")
-    prefix = _prefix(side, body)
+    prefix = _prefix(key)
     own = stored[[name for name in stored.variables if str(name).startswith(prefix)]]
     names = {name: str(name).removeprefix(prefix) for name in [*own.variables, *own.dims]}
     own = own.rename({name: new for name, new in names.items() if name in own.variables or name in own.dims})
@@ -78,8 +79,8 @@ def write(whole: Any, path: str | PathLike[str]) -> None:
     whole.to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
 
 
-def _prefix(side: str, body: str) -> str:
-    return f"{side}_{body}_"
+def _prefix(key: tuple[str, ...]) -> str:
+    return "".join(f"{part.replace(' ', '_')}_" for part in key)
 
 
 def _joined(whole: Any, part: Any, prefix: str) -> Any:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact import Status
+from contact.accumulation import Histogram
 from contact.errors import ContactError
 from contact.geometry.wheelset import Pose, Velocity
 from contact.resultants import CaseForces
@@ -16,7 +17,8 @@ from models.life.harvest import Harvest
 from models.life.plane import PlaneContact
 from models.life.scenario import Scenario
 from models.life.track import Place
-from models.wheelset import dynamics
+from models.life.trust import IMPACT, Trust
+from models.wheelset import dynamics, stability
 from models.wheelset.model import WheelsetModel
 from models.wheelset.ports import CREEPAGE, LOAD, SIDES
 
@@ -65,7 +67,7 @@ BALANCE = {
 
 
 class Book(IntEnum):
-    """Entries of the energy balance of a run. The last two are values of the second step."""
+    """Entries of the energy balance of a run. INTERFACE_FIRST and ELASTIC_FIRST are values of the second step."""
 
     DISSIPATED = 0
     ALIGNMENT = 1
@@ -74,6 +76,8 @@ class Book(IntEnum):
     UNTRUSTED = 4
     INTERFACE_FIRST = 5
     ELASTIC_FIRST = 6
+    IMPACTS = 7
+    LIFTED = 8
 
 
 class Run:
@@ -102,7 +106,8 @@ class Run:
         self.harvest = Harvest(scenario)
         self.steps, self.distance = 0, 0.0
         self._sampled = scenario.declared.recording.settling  # distance of the last sample of damage [m]
-        self._books, self._power = np.zeros(7), 0.0
+        self._books, self._power = np.zeros(len(Book)), 0.0
+        self._loads = np.full(len(SIDES), 0.5 * self._p.axle_load)  # normal forces of the last step [N]
         self._rows: list[Array] = []
 
     @property
@@ -151,6 +156,11 @@ class Run:
             elastic += 0.4 * float(problem[LOAD] * a.approach)
             lateral += float(a.Fy * np.cos(angle) + problem[LOAD] * np.sin(angle))
             books[Book.UNTRUSTED] += a.status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)
+        loads = np.array([problem[LOAD] for problem in problems])
+        high = IMPACT * 0.5 * self._p.axle_load
+        books[Book.IMPACTS] += int(((loads > high) & (self._loads <= high)).sum())
+        books[Book.LIFTED] += int(((loads <= 0.0) & (self._loads > 0.0)).sum())
+        self._loads = loads
         if self.steps > 1:
             books[Book.DISSIPATED] += 0.5 * (power + self._power) * self._h
             books[Book.ALIGNMENT] -= lateral * speed * slope * self._h
@@ -189,6 +199,20 @@ class Run:
         self._rows.append(np.array(row))
 
     @property
+    def columns(self) -> dict[str, tuple[str, str]]:
+        """Column of the time series → unit and meaning."""
+        return COLUMNS
+
+    @property
+    def step(self) -> float:
+        """Step of the coupled system [s]."""
+        return self._h
+
+    def damage(self) -> dict[tuple[str, str], Histogram]:
+        """Return the damage of both wheels and rails: (side, "wheel" or "rail") → histogram."""
+        return {(side, body): histogram for (side, body), histogram in self.harvest.histograms.items()}
+
+    @property
     def series(self) -> dict[str, Array]:
         """The time series, a column each of `COLUMNS`."""
         rows = np.array(self._rows).reshape(-1, len(COLUMNS))
@@ -198,10 +222,29 @@ class Run:
     def balance(self) -> dict[str, float]:
         """Energies of the whole run [J], with the names of `BALANCE`."""
         interface, drive, damper, _ = self._model.energy().tolist()
-        dissipated, alignment, elastic, counted, untrusted, interface_first, elastic_first = self._books.tolist()
+        dissipated, alignment, elastic, counted, untrusted, interface_first, elastic_first, *_ = self._books.tolist()
         left, stored = interface - interface_first, elastic - elastic_first
         values = (drive, damper, left, dissipated, alignment, stored, left - dissipated - alignment - stored)
         return dict(zip(BALANCE, (*values, counted, float(self.harvest.energy.sum()), untrusted), strict=True))
+
+    @property
+    def energy(self) -> float:
+        """Frictional energy of both wheels where damage was counted [J]."""
+        return float(self.harvest.energy.sum())
+
+    @property
+    def trust(self) -> Trust:
+        """How far the run can be trusted."""
+        balance = self.balance
+        residual = balance["residual"] / balance["dissipated"] if balance["dissipated"] > 0.0 else 0.0
+        critical = stability.critical_speed(self._p, self.scenario.friction.static)
+        return Trust(
+            residual=residual,
+            impacts=float(self._books[Book.IMPACTS]),
+            lifted=float(self._books[Book.LIFTED]),
+            untrusted=balance["untrusted"],
+            speed_ratio=self.scenario.fastest / critical,
+        )
 
     def save(self) -> dict[str, Array]:
         """Return the whole state of the run as arrays."""
@@ -209,6 +252,7 @@ class Run:
             "model": np.frombuffer(self._model.save()),
             "progress": np.array([self.steps, self.distance, self._sampled, self._power, self._h]),
             "books": self._books.copy(),
+            "loads": self._loads.copy(),
             "rows": np.array(self._rows).reshape(-1, len(COLUMNS)),
             **self.harvest.save(),
         }
@@ -219,6 +263,7 @@ class Run:
         steps, self.distance, self._sampled, self._power, self._h = saved["progress"].tolist()
         self.steps = int(steps)
         self._books[:] = saved["books"]
+        self._loads = saved["loads"].copy()
         self._rows = list(saved["rows"])
         self.harvest.restore(saved)
 

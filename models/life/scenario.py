@@ -9,7 +9,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from contact.damage import DamageParameters
+from contact.damage import Burstow, DamageParameters
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry import profile
@@ -20,6 +20,8 @@ from contact.solver import N_ELEMENTS, N_STRIPS, require_resolution
 from models.life.declared import build, read_table
 from models.life.track import Line, Speed, Track
 from models.life.vehicle import Vehicle
+from models.vehicle.declared import VehicleDeclaration
+from models.vehicle.declared import read as read_vehicle
 from models.wheelset.parameters import WheelsetParameters
 
 _CREEP_COEFFICIENT = (
@@ -104,6 +106,8 @@ class Declaration:
     length : distance to run [m], longer than recording.settling
     speed : a number [m/s], 1 to 150, or a `Speed`
     seed : seed of the random irregularities, not negative
+    vehicle : file of a vehicle relative to the scenario's file, or one of the included ones, `manchester` and `wheelset`
+        (`models.vehicle`). Without it the run is that of the quasi-static wheelset of the table `wheelset`.
     track, wheelset, friction, profiles, methods, damage, recording : separate tables
     """
 
@@ -111,6 +115,7 @@ class Declaration:
     length: float
     speed: float | Speed
     seed: int = 0
+    vehicle: str | None = None
     track: Track = field(default_factory=Track)
     wheelset: Vehicle = field(default_factory=Vehicle)
     friction: float | Friction = 0.3
@@ -124,6 +129,18 @@ class Declaration:
         require_number("seed", self.seed, 0)
         if isinstance(self.speed, float):
             require_number("speed", self.speed, 1.0, 150.0)
+        if self.vehicle is None:
+            for name in ("vertical", "cross_level", "gauge", "measured", "friction"):
+                if getattr(self.track, name) is not None:
+                    raise ContactError(
+                        f"track.{name} needs a vehicle; the quasi-static wheelset takes the alignment only"
+                    )
+        elif self.wheelset != Vehicle():
+            raise ContactError(f"wheelset and vehicle = {self.vehicle!r} exclude each other")
+        if self.damage.burstow != Burstow():
+            raise ContactError(
+                "damage.burstow: a run does not accumulate Burstow's index, so its constants would have no effect; remove it"
+            )
         factor = as_friction(self.friction).gauge_factor
         if factor != 1.0:
             raise ContactError(
@@ -142,12 +159,15 @@ class Scenario:
         Profiles of the right side. The left side is the mirror image.
     draw : tuple of int
         Number of the realisation of the irregularities, in addition to the seed. In a wear run it is the mileage step.
+    vehicle : VehicleDeclaration, optional
+        None is the quasi-static wheelset of `models.wheelset`.
     """
 
     declared: Declaration
     wheel: Profile
     rail: Profile
     draw: tuple[int, ...] = ()
+    vehicle: VehicleDeclaration | None = None
 
     @property
     def name(self) -> str:
@@ -157,6 +177,23 @@ class Scenario:
         """Return the speed [m/s] at the distance `s` [m]."""
         given = self.declared.speed
         return given(s) if isinstance(given, Speed) else given
+
+    @property
+    def radius(self) -> float:
+        """Nominal radius of the wheels [m]."""
+        return self.parameters.radius if self.vehicle is None else self.vehicle.radius
+
+    @property
+    def fastest(self) -> float:
+        """Greatest speed of the scenario [m/s]."""
+        given = self.declared.speed
+        return max(given.values) if isinstance(given, Speed) else given
+
+    @property
+    def slowest(self) -> float:
+        """Least speed of the scenario [m/s]."""
+        given = self.declared.speed
+        return min(given.values) if isinstance(given, Speed) else given
 
     @property
     def parameters(self) -> WheelsetParameters:
@@ -173,9 +210,8 @@ class Scenario:
         given = self.declared.recording.step
         if given is not None:
             return given
-        p, speeds = self.parameters, self.declared.speed
-        slowest = min(speeds.values) if isinstance(speeds, Speed) else speeds
-        stable = p.spin_inertia * slowest / (_CREEP_COEFFICIENT * p.radius**2)
+        p = self.parameters
+        stable = p.spin_inertia * self.slowest / (_CREEP_COEFFICIENT * p.radius**2)
         return min(_LONGEST_STEP, _SHARE_OF_STABLE * stable * min(1.0, (109.1e3 / p.axle_load) ** (2.0 / 3.0)))
 
     def line(self) -> Line:
@@ -190,7 +226,11 @@ class Scenario:
     @property
     def fingerprint(self) -> str:
         """Hash of the input. Runs with the same fingerprint have the same result."""
-        digest = hashlib.sha256(f"{version('wheelrail-contact')} {self.declared!r} {self.draw!r}".encode())
+        digest = hashlib.sha256(
+            f"{version('wheelrail-contact')} {self.declared!r} {self.vehicle!r} {self.draw!r}".encode()
+        )
+        if self.declared.track.measured is not None:
+            digest.update(Path(self.declared.track.measured).read_bytes())
         for shape in (self.wheel, self.rail):
             for row in (shape.y, shape.z, shape.angle):
                 digest.update(row.tobytes())
@@ -212,8 +252,16 @@ def read(path: str | PathLike[str]) -> Scenario:
 def from_table(table: dict[str, Any], path: Path) -> Scenario:
     """Return the scenario from the tables of the file `path`."""
     declared = build(Declaration, table, path.name)
+    if declared.track.measured is not None:
+        measured = path.parent / declared.track.measured
+        if not measured.is_file():
+            raise ContactError(f"{path.name}.track.measured = {declared.track.measured!r} is no file beside it")
+        declared = replace(declared, track=replace(declared.track, measured=str(measured)))
     try:
         wheel, rail = declared.profiles.load(path.parent)
     except (ContactError, OSError) as error:
         raise ContactError(f"{path.name}.profiles: {error}") from None
-    return Scenario(declared, wheel, rail)
+    if declared.vehicle is None:
+        return Scenario(declared, wheel, rail)
+    beside = path.parent / declared.vehicle
+    return Scenario(declared, wheel, rail, vehicle=read_vehicle(beside if beside.is_file() else declared.vehicle))

@@ -8,9 +8,12 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contact.errors import ContactError, require_number
-from models.life.spectra import Irregularities, Realisation
+from models.life.spectra import CHANNELS, Irregularities, Realisation
+
+Array = NDArray[np.float64]
 
 RAIL_DISTANCE = 1.5  # distance of the rails' centres, over which cant is measured [m]
 
@@ -56,13 +59,55 @@ class Curve:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Friction:
+    """Factors on the coefficient of friction along the track, interpolated linearly, constant beyond the ends.
+
+    Parameters
+    ----------
+    at : distances [m], increasing
+    right, left : factors of both rails at these distances, 0 to 5
+    """
+
+    at: tuple[float, ...]
+    right: tuple[float, ...]
+    left: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        if not len(self.at) == len(self.right) == len(self.left) > 0:
+            raise ContactError(f"at, right and left have {len(self.at)}, {len(self.right)} and {len(self.left)} values")
+        for k, place in enumerate(self.at):
+            require_number(f"at[{k}]", place, self.at[k - 1] if k else -math.inf, open_minimum=k > 0)
+            require_number(f"right[{k}]", self.right[k], 0.0, 5.0)
+            require_number(f"left[{k}]", self.left[k], 0.0, 5.0)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Track:
-    """A track that is straight outside its `curves`, which must not overlap. `alignment` is random, or None."""
+    """A track that is straight outside its `curves`, which must not overlap.
+
+    Parameters
+    ----------
+    curves : tuple of Curve
+    alignment, vertical, cross_level, gauge : Irregularities, optional
+        Random irregularities: of the centre line to the right, of its height downwards, of the angle by which the left rail
+        lies higher, and of the gauge.
+    measured : str, optional
+        Station series instead: path of a CSV file with the columns distance, alignment, vertical, cross_level, gauge
+        [m, m, m, rad, m] in this order, with a line of headings.
+    friction : Friction, optional
+    """
 
     curves: tuple[Curve, ...] = ()
     alignment: Irregularities | None = None
+    vertical: Irregularities | None = None
+    cross_level: Irregularities | None = None
+    gauge: Irregularities | None = None
+    measured: str | None = None
+    friction: Friction | None = None
 
     def __post_init__(self) -> None:
+        if self.measured is not None and any(getattr(self, channel) for channel in CHANNELS):
+            raise ContactError(f"measured = {self.measured!r} excludes random irregularities")
         ordered = sorted(self.curves, key=lambda curve: curve.start)
         for before, after in itertools.pairwise(ordered):
             if after.start < before.end:
@@ -70,6 +115,53 @@ class Track:
                     f"curves: the curve that starts at {after.start:g} m overlaps the previous curve, which ends at "
                     f"{before.end:g} m"
                 )
+
+    def channels(self, seed: tuple[int, ...], s: Array, settling: float) -> tuple[Array, ...]:
+        """Return values and slopes of alignment, vertical, cross-level and gauge at the distances `s` [m], shape (2, n) each.
+
+        They grow from zero over the first `settling` metres. The channels have independent random numbers.
+        """
+        if self.measured is not None:
+            found = _measured(self.measured, s)
+        else:
+            found = [np.zeros((2, s.size)) for _ in CHANNELS]
+            for k, channel in enumerate(CHANNELS):
+                declared: Irregularities | None = getattr(self, channel)
+                if declared is not None:
+                    found[k] = declared.realise(seed if k == 0 else (*seed, k), channel).over(s)
+        grown, growth = np.array([_grown(place, settling) for place in s]).T
+        return tuple(np.stack((grown * y, grown * rise + growth * y)) for y, rise in found)
+
+    def friction_at(self, s: Array) -> tuple[Array, Array]:
+        """Return the factors on the coefficient of friction of the right and the left rail."""
+        if self.friction is None:
+            return np.ones(s.size), np.ones(s.size)
+        right, left = (np.interp(s, self.friction.at, each) for each in (self.friction.right, self.friction.left))
+        return right, left
+
+
+def _measured(path: str, s: Array) -> list[Array]:
+    """Return values and slopes of the channels of a station series at `s`, constant beyond its ends."""
+    try:
+        rows = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+    except (OSError, ValueError) as error:
+        raise ContactError(f"measured = {path!r}: {error}") from None
+    if rows.shape[0] < 4 or rows.shape[1] != 1 + len(CHANNELS) or not (np.diff(rows[:, 0]) > 0.0).all():
+        raise ContactError(
+            f"measured = {path!r} needs the columns distance, {', '.join(CHANNELS)} and at least four rising distances"
+        )
+    inside = np.clip(s, rows[0, 0], rows[-1, 0])
+    slopes = np.gradient(rows[:, 1:], rows[:, 0], axis=0)
+    k = np.clip(np.searchsorted(rows[:, 0], inside, "right") - 1, 0, rows.shape[0] - 2)
+    width = rows[k + 1, 0] - rows[k, 0]
+    t = (inside - rows[k, 0]) / width
+    found = []
+    for c in range(len(CHANNELS)):  # Hermite's cubic with central differences as slopes
+        a, b, ma, mb = rows[k, 1 + c], rows[k + 1, 1 + c], width * slopes[k, c], width * slopes[k + 1, c]
+        second, third = 3.0 * (b - a) - 2.0 * ma - mb, 2.0 * (a - b) + ma + mb
+        value, slope = a + t * (ma + t * (second + t * third)), (ma + t * (2.0 * second + 3.0 * t * third)) / width
+        found.append(np.stack((value, np.where(inside == s, slope, 0.0))))
+    return found
 
 
 class Place(NamedTuple):

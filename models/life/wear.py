@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from functools import reduce
 from operator import add
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,11 +16,10 @@ from contact.geometry import conicity
 from contact.geometry.profile import Profile
 from models.life.declared_set import ScenarioSet
 from models.life.flange import Flange
-from models.life.harvest import Harvest
-from models.life.run import Run
 from models.life.scale import Workers
 from models.life.scenario import Scenario
-from models.wheelset.ports import SIDES
+from models.life.start import start
+from models.life.trust import TRUST, Trust, worst
 
 Array = NDArray[np.float64]
 
@@ -36,23 +36,33 @@ COLUMNS = {
     "flange_thickness": ("m", "Sd"),
     "qR": ("m", "qR"),
     "tread_depth": ("m", "depth worn off at the tape circle since the start"),
-    "untrusted": ("1", "contacts without a trustworthy solution in the runs of the step"),
+    **{name: (unit, f"{what}: worst of the runs, or sum") for name, (unit, what) in TRUST.items()},
 }
 
 
-def harvest(scenario: Scenario) -> dict[str, Array]:
-    """Run a scenario. Return its damage as from `Harvest.save`, and the number of contacts without trustworthy solution."""
-    run = Run(scenario)
+class Worn(NamedTuple):
+    """What a run has done to its wheels: the sum of their histograms, their frictional energy [J], and how far to trust it."""
+
+    wheels: Histogram
+    energy: float
+    trust: Trust
+
+
+def harvest(scenario: Scenario) -> Worn:
+    """Run a scenario and return the damage of all its wheels together."""
+    run = start(scenario)
     while not run.done:
         run.advance()
-    return run.harvest.save() | {"untrusted": np.array(run.balance["untrusted"])}
+    wheels = reduce(add, (each for key, each in run.damage().items() if key[-1] == "wheel"))
+    return Worn(wheels, run.energy, run.trust)
 
 
 class Life:
     """Wear of a wheel under a set of scenarios.
 
-    Both wheels of the wheelset have the same wear, the mean over both wheels of the runs. This corresponds to as many curves
-    to the right as to the left. The rails do not wear. Each step has its own realisation of the irregularities.
+    All wheels have the same wear, the mean over the wheels of the runs. This corresponds to as many curves to the right as to
+    the left, and to a vehicle that is turned now and then. The rails do not wear. Each step has its own realisation of the
+    irregularities.
 
     Attributes
     ----------
@@ -95,7 +105,9 @@ class Life:
             return limit
         return "mileage" if self.mileage >= self.plan.declared.mileage else ""
 
-    def step(self, workers: Workers, watch: Callable[[int, int], None] = lambda done, total: None) -> None:
+    def step(
+        self, workers: Workers, watch: Callable[[int, int], None] = lambda done, total: None, *, go_on: bool = False
+    ) -> None:
         """Run all scenarios on the present wheel, and wear it up to the limits of a step (`Steps`).
 
         Parameters
@@ -103,19 +115,27 @@ class Life:
         workers : Workers
         watch : callable
             Called with the number of runs done and the total number.
+        go_on : bool
+            Wear the profile also if the energy of a run does not close (`models.life.trust`).
 
         Raises
         ------
         ContactError
-            If a run fails, as `Run.advance`, or if there is no wear.
+            If a run fails, as `Run.advance`, if its energy does not close, if there is no wear, or if the steps become too
+            short (`Steps.length`). The wheel is then as before.
         """
         number = len(self.wheels) - 1
         scenarios = [each.worn(self.wheel, number) for each in self.plan.scenarios]
         found = workers.map(harvest, scenarios, watch)
-        harvests = [Harvest(each) for each in scenarios]
-        for each, saved in zip(harvests, found, strict=True):
-            each.restore(saved)
-        per_metre = [self._share(each, w) for each, w in zip(harvests, self.plan.weights, strict=True)]
+        trusts = [each.trust for each in found]
+        trust = worst(trusts)
+        if not trust.closes and not go_on:
+            which = scenarios[trusts.index(max(trusts, key=lambda each: abs(each.residual)))]
+            raise ContactError(f"{self.plan.name}: step {number + 1}, {which.name}: {trust.warnings[0]}")
+        per_metre = [
+            each.wheels.scaled(weight / each.wheels.distance)
+            for each, weight in zip(found, self.plan.weights, strict=True)
+        ]
         smoothing = self.plan.declared.steps.smoothing
         total = reduce(add, per_metre)
         rate = float(_depth(self.wheel, worn_profile(total, smoothing=smoothing)).max())
@@ -126,24 +146,23 @@ class Life:
         wheel = Profile("wheel", worn.y, worn.z, worn.angle, self.plan.wheel.name)
         for k, histogram in enumerate(per_metre):
             self.shares[k] += _depth(self.wheel, worn_profile(histogram, length, smoothing=smoothing))
-        energies = [float(each.energy.sum()) / _rolled(each) for each in harvests]
+        energies = [each.energy / each.wheels.distance for each in found]
         booked = {
             "deepest": length * rate,
             "area": length * float(total["wear"].sum()) * total.width,
             "area_smoothed": _area_between(self.wheel, wheel),
             "mass": DENSITY * length * total.volume,
             "energy": length * float(np.dot(self.plan.weights, energies)),
-            "untrusted": float(sum(saved["untrusted"] for saved in found)),
+            **trust.as_dict(),
         }
         self.rows.append(self._row(self.mileage + length, booked, wheel))
         self.wheels.append(wheel)
         self.conicities.append(self._conicity(wheel))
 
-    @staticmethod
-    def _share(each: Harvest, weight: float) -> Histogram:
-        """Return a scenario's share of the damage per metre of the mix, as the mean of both wheels."""
-        both = reduce(add, (each.histograms[side, "wheel"] for side in SIDES))
-        return both.scaled(weight / both.distance)
+    @property
+    def trust(self) -> Trust:
+        """How far the runs of all steps can be trusted."""
+        return worst([Trust(*(float(row[list(COLUMNS).index(name)]) for name in TRUST)) for row in self.rows])
 
     def _row(self, mileage: float, booked: dict[str, float], wheel: Profile) -> Array:
         size = Flange.measured(wheel)
@@ -157,10 +176,11 @@ class Life:
         return np.array([(booked | told).get(name, 0.0) for name in COLUMNS])
 
     def _conicity(self, wheel: Profile) -> Array:
-        p = self.plan.scenarios[0].parameters
+        first = self.plan.scenarios[0]
+        p = first.vehicle or first.parameters
         found = conicity(
             wheel,
-            p.rail,
+            first.rail,
             self.plan.declared.amplitudes,
             nominal_radius=p.radius,
             gauge=p.gauge,
@@ -184,11 +204,6 @@ class Life:
         self.rows, self.conicities = list(saved["rows"]), list(saved["conicities"])
         self.wheels = [self.plan.wheel, *(Profile("wheel", y, z, angle, name) for y, z, angle in saved["wheels"][1:])]
         self.shares[:] = saved["shares"]
-
-
-def _rolled(each: Harvest) -> float:
-    """Return the sum of the distances of both wheels [m]."""
-    return float(sum(each.histograms[side, "wheel"].distance for side in SIDES))
 
 
 def _depth(before: Profile, after: Profile) -> Array:

@@ -12,7 +12,8 @@ import numpy as np
 from contact import plot
 from contact.study.page import document, faint, html_of
 from contact.study.table import Table, number
-from models.life.report import illustrated
+from models.life.report import illustrated, warned
+from models.life.trust import TRUST
 from models.life.wear import COLUMNS, DENSITY, Life
 
 FORMAT = "wheelrail-contact wear run 1"
@@ -61,6 +62,7 @@ def dataset(life: Life) -> Any:
         "scenarios": json.dumps([repr(each.declared) for each in life.plan.scenarios]),
         "fingerprint": life.plan.fingerprint,
         "ended": life.ended,
+        "warnings": " ".join(life.trust.warnings),
     }
     return xarray.Dataset(variables, coordinates, attributes)
 
@@ -71,13 +73,14 @@ def page_of(life: Life) -> str:
     about = [
         f"{life.mileage * _KM:.0f} km in {len(life.wheels) - 1} steps, ended by: {life.ended or 'nothing yet'}. "
         f"A step wears off at most {1e6 * steps.depth:g} µm; its depth is smoothed over {1e3 * steps.smoothing:g} mm.",
-        "Both wheels have the same wear, the mean over both wheels of the runs. The rails do not wear. The law is Archard's "
+        "All wheels have the same wear, the mean over the wheels of the runs. The rails do not wear. The law is Archard's "
         "with the KTH map for dry steel. The amount of wear depends on its constants (docs/theory.md), the shape less so.",
     ]
     return document(life.plan.name, about, _parts(life))
 
 
 def _parts(life: Life) -> Iterator[str]:
+    yield from warned(life.trust)
     yield html_of(_steps(life))
     before, after = life.plan.wheel, life.wheel
     deepest = float(np.hypot(after.y - before.y, after.z - before.z).max())
@@ -147,7 +150,7 @@ def _steps(life: Life) -> Table:
 def _balance(life: Life) -> Table:
     mass, energy = float(life["mass"].sum()), float(life["energy"].sum())
     area, smoothed = float(life["area"].sum()), float(life["area_smoothed"].sum())
-    whole = 2.0 * np.pi * life.plan.scenarios[0].parameters.radius * area
+    whole = 2.0 * np.pi * life.plan.scenarios[0].radius * area
     rows = [
         ("cross-section worn off, before smoothing", number(1e6 * area), "mm²"),
         ("the same between the profiles, after smoothing", number(1e6 * smoothed), "mm²"),
@@ -156,6 +159,6 @@ def _balance(life: Life) -> Table:
         ("mass worn off a wheel", number(1e3 * mass), "g"),
         ("frictional energy of a wheel", number(1e-6 * energy), "MJ"),
         ("mass for energy", number(1e9 * mass / energy) if energy > 0.0 else "", "µg/J"),
-        ("contacts without a trustworthy solution", number(float(life["untrusted"].sum())), ""),
+        *((what, number(life.trust.as_dict()[name]), "") for name, (_, what) in TRUST.items()),
     ]
     return Table("Energy and worn mass", [("", ""), ("value", ""), ("", "unit")], rows)

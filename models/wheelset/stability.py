@@ -74,15 +74,17 @@ def critical_speed(
 ) -> float:
     """Return the speed [m/s] within `bounds` at which `growth` becomes positive, by bisection to `tolerance`.
 
-    The result is nan if `growth` is positive at the lower bound or not positive at the upper bound.
+    The result is inf if `growth` is not positive at the upper bound, and the lower bound if it is positive there.
     """
     low, high = bounds
 
     def unstable(speed: float) -> bool:
         return growth(dataclasses.replace(parameters, speed=speed), friction, amplitude) > 0.0
 
-    if unstable(low) or not unstable(high):
-        return math.nan
+    if not unstable(high):
+        return math.inf
+    if unstable(low):
+        return low
     while high - low > tolerance:
         middle = 0.5 * (low + high)
         low, high = (low, middle) if unstable(middle) else (middle, high)

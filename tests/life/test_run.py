@@ -1,7 +1,5 @@
 """Runs: reproducibility, linear growth, energy, files."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -9,30 +7,19 @@ from contact.accumulation import SUMS
 from contact.errors import ContactError
 from models.life import checkpoint, result
 from models.life.run import COLUMNS, Run
-from models.life.scenario import Declaration, Methods, Profiles, Recording, Scenario
+from models.life.scenario import Methods
 from models.life.spectra import Irregularities
 from models.life.track import Curve, Track
 from models.life.vehicle import Vehicle
 from models.wheelset import master
 from models.wheelset.components import direct
 from models.wheelset.ports import MOTION, SIDES
+from tests.life.short_run import completed, scenario
 
-SHORT = Recording(settling=0.5, spacing=0.25)
 CURVED = Track(
     curves=(Curve(start=0.5, radius=400.0, length=2.0, transition=1.0, cant=0.05),),
     alignment=Irregularities(spectrum="ERRI B176 high"),
 )
-
-
-def scenario(length: float = 4.0, **changes) -> Scenario:
-    declared = Declaration(**({"name": "short", "length": length, "speed": 20.0, "recording": SHORT} | changes))
-    return Scenario(declared, *Profiles().load(Path()))
-
-
-def completed(run: Run, steps: int | None = None) -> Run:
-    while not run.done and (steps is None or run.steps < steps):
-        run.advance()
-    return run
 
 
 def same(one: dict, other: dict) -> bool:

@@ -49,6 +49,6 @@ def test_wear_has_the_same_bits_with_any_number_of_workers(tmp_path):
     for count in (1, 2):
         life = Life(declared_set.read(written(tmp_path)))
         with Workers(count) as pool:
-            life.step(pool)
+            life.step(pool, go_on=True)
         saved.append(life.save())
     assert all(np.array_equal(saved[0][name], saved[1][name]) for name in saved[0])

@@ -1,4 +1,4 @@
-"""Spectra of the track alignment and their realisations (constants.md 13)."""
+"""Spectra of the irregularities of a track and their realisations (constants.md 13)."""
 
 import numpy as np
 import pytest
@@ -25,9 +25,24 @@ def test_realisation_has_the_variance_of_its_band(name, longest, rms):
     assert np.sqrt(0.5 * np.sum(waves.amplitude**2)) == pytest.approx(rms, abs=0.5e-6)
 
 
-@pytest.mark.parametrize("name", SPECTRA)
-def test_closed_integral_is_that_of_the_density(name):
-    spectrum, low, high = SPECTRA[name], 2.0 * np.pi / 100.0, 2.0 * np.pi / 3.0
+@pytest.mark.parametrize(
+    ("channel", "name", "rms"),
+    [
+        ("vertical", "ERRI B176 low", 0.984e-3),
+        ("vertical", "ERRI B176 high", 1.611e-3),
+        ("cross_level", "ERRI B176 low", 0.91e-3),
+        ("gauge", "ERRI B176 low", 0.25e-3),
+    ],
+)
+def test_other_channels_have_the_variance_of_their_band(channel, name, rms):
+    """constants.md 13.1, wavelengths of 3 m to 25 m: vertical and gauge [m], cross-level [rad]."""
+    waves = Irregularities(spectrum=name, longest=25.0).realise((3,), channel)
+    assert np.sqrt(0.5 * np.sum(waves.amplitude**2)) == pytest.approx(rms, rel=0.01)
+
+
+@pytest.mark.parametrize(("channel", "name"), [(channel, name) for channel, names in SPECTRA.items() for name in names])
+def test_closed_integral_is_that_of_the_density(channel, name):
+    spectrum, low, high = SPECTRA[channel][name], 2.0 * np.pi / 100.0, 2.0 * np.pi / 3.0
     integral, _ = quad(lambda w: float(spectrum.density(np.array(w))), low, high, epsrel=1e-11, epsabs=0.0)
     assert float(spectrum.variance(np.array(low), np.array(high))) == pytest.approx(integral, rel=1e-9)
 
@@ -36,7 +51,7 @@ def test_german_spectrum_equals_simpacks_polynomial():
     """constants.md 13.1: b0/(a0 + a2 Ω² + Ω⁴) with the published coefficients, all digits."""
     w = np.geomspace(0.01, 3.0, 30)
     polynomial = 1.440846e-7 / (2.8855e-4 + 0.6803895 * w**2 + w**4)
-    assert SPECTRA["ERRI B176 low"].density(w) == pytest.approx(polynomial, rel=2e-5)
+    assert SPECTRA["alignment"]["ERRI B176 low"].density(w) == pytest.approx(polynomial, rel=2e-5)
 
 
 def test_variance_along_a_long_track_is_that_of_the_waves():
@@ -63,3 +78,9 @@ def test_seed_decides_everything():
 def test_unknown_spectrum_gets_a_suggestion():
     with pytest.raises(ContactError, match="did you mean 'ERRI B176 low'"):
         Irregularities(spectrum="ERRI B176 lo")
+
+
+def test_values_and_slopes_along_a_track_are_those_of_single_places():
+    waves = Irregularities(spectrum="FRA 6").realise((2,), "gauge")
+    s = np.array([0.0, 3.3, 71.0])
+    assert pytest.approx(np.array([waves.at(place) for place in s]), rel=1e-9) == waves.over(s).T

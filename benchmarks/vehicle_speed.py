@@ -1,0 +1,74 @@
+"""Print how fast a vehicle of eight wheels runs on one core, and the share of its contacts (`make bench`).
+
+    python benchmarks/vehicle_speed.py [--seconds 2]
+
+The Manchester benchmark vehicle runs on straight track at 25 m/s and in a curve of 300 m at 15 m/s, with the alignment ERRI
+B176 low. Times are processor times, so they depend little on other processes, but some: of cores that share caches.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+
+from benchmarks.tables import table
+from contact.geometry import profile
+from models.life.spectra import Irregularities
+from models.life.track import Curve, Track
+from models.vehicle.course import lay
+from models.vehicle.declared import read
+from models.vehicle.kernels.frames import lay_frames
+from models.vehicle.kernels.layout import Book
+from models.vehicle.kernels.wheels import press
+from models.vehicle.simulation import ContactOptions, Simulation
+
+STEP = 4.6e-4  # [s]
+ROUGH = Irregularities(spectrum="ERRI B176 low")
+CURVE = Curve(start=0.0, radius=300.0, length=1e4, transition=20.0, cant=0.1)
+TRACKS = {
+    "straight, 25 m/s": (25.0, Track(alignment=ROUGH)),
+    "curve of 300 m, 15 m/s": (15.0, Track(curves=(CURVE,), alignment=ROUGH)),
+}
+METHODS = {
+    "default": ContactOptions(),
+    "`analyn` + `fastrip`, 30 × 20": ContactOptions(normal="analyn", tangential="fastrip", n_strips=30, n_elements=20),
+    "`analyn` + `table`": ContactOptions(normal="analyn", tangential="table"),
+}
+
+
+def measured(speed: float, track: Track, options: ContactOptions, seconds: float) -> tuple[float, float]:
+    """Return simulated time over processor time, and the share of the contacts in the processor time."""
+    rows = lay(track, 60.0 + speed * seconds, lambda s: speed, (1,), 30.0)
+    vehicle = Simulation(read("manchester"), rows, profile.s1002(), profile.rail_60e1(), 0.3, options)
+    vehicle.advance(STEP, round(50.0 / speed / STEP))  # into the curve
+    steps = round(seconds / STEP)
+    start = time.process_time()
+    vehicle.advance(STEP, steps)
+    spent = (time.process_time() - start) / steps
+    s, calls = float(vehicle.state.books[Book.DISTANCE]), 500
+    lay_frames(vehicle.model, s, speed, vehicle.scratch.frames)
+    arguments = vehicle.model, vehicle.state, s, vehicle.benches, vehicle.scratch
+    press(*arguments)
+    start = time.process_time()
+    for _ in range(calls):  # the call from Python costs a few per cent of it
+        press(*arguments)
+    in_contacts = (time.process_time() - start) / calls
+    return STEP / spent, in_contacts / spent
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seconds", type=float, default=2.0)
+    seconds = parser.parse_args().seconds
+    rows = []
+    for name, options in METHODS.items():
+        for where, (speed, track) in TRACKS.items():
+            ratio, share = measured(speed, track, options, seconds)
+            rows.append([name, where, f"{ratio:.2f}", f"{share:.0%}"])
+    print(f"Eight wheels, one core, steps of {1e3 * STEP:g} ms\n")
+    print(table(["contact methods", "track", "simulated over processor time", "share of the contacts"], rows))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,70 @@
+"""How far a run can be trusted: what its balance of energy, its contacts and its speed say."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+#: A run whose energy does not close to this share of its dissipation is not to be believed.
+LARGEST_RESIDUAL = 0.02
+#: A rise of a normal force above this multiple of its static value is an impact.
+IMPACT = 2.0
+#: Member → unit and meaning.
+TRUST = {
+    "residual": ("1", "energy that the integration has lost or gained, over the energy dissipated in the contacts"),
+    "impacts": ("1", "rises of a wheel's normal force above twice its static value"),
+    "lifted": ("1", "times that a wheel lost contact with its rail"),
+    "untrusted": ("1", "contacts without a trustworthy solution"),
+    "speed_ratio": ("1", "greatest speed over the linear critical speed on straight track"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Trust:
+    """Measures of trust in a run. The members are explained in `TRUST`."""
+
+    residual: float
+    impacts: float
+    lifted: float
+    untrusted: float
+    speed_ratio: float
+
+    @property
+    def closes(self) -> bool:
+        """True if the balance of energy closes to `LARGEST_RESIDUAL`."""
+        return abs(self.residual) <= LARGEST_RESIDUAL
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Plain sentences on what is wrong; empty if nothing is."""
+        said = []
+        if not self.closes:
+            said.append(
+                f"The balance of energy does not close: {100.0 * self.residual:+.3g} % of the dissipation, where at most "
+                f"{100.0 * LARGEST_RESIDUAL:g} % are accepted. Forces, damage and wear of this run are not to be trusted."
+            )
+        if self.untrusted:
+            said.append(f"{self.untrusted:.0f} contacts have no trustworthy solution.")
+        if self.lifted:
+            said.append(f"A wheel lost contact with its rail {self.lifted:.0f} times.")
+        if self.impacts:
+            said.append(f"A normal force rose above {IMPACT:g} times its static value {self.impacts:.0f} times.")
+        if self.speed_ratio > 1.0:
+            said.append(
+                f"The speed is {self.speed_ratio:.3g} times the linear critical speed: on straight track small motions grow."
+            )
+        return tuple(said)
+
+    def as_dict(self) -> dict[str, float]:
+        """Return the members by name."""
+        return {entry.name: float(getattr(self, entry.name)) for entry in fields(self)}
+
+
+def worst(runs: list[Trust]) -> Trust:
+    """Return the measures of several runs together: the largest ratios and the sums of the counts."""
+    return Trust(
+        residual=max((run.residual for run in runs), key=abs),
+        impacts=sum(run.impacts for run in runs),
+        lifted=sum(run.lifted for run in runs),
+        untrusted=sum(run.untrusted for run in runs),
+        speed_ratio=max(run.speed_ratio for run in runs),
+    )

@@ -1,0 +1,73 @@
+"""The track of a vehicle as the rows that its kernels read: plan, cant, speed, irregularities of both rails, friction."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from models.life.track import RAIL_DISTANCE, Track
+from models.vehicle.kernels.layout import Row
+
+Array = NDArray[np.float64]
+
+SPACING = 0.05  # distance of the places of a track [m]
+#: Kinks at the ends of transitions are rounded over this distance [m], as the bending of the rails does.
+ROUNDING = 2.0
+_HALF_BASE = 0.5 * RAIL_DISTANCE
+#: Length of track that is kept before the start and after the end [m], for bodies ahead of and behind the reference.
+BEYOND = 40.0
+
+
+def lay(track: Track, length: float, speed: Callable[[float], float], seed: tuple[int, ...], settling: float) -> Array:
+    """Return the rows of a track from -`BEYOND` to `length` + `BEYOND`, in the order of `Row`.
+
+    Parameters
+    ----------
+    track : Track
+    length : float
+        [m].
+    speed : callable
+        Speed [m/s] over the distance [m].
+    seed : tuple of int
+        Seed of the random irregularities. The channels are independent.
+    settling : float
+        Distance over which the irregularities grow from zero [m].
+    """
+    s = np.arange(-BEYOND, length + BEYOND + 0.5 * SPACING, SPACING)
+    rows = np.zeros((len(Row), s.size))
+    plan = np.zeros((2, s.size))
+    for curve in track.curves:
+        share = np.array([curve.share(place) for place in s])
+        plan[0] += share / curve.radius
+        plan[1] += share * math.asin(curve.cant / RAIL_DISTANCE)
+    curvature, cant = (_rounded(row, round(ROUNDING / SPACING)) for row in plan)
+    rows[Row.CURVATURE], rows[Row.CANT] = curvature, cant
+    rows[Row.CANT_SLOPE] = np.gradient(cant, SPACING)
+    direction = _integral(0.5 * (curvature[1:] + curvature[:-1]))
+    middle = direction[:-1] + SPACING * (0.375 * curvature[:-1] + 0.125 * curvature[1:])
+    rows[Row.DIRECTION] = direction
+    for row, part in ((Row.X, np.cos), (Row.Y, np.sin)):  # Simpson's rule
+        rows[row] = _integral((part(direction[:-1]) + 4.0 * part(middle) + part(direction[1:])) / 6.0)
+    rows[Row.SPEED] = [speed(place) for place in s]
+    lateral, vertical, roll, gauge = track.channels(seed, s, settling)
+    for row, side in ((Row.RIGHT_Y, 1.0), (Row.LEFT_Y, -1.0)):
+        rows[row : row + 2] = lateral + 0.5 * side * gauge
+        rows[row + 2 : row + 4] = vertical + _HALF_BASE * side * roll
+    rows[Row.RIGHT_FRICTION], rows[Row.LEFT_FRICTION] = track.friction_at(s)
+    return rows
+
+
+def _integral(means: Array) -> Array:
+    return np.concatenate(([0.0], SPACING * np.cumsum(means)))
+
+
+def _rounded(row: Array, width: int) -> Array:
+    """Return the running mean over `width` places of a row, taken twice. Its sum is kept."""
+    box = np.full(width + 1, 1.0)
+    box[0] = box[-1] = 0.5
+    box /= box.sum()
+    padded = np.pad(row, width, mode="edge")
+    return np.convolve(np.convolve(padded, box, "valid"), box, "valid")

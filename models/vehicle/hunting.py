@@ -1,0 +1,102 @@
+"""The nonlinear critical speed: where the limit cycle of a hunting vehicle ends when its speed falls."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.errors import ContactError, require_number
+from contact.friction import Friction
+from contact.geometry.profile import Profile
+from models.life.track import Track
+from models.vehicle.course import lay
+from models.vehicle.declared import VehicleDeclaration
+from models.vehicle.kernels.layout import Axis
+from models.vehicle.simulation import ContactOptions, Simulation
+
+Array = NDArray[np.float64]
+
+_STEP = 2e-4  # [s]
+_WINDOW = 0.5  # over which an amplitude is taken [s]
+
+
+@dataclass(frozen=True)
+class Hunting:
+    """A run at falling speed.
+
+    Attributes
+    ----------
+    speed, amplitude : ndarray
+        Speed [m/s], and half the lateral range of the wheelset that moves most [m], in windows of half a second.
+    critical : float
+        Speed [m/s] at which the amplitude falls below the threshold for good: the least speed with a limit cycle. It is inf if
+        there was none at the start, and the least speed of the run if the limit cycle did not end.
+    """
+
+    speed: Array
+    amplitude: Array
+    critical: float
+
+
+def fall(
+    vehicle: VehicleDeclaration,
+    profiles: tuple[Profile, Profile],
+    bounds: tuple[float, float],
+    *,
+    deceleration: float = 1.0,
+    kick: float = 5e-3,
+    threshold: float = 1e-3,
+    friction: float | Friction = 0.3,
+    options: ContactOptions | None = None,
+) -> Hunting:
+    """Return the motion on straight ideal track while the speed falls.
+
+    Parameters
+    ----------
+    vehicle : VehicleDeclaration
+    profiles : (wheel, rail)
+    bounds : (float, float)
+        Least and greatest speed [m/s].
+    deceleration : float
+        [m/s²]. The slower the speed falls, the sharper the critical speed.
+    kick : float
+        Lateral displacement of all wheelsets at the start [m].
+    threshold : float
+        Amplitude of a limit cycle [m].
+    friction, options : as for `Simulation`
+
+    Raises
+    ------
+    ContactError
+        For values outside their range, or if a wheel leaves its rail.
+    """
+    slowest, fastest = bounds
+    if not 1.0 <= slowest < fastest:
+        raise ContactError(f"bounds = {bounds} are not two rising speeds from 1 m/s")
+    require_number("deceleration", deceleration, 0.0, open_minimum=True)
+    length = 0.5 * (fastest**2 - slowest**2) / deceleration
+
+    def speed_at(s: float) -> float:
+        return math.sqrt(max(fastest**2 - 2.0 * deceleration * max(s, 0.0), slowest**2))
+
+    simulation = Simulation(vehicle, lay(Track(), length, speed_at, (0,), 0.0), *profiles, friction, options)
+    axles = simulation.model.wheelsets
+    simulation.state.q[axles, Axis.Y] = kick
+    speeds, amplitudes = [], []
+    while simulation.distance < length:
+        path = []
+        for _ in range(round(_WINDOW / _STEP / 25)):
+            simulation.advance(_STEP, 25)
+            path.append(simulation.state.q[axles, Axis.Y].copy())
+        speeds.append(speed_at(simulation.distance))
+        amplitudes.append(0.5 * float(np.ptp(np.array(path), axis=0).max()))
+    speed, amplitude = np.array(speeds), np.array(amplitudes)
+    moving = np.flatnonzero(amplitude > threshold)
+    if moving.size == 0 or moving[-1] < 2:
+        critical = math.inf
+    else:
+        critical = float(speed[moving[-1]])
+    return Hunting(speed, amplitude, critical)

@@ -1,0 +1,150 @@
+"""Arrays of the contacts of all wheels: `contact.kernels.memory.Bench` of each wheel, made of shared and of own parts.
+
+A step solves one wheel after the other, so scratch memory is shared. What carries over, and what a wheel is made of, is not.
+Arrays of different length lie in one pool, so that the kernels are the same for any number of wheels and any profiles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import IntEnum
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact._jit import kernel
+from contact.kernels.memory import Bench, Ledger, Search
+from contact.kernels.records import CASE, CONTACT, LEDGER, MAX_PATCHES, MOTION, TOTAL
+from contact.kernels.rows import N_LINE_ROWS, N_PROFILE_ROWS
+from contact.pair import WheelRailPair
+
+Array = NDArray[np.float64]
+
+
+class Size(IntEnum):
+    """Numbers of nodes or bins of a wheel's arrays, and their first place in the pool."""
+
+    WHEEL = 0
+    RAIL = 1
+    BINS = 2
+    ROWS_WHEEL = 3  # nodes of the whole profiles, of a ledger
+    ROWS_RAIL = 4
+    WHEEL_AT = 5
+    RAIL_AT = 6
+    BINS_AT = 7
+    ROWS_WHEEL_AT = 8
+    ARC_WHEEL_AT = 9
+    ROWS_RAIL_AT = 10
+    ARC_RAIL_AT = 11
+
+
+class Benches(NamedTuple):
+    """Parts of the benches of all wheels."""
+
+    shared: Bench
+    cases: Any  # CASE, one each
+    motions: Any  # MOTION, one each
+    settings: Any  # LEDGER, one each
+    contacts: Any  # CONTACT, shape (wheels, MAX_PATCHES)
+    totals: Any  # TOTAL, one each
+    memories: Array  # starts of the next call, shape (wheels, size)
+    pool: Array
+    scratch: Array  # trace line, placed rail and both in the plane of a patch
+    sizes: NDArray[np.int64]  # shape (wheels, len(Size))
+    rows: int  # of the bins of a ledger
+
+
+def gather(pairs: Sequence[WheelRailPair]) -> Benches:
+    """Return the benches of pairs that differ in profiles, sides and ledgers alone."""
+    n, first = len(pairs), pairs[0].bench
+    sizes = np.zeros((n, len(Size)), np.int64)
+    pool: list[Array] = []
+    for own, pair in zip(sizes, pairs, strict=True):
+        bench, end = pair.bench, sum(array.size for array in pool)
+        ledger = bench.ledger
+        own[Size.WHEEL], own[Size.RAIL] = bench.search.wheel.shape[1], bench.search.rail.shape[1]
+        own[Size.BINS] = ledger.bins.shape[2]
+        own[Size.ROWS_WHEEL], own[Size.ROWS_RAIL] = ledger.wheel.shape[1], ledger.rail.shape[1]
+        parts = (
+            bench.search.wheel, bench.search.rail, ledger.bins, ledger.wheel, ledger.wheel_arc, ledger.rail, ledger.rail_arc,
+        )  # fmt: skip
+        for at, part in zip(range(Size.WHEEL_AT, Size.ARC_RAIL_AT + 1), parts, strict=True):
+            own[at] = end
+            pool.append(part.ravel())
+            end += part.size
+    most = int(sizes[:, : Size.RAIL + 1].max())
+    made = Benches(
+        first, np.zeros(n, CASE), np.zeros(n, MOTION), np.zeros(n, LEDGER), np.zeros((n, MAX_PATCHES), CONTACT),
+        np.zeros(n, TOTAL), np.zeros((n, first.memory.size)), np.concatenate(pool),
+        np.zeros(2 * (N_LINE_ROWS + N_PROFILE_ROWS) * most), sizes, first.ledger.bins.shape[1],
+    )  # fmt: skip
+    for k, pair in enumerate(pairs):
+        made.cases[k], made.motions[k] = pair.bench.case[0], pair.bench.search.motion[0]
+        made.settings[k] = pair.bench.ledger.settings[0]
+    return made
+
+
+def bins(benches: Benches, wheel: int) -> Array:
+    """Return the bins of one wheel's ledger, shape (2, rows, bins); a view."""
+    n, at = benches.sizes[wheel, Size.BINS], benches.sizes[wheel, Size.BINS_AT]
+    return benches.pool[at : at + 2 * benches.rows * n].reshape(2, benches.rows, n)
+
+
+@kernel
+def _cut(pool, at, rows, columns):
+    return pool[at : at + rows * columns].reshape((rows, columns))
+
+
+@kernel
+def bench_of(benches, w):
+    """Return the bench of wheel `w`."""
+    t, s, size, pool = benches.shared, benches.shared.search, benches.sizes[w], benches.pool
+    n_wheel, n_rail, n_bins = size[Size.WHEEL], size[Size.RAIL], size[Size.BINS]
+    placed_at = N_LINE_ROWS * n_wheel
+    plane_at = placed_at + N_PROFILE_ROWS * n_rail
+    rail_plane_at = plane_at + N_LINE_ROWS * n_wheel
+    search = Search(
+        _cut(pool, size[Size.WHEEL_AT], N_PROFILE_ROWS, n_wheel),
+        _cut(pool, size[Size.RAIL_AT], N_PROFILE_ROWS, n_rail),
+        benches.motions[w : w + 1],
+        s.grid,
+        s.patches,
+        s.separations,
+        _cut(benches.scratch, 0, N_LINE_ROWS, n_wheel),
+        _cut(benches.scratch, placed_at, N_PROFILE_ROWS, n_rail),
+        s.lobes,
+        _cut(benches.scratch, plane_at, N_LINE_ROWS, n_wheel),
+        _cut(benches.scratch, rail_plane_at, N_PROFILE_ROWS, n_rail),
+        s.case,
+        s.across,
+        s.work,
+        s.strips,
+        s.result,
+    )
+    of_wheel, of_rail = size[Size.ROWS_WHEEL], size[Size.ROWS_RAIL]
+    bins_at = size[Size.BINS_AT]
+    ledger = Ledger(
+        _cut(pool, size[Size.ROWS_WHEEL_AT], 2, of_wheel),
+        pool[size[Size.ARC_WHEEL_AT] : size[Size.ARC_WHEEL_AT] + of_wheel],
+        _cut(pool, size[Size.ROWS_RAIL_AT], 2, of_rail),
+        pool[size[Size.ARC_RAIL_AT] : size[Size.ARC_RAIL_AT] + of_rail],
+        benches.settings[w : w + 1],
+        t.ledger.rates,
+        t.ledger.edges,
+        pool[bins_at : bins_at + 2 * benches.rows * n_bins].reshape((2, benches.rows, n_bins)),
+    )
+    return Bench(
+        search,
+        t.own,
+        benches.cases[w : w + 1],
+        t.patch_case,
+        t.result,
+        benches.memories[w],
+        t.damage_parameters,
+        t.damage_fields,
+        t.damage,
+        benches.contacts[w],
+        benches.totals[w : w + 1],
+        ledger,
+    )

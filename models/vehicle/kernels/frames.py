@@ -1,0 +1,118 @@
+"""Kernels of the track frames at the bodies, and of the motion in them (docs/vehicle.md, 1 and 2)."""
+
+from __future__ import annotations
+
+import math
+
+from contact._jit import kernel
+from models.vehicle.kernels.layout import Axis, Frame, Row
+
+
+@kernel
+def place_on(track, spacing, s):
+    """Return the number of the place before `s` [m] and the distance from it [m]. Beyond the ends the last interval counts."""
+    n = track.shape[1]
+    k = math.floor((s - spacing[1]) / spacing[0])
+    k = min(max(k, 0), n - 2)
+    return k, s - spacing[1] - k * spacing[0]
+
+
+@kernel
+def linear(track, row, k, t):
+    """Return the value of a row, interpolated linearly at the share t of the interval k."""
+    return track[row, k] + t * (track[row, k + 1] - track[row, k])
+
+
+@kernel
+def smooth(track, row, k, t, width):
+    """Return value and slope of a row, interpolated by a cubic with the slopes of the row after it."""
+    a, b, ma, mb = track[row, k], track[row, k + 1], width * track[row + 1, k], width * track[row + 1, k + 1]
+    second, third = 3.0 * (b - a) - 2.0 * ma - mb, 2.0 * (a - b) + ma + mb
+    return a + t * (ma + t * (second + t * third)), (ma + t * (2.0 * second + 3.0 * t * third)) / width
+
+
+@kernel
+def speed_at(track, spacing, s):
+    """Return the speed [m/s] that is given at `s` [m]."""
+    k, d = place_on(track, spacing, s)
+    return linear(track, Row.SPEED, k, d / spacing[0])
+
+
+@kernel
+def lay_frames(model, s, speed, frames):
+    """Fill the frames of all bodies, of which that of the reference is at `s` [m]."""
+    track, spacing, bodies = model.track, model.spacing, model.bodies
+    for i in range(bodies.size):
+        k, d = place_on(track, spacing, s + bodies[i].place)
+        t = d / spacing[0]
+        direction, curvature = track[Row.DIRECTION, k], track[Row.CURVATURE, k]
+        growth = (track[Row.CURVATURE, k + 1] - curvature) / spacing[0]
+        c, sn = math.cos(direction), math.sin(direction)
+        ahead, aside = d, d * d * (0.5 * curvature + growth * d / 6.0)
+        frame = frames[i]
+        frame[Frame.X] = track[Row.X, k] + c * ahead - sn * aside
+        frame[Frame.Y] = track[Row.Y, k] + sn * ahead + c * aside
+        direction += d * (curvature + 0.5 * growth * d)
+        cant, cant_slope = smooth(track, Row.CANT, k, t, spacing[0])
+        turning = speed * (curvature + growth * d)
+        frame[Frame.DIRECTION], frame[Frame.CANT] = direction, cant
+        frame[Frame.COS], frame[Frame.SIN] = math.cos(direction), math.sin(direction)
+        frame[Frame.COS_CANT], frame[Frame.SIN_CANT] = math.cos(cant), math.sin(cant)
+        frame[Frame.RATE_X] = speed * cant_slope
+        frame[Frame.RATE_Y] = turning * frame[Frame.SIN_CANT]
+        frame[Frame.RATE_Z] = turning * frame[Frame.COS_CANT]
+
+
+@kernel
+def carried(frame, body, q, speed, axis):
+    """Return the absolute velocity along or about `axis` of a body that stands still in its frame."""
+    x, y, z = q[Axis.X], q[Axis.Y], q[Axis.Z] - body.height
+    wx, wy, wz = frame[Frame.RATE_X], frame[Frame.RATE_Y], frame[Frame.RATE_Z]
+    if axis == Axis.X:
+        return speed + wy * z - wz * y
+    if axis == Axis.Y:
+        return wz * x - wx * z
+    if axis == Axis.Z:
+        return wx * y - wy * x
+    if axis == Axis.ROLL:
+        return wx
+    return wy if axis == Axis.PITCH else wz
+
+
+@kernel
+def drift(frames, bodies, q, u, speed, h):
+    """Advance the coordinates by `h` [s]. The angle of a wheelset about its axle is not counted."""
+    for i in range(bodies.size):
+        body = bodies[i]
+        before = (
+            carried(frames[i], body, q[i], speed, 0),
+            carried(frames[i], body, q[i], speed, 1),
+            carried(frames[i], body, q[i], speed, 2),
+            carried(frames[i], body, q[i], speed, 3),
+            carried(frames[i], body, q[i], speed, 4),
+            carried(frames[i], body, q[i], speed, 5),
+        )
+        for j in range(6):
+            if body.held[j] == 0 and not (body.wheelset != 0 and j == Axis.PITCH):
+                q[i, j] += h * (u[i, j] - before[j])
+
+
+@kernel
+def gyrate(frames, bodies, u, forces):
+    """Add the forces of gravity and those by which the frames turn (2, 3). Return nothing."""
+    for i in range(bodies.size):
+        body, frame = bodies[i], frames[i]
+        m, ix, iy, iz = body.mass, body.inertia[0], body.inertia[1], body.inertia[2]
+        wx, wy, wz = frame[Frame.RATE_X], frame[Frame.RATE_Y], frame[Frame.RATE_Z]
+        ux, uy, uz = u[i, Axis.X], u[i, Axis.Y], u[i, Axis.Z]
+        forces[i, Axis.X] -= m * (wy * uz - wz * uy)
+        forces[i, Axis.Y] -= m * (wz * ux - wx * uz)
+        forces[i, Axis.Z] -= m * (wx * uy - wy * ux)
+        rx, ry, rz = u[i, Axis.ROLL], u[i, Axis.PITCH], u[i, Axis.YAW]
+        if body.wheelset != 0:  # axes that follow the axle but not its spin
+            forces[i, Axis.ROLL] -= wy * iz * rz - rz * iy * ry
+            forces[i, Axis.YAW] -= rx * iy * ry - wy * ix * rx
+        else:
+            forces[i, Axis.ROLL] -= (iz - iy) * ry * rz
+            forces[i, Axis.PITCH] -= (ix - iz) * rz * rx
+            forces[i, Axis.YAW] -= (iy - ix) * rx * ry

@@ -1,0 +1,129 @@
+"""Kernels that advance a vehicle: symplectic Euler with implicit rails, and the balance of energy (docs/vehicle.md, 5)."""
+
+from __future__ import annotations
+
+from contact._jit import kernel
+from models.vehicle.kernels.elements import pull
+from models.vehicle.kernels.frames import carried, drift, gyrate, lay_frames, speed_at
+from models.vehicle.kernels.layout import Axis, Book, Frame
+from models.vehicle.kernels.wheels import count, press, rail_energy, sink
+
+#: A normal force above this multiple of the static one is an impact.
+_IMPACT = 2.0
+
+
+@kernel
+def _inertia(body, j):
+    return body.mass if j < 3 else body.inertia[j - 3]
+
+
+@kernel
+def _hold(model, state, speed, scratch, h):
+    """Set the velocities of held coordinates; return the work of what holds them over the last step [J]."""
+    work = 0.0
+    for i in range(model.bodies.size):
+        body = model.bodies[i]
+        for j in range(6):
+            if body.held[j] != 0:
+                before = state.u[i, j]
+                now = carried(scratch.frames[i], body, state.q[i], speed, j)
+                work += 0.5 * (now + before) * (_inertia(body, j) * (now - before) - h * scratch.forces[i, j])
+                state.u[i, j] = now
+    return work
+
+
+@kernel
+def _load(model, state, s, benches, h, scratch):
+    """Fill the generalised forces of all bodies at the present state; return the code of `press`."""
+    scratch.forces[:] = 0.0
+    scratch.power[:] = 0.0
+    gyrate(scratch.frames, model.bodies, state.u, scratch.forces)
+    pull(model, state, h, scratch)
+    for i in range(model.bodies.size):
+        body, frame = model.bodies[i], scratch.frames[i]
+        scratch.forces[i, Axis.Y] += body.mass * 9.81 * frame[Frame.SIN_CANT]
+        scratch.forces[i, Axis.Z] += body.mass * 9.81 * frame[Frame.COS_CANT]
+        if body.wheelset != 0:
+            scratch.forces[i, Axis.PITCH] -= body.torque
+    return press(model, state, s, benches, scratch)
+
+
+@kernel
+def kinetic_energy(model, state):
+    """Return the kinetic energy of all bodies [J]."""
+    energy = 0.0
+    for i in range(model.bodies.size):
+        for j in range(6):
+            energy += 0.5 * _inertia(model.bodies[i], j) * state.u[i, j] ** 2
+    return energy
+
+
+@kernel
+def _weigh(model, state, elastic, work, books):
+    """Enter the stored energy half a step before the present positions, and what the balance has lost so far."""
+    in_rails, _ = rail_energy(model, state)
+    stored = kinetic_energy(model, state) + in_rails + 0.5 * (elastic + books[Book.ELASTIC])
+    books[Book.ELASTIC] = elastic
+    books[Book.DRIVE] += work
+    if books[Book.STEPS] < 2.0:  # the first step has no elastic energy before it
+        books[Book.STORED_FIRST] = stored
+        books[Book.WEIGHT], books[Book.DRIVE], books[Book.TORQUE], books[Book.DAMPER] = 0.0, 0.0, 0.0, 0.0
+        books[Book.DISSIPATED] = 0.0
+    books[Book.STORED] = stored
+    gained = books[Book.WEIGHT] + books[Book.DRIVE] + books[Book.TORQUE]
+    spent = books[Book.DAMPER] + books[Book.DISSIPATED]
+    books[Book.RESIDUAL] = gained - spent - (stored - books[Book.STORED_FIRST])
+
+
+@kernel
+def _kick(model, state, scratch, h):
+    """Advance the velocities by `h` [s] and enter the works of gravity and torques, with the mean velocity."""
+    books = state.books
+    for i in range(model.bodies.size):
+        body, frame = model.bodies[i], scratch.frames[i]
+        for j in range(6):
+            before = state.u[i, j]
+            if body.held[j] == 0:
+                state.u[i, j] += h * scratch.forces[i, j] / _inertia(body, j)
+            mean = 0.5 * (before + state.u[i, j])
+            if j == Axis.Y:
+                books[Book.WEIGHT] += h * body.mass * 9.81 * frame[Frame.SIN_CANT] * mean
+            elif j == Axis.Z:
+                books[Book.WEIGHT] += h * body.mass * 9.81 * frame[Frame.COS_CANT] * mean
+            elif j == Axis.PITCH and body.wheelset != 0:
+                books[Book.TORQUE] -= h * body.torque * mean
+
+
+@kernel
+def step(model, state, benches, scratch, h):
+    """Advance by `h` [s]; return 0 or the code of `press`. Forces in `scratch` are those before the step."""
+    books = state.books
+    s = books[Book.DISTANCE]
+    speed = speed_at(model.track, model.spacing, s)
+    lay_frames(model, s, speed, scratch.frames)
+    work = _hold(model, state, speed, scratch, h)
+    failed = _load(model, state, s, benches, h, scratch)
+    if failed < 0:
+        return failed
+    count(model, state, scratch.wheels, _IMPACT)
+    _, in_rails = rail_energy(model, state)
+    _weigh(model, state, scratch.power[2] + in_rails, work, books)
+    books[Book.DAMPER] += h * scratch.power[0]
+    books[Book.DISSIPATED] += h * scratch.power[1]
+    _kick(model, state, scratch, h)
+    drift(scratch.frames, model.bodies, state.q, state.u, speed, h)
+    books[Book.DAMPER] += sink(model, state, scratch.wheels, h)
+    books[Book.DISTANCE] += h * speed
+    books[Book.TIME] += h
+    books[Book.STEPS] += 1.0
+    return 0
+
+
+@kernel
+def advance(model, state, benches, scratch, h, steps):
+    """Advance by `steps` steps of `h` [s]; return 0 or the code of `press` at the step that failed."""
+    for _ in range(steps):
+        failed = step(model, state, benches, scratch, h)
+        if failed < 0:
+            return failed
+    return 0

@@ -1,0 +1,176 @@
+"""Linear behaviour of a vehicle: frequencies, damping and the linear critical speed, from its own kernel.
+
+A step of 1 µs from a displaced state gives the accelerations there, so the state matrix is that of the simulated vehicle, with
+all its contacts. Nothing is derived a second time.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.errors import ContactError
+from models.vehicle.kernels.layout import Axis
+from models.vehicle.simulation import Simulation
+
+Array = NDArray[np.float64]
+
+_INSTANT = 1e-6  # step from which the accelerations are taken [s]
+
+
+@dataclass(frozen=True)
+class Mode:
+    """A mode of a vehicle.
+
+    Attributes
+    ----------
+    frequency : damped frequency [Hz]; 0 for a motion that does not oscillate
+    damping : damping ratio [-]; negative for a motion that grows
+    growth : real part of the eigenvalue [1/s]
+    shape : complex displacement of each of the free coordinates (`names`)
+    """
+
+    frequency: float
+    damping: float
+    growth: float
+    shape: NDArray[np.complex128]
+
+
+def coordinates(simulation: Simulation, held: tuple[str, ...] = ()) -> list[tuple[int, int]]:
+    """Return body and axis of all free coordinates. Bodies in `held` do not move. The spin of a wheelset has no angle."""
+    return [
+        (i, int(axis))
+        for i, body in enumerate(simulation.model.bodies)
+        if simulation.names[i] not in held
+        for axis in Axis
+        if not body["held"][axis] and not (body["wheelset"] and axis == Axis.PITCH)
+    ]
+
+
+def state_matrix(
+    simulation: Simulation, amplitude: float = 1e-4, held: tuple[str, ...] = (), step: float = _INSTANT
+) -> Array:
+    """Return the state matrix of the coordinates and velocities about the present state, by central differences.
+
+    The spins of the wheelsets follow the other velocities. The rails are part of it if they have a mass.
+
+    Parameters
+    ----------
+    simulation : Simulation
+        On straight ideal track, at rest in its nominal place.
+    amplitude : float
+        Displacement [m], [rad]; velocities are displaced by ten times as much per second.
+    held : tuple of str
+        Names of bodies that do not move.
+    step : float
+        Step of the kernel [s]. With the step of a run, the matrix times the step is the change of the state in a step.
+    """
+    free = coordinates(simulation, held)
+    state = simulation.state
+    moving: list[tuple[Array, tuple[int, ...]]] = [(array, at) for array in (state.q, state.u) for at in free]
+    for number, i in enumerate(simulation.model.wheelsets):
+        if simulation.names[i] in held:
+            continue
+        moving.append((state.u, (int(i), int(Axis.PITCH))))
+        if simulation.model.rail[0] > 0.0:
+            moving.extend((state.rails, (number, side, k)) for side in range(2) for k in range(4))
+    kept = [array.copy() for array in state]
+
+    def restore() -> None:
+        for array, before in zip(state, kept, strict=True):
+            array[:] = before
+
+    def rates() -> Array:
+        before = np.array([array[at] for array, at in moving])
+        simulation.advance(step)
+        return (np.array([array[at] for array, at in moving]) - before) / step
+
+    columns = []
+    for array, at in moving:
+        ends = []
+        size = _size(simulation, array, at, amplitude)
+        for sign in (1.0, -1.0):
+            restore()
+            array[at] += sign * size
+            ends.append(rates())
+        columns.append((ends[0] - ends[1]) / (2.0 * size))
+    restore()
+    return np.array(columns).T
+
+
+def _size(simulation: Simulation, array: Array, at: tuple[int, ...], amplitude: float) -> float:
+    """Return the displacement of a coordinate. What presses wheels on rails is displaced less, for the contact is stiff."""
+    if array is simulation.state.u:
+        return 10.0 * amplitude
+    if array is simulation.state.rails:
+        return amplitude * (0.1 if at[2] > 1 else 0.01)
+    pressing = simulation.model.bodies[at[0]]["wheelset"] and at[1] in (Axis.Z, Axis.ROLL)
+    return amplitude * (0.01 if pressing else 1.0)
+
+
+def modes(simulation: Simulation, amplitude: float = 1e-4, held: tuple[str, ...] = ()) -> list[Mode]:
+    """Return the modes of a vehicle, slowest first. Each conjugate pair appears once."""
+    matrix = state_matrix(simulation, amplitude, held)
+    values, vectors = np.linalg.eig(matrix)
+    n = len(coordinates(simulation, held))
+    found = []
+    for value, vector in zip(values, vectors.T, strict=True):
+        if value.imag >= 0.0:
+            size = abs(value)
+            found.append(
+                Mode(value.imag / (2.0 * math.pi), -value.real / size if size > 0.0 else 1.0, value.real, vector[:n])
+            )
+    return sorted(found, key=lambda mode: (mode.frequency, mode.growth))
+
+
+def amplification(simulation: Simulation, step: float) -> float:
+    """Return the largest factor by which a small motion grows in a step of `step` [s]. It is near 1 in a stable integration."""
+    matrix = state_matrix(simulation, step=step)
+    return float(np.abs(np.linalg.eigvals(np.eye(len(matrix)) + step * matrix)).max())
+
+
+def growth(simulation: Simulation, amplitude: float = 1e-4) -> float:
+    """Return the largest real part of the eigenvalues of motions that oscillate [1/s]; negative if all decay."""
+    return max(mode.growth for mode in modes(simulation, amplitude) if mode.frequency > 0.05)
+
+
+def critical_speed(
+    at_speed: Callable[[float], Simulation],
+    amplitude: float = 1e-4,
+    bounds: tuple[float, float] = (5.0, 150.0),
+    tolerance: float = 0.1,
+) -> float:
+    """Return the linear critical speed [m/s]: where a small motion stops to decay, by bisection to `tolerance`.
+
+    Parameters
+    ----------
+    at_speed : callable
+        Returns the vehicle at rest on straight ideal track at a speed [m/s].
+    amplitude : float
+        Lateral amplitude of the contacts' linearisation [m].
+    bounds : (float, float)
+        [m/s]. The result is inf if all motions decay at the upper bound, and the lower bound if one grows there.
+
+    Raises
+    ------
+    ContactError
+        If the bounds are not in order.
+    """
+    low, high = bounds
+    if not 0.0 < low < high:
+        raise ContactError(f"bounds = {bounds} are not in order")
+    if growth(at_speed(high), amplitude) <= 0.0:
+        return math.inf
+    if growth(at_speed(low), amplitude) > 0.0:
+        return low
+    while high - low > tolerance:
+        middle = 0.5 * (low + high)
+        if growth(at_speed(middle), amplitude) > 0.0:
+            high = middle
+        else:
+            low = middle
+    return 0.5 * (low + high)

@@ -1,0 +1,160 @@
+"""The HTML page of a run with a vehicle: safety, forces, motion, damage and energies."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import fields
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from contact import plot
+from contact.study.page import document, faint, html_of
+from contact.study.table import Table, number
+from models.life.report import damaged, illustrated, told, trusted, warned
+from models.vehicle import assess
+from models.vehicle.ledgers import BODIES
+from models.vehicle.run import BALANCE, VehicleRun
+from models.vehicle.simulation import SIDES
+
+
+def page_of(run: VehicleRun) -> str:
+    """Return the run as a self-contained HTML page."""
+    scenario, d = run.scenario, run.scenario.declared
+    assert scenario.vehicle is not None
+    about = [
+        f"{scenario.vehicle.name} over {d.length:g} m; damage of the first {d.recording.settling:g} m is not counted. Wheel "
+        f"{scenario.wheel.name}, rail {scenario.rail.name}; {d.methods.normal} + {d.methods.tangential}.",
+        "Y is the force of the rail on the wheel to the right, Q that of the wheel on the rail downwards. Both, and T-gamma, "
+        "are means between two samples. Each patch has its own plane.",
+    ]
+    return document(scenario.name, about, _parts(run))
+
+
+def _parts(run: VehicleRun) -> Iterator[str]:
+    trust = run.trust
+    yield from warned(trust)
+    if run.series["distance"].size:
+        yield html_of(_safety(run))
+        yield faint(
+            f"Low-passed at {assess.CUT_OFF:g} Hz; Y/Q and ΣY are means over {assess.WINDOW:g} m (EN 14363; the limits are "
+            "recalled, not verified)."
+        )
+        yield html_of(_wheels(run))
+        for heading, panels in _panels(run).items():
+            yield f"<h2>{heading}</h2>"
+            draw = partial(plot.time_histories, run.series["distance"], panels, xlabel="distance [m]")
+            yield illustrated(draw, heading)
+    yield html_of(trusted(trust))
+    histograms = run.damage()
+    for body in BODIES:
+        every = {f"{name}, {side}": h for (name, side, which), h in histograms.items() if which == body}
+        if not all(h.distance > 0.0 for h in every.values()):
+            continue
+        yield f"<h2>Damage of the {body}s</h2>"
+        yield html_of(damaged(every))
+        yield illustrated(
+            partial(plot.wear, every, f"wear of the {body}s: the share of each in their mean"),
+            f"Wear over the profile of the {body}s",
+        )
+    yield "<h2>Energy</h2>"
+    rows = [(name, number(value), BALANCE[name]) for name, value in run.balance.items()]
+    yield html_of(Table("Energies of the whole run", [("", ""), ("", "J"), ("", "")], rows))
+    yield "<h2>Declaration</h2>"
+    for entry in fields(run.scenario.declared):
+        yield faint(f"{entry.name}: {told(getattr(run.scenario.declared, entry.name))}")
+    yield faint(f"fingerprint {run.scenario.fingerprint}, step {1e3 * run.step:.4g} ms, {run.steps} steps")
+
+
+def _axles(run: VehicleRun) -> list[tuple[str, str]]:
+    """Return name and prefix of the columns of all wheelsets."""
+    names = [run.simulation.names[i] for i in run.simulation.model.wheelsets]
+    return [(name, name.replace(" ", "_")) for name in names]
+
+
+def _safety(run: VehicleRun) -> Table:
+    s, rows = run.series, []
+    loads = run.simulation.model.bodies["load"][run.simulation.model.wheelsets]
+    for (name, prefix), load in zip(_axles(run), loads, strict=True):
+        lateral, vertical = (np.array([s[f"{prefix}_{side}_{what}"] for side in SIDES]) for what in _FORCES)
+        found = assess.safety(lateral, vertical, s["distance"], s["time"], float(load))
+        rows.append(
+            (
+                name,
+                f"{found.quotient:.3f}",
+                f"{1e-3 * found.guiding:.1f}",
+                f"{1e-3 * found.prudhomme:.1f}",
+                f"{1e-3 * found.vertical:.1f}",
+                f"{found.unloading:.3f}",
+            )
+        )
+    friction = run.scenario.friction.static
+    limit = assess.nadal(assess.flange_angle(run.scenario.wheel), friction)
+    return Table(
+        "Safety, greatest values",
+        [
+            ("", ""),
+            ("Y/Q", f"limit {assess.LARGEST_QUOTIENT:g}, Nadal {limit:.2f} at μ {friction:g}"),
+            ("ΣY", "kN"),
+            ("Prud'homme", "kN"),
+            ("Q", "kN"),
+            ("1 − Q/Q₀", ""),
+        ],
+        rows,
+    )
+
+
+_FORCES = ("lateral_force", "vertical_force")
+
+
+def _wheels(run: VehicleRun) -> Table:
+    s = run.series
+    counted = s["distance"] >= run.scenario.declared.recording.settling
+    rows = []
+    for name, prefix in _axles(run):
+        for side in SIDES:
+            of = {what: s[f"{prefix}_{side}_{what}"][counted] for what in ("T_gamma", "dissipation", "max_pressure")}
+            if counted.any():
+                rows.append(
+                    (
+                        f"{name}, {side}",
+                        number(float(of["T_gamma"].mean())),
+                        number(float(of["T_gamma"].max())),
+                        number(float(of["dissipation"].mean())),
+                        number(1e-6 * float(of["max_pressure"].max())),
+                    )
+                )
+    heads = [("wheel", ""), ("T-gamma, mean", "N"), ("greatest", "N"), ("dissipation, mean", "N"), ("pressure", "MPa")]
+    return Table("Wheels", heads, rows)
+
+
+def _panels(run: VehicleRun) -> dict[str, dict[str, dict[str, Any]]]:
+    s, axles = run.series, _axles(run)
+
+    def wheels(what: str, factor: float, side: str) -> dict[str, Any]:
+        return {name: factor * s[f"{prefix}_{side}_{what}"] for name, prefix in axles}
+
+    def both(label: str, what: str, factor: float) -> dict[str, dict[str, Any]]:
+        return {f"{side} {label}": wheels(what, factor, side) for side in SIDES}
+
+    body = run.simulation.names[0].replace(" ", "_")
+    return {
+        "Track": {
+            "speed [m/s]": {"speed": s["speed"]},
+            "curvature [1/km]": {"curvature": 1e3 * s["curvature"]},
+            "cant [mrad]": {"cant": 1e3 * s["cant"]},
+        },
+        "Motion": {
+            "y [mm]": {name: 1e3 * s[f"{prefix}_lateral"] for name, prefix in axles},
+            "yaw [mrad]": {name: 1e3 * s[f"{prefix}_yaw"] for name, prefix in axles},
+            f"{run.simulation.names[0]} y [mm]": {"lateral": 1e3 * s[f"{body}_lateral"]},
+            "felt [m/s²]": {"lateral acceleration": s[f"{body}_lateral_acceleration"]},
+        },
+        "Forces": {**both("Y [kN]", "lateral_force", 1e-3), **both("Q [kN]", "vertical_force", 1e-3)},
+        "Friction": {
+            **both("T-gamma [N]", "T_gamma", 1.0),
+            **both("angle [°]", "contact_angle", math.degrees(1.0)),
+        },
+    }

@@ -1,0 +1,314 @@
+"""A run of a scenario with a vehicle: steps, time series, damage and the balance of energy."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.accumulation import Histogram
+from contact.errors import ContactError
+from models.life.scenario import Scenario
+from models.life.track import Track
+from models.life.trust import Trust
+from models.vehicle import linear
+from models.vehicle.course import lay
+from models.vehicle.declared import VehicleDeclaration
+from models.vehicle.kernels.layout import Axis, Book, Frame, Row, Sum
+from models.vehicle.ledgers import BODIES, fill, ledger
+from models.vehicle.simulation import SIDES, ContactOptions, Simulation
+
+Array = NDArray[np.float64]
+
+#: Column of the time series → unit and meaning.
+TRACK = {
+    "distance": ("m", "distance of the vehicle's reference"),
+    "time": ("s", "time"),
+    "speed": ("m/s", "speed"),
+    "curvature": ("1/m", "curvature of the track, positive to the right"),
+    "cant": ("rad", "cant angle, positive where the left rail is higher"),
+}
+BODY = {
+    "lateral": ("m", "lateral displacement in the frame of the ideal track"),
+    "vertical": ("m", "vertical displacement downwards"),
+    "roll": ("rad", "roll in the frame of the ideal track"),
+    "yaw": ("rad", "yaw in that frame, clockwise seen from above"),
+    "lateral_acceleration": (
+        "m/s2",
+        "lateral acceleration felt in the plane of the track; mean since the last sample",
+    ),
+}
+WHEEL = {
+    "lateral_force": ("N", "Y, force of the rail on the wheel to the right; mean since the last sample"),
+    "vertical_force": ("N", "Q, force of the wheel on the rail downwards; mean since the last sample"),
+    "longitudinal_force": ("N", "force of the rail on the wheel forwards; mean since the last sample"),
+    "T_gamma": ("N", "T-gamma of all patches; mean since the last sample"),
+    "dissipation": ("N", "creep forces times creepages; mean since the last sample"),
+    "contact_angle": ("rad", "contact angle of the patch with the largest normal force"),
+    "longitudinal_creepage": ("1", "its longitudinal creepage"),
+    "lateral_creepage": ("1", "its lateral creepage"),
+    "max_pressure": ("Pa", "greatest pressure of all patches"),
+    "patches": ("1", "number of patches"),
+}
+BALANCE = {
+    "drive": "delivered by what keeps the speed",
+    "weight": "delivered by gravity",
+    "torque": "delivered by torques on axles",
+    "damper": "spent in dampers and under the rails",
+    "dissipated": "spent in the contacts: creep forces times creepages",
+    "stored": "stored since the second step: kinetic, elastic, in the contacts (2/5 load times approach)",
+    "residual": "what the integration has lost",
+    "counted": "spent in the contacts where damage was counted",
+}
+#: Largest factor by which a small motion may grow in a step: more than any motion of a vehicle grows.
+_LARGEST_AMPLIFICATION = 1.02
+_LONGEST_STEP = 5e-4  # [s]
+
+
+class VehicleRun:
+    """A run of a scenario with a vehicle. `save` and `restore` are exact.
+
+    Attributes
+    ----------
+    scenario : Scenario
+    simulation : Simulation
+    histograms : dict
+        (wheelset, side, "wheel" or "rail") → Histogram; wheelsets by their names.
+    steps : int
+        Number of steps so far.
+    step : float
+        [s].
+
+    Raises
+    ------
+    ContactError
+        If the step is too long for a stable integration.
+    """
+
+    def __init__(self, scenario: Scenario) -> None:
+        d, vehicle = scenario.declared, scenario.vehicle
+        if vehicle is None:
+            raise ContactError(f"{scenario.name}: the scenario has no vehicle")
+        self.scenario = scenario
+        options = ContactOptions(
+            normal=d.methods.normal,
+            tangential=d.methods.tangential,
+            n_strips=d.methods.strips,
+            n_elements=d.methods.elements,
+            material=d.methods.material,
+            damage=d.damage,
+        )
+        self._options = options
+        names = [axle.name for axle in vehicle.wheelsets]
+        profiles = {"wheel": scenario.wheel, "rail": scenario.rail}
+        self.histograms = {
+            (name, side, body): Histogram(
+                profiles[body], width=d.recording.bins, radius=vehicle.radius, parameters=d.damage
+            )
+            for name in names
+            for side in SIDES
+            for body in BODIES
+        }
+        ledgers = tuple(ledger(*self._pair(name, side), options.n_strips) for name in names for side in SIDES)
+        track = lay(d.track, d.length, scenario.speed, (d.seed, *scenario.draw), d.recording.settling)
+        ahead = max(axle.at for axle in vehicle.wheelsets) + 1.0  # all axles start before the irregularities
+        self.simulation = Simulation(
+            vehicle, track, scenario.wheel, scenario.rail, scenario.friction, options, ledgers=ledgers, start=-ahead
+        )
+        self.step = d.recording.step or min(_LONGEST_STEP, 0.7 * self._stable(vehicle))
+        self._require_stable()
+        self._counted, self._distance = 0.0, 0.0
+        self._before = self.simulation.state.u.copy()
+        self._rows: list[Array] = []
+
+    def _pair(self, name: str, side: str) -> tuple[Histogram, Histogram]:
+        return self.histograms[name, side, "wheel"], self.histograms[name, side, "rail"]
+
+    def _stable(self, vehicle: VehicleDeclaration) -> float:
+        """Return an estimate of the longest stable step [s]: that of the spin of the axles, I V/(f r²) at the slowest speed."""
+        creep = 12e6  # a little above Kalker's longitudinal coefficient of a wheel under 54.5 kN (docs/coupling.md) [N]
+        steps = []
+        for i in self.simulation.model.wheelsets:
+            body = self.simulation.model.bodies[i]
+            stiff = creep * (float(body["load"]) / 54.5e3) ** (2.0 / 3.0)
+            steps.append(body["inertia"][1] * self.scenario.slowest / (stiff * vehicle.radius**2))
+        return float(min(steps))
+
+    def _require_stable(self) -> None:
+        """Raise a ContactError if a small motion grows in a step by more than any motion of a vehicle does."""
+        vehicle, slowest = self.scenario.vehicle, self.scenario.slowest
+        assert vehicle is not None
+        straight = Simulation(
+            vehicle, lay(Track(), 1.0, lambda s: slowest, (0,), 0.0), self.scenario.wheel, self.scenario.rail,
+            self.scenario.friction, self._options,
+        )  # fmt: skip
+        factor = linear.amplification(straight, self.step)
+        if factor > _LARGEST_AMPLIFICATION:
+            raise ContactError(
+                f"recording.step = {self.step:g} s is too long at {slowest:g} m/s: a small motion grows {factor:.3g} times "
+                f"in a step; about {0.7 * self._stable(vehicle):.2g} s is stable"
+            )
+
+    @property
+    def steps(self) -> int:
+        return int(self.simulation.state.books[Book.STEPS])
+
+    @property
+    def distance(self) -> float:
+        """Distance so far [m]."""
+        return self.simulation.distance
+
+    @property
+    def done(self) -> bool:
+        """True if the whole length has been run."""
+        return self.distance >= self.scenario.declared.length
+
+    @property
+    def share(self) -> float:
+        """Share of the length that has been run, 0 to 1."""
+        return min(max(self.distance / self.scenario.declared.length, 0.0), 1.0)
+
+    def advance(self) -> None:
+        """Advance by one sample: as many steps as fit in its spacing. The last one counts for the damage of all.
+
+        Raises
+        ------
+        ContactError
+            If a wheel leaves its rail. The message contains the place.
+        """
+        simulation, h, settings = self.simulation, self.step, self.simulation.benches.settings
+        speed = self.scenario.speed(self.distance)
+        many = max(round(self.scenario.declared.recording.spacing / (speed * h)), 1)
+        counts = self.distance >= self.scenario.declared.recording.settling
+        try:
+            settings["distance"] = 0.0
+            if many > 1:
+                simulation.advance(h, many - 1)
+            settings["distance"] = many * h * speed if counts else 0.0
+            simulation.advance(h)
+        except ContactError as error:
+            raise ContactError(f"{self.scenario.name}, {speed:g} m/s: {error}") from None
+        if counts:
+            self._distance += many * h * speed
+            self._counted += many * h * speed * float(simulation.wheels["dissipation"].sum())
+        self._sample(many * h)
+
+    def _sample(self, elapsed: float) -> None:
+        """Add a row to the time series and clear the sums."""
+        simulation = self.simulation
+        state, frames = simulation.state, simulation.scratch.frames
+        s = simulation.distance
+        k = int((s - simulation.model.spacing[1]) / simulation.model.spacing[0])
+        track = simulation.model.track[:, k]
+        row = [s, simulation.time, track[Row.SPEED], track[Row.CURVATURE], track[Row.CANT]]
+        rates = (state.u[:, Axis.Y] - self._before[:, Axis.Y]) / elapsed
+        turning = frames[:, Frame.RATE_Z] * state.u[:, Axis.X] - frames[:, Frame.RATE_X] * state.u[:, Axis.Z]
+        felt = rates + turning - 9.81 * frames[:, Frame.SIN_CANT]
+        for i, q in enumerate(state.q):
+            row += [q[Axis.Y], q[Axis.Z], q[Axis.ROLL], q[Axis.YAW], felt[i]]
+        for sums, wheel in zip(state.sums, simulation.wheels, strict=True):
+            means = sums[Sum.LATERAL :] / sums[Sum.STEPS]
+            row += [*means, wheel["angle"], wheel["creep_x"], wheel["creep_y"], wheel["pmax"], wheel["patches"]]
+        state.sums[:] = 0.0
+        self._before[:] = state.u
+        self._rows.append(np.array(row))
+
+    @property
+    def columns(self) -> dict[str, tuple[str, str]]:
+        """Column of the time series → unit and meaning. Blanks in names of bodies are underscores."""
+        names = [name.replace(" ", "_") for name in self.simulation.names]
+        bodies = {f"{name}_{what}": told for name in names for what, told in BODY.items()}
+        axles = [names[i] for i in self.simulation.model.wheelsets]
+        wheels = {f"{name}_{side}_{what}": told for name in axles for side in SIDES for what, told in WHEEL.items()}
+        return TRACK | bodies | wheels
+
+    @property
+    def series(self) -> dict[str, Array]:
+        """The time series, a column each of `columns`."""
+        columns = self.columns
+        rows = np.array(self._rows).reshape(-1, len(columns))
+        return {name: rows[:, k] for k, name in enumerate(columns)}
+
+    @property
+    def balance(self) -> dict[str, float]:
+        """Energies of the whole run [J], with the names of `BALANCE`."""
+        books = self.simulation.state.books
+        return {
+            "drive": float(books[Book.DRIVE]),
+            "weight": float(books[Book.WEIGHT]),
+            "torque": float(books[Book.TORQUE]),
+            "damper": float(books[Book.DAMPER]),
+            "dissipated": float(books[Book.DISSIPATED]),
+            "stored": float(books[Book.STORED] - books[Book.STORED_FIRST]),
+            "residual": float(books[Book.RESIDUAL]),
+            "counted": self._counted,
+        }
+
+    @property
+    def energy(self) -> float:
+        """Frictional energy of all wheels where damage was counted [J]."""
+        return self._counted
+
+    @property
+    def trust(self) -> Trust:
+        """How far the run can be trusted."""
+        books = self.simulation.state.books
+        dissipated = float(books[Book.DISSIPATED])
+        return Trust(
+            residual=float(books[Book.RESIDUAL]) / dissipated if dissipated > 0.0 else 0.0,
+            impacts=float(books[Book.IMPACTS]),
+            lifted=float(books[Book.LIFTED]),
+            untrusted=float(books[Book.UNTRUSTED]),
+            speed_ratio=self.scenario.fastest / self.critical_speed,
+        )
+
+    @cached_property
+    def critical_speed(self) -> float:
+        """Linear critical speed on straight track [m/s]; inf above 150 m/s."""
+        vehicle = self.scenario.vehicle
+        assert vehicle is not None
+
+        def at_speed(speed: float) -> Simulation:
+            track = lay(Track(), 1.0, lambda s: speed, (0,), 0.0)
+            return Simulation(
+                vehicle, track, self.scenario.wheel, self.scenario.rail, self.scenario.friction, self._options
+            )
+
+        return linear.critical_speed(at_speed, tolerance=2.0)
+
+    def damage(self) -> dict[tuple[str, str, str], Histogram]:
+        """Return the histograms of all wheels and rails, filled with the damage so far."""
+        simulation, methods = self.simulation, {f"{self._options.normal} + {self._options.tangential}"}
+        for number, i in enumerate(simulation.model.wheelsets):
+            for k, side in enumerate(SIDES):
+                fill(
+                    self._pair(simulation.names[i], side), simulation.benches, 2 * number + k, self._distance, methods,
+                    self._options.material,
+                )  # fmt: skip
+        return self.histograms
+
+    def save(self) -> dict[str, Array]:
+        """Return the whole state of the run as arrays."""
+        simulation = self.simulation
+        return {
+            **{f"state.{name}": array.copy() for name, array in simulation.state._asdict().items()},
+            "forces": simulation.scratch.forces.copy(),
+            "before": self._before.copy(),
+            "memories": simulation.benches.memories.copy(),
+            "pool": simulation.benches.pool.copy(),
+            "progress": np.array([self._counted, self._distance]),
+            "rows": np.array(self._rows).reshape(-1, len(self.columns)),
+        }
+
+    def restore(self, saved: Mapping[str, Array]) -> None:
+        """Restore the state from `save` of the same scenario."""
+        simulation = self.simulation
+        for name, array in simulation.state._asdict().items():
+            array[:] = saved[f"state.{name}"]
+        simulation.scratch.forces[:] = saved["forces"]
+        self._before[:] = saved["before"]
+        simulation.benches.memories[:], simulation.benches.pool[:] = saved["memories"], saved["pool"]
+        self._counted, self._distance = saved["progress"].tolist()
+        self._rows = list(saved["rows"])

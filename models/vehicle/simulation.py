@@ -1,0 +1,187 @@
+"""A vehicle on a track, advanced by its kernels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact import workspace
+from contact._jit import compiled_for
+from contact.damage import DamageParameters
+from contact.errors import ContactError
+from contact.friction import Friction, as_friction
+from contact.geometry.profile import Profile
+from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.kernels.memory import Ledger
+from contact.material import STEEL, Material
+from contact.pair import WheelRailPair
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
+from contact.solver import N_ELEMENTS, N_STRIPS
+from models.vehicle.assembly import Assembly, assemble
+from models.vehicle.course import BEYOND, SPACING
+from models.vehicle.declared import VehicleDeclaration
+from models.vehicle.kernels import motion
+from models.vehicle.kernels.benches import Benches, gather
+from models.vehicle.kernels.layout import Axis, Book, Model, Row, Scratch, State, Sum, scratch
+
+Array = NDArray[np.float64]
+
+SIDES = ("right", "left")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContactOptions:
+    """Contact methods of all wheels, as for `contact.pair.WheelRailPair`."""
+
+    normal: str = DEFAULT_NORMAL
+    tangential: str = DEFAULT_TANGENTIAL
+    n_strips: int = N_STRIPS
+    n_elements: int = N_ELEMENTS
+    material: Material = STEEL
+    damage: DamageParameters | None = None
+
+
+class Simulation:
+    """A vehicle that runs over a track.
+
+    Parameters
+    ----------
+    vehicle : VehicleDeclaration
+    track : ndarray
+        Rows of `models.vehicle.course.lay`.
+    wheels, rails : sequence of Profile
+        Profiles of every wheel and of the rail under it: axle by axle, the right one before the left one; or one for all.
+    friction : float or Friction
+    options : ContactOptions, optional
+    ledgers : sequence of Ledger, optional
+        One for each wheel.
+    start : float
+        Place of the vehicle's reference at the start [m].
+
+    Attributes
+    ----------
+    names : tuple of str
+        Names of the bodies.
+    model, state, scratch, benches
+        Arrays of the kernels.
+    """
+
+    def __init__(
+        self,
+        vehicle: VehicleDeclaration,
+        track: Array,
+        wheels: Profile | tuple[Profile, ...],
+        rails: Profile | tuple[Profile, ...],
+        friction: float | Friction = 0.3,
+        options: ContactOptions | None = None,
+        *,
+        ledgers: tuple[Ledger, ...] | None = None,
+        start: float = 0.0,
+    ) -> None:
+        self.vehicle, self._options, self._friction = vehicle, options or ContactOptions(), friction
+        made: Assembly = assemble(vehicle)
+        self.names = made.names
+        n_wheels = 2 * made.wheelsets.size
+        wheels, rails = (each if isinstance(each, tuple) else (each,) * n_wheels for each in (wheels, rails))
+        surface = as_friction(friction)
+        members = surface.members()
+        self.model = Model(
+            made.bodies, made.links, made.elements, made.table, made.wheelsets, track, made.rail,
+            np.array([members["mu"], members["kinetic"]]), np.array([SPACING, -BEYOND]),
+        )  # fmt: skip
+        n = len(made.names)
+        axles = made.wheelsets.size
+        self.state = State(
+            q=np.zeros((n, 6)),
+            u=np.zeros((n, 6)),
+            inner=np.zeros((made.elements.size, 3)),
+            rails=np.zeros((axles, 2, 4)),
+            loads=np.zeros((axles, 2)),
+            sums=np.zeros((n_wheels, len(Sum))),
+            books=np.zeros(len(Book)),
+        )
+        self.scratch: Scratch = scratch(n, made.wheelsets.size)
+        self._pairs = [
+            self._pair(SIDES[k % 2], wheel, rail, ledgers[k] if ledgers else workspace.closed_ledger())
+            for k, (wheel, rail) in enumerate(zip(wheels, rails, strict=True))
+        ]
+        self.benches: Benches = gather(self._pairs)
+        for name, value in members.items():
+            self.benches.cases[name] = value
+        self._place(start)
+        self._advance: Any = None
+
+    def _pair(self, side: str, wheel: Profile, rail: Profile, ledger: Ledger) -> WheelRailPair:
+        v, o = self.vehicle, self._options
+        pair = Pair(
+            wheel,
+            rail,
+            side=side,  # type: ignore[arg-type]
+            nominal_radius=v.radius,
+            gauge=v.gauge,
+            gauge_point=v.gauge_point,
+            flange_back=v.flange_back,
+        )
+        return WheelRailPair(
+            pair,
+            material=o.material,
+            normal=o.normal,
+            tangential=o.tangential,
+            n_strips=o.n_strips,
+            n_elements=o.n_elements,
+            damage=o.damage,
+            ledger=ledger,
+        )
+
+    def _place(self, start: float) -> None:
+        """Put the vehicle on the rails at rest in its nominal place, rolling."""
+        state, books = self.state, self.state.books
+        books[Book.DISTANCE] = start
+        k = int((start + BEYOND) / SPACING)
+        speed = float(self.model.track[Row.SPEED, k])
+        state.u[:, Axis.X] = speed
+        for number, i in enumerate(self.model.wheelsets):
+            load = float(self.model.bodies[i]["load"])
+            state.loads[number] = load
+            state.q[i, Axis.Z] = self._height(2 * number, speed, load)
+            state.u[i, Axis.PITCH] = -speed / self.vehicle.radius
+
+    def _height(self, wheel: int, speed: float, load: float) -> float:
+        """Return the height of a wheelset at which its right wheel carries the static load."""
+        solved = self._pairs[wheel].solve(Pose(), Velocity(speed), vertical=load, friction=self._friction)
+        return solved.z
+
+    @property
+    def distance(self) -> float:
+        """Place of the vehicle's reference [m]."""
+        return float(self.state.books[Book.DISTANCE])
+
+    @property
+    def time(self) -> float:
+        """Time since the start [s]."""
+        return float(self.state.books[Book.TIME])
+
+    @property
+    def wheels(self) -> NDArray:
+        """What every wheel did at the last step, records WHEEL: axle by axle, the right one before the left one."""
+        return self.scratch.wheels
+
+    def advance(self, h: float, steps: int = 1) -> None:
+        """Advance by `steps` steps of `h` [s].
+
+        Raises
+        ------
+        ContactError
+            If a wheel leaves its rail. The message has wheel and place.
+        """
+        if self._advance is None:
+            self._advance = compiled_for(motion.advance, self.model, self.state, self.benches, self.scratch, h, steps)
+        code = self._advance(self.model, self.state, self.benches, self.scratch, float(h), int(steps))
+        if code < 0:
+            axle, side = divmod(-1 - code, 2)
+            raise ContactError(
+                f"{self.distance:.2f} m: the {SIDES[side]} wheel of {self.names[self.model.wheelsets[axle]]} has left its rail"
+            )

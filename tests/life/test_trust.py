@@ -1,0 +1,101 @@
+"""Warnings of runs and of wear studies: nothing wrong passes without a word."""
+
+import pytest
+import typer
+from typer.testing import CliRunner
+
+from contact.damage import Burstow, DamageParameters
+from contact.errors import ContactError
+from models.life import commands, declared_set, report, result
+from models.life.declared_set import Steps
+from models.life.run import Book, Run
+from models.life.scale import Workers
+from models.life.trust import Trust, worst
+from models.life.wear import Life
+from tests.life.short_run import completed, scenario
+from tests.life.short_set import written
+
+GOOD = Trust(residual=0.001, impacts=0.0, lifted=0.0, untrusted=0.0, speed_ratio=0.5)
+BAD = Trust(residual=-0.49, impacts=3.0, lifted=2.0, untrusted=7.0, speed_ratio=1.2)
+
+
+def test_a_good_run_has_no_warning_and_a_bad_one_names_every_fault():
+    assert GOOD.warnings == ()
+    said = " ".join(BAD.warnings)
+    for text in ("-49 %", "7 contacts", "2 times", "3 times", "1.2 times the linear critical speed"):
+        assert text in said
+
+
+def test_the_worst_of_several_runs_keeps_the_largest_residual_and_adds_the_counts():
+    both = worst([GOOD, BAD])
+    assert (both.residual, both.lifted, both.speed_ratio) == (-0.49, 2.0, 1.2)
+
+
+@pytest.fixture(scope="module")
+def lossy() -> Run:
+    """A run whose books say that half of the energy is lost and a wheel has lifted."""
+    run = completed(Run(scenario(length=1.5)))
+    run._books[Book.DISSIPATED] *= 0.5
+    run._books[Book.LIFTED] = 1
+    for row in run._rows[::2]:
+        row[list(run.series).index("right_vertical_force")] = 0.0
+        row[list(run.series).index("right_lateral_force")] = 0.0
+    return run
+
+
+def test_result_and_report_say_that_the_energy_does_not_close(lossy):
+    stored = result.dataset(lossy).attrs
+    assert abs(stored["trust_residual"]) > 0.02
+    assert "does not close" in stored["warnings"]
+    page = report.page_of(lossy)
+    assert "The balance of energy does not close" in page
+    assert "nan" not in page.split("<picture>")[0]
+
+
+def test_a_wear_study_stops_where_the_energy_does_not_close_unless_told_to_go_on(tmp_path, monkeypatch):
+    monkeypatch.setattr(Run, "trust", BAD)
+    life = Life(declared_set.read(written(tmp_path)))
+    with Workers() as pool:
+        with pytest.raises(ContactError, match=r"step 1, straight: The balance of energy does not close: -49 %"):
+            life.step(pool)
+        assert life.mileage == 0.0
+        life.step(pool, go_on=True)
+    assert life["residual"][-1] == -0.49
+    assert life["lifted"][-1] == 4.0
+    assert "does not close" in life.trust.warnings[0]
+
+
+def test_a_study_whose_steps_become_too_short_stops_with_the_reason():
+    steps = Steps(distance=1e7, depth=5e-5)
+    assert steps.length(4.9e-10, 1e9) == pytest.approx(1.02e5, rel=1e-3)
+    with pytest.raises(ContactError, match=r"10000 km would wear off 5.1e\+03 µm .* allows 98 km, below 1 % of it"):
+        steps.length(5.1e-10, 1e9)
+
+
+def test_constants_without_effect_are_refused():
+    with pytest.raises(ContactError, match=r"damage\.burstow"):
+        scenario(damage=DamageParameters(burstow=Burstow(clip_negative=True)))
+
+
+def test_ctrl_c_names_a_checkpoint_only_if_there_is_one(tmp_path, monkeypatch):
+    app = typer.Typer(pretty_exceptions_enable=False)
+    app.command()(commands.run)
+    (tmp_path / "case.toml").write_text('name = "x"\nlength = 40.0\nspeed = 20.0\n', encoding="utf-8")
+
+    def interrupted(self: Run) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Run, "advance", interrupted)
+    ended = CliRunner().invoke(app, [str(tmp_path / "case.toml"), "--out", str(tmp_path / "out")])
+    assert ended.exit_code == 130
+    assert "there is no checkpoint yet" in ended.output
+
+
+def test_impacts_and_lifted_wheels_are_counted_when_they_begin():
+    run = Run(scenario())
+    problems = [run._model.problem(side) for side in ("right", "left")]
+    answers = [c.solve(problem, 20.0) for c, problem in zip(run._contacts, problems, strict=True)]
+    for load in (1e5, 1.2e5, 1.3e5, 0.0, 0.0, 1.2e5):
+        problems[0][-1] = load
+        run._book(problems, answers, 20.0, 0.0)
+    assert (run._books[Book.IMPACTS], run._books[Book.LIFTED]) == (2.0, 1.0)

@@ -1,0 +1,31 @@
+"""Vehicles and tracks of the tests."""
+
+from __future__ import annotations
+
+from contact.geometry import profile
+from contact.geometry.profile import Profile
+from models.life.track import Track
+from models.vehicle.course import lay
+from models.vehicle.declared import VehicleDeclaration, read
+from models.vehicle.simulation import ContactOptions, Simulation
+
+#: Methods that are compiled and solved fast.
+FAST = ContactOptions(normal="analyn", tangential="fastrip", n_strips=20, n_elements=12)
+
+
+def simulation(
+    vehicle: str | VehicleDeclaration = "wheelset",
+    track: Track | None = None,
+    *,
+    speed: float = 20.0,
+    length: float = 10.0,
+    wheel: Profile | None = None,
+    friction: float = 0.3,
+    seed: int = 1,
+    settling: float = 0.0,
+    options: ContactOptions = FAST,
+) -> Simulation:
+    """Return a vehicle at the start of a track, straight and ideal unless another one is given."""
+    declared = read(vehicle) if isinstance(vehicle, str) else vehicle
+    rows = lay(track or Track(), length, lambda s: speed, (seed,), settling)
+    return Simulation(declared, rows, wheel or profile.s1002(), profile.rail_60e1(), friction, options)

@@ -1,0 +1,47 @@
+"""Declared vehicles: preloads, messages."""
+
+import numpy as np
+import pytest
+
+from contact.errors import ContactError
+from models.vehicle.assembly import GRAVITY, assemble
+from models.vehicle.declared import INCLUDED, read
+
+
+@pytest.mark.parametrize("name", [path.stem for path in INCLUDED.glob("*.toml")])
+def test_static_loads_carry_the_whole_weight(name):
+    made = assemble(read(name))
+    free = made.bodies["held"][:, 2] == 0
+    preload = sum(each.preload * (2 if each.mirrored else 1) for each in read(name).springs)
+    weight = GRAVITY * made.bodies["mass"][free].sum() + preload
+    assert 2.0 * made.bodies["load"].sum() == pytest.approx(weight, rel=1e-12)
+
+
+def test_axle_load_of_the_benchmark_vehicle():
+    """docs/constants.md 13.4: 109.1 kN."""
+    loads = assemble(read("manchester")).bodies["load"]
+    assert 2.0 * loads[loads > 0.0] == pytest.approx(np.full(4, 109.1e3), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('["bogie 1", "body"]', '["bogey 1", "body"]', r"'bogey 1' is no body.*bogie 1"),
+        ("mass = 32000.0", "mass = -1.0", r"mass = -1"),
+        ('held = ["x"]', 'held = ["w"]', r"held = 'w' is none of x, y"),
+        ('held = ["x"]', "", r"nothing keeps the speed"),
+        ("stiffness = [160e3, 160e3, 430e3]", "stiffness = [160e3, 160e3, 0.0]", r"rest on vertical springs"),
+        ("force = [0.0, 0.0, 600.0", "force = [1.0, 0.0, 600.0", r"both from 0"),
+    ],
+)
+def test_faults_of_a_file_are_named(tmp_path, old, new, said):
+    text = (INCLUDED / "manchester.toml").read_text(encoding="utf-8")
+    assert old in text
+    (tmp_path / "v.toml").write_text(text.replace(old, new), encoding="utf-8")
+    with pytest.raises(ContactError, match=said):
+        assemble(read(tmp_path / "v.toml"))
+
+
+def test_unknown_vehicle_is_named():
+    with pytest.raises(ContactError, match="neither a file nor one of manchester, wheelset"):
+        read("lorry")

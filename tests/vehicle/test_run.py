@@ -1,0 +1,158 @@
+"""Runs of scenarios with a vehicle: interruption, damage, files, assessment."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from contact.errors import ContactError
+from contact.geometry import profile
+from models.life import checkpoint, declared_set, result
+from models.life.scale import Workers
+from models.life.scenario import Declaration, Methods, Profiles, Recording, Scenario
+from models.life.scenario import read as read_scenario
+from models.life.spectra import Irregularities
+from models.life.track import Track
+from models.life.vehicle import Vehicle
+from models.life.wear import Life
+from models.vehicle import assess, report
+from models.vehicle.declared import read
+from models.vehicle.run import VehicleRun
+
+
+def scenario(**changes) -> Scenario:
+    given = {
+        "name": "short",
+        "length": 6.0,
+        "speed": 20.0,
+        "vehicle": "wheelset",
+        "recording": Recording(settling=1.0, spacing=0.25),
+        "track": Track(alignment=Irregularities(spectrum="ERRI B176 low")),
+        "methods": Methods(normal="analyn", tangential="fastrip", strips=20, elements=12),
+    }
+    declared = Declaration(**(given | changes))
+    return Scenario(declared, *Profiles().load(Path()), vehicle=read(declared.vehicle))
+
+
+def completed(run: VehicleRun) -> VehicleRun:
+    while not run.done:
+        run.advance()
+    return run
+
+
+@pytest.fixture(scope="module")
+def whole() -> VehicleRun:
+    return completed(VehicleRun(scenario()))
+
+
+def test_resumed_run_equals_the_uninterrupted_one_bit_for_bit(whole, tmp_path):
+    first = VehicleRun(scenario())
+    for _ in range(7):
+        first.advance()
+    path = tmp_path / "checkpoint.npz"
+    checkpoint.write(path, first.scenario.fingerprint, first.save())
+    second = VehicleRun(scenario())
+    second.restore(checkpoint.read(path, second.scenario.fingerprint))
+    completed(second)
+    assert all(
+        np.array_equal(mine, theirs) for mine, theirs in zip(second.save().values(), whole.save().values(), strict=True)
+    )
+    for run, name in ((second, "a.nc"), (whole, "b.nc")):
+        result.write(result.dataset(run), tmp_path / name)
+    assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
+
+
+def test_histograms_hold_the_damage_of_all_wheels(whole):
+    for (_, _, body), histogram in whole.damage().items():
+        assert histogram.distance == pytest.approx(5.0, abs=0.3)
+        assert histogram["wear"].sum() > 0.0
+        if body == "rail":  # depth times width is the volume lost over a length
+            assert histogram["wear"].sum() * histogram.width == pytest.approx(histogram.volume, rel=1e-9)
+
+
+def test_report_has_no_nan_and_names_the_limits(whole):
+    text = report.page_of(whole)
+    assert "Prud" in text
+    assert "nan" not in text.split("<picture>")[0]
+    assert "doctype" in text.lower()
+
+
+def test_a_step_above_stability_is_refused():
+    with pytest.raises(ContactError, match=r"recording.step = 0.0015 s is too long at 10 m/s"):
+        VehicleRun(scenario(speed=10.0, recording=Recording(settling=1.0, step=1.5e-3)))
+
+
+def test_nadals_limit():
+    """A wheel climbs at 70° and μ = 0.36 from Y/Q = 1.20, without friction at 45° from 1."""
+    assert assess.nadal(math.radians(70.0), 0.36) == pytest.approx(1.2003, abs=1e-4)
+    assert assess.nadal(math.radians(45.0), 0.0) == pytest.approx(1.0)
+    assert math.degrees(assess.flange_angle(profile.s1002())) == pytest.approx(70.0, abs=0.1)
+
+
+def test_low_pass_halves_its_cut_off_and_keeps_what_is_slow():
+    time = np.arange(0.0, 4.0, 2e-3)
+    middle = slice(500, 1500)
+    for frequency, gain in ((20.0, 0.5), (1.0, 1.0), (60.0, 0.0)):
+        out = assess.low_pass(np.sin(2.0 * np.pi * frequency * time), time)
+        assert np.ptp(out[middle]) / 2.0 == pytest.approx(gain, abs=0.01)
+
+
+def test_sliding_mean_of_a_straight_line_is_the_line_and_a_pulse_is_spread():
+    s = np.arange(0.0, 20.0, 0.25)
+    inner = slice(4, -4)
+    assert assess.sliding_mean(3.0 * s, s)[inner] == pytest.approx(3.0 * s[inner])
+    pulse = np.where(s == 10.0, 1.0, 0.0)
+    assert assess.sliding_mean(pulse, s).max() == pytest.approx(0.25 / 2.0)
+
+
+def test_guiding_force_of_both_wheels_is_below_prudhommes_limit():
+    s = np.linspace(0.0, 50.0, 201)
+    found = assess.safety(np.array([[2e4], [-5e3]]) * np.ones((2, 201)), 5e4 * np.ones((2, 201)), s, s / 20.0, 5.5e4)
+    assert (found.quotient, found.guiding) == pytest.approx((0.4, 1.5e4))
+    assert found.prudhomme == pytest.approx(1e4 + 1.1e5 / 3.0)
+    assert found.unloading == pytest.approx(1.0 - 5.0 / 5.5)
+
+
+def test_a_wear_study_takes_vehicles(tmp_path):
+    """All wheels wear alike, by their mean."""
+    (tmp_path / "straight.toml").write_text(
+        'name = "s"\nlength = 6.0\nspeed = 20.0\nvehicle = "wheelset"\n'
+        '[methods]\nnormal = "analyn"\ntangential = "fastrip"\nstrips = 20\nelements = 12\n'
+        '[track.alignment]\nspectrum = "ERRI B176 low"\n[recording]\nsettling = 2.0\n',
+        encoding="utf-8",
+    )
+    (tmp_path / "set.toml").write_text(
+        'name = "set"\nmileage = 1e6\namplitudes = [3e-3]\n[[scenarios]]\nfile = "straight.toml"\nweight = 1.0\n',
+        encoding="utf-8",
+    )
+    life = Life(declared_set.read(tmp_path / "set.toml"))
+    with Workers() as pool:
+        life.step(pool)
+    assert life.mileage == pytest.approx(1e6)
+    assert life["mass"][-1] > 0.0
+    assert abs(life["residual"][-1]) < 0.02
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"vehicle": None, "track": Track(gauge=Irregularities(spectrum="FRA 5"))}, r"track\.gauge needs a vehicle"),
+        ({"wheelset": Vehicle(mass=2000.0)}, r"wheelset and vehicle = 'wheelset' exclude each other"),
+    ],
+)
+def test_what_would_have_no_effect_is_refused(changes, said):
+    with pytest.raises(ContactError, match=said):
+        Declaration(**({"name": "x", "length": 60.0, "speed": 20.0, "vehicle": "wheelset"} | changes))
+
+
+def test_a_measured_series_lies_beside_its_scenario_and_is_part_of_the_fingerprint(tmp_path):
+    text = 'name = "s"\nlength = 60.0\nspeed = 20.0\nvehicle = "wheelset"\n[track]\nmeasured = "t.csv"\n'
+    (tmp_path / "s.toml").write_text(text, encoding="utf-8")
+    with pytest.raises(ContactError, match="is no file beside it"):
+        read_scenario(tmp_path / "s.toml")
+    prints = []
+    for value in (0, 1):
+        (tmp_path / "t.csv").write_text("h\n" + "".join(f"{s},{value},0,0,0\n" for s in range(5)), encoding="utf-8")
+        prints.append(read_scenario(tmp_path / "s.toml").fingerprint)
+    assert prints[0] != prints[1]
