@@ -47,6 +47,7 @@ def kernel_loop(normal: str, tangential: str, n_strips: int, n_elements: int, *,
     problems, results = cases_of(CASES, *methods)
 
     def call() -> None:
+        own.space.memory[0] = 0.0
         solve_cases(0, CASES, SEPARATION.samples, bounds, which, problems, own, results)
 
     call()

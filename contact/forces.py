@@ -132,6 +132,7 @@ def forces(
         with_fields = conformal or material.pressure_limit < np.inf  # both compute the forces from the fields
         arrays = workspace.allocate(method, rolling, material.poisson_ratio, size, fields=with_fields)
         for first in chunks:
+            arrays.space.memory[0] = 0.0
             solve_cases(first, min(first + _CHUNK, count), samples, bounds, which, cases, arrays, results)
 
     pieces = min(threads or cores(), -(-count // _CHUNK))

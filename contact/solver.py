@@ -18,7 +18,7 @@ from contact.errors import ContactError, require_integer, require_number
 from contact.friction import Friction, as_friction
 from contact.kernels.arrays import Workspace
 from contact.kernels.enumerations import LoadKind
-from contact.kernels.pipeline import solve_case
+from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import RESULT
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
@@ -52,11 +52,12 @@ def require_conformal(tangential: Method) -> None:
 _COMPILED: dict[tuple[type, type], Callable[..., int]] = {}
 
 
-def _kernel(arrays: Workspace, case: NDArray[np.void], result: NDArray[np.void]) -> Callable[..., int]:
-    """Return the machine code for the method families of a workspace."""
+def _kernel(*arguments: Any) -> Callable[..., int]:
+    """Return the machine code for these arguments of `solve_cases`. The workspace among them has the method families."""
+    arrays: Workspace = arguments[-2]
     families = type(arrays.families.normal), type(arrays.families.tangential)
     if families not in _COMPILED:
-        _COMPILED[families] = compiled_for(solve_case, _FLAT.samples, case, arrays, result)
+        _COMPILED[families] = compiled_for(solve_cases, *arguments)
     return _COMPILED[families]
 
 
@@ -119,6 +120,7 @@ class Solver:
         self._member = {name: self._case[name] for name in self._case.dtype.names or ()}
         self._result = np.zeros(1, RESULT)
         self._status = self._result["status"]
+        self._bounds, self._which = np.zeros(2, np.int64), np.zeros(1, np.int64)  # of the only separation
         self._numbers = self._case.view(np.float64), self._result.view(np.float64)  # faster to copy than records
         self.set_surface(friction, speed)
         self._coefficients: NDArray[np.float64] | None = None
@@ -161,7 +163,7 @@ class Solver:
         if self._coefficients is not None:
             self._full = self._full._replace(tables=self._full.tables._replace(kalker=self._coefficients))
         self._n_samples = n_samples
-        self._kernel = _kernel(self._full, self._case, self._result)
+        self._kernel = _kernel(0, 1, _FLAT.samples, self._bounds, self._which, self._case, self._full, self._result)
         # For forces only, all strips share one row of fields. A curved surface and a pressure limit compute the forces
         # from the fields, so they need all rows.
         needed = self.conformal or self.material.pressure_limit < math.inf
@@ -261,7 +263,9 @@ class Solver:
             arrays = self._forces_only if forces_only else self._full
         if not warm:
             arrays.space.memory[0] = 0.0
-        return int(self._kernel(separation.samples, self._case, arrays, self._result))
+        self._bounds[1] = separation.y.size
+        samples, bounds, which = separation.samples, self._bounds, self._which
+        return int(self._kernel(0, 1, samples, bounds, which, self._case, arrays, self._result))
 
 
 def require_trustworthy(status: Status, y: NDArray[np.float64], load: float | None, approach: float | None) -> None:

@@ -27,8 +27,12 @@ SLOW = {"system", "life"}
 
 @pytest.hookimpl(tryfirst=True)  # before pytest evaluates -m
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark slow folders. Tests of native FMUs run first, so that one worker builds these while the other compiles."""
+    """Mark slow folders, and sort the tests.
+
+    Those of native FMUs run first, so that one worker builds these while the other compiles. Quick tests run last, so that
+    at the end no worker waits for a long test of another one.
+    """
     for item in items:
         if item.path.parent.name in SLOW:
             item.add_marker("slow")
-    items.sort(key=lambda item: "native" not in getattr(item, "fixturenames", ()))
+    items.sort(key=lambda item: ("native" not in getattr(item, "fixturenames", ()), "slow" not in item.keywords))

@@ -237,7 +237,7 @@ def solve_case(sep, cases, own, results):
     Parameters
     ----------
     sep : Samples
-    cases, results : arrays of one record CASE and RESULT of `layout`
+    cases, results : arrays of one record CASE and RESULT
         The case is only read. An array is cheaper to pass from Python than a record.
     own : Workspace
         `contact.workspace.allocate` makes a fitting one. Where fields have a single row, only strips and result have a meaning.
@@ -259,13 +259,17 @@ def solve_case(sep, cases, own, results):
 
 @kernel
 def solve_cases(first, last, samples, bounds, which, cases, own, results):
-    """Solve cases[first:last] one after the other. Separation k is samples[bounds[k]:bounds[k+1]], case c uses which[c].
+    """Solve cases[first:last] one after the other. Return the strip count of the last one.
 
-    No case starts from another one, so their order does not matter.
+    Separation k is samples[bounds[k]:bounds[k+1]], and case c uses which[c]. The first case starts from `own.space.memory`,
+    all others from nothing. This is the only kernel that Python calls for single cases too, so each method is compiled once.
     """
     y, g, A, x_c, tilt = samples
+    n = 0
     for c in range(first, last):
         low, high = bounds[which[c]], bounds[which[c] + 1]
-        own.space.memory[0] = 0.0
+        if c > first:
+            own.space.memory[0] = 0.0
         sep = Samples(y[low:high], g[low:high], A[low:high], x_c[low:high], tilt[low:high])
-        solve_case(sep, cases[c : c + 1], own, results[c : c + 1])
+        n = solve_case(sep, cases[c : c + 1], own, results[c : c + 1])
+    return n

@@ -147,7 +147,7 @@ def on_patch(patch: wheelset.Patch, normal: str, tangential: str = "fastrip", n:
     )  # fmt: skip
 
 
-def reference(patch: wheelset.Patch, n: int = 72) -> contact.Solution:
+def half_space(patch: wheelset.Patch, n: int = 72) -> contact.Solution:
     """The half space on that patch."""
     return on_patch(patch, REFERENCE, REFERENCE, n)
 

@@ -7,10 +7,19 @@ import numpy as np
 import contact
 from contact.geometry import profile
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
+from contact.kernels.enumerations import NormalFamily, TangentialFamily
 from contact.pair import PairSolution, WheelRailPair
 
 NAME = "WheelRailPair"
 METHODS = contact.methods().batched
+#: Family of a normal method → family of the tangential methods that a random case may have with it. Python compiles the pair
+#: anew for every two families. All two of them meet in the random cases of `WheelRailContact`.
+PARTNERS = {
+    NormalFamily.ANALYN: TangentialFamily.FASTRIP,
+    NormalFamily.HERTZ: TangentialFamily.CREEP_FORCE,
+    NormalFamily.STRIP_HALFSPACE: TangentialFamily.FASTRIP_MAPPED,
+    NormalFamily.BY_APPROACH: TangentialFamily.FASTSIM,
+}
 R0 = 0.46
 #: A motion with lateral shift, yaw, rates and an irregular rail.
 MOTION = {
@@ -123,7 +132,10 @@ def random_case(seed: int) -> tuple[dict[str, float], WheelRailPair]:
     gauge_point, flange_back = rng.uniform(0.010, 0.016), 1.360 + rng.uniform(-2e-3, 2e-3)
     distance, angle, most = rng.uniform(0.0, 1e-2), rng.uniform(0.0, 0.4), int(rng.integers(1, 4))
     samples, n_strips, n_elements = int(rng.integers(41, 121)), int(rng.integers(6, 40)), int(rng.integers(6, 40))
-    normal, tangential = int(rng.integers(len(METHODS.normal))), int(rng.integers(len(METHODS.tangential)))
+    normal, drawn = int(rng.integers(len(METHODS.normal))), int(rng.integers(len(METHODS.tangential)))
+    family = PARTNERS[list(METHODS.normal.values())[normal].family]
+    partners = [k for k, method in enumerate(METHODS.tangential.values()) if method.family == family]
+    tangential = partners[drawn % len(partners)]
     G, nu, H, k = rng.uniform(70e9, 90e9), rng.uniform(0.0, 0.5), rng.uniform(2e9, 4e9), rng.uniform(2e8, 4e8)
     material = contact.Material(G, nu, hardness=H, shear_yield=k)
     geometry = Pair(

@@ -124,14 +124,14 @@ def test_valgrind_finds_nothing(request, name, command):
     if not shutil.which("valgrind"):
         pytest.skip("valgrind is not installed")
     host("every_call", before=VALGRIND)
-    host(command, 500, before=VALGRIND)  # the tables of interacting strips take a second of each instance
+    host(command, 2000, before=VALGRIND)
 
 
 @pytest.mark.parametrize("name", OTHERS)
 def test_valgrind_finds_nothing_in_the_other_fmus(hosts, name):
     if not shutil.which("valgrind"):
         pytest.skip("valgrind is not installed")
-    hosts("linux64", name)("fuzz", 500, before=VALGRIND)
+    hosts("linux64", name)("fuzz", 1000, before=VALGRIND)
 
 
 def test_speed_can_be_measured(host, host_fmi3, tmp_path):

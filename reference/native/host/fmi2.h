@@ -34,6 +34,7 @@ fmi2Status set_integer(fmi2Component c, fmi2ValueReference r, int value);
 double real(fmi2Component c, fmi2ValueReference r);
 int whole(fmi2Component c, fmi2ValueReference r);
 double reached(fmi2Component c); /* end of the last step, 0 before the first */
+void coarsen(fmi2Component c); /* set the coarsest resolution, for tests that are not about numbers */
 double any(fmi2Component c, fmi2ValueReference r); /* value of a Real or an Integer of a `quiet` instance */
 
 /* calls.c: legality of calls */

@@ -107,14 +107,11 @@ static long resident(void)
 /* Make and free many instances, and do many steps of one, at the coarsest resolution. */
 void soak(int cycles, int steps)
 {
-    static const fmi2ValueReference resolution[] = RESOLUTION;
-    static const fmi2Integer least[] = COARSEST;
-    enum { N = sizeof resolution / sizeof *resolution };
     fmi2FMUstate saved = NULL;
     long before = 0, grown;
     for (int i = 0; i < cycles + 100; i++) {
         fmi2Component c = make(fmi2CoSimulation, quiet);
-        SetInteger(c, resolution, N, least);
+        coarsen(c);
         EnterInitializationMode(c);
         ExitInitializationMode(c);
         DoStep(c, 0.0, 1e-3, fmi2True);
@@ -128,7 +125,7 @@ void soak(int cycles, int steps)
     printf("%ld bytes in %d cycles\n", grown, cycles);
     check(grown < 1 << 20, "memory", "of cycles grows");
     fmi2Component c = make(fmi2CoSimulation, quiet);
-    SetInteger(c, resolution, N, least);
+    coarsen(c);
     EnterInitializationMode(c);
     ExitInitializationMode(c);
     for (int i = 0; i < steps; i++) {
