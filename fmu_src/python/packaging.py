@@ -38,9 +38,33 @@ try:
     else:
         from {packages[1]}.{module} import {slave}
 except ImportError as error:
-    raise ImportError(
-        f"the FMU {name} needs the package wheelrail-contact {version} in the host's Python: {{error}}"
-    ) from error
+    from pythonfmu.enums import Fmi2Status
+    from pythonfmu.fmi2slave import Fmi2Slave
+
+    reason = f"the FMU {name} needs the package wheelrail-contact {version} in the host's Python: {{error}}"
+
+    class {slave}(Fmi2Slave):
+        """Stands for the model that is missing, and does no step. An exception would end a host that is not in Python."""
+
+        def __init__(self, **kwargs):
+            super().__init__(**kwargs)
+            self.log(reason, Fmi2Status.error)
+
+        def do_step(self, current_time, step_size):
+            self.log(reason, Fmi2Status.discard)
+            return False
+
+        def _zeros(self, references):
+            return [0] * len(references)
+
+        def _ignore(self, references, values):
+            pass
+
+        get_real = get_integer = get_boolean = _zeros
+        set_real = set_integer = set_boolean = set_string = _ignore
+
+        def get_string(self, references):
+            return [""] * len(references)
 
 
 class {name}({slave}):

@@ -361,3 +361,20 @@ def test_runs_in_libcosim(fmus):
         solution = contact.solve(contact.Separation(y, y**2, 0.5 / 0.46), contact.Creepage(1e-3), load=load)
         energy += 2e-3 * 20.0 * solution.power_per_metre
         assert [N, Fx, total] == pytest.approx([solution.N, solution.Fx, energy], rel=1e-9)
+
+
+def test_without_the_package_steps_are_discarded_with_the_reason(fmus, tmp_path):
+    """An exception at this point would end a host that is not in Python. -I -S leaves only the standard library."""
+    resources = Path(fmpy.extract(str(fmus / f"{NAME}.fmu"), str(tmp_path))) / "resources"
+    code = f"""
+import sys
+sys.path.insert(0, {str(resources)!r})
+module = __import__({(resources / "slavemodule.txt").read_text()!r})
+slave = module.{NAME}(instance_name="i", resources="")
+slave.setup_experiment(0.0, None, None)
+slave.set_real([40], [1.0])
+slave.enter_initialization_mode(), slave.exit_initialization_mode()
+print(slave.do_step(0.0, 1e-3), slave.get_real([40, 41]), slave.log_queue[-1].msg)
+"""
+    said = subprocess.run([sys.executable, "-I", "-S", "-c", code], capture_output=True, text=True, check=True).stdout
+    assert said.startswith(f"False [0, 0] the FMU {NAME} needs the package wheelrail-contact")
