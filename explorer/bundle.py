@@ -61,6 +61,8 @@ RESULTS = (
     ("force.x", "longitudinal force"),
     ("force.y", "lateral force"),
     ("force.z", "vertical force"),
+    ("wheel.Y_over_Q", "Y/Q"),
+    ("used_friction", "used friction"),
     ("pressure.max", "greatest pressure"),
     ("patches.area", "contact area"),
     ("slip.ratio", "share that slips"),
