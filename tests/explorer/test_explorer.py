@@ -72,11 +72,7 @@ def _python(state: dict) -> contact.pair.PairSolution:
     solver = WheelRailPair(pair, **method)
     speed = values["velocity.x"]
     velocity = Velocity(forward=speed, spin=-speed / pair.nominal_radius * (1.0 + values["slip"] / 100.0))
-    pose = Pose(
-        *(1e-3 * values[f"pose.{name}"] for name in ("y",)),
-        roll=1e-3 * values["pose.roll"],
-        yaw=1e-3 * values["pose.yaw"],
-    )
+    pose = Pose(**{name: 1e-3 * values[f"pose.{name}"] for name in ("y", "roll", "yaw")})
     return solver.solve(pose, velocity, load=1e3 * values["load.normal_force"], friction=values["friction.coefficient"])
 
 
