@@ -10,6 +10,7 @@ import contact
 from contact import workspace
 from contact.geometry import profile, wheelset
 from contact.kernels.normal import influence
+from contact.kernels.normal.strip_halfspace import MEM_LN_A
 from tests.separations import two_lobes
 
 NO_CREEP = contact.Creepage()
@@ -104,6 +105,19 @@ def test_a_patch_that_the_start_misses_is_found():
     assert start.n_patches == 1
     assert sol.n_patches == 2
     assert (sol.strips.patch == 1).sum() >= 5
+
+
+def test_end_strips_that_were_far_too_long_do_not_carry_the_load_of_the_next_answer():
+    """A strip with hardly any pressure near the end of a skewed patch grew to .9 m and carried 80 kN, with status OK."""
+    pair = wheelset.Pair(profile.s1002(), profile.rail_60e1())
+    (patch,) = pair.contacts(wheelset.Pose(y=6.6e-3, yaw=5e-3), load=9e4)
+    solver = contact.Solver()
+    cold = solver.forces(patch.separation, NO_CREEP, load=patch.load)
+    memory = solver._forces_only.space.memory
+    memory[MEM_LN_A : MEM_LN_A + 5] = np.log([0.9, 0.9, 0.27, 0.08, 0.025])
+    warm = solver.forces(patch.separation, NO_CREEP, approach=cold.approach, warm=True)
+    assert warm.N == pytest.approx(cold.N, rel=5e-3)
+    assert warm.area == pytest.approx(cold.area, rel=1e-2)
 
 
 def test_warm_start_gives_the_same_answer_in_fewer_iterations():

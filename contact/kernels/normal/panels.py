@@ -60,15 +60,20 @@ def lay_panels(sep, g_least, skew, panels, n_panels, own):
 
 
 @kernel
-def half_lengths(vectors, n, n_panels):
-    """Fill half lengths a from ln a.
+def half_lengths(vectors, n, n_panels, delta):
+    """Fill half lengths a from ln a, at the approach `delta` above first touch [m].
 
-    Strips at the ends follow the square root of the edge. No strip may collapse beside its neighbours.
+    Strips at the ends follow the square root of the edge. No strip may collapse beside its neighbours. None may be longer
+    than the virtual penetration, A a² = delta - g: the pressure displaces its ends outwards. Without this bound the length
+    of a strip with hardly any pressure, near the end of a skewed patch, can grow until it carries the load.
     """
     for p in range(n_panels):
         first = p * n
         for i in range(first + 1, first + n - 1):
             vectors[Vector.A, i] = math.exp(vectors[Vector.LN_A, i])
+            square = (delta - vectors[Vector.GAP, i]) / vectors[Vector.CURVATURE, i]
+            if 0.0 < square < vectors[Vector.A, i] ** 2:
+                vectors[Vector.A, i], vectors[Vector.LN_A, i] = math.sqrt(square), 0.5 * math.log(square)
             vectors[Vector.FLOORED, i] = 0.0
         vectors[Vector.FLOORED, first] = vectors[Vector.FLOORED, first + n - 1] = 0.0
         vectors[Vector.A, first] = END_LENGTH * vectors[Vector.A, first + 1]

@@ -212,12 +212,13 @@ def strip_halfspace(sep, case, own, result):
         n_panels = start_panels(n_strips, n, strips, result, panels, rule.cosines, vectors)
 
     converged, descending, searched, best = False, False, False, math.inf
-    delta, iteration, known, error, load, last_error = 0.0, 0, 0, math.inf, 0.0, math.inf
+    delta = result.approach - g_least  # ANALYN's, until the first pressures are known
+    iteration, known, error, load, last_error = 0, 0, math.inf, 0.0, math.inf
     for iteration in range(MAX_ITERATIONS):
         total = n * n_panels
         lay_panels(sep, g_least, skew, panels, n_panels, own)
         distances(panels, n_panels, own)
-        half_lengths(vectors, n, n_panels)
+        half_lengths(vectors, n, n_panels, delta)
         assemble(panels, n_panels, own, skewed, unit)
         delta = solve_active(n, n_panels, space, by_load, amount)
         error, load = math.inf, 0.0
@@ -296,7 +297,7 @@ def strip_halfspace(sep, case, own, result):
     if stepped:
         lay_panels(sep, g_least, skew, panels, n_panels, own)
         distances(panels, n_panels, own)
-        half_lengths(vectors, n, n_panels)
+        half_lengths(vectors, n, n_panels, delta)
         assemble(panels, n_panels, own, skewed, unit)
         delta = solve_active(n, n_panels, space, by_load, amount)
     peak = 0.0
