@@ -293,6 +293,6 @@ def test_the_border_of_a_pair_lies_in_the_rails_profile_on_either_side(y):
         for contact_, patch in zip(found.contacts, patches, strict=True):
             placed = friction.placed(patch.on_rail[0], patch.angle, mirror)
             alone = contact.solve(patch.separation, patch.creepage, load=patch.load, friction=placed)
-            assert alone.Fy == pytest.approx(contact_.Fy, rel=1e-5)  # strips' tolerance, from other round-off
+            assert alone.Fy == pytest.approx(contact_.Fy, rel=1e-4)  # strips' tolerance, from other round-off
             assert (placed.factor(alone.strips.y) < 1.0).any()
     assert forces[0] == forces[1]

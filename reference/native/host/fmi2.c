@@ -71,13 +71,6 @@ double reached(fmi2Component c)
     return GetRealStatus(c, fmi2LastSuccessfulTime, &time) == fmi2OK ? time : 0.0;
 }
 
-void coarsen(fmi2Component c)
-{
-    static const fmi2ValueReference resolution[] = RESOLUTION;
-    static const fmi2Integer least[] = COARSEST;
-    SetInteger(c, resolution, sizeof resolution / sizeof *resolution, least);
-}
-
 double any(fmi2Component c, fmi2ValueReference r)
 {
     double value;

@@ -35,7 +35,6 @@ double real(fmi2Component c, fmi2ValueReference r);
 int whole(fmi2Component c, fmi2ValueReference r);
 void coarsen(fmi2Component c); /* set the coarsest resolution, for tests that are not about numbers */
 double reached(fmi2Component c); /* end of the last step, 0 before the first */
-void coarsen(fmi2Component c); /* set the coarsest resolution, for tests that are not about numbers */
 double any(fmi2Component c, fmi2ValueReference r); /* value of a Real or an Integer of a `quiet` instance */
 
 /* calls.c: legality of calls */
