@@ -348,11 +348,12 @@ def test_runs_in_libcosim(fmus):
     """libcosim is an independent XML parser and host. It supports only Reals and Integers of the FMU."""
     host = subprocess.run(
         [sys.executable, Path(__file__).with_name("cosim_host.py"), fmus / f"{NAME}.fmu"],
-        check=True,
+        check=False,
         capture_output=True,
         text=True,
         timeout=120,
     )
+    assert host.returncode == 0, host.stdout[-2000:] + host.stderr[-4000:]
     lines = [line.split()[1:] for line in host.stdout.splitlines() if line.startswith("result")]
     rows = [[float.fromhex(number) for number in line] for line in lines]
     y = -0.02 + 0.001 * np.arange(41)
