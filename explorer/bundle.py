@@ -15,6 +15,7 @@ from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels.records import MAX_PATCHES
 from explorer.patch import FIELDS, STRIPS
 from fmu_src.native import wheel_rail_pair
+from fmu_src.units import DISPLAY_UNITS
 from fmu_src.variables import Causality, Table, Variable
 
 WHEELS = ("S1002", "1/40", "EPS", "EN 15302 B", "EN 15302 H")
@@ -22,13 +23,10 @@ RAILS = ("60E1", "60E2", "56E1", "54E1", "50E1", "49E1")  # not inclined: `rail.
 #: Strips and elements up to which the page has room.
 MOST = 40
 
-#: Unit → the unit shown and how many of these are one.
-UNITS = {
-    "m": ("mm", 1e3),
+#: Unit → the unit shown and how many of these are one. Small angles read better in milliradians.
+UNITS = DISPLAY_UNITS | {
     "m2": ("mm²", 1e6),
-    "N": ("kN", 1e-3),
     "N.m": ("N m", 1.0),
-    "Pa": ("MPa", 1e-6),
     "rad": ("mrad", 1e3),
     "W": ("kW", 1e-3),
     "rad/m": ("1/m", 1.0),
@@ -91,7 +89,6 @@ def _variable(table: Table, row: Variable) -> dict[str, Any]:
         "description": row.description,
         "unit": unit,
         "factor": factor,
-        "given": row.causality in (Causality.PARAMETER, Causality.INPUT),
         "parameter": row.causality is Causality.PARAMETER,
         "items": [list(item) for item in row.enumeration.items] if row.enumeration else [],
     }

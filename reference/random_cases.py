@@ -15,6 +15,7 @@ import numpy as np
 
 import contact
 from contact.geometry import profile, wheelset
+from contact.kernels.enumerations import NormalFamily, TangentialFamily
 from contact.kernels.normal import analyn, by_approach, strip_halfspace
 
 #: Limit of the iterations of each normal method.
@@ -22,6 +23,14 @@ CAPS = dict.fromkeys(contact.methods().batched.normal, by_approach.MAX_ITERATION
     "analyn": analyn._MAX_ITERATIONS,
     "hertz": 1,
     "strip_halfspace": strip_halfspace.MAX_ITERATIONS,
+}
+#: Family of a normal method → family of the tangential methods that a random case of a pair has with it, since Python compiles
+#: the pair anew for every two. All two of them meet in the random cases of `WheelRailContact`.
+PARTNERS = {
+    NormalFamily.ANALYN: TangentialFamily.FASTRIP,
+    NormalFamily.HERTZ: TangentialFamily.CREEP_FORCE,
+    NormalFamily.STRIP_HALFSPACE: TangentialFamily.FASTRIP_MAPPED,
+    NormalFamily.BY_APPROACH: TangentialFamily.FASTSIM,
 }
 Rng = np.random.Generator
 

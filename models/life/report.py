@@ -17,6 +17,7 @@ from contact.study.page import document, faint, html_of, picture
 from contact.study.table import Table, number
 from models.life.harvest import BODIES
 from models.life.run import BALANCE, Run
+from models.life.scenario import Scenario
 from models.life.trust import TRUST, Trust
 from models.wheelset.ports import SIDES
 
@@ -65,22 +66,31 @@ def _parts(run: Run) -> Iterator[str]:
         yield f"<h2>{heading}</h2>"
         yield illustrated(partial(plot.time_histories, run.series["distance"], panels, xlabel="distance [m]"), heading)
     for body in BODIES:
-        both: dict[str, Histogram] = {side: run.harvest.histograms[side, body] for side in SIDES}
-        if not all(h.distance > 0.0 for h in both.values()):
-            continue
-        yield f"<h2>Damage of the {body}s</h2>"
-        yield html_of(damaged(both))
-        yield illustrated(
-            partial(plot.wear, both, f"wear of both {body}s: the share of each in their mean"),
-            f"Wear over the profile of the {body}s",
-        )
+        yield from damage_of(body, {side: run.harvest.histograms[side, body] for side in SIDES})
     yield "<h2>Energy</h2>"
     yield html_of(_energy(run))
     yield faint("; ".join(f"{name}: {what}" for name, what in BALANCE.items()) + ".")
+    yield from declaration(run.scenario, run.scenario.step, run.steps)
+
+
+def damage_of(body: str, histograms: dict[str, Histogram]) -> Iterator[str]:
+    """Yield the damage of all wheels or all rails: a table and the wear over the profile. Nothing if one has not rolled."""
+    if not all(h.distance > 0.0 for h in histograms.values()):
+        return
+    yield f"<h2>Damage of the {body}s</h2>"
+    yield html_of(damaged(histograms))
+    yield illustrated(
+        partial(plot.wear, histograms, f"wear of the {body}s: the share of each in their mean"),
+        f"Wear over the profile of the {body}s",
+    )
+
+
+def declaration(scenario: Scenario, step: float, steps: int) -> Iterator[str]:
+    """Yield what the scenario declares, and the step [s] and the number of steps of its run."""
     yield "<h2>Declaration</h2>"
-    for entry in fields(run.scenario.declared):
-        yield faint(f"{entry.name}: {told(getattr(run.scenario.declared, entry.name))}")
-    yield faint(f"fingerprint {run.scenario.fingerprint}, step {1e3 * run.scenario.step:.4g} ms, {run.steps} steps")
+    for entry in fields(scenario.declared):
+        yield faint(f"{entry.name}: {told(getattr(scenario.declared, entry.name))}")
+    yield faint(f"fingerprint {scenario.fingerprint}, step {1e3 * step:.4g} ms, {steps} steps")
 
 
 def _panels(s: dict[str, Any]) -> dict[str, dict[str, dict[str, Any]]]:

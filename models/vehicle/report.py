@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import fields
 from functools import partial
 from typing import Any
 
@@ -13,7 +12,7 @@ import numpy as np
 from contact import plot
 from contact.study.page import document, faint, html_of
 from contact.study.table import Table, number
-from models.life.report import damaged, illustrated, told, trusted, warned
+from models.life.report import damage_of, declaration, illustrated, trusted, warned
 from models.vehicle import assess
 from models.vehicle.ledgers import BODIES
 from models.vehicle.run import BALANCE, VehicleRun
@@ -50,22 +49,13 @@ def _parts(run: VehicleRun) -> Iterator[str]:
     yield html_of(trusted(trust))
     histograms = run.damage()
     for body in BODIES:
-        every = {f"{name}, {side}": h for (name, side, which), h in histograms.items() if which == body}
-        if not all(h.distance > 0.0 for h in every.values()):
-            continue
-        yield f"<h2>Damage of the {body}s</h2>"
-        yield html_of(damaged(every))
-        yield illustrated(
-            partial(plot.wear, every, f"wear of the {body}s: the share of each in their mean"),
-            f"Wear over the profile of the {body}s",
+        yield from damage_of(
+            body, {f"{name}, {side}": h for (name, side, which), h in histograms.items() if which == body}
         )
     yield "<h2>Energy</h2>"
     rows = [(name, number(value), BALANCE[name]) for name, value in run.balance.items()]
     yield html_of(Table("Energies of the whole run", [("", ""), ("", "J"), ("", "")], rows))
-    yield "<h2>Declaration</h2>"
-    for entry in fields(run.scenario.declared):
-        yield faint(f"{entry.name}: {told(getattr(run.scenario.declared, entry.name))}")
-    yield faint(f"fingerprint {run.scenario.fingerprint}, step {1e3 * run.step:.4g} ms, {run.steps} steps")
+    yield from declaration(run.scenario, run.step, run.steps)
 
 
 def _axles(run: VehicleRun) -> list[tuple[str, str]]:

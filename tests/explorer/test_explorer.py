@@ -14,20 +14,13 @@ import pytest
 import contact
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.kernels.enumerations import NormalFamily, TangentialFamily
 from contact.pair import WheelRailPair
 from explorer.bundle import RAILS, WHEELS
 from fmu_src.tables.wheel_rail_pair import table
+from reference.random_cases import PARTNERS
 
 ROOT = Path(__file__).parents[2]
 METHODS = contact.methods().batched
-#: Family of a normal method → family of the tangential methods with it, as Python compiles the pair anew for every two.
-PARTNERS = {
-    NormalFamily.ANALYN: TangentialFamily.FASTRIP,
-    NormalFamily.HERTZ: TangentialFamily.CREEP_FORCE,
-    NormalFamily.STRIP_HALFSPACE: TangentialFamily.FASTRIP_MAPPED,
-    NormalFamily.BY_APPROACH: TangentialFamily.FASTSIM,
-}
 
 
 @pytest.fixture(scope="module")

@@ -7,19 +7,11 @@ import numpy as np
 import contact
 from contact.geometry import profile
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
-from contact.kernels.enumerations import NormalFamily, TangentialFamily
 from contact.pair import PairSolution, WheelRailPair
+from reference.random_cases import PARTNERS
 
 NAME = "WheelRailPair"
 METHODS = contact.methods().batched
-#: Family of a normal method → family of the tangential methods that a random case may have with it. Python compiles the pair
-#: anew for every two families. All two of them meet in the random cases of `WheelRailContact`.
-PARTNERS = {
-    NormalFamily.ANALYN: TangentialFamily.FASTRIP,
-    NormalFamily.HERTZ: TangentialFamily.CREEP_FORCE,
-    NormalFamily.STRIP_HALFSPACE: TangentialFamily.FASTRIP_MAPPED,
-    NormalFamily.BY_APPROACH: TangentialFamily.FASTSIM,
-}
 R0 = 0.46
 #: A motion with lateral shift, yaw, rates and an irregular rail.
 MOTION = {
