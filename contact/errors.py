@@ -10,6 +10,14 @@ class ContactError(ValueError):
     """Invalid input. The message names the argument, its value and the allowed range."""
 
 
+class PlausibilityWarning(UserWarning):
+    """Input that is allowed but hardly meant: a wrong unit, a wrong sign, a wheel beside its rail."""
+
+
+class ProfileWarning(PlausibilityWarning):
+    """A fault of a measured profile. The message says what was seen and the option that cures it."""
+
+
 def require_number(
     name: str, value: object, minimum: float = -math.inf, maximum: float = math.inf, *, open_minimum: bool = False
 ) -> float:
@@ -72,6 +80,23 @@ def require_integer(name: str, value: object, minimum: float = -math.inf, maximu
             f"{name} = {value!r} is not an integer in the allowed range {left}{minimum:g}, {maximum:g}{right}"
         )
     return number
+
+
+def ratio(name: str, value: object) -> object:
+    """Return the number that a text like "1/40" or "1:40" means; any other value unchanged.
+
+    Raises
+    ------
+    ContactError
+        For other texts.
+    """
+    if not isinstance(value, str):
+        return value
+    above, slash, below = value.replace(":", "/").partition("/")
+    try:
+        return float(above) / float(below) if slash else float(above)
+    except (ValueError, ZeroDivisionError):
+        raise ContactError(f"{name} = {value!r} is neither a number nor a ratio like 1/40") from None
 
 
 def suggestion(word: object, known: Iterable[str]) -> str:
