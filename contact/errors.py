@@ -2,6 +2,7 @@
 
 import math
 import operator
+import warnings
 from collections.abc import Iterable
 from difflib import get_close_matches
 
@@ -51,6 +52,15 @@ def require_number(
         right = "[" if math.isinf(maximum) else "]"
         raise ContactError(f"{name} = {number:g} is outside the allowed range {left}{minimum:g}, {maximum:g}{right}")
     return number
+
+
+def doubt(name: str, value: float, limit: float, hint: str, level: int = 3) -> None:
+    """Warn of a value that is allowed but larger than `limit` in magnitude. `hint` says what is usual, or the unit.
+
+    The default `level` of the stack is the caller of the function that doubts.
+    """
+    if abs(value) > limit:
+        warnings.warn(f"{name} = {value:g}: {hint}", PlausibilityWarning, stacklevel=level)
 
 
 def require_integer(name: str, value: object, minimum: float = -math.inf, maximum: float = math.inf) -> int:

@@ -8,7 +8,8 @@ from typing import Annotated
 
 import typer
 
-from contact.cli.output import stop
+from contact.cli import options as opt
+from contact.cli.output import reported, stop
 
 
 class Packaging(StrEnum):
@@ -19,24 +20,12 @@ class Packaging(StrEnum):
     all = "all"
 
 
-class Unit(StrEnum):
-    """Unit of a profile file."""
-
-    m = "m"
-    mm = "mm"
-
-
-class Side(StrEnum):
-    """Side of the track that a profile file shows."""
-
-    right = "right"
-    left = "left"
-
-
 PROFILE = "a name of `contact profiles`, or a file"
 
 
+@reported
 def fmu(
+    *,
     packaging: Annotated[
         Packaging,
         typer.Option(help="python: for hosts with Python; native: for any host, into the subfolder native."),
@@ -48,11 +37,7 @@ def fmu(
     ] = None,
     wheel: Annotated[str | None, typer.Option(help=f"Profile of the wheel: {PROFILE}.")] = None,
     rail: Annotated[str | None, typer.Option(help=f"Profile of the rail: {PROFILE}.")] = None,
-    unit: Annotated[Unit | None, typer.Option(help="Unit of the profile files, for plain columns.")] = None,
-    side: Annotated[Side | None, typer.Option(help="Side that the files show, for plain columns.")] = None,
-    smoothing: Annotated[
-        float | None, typer.Option(help="Measurement noise in m to smooth out of the files, for example 2e-6.")
-    ] = None,
+    reading: opt.Reading,
     accumulation: Annotated[
         bool, typer.Option("--accumulation", help="Give WheelRailPair the outputs of accumulated damage, 1200 numbers.")
     ] = False,
@@ -77,10 +62,9 @@ def fmu(
         "points": points,
         "wheel": wheel,
         "rail": rail,
-        "unit": unit,
-        "side": side,
-        "smoothing": smoothing,
+        **vars(reading),
     }
-    words = [f"--{name}={value}" for name, value in options.items() if value is not None]
-    switches = {"--accumulation": accumulation, "--describe": describe}
+    repair = options.pop("profile_repair")
+    words = [f"--{name.replace('_', '-')}={value}" for name, value in options.items() if value is not None]
+    switches = {"--accumulation": accumulation, "--describe": describe, "--profile-repair": repair}
     main([*words, *(word for word, on in switches.items() if on)], "contact fmu")

@@ -309,7 +309,7 @@ def check(given: Profile | str | PathLike[str], **options: Any) -> Inspection:
     """Return what is wrong with a profile or a profile file: spikes, gaps, kinks, scans, noise, offsets.
 
     Print the result to see the findings, each with the option of `read` that cures it. `contact.plot.profile_check` draws it,
-    as ``contact check FILE --plot check.png`` does on the command line.
+    as ``contact check FILE --out check.png`` does on the command line.
 
     Parameters
     ----------
@@ -368,7 +368,7 @@ def load(name: str, kind: Kind, *, inclination: float | str | None = None, **opt
         As `read` and `named`. Also for an inclination of a rail from a file, which already has its inclination.
     """
     rail_inclination = inclination if kind == "rail" else None
-    is_file = Path(name).is_file() or (("." in name or "/" in name or "\\" in name) and not _is_standard(name))
+    is_file = Path(name).is_file() or (("." in name or "/" in name or "\\" in name) and not is_standard(name))
     if not is_file:
         return named(name, kind=kind, inclination=rail_inclination)
     if rail_inclination is not None:
@@ -395,7 +395,8 @@ def _wheel(name: str, height: float, thickness: float) -> Profile:
     return _profile("wheel", tread.outline(height, thickness), name)
 
 
-def _is_standard(name: str) -> bool:
+def is_standard(name: str) -> bool:
+    """Return whether `named` knows this name."""
     return _key(name) in {_key(known) for known in (*names(), *ALIASES)}
 
 
