@@ -28,7 +28,7 @@ def fmu(
     *,
     packaging: Annotated[
         Packaging,
-        typer.Option(help="python: for hosts with Python; native: for any host, into the subfolder native."),
+        typer.Option(help="python: for hosts with Python; native: for any host. Each has a folder of its name."),
     ] = Packaging.all,
     out: Annotated[Path, typer.Option(help="Folder for the FMUs.")] = Path("dist"),
     points: Annotated[

@@ -86,7 +86,7 @@ def _fmus(
         from models.wheelset.fmu import FmuComponent
     except ImportError as missing:
         stop(f"{missing}; pip install 'wheelrail-contact[fmu]', or use --python", 1)
-    paths = [folder / f"{name}.fmu" for name in FMUS]
+    paths = [folder / "python" / f"{name}.fmu" for name in FMUS]
     for path in paths:
         if not path.is_file():
             stop(
