@@ -1,6 +1,6 @@
 """Say on a terminal that kernels are being compiled, and how far it is.
 
-Numba compiles a kernel when it is first called on a machine; a first solution takes half a minute. A line on stderr says so.
+Numba compiles a kernel when it is first called on a machine; a first solution takes about a minute. A line on stderr says so.
 It is written on a terminal only, and neither in FMUs nor in worker processes.
 """
 
@@ -55,7 +55,7 @@ class Announcement(event.Listener):
         spent = self.spent + time.monotonic() - self.begin
         if spent >= self.delay:
             self.stream.write(
-                f"\rcontact: compiling, once on this machine (half a minute): {self.done} functions, {spent:.0f} s\033[K"
+                f"\rcontact: compiling, once on this machine (about a minute): {self.done} functions, {spent:.0f} s\033[K"
             )
             self.stream.flush()
             self.shown = True

@@ -36,7 +36,7 @@ def test_nested_compilations_are_counted_and_the_line_is_removed():
         njit(lambda x: x * 2)(1)  # of another package
         outer(2)
     assert (listener.done, listener.depth) == (2, 0)
-    assert "compiling, once on this machine (half a minute): 0 functions" in said
+    assert "compiling, once on this machine (about a minute): 0 functions" in said
     assert said.endswith("\r\033[K")
     assert stream.getvalue() == said
 

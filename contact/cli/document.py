@@ -17,7 +17,8 @@ import contact
 
 #: Unit → names of inputs and results that have it. "1" is a pure number.
 _NAMES = {
-    "m": "y radius gauge back_to_back left_radius reach step amplitude penetration approach profile_smoothing "
+    "m": "curve_radius smallest_radius needed available "
+    "y radius gauge back_to_back left_radius reach step amplitude penetration approach profile_smoothing "
     "profile_wavelength smoothing wavelength centre position rolling_radius length width radius_difference right_on_wheel "
     "right_on_rail right_radius left_on_wheel left_on_rail distance at mileage",
     "rad": "roll yaw angle contact_angle angle_difference right_angle left_angle",
@@ -28,13 +29,13 @@ _NAMES = {
     "K": "temperature",
     "m²": "area",
     "N/m": "normal_stiffness",
-    "1/m": "curvatures spin",
+    "1/m": "curvatures spin nonlinearity",
     "m²/m": "pearce_sherratt",
     "m/m": "usfd archard_depth_max",
     "m³/m": "archard_volume",
     "s": "seconds every duration",
     "1": "friction inclination slip_ratio utilisation longitudinal lateral conicity share gap_error fatigue_index "
-    "burstow steering_index nonlinearity",
+    "burstow index",
     "1, 1, 1/m": "creepage",
 }
 UNITS = {name: unit for unit, names in _NAMES.items() for name in names.split()}

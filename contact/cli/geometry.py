@@ -16,12 +16,14 @@ from rich.table import Table
 from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, prepare, reported
 from contact.geometry import conicity as conicity_of
-from contact.geometry import contact_points, equivalent_conicity, profile
+from contact.geometry import contact_points, equivalent_conicity, nonlinearity, profile, steering
+from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 
 Array = NDArray[np.float64]
 
 _SHOWN = 21  # lines of a printed table of contact points; files contain all lines
 _CURVE = 121  # amplitudes of a drawn curve
+_CURVES = (300.0, 600.0, 1000.0)  # radii [m] for the steering index
 #: Heading, column and factor of the printed table. Files also contain the rolling radii.
 _POINTS: Sequence[tuple[str, str, float]] = (
     ("y\nmm", "y", 1e3),
@@ -100,17 +102,21 @@ def conicity(
     wheelset: Wheelset,
     reading: opt.Reading,
     amplitude: opt.Amplitudes = None,
+    curve_radius: opt.CurveRadius = None,
     as_json: opt.Json = False,
     out: opt.Files = None,
 ) -> None:
-    """Compute the equivalent conicity over the amplitude by EN 15302, and Klingel's wavelength.
+    """Compute the equivalent conicity over the amplitude by EN 15302, Klingel's wavelength, and steering in curves.
 
     Example:  contact conicity --wheel s1002 --rail 60e2 --gauge 1.432 --out conicity.png
     """
     prepare(out)
     pair = wheelset.pair(reading)
     found = conicity_of(**pair, amplitudes=amplitude or None)
-    wave = found.wavelength(wheelset.back_to_back + 2.0 * 0.07, wheelset.radius)
+    base = wheelset.back_to_back + 2.0 * TAPE_FROM_FLANGE_BACK
+    wave = found.wavelength(base, wheelset.radius)
+    turned = steering(found.points, curve_radius or _CURVES, base=base, radius=wheelset.radius)
+    bent = nonlinearity(found.points) if found.amplitude.max() >= 4e-3 else None
     columns = {"amplitude": found.amplitude, "conicity": found.conicity, "centre": found.centre, "wavelength": wave}
 
     def show(console: Console) -> None:
@@ -120,12 +126,21 @@ def conicity(
         for a, c, w, y in zip(found.amplitude, found.conicity, wave, found.centre, strict=True):
             shown.add_row(f"{1e3 * a:g}", f"{c:.3f}", f"{w:.2f}" if np.isfinite(w) else "-", f"{1e3 * y:.2f}")
         console.print(f"[bold]{escape(_title(pair))}[/bold]", shown, sep="\n")
+        if bent is not None:
+            console.print(f"nonlinearity parameter {1e-3 * bent:+.3f} 1/mm, from 2 to 4 mm", highlight=False)
+        indices = ", ".join(f"{q:.2f} at {R:g} m" for q, R in zip(turned.index, turned.curve_radius, strict=True))
+        console.print(
+            f"radial steering index {indices}; the profiles steer down to {turned.smallest_radius:.0f} m "
+            f"(Δr {1e3 * turned.available:.2f} mm at y = {1e3 * turned.at:.1f} mm)",
+            highlight=False,
+        )
 
     def figure() -> Any:
         curve = equivalent_conicity(found.points, np.linspace(5e-4, found.amplitude.max(), _CURVE))
         return drawing().conicity(curve, found, _title(pair))
 
-    deliver(columns, show=show, as_json=as_json, out=out, rows=lambda: _rows(columns), figure=figure)
+    more = {"nonlinearity": bent, "steering": vars(turned)}
+    deliver(columns | more, show=show, as_json=as_json, out=out, rows=lambda: _rows(columns), figure=figure)
 
 
 @reported

@@ -192,6 +192,10 @@ Amplitudes = Annotated[
         show_default=False,
     ),
 ]
+CurveRadius = Annotated[
+    list[float] | None,
+    typer.Option(help="radius of a curve in m, for the radial steering index; may be repeated", rich_help_panel=TRACK),
+]
 Files = Annotated[
     list[Path] | None,
     typer.Option("--out", help="write .png, .pdf, .svg, .csv or .json; may be repeated", rich_help_panel=OUTPUT),
