@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import sys
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -9,6 +11,7 @@ from typing import Annotated
 import typer
 
 from contact.cli import options as opt
+from contact.cli.document import document
 from contact.cli.output import reported, stop
 
 
@@ -44,6 +47,7 @@ def fmu(
     describe: Annotated[
         bool, typer.Option("--describe", help="Print the variables as Markdown and build nothing.")
     ] = False,
+    as_json: opt.Json = False,
 ) -> None:
     """Build the FMUs: Wheelset, WheelRailContact and WheelRailPair.
 
@@ -67,4 +71,11 @@ def fmu(
     repair = options.pop("profile_repair")
     words = [f"--{name.replace('_', '-')}={value}" for name, value in options.items() if value is not None]
     switches = {"--accumulation": accumulation, "--describe": describe, "--profile-repair": repair}
-    main([*words, *(word for word, on in switches.items() if on)], "contact fmu")
+    words += [word for word, on in switches.items() if on]
+    if not as_json:
+        main(words, "contact fmu")
+        return
+    with contextlib.redirect_stdout(sys.stderr):
+        main(words, "contact fmu")
+    files = sorted(str(path) for path in out.rglob("*") if path.suffix in (".fmu", ".ssp"))
+    typer.echo(document({"files": files}))

@@ -122,7 +122,8 @@ class Declaration:
     seed : seed of the random irregularities, not negative
     vehicle : file of a vehicle relative to the scenario's file, or one of the included ones, `manchester` and `wheelset`
         (`models.vehicle`). Without it the run is that of the quasi-static wheelset of the table `wheelset`.
-    track, wheelset, friction, profiles, methods, damage, recording : separate tables
+    friction : coefficient of friction, 0.3 by default, or a table
+    track, wheelset, profiles, methods, damage, recording : separate tables
     """
 
     name: str
