@@ -126,7 +126,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="measurement noise in m to smooth out of the files, for example 2e-6 (needs scipy)",
     )
     parser.add_argument(
-        "--profile-wavelength", type=float, metavar="M", help="instead: waves of this length in m are halved, like 5e-3"
+        "--profile-wavelength", type=float, metavar="M", help="instead: waves of this length in m are halved, like 3e-3"
     )
 
 

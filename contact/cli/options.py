@@ -71,7 +71,7 @@ Smoothing = Annotated[
 Wavelength = Annotated[
     float | None,
     typer.Option(
-        help="instead: waves of this length in m along the profile are halved, like 5e-3", rich_help_panel=PROFILES
+        help="instead: waves of this length in m along the profile are halved, like 3e-3", rich_help_panel=PROFILES
     ),
 ]
 Radius = Annotated[float, typer.Option(help="nominal rolling radius in m", rich_help_panel=PROFILES)]

@@ -133,7 +133,7 @@ def shape(points: Points, resolution: float = 0.0) -> list[Finding]:
             f"points {_mm(h)} apart with a noise of {1e6 * sigma:.2g} µm{rounding} give tangents "
             f"{1e3 * _TANGENT_OF_NOISE * sigma / h:.0f} mrad off"
         )
-        found.append(Finding(Fault.NOISE, seen, f"smoothing={sigma:.1g} removes it, or wavelength=5e-3", points[:0]))
+        found.append(Finding(Fault.NOISE, seen, f"smoothing={sigma:.1g} removes it, or wavelength=3e-3", points[:0]))
     return found
 
 
