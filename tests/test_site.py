@@ -1,5 +1,6 @@
 """The parts of the site that are made from the code are complete."""
 
+import os
 import sys
 from dataclasses import fields, is_dataclass
 from pathlib import Path
@@ -10,6 +11,7 @@ pytest.importorskip("typer")
 ROOT = Path(__file__).parents[1]
 sys.path.append(str(ROOT / "docs"))
 
+import check  # noqa: E402
 import generated  # noqa: E402
 
 from contact.friction import Friction  # noqa: E402
@@ -59,3 +61,22 @@ def test_every_command_and_option_is_listed():
         assert f"`{option}`" in section
     assert "| `--gauge` `NUMBER` | 1.435 | track gauge in m" in section
     assert "typer" not in text
+
+
+def test_links_to_nowhere_are_found(tmp_path):
+    (tmp_path / "a").mkdir()
+    (tmp_path / "index.html").write_text(
+        '<h1 id="top">x</h1><a href="a/b.html#here">ok</a><a href="https://x.org/y">out</a>'
+    )
+    (tmp_path / "a" / "b.html").write_text(
+        '<p id="here"/><a href="../index.html#top">ok</a><a href="../index.html#gone">1</a><a href="c.html">2</a>'
+        '<img src="no.png"><a href="#there">4</a>'
+    )
+    found = list(check.broken_links(tmp_path))
+    assert [line.split(": ")[1].split(" leads")[0] for line in found] == [
+        "../index.html#gone",
+        "c.html",
+        "no.png",
+        "#there",
+    ]
+    assert found[0].startswith("a/b.html: ".replace("/", os.sep))

@@ -340,7 +340,7 @@ def read_folder(
     ----------
     folder : path-like
     pattern : str
-        Files to read, like "*.whl".
+        Files to read, like ``"*.whl"``.
     skip : bool
         Leave out files that cannot be read, with a warning. Otherwise the first of them raises the error.
     **options
