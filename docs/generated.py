@@ -150,7 +150,7 @@ def _default(entry: Field[Any]) -> str:
 
 def _command(name: str, command: Any) -> str:
     """Return the section of a command: what it does, and a table of its options in their groups."""
-    said = [" ".join(part.split()) for part in re.split(r"\n\s*\n", inspect.cleandoc(command.help or ""))]
+    said = [_typed(" ".join(part.split())) for part in re.split(r"\n\s*\n", inspect.cleandoc(command.help or ""))]
     groups: dict[str, list[str]] = {}
     arguments = []
     for parameter in command.params:
@@ -159,7 +159,7 @@ def _command(name: str, command: Any) -> str:
         default = getattr(parameter, "show_default", True)
         value = parameter.default
         shown = default if isinstance(default, str) else _shown(value)
-        text = (getattr(parameter, "help", "") or "").replace("|", "\\|")
+        text = _typed(getattr(parameter, "help", "") or "").replace("|", "\\|")
         if parameter.param_type_name == "argument":
             arguments.append(f"`{parameter.name.upper()}`: {text}")
             continue
@@ -175,6 +175,19 @@ def _command(name: str, command: Any) -> str:
             table += [f"| **{group}** | | |", *rows]
         lines.append("\n".join(table))
     return "\n\n".join(lines)
+
+
+def _typed(text: str) -> str:
+    """Return a text in which examples and options are set as code. Otherwise -- would become a dash."""
+    before, word, examples = (
+        re.split(r"(Examples?:)", text, maxsplit=1) if re.search(r"Examples?:", text) else (text, "", "")
+    )
+    parts = []
+    for example in examples.split("·") if examples else []:
+        command, comma, rest = example.strip().partition(", to ")
+        parts.append(f"`{command}`{comma}{rest}")
+    before = re.sub(r"(?<![`\w-])(--[a-z][\w-]*)", r"`\1`", before)
+    return f"{before}{word} {', '.join(parts)}".strip()
 
 
 def _metavar(parameter: Any) -> str:
