@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import contact
+import contact.stress
 from contact import damage
 from contact.friction import Friction
 from contact.geometry import conicity, contact_points, profile, wheelset
@@ -340,3 +341,23 @@ def test_missing_matplotlib_ends_a_plot_with_code_1(monkeypatch, tmp_path):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     result = call("solve", "--curvatures", 1, 1, "--plot", tmp_path / "no.png", code=1)
     assert "wheelrail-contact[plot]" in result.stderr
+
+
+def test_stress_gives_the_numbers_of_the_python_api(tmp_path):
+    words = ("--curvatures", 1.1, 0.8, "--creepage", 2e-3, 0.0, 0.1, "--load", 60e3)
+    picture = tmp_path / "stress.png"
+    found = json.loads(call("stress", *words, "--body", "wheel", "--json", "--plot", picture).stdout)["patches"]
+    s = contact.solve(contact.Separation.hertzian(1.1, 0.8), contact.Creepage(2e-3, 0.0, 0.1), load=60e3)
+    peak = contact.stress.largest(s, body="wheel")
+    assert (found[0]["von_mises"]["value"], found[0]["von_mises"]["z"]) == (peak.value, peak.z)
+    assert found[0]["dang_van"]["value"] > 0.0
+    assert picture.stat().st_size > 10_000
+    assert "largest principal" in call("stress", *words).stdout
+
+
+def test_stress_refuses_bad_options():
+    words = ("--curvatures", 1.1, 0.8)
+    assert "body = 'ground' is unknown" in call("stress", *words, "--body", "ground", code=2).stderr
+    assert "criterion = 'x' is unknown" in call("stress", *words, "--criterion", "x", code=2).stderr
+    assert "slope = 9 is outside" in call("stress", *words, "--slope", 9, code=2).stderr
+    assert "--y: --curvatures replaces" in " ".join(call("stress", *words, "--y", 0, code=2).stderr.split())

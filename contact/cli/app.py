@@ -24,10 +24,10 @@ from contact.cli.output import drawing, reported, write_csv, write_picture
 from contact.cli.plugins import add_plugins
 from contact.cli.problem import Position, Touch
 from contact.cli.statistics import statistics
+from contact.cli.stress import stress
 from contact.creepage import Creepage
 from contact.errors import require_number
 from contact.friction import ROOM_TEMPERATURE
-from contact.geometry import profile
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, methods
 
 PICTURE_RESOLUTION = {"n_strips": 60, "n_elements": 60}
@@ -94,7 +94,7 @@ def solve(
         touches = [problem.solve_hertzian(curvatures, load, penetration, given, options | {"speed": speed})]
         title = f"Half curvatures {curvatures[0]:g} and {curvatures[1]:g} 1/m"
     else:
-        case = _position(
+        case = opt.position(
             wheel, rail, opt.reading(inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed
         )
         touches = problem.solve_position(case, load, penetration, given, options | {"conformal": conformal})
@@ -144,7 +144,7 @@ def patch(
     Example:  contact patch --y 6e-3 --yaw 2e-3 --out flange.png
     """
     drawing()
-    case = _position(
+    case = opt.position(
         wheel, rail, opt.reading(inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed
     )
     surface = opt.surface(friction, falling, slip_velocity, gauge_friction, hot, temperature)
@@ -223,6 +223,7 @@ def curve(
 
 app.command()(compare)
 app.command()(statistics)
+app.command()(stress)
 app.command("geometry")(points)
 app.command()(conicity)
 app.command("profiles")(list_profiles)
@@ -253,27 +254,6 @@ def run(arguments: Sequence[str]) -> None:
         for problem_line in add_plugins(app):
             typer.echo(f"contact: {problem_line}", err=True)
     app(args=list(arguments), prog_name="contact")
-
-
-def _position(
-    wheel: str,
-    rail: str,
-    reading: dict[str, Any],
-    radius: float,
-    side: opt.Side,
-    y: float,
-    roll: float,
-    yaw: float,
-    speed: float,
-) -> Position:
-    return Position(
-        profile.load(wheel, "wheel", **reading),
-        profile.load(rail, "rail", **reading),
-        ("left", "right") if side is opt.Side.both else (side.value,),
-        problem.Pose(y=y, roll=roll, yaw=yaw),
-        speed,
-        radius,
-    )
 
 
 def _title(case: Position) -> str:

@@ -10,9 +10,10 @@ from typing import Annotated, Any
 import typer
 
 from contact import friction
-from contact.cli.problem import OF_A_POSITION, STANDARD_LOAD
+from contact.cli.problem import OF_A_POSITION, STANDARD_LOAD, Pose, Position
 from contact.errors import ContactError
 from contact.friction import LAWS, ROOM_TEMPERATURE, VELOCITIES
+from contact.geometry import profile
 from contact.material import STEEL, Material
 
 
@@ -131,6 +132,17 @@ Tangential = Annotated[str, typer.Option(help="tangential method", rich_help_pan
 Tangentials = Annotated[
     list[str], typer.Option("--tangential", help="tangential method; repeat to compare", rich_help_panel=METHOD)
 ]
+Body = Annotated[str, typer.Option(help="body of the stresses: rail or wheel", rich_help_panel=METHOD)]
+Criterion = Annotated[
+    str,
+    typer.Option(
+        help="stress of the picture: von_mises, tresca, largest_principal, shear_xz, shear_yz", rich_help_panel=METHOD
+    ),
+]
+DangVanSlope = Annotated[
+    float,
+    typer.Option("--slope", help="weight of the hydrostatic stress in Dang Van's criterion", rich_help_panel=METHOD),
+]
 Json = Annotated[bool, typer.Option("--json", help="print JSON instead of a table", rich_help_panel=OUTPUT)]
 Plot = Annotated[Path | None, typer.Option(help="write a picture: .png, .pdf or .svg", rich_help_panel=OUTPUT)]
 Over = Annotated[Motion, typer.Option(help="creepage to vary", rich_help_panel=LOADING)]
@@ -233,3 +245,25 @@ def reading(
 ) -> dict[str, Any]:
     """Return the profile options as arguments of `contact.geometry.profile.load`."""
     return {"inclination": inclination, "unit": unit, "side": drawn_side, "smoothing": smoothing}
+
+
+def position(
+    wheel: str,
+    rail: str,
+    reading: dict[str, Any],
+    radius: float,
+    side: Side,
+    y: float,
+    roll: float,
+    yaw: float,
+    speed: float,
+) -> Position:
+    """Return the wheelset position that the options describe. `reading` is the result of the function `reading`."""
+    return Position(
+        profile.load(wheel, "wheel", **reading),
+        profile.load(rail, "rail", **reading),
+        ("left", "right") if side is Side.both else (side.value,),
+        Pose(y=y, roll=roll, yaw=yaw),
+        speed,
+        radius,
+    )

@@ -15,6 +15,7 @@ from contact.plot.patches import patch
 from contact.plot.position import Wheel, position
 from contact.plot.rolling import conicity, contact_points
 from contact.plot.shakedown import shakedown
+from contact.plot.stress import stress
 from contact.plot.wear import fatigue, shares, wear, worn_profile
 
 __all__ = [
@@ -28,6 +29,7 @@ __all__ = [
     "position",
     "shakedown",
     "shares",
+    "stress",
     "time_histories",
     "wear",
     "worn_profile",
