@@ -9,6 +9,7 @@ rail, ours on the wheel. Times are process times, the least of several runs in o
 from __future__ import annotations
 
 import argparse
+import math
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -16,10 +17,15 @@ from typing import Any
 
 import numpy as np
 
+import contact
+import reference
 from benchmarks.tables import table
+from contact.halfspace import Gap
 from contact.stress import SurfaceLoad, below, largest
 
 Row = list[str]
+MU = 0.3
+BOTH = {"normal": "halfspace", "tangential": "halfspace"}
 
 
 def least(task: Callable[[], Any], runs: int = 3) -> float:
@@ -59,6 +65,56 @@ def subsurface(folder: Path) -> Iterator[Row]:
     yield summary("G: largest von Mises stress at CONTACT's points", peaks, unit)
 
 
+def given_forces(folder: Path) -> Iterator[Row]:
+    """Set H, module 3: one or both forces given on CONTACT's 44 × 44 elements."""
+    creepages, forces = [], []
+    for row in reference.rows(folder / "H_prescribed" / "module3.csv"):
+        gap, creepage, case = prescribed(row)
+        found = contact.solve(gap, creepage, **case, **BOTH)
+        limit = case["friction"] * case["load"]
+        saturation = 3.0 * limit * math.pi / (4.0 * case["material"].shear_modulus * found.area)
+        away = found.creepage.longitudinal + float(row["xi"]), found.creepage.lateral + float(row["eta"])
+        creepages.append(math.hypot(*away) / saturation)
+        forces.append(math.hypot(found.Fx + float(row["Fx_check"]), found.Fy + float(row["Fy_check"])) / limit)
+    yield summary("H: creepage", creepages, "creepage of saturation")
+    yield summary("H: force", forces, "μN")
+
+
+def prescribed(row: dict[str, str]) -> tuple[Gap, contact.Creepage, dict[str, Any]]:
+    """Return gap, known creepages and arguments of `contact.solve` of a row of set H."""
+    a, b, N, mu, G, p0 = (float(row[name]) for name in ("a", "b", "N", "mu", "G", "p0"))
+    material = contact.Material(1e6 * G, float(row["nu"]))
+    force = [None if not row[name] else -float(row[name]) * mu * N for name in ("fx_rel", "fy_rel")]
+    creepage = contact.Creepage(0.0, -float(row["eta_in"] or 0.0), -1e3 * float(row["phi"]))
+    gap = parabolas(1e-3 * a, 1e-3 * b, 1e6 * p0, material, 44)
+    return gap, creepage, {"load": N, "friction": mu, "material": material, "force": tuple(force)}
+
+
+def parabolas(a: float, b: float, p0: float, material: contact.Material, n: int) -> Gap:
+    """Return the gap of Hertz's ellipse a × b with the pressure p0, on n × n elements over 1.05 of its axes."""
+    s = (2.0 * np.arange(n) + 1.0) / n - 1.0
+    x, y = 1.05 * a * s, 1.05 * b * s
+    t = (np.arange(400_000) + 0.5) / 400_000
+    u, weight = a * t / (1.0 - t), a / (1.0 - t) ** 2 / t.size
+    scale, roots = p0 * a * b / material.contact_modulus, weight / np.sqrt((a**2 + u**2) * (b**2 + u**2))
+    A, B = (scale * float((roots / (q**2 + u**2)).sum()) for q in (a, b))
+    return Gap(x, y, A * x**2 + B * y[:, None] ** 2)
+
+
+def times_given_forces() -> Iterator[Row]:
+    """Both forces given on 44 × 44 elements, and by the default methods."""
+    gap = parabolas(5e-3, 4e-3, 1e9, contact.STEEL, 44)
+    N = 2.0 / 3.0 * math.pi * 5e-3 * 4e-3 * 1e9
+    spin, force = contact.Creepage(0.0, 0.0, 0.2), (0.5 * MU * N, -0.6 * MU * N)
+    one = least(lambda: contact.solve(gap, spin, load=N, **BOTH))
+    yield ["half space, creepages given, 44 × 44 elements", f"{one:.0f}"]
+    both = least(lambda: contact.solve(gap, spin, load=N, force=force, **BOTH))
+    yield ["half space, both forces given, 44 × 44 elements", f"{both:.0f}"]
+    separation = contact.Separation.hertzian(1.1, 0.8)
+    fast = least(lambda: contact.solve(separation, spin, load=N, force=force))
+    yield ["default methods, both forces given", f"{fast:.1f}"]
+
+
 def times_subsurface() -> Iterator[Row]:
     """Stresses below 44 × 44 elements."""
     s = (np.arange(44) + 0.5) / 22.0 - 1.0
@@ -68,8 +124,8 @@ def times_subsurface() -> Iterator[Row]:
     yield ["largest von Mises stress, its place and depth", f"{least(lambda: largest(load)):.0f}"]
 
 
-PARTS: tuple[Callable[[Path], Iterator[Row]], ...] = (subsurface,)
-TIMES: tuple[Callable[[], Iterator[Row]], ...] = (times_subsurface,)
+PARTS: tuple[Callable[[Path], Iterator[Row]], ...] = (subsurface, given_forces)
+TIMES: tuple[Callable[[], Iterator[Row]], ...] = (times_subsurface, times_given_forces)
 
 TEXT = """# CONTACT's features
 
@@ -89,7 +145,7 @@ def main() -> None:
     parser.add_argument("folder", type=Path, help="folder of the reference sets")
     parser.add_argument("--write", type=Path, help="write the report also to this file")
     arguments = parser.parse_args()
-    rows = [row for part in PARTS for row in part(arguments.folder)]
+    rows = [row for part in PARTS for row in part(arguments.folder.resolve())]
     text = TEXT.format(
         errors=table(["set and quantity", "values", "mean", "95 %", "largest", "unit"], rows),
         times=table(["task", "time [ms]"], [row for part in TIMES for row in part()]),

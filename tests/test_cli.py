@@ -361,3 +361,16 @@ def test_stress_refuses_bad_options():
     assert "criterion = 'x' is unknown" in call("stress", *words, "--criterion", "x", code=2).stderr
     assert "slope = 9 is outside" in call("stress", *words, "--slope", 9, code=2).stderr
     assert "--y: --curvatures replaces" in " ".join(call("stress", *words, "--y", 0, code=2).stderr.split())
+
+
+def test_solve_takes_forces_instead_of_creepages():
+    words = ("--curvatures", 1.1, 0.8, "--creepage", 0, 5e-4, 0.1, "--fx", 12e3)
+    answer = json.loads(call("solve", *words, "--json").stdout)["patches"][0]
+    s = contact.solve(
+        contact.Separation.hertzian(1.1, 0.8), contact.Creepage(0.0, 5e-4, 0.1), load=80e3, force=(12e3, None)
+    )
+    assert answer["creepage"] == {"longitudinal": s.creepage.longitudinal, "lateral": 5e-4, "spin": 0.1}
+    assert answer["Fx"] == pytest.approx(12e3, abs=1.0)
+    both = json.loads(call("solve", *words, "--fy", 30e3, "--json").stdout)["patches"][0]
+    assert both["status"] == "UNREACHABLE"
+    assert "force = nan" in call("solve", *words[:-1], "nan", code=2).stderr

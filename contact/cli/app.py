@@ -71,6 +71,8 @@ def solve(
     temperature: opt.Background = ROOM_TEMPERATURE,
     pressure_limit: opt.PressureLimit = math.inf,
     creepage: opt.Creep = None,
+    fx: opt.LongitudinalForce = None,
+    fy: opt.LateralForce = None,
     curvatures: opt.Curvatures = None,
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangential = DEFAULT_TANGENTIAL,
@@ -81,6 +83,7 @@ def solve(
     """Solve the contact of a wheel on a rail, or of two curvatures: patch, forces, damage.
 
     Examples:  contact solve --y 3e-3 --load 80e3   ·   contact solve --curvatures 1.1 0.8 --creepage 1e-3 0 0.1
+    ·   contact solve --curvatures 1.1 0.8 --fx 12e3
     """
     if plot is not None:
         drawing()
@@ -88,6 +91,7 @@ def solve(
     material = opt.steel(pressure_limit)
     options = {"friction": surface, "material": material, "normal": normal, "tangential": tangential}
     options |= PICTURE_RESOLUTION if plot else {}
+    options["force"] = opt.force(fx, fy)
     given = None if creepage is None else Creepage(*creepage)
     opt.require_use(context)
     if curvatures is not None:

@@ -119,6 +119,14 @@ Creep = Annotated[
         rich_help_panel=LOADING,
     ),
 ]
+LongitudinalForce = Annotated[
+    float | None,
+    typer.Option("--fx", help="longitudinal force on the wheel in N instead of its creepage", rich_help_panel=LOADING),
+]
+LateralForce = Annotated[
+    float | None,
+    typer.Option("--fy", help="lateral force on the wheel in N instead of its creepage", rich_help_panel=LOADING),
+]
 Curvatures = Annotated[
     tuple[float, float] | None,
     typer.Option(
@@ -205,6 +213,11 @@ def require_use(context: typer.Context) -> None:
     idle = [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
     if idle:
         raise ContactError(f"{', '.join(idle)}: --curvatures replaces wheel, rail and position")
+
+
+def force(longitudinal: float | None, lateral: float | None) -> tuple[float | None, float | None] | None:
+    """Return the options --fx and --fy as an argument of `contact.solve`."""
+    return None if longitudinal is None and lateral is None else (longitudinal, lateral)
 
 
 def surface(

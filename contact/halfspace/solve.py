@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,9 +37,77 @@ _MAX_FALLS, _FALL_SHARE, _FALL_TOLERANCE = 60, 0.5, 1e-3
 _ROOM = 1.02
 
 
-def solve_gap(
+class Pressed:
+    """A solved normal problem on a grid, on which the tangential problem is solved for any creepage.
+
+    Parameters
+    ----------
+    x, y, p : pressure [Pa], shape (ny, nx), at the centres `x`, `y` [m] of the elements
+    bent : the separation whose curved surface is the contact surface; None for the plane
+    material, friction, speed, progress : as in `contact.solve`
+    record : approach, stiffness, iterations, status and normal method of the normal problem
+    """
+
+    def __init__(
+        self,
+        x: Array,
+        y: Array,
+        p: Array,
+        bent: Separation | None,
+        material: Material,
+        friction: Friction,
+        speed: float,
+        record: PressedRecord,
+        progress: Callable[[int, float], None] | None,
+    ) -> None:
+        self.x, self.y, self.p, self.bent = x, y, p, bent
+        self.material, self.friction, self.speed, self.record, self.progress = (
+            material,
+            friction,
+            speed,
+            record,
+            progress,
+        )
+        self._last: Tangential | None = None
+
+    def roll(self, creepage: Creepage) -> GridSolution:
+        """Return the solution for a creepage, by TANG. It starts from the traction of the last call."""
+        rows = Bent.plane(creepage, self.y) if self.bent is None else Bent.of(self.bent, creepage, self.y)
+        start = None if self._last is None else (self._last.qx, self._last.qy)
+        rolling, coefficient = _roll(self, creepage, rows, start)
+        self._last, record = rolling, self.record
+        converged = rolling.converged or record.status in (Status.OUT_OF_RANGE, Status.NO_CONTACT)
+        return assemble(
+            self.x,
+            self.y,
+            self.p,
+            rolling,
+            rows,
+            approach=record.approach,
+            stiffness=record.stiffness,
+            iterations=record.iterations + rolling.iterations,
+            status=record.status if converged else Status.NOT_CONVERGED,
+            creepage=creepage,
+            friction=coefficient,
+            material=self.material,
+            speed=self.speed,
+            normal=record.normal,
+            tangential="halfspace",
+        )
+
+
+class PressedRecord(NamedTuple):
+    """What a solution records of its normal problem; approach [m], stiffness [N/m]."""
+
+    approach: float
+    stiffness: float
+    iterations: int
+    status: Status
+    normal: str
+
+
+def press_gap(
     gap: Separation | Gap,
-    creepage: Creepage,
     division: Division,
     *,
     load: float | None,
@@ -48,8 +117,8 @@ def solve_gap(
     speed: float,
     conformal: bool,
     progress: Callable[[int, float], None] | None,
-) -> GridSolution:
-    """Return the solution by NORM and TANG. Arguments as in `contact.solve`."""
+) -> Pressed:
+    """Return the normal problem of a gap, solved by NORM. Arguments as in `contact.solve`."""
     grid = gap if isinstance(gap, Gap) else _grid_of(gap, load, approach, material, division)
     if grid is None:
         x = y = np.arange(2.0)
@@ -57,42 +126,23 @@ def solve_gap(
     else:
         x, y = grid.x, grid.y
         found = norm(grid.h, grid.dx, grid.dy, material, load=load, approach=approach)
-    p, rows = found.p, Bent.plane(creepage, y)
-    if conformal and isinstance(gap, Separation):
-        rows = Bent.of(gap, creepage, y)
-    rolling, coefficient = _roll(p, x, y, creepage, rows, friction, material, speed, progress)
-    return assemble(
-        x,
-        y,
-        p,
-        rolling,
-        rows,
-        approach=found.approach,
-        stiffness=found.stiffness,
-        iterations=found.iterations + rolling.iterations,
-        status=_status(gap, p, y, found.converged and rolling.converged),
-        creepage=creepage,
-        friction=coefficient,
-        material=material,
-        speed=speed,
-        normal="halfspace",
-        tangential="halfspace",
-    )
+    status = _status(gap, found.p, y, found.converged)
+    record = PressedRecord(found.approach, found.stiffness, found.iterations, status, "halfspace")
+    bent = gap if conformal and isinstance(gap, Separation) else None
+    return Pressed(x, y, found.p, bent, material, friction, speed, record, progress)
 
 
-def solve_pressure(
+def press_solution(
     first: Solution,
     bent: Separation | None,
     friction: Friction,
     division: Division,
     progress: Callable[[int, float], None] | None,
-) -> Solution:
-    """Return the solution by TANG on the pressure of `first`. Its N, approach and normal stiffness are kept.
+) -> Pressed:
+    """Return the normal problem of a solution with contact: its pressure, N, approach and normal stiffness.
 
     `bent` is the separation whose curved surface is the contact surface; None for the plane.
     """
-    if first.N <= 0.0:
-        return replace(first, tangential="halfspace")
     low, high = float(first.patch_edges.min()), float(first.patch_edges.max())
     back, front = ((first.strips.x_c + sign * first.strips.a) for sign in (-1.0, 1.0))
     x, y = division.centres((float(back.min()), float(front.max()), low, high))
@@ -101,38 +151,13 @@ def solve_pressure(
     if not total > 0.0:
         raise ContactError(f"{division} leaves no element inside the patch")
     p *= first.N / total
-    rows = Bent.plane(first.creepage, y) if bent is None else Bent.of(bent, first.creepage, y)
-    rolling, coefficient = _roll(p, x, y, first.creepage, rows, friction, first.material, first.speed, progress)
-    status = first.status if rolling.converged else Status.NOT_CONVERGED
-    return assemble(
-        x,
-        y,
-        p,
-        rolling,
-        rows,
-        approach=first.approach,
-        stiffness=first.normal_stiffness,
-        iterations=first.iterations + rolling.iterations,
-        status=Status.OK if status is Status.SATURATED else status,
-        creepage=first.creepage,
-        friction=coefficient,
-        material=first.material,
-        speed=first.speed,
-        normal=first.normal,
-        tangential="halfspace",
-    )
+    status = Status.OK if first.status is Status.SATURATED else first.status
+    record = PressedRecord(first.approach, first.normal_stiffness, first.iterations, status, first.normal)
+    return Pressed(x, y, p, bent, first.material, friction, first.speed, record, progress)
 
 
 def _roll(
-    p: Array,
-    x: Array,
-    y: Array,
-    creepage: Creepage,
-    rows: Bent,
-    friction: Friction,
-    material: Material,
-    speed: float,
-    progress: Callable[[int, float], None] | None,
+    pressed: Pressed, creepage: Creepage, rows: Bent, start: tuple[Array, Array] | None
 ) -> tuple[Tangential, float]:
     """Return the solution by TANG with a friction law, and the largest coefficient of friction [-].
 
@@ -141,6 +166,8 @@ def _roll(
     because several solutions and oscillation between them are possible. For a given slip, the temperature is that of the
     reduced friction (`heat`).
     """
+    p, x, y, friction, speed = pressed.p, pressed.x, pressed.y, pressed.friction, pressed.speed
+    material, progress = pressed.material, pressed.progress
     surface = np.zeros(1, CASE)
     set_surface(surface, friction, speed)
     case = surface[0]
@@ -150,9 +177,9 @@ def _roll(
     if not local:
         mu = float(friction.coefficient(speed * math.hypot(creepage.longitudinal, creepage.lateral)))
     if not (local or hot):
-        return tang(p, x, y, rows, mu * factor, material, progress=progress), mu
+        return tang(p, x, y, rows, mu * factor, material, start=start, progress=progress), mu
     field = np.full(p.shape, mu)
-    rolling = tang(p, x, y, rows, field * factor, material, progress=progress)
+    rolling = tang(p, x, y, rows, field * factor, material, start=start, progress=progress)
     for _ in range(_MAX_FALLS):
         slip, wanted = np.hypot(rolling.sx, rolling.sy), np.full(p.shape, mu)
         if local:
