@@ -80,6 +80,31 @@ def given_forces(folder: Path) -> Iterator[Row]:
     yield summary("H: force", forces, "μN")
 
 
+def transients(folder: Path) -> Iterator[Row]:
+    """Set I: every step of a shift and of rolling on CONTACT's 32 × 32 elements."""
+    forces, tractions = [], []
+    for path in sorted((folder / "I_transient").glob("*.npz")):
+        d = np.load(path)
+        material, N, mu = contact.Material(1e6 * float(d["G"]), float(d["nu"])), float(d["N"]), float(d["mu"])
+        gap = parabolas(1e-3 * float(d["aa"]), 1e-3 * float(d["bb"]), 1e6 * float(d["p0"]), material, 32)
+        patch = contact.Transient(gap, load=N, friction=mu, material=material)
+        for k in np.flatnonzero(d["T"] < 3):
+            x, y, turn = (float(v) for v in -d["kin"][k])
+            if d["T"][k] == 1:
+                s = patch.shift(1e-3 * x, 1e-3 * y, turn)
+            else:
+                s = patch.roll(contact.Creepage(x, y, 1e3 * turn), distance=gap.dx)
+            forces.append(math.hypot(s.Fx + d["Fx"][k], s.Fy + d["Fy"][k]) / (mu * N))
+            for kept in np.flatnonzero(d["field_steps"] == k):
+                load = SurfaceLoad.of(s)
+                top = 1e6 * mu * float(d["pn"].max())
+                i, j = (np.abs(a[:, None] - b).argmin(axis=0) for a, b in ((gap.y, load.y), (gap.x, load.x)))
+                for mine, theirs in ((load.qx, d["px"][kept]), (load.qy, d["py"][kept])):
+                    tractions.append((mine + 1e6 * theirs[np.ix_(i, j)]).ravel() / top)
+    yield summary("I: force of a step", forces, "μN")
+    yield summary("I: traction of an element", np.concatenate(tractions), "μ p0")
+
+
 def prescribed(row: dict[str, str]) -> tuple[Gap, contact.Creepage, dict[str, Any]]:
     """Return gap, known creepages and arguments of `contact.solve` of a row of set H."""
     a, b, N, mu, G, p0 = (float(row[name]) for name in ("a", "b", "N", "mu", "G", "p0"))
@@ -115,6 +140,16 @@ def times_given_forces() -> Iterator[Row]:
     yield ["default methods, both forces given", f"{fast:.1f}"]
 
 
+def times_transients() -> Iterator[Row]:
+    """Rolling on 32 × 32 elements."""
+    patch = contact.Transient(parabolas(5e-3, 5e-3, 1e9, contact.STEEL, 32), load=52359.88, material=contact.STEEL)
+    x, _ = patch.grid
+    creepage = contact.Creepage(8e-4)
+    patch.shift(-6e-6)
+    step = least(lambda: patch.roll(creepage, distance=float(x[1] - x[0])), 20)
+    yield ["a step of transient rolling, 32 × 32 elements", f"{step:.1f}"]
+
+
 def times_subsurface() -> Iterator[Row]:
     """Stresses below 44 × 44 elements."""
     s = (np.arange(44) + 0.5) / 22.0 - 1.0
@@ -124,8 +159,8 @@ def times_subsurface() -> Iterator[Row]:
     yield ["largest von Mises stress, its place and depth", f"{least(lambda: largest(load)):.0f}"]
 
 
-PARTS: tuple[Callable[[Path], Iterator[Row]], ...] = (subsurface, given_forces)
-TIMES: tuple[Callable[[], Iterator[Row]], ...] = (times_subsurface, times_given_forces)
+PARTS: tuple[Callable[[Path], Iterator[Row]], ...] = (subsurface, given_forces, transients)
+TIMES: tuple[Callable[[], Iterator[Row]], ...] = (times_subsurface, times_given_forces, times_transients)
 
 TEXT = """# CONTACT's features
 

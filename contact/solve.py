@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.creepage import Creepage
-from contact.errors import ContactError, require_number
+from contact.errors import ContactError, require_number, require_pair
 from contact.friction import Friction, as_friction
 from contact.given_force import solve_for_force, wanted_force
 from contact.halfspace import linear
@@ -113,7 +113,7 @@ def solve(
     speed = require_number("speed", speed, 0.0)
     n_strips, n_elements = require_resolution(n_strips, n_elements)
     method, rolling = lookup("normal", normal), lookup("tangential", tangential)
-    division = Division(n_strips, n_elements, _pair(spacing))
+    division = Division(n_strips, n_elements, None if spacing is None else require_pair("spacing", spacing))
     if rolling.elementwise and (surface.slope, surface.slope_far) != (1.0, 1.0):
         raise ContactError(
             f"friction.slope = {surface.slope:g}: tangential = {tangential!r} is the half space itself; allowed: slope 1"
@@ -158,17 +158,6 @@ def solve(
     if throw:
         require_trustworthy(solution.status, separation.y, load, approach)
     return solution
-
-
-def _pair(spacing: object) -> tuple[float, float] | None:
-    """Return the size (dx, dy) of the elements [m], or None."""
-    if spacing is None:
-        return None
-    both = spacing if isinstance(spacing, tuple | list) else (spacing, spacing)
-    if len(both) != 2:
-        raise ContactError(f"spacing = {spacing!r} is not a number or a pair of numbers")
-    dx, dy = (require_number("spacing", value, 0.0, open_minimum=True) for value in both)
-    return dx, dy
 
 
 _Key = tuple[str, str, int, int, Material, bool, tuple[float, float, float] | None]

@@ -374,3 +374,17 @@ def test_solve_takes_forces_instead_of_creepages():
     both = json.loads(call("solve", *words, "--fy", 30e3, "--json").stdout)["patches"][0]
     assert both["status"] == "UNREACHABLE"
     assert "force = nan" in call("solve", *words[:-1], "nan", code=2).stderr
+
+
+def test_transient_gives_the_numbers_of_the_python_api(tmp_path):
+    words = ("--curvatures", 1.1, 0.8, "--shift", -4e-6, 0, 0, "--creepage", 1e-3, 0, 0.1, "--spacing", 1e-3)
+    file, picture = tmp_path / "steps.csv", tmp_path / "steps.png"
+    call("transient", *words, "--distance", 4e-3, "--csv", file, "--plot", picture)
+    rows = list(csv.DictReader(file.open()))
+    patch = contact.Transient(contact.Separation.hertzian(1.1, 0.8), load=80e3, spacing=1e-3)
+    forces = [patch.shift(-4e-6).Fx]
+    forces += [patch.roll(contact.Creepage(1e-3, 0.0, 0.1), distance=1e-3).Fx for _ in range(4)]
+    assert [float(row["Fx"]) for row in rows] == forces
+    assert picture.stat().st_size > 10_000
+    assert "step = 0 is outside" in call("transient", *words, "--step", 0, code=2).stderr
+    assert "needs 1e+07 steps" in call("transient", *words, "--distance", 1e4, code=2).stderr

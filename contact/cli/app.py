@@ -25,6 +25,7 @@ from contact.cli.plugins import add_plugins
 from contact.cli.problem import Position, Touch
 from contact.cli.statistics import statistics
 from contact.cli.stress import stress
+from contact.cli.transient import transient
 from contact.creepage import Creepage
 from contact.errors import require_number
 from contact.friction import ROOM_TEMPERATURE
@@ -228,6 +229,7 @@ def curve(
 app.command()(compare)
 app.command()(statistics)
 app.command()(stress)
+app.command()(transient)
 app.command("geometry")(points)
 app.command()(conicity)
 app.command("profiles")(list_profiles)

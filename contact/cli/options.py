@@ -127,6 +127,20 @@ LateralForce = Annotated[
     float | None,
     typer.Option("--fy", help="lateral force on the wheel in N instead of its creepage", rich_help_panel=LOADING),
 ]
+Shift = Annotated[
+    tuple[float, float, float] | None,
+    typer.Option(
+        "--shift",
+        help="shift of the wheel against the rail before rolling: along x and y in m, rotation in rad",
+        metavar="X Y ROTATION",
+        rich_help_panel=LOADING,
+    ),
+]
+Rolled = Annotated[float, typer.Option("--distance", help="distance rolled in m", rich_help_panel=LOADING)]
+RollingStep = Annotated[
+    float | None, typer.Option("--step", help="length of a step in m; default one element", rich_help_panel=METHOD)
+]
+Spacing = Annotated[float, typer.Option(help="size of the half space's elements in m", rich_help_panel=METHOD)]
 Curvatures = Annotated[
     tuple[float, float] | None,
     typer.Option(

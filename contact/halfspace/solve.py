@@ -119,14 +119,14 @@ def press_gap(
     progress: Callable[[int, float], None] | None,
 ) -> Pressed:
     """Return the normal problem of a gap, solved by NORM. Arguments as in `contact.solve`."""
-    grid = gap if isinstance(gap, Gap) else _grid_of(gap, load, approach, material, division)
+    grid = gap if isinstance(gap, Gap) else grid_of(gap, load, approach, material, division)
     if grid is None:
         x = y = np.arange(2.0)
         found = Normal(np.zeros((2, 2)), least(gap) if approach is None else approach, 0.0, 0, True)
     else:
         x, y = grid.x, grid.y
         found = norm(grid.h, grid.dx, grid.dy, material, load=load, approach=approach)
-    status = _status(gap, found.p, y, found.converged)
+    status = status_of(gap, found.p, y, found.converged)
     record = PressedRecord(found.approach, found.stiffness, found.iterations, status, "halfspace")
     bent = gap if conformal and isinstance(gap, Separation) else None
     return Pressed(x, y, found.p, bent, material, friction, speed, record, progress)
@@ -196,7 +196,7 @@ def _roll(
     return replace(rolling, converged=False), mu
 
 
-def _status(gap: Separation | Gap, p: Array, y: Array, converged: bool) -> Status:
+def status_of(gap: Separation | Gap, p: Array, y: Array, converged: bool) -> Status:
     """Return NO_CONTACT, OUT_OF_RANGE if contact reaches the end of the data, NOT_CONVERGED or OK."""
     touching = p > 0.0
     if not touching.any():
@@ -211,7 +211,7 @@ def _status(gap: Separation | Gap, p: Array, y: Array, converged: bool) -> Statu
     return Status.OK if converged else Status.NOT_CONVERGED
 
 
-def _grid_of(
+def grid_of(
     separation: Separation,
     load: float | None,
     approach: float | None,
