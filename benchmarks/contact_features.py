@@ -105,6 +105,33 @@ def transients(folder: Path) -> Iterator[Row]:
     yield summary("I: traction of an element", np.concatenate(tractions), "μ p0")
 
 
+def unlike(folder: Path) -> Iterator[Row]:
+    """Set J: unlike bodies on CONTACT's 40 × 40 elements; the creepage is found where no force is prescribed."""
+    forces, pressures, creepages = [], [], []
+    for row in reference.rows(folder / "J_dissimilar" / "summary.csv"):
+        v = {name: float(text) for name, text in row.items() if name not in ("case", "warn") and text}
+        rail, wheel = ((2e6 * v[f"G{k}"] * (1.0 + v[f"nu{k}"]), v[f"nu{k}"]) for k in (1, 2))
+        s = (2.0 * np.arange(40) + 1.0) / 40.0 - 1.0
+        x, y = (1.15e-3 * v[name] * s for name in ("a0", "b0"))
+        gap = Gap(x, y, 1e3 * (v["A"] * x**2 + v["B"] * y[:, None] ** 2))
+        free = v["F1"] == 1.0
+        found = contact.solve(
+            gap,
+            contact.Creepage(0.0 if free else -v["xi"], -v["eta"], -1e3 * v["phi"]),
+            load=v["N"],
+            friction=v["mu"],
+            material=contact.Material.from_pair(*rail, *wheel),
+            force=0.0 if free else None,
+            **BOTH,
+        )
+        forces.append(math.hypot(found.Fx + v["Fx"], found.Fy + v["Fy"]) / (v["mu"] * v["N"]))
+        pressures.append(1e-6 * found.max_pressure / v["pmax"] - 1.0)
+        creepages += [(found.creepage.longitudinal + v["xi"]) / v["xi"]] if free else []
+    yield summary("J: force", forces, "μN")
+    yield summary("J: largest pressure", pressures, "itself")
+    yield summary("J: creepage of free rolling", creepages, "itself")
+
+
 def prescribed(row: dict[str, str]) -> tuple[Gap, contact.Creepage, dict[str, Any]]:
     """Return gap, known creepages and arguments of `contact.solve` of a row of set H."""
     a, b, N, mu, G, p0 = (float(row[name]) for name in ("a", "b", "N", "mu", "G", "p0"))
@@ -159,7 +186,7 @@ def times_subsurface() -> Iterator[Row]:
     yield ["largest von Mises stress, its place and depth", f"{least(lambda: largest(load)):.0f}"]
 
 
-PARTS: tuple[Callable[[Path], Iterator[Row]], ...] = (subsurface, given_forces, transients)
+PARTS: tuple[Callable[[Path], Iterator[Row]], ...] = (subsurface, given_forces, transients, unlike)
 TIMES: tuple[Callable[[], Iterator[Row]], ...] = (times_subsurface, times_given_forces, times_transients)
 
 TEXT = """# CONTACT's features

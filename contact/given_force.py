@@ -69,7 +69,7 @@ def solve_for_force(
     """
     first = evaluate(start)
     limit = first.friction * first.N
-    if first.N <= 0.0 or first.status is Status.OUT_OF_RANGE:
+    if first.N <= 0.0:
         return first
     search = _Search(force, start, evaluate, first, limit if bounded else math.inf)
     if limit <= 0.0 or size(search.wanted) > search.bound * (1.0 + _TOLERANCE):

@@ -388,3 +388,15 @@ def test_transient_gives_the_numbers_of_the_python_api(tmp_path):
     assert picture.stat().st_size > 10_000
     assert "step = 0 is outside" in call("transient", *words, "--step", 0, code=2).stderr
     assert "needs 1e+07 steps" in call("transient", *words, "--distance", 1e4, code=2).stderr
+
+
+def test_the_bodies_of_the_command_line_are_those_of_the_python_api():
+    bodies = (60e9, 0.31, 210e9, 0.28)
+    words = ("--curvatures", 1.1, 0.8, "--bodies", *bodies, "--normal", "halfspace", "--tangential", "halfspace")
+    answer = json.loads(call("solve", *words, "--creepage", 0, 0, 0, "--json").stdout)["patches"][0]
+    s = contact.solve(
+        contact.Separation.hertzian(1.1, 0.8), contact.Creepage(), load=80e3, normal="halfspace",
+        tangential="halfspace", material=contact.Material.from_pair(*bodies),
+    )  # fmt: skip
+    assert answer["Fx"] == s.Fx != 0.0
+    assert "nu1 = 0.7 is outside" in call("solve", *words[:3], "--bodies", 1e9, 0.7, 1e9, 0.3, code=2).stderr

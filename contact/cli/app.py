@@ -71,6 +71,7 @@ def solve(
     hot: opt.Hot = None,
     temperature: opt.Background = ROOM_TEMPERATURE,
     pressure_limit: opt.PressureLimit = math.inf,
+    bodies: opt.Bodies = None,
     creepage: opt.Creep = None,
     fx: opt.LongitudinalForce = None,
     fy: opt.LateralForce = None,
@@ -89,7 +90,7 @@ def solve(
     if plot is not None:
         drawing()
     surface = opt.surface(friction, falling, slip_velocity, gauge_friction, hot, temperature)
-    material = opt.steel(pressure_limit)
+    material = opt.material(pressure_limit, bodies)
     options = {"friction": surface, "material": material, "normal": normal, "tangential": tangential}
     options |= PICTURE_RESOLUTION if plot else {}
     options["force"] = opt.force(fx, fy)
@@ -153,7 +154,7 @@ def patch(
         wheel, rail, opt.reading(inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed
     )
     surface = opt.surface(friction, falling, slip_velocity, gauge_friction, hot, temperature)
-    material = opt.steel(pressure_limit)
+    material = opt.material(pressure_limit)
     options = {
         "friction": surface,
         "material": material,

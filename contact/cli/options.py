@@ -106,6 +106,14 @@ PressureLimit = Annotated[
     float,
     typer.Option(help="upper limit of the pressure in Pa, elastic-perfectly plastic", rich_help_panel=LOADING),
 ]
+Bodies = Annotated[
+    tuple[float, float, float, float] | None,
+    typer.Option(
+        help="Young's modulus in Pa and Poisson's ratio of the rail, then of the wheel; default steel",
+        metavar="E_RAIL NU_RAIL E_WHEEL NU_WHEEL",
+        rich_help_panel=LOADING,
+    ),
+]
 Conformal = Annotated[
     bool,
     typer.Option("--conformal", help="let the contact angle vary over the patch", rich_help_panel=METHOD),
@@ -262,9 +270,9 @@ def surface(
     )
 
 
-def steel(pressure_limit: float) -> Material:
-    """Return STEEL with a pressure limit [Pa]."""
-    return replace(STEEL, pressure_limit=pressure_limit)
+def material(pressure_limit: float, bodies: tuple[float, float, float, float] | None = None) -> Material:
+    """Return the material of rail and wheel, or STEEL, with a pressure limit [Pa]."""
+    return replace(STEEL if bodies is None else Material.from_pair(*bodies), pressure_limit=pressure_limit)
 
 
 def reading(

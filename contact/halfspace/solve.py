@@ -20,6 +20,7 @@ from contact.halfspace.heat import heat_up
 from contact.halfspace.norm import Normal, norm
 from contact.halfspace.solution import GridSolution, assemble
 from contact.halfspace.tang import Tangential, tang
+from contact.halfspace.unlike import Coupling
 from contact.kernels.friction import of_bodies
 from contact.kernels.records import CASE
 from contact.material import Material
@@ -33,6 +34,9 @@ _COARSE, _MAX_STEPS = Division(20, 20), 40
 #: Iteration of friction that depends on local slip velocity or temperature: largest number of steps, relaxation factor,
 #: tolerance over mu.
 _MAX_FALLS, _FALL_SHARE, _FALL_TOLERANCE = 60, 0.5, 1e-3
+#: Alternation of normal and tangential problem for unlike bodies: largest number of turns, change of the pressure over its
+#: maximum at the end, and tolerance of the normal problem.
+_MAX_TURNS, _TURN_TOLERANCE, _FINE = 40, 1e-6, 1e-7
 #: The grid covers the overlap at this multiple of the estimated approach.
 _ROOM = 1.02
 
@@ -46,6 +50,9 @@ class Pressed:
     bent : the separation whose curved surface is the contact surface; None for the plane
     material, friction, speed, progress : as in `contact.solve`
     record : approach, stiffness, iterations, status and normal method of the normal problem
+    again : callable
+        Solves the normal problem again for a traction that opens the gap by a field [m], from a pressure. Only for unlike
+        bodies; without it the pressure does not follow the traction.
     """
 
     def __init__(
@@ -53,30 +60,30 @@ class Pressed:
         x: Array,
         y: Array,
         p: Array,
+        record: PressedRecord,
+        *,
         bent: Separation | None,
         material: Material,
         friction: Friction,
         speed: float,
-        record: PressedRecord,
         progress: Callable[[int, float], None] | None,
+        again: Callable[[Array, Array], Normal] | None = None,
     ) -> None:
-        self.x, self.y, self.p, self.bent = x, y, p, bent
-        self.material, self.friction, self.speed, self.record, self.progress = (
-            material,
-            friction,
-            speed,
-            record,
-            progress,
-        )
+        self.x, self.y, self.p, self.record, self.bent = x, y, p, record, bent
+        self.material, self.friction, self.speed, self.progress = material, friction, speed, progress
+        self._again = again
         self._last: Tangential | None = None
 
     def roll(self, creepage: Creepage) -> GridSolution:
-        """Return the solution for a creepage, by TANG. It starts from the traction of the last call."""
+        """Return the solution for a creepage, by TANG. It starts from pressure and traction of the last call."""
         rows = Bent.plane(creepage, self.y) if self.bent is None else Bent.of(self.bent, creepage, self.y)
-        start = None if self._last is None else (self._last.qx, self._last.qy)
-        rolling, coefficient = _roll(self, creepage, rows, start)
-        self._last, record = rolling, self.record
-        converged = rolling.converged or record.status in (Status.OUT_OF_RANGE, Status.NO_CONTACT)
+        if self.material.coupling == 0.0 or not self.p.any():
+            rolling, coefficient = self._tangential(creepage, rows, None)
+            converged = rolling.converged
+        else:
+            rolling, coefficient, converged = self._alternate(creepage, rows)
+        record = self.record
+        kept = converged or record.status in (Status.OUT_OF_RANGE, Status.NO_CONTACT)
         return assemble(
             self.x,
             self.y,
@@ -86,7 +93,7 @@ class Pressed:
             approach=record.approach,
             stiffness=record.stiffness,
             iterations=record.iterations + rolling.iterations,
-            status=record.status if converged else Status.NOT_CONVERGED,
+            status=record.status if kept else Status.NOT_CONVERGED,
             creepage=creepage,
             friction=coefficient,
             material=self.material,
@@ -94,6 +101,32 @@ class Pressed:
             normal=record.normal,
             tangential="halfspace",
         )
+
+    def _tangential(self, creepage: Creepage, rows: Bent, added: Array | None) -> tuple[Tangential, float]:
+        """Return the tangential solution on the present pressure, and the coefficient of friction."""
+        start = None if self._last is None else (self._last.qx, self._last.qy)
+        self._last, coefficient = _roll(self, creepage, rows, start, added)
+        return self._last, coefficient
+
+    def _alternate(self, creepage: Creepage, rows: Bent) -> tuple[Tangential, float, bool]:
+        """Solve both problems of unlike bodies in turn until neither changes (Panagiotopoulos).
+
+        A change that grows is halved. Return the tangential solution, the coefficient of friction and whether it converged.
+        """
+        coupling = Coupling(self.p.shape, float(self.x[1] - self.x[0]), float(self.y[1] - self.y[0]), self.material)
+        last, share = math.inf, 1.0
+        for _ in range(_MAX_TURNS):
+            rolling, coefficient = self._tangential(creepage, rows, coupling.slip(self.p))
+            if self._again is None:
+                return rolling, coefficient, rolling.converged
+            found = self._again(coupling.opening(rolling.qx, rolling.qy), self.p)
+            change = float(np.abs(found.p - self.p).max() / found.p.max())
+            if change <= _TURN_TOLERANCE:
+                return rolling, coefficient, rolling.converged and found.converged
+            share = 0.5 * share if change > last else share
+            self.p, last = self.p + share * (found.p - self.p), change
+            self.record = self.record._replace(approach=found.approach, stiffness=found.stiffness)
+        return rolling, coefficient, False
 
 
 class PressedRecord(NamedTuple):
@@ -128,8 +161,24 @@ def press_gap(
         found = norm(grid.h, grid.dx, grid.dy, material, load=load, approach=approach)
     status = status_of(gap, found.p, y, found.converged)
     record = PressedRecord(found.approach, found.stiffness, found.iterations, status, "halfspace")
-    bent = gap if conformal and isinstance(gap, Separation) else None
-    return Pressed(x, y, found.p, bent, material, friction, speed, record, progress)
+
+    def again(opening: Array, p: Array) -> Normal:
+        assert grid is not None
+        h = grid.h + opening
+        return norm(h, grid.dx, grid.dy, material, load=load, approach=approach, tolerance=_FINE, start=p)
+
+    return Pressed(
+        x,
+        y,
+        found.p,
+        record,
+        bent=gap if conformal and isinstance(gap, Separation) else None,
+        material=material,
+        friction=friction,
+        speed=speed,
+        progress=progress,
+        again=again,
+    )
 
 
 def press_solution(
@@ -153,11 +202,13 @@ def press_solution(
     p *= first.N / total
     status = Status.OK if first.status is Status.SATURATED else first.status
     record = PressedRecord(first.approach, first.normal_stiffness, first.iterations, status, first.normal)
-    return Pressed(x, y, p, bent, first.material, friction, first.speed, record, progress)
+    return Pressed(
+        x, y, p, record, bent=bent, material=first.material, friction=friction, speed=first.speed, progress=progress
+    )
 
 
 def _roll(
-    pressed: Pressed, creepage: Creepage, rows: Bent, start: tuple[Array, Array] | None
+    pressed: Pressed, creepage: Creepage, rows: Bent, start: tuple[Array, Array] | None, added: Array | None
 ) -> tuple[Tangential, float]:
     """Return the solution by TANG with a friction law, and the largest coefficient of friction [-].
 
@@ -177,9 +228,9 @@ def _roll(
     if not local:
         mu = float(friction.coefficient(speed * math.hypot(creepage.longitudinal, creepage.lateral)))
     if not (local or hot):
-        return tang(p, x, y, rows, mu * factor, material, start=start, progress=progress), mu
+        return tang(p, x, y, rows, mu * factor, material, start=start, added=added, progress=progress), mu
     field = np.full(p.shape, mu)
-    rolling = tang(p, x, y, rows, field * factor, material, start=start, progress=progress)
+    rolling = tang(p, x, y, rows, field * factor, material, start=start, added=added, progress=progress)
     for _ in range(_MAX_FALLS):
         slip, wanted = np.hypot(rolling.sx, rolling.sy), np.full(p.shape, mu)
         if local:
@@ -190,7 +241,8 @@ def _roll(
             heat_up(case, factor * p * slip, x[1] - x[0], wanted)
         change = wanted - field
         field = field + _FALL_SHARE * change
-        rolling = tang(p, x, y, rows, field * factor, material, start=(rolling.qx, rolling.qy), progress=progress)
+        start = rolling.qx, rolling.qy
+        rolling = tang(p, x, y, rows, field * factor, material, start=start, added=added, progress=progress)
         if abs(change * (p > 0.0)).max() <= _FALL_TOLERANCE * mu:
             return rolling, mu
     return replace(rolling, converged=False), mu

@@ -75,6 +75,7 @@ def tang(
     offset: float = OFFSET,
     tolerance: float = 1e-6,
     start: tuple[Array, Array] | None = None,
+    added: Array | None = None,
     progress: Callable[[int, float], None] | None = None,
 ) -> Tangential:
     """Solve the tangential problem of steady rolling towards +x.
@@ -96,6 +97,8 @@ def tang(
         Upper bound of the residual.
     start : (qx, qy)
         Traction to start from [Pa]; default 0.
+    added : ndarray, shape (2, ny, nx)
+        Slip over V from other causes than creepage and traction, added to the rigid slip.
     progress : callable
         Called with the number of the Newton step and the residual.
 
@@ -116,6 +119,8 @@ def tang(
     window = slice(across[0], across[-1] + 1), slice(along[0], along[-1] + 1)
     dx, dy = float(x[1] - x[0]), float(y[1] - y[0])
     w = np.ascontiguousarray(rigid_slip(x, y, rows, offset * dx)[:, *window])
+    if added is not None:
+        w += added[:, *window]
     rolling = _Rolling(np.ascontiguousarray(bound[window]), w, (dx, dy), material, tolerance, progress)
     q = np.zeros_like(w) if start is None else np.stack([field[window] for field in start])
     q, residual = rolling.steady(q)

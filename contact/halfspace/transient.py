@@ -102,6 +102,8 @@ class Transient:
             raise ContactError(
                 "friction: a step takes one coefficient; allowed: a law over the global velocity, not hot"
             )
+        if material.coupling != 0.0:
+            raise ContactError(f"material.coupling = {material.coupling:g}: a step takes like bodies; allowed: 0")
         self.speed, self._progress = require_number("speed", speed, 0.0), progress
         division = Division(40, 40, None if spacing is None else require_pair("spacing", spacing))
         grid = separation if isinstance(separation, Gap) else grid_of(separation, load, None, material, division)

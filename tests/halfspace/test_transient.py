@@ -124,6 +124,12 @@ def test_a_separation_and_mirrored_motion():
         (lambda: Transient(contact.Separation.hertzian(1.0, 1.0), load=0.0), "load = 0 is outside"),
         (lambda: Transient(contact.Separation.hertzian(1.0, 1.0), load=1.0, spacing=(1.0, 2.0, 3.0)), "spacing = "),
         (lambda: circle(mu=contact.friction.Friction(0.3, 0.1, velocity="local", law="linear")), "one coefficient"),
+        (
+            lambda: Transient(
+                contact.Separation.hertzian(1.0, 1.0), load=1.0, material=contact.Material(8e10, 0.3, coupling=0.1)
+            ),
+            "material.coupling = 0.1: a step takes like bodies",
+        ),
         (lambda: circle().shift(math.nan), "longitudinal = nan is outside"),
         (lambda: circle().roll(contact.Creepage(), distance=0.0), "distance = 0 is outside"),
         (lambda: circle().roll(1e-3, distance=1e-3), "creepage = 0.001 is not a contact.Creepage"),
