@@ -20,7 +20,11 @@ import numpy as np
 import contact
 import reference
 from benchmarks.tables import table
+from contact.elastic_rail import ElasticRail
+from contact.geometry.profile import Profile
+from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.halfspace import Gap
+from contact.pair import WheelRailPair
 from contact.stress import SurfaceLoad, below, largest
 
 Row = list[str]
@@ -132,6 +136,33 @@ def unlike(folder: Path) -> Iterator[Row]:
     yield summary("J: creepage of free rolling", creepages, "itself")
 
 
+def deflections(folder: Path) -> Iterator[Row]:
+    """Set L: a rail on springs under S1002, by the default methods, on CONTACT's profiles."""
+    points = np.load(folder / "L_rail_deflection" / "profiles.npz")
+    outlines = [1e-3 * points[name] for name in ("wheel_s1002_yz", "rail_uic60_yz")]
+    outlines = [xy[np.append(True, np.hypot(*np.diff(xy, axis=0).T) > 1e-7)] for xy in outlines]
+    wheel, rail = (Profile(kind, *xy.T) for kind, xy in zip(("wheel", "rail"), outlines, strict=True))
+    solver = WheelRailPair(Pair(wheel, rail, gauge=1.435, flange_back=1.360, material=contact.STEEL))
+    sideways, down, forces = [], [], []
+    for row in reference.rows(folder / "L_rail_deflection" / "rail_deflection.csv"):
+        if row["patch"] != "1":
+            continue
+        v = {name: float(text) for name, text in row.items() if name not in ("id", "mode") and text}
+        springs = ElasticRail(1e3 * v["KYRAIL"], 1e3 * v["KZRAIL"], v["FYRAIL"], v["FZRAIL"])
+        height = row["mode"] == "z"
+        pose = Pose(y=1e-3 * v["y_ws"], z=1e-3 * v["value"] if height else 0.0, yaw=v["yaw"])
+        solver.forget()
+        velocity = Velocity(2.0, spin=-2.0 / 0.46 * 1.0003)
+        s = solver.solve(pose, velocity, vertical=None if height else v["value"], rail=springs)
+        true = -np.array([v["Fx_tr"], v["Fy_tr"], v["Fz_tr"]])
+        forces.append(np.linalg.norm(s.force - true) / np.linalg.norm(true))
+        sideways.append(1e3 * s.deflection[0] - v["dy_balance"])
+        down.append((1e3 * s.deflection[1] - v["dz_balance"]) / v["dz_balance"])
+    yield summary("L: force vector, default methods", forces, "itself")
+    yield summary("L: lateral deflection", sideways, "mm")
+    yield summary("L: vertical deflection", down, "itself")
+
+
 def prescribed(row: dict[str, str]) -> tuple[Gap, contact.Creepage, dict[str, Any]]:
     """Return gap, known creepages and arguments of `contact.solve` of a row of set H."""
     a, b, N, mu, G, p0 = (float(row[name]) for name in ("a", "b", "N", "mu", "G", "p0"))
@@ -186,7 +217,7 @@ def times_subsurface() -> Iterator[Row]:
     yield ["largest von Mises stress, its place and depth", f"{least(lambda: largest(load)):.0f}"]
 
 
-PARTS: tuple[Callable[[Path], Iterator[Row]], ...] = (subsurface, given_forces, transients, unlike)
+PARTS: tuple[Callable[[Path], Iterator[Row]], ...] = (subsurface, given_forces, transients, unlike, deflections)
 TIMES: tuple[Callable[[], Iterator[Row]], ...] = (times_subsurface, times_given_forces, times_transients)
 
 TEXT = """# CONTACT's features

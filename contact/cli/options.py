@@ -149,6 +149,14 @@ RollingStep = Annotated[
     float | None, typer.Option("--step", help="length of a step in m; default one element", rich_help_panel=METHOD)
 ]
 Spacing = Annotated[float, typer.Option(help="size of the half space's elements in m", rich_help_panel=METHOD)]
+Springs = Annotated[
+    tuple[float, float],
+    typer.Option(help="lateral and vertical stiffness under the rail in N/m; inf is rigid", rich_help_panel=TRACK),
+]
+Preload = Annotated[
+    tuple[float, float],
+    typer.Option(help="external force on the rail in N, to the right and down", rich_help_panel=TRACK),
+]
 Curvatures = Annotated[
     tuple[float, float] | None,
     typer.Option(
