@@ -163,6 +163,25 @@ def deflections(folder: Path) -> Iterator[Row]:
     yield summary("L: vertical deflection", down, "itself")
 
 
+def third_bodies(folder: Path) -> Iterator[Row]:
+    """Set K: creep curves with elastic and plastic layers on CONTACT's 36 × 36 elements."""
+    errors: dict[str, list[float]] = {}
+    gap = None
+    for row in reference.rows(folder / "K_thirdbody" / "creepcurves.csv"):
+        v = {name: float(text or 0.0) for name, text in row.items() if name != "layer"}
+        material = contact.Material(1e6 * v["G"], v["nu"])
+        gap = gap or parabolas(1e-3 * v["a"], 1e-3 * v["b"], 1e6 * v["p0"], material, 36)
+        layer = None
+        if v["GG3"]:
+            layer = contact.ThirdBody(1e-9 * v["h3"] / v["GG3"], 1e6 * v["tau_c0"] or math.inf, 1e9 * v["k_tau"])
+        creepage = contact.Creepage(-v["xi"], -v["eta"], -1e3 * v["phi"])
+        s = contact.solve(gap, creepage, load=v["N"], friction=v["mu"], material=material, layer=layer, **BOTH)
+        away = math.hypot(s.Fx / (v["mu"] * s.N) + v["fx"], s.Fy / (v["mu"] * s.N) + v["fy"])
+        errors.setdefault("softening" if v["k_tau"] < 0.0 else "all other layers", []).append(away)
+    for name, found in errors.items():
+        yield summary(f"K: force, {name}", found, "μN")
+
+
 def prescribed(row: dict[str, str]) -> tuple[Gap, contact.Creepage, dict[str, Any]]:
     """Return gap, known creepages and arguments of `contact.solve` of a row of set H."""
     a, b, N, mu, G, p0 = (float(row[name]) for name in ("a", "b", "N", "mu", "G", "p0"))
@@ -217,7 +236,14 @@ def times_subsurface() -> Iterator[Row]:
     yield ["largest von Mises stress, its place and depth", f"{least(lambda: largest(load)):.0f}"]
 
 
-PARTS: tuple[Callable[[Path], Iterator[Row]], ...] = (subsurface, given_forces, transients, unlike, deflections)
+PARTS: tuple[Callable[[Path], Iterator[Row]], ...] = (
+    subsurface,
+    given_forces,
+    transients,
+    unlike,
+    third_bodies,
+    deflections,
+)
 TIMES: tuple[Callable[[], Iterator[Row]], ...] = (times_subsurface, times_given_forces, times_transients)
 
 TEXT = """# CONTACT's features

@@ -10,6 +10,7 @@ from contact.citation import cite
 from contact.creepage import Creepage
 from contact.errors import ContactError
 from contact.forces import forces
+from contact.halfspace.third_body import ThirdBody
 from contact.halfspace.transient import Transient
 from contact.hertz import HertzContact, hertz
 from contact.material import STEEL, Material
@@ -42,6 +43,7 @@ __all__ = [
     "Solver",
     "Status",
     "Strips",
+    "ThirdBody",
     "Transient",
     "cite",
     "compare",

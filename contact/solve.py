@@ -18,6 +18,7 @@ from contact.given_force import solve_for_force, wanted_force
 from contact.halfspace import linear
 from contact.halfspace.gap import Division, Gap
 from contact.halfspace.solve import press_gap, press_solution
+from contact.halfspace.third_body import ThirdBody
 from contact.kalker import constant_table
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
@@ -44,6 +45,7 @@ def solve(
     n_elements: int = N_ELEMENTS,
     spacing: float | tuple[float, float] | None = None,
     conformal: bool = False,
+    layer: ThirdBody | None = None,
     start: Solution | None = None,
     progress: Callable[[int, float], None] | None = None,
     throw: bool = True,
@@ -79,6 +81,8 @@ def solve(
         Let the contact angle vary over the patch by the separation's `tilt` and `rolling` (`contact.kernels.conformal`).
         Slip, pressure and traction then follow the curved surface. Fx, Fy, Mz are resultants in the frame of the plane
         and include the lateral part of the pressure. Fields are measured along the surface.
+    layer : contact.ThirdBody
+        A layer between the bodies that shears and yields; only with tangential="halfspace".
     start : Solution
         Solution of a similar problem at the same resolution. An iterative normal method may start from it. This changes
         the computing time, and the result only within the method's tolerance.
@@ -118,6 +122,8 @@ def solve(
         raise ContactError(
             f"friction.slope = {surface.slope:g}: tangential = {tangential!r} is the half space itself; allowed: slope 1"
         )
+    if layer is not None:
+        require_layer(layer, rolling, surface)
     if conformal:
         require_conformal(rolling)
         if not isinstance(separation, Separation):
@@ -139,6 +145,7 @@ def solve(
             material=material,
             speed=speed,
             conformal=conformal,
+            layer=layer,
             progress=progress,
         ).roll
     elif not isinstance(separation, Separation):
@@ -150,7 +157,7 @@ def solve(
         )
         if wanted is None and not (rolling.calibrated or rolling.elementwise):  # the solution stays lazy
             return problem.solve(creepage, rolling.name, throw=throw)
-        evaluate = _rolling(problem, creepage, rolling, division, progress)
+        evaluate = _rolling(problem, creepage, rolling, division, layer, progress)
     if wanted is None:
         solution = evaluate(creepage)
     else:
@@ -158,6 +165,16 @@ def solve(
     if throw:
         require_trustworthy(solution.status, separation.y, load, approach)
     return solution
+
+
+def require_layer(layer: object, tangential: Method, friction: Friction) -> None:
+    """Raise a ContactError if a third body cannot be used with this method and friction."""
+    if not isinstance(layer, ThirdBody):
+        raise ContactError(f"layer = {layer!r} is not a contact.ThirdBody")
+    if not tangential.elementwise:
+        raise ContactError(f"layer: tangential = {tangential.name!r} has no third body; allowed: halfspace")
+    if (friction.velocity != "global" and friction.law != "coulomb") or friction.hot_factor < 1.0:
+        raise ContactError("layer: friction must not depend on local slip or temperature")
 
 
 _Key = tuple[str, str, int, int, Material, bool, tuple[float, float, float] | None]
@@ -232,6 +249,7 @@ def _rolling(
     creepage: Creepage,
     method: Method,
     division: Division,
+    layer: ThirdBody | None,
     progress: Callable[[int, float], None] | None,
 ) -> Callable[[Creepage], Solution]:
     """Return the function from creepage to solution. What does not depend on the creepage is solved now."""
@@ -240,7 +258,7 @@ def _rolling(
         if first.N <= 0.0:
             return lambda creepage: replace(first, tangential=method.name, creepage=creepage)
         bent = problem.separation if problem.conformal else None
-        return press_solution(first, bent, problem.friction, division, progress).roll
+        return press_solution(first, bent, problem.friction, division, layer, progress).roll
     if not method.calibrated:
         return lambda creepage: problem.solve(creepage, method.name)
     first = problem.solve(creepage, method.kernel)

@@ -400,3 +400,15 @@ def test_the_bodies_of_the_command_line_are_those_of_the_python_api():
     )  # fmt: skip
     assert answer["Fx"] == s.Fx != 0.0
     assert "nu1 = 0.7 is outside" in call("solve", *words[:3], "--bodies", 1e9, 0.7, 1e9, 0.3, code=2).stderr
+
+
+def test_the_layer_of_the_command_line_is_that_of_the_python_api():
+    words = ("--curvatures", 1.1, 0.8, "--creepage", 2e-3, 0, 0, "--normal", "halfspace", "--tangential", "halfspace")
+    layer = (2e-13, 150e6, 1e11)
+    answer = json.loads(call("solve", *words, "--layer", *layer, "--json").stdout)["patches"][0]
+    s = contact.solve(
+        contact.Separation.hertzian(1.1, 0.8), contact.Creepage(2e-3), load=80e3, normal="halfspace",
+        tangential="halfspace", layer=contact.ThirdBody(*layer),
+    )  # fmt: skip
+    assert answer["Fx"] == s.Fx
+    assert "layer.yield_stress = 0" in call("solve", *words, "--layer", 0, 0, 0, code=2).stderr

@@ -80,6 +80,7 @@ def solve(
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangential = DEFAULT_TANGENTIAL,
     conformal: opt.Conformal = False,
+    layer: opt.Layer = None,
     as_json: opt.Json = False,
     plot: opt.Plot = None,
 ) -> None:
@@ -94,7 +95,7 @@ def solve(
     material = opt.material(pressure_limit, bodies)
     options = {"friction": surface, "material": material, "normal": normal, "tangential": tangential}
     options |= PICTURE_RESOLUTION if plot else {}
-    options["force"] = opt.force(fx, fy)
+    options |= {"force": opt.force(fx, fy), "layer": opt.third_body(layer)}
     given = None if creepage is None else Creepage(*creepage)
     opt.require_use(context)
     if curvatures is not None:

@@ -14,6 +14,7 @@ from contact.cli.problem import OF_A_POSITION, STANDARD_LOAD, Pose, Position
 from contact.errors import ContactError
 from contact.friction import LAWS, ROOM_TEMPERATURE, VELOCITIES
 from contact.geometry import profile
+from contact.halfspace.third_body import ThirdBody
 from contact.material import STEEL, Material
 
 
@@ -112,6 +113,14 @@ Bodies = Annotated[
         help="Young's modulus in Pa and Poisson's ratio of the rail, then of the wheel; default steel",
         metavar="E_RAIL NU_RAIL E_WHEEL NU_WHEEL",
         rich_help_panel=LOADING,
+    ),
+]
+Layer = Annotated[
+    tuple[float, float, float] | None,
+    typer.Option(
+        help="third body for the half space: flexibility in m/Pa, yield stress in Pa (inf: elastic), hardening in Pa/m",
+        metavar="FLEXIBILITY YIELD HARDENING",
+        rich_help_panel=METHOD,
     ),
 ]
 Conformal = Annotated[
@@ -281,6 +290,11 @@ def surface(
 def material(pressure_limit: float, bodies: tuple[float, float, float, float] | None = None) -> Material:
     """Return the material of rail and wheel, or STEEL, with a pressure limit [Pa]."""
     return replace(STEEL if bodies is None else Material.from_pair(*bodies), pressure_limit=pressure_limit)
+
+
+def third_body(layer: tuple[float, float, float] | None) -> ThirdBody | None:
+    """Return the option --layer as an argument of `contact.solve`."""
+    return None if layer is None else ThirdBody(*layer)
 
 
 def reading(

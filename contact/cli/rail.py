@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from typing import Any, cast
 
 import typer
 from rich.console import Console
@@ -51,9 +52,9 @@ def rail(
     case = opt.position(
         wheel, rail, opt.reading(inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed
     )
-    found = {}
+    found: dict[str, dict[str, Any]] = {}
     for name in case.sides:
-        pair = Pair(case.wheel, case.rail, side=name, nominal_radius=radius)
+        pair = Pair(case.wheel, case.rail, side=cast(Any, name), nominal_radius=radius)
         solver = WheelRailPair(pair, normal=normal, tangential=tangential)
         pose, velocity = Pose(y=y, roll=roll, yaw=yaw), Velocity(forward=speed)
         solution = solver.solve(pose, velocity, vertical=standard_load(load, None), friction=friction, rail=elastic)
@@ -83,6 +84,6 @@ def rail(
         ("wheelset z", "mm", "z", 1e3),
         ("peak pressure", "MPa", "max_pressure", 1e-6),
     ):
-        table.add_row(label, unit_of, *(number(factor * float(one[key])) for one in found.values()))
+        table.add_row(label, unit_of, *(number(factor * one[key]) for one in found.values()))
     table.add_row("status", "", *(str(one["status"]).lower().replace("_", " ") for one in found.values()))
     Console().print(table)

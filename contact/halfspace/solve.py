@@ -20,6 +20,7 @@ from contact.halfspace.heat import heat_up
 from contact.halfspace.norm import Normal, norm
 from contact.halfspace.solution import GridSolution, assemble
 from contact.halfspace.tang import Tangential, tang
+from contact.halfspace.third_body import Sheared, ThirdBody, solve_layer
 from contact.halfspace.unlike import Coupling
 from contact.kernels.friction import of_bodies
 from contact.kernels.records import CASE
@@ -67,11 +68,13 @@ class Pressed:
         friction: Friction,
         speed: float,
         progress: Callable[[int, float], None] | None,
+        layer: ThirdBody | None = None,
         again: Callable[[Array, Array], Normal] | None = None,
     ) -> None:
         self.x, self.y, self.p, self.record, self.bent = x, y, p, record, bent
         self.material, self.friction, self.speed, self.progress = material, friction, speed, progress
-        self._again = again
+        self._again, self._layer = again, layer
+        self._sheared: Sheared | None = None
         self._last: Tangential | None = None
 
     def roll(self, creepage: Creepage) -> GridSolution:
@@ -100,13 +103,46 @@ class Pressed:
             speed=self.speed,
             normal=record.normal,
             tangential="halfspace",
+            layer=self._sheared,
         )
 
     def _tangential(self, creepage: Creepage, rows: Bent, added: Array | None) -> tuple[Tangential, float]:
         """Return the tangential solution on the present pressure, and the coefficient of friction."""
         start = None if self._last is None else (self._last.qx, self._last.qy)
-        self._last, coefficient = _roll(self, creepage, rows, start, added)
-        return self._last, coefficient
+        if self._layer is None:
+            self._last, coefficient = _roll(self, creepage, rows, start, added)
+        else:
+            coefficient = self._shear(self._layer, creepage, rows, start, added)
+        return self._last, coefficient  # type: ignore[return-value]
+
+    def _shear(
+        self, layer: ThirdBody, creepage: Creepage, rows: Bent, start: tuple[Array, Array] | None, added: Array | None
+    ) -> float:
+        """Solve with a third body; keep the solution and its state, and return the coefficient of friction."""
+        mu = float(self.friction.coefficient(self.speed * math.hypot(creepage.longitudinal, creepage.lateral)))
+        factor = self.friction.factor(self.y)[:, None] if self.friction.gauge_factor != 1.0 else 1.0
+        touching = np.where(self.p > 0.0, self.p, 1.0)
+
+        def solve(bound: Array) -> Tangential:
+            nonlocal start
+            found = tang(
+                self.p,
+                self.x,
+                self.y,
+                rows,
+                bound / touching,
+                self.material,
+                start=start,
+                added=added,
+                layer=layer.flexibility,
+                progress=self.progress,
+            )
+            start = found.qx, found.qy
+            return found
+
+        steps = float(self.x[1] - self.x[0]), float(self.y[1] - self.y[0])
+        self._last, self._sheared = solve_layer(layer, mu * factor * self.p, steps, solve)
+        return mu
 
     def _alternate(self, creepage: Creepage, rows: Bent) -> tuple[Tangential, float, bool]:
         """Solve both problems of unlike bodies in turn until neither changes (Panagiotopoulos).
@@ -149,6 +185,7 @@ def press_gap(
     material: Material,
     speed: float,
     conformal: bool,
+    layer: ThirdBody | None,
     progress: Callable[[int, float], None] | None,
 ) -> Pressed:
     """Return the normal problem of a gap, solved by NORM. Arguments as in `contact.solve`."""
@@ -177,6 +214,7 @@ def press_gap(
         friction=friction,
         speed=speed,
         progress=progress,
+        layer=layer,
         again=again,
     )
 
@@ -186,6 +224,7 @@ def press_solution(
     bent: Separation | None,
     friction: Friction,
     division: Division,
+    layer: ThirdBody | None,
     progress: Callable[[int, float], None] | None,
 ) -> Pressed:
     """Return the normal problem of a solution with contact: its pressure, N, approach and normal stiffness.
@@ -203,7 +242,16 @@ def press_solution(
     status = Status.OK if first.status is Status.SATURATED else first.status
     record = PressedRecord(first.approach, first.normal_stiffness, first.iterations, status, first.normal)
     return Pressed(
-        x, y, p, record, bent=bent, material=first.material, friction=friction, speed=first.speed, progress=progress
+        x,
+        y,
+        p,
+        record,
+        bent=bent,
+        material=first.material,
+        friction=friction,
+        speed=first.speed,
+        progress=progress,
+        layer=layer,
     )
 
 

@@ -76,6 +76,7 @@ def tang(
     tolerance: float = 1e-6,
     start: tuple[Array, Array] | None = None,
     added: Array | None = None,
+    layer: float = 0.0,
     progress: Callable[[int, float], None] | None = None,
 ) -> Tangential:
     """Solve the tangential problem of steady rolling towards +x.
@@ -99,6 +100,8 @@ def tang(
         Traction to start from [Pa]; default 0.
     added : ndarray, shape (2, ny, nx)
         Slip over V from other causes than creepage and traction, added to the rigid slip.
+    layer : float
+        Shear flexibility of a layer between the bodies [m/Pa].
     progress : callable
         Called with the number of the Newton step and the residual.
 
@@ -121,7 +124,7 @@ def tang(
     w = np.ascontiguousarray(rigid_slip(x, y, rows, offset * dx)[:, *window])
     if added is not None:
         w += added[:, *window]
-    rolling = _Rolling(np.ascontiguousarray(bound[window]), w, (dx, dy), material, tolerance, progress)
+    rolling = _Rolling(np.ascontiguousarray(bound[window]), w, (dx, dy), material, layer, tolerance, progress)
     q = np.zeros_like(w) if start is None else np.stack([field[window] for field in start])
     q, residual = rolling.steady(q)
     s = rolling.slip(q, w)
@@ -151,12 +154,13 @@ class _Rolling(Newton):
         w: Array,
         steps: tuple[float, float],
         material: Material,
+        layer: float,
         tolerance: float,
         progress: Callable[[int, float], None] | None,
     ) -> None:
         self.w, self.dx = w, steps[0]
-        super().__init__(bound, Influence(bound.shape, *steps, material), tolerance, progress)
-        self._own = tangential(np.array([0.0, self.dx]), np.zeros(2), *steps, material)[0]
+        super().__init__(bound, Influence(bound.shape, *steps, material, layer), tolerance, progress)
+        self._own = tangential(np.array([0.0, self.dx]), np.zeros(2), *steps, material)[0] + np.array([layer, 0.0])
         self._fade(0.0)
 
     def _fade(self, per_metre: float) -> None:
