@@ -25,6 +25,7 @@ from contact.geometry.profile import Profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.halfspace import Gap
 from contact.pair import WheelRailPair
+from contact.roller import RollerRig
 from contact.stress import SurfaceLoad, below, largest
 
 Row = list[str]
@@ -138,11 +139,7 @@ def unlike(folder: Path) -> Iterator[Row]:
 
 def deflections(folder: Path) -> Iterator[Row]:
     """Set L: a rail on springs under S1002, by the default methods, on CONTACT's profiles."""
-    points = np.load(folder / "L_rail_deflection" / "profiles.npz")
-    outlines = [1e-3 * points[name] for name in ("wheel_s1002_yz", "rail_uic60_yz")]
-    outlines = [xy[np.append(True, np.hypot(*np.diff(xy, axis=0).T) > 1e-7)] for xy in outlines]
-    wheel, rail = (Profile(kind, *xy.T) for kind, xy in zip(("wheel", "rail"), outlines, strict=True))
-    solver = WheelRailPair(Pair(wheel, rail, gauge=1.435, flange_back=1.360, material=contact.STEEL))
+    solver = WheelRailPair(pair_of(folder / "L_rail_deflection"))
     sideways, down, forces = [], [], []
     for row in reference.rows(folder / "L_rail_deflection" / "rail_deflection.csv"):
         if row["patch"] != "1":
@@ -180,6 +177,34 @@ def third_bodies(folder: Path) -> Iterator[Row]:
         errors.setdefault("softening" if v["k_tau"] < 0.0 else "all other layers", []).append(away)
     for name, found in errors.items():
         yield summary(f"K: force, {name}", found, "μN")
+
+
+def rollers(folder: Path) -> Iterator[Row]:
+    """Set N: S1002 on rollers, by the default methods, on CONTACT's profiles."""
+    pair = pair_of(folder / "N_roller")
+    forces, creepages = [], []
+    for row in reference.rows(folder / "N_roller" / "roller.csv"):
+        if row["patch"] != "1":
+            continue
+        v = {name: float(text) for name, text in row.items() if name != "id" and text}
+        radius = 1e-3 * v["R_roller"]
+        rig = RollerRig(pair, radius, offset=1e-3 * v["x_ws"])
+        velocity = Velocity(v["RPITCH"] * radius, spin=v["VPITCH"])
+        s = rig.solve(Pose(y=1e-3 * v["y_ws"], yaw=v["yaw"]), velocity, vertical=v["Fz_in"])
+        true = -np.array([v["Fx_tr"], v["Fy_tr"], v["Fz_tr"]])
+        forces.append(np.linalg.norm(s.force - true) / np.linalg.norm(true))
+        creepages.append(s.patches[0].creepage.longitudinal + v["xi"])
+    yield summary("N: force vector, default methods", forces, "itself")
+    yield summary("N: longitudinal creepage", creepages, "1")
+
+
+def pair_of(folder: Path) -> Pair:
+    """Return S1002 on UIC60 with CONTACT's points."""
+    points = np.load(folder / "profiles.npz")
+    outlines = [1e-3 * points[name] for name in ("wheel_s1002_yz", "rail_uic60_yz")]
+    outlines = [xy[np.append(True, np.hypot(*np.diff(xy, axis=0).T) > 1e-7)] for xy in outlines]
+    wheel, rail = (Profile(kind, *xy.T) for kind, xy in zip(("wheel", "rail"), outlines, strict=True))
+    return Pair(wheel, rail, gauge=1.435, flange_back=1.360, material=contact.STEEL)
 
 
 def prescribed(row: dict[str, str]) -> tuple[Gap, contact.Creepage, dict[str, Any]]:

@@ -24,6 +24,7 @@ from contact.cli.output import drawing, reported, write_csv, write_picture
 from contact.cli.plugins import add_plugins
 from contact.cli.problem import Position, Touch
 from contact.cli.rail import rail as elastic_rail
+from contact.cli.roller import roller
 from contact.cli.statistics import statistics
 from contact.cli.stress import stress
 from contact.cli.transient import transient
@@ -232,6 +233,7 @@ def curve(
 app.command()(compare)
 app.command()(statistics)
 app.command("rail")(elastic_rail)
+app.command()(roller)
 app.command()(stress)
 app.command()(transient)
 app.command("geometry")(points)
