@@ -268,6 +268,7 @@ PARTS: tuple[Callable[[Path], Iterator[Row]], ...] = (
     unlike,
     third_bodies,
     deflections,
+    rollers,
 )
 TIMES: tuple[Callable[[], Iterator[Row]], ...] = (times_subsurface, times_given_forces, times_transients)
 
