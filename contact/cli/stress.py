@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,12 +10,11 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-import contact
 from contact.cli import options as opt
 from contact.cli import problem
-from contact.cli.output import drawing, reported, write_picture
+from contact.cli.document import flat
+from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.problem import Touch
-from contact.creepage import Creepage
 from contact.errors import require_number
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.stress import SurfaceLoad, dang_van, largest
@@ -31,55 +29,53 @@ _DEPTHS = np.linspace(0.0, 1.5, 16)
 def stress(
     context: typer.Context,
     *,
-    wheel: opt.WheelName = "s1002",
-    rail: opt.RailName = "60e1",
-    inclination: opt.Inclination = None,
-    radius: opt.Radius = 0.46,
+    place: opt.Place,
+    reading: opt.Reading,
     side: opt.Sides = opt.Side.right,
-    y: opt.Y = 0.0,
-    roll: opt.Roll = 0.0,
-    yaw: opt.Yaw = 0.0,
-    speed: opt.Speed = 20.0,
-    load: opt.Load = None,
-    penetration: opt.Penetration = None,
-    friction: opt.Friction = 0.3,
-    creepage: opt.Creep = None,
+    amount: opt.Amount,
     curvatures: opt.Curvatures = None,
+    surface: opt.Surface,
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangential = DEFAULT_TANGENTIAL,
     body: opt.Body = "rail",
     criterion: opt.Criterion = "von_mises",
     slope: opt.DangVanSlope = 1.0 / 3.0,
     as_json: opt.Json = False,
-    plot: opt.Plot = None,
+    out: opt.Files = None,
 ) -> None:
     """Compute the largest stresses below the contact of a wheel on a rail, or of two curvatures, and their depth.
 
-    Examples:  contact stress --y 3e-3 --plot stress.png   ·   contact stress --curvatures 1.1 0.8 --creepage 2e-3 0 0
+    Examples:  contact stress --y 3e-3 --out stress.png   ·   contact stress --curvatures 1.1 0.8 --creepage 2e-3 0 0
     """
-    if plot is not None:
-        drawing()
+    prepare(out)
     require_criterion(criterion)
     require_number("slope", slope, 0.0, 3.0)
-    options = {"friction": opt.surface(friction, None, "global"), "normal": normal, "tangential": tangential}
-    given = None if creepage is None else Creepage(*creepage)
+    options = {"friction": surface.law(), "normal": normal, "tangential": tangential}
     opt.require_use(context)
     if curvatures is not None:
-        touches = [problem.solve_hertzian(curvatures, load, penetration, given, options | {"speed": speed})]
+        options["speed"] = place.speed
+        touches = [problem.solve_hertzian(curvatures, amount.load, amount.penetration, amount.given, options)]
     else:
-        reading = opt.reading(inclination, None, None, None)
-        case = opt.position(wheel, rail, reading, radius, side, y, roll, yaw, speed)
-        touches = problem.solve_position(case, load, penetration, given, options)
+        case = place.position(reading, side)
+        touches = problem.solve_position(case, amount.load, amount.penetration, amount.given, options)
     touches = [touch for touch in touches if touch.solution.N > 0.0]
     found = [stresses(touch, body, slope) for touch in touches]
-    if as_json:
-        typer.echo(json.dumps({"version": contact.__version__, "patches": found}, indent=2))
-    else:
-        _show(touches, found, body, Console())
-    if plot is not None and touches:
+    if not touches and out:
+        typer.echo("no contact: no picture and no table is written", err=True)
+        out = [path for path in out if path.suffix.lower() == ".json"]
+
+    def figure() -> Any:
         worst = max(touches, key=lambda touch: largest(touch.solution, criterion, body=body).value)
-        title = f"{body}, {worst.name}"
-        write_picture(drawing().stress(worst.solution, criterion, body=body, title=title), plot)
+        return drawing().stress(worst.solution, criterion, body=body, title=f"{body}, {worst.name}")
+
+    deliver(
+        {"patches": found},
+        show=lambda console: _show(touches, found, body, console),
+        as_json=as_json,
+        out=out,
+        rows=lambda: [flat(row) for row in found],
+        figure=figure,
+    )
 
 
 def stresses(touch: Touch, body: str, slope: float) -> dict[str, Any]:
@@ -90,7 +86,7 @@ def stresses(touch: Touch, body: str, slope: float) -> dict[str, Any]:
         peak = largest(surface, name, body=body, poisson_ratio=nu)
         content[name] = {"value": peak.value, "x": peak.x, "y": peak.y, "z": peak.z}
     worst = dang_van(surface, surface.radius * _DEPTHS, slope=slope, body=body, poisson_ratio=nu).peak
-    content["dang_van"] = {"value": worst.value, "y": worst.y, "z": worst.z, "slope": slope}
+    content["dang_van"] = {"value": worst.value, "y": worst.y, "z": worst.z}
     return content
 
 

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from rich.console import Console
-
 from contact.cli import options as opt
 from contact.cli import report
-from contact.cli.output import drawing, reported, write_csv, write_picture
+from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.problem import STANDARD_LOAD
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
@@ -30,15 +28,14 @@ def transient(
     spacing: opt.Spacing = 0.5e-3,
     distance: opt.Rolled = 0.02,
     step: opt.RollingStep = None,
-    table: opt.Csv = None,
-    plot: opt.Plot = None,
+    as_json: opt.Json = False,
+    out: opt.Files = None,
 ) -> None:
     """Shift a contact, then roll it step by step on the half space: forces over the distance.
 
-    Example:  contact transient --shift -5e-6 0 0 --creepage 1e-3 0 0 --distance 0.03 --plot transient.png
+    Example:  contact transient --shift -5e-6 0 0 --creepage 1e-3 0 0 --distance 0.03 --out transient.png
     """
-    if plot is not None:
-        drawing()
+    prepare(out)
     length = require_number("step", spacing if step is None else step, 0.0, open_minimum=True)
     count = require_number("distance", distance, 0.0) / length
     if count > _MOST:
@@ -68,9 +65,14 @@ def transient(
     curves = {name: [row[name] / N for row in rows] for name in ("Fx", "Fy")}
     every = max(1, -(-len(rows) // _SHOWN))
     shown = {name: values[::every] for name, values in curves.items()}
-    report.show_curve(at[::every], shown, "distance rolled [m]", "force on the wheel/N", Console())
-    if table is not None:
-        write_csv(rows, table)
-    if plot is not None and rows:
-        axes = {"xlabel": "distance rolled [m]", "ylabel": "force on the wheel over N [-]"}
-        write_picture(drawing().curve(at, curves, limit=friction, **axes), plot)
+    axes = {"xlabel": "distance rolled [m]", "ylabel": "force on the wheel over N [-]"}
+    deliver(
+        {"rows": rows},
+        show=lambda console: report.show_curve(
+            at[::every], shown, "distance rolled [m]", "force on the wheel/N", console
+        ),
+        as_json=as_json,
+        out=out,
+        rows=lambda: rows,
+        figure=lambda: drawing().curve(at, curves, limit=friction, **axes),
+    )

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from contact.errors import ContactError
-from contact.plot.style import DPI, FAINT, INK, MM, colour_map, colours, nice, style
+from contact.plot.style import DPI, FAINT, INK, MM, colour_map, looks, nice, style
 from contact.solution import Solution
 from contact.stress import SurfaceLoad, at, below, largest
 from contact.stress.field import CRITERIA, Peak
@@ -63,7 +63,7 @@ def stress(
         figure = Figure(figsize=(8.0, 3.4), dpi=DPI, layout="constrained")
         left, right = figure.subplots(1, 2, width_ratios=(1.7, 1.0))
         _section(left, MM * field.x[0, row], MM * z, section, peak, criterion)
-        for name, colour in zip(CRITERIA[:4], colours(4), strict=True):
+        for name, (colour, _) in looks(CRITERIA[:4]).items():
             right.plot(1e-6 * getattr(profile, name), MM * z, color=colour, lw=1.4, label=_NAMES[name])
         right.plot(1e-6 * peak.value, MM * peak.z, "o", color=INK, ms=4.0)
         right.axvline(0.0, color=FAINT, lw=0.6, zorder=0)
