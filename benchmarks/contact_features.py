@@ -20,6 +20,7 @@ import numpy as np
 import contact
 import reference
 from benchmarks.tables import table
+from contact.driven import drive
 from contact.elastic_rail import ElasticRail
 from contact.geometry.profile import Profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
@@ -207,6 +208,18 @@ def pair_of(folder: Path) -> Pair:
     return Pair(wheel, rail, gauge=1.435, flange_back=1.360, material=contact.STEEL)
 
 
+def driven(folder: Path) -> Iterator[Row]:
+    """Set H, module 1: a longitudinal force given, the spin found, by the default methods on CONTACT's profiles."""
+    solver = WheelRailPair(pair_of(folder / "H_prescribed"))
+    errors = []
+    for row in reference.rows(folder / "H_prescribed" / "module1.csv"):
+        if row["patch"] == "1":
+            pose, force = Pose(y=1e-3 * float(row["y_ws"])), -float(row["Fx_ws_in"])
+            found = drive(solver, pose, Velocity(2.0), force=force, vertical=float(row["Fz_in"]))
+            errors.append(found.spin / float(row["VPITCH"]) - 1.0)
+    yield summary("H: spin of a driven wheel, default methods", errors, "itself")
+
+
 def prescribed(row: dict[str, str]) -> tuple[Gap, contact.Creepage, dict[str, Any]]:
     """Return gap, known creepages and arguments of `contact.solve` of a row of set H."""
     a, b, N, mu, G, p0 = (float(row[name]) for name in ("a", "b", "N", "mu", "G", "p0"))
@@ -242,6 +255,19 @@ def times_given_forces() -> Iterator[Row]:
     yield ["default methods, both forces given", f"{fast:.1f}"]
 
 
+def times_half_space() -> Iterator[Row]:
+    """Normal and tangential problem at 0.2 mm; CONTACT's default solver takes 2.1 s for it (docs/halfspace.md)."""
+    case = next(case for case in reference.patches() if case["name"] == "c40_dy+0_p1")
+    x, y = (np.arange(v[0], v[-1] + 0.3, 0.2) * 1e-3 for v in (case["x_p"], case["y_p"]))
+    separation = reference.separation_of(case)
+    y = y[y < separation.y[-1] + 1e-9]
+    g, A = (np.interp(y, separation.y, v) for v in (separation.g, separation.A))
+    gap = Gap(x, y, g[:, None] + A[:, None] * x**2)
+    creepage = contact.Creepage(case["xi"][0], case["eta"][0], case["phi"][0] * 1e3)
+    took = least(lambda: contact.solve(gap, creepage, approach=1e-3 * case["delta"], throw=False, **BOTH))
+    yield [f"half space at 0.2 mm, {y.size} × {x.size} elements; CONTACT 2100", f"{took:.0f}, 1/{2100.0 / took:.0f}"]
+
+
 def times_transients() -> Iterator[Row]:
     """Rolling on 32 × 32 elements."""
     patch = contact.Transient(parabolas(5e-3, 5e-3, 1e9, contact.STEEL, 32), load=52359.88, material=contact.STEEL)
@@ -264,13 +290,19 @@ def times_subsurface() -> Iterator[Row]:
 PARTS: tuple[Callable[[Path], Iterator[Row]], ...] = (
     subsurface,
     given_forces,
+    driven,
     transients,
     unlike,
     third_bodies,
     deflections,
     rollers,
 )
-TIMES: tuple[Callable[[], Iterator[Row]], ...] = (times_subsurface, times_given_forces, times_transients)
+TIMES: tuple[Callable[[], Iterator[Row]], ...] = (
+    times_half_space,
+    times_subsurface,
+    times_given_forces,
+    times_transients,
+)
 
 TEXT = """# CONTACT's features
 
@@ -287,10 +319,11 @@ Process time in one thread on a shared machine, the least of several runs.
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path, help="folder of the reference sets")
+    parser.add_argument("folder", type=Path, nargs="?", help="folder of the reference sets; without it only times")
     parser.add_argument("--write", type=Path, help="write the report also to this file")
     arguments = parser.parse_args()
-    rows = [row for part in PARTS for row in part(arguments.folder.resolve())]
+    folder = arguments.folder and arguments.folder.resolve()
+    rows = [row for part in PARTS if folder for row in part(folder)]
     text = TEXT.format(
         errors=table(["set and quantity", "values", "mean", "95 %", "largest", "unit"], rows),
         times=table(["task", "time [ms]"], [row for part in TIMES for row in part()]),
