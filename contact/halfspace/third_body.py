@@ -91,6 +91,10 @@ class Sheared:
     plastic: NDArray[np.bool_]
     power_per_metre: float
 
+    def __post_init__(self) -> None:
+        for field in (self.yield_stress, self.ux, self.uy, self.plastic):
+            field.setflags(write=False)
+
     def part(self, box: tuple[NDArray[np.int64], ...]) -> Sheared:
         """Return the state on a part of the grid."""
         return Sheared(self.yield_stress[box], self.ux[box], self.uy[box], self.plastic[box], self.power_per_metre)
