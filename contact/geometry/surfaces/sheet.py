@@ -138,7 +138,11 @@ def _runs(mask: Mask) -> list[tuple[int, int]]:
 
 
 def _across(f: Array, active: Mask, corners: tuple[int, ...]) -> tuple[Array, Array]:
-    """Return df/dv at the start and at the end of every segment, shape (2, n, m-1). They differ only at corners."""
+    """Return df/dv at the start and at the end of every segment, shape (2, n, m-1).
+
+    Each slice is a spline over its chord length, which does not oscillate where the distance of the paths changes. With v
+    it is smooth in its direction only, so start and end of neighbouring segments differ.
+    """
     n, m = active.shape
     start, end = np.zeros((2, n, m - 1)), np.zeros((2, n, m - 1))
     patterns, which = np.unique(active, axis=0, return_inverse=True)
@@ -147,10 +151,12 @@ def _across(f: Array, active: Mask, corners: tuple[int, ...]) -> tuple[Array, Ar
         for first, stop in _runs(pattern):
             cuts = [first, *(c for c in corners if first < c < stop - 1), stop - 1]
             for low, high in itertools.pairwise(cuts):
-                v = np.arange(low, high + 1, dtype=np.float64)
                 piece = np.moveaxis(f[:, slices, low : high + 1], 2, 0)
-                rates = np.moveaxis(slopes(v, piece), 0, 2)
-                start[:, slices, low:high], end[:, slices, low:high] = rates[..., :-1], rates[..., 1:]
+                chords = np.hypot(*np.moveaxis(np.diff(piece, axis=0), 1, 0))
+                s = np.concatenate((np.zeros((1, slices.size)), np.cumsum(chords, axis=0)))
+                rates = slopes(np.repeat(s[:, None], 2, axis=1), piece)
+                start[:, slices, low:high] = np.moveaxis(rates[:-1] * chords[:, None], 0, 2)
+                end[:, slices, low:high] = np.moveaxis(rates[1:] * chords[:, None], 0, 2)
     return start, end
 
 

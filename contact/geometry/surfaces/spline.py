@@ -15,36 +15,42 @@ def slopes(u: Array, f: Array, period: float | None = None) -> Array:
 
     Parameters
     ----------
-    u : ndarray, shape (n,)
-        Knots, strictly increasing.
+    u : ndarray, shape (n,) or (n, ...)
+        Knots, strictly increasing along the first axis: the same for all functions, or of the shape of `f`.
     f : ndarray, shape (n, ...)
         Values of any number of functions.
     period : float, optional
-        Period of the functions, longer than u[-1] - u[0]. Without it the ends are not-a-knot: the first two segments are
-        one cubic, and so are the last two. With three knots the spline is a parabola, with two a line, with one constant.
+        Period of the functions, longer than u[-1] - u[0]; only for common knots. Without it the ends are not-a-knot: the
+        first two segments are one cubic, and so are the last two. With three knots the spline is a parabola, with two a
+        line, with one constant.
     """
-    n = u.size
+    n = f.shape[0]
     if n == 1:
         return np.zeros_like(f)
-    flat = f.reshape(n, -1)
     if period is not None:
-        return _periodic(u, flat, period).reshape(f.shape)
-    h = np.diff(u)
-    d = np.diff(flat, axis=0) / h[:, None]
+        return _periodic(u, f.reshape(n, -1), period).reshape(f.shape)
+    h = np.diff(u, axis=0).reshape((n - 1,) + (u.shape[1:] or (1,) * (f.ndim - 1)))
+    d = np.diff(f, axis=0) / h
     if n == 2:
-        return np.repeat(d, 2, axis=0).reshape(f.shape)
+        return np.repeat(d, 2, axis=0)
     if n == 3:
-        middle = (h[1] * d[0] + h[0] * d[1]) / (h[0] + h[1])
-        return np.stack((2.0 * d[0] - middle, middle, 2.0 * d[1] - middle)).reshape(f.shape)
-    matrix, right = np.zeros((n, n)), np.empty_like(flat)
-    inner = np.arange(1, n - 1)
-    matrix[inner, inner - 1], matrix[inner, inner], matrix[inner, inner + 1] = h[1:], 2.0 * (h[1:] + h[:-1]), h[:-1]
-    right[1:-1] = 3.0 * (h[1:, None] * d[:-1] + h[:-1, None] * d[1:])
-    for row, first, second, m in ((0, 0, 1, (0, 1)), (n - 1, n - 2, n - 3, (n - 1, n - 2))):
-        both = h[first] + h[second]
-        matrix[row, m[0]], matrix[row, m[1]] = h[second], both
-        right[row] = ((h[first] + 2.0 * both) * h[second] * d[first] + h[first] ** 2 * d[second]) / both
-    return np.asarray(np.linalg.solve(matrix, right).reshape(f.shape), dtype=np.float64)
+        inner = (h[1] * d[0] + h[0] * d[1]) / (h[0] + h[1])
+        return np.stack((2.0 * d[0] - inner, inner, 2.0 * d[1] - inner))
+    middle, upper, right = np.empty((n, *h.shape[1:])), np.empty((n - 1, *h.shape[1:])), np.empty_like(f)
+    first, last = h[0] + h[1], h[-1] + h[-2]
+    middle[0], upper[0], middle[-1] = h[1], first, h[-2]
+    right[0] = ((h[0] + 2.0 * first) * h[1] * d[0] + h[0] ** 2 * d[1]) / first
+    right[-1] = ((h[-1] + 2.0 * last) * h[-2] * d[-1] + h[-1] ** 2 * d[-2]) / last
+    middle[1:-1], upper[1:] = 2.0 * (h[1:] + h[:-1]), h[:-1]
+    right[1:-1] = 3.0 * (h[1:] * d[:-1] + h[:-1] * d[1:])
+    for i in range(1, n):  # Thomas' algorithm; the row below the diagonal is h[i], in the last row `last`
+        factor = (h[i] if i < n - 1 else last) / middle[i - 1]
+        middle[i] -= factor * upper[i - 1]
+        right[i] -= factor * right[i - 1]
+    right[-1] /= middle[-1]
+    for i in range(n - 2, -1, -1):
+        right[i] = (right[i] - upper[i] * right[i + 1]) / middle[i]
+    return np.asarray(right)
 
 
 def _periodic(u: Array, f: Array, period: float) -> Array:
