@@ -41,14 +41,24 @@ class Curve:
         if not (chords > 0.0).all():
             raise ContactError(f"{name}: points {int(np.argmin(chords))} and the next coincide")
         self.s = np.concatenate(([0.0], np.cumsum(chords)))
-        if isinstance(points, Profile):
-            tangents = np.stack((np.cos(points.angle), np.sin(points.angle)))
+        self._angle = points.angle if isinstance(points, Profile) else None
+        self._start, self._end = np.empty_like(steps), np.empty_like(steps)
+
+    def connect(self, corners: Array) -> None:
+        """Lay the cubics. The tangent may jump at the points nearest to `corners` [m], and where chords turn sharply.
+
+        A profile keeps its own tangents.
+        """
+        if self._angle is not None:
+            tangents = np.stack((np.cos(self._angle), np.sin(self._angle)))
             self._start, self._end = tangents[:, :-1], tangents[:, 1:]
             return
+        steps = np.diff(self.f, axis=1)
         turns = np.abs(np.diff(np.unwrap(np.arctan2(steps[1], steps[0]))))
-        cuts = [0, *(np.flatnonzero(turns > _KINK) + 1).tolist(), self.s.size - 1]
-        self._start, self._end = np.empty_like(steps), np.empty_like(steps)
-        for low, high in itertools.pairwise(cuts):
+        sharp = np.flatnonzero(turns > _KINK) + 1
+        given = np.array([int(np.argmin(np.abs(self.s - corner))) for corner in corners], dtype=np.int64)
+        cuts = np.unique(np.concatenate(([0], sharp, given, [self.s.size - 1])))
+        for low, high in itertools.pairwise(cuts.tolist()):
             rates = slopes(self.s[low : high + 1], self.f[:, low : high + 1].T).T
             self._start[:, low:high], self._end[:, low:high] = rates[:, :-1], rates[:, 1:]
 
@@ -102,6 +112,9 @@ def connect(
     for corner in corners:
         if not 0 < corner < marks.shape[1] - 1:
             raise ContactError(f"corners: {corner} is no inner feature; allowed: 1 … {marks.shape[1] - 2}")
+    for curve, row in zip(curves, marks, strict=True):
+        at = row[list(corners)]
+        curve.connect(at[np.isfinite(at)])
     lengths = np.diff(marks, axis=1)  # NaN where a part is absent
     longest = np.nanmax(np.where(np.isnan(lengths), 0.0, lengths), axis=0)
     counts = 1 + ((longest + 1e-9) / spacing).astype(np.int64)
