@@ -1,9 +1,10 @@
 """Wheel flats, polygons and crossings against CONTACT (sets E and F): height, force, pressure and place of the poses.
 
-    python benchmarks/surfaces.py FOLDER [--sweeps hav05 nose …] [--elements 60] [--each]
+    python benchmarks/surfaces.py FOLDER [--sweeps hav05 nose …] [--elements 60] [--normal halfspace] [--each]
 
-FOLDER holds `E_wheelflat/` and `F_crossing/`, which are not ours to pass on. Every pose is searched and solved by the
-element-wise half space on the surfaces, with CONTACT's height (mode z) or vertical force (mode Fz).
+FOLDER holds `E_wheelflat/` and `F_crossing/`, which are not ours to pass on. Every pose is searched and solved on the
+surfaces, with CONTACT's height (mode z) or vertical force (mode Fz), by the element-wise half space or, with `--normal` and
+`--tangential`, on strips.
 
 * height: |z - z of CONTACT| under a force; |approach - that of CONTACT| at a height [mm].
 * pressure: largest pressure of the pose, relative. force: |F - F of CONTACT| over |F of CONTACT|.
@@ -103,7 +104,7 @@ def pair_of(folder: Path, sweep: str, elements: int) -> tuple[SurfacePair, Veloc
     return pair, Velocity(2.0, spin=wheel.spin)
 
 
-def errors(row: list[Row], pair: SurfacePair, velocity: Velocity) -> dict[str, float]:
+def errors(row: list[Row], solver: WheelRailSurfaces, velocity: Velocity) -> dict[str, float]:
     """Return the errors of one pose, and the computing time [s]."""
     first = row[0]
     pose = Pose(y=1e-3 * float(first["y_ws"]), z=1e-3 * float(first["z_wm"]), yaw=float(first["yaw"]))
@@ -114,8 +115,9 @@ def errors(row: list[Row], pair: SurfacePair, velocity: Velocity) -> dict[str, f
     )
     begin = time.process_time()
     under = {"vertical": float(first["Fz_tr"])} if first["mode"] == "Fz" else {}
-    found = WheelRailSurfaces(pair).solve(pose, velocity, friction=MU, **place, **under)
+    found = solver.solve(pose, velocity, friction=MU, **place, **under)
     result = {"time": time.process_time() - begin, "contacts": float(len(found.contacts))}
+    result["fit"] = max((c.patch.fit_error for c in found.contacts), default=0.0)
     true = -np.array([float(first[name]) for name in ("Fx_tr", "Fy_tr", "Fz_tr")])
     result["force"] = float(np.linalg.norm(found.force - true) / np.linalg.norm(true))
     if first["mode"] == "Fz":
@@ -142,20 +144,23 @@ def main() -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("--sweeps", nargs="*", default=[*WHEELS, *CROSSINGS])
     parser.add_argument("--elements", type=int, default=60)
+    parser.add_argument("--normal", default="halfspace")
+    parser.add_argument("--tangential", help="default: that of the normal method")
     parser.add_argument("--each", action="store_true", help="print every pose")
     chosen = parser.parse_args()
     files = sorted(chosen.folder.glob("[EF]_*/*.csv"))
     rows = []
     for sweep in chosen.sweeps:
         pair, velocity = pair_of(chosen.folder, sweep, chosen.elements)
+        solver = WheelRailSurfaces(pair, normal=chosen.normal, tangential=chosen.tangential)
         found = []
         for pose in poses(files, sweep):
-            found.append(errors(pose, pair, velocity))
+            found.append(errors(pose, solver, velocity))
             if chosen.each:
                 where = pose[0].get("s_ws") or pose[0]["pitch_deg"]
                 print(sweep, where, {k: float(f"{v:.3g}") for k, v in found[-1].items()}, flush=True)
         columns = []
-        for name in ("height", "pressure", "force", "place"):
+        for name in ("height", "pressure", "force", "place", "fit"):
             values = [e[name] for e in found if name in e]
             columns.append(" / ".join(f"{v:.4f}" for v in mean_p95_max(values)) if values else "-")
         other = sum("place" not in e for e in found)

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
 from contact.friction import Friction
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
 from contact.geometry.surfaces.search import Scene
+from contact.geometry.wheelset import MAX_PENETRATION
+from contact.registry import DEFAULT_TANGENTIAL, lookup
 from contact.solution import Solution, Status
 from contact.solve import solve
+from contact.solver import N_ELEMENTS, N_STRIPS, require_resolution
 
 Array = NDArray[np.float64]
 
@@ -80,17 +85,41 @@ class WheelRailSurfaces:
     ----------
     pair : SurfacePair
         Surfaces, side, gauge, elements and material.
+    normal, tangential : str
+        Names from `contact.methods()`. "halfspace", the default, solves each patch on its own gap by NORM and TANG; it is
+        the accurate answer. All other methods solve it on strips with parabolas along x. They are faster, and good where
+        `SurfacePatch.fit_error` is small (docs/surfaces.md).
+    n_strips, n_elements : int
+        Strips per patch and elements per strip of these methods.
 
     Notes
     -----
-    Each patch is solved with the element-wise half space on its own gap, by NORM and TANG, at steady rolling: what has
-    happened before the present pose does not count.
+    Rolling is steady: what has happened before the present pose does not count.
+
+    Raises
+    ------
+    ContactError
+        For unknown methods, or a resolution outside its range.
     """
 
-    def __init__(self, pair: SurfacePair) -> None:
+    def __init__(
+        self,
+        pair: SurfacePair,
+        *,
+        normal: str = "halfspace",
+        tangential: str | None = None,
+        n_strips: int = N_STRIPS,
+        n_elements: int = N_ELEMENTS,
+    ) -> None:
         if not isinstance(pair, SurfacePair):
             raise ContactError(f"pair = {pair!r} is not a contact.geometry.surfaces.SurfacePair")
         self.pair = pair
+        self.elementwise = lookup("normal", normal).elementwise
+        chosen = tangential or ("halfspace" if self.elementwise else DEFAULT_TANGENTIAL)
+        self._methods: dict[str, Any] = {"normal": normal, "tangential": lookup("tangential", chosen).name}
+        if not self.elementwise:
+            n_strips, n_elements = require_resolution(n_strips, n_elements)
+            self._methods |= {"n_strips": n_strips, "n_elements": n_elements}
 
     def solve(
         self,
@@ -122,22 +151,47 @@ class WheelRailSurfaces:
         ContactError
             For input outside its range, if the wheel does not lie above the rail, or if no z gives the force.
         """
-        velocity = velocity or Velocity()
-        if vertical is None:
-            patches = self.pair.contacts(
-                pose,
-                velocity,
-                station=station,
-                rotation=rotation,
-                load=load,
-                penetration=penetration,
-                irregularity=irregularity,
+        velocity, given = velocity or Velocity(), {"load": load, "penetration": penetration, "vertical": vertical}
+        if sum(amount is not None for amount in given.values()) > 1:
+            raise ContactError(f"of {given} only one may be given")
+        scene = self.pair.scene(pose, station, rotation, irregularity)
+        if vertical is not None:
+            return self._under(require_number("vertical", vertical, 0.0), pose, velocity, friction, scene)
+        z = pose.z
+        if load is not None:
+            z = self._settled(scene, require_number("load", load, 0.0))
+        elif penetration is not None:
+            z = scene.touch() + require_number("penetration", penetration, 0.0, MAX_PENETRATION)
+        return self._at(z, scene, pose, velocity, friction)
+
+    def _settled(self, scene: Scene, load: float) -> float:
+        """Return z [m] at which the pressures of this method carry a vertical load."""
+        if self.elementwise:
+            return self.pair.settle(scene, load, lambda z: self.pair.carried(scene, z))
+        return self.pair.settle(scene, load, lambda z: self._carried(scene, z))
+
+    def _carried(self, scene: Scene, z: float) -> float:
+        """Return the vertical force of the pressures of the strips at the height z [N]."""
+        total = 0.0
+        for separation, approach, upright in self.pair.separations(scene, z):
+            found = solve(
+                separation,
+                Creepage(),
+                approach=approach,
+                friction=0.0,
+                material=self.pair.material,
+                throw=False,
+                **{**self._methods, "tangential": DEFAULT_TANGENTIAL},
             )
-            return self._total(pose, [self._solved(patch, velocity, friction) for patch in patches])
-        if load is not None or penetration is not None:
-            raise ContactError(f"vertical = {vertical} excludes load = {load} and penetration = {penetration}")
-        amount = require_number("vertical", vertical, 0.0)
-        return self._under(amount, pose, velocity, friction, self.pair.scene(pose, station, rotation, irregularity))
+            total += found.N * upright
+        return total
+
+    def _at(
+        self, z: float, scene: Scene, pose: Pose, velocity: Velocity, friction: float | Friction
+    ) -> SurfaceSolution:
+        """Return the solution at the height z [m]."""
+        patches = self.pair.patches(scene, z, velocity)
+        return self._total(z, pose, [self._solved(patch, velocity, friction) for patch in patches])
 
     def _under(
         self, vertical: float, pose: Pose, velocity: Velocity, friction: float | Friction, scene: Scene
@@ -145,9 +199,7 @@ class WheelRailSurfaces:
         """Return the solution under a vertical force: normal forces carry it less the friction of the last step."""
         carried = vertical
         for _ in range(_MOST_STEPS):
-            self.pair.z = self.pair.settle(scene, carried, lambda z: self.pair.carried(scene, z))
-            patches = self.pair.patches(scene, self.pair.z, velocity)
-            found = self._total(pose, [self._solved(patch, velocity, friction) for patch in patches])
+            found = self._at(self._settled(scene, carried), scene, pose, velocity, friction)
             if abs(found.Q - vertical) <= _TOLERANCE * vertical:
                 return found
             carried = max(carried + vertical - found.Q, 1e-3 * vertical)
@@ -157,23 +209,21 @@ class WheelRailSurfaces:
 
     def _solved(self, patch: SurfacePatch, velocity: Velocity, friction: float | Friction) -> SurfaceContact:
         found = solve(
-            patch.gap,
+            patch.gap if self.elementwise else patch.separation,
             patch.creepage,
             approach=patch.approach,
             friction=friction,
             material=self.pair.material,
             speed=velocity.forward,
-            normal="halfspace",
-            tangential="halfspace",
             throw=False,
+            **self._methods,
         )
         pressing = found.p * found.dA
         tipping = np.array([-(found.y * pressing).sum(), (found.x * pressing).sum(), found.Mz])
         axes = patch.frame.axes
         return SurfaceContact(patch, found, np.array([found.Fx, found.Fy, -found.N]) @ axes, tipping @ axes)
 
-    def _total(self, pose: Pose, contacts: list[SurfaceContact]) -> SurfaceSolution:
-        z = self.pair.z
+    def _total(self, z: float, pose: Pose, contacts: list[SurfaceContact]) -> SurfaceSolution:
         centre = np.array([0.0, pose.y, z - self.pair.nominal_radius])
         force, moment = np.zeros(3), np.zeros(3)
         for contact in contacts:

@@ -154,6 +154,7 @@ def test_a_chord_has_its_length_and_is_plane():
 # -- search -----------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "pose", [Pose(), Pose(y=3e-3, yaw=4e-3), Pose(y=5.5e-3, roll=2e-3, yaw=-6e-3), Pose(y=-4e-3, yaw=0.02)]
 )
@@ -242,6 +243,7 @@ def test_a_closed_wheel_continues_from_its_last_slice_to_the_first():
     assert opened.sheet.period is None
 
 
+@pytest.mark.slow
 def test_the_height_is_continuous_along_a_crossing():
     """A nose rises out of the ground beside a rail that leaves: the touch moves over without a step."""
     s, y = np.linspace(-0.2, 0.2, 21), np.linspace(-0.03, 0.03, 121)
@@ -251,7 +253,7 @@ def test_the_height_is_continuous_along_a_crossing():
         nose = (y + 0.012) ** 2 / 0.1 + 1e-3 - 0.01 * at
         slices.append(np.stack((y, -0.5e-3 * np.log(np.exp(-wing / 0.5e-3) + np.exp(-nose / 0.5e-3))), axis=1))
     pair = SurfacePair(WHEEL, RailSurface(s, slices), **UNDER)
-    z = [pair.touch(Pose(), station=float(at)) for at in np.linspace(-0.15, 0.15, 151)]
+    z = [pair.touch(Pose(), station=float(at)) for at in np.linspace(-0.08, -0.04, 21)]
     assert np.abs(np.diff(z)).max() < 1.001 * 0.01 * 2e-3  # no step: both parts rise or fall by 1 : 100
     assert z[0] < max(z) > z[-1]
 

@@ -45,6 +45,7 @@ def _compare(found, row):
     assert 1e3 * np.array(found.contacts[0].patch.position[:2]) == pytest.approx(place, abs=0.2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("row", FLAT)
 def test_a_haversine_flat_agrees_with_CONTACT(row):
     wheel = WheelSurface.constant(WHEEL, Flat(0.060, R0, depth=0.5e-3))
@@ -52,6 +53,7 @@ def test_a_haversine_flat_agrees_with_CONTACT(row):
     _compare(pair.solve(Pose(), FREE, rotation=math.radians(row[0]), vertical=row[2][2]), row)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("row", POLYGON)
 def test_a_polygon_agrees_with_CONTACT(row):
     wheel = WheelSurface.constant(WHEEL, Polygon(12, 2e-4))
@@ -59,6 +61,7 @@ def test_a_polygon_agrees_with_CONTACT(row):
     _compare(pair.solve(Pose(z=1e-3 * row[1]), FREE, rotation=math.radians(row[0])), row)
 
 
+@pytest.mark.slow
 def test_constant_profiles_give_the_forces_of_the_pair():
     pose, velocity = Pose(y=3e-3, yaw=2e-3), Velocity(20.0)
     old = WheelRailPair(Pair(WHEEL, RAIL), normal="strip_halfspace", tangential="fastrip_mapped")
@@ -71,6 +74,7 @@ def test_constant_profiles_give_the_forces_of_the_pair():
     assert pytest.approx((wanted.Q, wanted.Y), abs=0.02 * wanted.Q) == (found.Q, found.Y)
 
 
+@pytest.mark.slow
 def test_loads_are_carried_and_power_is_what_the_forces_do():
     pair = WheelRailSurfaces(SurfacePair(WheelSurface.constant(WHEEL, Flat(0.05)), RAIL, rows=30, columns=30))
     normal = pair.solve(Pose(), FREE, rotation=0.02, load=6e4)
@@ -82,9 +86,10 @@ def test_loads_are_carried_and_power_is_what_the_forces_do():
     s = contact.solution
     c = s.creepage
     power = -(s.Fx * c.longitudinal + s.Fy * c.lateral + s.Mz * c.spin)
-    assert found.power_per_metre == pytest.approx(power, rel=3e-3)
+    assert found.power_per_metre == pytest.approx(power, rel=2e-2)  # first order in the elements
 
 
+@pytest.mark.slow
 def test_on_a_ramp_the_tilted_frame_pushes_back_along_the_track():
     """Without friction and with the frame along the normal, the force is normal to the ramp."""
     rate = 0.1
@@ -122,8 +127,44 @@ def test_without_contact_there_is_no_force():
     assert (found.max_pressure, found.power_per_metre) == (0.0, 0)
 
 
+@pytest.mark.slow
+def test_strips_agree_with_the_half_space_where_the_surface_is_smooth():
+    wheel = WheelSurface.constant(WHEEL, Flat(0.060, R0, depth=0.5e-3))
+    pair = SurfacePair(wheel, RAIL, rows=40, columns=40)
+    methods = {"normal": "strip_halfspace", "tangential": "fastrip_mapped"}
+    exact, fast = WheelRailSurfaces(pair), WheelRailSurfaces(pair, **methods)
+    slow, quick = (p.solve(Pose(), FREE, rotation=math.radians(-1.71), vertical=8e4) for p in (exact, fast))
+    assert quick.contacts[0].patch.fit_error < 0.02
+    assert quick.z == pytest.approx(slow.z, abs=1e-7)
+    assert quick.force == pytest.approx(slow.force, abs=0.01 * 8e4)
+    assert quick.max_pressure == pytest.approx(slow.max_pressure, rel=0.05)
+
+
+def test_the_fit_error_tells_where_a_strip_is_no_parabola():
+    """Standing on the haversine flat, a strip touches at both of its ends first."""
+    wheel = WheelSurface.constant(WHEEL, Flat(0.060, R0, depth=0.5e-3))
+    pair = SurfacePair(wheel, RAIL)
+    errors = [pair.contacts(Pose(), rotation=turned, penetration=5e-5)[0].fit_error for turned in (0.0, 0.1)]
+    assert errors[0] > 0.1
+    assert errors[1] < 1e-3
+
+
+def test_strips_of_constant_profiles_are_the_separation_of_the_pair():
+    old, new = Pair(WHEEL, RAIL), SurfacePair(WHEEL, RAIL)
+    (wanted,) = old.contacts(Pose(yaw=2e-3), penetration=8e-5)
+    (found,) = new.contacts(Pose(z=old.z, yaw=2e-3))
+    y = np.linspace(wanted.edges[0], wanted.edges[1], 21)
+    a, b = found.separation, wanted.separation
+    shift = wanted.position[1] - found.position[1]
+    assert np.interp(y + shift, a.y, a.g) == pytest.approx(np.interp(y, b.y, b.g), abs=6e-7)
+    assert np.interp(y + shift, a.y, a.A) == pytest.approx(np.interp(y, b.y, b.A), rel=5e-3)
+    assert np.interp(y + shift, a.y, a.x_c) + found.position[0] == pytest.approx(
+        np.interp(y, b.y, b.x_c) + wanted.position[0], abs=2e-5
+    )
+
+
 def test_wrong_arguments_are_refused_by_name():
     with pytest.raises(ContactError, match=r"is not a contact\.geometry\.surfaces\.SurfacePair"):
         WheelRailSurfaces(Pair(WHEEL, RAIL))
-    with pytest.raises(ContactError, match=r"vertical = 1\.0 excludes"):
+    with pytest.raises(ContactError, match="only one may be given"):
         WheelRailSurfaces(SurfacePair(WHEEL, RAIL)).solve(Pose(), vertical=1.0, load=1.0)

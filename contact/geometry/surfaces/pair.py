@@ -16,6 +16,7 @@ from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces.frame import Frame, PlacedRail, PlacedWheel, heights
 from contact.geometry.surfaces.search import Lobe, Scene, combined, sample
+from contact.geometry.surfaces.strips import strips
 from contact.geometry.surfaces.surface import RailSurface, WheelSurface
 from contact.geometry.wheelset import MAX_PENETRATION, TAPE_FROM_FLANGE_BACK, _rail_origin
 from contact.halfspace.gap import Division, Gap
@@ -24,11 +25,14 @@ from contact.kernels.geometry.search import axle
 from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import SLOWEST
 from contact.material import STEEL, Material
+from contact.separation import Separation
 
 Array = NDArray[np.float64]
 Side = Literal["right", "left"]
 
 ROWS = COLUMNS = 60
+#: Elements of the gap from which strips are made, and its room beyond the overlap along and across.
+_STRIPS, _ROOM = Division(61, 41), (0.15, 0.35)
 _MIRROR = np.diag([1.0, -1.0, 1.0])
 _MOST_STEPS, _LOAD_TOLERANCE = 40, 1e-5
 
@@ -40,7 +44,11 @@ class SurfacePatch:
     Attributes
     ----------
     gap : contact.halfspace.Gap
-        Undeformed distance over the plane of `frame`; its least value is 0.
+        Undeformed distance over the plane of `frame`; its least value is 0. For the element-wise half space.
+    separation : contact.Separation
+        The same as parabolas along x, for all other methods (`contact.geometry.surfaces.strips`).
+    fit_error : float
+        Error of the parabolas over the approach [-], 0 for an exact parabola.
     approach : float
         Depth of the interpenetration along the normal of the frame [m].
     frame : Frame
@@ -56,6 +64,8 @@ class SurfacePatch:
     """
 
     gap: Gap
+    separation: Separation
+    fit_error: float
     approach: float
     frame: Frame
     creepage: Creepage
@@ -66,10 +76,11 @@ class SurfacePatch:
 
     def mirrored(self) -> SurfacePatch:
         """Return the patch of the mirror image."""
-        c, (x, y, z), (wx, wy, wz) = self.creepage, self.position, self.wheel_position
+        c, (x, y, z), (wx, wy, wz), s = self.creepage, self.position, self.wheel_position, self.separation
         return replace(
             self,
             gap=Gap(self.gap.x, -self.gap.y[::-1], self.gap.h[::-1]),
+            separation=Separation(-s.y[::-1], s.g[::-1], s.A[::-1], s.x_c[::-1]),
             frame=Frame(_MIRROR @ self.frame.origin, _MIRROR @ self.frame.axes @ _MIRROR),
             creepage=Creepage(c.longitudinal, -c.lateral, -c.spin),
             angle=-self.angle,
@@ -260,18 +271,27 @@ class SurfacePair:
         raise ContactError(f"load = {load:g}: no z was found at which the {self.side} wheel carries it on this rail")
 
     def carried(self, scene: Scene, z: float) -> float:
-        """Return the vertical force of the pressures at the height z [N]."""
-        total = 0.0
-        for gap, approach, frame in self._gaps(scene, z):
-            p = norm(gap.h, gap.dx, gap.dy, self.material, approach=approach, tolerance=1e-4).p
-            total += float(p.sum()) * gap.dx * gap.dy * float(frame.axes[2, 2])
+        """Return the vertical force of the pressures of the half space at the height z [N]."""
+        wheel, total = self._lowered(scene, z), 0.0
+        for lobe, frame in self._lobes(scene, z):
+            sampled = sample(wheel, scene.rail, frame, lobe, self.division)
+            if sampled is not None:
+                gap, approach = sampled
+                p = norm(gap.h, gap.dx, gap.dy, self.material, approach=approach, tolerance=1e-4).p
+                total += float(p.sum()) * gap.dx * gap.dy * float(frame.axes[2, 2])
         return total
 
     def patches(self, scene: Scene, z: float, velocity: Velocity) -> tuple[SurfacePatch, ...]:
         """Return the patches of a scene at the height z [m]."""
         wheel = self._lowered(scene, z)
         found = []
-        for gap, approach, frame in self._gaps(scene, z):
+        for lobe, frame in self._lobes(scene, z):
+            sampled = sample(wheel, scene.rail, frame, lobe, self.division)
+            wider = sample(wheel, scene.rail, frame, lobe, _STRIPS, _ROOM)
+            if sampled is None or wider is None:
+                continue
+            gap, approach = sampled
+            separation, fit_error = strips(*wider)
             origin = np.zeros(1)
             depth = float(heights(wheel, frame, origin, origin, deepest=True).z[0, 0])
             point = frame.origin + frame.axes[2] * (depth if math.isfinite(depth) else 0.0)
@@ -279,6 +299,8 @@ class SurfacePair:
             found.append(
                 SurfacePatch(
                     gap=gap,
+                    separation=separation,
+                    fit_error=fit_error,
                     approach=approach,
                     frame=frame,
                     creepage=self._creepage(wheel, scene.rail, velocity, frame, point),  # type: ignore[arg-type]
@@ -290,14 +312,18 @@ class SurfacePair:
             )
         return tuple(patch if self.side == "right" else patch.mirrored() for patch in found)
 
-    def _gaps(self, scene: Scene, z: float) -> list[tuple[Gap, float, Frame]]:
-        wheel = self._lowered(scene, z)
-        lobes = combined(scene.lobes(z), self.combine_distance, self.combine_angle)
-        return [(*sampled, frame) for lobe in lobes for frame, sampled in [self._gap(scene, wheel, lobe)] if sampled]
+    def separations(self, scene: Scene, z: float) -> list[tuple[Separation, float, float]]:
+        """Return the separation, the approach [m] and the vertical part of the normal of every patch at the height z [m]."""
+        wheel, found = self._lowered(scene, z), []
+        for lobe, frame in self._lobes(scene, z):
+            wider = sample(wheel, scene.rail, frame, lobe, _STRIPS, _ROOM)
+            if wider is not None:
+                found.append((strips(*wider)[0], wider[1], float(frame.axes[2, 2])))
+        return found
 
-    def _gap(self, scene: Scene, wheel: PlacedWheel, lobe: Lobe) -> tuple[Frame, tuple[Gap, float] | None]:
-        frame = scene.frame(lobe, self.tilted)
-        return frame, sample(wheel, scene.rail, frame, lobe, self.division)
+    def _lobes(self, scene: Scene, z: float) -> list[tuple[Lobe, Frame]]:
+        lobes = combined(scene.lobes(z), self.combine_distance, self.combine_angle)
+        return [(lobe, scene.frame(lobe, self.tilted)) for lobe in lobes]
 
     def _lowered(self, scene: Scene, z: float) -> PlacedWheel:
         wheel = scene.wheel

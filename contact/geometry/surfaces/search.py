@@ -169,13 +169,18 @@ def combined(lobes: list[Lobe], distance: float, angle: float) -> list[Lobe]:
     return joined
 
 
-def sample(wheel: Placed, rail: Placed, frame: Frame, lobe: Lobe, division: Division) -> tuple[Gap, float] | None:
+def sample(
+    wheel: Placed, rail: Placed, frame: Frame, lobe: Lobe, division: Division, room: tuple[float, float] = (0.0, 0.0)
+) -> tuple[Gap, float] | None:
     """Return the gap of a patch with its least value at 0, and the approach [m] at the pose; None without overlap.
 
-    `wheel` is at its true height. Elements where a body is absent get a gap above all others.
+    `wheel` is at its true height. The grid covers the overlap, and `room` on each side, in parts of its length and width.
+    Elements where a body is absent get a gap above all others.
     """
     x, y, _ = frame.local(np.stack((lobe.x, lobe.y, lobe.z)))
-    centres = division.centres((float(x.min()), float(x.max()), float(y.min()), float(y.max())))
+    back, front, low, high = float(x.min()), float(x.max()), float(y.min()), float(y.max())
+    along, across = room[0] * (front - back), room[1] * (high - low)
+    centres = division.centres((back - along, front + along, low - across, high + across))
     gap = heights(rail, frame, *centres, deepest=False).z - heights(wheel, frame, *centres, deepest=True).z
     present = np.isfinite(gap)
     if not present.any() or not gap[present].min() < 0.0:
