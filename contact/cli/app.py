@@ -16,6 +16,7 @@ from rich.markup import escape
 import contact
 from contact.cli import creep_table, extras, problem, report
 from contact.cli import options as opt
+from contact.cli.along import along
 from contact.cli.compare import compare
 from contact.cli.geometry import conicity, list_profiles
 from contact.cli.geometry import geometry as points
@@ -223,6 +224,7 @@ def curve(
 
 app.command()(compare)
 app.command()(statistics)
+app.command()(along)
 app.command("geometry")(points)
 app.command()(conicity)
 app.command("profiles")(list_profiles)

@@ -11,6 +11,7 @@ except ImportError as missing:
 
 from contact.plot.comparison import comparison
 from contact.plot.lines import curve, time_histories
+from contact.plot.passage import passage, patches_on_track
 from contact.plot.patches import patch
 from contact.plot.position import Wheel, position
 from contact.plot.rolling import conicity, contact_points
@@ -24,7 +25,9 @@ __all__ = [
     "contact_points",
     "curve",
     "fatigue",
+    "passage",
     "patch",
+    "patches_on_track",
     "position",
     "shakedown",
     "shares",

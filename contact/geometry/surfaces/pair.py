@@ -105,8 +105,8 @@ class SurfacePair:
         a rail with one profile has the gauge. Required for a rail that changes along the track.
     combine_distance, combine_angle : float
         Two regions of interpenetration are separate patches, each with its own frame and without influence on the other,
-        if they are further apart than the first limit [m] and their angles differ by more than the second [rad]. Otherwise
-        they share one plane.
+        if they are further apart than the first limit [m] or their angles differ by more than the second [rad], as in
+        CONTACT with its D_SEP and A_SEP. Otherwise they share one plane.
     reach : float
         Distance before and behind the axle that is searched [m], at most 0.3.
     tilted : bool
@@ -137,7 +137,7 @@ class SurfacePair:
         gauge_point: float = 0.014,
         rail_origin: tuple[float, float] | None = None,
         combine_distance: float = 8e-3,
-        combine_angle: float = math.radians(10.0),
+        combine_angle: float = math.radians(90.0),
         reach: float = 0.06,
         tilted: bool = False,
         rows: int = ROWS,
@@ -291,7 +291,7 @@ class SurfacePair:
             if sampled is None or wider is None:
                 continue
             gap, approach = sampled
-            separation, fit_error = strips(*wider)
+            separation, fit_error = strips(wider[0], wider[1], approach)
             origin = np.zeros(1)
             depth = float(heights(wheel, frame, origin, origin, deepest=True).z[0, 0])
             point = frame.origin + frame.axes[2] * (depth if math.isfinite(depth) else 0.0)
@@ -318,7 +318,8 @@ class SurfacePair:
         for lobe, frame in self._lobes(scene, z):
             wider = sample(wheel, scene.rail, frame, lobe, _STRIPS, _ROOM)
             if wider is not None:
-                found.append((strips(*wider)[0], wider[1], float(frame.axes[2, 2])))
+                gap, approach = wider
+                found.append((strips(gap, approach, approach)[0], approach, float(frame.axes[2, 2])))
         return found
 
     def _lobes(self, scene: Scene, z: float) -> list[tuple[Lobe, Frame]]:

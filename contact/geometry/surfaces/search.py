@@ -156,12 +156,12 @@ class Scene:
 
 
 def combined(lobes: list[Lobe], distance: float, angle: float) -> list[Lobe]:
-    """Return the lobes, joined where they are no further apart than `distance` [m] or differ by no more than `angle` [rad]."""
+    """Return the lobes, joined where they are no further apart than `distance` [m] and differ by no more than `angle` [rad]."""
     joined = list(lobes)
     k = 1
     while k < len(joined):
         between, turn = joined[k - 1].apart(joined[k])
-        if between > distance and turn > angle:
+        if between > distance or turn > angle:
             k += 1
             continue
         joined[k - 1 : k + 1] = [joined[k - 1].joined(joined[k])]
@@ -180,7 +180,10 @@ def sample(
     x, y, _ = frame.local(np.stack((lobe.x, lobe.y, lobe.z)))
     back, front, low, high = float(x.min()), float(x.max()), float(y.min()), float(y.max())
     along, across = room[0] * (front - back), room[1] * (high - low)
-    centres = division.centres((back - along, front + along, low - across, high + across))
+    box = (back - along, front + along, low - across, high + across)
+    if division.spacing is None:
+        division = division._replace(spacing=(_step(box[0], box[1], division.columns), _step(*box[2:], division.rows)))
+    centres = division.centres(box)
     gap = heights(rail, frame, *centres, deepest=False).z - heights(wheel, frame, *centres, deepest=True).z
     present = np.isfinite(gap)
     if not present.any() or not gap[present].min() < 0.0:
@@ -188,6 +191,14 @@ def sample(
     approach = -float(gap[present].min())
     gap = np.where(present, gap, gap[present].max() + _ABSENT) + approach
     return Gap(*centres, gap), approach
+
+
+def _step(low: float, high: float, n: int) -> float:
+    """Return a size of elements [m] of which about `n` cover low … high: a power of 2^(1/4).
+
+    So the elements keep their places in the frame when the overlap grows a little, and forces do not jump.
+    """
+    return float(2.0 ** (0.25 * math.floor(4.0 * math.log2(max(high - low, 1e-7) / n))))
 
 
 def _steps(low: float, high: float, step: float) -> Array:
