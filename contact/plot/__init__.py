@@ -11,7 +11,7 @@ except ImportError as missing:
 
 from contact.plot.comparison import comparison
 from contact.plot.lines import curve, time_histories
-from contact.plot.passage import passage, patches_on_track
+from contact.plot.passage import passage
 from contact.plot.patches import patch
 from contact.plot.position import Wheel, position
 from contact.plot.rolling import conicity, contact_points
@@ -27,7 +27,6 @@ __all__ = [
     "fatigue",
     "passage",
     "patch",
-    "patches_on_track",
     "position",
     "shakedown",
     "shares",

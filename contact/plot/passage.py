@@ -1,24 +1,19 @@
-"""Figures of a wheel that rolls along surfaces: heights, contact points, forces and patches over the distance."""
+"""Figure of a wheel that rolls along surfaces: heights, contact points, forces and pressure over the distance."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from contact.errors import ContactError
-from contact.plot.style import DPI, INK, LINES, MM, colour_map, style
+from contact.plot.style import DPI, INK, LINES, MM, style
 
 if TYPE_CHECKING:
-    from matplotlib.collections import QuadMesh
-
     from contact.passage import Passage
-    from contact.solution import Solution
-    from contact.surface_pair import SurfaceSolution
 
-_GPA, _KN, _MPA = 1e-9, 1e-3, 1e-6
+_GPA, _KN = 1e-9, 1e-3
 
 
 def passage(run: Passage, title: str = "") -> Figure:
@@ -63,43 +58,3 @@ def passage(run: Passage, title: str = "") -> Figure:
             ax.grid(visible=True)
             ax.margins(x=0.01)
     return figure
-
-
-def patches_on_track(one: SurfaceSolution, title: str = "") -> Figure:
-    """Draw the pressure of all patches of one instant, each in its own plane, with its place on the track.
-
-    Raises
-    ------
-    ContactError
-        Without contact.
-    """
-    if not one.contacts:
-        raise ContactError("there is no contact to draw")
-    wide, long = (0.55 * MM * max(float(np.ptp(getattr(c.solution, k))) for c in one.contacts) for k in ("y", "x"))
-    with style():
-        figure = Figure(figsize=(7.4, 3.8), dpi=DPI, layout="constrained")
-        axes = figure.subplots(1, len(one.contacts), squeeze=False, sharey=True)[0]
-        top = _MPA * one.max_pressure
-        for k, (ax, contact) in enumerate(zip(axes, one.contacts, strict=True)):
-            image = _pressure(ax, contact.solution, top)
-            x, y, _ = contact.patch.position
-            ax.set(
-                title=f"patch {k + 1}: N = {_KN * contact.solution.N:.1f} kN\nat x = {MM * x:.1f}, y = {MM * y:.1f} mm\n"
-                f"contact angle {np.degrees(contact.patch.angle):.1f}°",
-                xlabel="across [mm]",
-                ylabel="along [mm]" if k == 0 else "",
-                xlim=(-wide, wide),
-                ylim=(-long, long),
-            )
-        figure.colorbar(image, ax=axes.tolist(), label="pressure [MPa]")
-        figure.suptitle(title)
-    return figure
-
-
-def _pressure(ax: Axes, solution: Solution, top: float) -> QuadMesh:
-    y, x, p = solution.y, solution.x, solution.p
-    image = ax.pcolormesh(
-        MM * y, MM * x, _MPA * p, cmap=colour_map("YlOrRd", 0.9), vmin=0.0, vmax=top, shading="nearest", rasterized=True
-    )
-    ax.set_aspect("equal")
-    return image

@@ -19,7 +19,7 @@ from contact.geometry.surfaces import RailSurface, SurfacePair
 from contact.geometry.wheelset import Pose, Velocity
 from contact.passage import Passage, passage
 from contact.plot import passage as draw
-from contact.plot import patches_on_track
+from contact.plot import patch
 from contact.surface_pair import WheelRailSurfaces
 
 Array = NDArray[np.float64]
@@ -88,10 +88,13 @@ def main() -> None:
     for k in both:
         print(f"two patches at {found.station[k]:.3f} m")
     if both:
-        one = run(found.station[both[len(both) // 2]][None], "halfspace").solutions[0]
-        patches_on_track(one, f"station {1e3 * found.station[both[len(both) // 2]]:.0f} mm").savefig(
-            folder / "patches.png"
-        )
+        station = found.station[both[len(both) // 2]]
+        touching = run(np.array([station]), "halfspace").solutions[0].contacts
+        titles = [
+            f"{part}, y = {1e3 * c.patch.position[1]:.1f} mm"
+            for part, c in zip(("wing", "nose"), touching, strict=True)
+        ]
+        patch([c.solution for c in touching], titles).savefig(folder / "patches.png")
     print("station, patch, x, y [mm], N [kN], largest pressure [MPa], fit error")
     for row in found.rows():
         at = (1e3 * row[name] for name in ("station", "x", "y"))
