@@ -18,6 +18,7 @@ from contact.halfspace.gap import Division, Gap
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+Index = NDArray[np.int64]
 
 _COARSE_X, _COARSE_Y = 2e-3, 0.5e-3  # [m] steps of the coarse grid
 _SLACK = 60e-6  # [m] by which heights on the coarse grid may miss a lobe
@@ -81,6 +82,7 @@ class Scene:
         self.x = _steps(box[0], box[1], _COARSE_X)
         self.y = _steps(box[2], box[3], _COARSE_Y)
         self.gap = self._heights(self.x, self.y)[0]
+        self._grids: dict[tuple[float, float, float, float], tuple[Array, Array, Array, Heights]] = {}
         self.overlaps = bool(np.isfinite(self.gap).any())
 
     def _heights(self, x: Array, y: Array) -> tuple[Array, Heights]:
@@ -88,6 +90,13 @@ class Scene:
         rail = heights(self.rail, self._frame, x, y - self._middle, deepest=False)
         wheel = heights(self.wheel, self._frame, x, y - self._middle, deepest=True)
         return rail.z - wheel.z, rail
+
+    def _fine(self, box: tuple[float, float, float, float]) -> tuple[Array, Array, Array, Heights]:
+        """Return x, y, gap and rail on a fine grid over a box. They do not depend on z, so grids are kept."""
+        if box not in self._grids:
+            x, y = np.linspace(*box[:2], _FINE), np.linspace(*box[2:], _FINE)
+            self._grids[box] = (x, y, *self._heights(x, y))
+        return self._grids[box]
 
     def touch(self) -> float:
         """Return z [m] at which the rigid wheel just touches."""
@@ -112,23 +121,21 @@ class Scene:
         found = []
         for rows, columns in _regions(self.gap < z + _SLACK):
             box = (
-                self.x[columns.min()] - _COARSE_X,
-                self.x[columns.max()] + _COARSE_X,
-                self.y[rows.min()] - _COARSE_Y,
-                self.y[rows.max()] + _COARSE_Y,
+                float(self.x[columns.min()]) - _COARSE_X,
+                float(self.x[columns.max()]) + _COARSE_X,
+                float(self.y[rows.min()]) - _COARSE_Y,
+                float(self.y[rows.max()]) + _COARSE_Y,
             )
-            fine_x, fine_y = np.linspace(*box[:2], _FINE), np.linspace(*box[2:], _FINE)
-            gap = self._heights(fine_x, fine_y)[0]
+            fine_x, fine_y, gap, _ = self._fine(box)
             for i, j in _regions(gap < z):
                 found += self._measured(fine_x, fine_y, i, j, z)
         return sorted(found, key=lambda lobe: -lobe.moment[1] / lobe.weight)
 
-    def _measured(self, x: Array, y: Array, i: NDArray[np.int64], j: NDArray[np.int64], z: float) -> list[Lobe]:
+    def _measured(self, x: Array, y: Array, i: Index, j: Index, z: float) -> list[Lobe]:
         """Return the lobe at the points (i, j) of a grid, measured on a grid of its own."""
         dx, dy = float(x[1] - x[0]), float(y[1] - y[0])
-        fine_x = np.linspace(x[j.min()] - dx, x[j.max()] + dx, _FINE)
-        fine_y = np.linspace(y[i.min()] - dy, y[i.max()] + dy, _FINE)
-        gap, rail = self._heights(fine_x, fine_y)
+        box = (float(x[j.min()]) - dx, float(x[j.max()]) + dx, float(y[i.min()]) - dy, float(y[i.max()]) + dy)
+        fine_x, fine_y, gap, rail = self._fine(box)
         regions = _regions(gap < z)
         if not regions:
             return []
@@ -205,17 +212,19 @@ def _steps(low: float, high: float, step: float) -> Array:
     return np.linspace(low, high, max(math.ceil((high - low) / step), 2) + 1)
 
 
-def _regions(mask: Mask) -> list[tuple[NDArray[np.int64], NDArray[np.int64]]]:
+def _regions(mask: Mask) -> list[tuple[Index, Index]]:
     """Return rows and columns of the connected regions of true values; neighbours may be diagonal."""
-    label = np.where(mask, np.arange(1, mask.size + 1).reshape(mask.shape), 0)
+    if not mask.any():
+        return []
+    i, j = (np.flatnonzero(mask.any(axis=axis)) for axis in (1, 0))
+    part = mask[i[0] : i[-1] + 1, j[0] : j[-1] + 1]
+    label = np.where(part, np.arange(1, part.size + 1).reshape(part.shape), 0)
     while True:
         wide = np.pad(label, 1)
-        largest = wide[1:-1, 1:-1]
-        for i in (0, 1, 2):
-            for j in (0, 1, 2):
-                largest = np.maximum(largest, wide[i : i + mask.shape[0], j : j + mask.shape[1]])
-        spread = np.where(mask, largest, 0)
+        rows = np.maximum(np.maximum(wide[:-2], wide[1:-1]), wide[2:])
+        spread = np.where(part, np.maximum(np.maximum(rows[:, :-2], rows[:, 1:-1]), rows[:, 2:]), 0)
         if (spread == label).all():
             break
         label = spread
-    return [np.nonzero(label == k) for k in np.unique(label[mask])]  # type: ignore[misc]
+    found = (np.nonzero(label == k) for k in np.unique(label[part]))
+    return [(rows + i[0], columns + j[0]) for rows, columns in found]
