@@ -1,6 +1,6 @@
 """Wheel flats, polygons and crossings against CONTACT (sets E and F): height, force, pressure and place of the poses.
 
-    python benchmarks/surfaces.py FOLDER [--sweeps hav05 nose …] [--elements 60] [--normal halfspace] [--each]
+    python benchmarks/surfaces.py FOLDER [--sweeps hav05 nose …] [--elements 60 | --spacing 0.2] [--normal halfspace] [--each]
 
 FOLDER holds `E_wheelflat/` and `F_crossing/`, which are not ours to pass on. Every pose is searched and solved on the
 surfaces, with CONTACT's height (mode z) or vertical force (mode Fz), by the element-wise half space or, with `--normal` and
@@ -83,9 +83,9 @@ def rail_surface(folder: Path, name: str) -> RailSurface:
     return RailSurface(1e-3 * data["u"], slices, features=features, interpolating=int(data["u_intpol"]) == 1)
 
 
-def pair_of(folder: Path, sweep: str, elements: int) -> tuple[SurfacePair, Velocity]:
+def pair_of(folder: Path, sweep: str, elements: int, spacing: float | None = None) -> tuple[SurfacePair, Velocity]:
     """Return surfaces and velocity of a sweep."""
-    options = {"rows": elements, "columns": elements, "material": STEEL}
+    options = {"rows": elements, "columns": elements, "spacing": spacing, "material": STEEL}
     if sweep in CROSSINGS:
         yz = 1e-3 * np.load(folder / "F_crossing" / "wheel_s1002.npz")["yz"]
         pair = SurfacePair(
@@ -144,6 +144,7 @@ def main() -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("--sweeps", nargs="*", default=[*WHEELS, *CROSSINGS])
     parser.add_argument("--elements", type=int, default=60)
+    parser.add_argument("--spacing", type=float, help="size of the elements [mm], instead of their number")
     parser.add_argument("--normal", default="halfspace")
     parser.add_argument("--tangential", help="default: that of the normal method")
     parser.add_argument("--each", action="store_true", help="print every pose")
@@ -151,7 +152,7 @@ def main() -> None:
     files = sorted(chosen.folder.glob("[EF]_*/*.csv"))
     rows = []
     for sweep in chosen.sweeps:
-        pair, velocity = pair_of(chosen.folder, sweep, chosen.elements)
+        pair, velocity = pair_of(chosen.folder, sweep, chosen.elements, chosen.spacing and 1e-3 * chosen.spacing)
         solver = WheelRailSurfaces(pair, normal=chosen.normal, tangential=chosen.tangential)
         found = []
         for pose in poses(files, sweep):

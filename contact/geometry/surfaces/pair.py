@@ -243,7 +243,8 @@ class SurfacePair:
         """Return z [m] at which `carried(z)`, a vertical force [N], equals `load`.
 
         F^(2/3) is nearly linear in the penetration (Hertz). Its root is bracketed and found by the Illinois variant of
-        regula falsi, as for constant profiles (`contact.kernels.geometry.settle`).
+        regula falsi, as for constant profiles (`contact.kernels.geometry.settle`). Where a surface ends, the force may jump
+        with z; then the result is the side of the jump that is nearer to the load.
         """
         touch = scene.touch()
         if load <= 0.0:
@@ -251,10 +252,13 @@ class SurfacePair:
         target = load ** (2.0 / 3.0)
         low, high, f_low, f_high, side = 0.0, math.inf, -target, 0.0, 0
         p = 1e-4 * (load / 1e5) ** (2.0 / 3.0)
+        nearest, best = math.inf, p
         for step in range(_MOST_STEPS):
             force = carried(touch + p)
-            if abs(force - load) <= _LOAD_TOLERANCE * load or high - low <= 1e-12:
-                return touch + p
+            if abs(force - load) < nearest:
+                nearest, best = abs(force - load), p
+            if nearest <= _LOAD_TOLERANCE * load or high - low <= 1e-12:
+                return touch + best
             f = max(force, 0.0) ** (2.0 / 3.0) - target
             if f > 0.0:
                 f_low = 0.5 * f_low if side > 0 else f_low
