@@ -198,14 +198,20 @@ class WheelRailSurfaces:
     def _under(
         self, vertical: float, pose: Pose, velocity: Velocity, friction: float | Friction, scene: Scene
     ) -> SurfaceSolution:
-        """Return the solution under a vertical force: normal forces carry it less the friction of the last step."""
-        carried = vertical
+        """Return the solution under a vertical force.
+
+        The normal forces carry it less the vertical part of friction, which is found by the secant method, from the force
+        with friction over that without.
+        """
+        carried, before = vertical, None
         for step in range(_MOST_STEPS):
             found = self._at(self._settled(scene, carried), scene, pose, velocity, friction)
-            allowed = _TOLERANCE if step < _MOST_STEPS // 2 else _WIDER
-            if abs(found.Q - vertical) <= allowed * vertical:
+            miss = vertical - found.Q
+            if abs(miss) <= (_TOLERANCE if step < _MOST_STEPS // 2 else _WIDER) * vertical:
                 return found
-            carried = max(carried + vertical - found.Q, 1e-3 * vertical)
+            slope = 1.0 if before is None else (carried - before[0]) / (before[1] - miss)
+            before = carried, miss
+            carried = max(carried + miss * (slope if 0.2 < slope < 5.0 else 1.0), 1e-3 * vertical)
         raise ContactError(
             f"vertical = {vertical:g}: no z was found at which normal and friction forces carry it together"
         )

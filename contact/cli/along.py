@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import json
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 import typer
@@ -12,12 +12,10 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-import contact
 from contact.cli import options as opt
-from contact.cli.output import drawing, reported, write_csv, write_picture
+from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.problem import STANDARD_LOAD
 from contact.errors import ContactError
-from contact.geometry import profile
 from contact.geometry.surfaces import Deviation, Flat, Polygon, RailSurface, SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pose, Velocity
 from contact.passage import Passage, passage
@@ -29,7 +27,11 @@ Begin = Annotated[float, typer.Option("--from", help="first station of the axle 
 End = Annotated[float, typer.Option("--to", help="last station in m", rich_help_panel=_WAY)]
 Count = Annotated[int, typer.Option("--points", help="number of stations", min=1, rich_help_panel=_WAY)]
 Turned = Annotated[
-    float, typer.Option("--angle", help="angle of the wheel at the first station in degrees", rich_help_panel=_WAY)
+    float, typer.Option("--angle", help="angle of the wheel at the first station in rad", rich_help_panel=_WAY)
+]
+Rolling = Annotated[
+    str | None,
+    typer.Option("--tangential", help="tangential method; default that of --normal", rich_help_panel=opt.METHOD),
 ]
 Origin = Annotated[
     tuple[float, float] | None,
@@ -60,86 +62,93 @@ Vertical = Annotated[
 ]
 
 
+@dataclass
+class OutOfRound:
+    """What changes along the way."""
+
+    origin: Origin = None
+    flat: FlatLength = None
+    flat_depth: FlatDepth = None
+    polygon: PolygonOf = None
+
+    def deviations(self, radius: float) -> list[Deviation]:
+        """Return flat and polygon of the wheel."""
+        found: list[Deviation] = []
+        if self.flat is not None:
+            found.append(Flat(self.flat, radius, self.flat_depth))
+        elif self.flat_depth is not None:
+            raise ContactError(f"flat_depth = {self.flat_depth:g} needs --flat")
+        return found if self.polygon is None else [*found, Polygon(*self.polygon)]
+
+
+@dataclass
+class Stations:
+    """The way of the axle."""
+
+    begin: Begin = 0.0
+    end: End = 0.2
+    points: Count = 21
+    turned: Turned = 0.0
+
+
 @reported
 def along(
     *,
-    wheel: opt.WheelName = "s1002",
-    rail: opt.RailName = "60e1",
-    origin: Origin = None,
-    flat: FlatLength = None,
-    flat_depth: FlatDepth = None,
-    polygon: PolygonOf = None,
-    inclination: opt.Inclination = None,
-    unit: opt.Unit = None,
-    drawn_side: opt.Drawn = None,
-    smoothing: opt.Smoothing = None,
-    radius: opt.Radius = 0.46,
-    begin: Begin = 0.0,
-    end: End = 0.2,
-    points: Count = 21,
-    angle: Turned = 0.0,
-    y: opt.Y = 0.0,
-    yaw: opt.Yaw = 0.0,
-    speed: opt.Speed = 20.0,
+    place: opt.Place,
+    change: OutOfRound,
+    reading: opt.Reading,
+    way: Stations,
     load: opt.Load = None,
     vertical: Vertical = None,
-    friction: opt.Friction = 0.3,
-    normal: Annotated[str, typer.Option(help="normal method", rich_help_panel=opt.METHOD)] = "halfspace",
-    tangential: Annotated[
-        str | None, typer.Option(help="tangential method; default that of --normal", rich_help_panel=opt.METHOD)
-    ] = None,
+    surface: opt.Surface,
+    normal: opt.Normal = "halfspace",
+    tangential: Rolling = None,
     as_json: opt.Json = False,
-    table: opt.Csv = None,
-    plot: opt.Plot = None,
+    out: opt.Files = None,
 ) -> None:
     """Roll a right wheel along a rail that changes along the way (.slcs), or with a flat, a polygon or slices (.slcw).
 
-    Examples:  contact along --rail nose.slcs --origin 0.75 0 --from -0.05 --to 0.15 --normal strip_halfspace --plot nose.png
+    Examples:  contact along --rail nose.slcs --origin 0.75 0 --from -0.05 --to 0.15 --normal strip_halfspace --out nose.png
 
     contact along --flat 0.05 --from -0.05 --to 0.05
     """
-    if plot is not None:
-        drawing()
-    if load is None and vertical is None:
-        load = STANDARD_LOAD
-    reading = opt.reading(inclination, unit, drawn_side, smoothing)
-    deviations: list[Deviation] = []
-    if flat is not None:
-        deviations.append(Flat(flat, radius, flat_depth))
-    elif flat_depth is not None:
-        raise ContactError(f"flat_depth = {flat_depth:g} needs --flat")
-    if polygon is not None:
-        deviations.append(Polygon(*polygon))
-    turning = _wheel(wheel, reading).with_deviations(*deviations)
-    lying = RailSurface.read(rail) if Path(rail).suffix == ".slcs" else profile.load(rail, "rail", **reading)
-    pair = SurfacePair(turning, lying, nominal_radius=radius, rail_origin=origin)
-    solver = WheelRailSurfaces(pair, normal=normal, tangential=tangential)
-    found = passage(
-        solver,
-        np.linspace(begin, end, points),
-        Pose(y=y, yaw=yaw),
-        Velocity(speed),
-        rotation=np.radians(angle),
-        load=load if vertical is None else None,
-        vertical=vertical,
-        friction=friction,
+    prepare(out)
+    wheel = _wheel(place.wheel, reading).with_deviations(*change.deviations(place.radius))
+    slices = Path(place.rail).suffix == ".slcs"
+    rail = RailSurface.read(place.rail) if slices else reading.load(place.rail, "rail")
+    pair = SurfacePair(
+        wheel,
+        rail,
+        nominal_radius=place.radius,
+        gauge=place.gauge,
+        flange_back=place.back_to_back,
+        rail_origin=change.origin,
     )
-    if as_json:
-        columns = {name: values.tolist() for name, values in found.columns().items()}
-        typer.echo(json.dumps({"version": contact.__version__, **columns, "patches_of": found.rows()}, indent=2))
-    else:
-        _show(found, Console())
-    if table is not None:
-        write_csv(found.rows(), table)
-    if plot is not None:
-        write_picture(drawing().passage(found, f"{wheel} on {rail}"), plot)
+    found = passage(
+        WheelRailSurfaces(pair, normal=normal, tangential=tangential),
+        np.linspace(way.begin, way.end, way.points),
+        Pose(y=place.y, roll=place.roll, yaw=place.yaw),
+        Velocity(place.speed),
+        rotation=way.turned,
+        load=STANDARD_LOAD if load is None and vertical is None else load,
+        vertical=vertical,
+        friction=surface.law(),
+    )
+    deliver(
+        {**found.columns(), "patches_of": found.rows()},
+        show=lambda console: _show(found, console),
+        as_json=as_json,
+        out=out,
+        rows=found.rows,
+        figure=lambda: drawing().passage(found, f"{place.wheel} on {place.rail}"),
+    )
 
 
-def _wheel(name: str, reading: dict[str, Any]) -> WheelSurface:
+def _wheel(name: str, reading: opt.Reading) -> WheelSurface:
     """Return a wheel from a file of slices, or of revolution."""
     if Path(name).suffix == ".slcw":
         return WheelSurface.read(name)
-    return WheelSurface.constant(profile.load(name, "wheel", **reading))
+    return WheelSurface.constant(reading.load(name, "wheel"))
 
 
 def _show(found: Passage, console: Console) -> None:

@@ -14,6 +14,7 @@ from contact.plot.lines import curve, time_histories
 from contact.plot.passage import passage
 from contact.plot.patches import patch
 from contact.plot.position import Wheel, position
+from contact.plot.profiles import profile_check
 from contact.plot.rolling import conicity, contact_points
 from contact.plot.shakedown import shakedown
 from contact.plot.wear import fatigue, shares, wear, worn_profile
@@ -28,6 +29,7 @@ __all__ = [
     "passage",
     "patch",
     "position",
+    "profile_check",
     "shakedown",
     "shares",
     "time_histories",

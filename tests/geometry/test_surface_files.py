@@ -82,7 +82,7 @@ def test_a_wheel_file_has_angles(tmp_path):
             ("10.0 'parts\\slice_1.txt'", "-3.0 'parts\\slice_1.txt'"),
             "features 1 are of position 10, slice 1 lies at 4",
         ),
-        (("slice_2.txt", "slice_9.txt"), "cannot be read"),
+        (("slice_2.txt", "slice_9.txt"), "is missing"),
         ((" 1            % interpolating", " 3            % interpolating"), "method along the track"),
         ((" 3            % slices", " x            % slices"), "line 3: 'x' is not a number"),
         ((" 3            % slices", " 0            % slices"), "number of slices"),
@@ -107,5 +107,5 @@ def test_wrong_arguments_are_refused_by_name(crossing, tmp_path):
         RailSurface.read(crossing, s=[0.0])
     with pytest.raises(ContactError, match="unit = 'inch'"):
         RailSurface.read(crossing, unit="inch")
-    with pytest.raises(ContactError, match="cannot be read"):
+    with pytest.raises(ContactError, match="is missing"):
         WheelSurface.read(tmp_path / "absent.slcw")

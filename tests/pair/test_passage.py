@@ -67,13 +67,13 @@ def test_a_picture_needs_two_stations(solver):
 
 @pytest.mark.slow
 def test_the_command_gives_the_numbers_of_the_python_api(tmp_path):
-    words = ("along", "--flat", 0.05, "--flat-depth", 4e-4, "--points", 2, "--from", 0.0, "--to", 0.01, "--angle", 1.0)
+    words = ("along", "--flat", 0.05, "--flat-depth", 4e-4, "--points", 2, "--from", 0.0, "--to", 0.01, "--angle", 0.02)
     output = tmp_path / "flat.csv"
-    result = call(*words, "--normal", "strip_halfspace", "--json", "--csv", output)
+    result = call(*words, "--normal", "strip_halfspace", "--json", "--out", output)
     told = json.loads(result.stdout)
     wheel = WheelSurface.constant(WHEEL, Flat(0.05, R0, 4e-4))
     solver = WheelRailSurfaces(SurfacePair(wheel, RAIL), normal="strip_halfspace")
-    wanted = passage(solver, [0.0, 0.01], Pose(), Velocity(20.0), rotation=np.radians(1.0), load=80e3)
+    wanted = passage(solver, [0.0, 0.01], Pose(), Velocity(20.0), rotation=0.02, load=80e3)
     assert told["z"] == pytest.approx(wanted.columns()["z"], abs=1e-12)
     assert told["patches_of"][1]["N"] == pytest.approx(wanted.rows()[1]["N"], rel=1e-9)
     assert len(output.read_text().splitlines()) == 3
@@ -97,7 +97,7 @@ def test_the_command_reads_slices(tmp_path):
     ("words", "message"),
     [
         (("along", "--flat-depth", 1e-3), "flat_depth = 0.001 needs --flat"),
-        (("along", "--rail", "absent.slcs", "--origin", 0.75, 0.0), "cannot be read"),
+        (("along", "--rail", "absent.slcs", "--origin", 0.75, 0.0), "is missing"),
         (("along", "--polygon", 0, 1e-4), "order = 0"),
     ],
 )

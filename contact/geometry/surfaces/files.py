@@ -27,14 +27,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError
-from contact.geometry.files import UNITS, _columns, _simpack
+from contact.geometry.files import UNITS, _lines
+from contact.geometry.formats import columns, simpack
 from contact.geometry.surfaces.surface import MOST_SLICES, RailSurface, WheelSurface
 
 Array = NDArray[np.float64]
 Rail = TypeVar("Rail", bound=RailSurface)
 Wheel = TypeVar("Wheel", bound=WheelSurface)
 
-LARGEST = 20_000_000  # [bytes] of a file of slices
 _RAIL, _WHEEL = ".prr", ".prw"
 
 
@@ -107,24 +107,24 @@ def _metres(unit: str) -> float:
 def _read(
     path: Path,
     surface: Any,
-    simpack: str,
+    suffix: str,
     positions: ArrayLike | None,
     unit: float,
     scale: float,
     mirrored: tuple[bool, bool],
     options: dict[str, Any],
 ) -> Any:
-    name = "s" if simpack == _RAIL else "theta"
+    name = "s" if suffix == _RAIL else "theta"
     if path.is_dir():
         if positions is None:
             raise ContactError(f"{name} = None: the folder {str(path)!r} does not tell the positions of its slices")
         files = sorted((f for f in path.iterdir() if f.is_file() and not f.name.startswith(".")), key=_numbered)
-        slices = [_points(file, simpack, scale, mirrored) for file in files]
+        slices = [_points(file, suffix, scale, mirrored) for file in files]
         return surface(positions, slices, **{"name": path.name, **options})
     if positions is not None:
         raise ContactError(f"{name}: the file {str(path)!r} holds the positions of its slices")
     found = _parsed(path)
-    slices = [_points(path.parent / name.replace("\\", "/"), simpack, scale, mirrored) for name in found.names]
+    slices = [_points(path.parent / name.replace("\\", "/"), suffix, scale, mirrored) for name in found.names]
     given = {
         "features": None if found.features is None else 1e-3 * found.features,
         "corners": found.corners,
@@ -138,19 +138,8 @@ def _numbered(path: Path) -> tuple[list[int], str]:
     return [int(digits) for digits in re.findall(r"\d+", path.stem)], path.name
 
 
-def _text(path: Path) -> str:
-    if path.exists() and not path.is_file():
-        raise ContactError(f"path = {str(path)!r} is not a regular file")
-    try:
-        if path.stat().st_size > LARGEST:
-            raise ContactError(f"path = {str(path)!r} has {path.stat().st_size} bytes; at most {LARGEST} are allowed")
-        return path.read_text(encoding="latin-1")
-    except OSError as error:
-        raise ContactError(f"path = {str(path)!r} cannot be read: {error.strerror}") from None
-
-
 def _parsed(path: Path) -> _Slices:
-    lines = _lines(path)
+    lines = _statements(path)
     offset, scale = _numbers(lines, 2, "offset and scale", path)
     n = _count(lines, "number of slices", path, 1, MOST_SLICES)[0]
     features, kinks, accelerations = _count(lines, "numbers of features, kinks and accelerations", path, 0, 999, 3)
@@ -178,9 +167,9 @@ def _parsed(path: Path) -> _Slices:
     return _Slices(positions, names, table[:, 1:], corners, method == 1)
 
 
-def _lines(path: Path) -> Iterator[tuple[int, str]]:
+def _statements(path: Path) -> Iterator[tuple[int, str]]:
     """Yield number and text of the lines that are not empty, without comments."""
-    for number, line in enumerate(_text(path).splitlines(), 1):
+    for number, line in enumerate(_lines(path), 1):
         text = re.split(r'[!%"]', line, maxsplit=1)[0].strip()
         if text:
             yield number, text
@@ -225,18 +214,18 @@ def _take(stream: Iterator[float], count: int, what: str, path: Path) -> Sequenc
     return values
 
 
-def _points(path: Path, simpack: str, scale: float, mirrored: tuple[bool, bool]) -> Array:
+def _points(path: Path, suffix: str, scale: float, mirrored: tuple[bool, bool]) -> Array:
     """Return the points of one slice [m]: of a rail from the gauge to the field side, of a wheel from field side to flange."""
-    lines = _text(path).splitlines()
+    lines = _lines(path)
     if path.suffix.lower() in (_RAIL, _WHEEL):
-        if path.suffix.lower() != simpack:
-            raise ContactError(f"path = {str(path)!r} is not a file of a {'rail' if simpack == _RAIL else 'wheel'}")
-        points, own = _simpack(lines, path)
-        points = points * own
+        if path.suffix.lower() != suffix:
+            raise ContactError(f"path = {str(path)!r} is not a file of a {'rail' if suffix == _RAIL else 'wheel'}")
+        content = simpack(lines, path, "right")
+        points = content.points * (content.unit or scale)
     else:
-        points = _columns(lines, path) * scale
+        points = columns(lines, path, "right").points * scale
     points = points * np.where(mirrored, -1.0, 1.0)
-    wanted = points[-1, 0] > points[0, 0] if simpack == _RAIL else points[-1, 0] < points[0, 0]
+    wanted = points[-1, 0] > points[0, 0] if suffix == _RAIL else points[-1, 0] < points[0, 0]
     points = points if wanted else points[::-1]
     apart = np.concatenate(([True], np.hypot(*np.diff(points, axis=0).T) > 1e-6))
     return np.asarray(points[apart])
