@@ -26,6 +26,7 @@ import numpy as np
 from benchmarks.tables import table
 from contact.geometry.profile import Profile
 from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface
+from contact.geometry.surfaces.frame import Frame, PlacedWheel, heights
 from contact.geometry.wheelset import Pose, Velocity
 from contact.study.errors import mean_p95_max
 from contact.surface_pair import WheelRailSurfaces
@@ -138,6 +139,38 @@ def errors(row: list[Row], solver: WheelRailSurfaces, velocity: Velocity) -> dic
     return result
 
 
+#: Sweep → file of fields.
+FIELDS = {"s1002flat": "s1002flat", "poly12": "poly12_5", **{k: k for k in ("s1002flat_pre", "d09", "d09_i1", "hav05")}}
+FIELDS |= {k: k for k in ("nose", "uk_v2_z", "uk_v2_Fz")}
+
+
+def gap_errors(folder: Path, rows: list[list[Row]], sweep: str, pair: SurfacePair) -> list[float]:
+    """Return root mean squares of our undeformed distance minus CONTACT's [µm], in its frames, of each field of a sweep."""
+    set_ = "F_crossing" if sweep in CROSSINGS else "E_wheelflat"
+    fields, found = np.load(folder / set_ / f"fields_{FIELDS[sweep]}.npz"), []
+    for first, row in ((pose[0], row) for pose in rows for row in pose):
+        for name in (key[:-1] for key in fields if key.endswith(f"_p{row['patch']}_x")):
+            crossing = "s_ws" in first
+            where = fields[f"{name}s_ws" if crossing else f"{name}pitch_deg"]
+            same = abs(float(first["s_ws" if crossing else "pitch_deg"]) - float(where)) < 1e-9
+            if not same or int(row["ncon"]) != int((fields[f"{name}pn"] > 0).sum()):
+                continue
+            pose = Pose(y=1e-3 * float(first["y_ws"]), z=1e-3 * float(first["z_wm"]))
+            scene = pair.scene(
+                pose, 1e-3 * float(where) if crossing else 0.0, 0.0 if crossing else np.radians(float(where))
+            )
+            shift = 0.75 if sweep.startswith("d09") else 0.0
+            origin = 1e-3 * np.array([float(row[k]) for k in ("xcp_tr", "ycp_tr", "zcp_tr")]) + [0.0, shift, 0.0]
+            frame = Frame.about_x(origin, float(row["delta_rad"]))
+            grid = 1e-3 * fields[f"{name}x"], 1e-3 * fields[f"{name}s"]
+            wheel = PlacedWheel(pair.wheel, pair.nominal_radius, pair.tape, pose, scene.wheel.rotation)
+            gap = heights(scene.rail, frame, *grid, deepest=False).z - heights(wheel, frame, *grid, deepest=True).z
+            error = 1e6 * (gap - np.nanmin(gap)) - 1e3 * fields[f"{name}h"]
+            found.append(float(np.sqrt(np.nanmean(error**2))))
+            break
+    return found
+
+
 def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -147,12 +180,18 @@ def main() -> None:
     parser.add_argument("--spacing", type=float, help="size of the elements [mm], instead of their number")
     parser.add_argument("--normal", default="halfspace")
     parser.add_argument("--tangential", help="default: that of the normal method")
+    parser.add_argument("--gaps", action="store_true", help="print only the errors of the undeformed distance [µm]")
     parser.add_argument("--each", action="store_true", help="print every pose")
     chosen = parser.parse_args()
     files = sorted(chosen.folder.glob("[EF]_*/*.csv"))
     rows = []
     for sweep in chosen.sweeps:
         pair, velocity = pair_of(chosen.folder, sweep, chosen.elements, chosen.spacing and 1e-3 * chosen.spacing)
+        if chosen.gaps:
+            if sweep in FIELDS:
+                gaps = gap_errors(chosen.folder, list(poses(files, sweep)), sweep, pair)
+                print(sweep, len(gaps), "fields, mean and largest", f"{np.mean(gaps):.3f} {max(gaps):.3f} µm")
+            continue
         solver = WheelRailSurfaces(pair, normal=chosen.normal, tangential=chosen.tangential)
         found = []
         for pose in poses(files, sweep):
@@ -177,7 +216,8 @@ def main() -> None:
         "patches",
         "time [s]",
     ]
-    print(table(head, rows))
+    if rows:
+        print(table(head, rows))
 
 
 if __name__ == "__main__":
