@@ -1,6 +1,7 @@
 """A wheel along surfaces: columns and rows, picture, command line."""
 
 import json
+import math
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, W
 from contact.geometry.wheelset import Pose, Velocity
 from contact.passage import passage
 from contact.surface_pair import WheelRailSurfaces
+from examples.crossing import crossing
 from tests.command_line import call
 
 WHEEL, RAIL = profile.s1002(), profile.rail_60e1()
@@ -103,3 +105,22 @@ def test_the_command_reads_slices(tmp_path):
 )
 def test_bad_input_ends_with_a_message_and_code_2(words, message):
     assert message in call(*words, code=2).stderr.replace("\n", " ")
+
+
+@pytest.mark.slow
+def test_a_wheel_goes_over_from_wing_rail_to_nose_without_a_jump():
+    """Both parts carry the load together for 14 mm of the way; height and forces pass over continuously."""
+    found = crossing.run(np.arange(0.150, 0.1705, 0.002))
+    contacts = [one.contacts for one in found.solutions]
+    assert [len(c) for c in contacts] == [1, *(2 for _ in contacts[1:-2]), 1, 1]
+    nose = np.array([sum(c.solution.N for c in one if c.patch.position[1] < 0.75) for one in contacts])
+    wing = np.array([sum(c.solution.N for c in one if c.patch.position[1] > 0.75) for one in contacts])
+    carried = [sum(c.solution.N * math.cos(c.patch.angle) for c in one) for one in contacts]
+    assert carried == pytest.approx([8e4] * len(contacts), rel=2e-3)
+    assert (np.diff(nose) > -300.0).all()  # N: only the contact angle changes at the end
+    assert (np.diff(wing)[:-1] < 0.0).all()
+    assert np.abs(np.diff(nose)).max() < 0.2 * 8e4
+    z = found.columns()["z"]
+    assert np.abs(np.diff(z)).max() < 3e-5  # 1 : 70 on 2 mm
+    ahead = [c.patch.position[0] for c in contacts[-1]]
+    assert ahead[0] > 4e-3  # the nose rises, so the wheel touches it ahead of the axle
