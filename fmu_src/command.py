@@ -54,7 +54,7 @@ def fmu(
         float | None, typer.Option(help="Measurement noise in m to smooth out of the files, for example 2e-6.")
     ] = None,
     accumulation: Annotated[
-        bool, typer.Option("--accumulation", help="Give WheelRailPair the outputs of accumulated damage, 1200 numbers.")
+        bool, typer.Option("--accumulation", help="Give WheelRailPair the outputs of accumulated damage, 1500 numbers.")
     ] = False,
     describe: Annotated[
         bool, typer.Option("--describe", help="Print the variables as Markdown and build nothing.")

@@ -81,7 +81,7 @@ def wear(
     scheduler: Annotated[str | None, typer.Option(help="Address of a dask scheduler, tcp://host:8786.")] = None,
     go_on: Annotated[bool, typer.Option("--go-on", help="Go on if the energy of a run does not close.")] = False,
 ) -> None:
-    """Compute the wear of a wheel over a mileage: run a set of scenarios, change the profile, and repeat.
+    """Compute the wear of wheels and rails over a mileage: run a set of scenarios, change the profiles, and repeat.
 
     If the command is interrupted, call it again: it continues from the last complete step. The result does not depend on the
     number of workers. It stops if the energy of a run does not close to 2 % of its dissipation.
@@ -104,10 +104,10 @@ def wear(
         stop(str(missing), 1)
     except KeyboardInterrupt:
         stop(f"interrupted at {1e-3 * life.mileage:.0f} km; {_resumable(path)}", 130)
-    from models.life import wear_report
+    from models.life import wear_report, wear_result
 
-    _write(folder, lambda: wear_report.dataset(life), lambda: wear_report.page_of(life))
-    typer.echo(f"{1e-3 * life.mileage:.0f} km in {len(life.wheels) - 1} steps, ended by {life.ended}", err=True)
+    _write(folder, lambda: wear_result.dataset(life), lambda: wear_report.page_of(life))
+    typer.echo(f"{1e-3 * life.mileage:.0f} km in {len(life.rows) - 1} steps, ended by {life.ended}", err=True)
     _warn(life.trust)
 
 

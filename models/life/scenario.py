@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import hashlib
+import math
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from contact.damage import Burstow, DamageParameters
+from contact.damage import DamageParameters
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry import profile
@@ -23,6 +24,7 @@ from models.life.vehicle import Vehicle
 from models.vehicle.declared import VehicleDeclaration
 from models.vehicle.declared import read as read_vehicle
 from models.wheelset.parameters import WheelsetParameters
+from models.wheelset.ports import SIDES
 
 _CREEP_COEFFICIENT = (
     12e6  # [N] a little above the longitudinal coefficient of the default wheel under 54.5 kN (docs/coupling.md)
@@ -137,10 +139,6 @@ class Declaration:
                     )
         elif self.wheelset != Vehicle():
             raise ContactError(f"wheelset and vehicle = {self.vehicle!r} exclude each other")
-        if self.damage.burstow != Burstow():
-            raise ContactError(
-                "damage.burstow: a run does not accumulate Burstow's index, so its constants would have no effect; remove it"
-            )
         factor = as_friction(self.friction).gauge_factor
         if factor != 1.0:
             raise ContactError(
@@ -156,11 +154,15 @@ class Scenario:
     ----------
     declared : Declaration
     wheel, rail : Profile
-        Profiles of the right side. The left side is the mirror image.
+        Unworn profiles of the right side. The left side is the mirror image.
     draw : tuple of int
         Number of the realisation of the irregularities, in addition to the seed. In a wear run it is the mileage step.
     vehicle : VehicleDeclaration, optional
         None is the quasi-static wheelset of `models.wheelset`.
+    worn_wheels : tuple of Profile
+        Profile of every wheel, in the order of `wheel_names`; empty if all are unworn.
+    worn_rails : tuple of Profile
+        Profiles of the right and the left rail; empty if both are unworn. Left profiles are mirrored to the right side.
     """
 
     declared: Declaration
@@ -168,6 +170,24 @@ class Scenario:
     rail: Profile
     draw: tuple[int, ...] = ()
     vehicle: VehicleDeclaration | None = None
+    worn_wheels: tuple[Profile, ...] = ()
+    worn_rails: tuple[Profile, ...] = ()
+
+    @property
+    def wheel_names(self) -> tuple[tuple[str, str], ...]:
+        """Wheelset and side of every wheel: axle by axle, the right one before the left one."""
+        axles = ("wheelset",) if self.vehicle is None else tuple(axle.name for axle in self.vehicle.wheelsets)
+        return tuple((axle, side) for axle in axles for side in SIDES)
+
+    @property
+    def wheels(self) -> tuple[Profile, ...]:
+        """Profile of every wheel, in the order of `wheel_names`."""
+        return self.worn_wheels or (self.wheel,) * len(self.wheel_names)
+
+    @property
+    def rails(self) -> tuple[Profile, ...]:
+        """Profiles of the right and the left rail."""
+        return self.worn_rails or (self.rail,) * len(SIDES)
 
     @property
     def name(self) -> str:
@@ -219,9 +239,21 @@ class Scenario:
         d = self.declared
         return Line(d.track, (d.seed, *self.draw), d.recording.settling)
 
-    def worn(self, wheel: Profile, draw: int) -> Scenario:
-        """Return this scenario with another wheel and another realisation of the irregularities."""
-        return replace(self, wheel=wheel, draw=(draw,))
+    def worn(self, wheels: tuple[Profile, ...], rails: tuple[Profile, ...], draw: int) -> Scenario:
+        """Return this scenario with other wheels and rails, and another realisation of the irregularities.
+
+        The quasi-static wheelset has the same wheel on both sides and the same rail: the first ones.
+        """
+        if self.vehicle is None:
+            return replace(self, wheel=wheels[0], rail=rails[0], draw=(draw,))
+        return replace(self, worn_wheels=wheels, worn_rails=rails, draw=(draw,))
+
+    def limited(self, pressure: float) -> Scenario:
+        """Return this scenario with a pressure limit [Pa], if it has none of its own."""
+        if self.declared.methods.pressure_limit is not None or math.isinf(pressure):
+            return self
+        methods = replace(self.declared.methods, pressure_limit=pressure)
+        return replace(self, declared=replace(self.declared, methods=methods))
 
     @property
     def fingerprint(self) -> str:
@@ -231,7 +263,7 @@ class Scenario:
         )
         if self.declared.track.measured is not None:
             digest.update(Path(self.declared.track.measured).read_bytes())
-        for shape in (self.wheel, self.rail):
+        for shape in (self.wheel, self.rail, *self.worn_wheels, *self.worn_rails):
             for row in (shape.y, shape.z, shape.angle):
                 digest.update(row.tobytes())
         return digest.hexdigest()[:32]
