@@ -11,6 +11,7 @@ import typer
 
 from contact.cli.output import drawing, reported, require_extra, stop
 from contact.cli.progress import progress_bar
+from contact.errors import ContactError
 from models.life import checkpoint, declared_set, scenario
 from models.life.run import Run
 from models.life.scale import Workers
@@ -104,10 +105,20 @@ def wear(
         stop(str(missing), 1)
     except KeyboardInterrupt:
         stop(f"interrupted at {1e-3 * life.mileage:.0f} km; {_resumable(path)}", 130)
+    except ContactError:
+        if life.mileage > 0.0:  # what has been found so far may show why
+            _tell(life, folder)
+        raise
+    _tell(life, folder)
+
+
+def _tell(life: Life, folder: Path) -> None:
+    """Write result and report of a study, and say how it ended."""
     from models.life import wear_report, wear_result
 
     _write(folder, lambda: wear_result.dataset(life), lambda: wear_report.page_of(life))
-    typer.echo(f"{1e-3 * life.mileage:.0f} km in {len(life.rows) - 1} steps, ended by {life.ended}", err=True)
+    ended = f"ended by {life.ended}" if life.ended else "not ended"
+    typer.echo(f"{1e-3 * life.mileage:.0f} km in {len(life.rows) - 1} steps, {ended}", err=True)
     _warn(life.trust)
 
 

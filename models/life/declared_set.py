@@ -228,8 +228,8 @@ def read(path: str | PathLike[str]) -> ScenarioSet:
 def _require_same(path: str, body: str, one: tuple[Share, Scenario], other: tuple[Share, Scenario]) -> None:
     """Raise a ContactError unless two scenarios can wear the same body, "wheel" or "rail"."""
     a, b = one[1], other[1]
-    mine, theirs = getattr(a, body), getattr(b, body)
-    same = np.array_equal(mine.y, theirs.y) and np.array_equal(mine.z, theirs.z)
+    mine, theirs = ((a.wheel,), (b.wheel,)) if body == "wheel" else (a.rails, b.rails)
+    same = all(np.array_equal(p.y, q.y) and np.array_equal(p.z, q.z) for p, q in zip(mine, theirs, strict=True))
     alike = _bookkeeping(a) == _bookkeeping(b)
     if not same or not alike or (body == "wheel" and a.wheel_names != b.wheel_names):
         raise ContactError(f"{path}: {one[0].file} has another {body}, radius, bins or damage than {other[0].file}")

@@ -14,7 +14,7 @@ from contact.damage import DamageParameters
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry import profile
-from contact.geometry.profile import Profile
+from contact.geometry.profile import Kind, Profile
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solver import N_ELEMENTS, N_STRIPS, require_resolution
@@ -35,19 +35,31 @@ _LONGEST_STEP = 1e-3  # [s]
 
 @dataclass(frozen=True, kw_only=True)
 class Profiles:
-    """Profiles of the right side: standard names, or files with paths relative to the scenario's file."""
+    """Profiles of the right side: standard names, or files with paths relative to the scenario's file.
+
+    `left_rail` is the left rail, mirrored to the right side, where it differs from the right one; it needs a vehicle.
+    """
 
     wheel: str = "S1002"
     rail: str = "60E1"
+    left_rail: str | None = None
     inclination: float | None = None
     unit: str | None = None
     smoothing: float | None = None
 
     def load(self, folder: Path) -> tuple[Profile, Profile]:
-        """Return wheel and rail. Paths of files are relative to `folder`."""
+        """Return wheel and right rail. Paths of files are relative to `folder`."""
+        return self._load(folder, self.wheel, "wheel"), self._load(folder, self.rail, "rail")
+
+    def load_rails(self, folder: Path) -> tuple[Profile, ...]:
+        """Return the right and the left rail, or nothing if they are the same."""
+        if self.left_rail is None:
+            return ()
+        return self._load(folder, self.rail, "rail"), self._load(folder, self.left_rail, "rail")
+
+    def _load(self, folder: Path, name: str, kind: Kind) -> Profile:
         given: dict[str, Any] = {"unit": self.unit, "smoothing": self.smoothing, "inclination": self.inclination}
-        wheel, rail = (str(folder / name) if (folder / name).is_file() else name for name in (self.wheel, self.rail))
-        return profile.load(wheel, "wheel", **given), profile.load(rail, "rail", **given)
+        return profile.load(str(folder / name) if (folder / name).is_file() else name, kind, **given)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -137,13 +149,16 @@ class Declaration:
                     raise ContactError(
                         f"track.{name} needs a vehicle; the quasi-static wheelset takes the alignment only"
                     )
+            factor = as_friction(self.friction).gauge_factor
+            if factor != 1.0:
+                raise ContactError(
+                    f"friction.gauge_factor = {factor:g} needs a vehicle; the quasi-static wheelset has the same friction "
+                    "over the profile; allowed: 1"
+                )
+            if self.profiles.left_rail is not None:
+                raise ContactError(f"profiles.left_rail = {self.profiles.left_rail!r} needs a vehicle")
         elif self.wheelset != Vehicle():
             raise ContactError(f"wheelset and vehicle = {self.vehicle!r} exclude each other")
-        factor = as_friction(self.friction).gauge_factor
-        if factor != 1.0:
-            raise ContactError(
-                f"friction.gauge_factor = {factor:g}: a run has the same friction over the profile; allowed: 1"
-            )
 
 
 @dataclass(frozen=True)
@@ -159,10 +174,10 @@ class Scenario:
         Number of the realisation of the irregularities, in addition to the seed. In a wear run it is the mileage step.
     vehicle : VehicleDeclaration, optional
         None is the quasi-static wheelset of `models.wheelset`.
-    worn_wheels : tuple of Profile
-        Profile of every wheel, in the order of `wheel_names`; empty if all are unworn.
-    worn_rails : tuple of Profile
-        Profiles of the right and the left rail; empty if both are unworn. Left profiles are mirrored to the right side.
+    every_wheel : tuple of Profile
+        Profile of every wheel, in the order of `wheel_names`; empty if all are as `wheel`.
+    both_rails : tuple of Profile
+        Profiles of the right and the left rail; empty if both are as `rail`. Left profiles are mirrored to the right side.
     """
 
     declared: Declaration
@@ -170,8 +185,8 @@ class Scenario:
     rail: Profile
     draw: tuple[int, ...] = ()
     vehicle: VehicleDeclaration | None = None
-    worn_wheels: tuple[Profile, ...] = ()
-    worn_rails: tuple[Profile, ...] = ()
+    every_wheel: tuple[Profile, ...] = ()
+    both_rails: tuple[Profile, ...] = ()
 
     @property
     def wheel_names(self) -> tuple[tuple[str, str], ...]:
@@ -182,12 +197,12 @@ class Scenario:
     @property
     def wheels(self) -> tuple[Profile, ...]:
         """Profile of every wheel, in the order of `wheel_names`."""
-        return self.worn_wheels or (self.wheel,) * len(self.wheel_names)
+        return self.every_wheel or (self.wheel,) * len(self.wheel_names)
 
     @property
     def rails(self) -> tuple[Profile, ...]:
         """Profiles of the right and the left rail."""
-        return self.worn_rails or (self.rail,) * len(SIDES)
+        return self.both_rails or (self.rail,) * len(SIDES)
 
     @property
     def name(self) -> str:
@@ -246,7 +261,7 @@ class Scenario:
         """
         if self.vehicle is None:
             return replace(self, wheel=wheels[0], rail=rails[0], draw=(draw,))
-        return replace(self, worn_wheels=wheels, worn_rails=rails, draw=(draw,))
+        return replace(self, every_wheel=wheels, both_rails=rails, draw=(draw,))
 
     def limited(self, pressure: float) -> Scenario:
         """Return this scenario with a pressure limit [Pa], if it has none of its own."""
@@ -263,7 +278,7 @@ class Scenario:
         )
         if self.declared.track.measured is not None:
             digest.update(Path(self.declared.track.measured).read_bytes())
-        for shape in (self.wheel, self.rail, *self.worn_wheels, *self.worn_rails):
+        for shape in (self.wheel, self.rail, *self.every_wheel, *self.both_rails):
             for row in (shape.y, shape.z, shape.angle):
                 digest.update(row.tobytes())
         return digest.hexdigest()[:32]
@@ -291,9 +306,11 @@ def from_table(table: dict[str, Any], path: Path) -> Scenario:
         declared = replace(declared, track=replace(declared.track, measured=str(measured)))
     try:
         wheel, rail = declared.profiles.load(path.parent)
+        rails = declared.profiles.load_rails(path.parent)
     except (ContactError, OSError) as error:
         raise ContactError(f"{path.name}.profiles: {error}") from None
     if declared.vehicle is None:
         return Scenario(declared, wheel, rail)
     beside = path.parent / declared.vehicle
-    return Scenario(declared, wheel, rail, vehicle=read_vehicle(beside if beside.is_file() else declared.vehicle))
+    vehicle = read_vehicle(beside if beside.is_file() else declared.vehicle)
+    return Scenario(declared, wheel, rail, vehicle=vehicle, both_rails=rails)

@@ -152,20 +152,24 @@ class Life:
                 f"{self.plan.name}: step {number + 1}, {self.plan.scenarios[at].name}: {trust.warnings[0]}"
             )
         damage = self._damage(found)
-        rate = max(part.rate(damage[part.name], declared.steps.smoothing) for part in self.parts)
-        if rate <= 0.0:
+        rates = {part.name: part.rate(damage[part.name], declared.steps.smoothing) for part in self.parts}
+        fastest = max(rates, key=lambda name: rates[name])
+        if rates[fastest] <= 0.0:
             raise ContactError(f"{self.plan.name}: step {number + 1} has no wear")
-        length = declared.steps.length(rate, declared.mileage - self.mileage)
+        try:
+            length = declared.steps.length(rates[fastest], declared.mileage - self.mileage)
+        except ContactError as error:
+            raise ContactError(f"{self.plan.name}: step {number + 1}, {fastest}: {error}") from None
         for part in self.parts:
             part.wear(damage[part.name], length, declared.steps.smoothing)
         members = self.members
         masses = [wheel["mass"][-1] * members[group] for group, wheel in self.wheels.items()]
-        rates = [weight * each.energy / _distance(each.wheels.values()) for weight, each in self._weighted(found)]
+        powers = [weight * each.energy / _distance(each.wheels.values()) for weight, each in self._weighted(found)]
         booked = {
             "mileage": self.mileage + length,
             "deepest": max(part["deepest"][-1] for part in self.parts),
             "mass": sum(masses) / sum(members.values()),
-            "energy": length * sum(rates),
+            "energy": length * sum(powers),
             **trust.as_dict(),
         }
         self.conicities.append(self._conicity())

@@ -55,7 +55,7 @@ def written(folder: Path, text: str) -> Path:
         (LEAST + "[methods]\npressure_limit = -1.0", r"case.toml.methods: .*pressure_limit = -1 is outside"),
         (
             LEAST + "[friction]\nstatic = 0.3\ngauge_factor = 0.5",
-            r"friction.gauge_factor = 0.5: a run has the same .*allowed: 1",
+            r"friction.gauge_factor = 0.5 needs a vehicle; .*allowed: 1",
         ),
         (
             LEAST + "[damage]\nwear_law = 'reye'",
