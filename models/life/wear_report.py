@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from typing import Any
 
@@ -11,7 +11,7 @@ import numpy as np
 from contact import plot
 from contact.study.page import document, faint, html_of
 from contact.study.table import Table, number
-from models.life.part import DENSITY, Part, Rail, displacement
+from models.life.part import DENSITY, Part, displacement
 from models.life.report import illustrated, warned
 from models.life.trust import TRUST
 from models.life.wear import Life
@@ -55,7 +55,7 @@ def _parts(life: Life) -> Iterator[str]:
         yield from _worn(life, "rails", list(life.rails.values()))
         yield "<h2>Rolling contact fatigue of the rails</h2>"
         yield illustrated(
-            partial(_over_profile, list(life.rails.values()), "index [-]", _fatigue),
+            partial(_over_profile, list(life.rails.values()), "index [-]", lambda rail: rail.fatigue),
             "Sum of Burstow's index over the profiles of the rails",
         )
         yield faint(
@@ -92,41 +92,42 @@ def _worn(life: Life, what: str, parts: list[Any]) -> Iterator[str]:
         yield illustrated(partial(plot.shares, most.new, depths), "Depth worn off over the profile, stacked")
 
 
-def _over_profile(parts: list[Any], unit: str, values: Any) -> Any:
-    """Draw something over the profiles of the right and of the left parts. Parts may have profiles of different points."""
-    y = np.linspace(max(p.new.y[0] for p in parts), min(p.new.y[-1] for p in parts), 400)
+def _by_side(parts: Iterable[Any], label: str, values: Callable[[Any], Any]) -> dict[str, dict[str, Any]]:
+    """Return panels with the values of the right and of the left parts, or one panel if parts have no side."""
     panels: dict[str, dict[str, Any]] = {}
     for part in parts:
-        side = part.name.split()[-1]
-        panel = f"{side} {unit}" if side in SIDES else unit
-        panels.setdefault(panel, {})[part.name] = np.interp(y, part.new.y, values(part))
+        *name, last = part.name.split()
+        side = last if last in SIDES else ""
+        panels.setdefault(f"{side} {label}".strip(), {})[" ".join(name) if side else part.name] = values(part)
+    return panels
+
+
+def _since_new(part: Part, column: str) -> Any:
+    """Return the change of a dimension since the part was new [mm]."""
+    return _MM * (part[column] - part[column][0])
+
+
+def _over_profile(parts: list[Any], label: str, values: Callable[[Any], Any]) -> Any:
+    """Draw something over the profiles of parts, which may have different points."""
+    y = np.linspace(max(p.new.y[0] for p in parts), min(p.new.y[-1] for p in parts), 400)
+    panels = _by_side(parts, label, lambda part: np.interp(y, part.new.y, values(part)))
     return plot.time_histories(_MM * y, panels, xlabel="y [mm], to the field side")
 
 
-def _fatigue(rail: Rail) -> Any:
-    return rail.fatigue
-
-
 def _panels(life: Life) -> dict[str, dict[str, Any]]:
-    conicity = np.array(life.conicities)
-    amplitudes = life.plan.declared.amplitudes
-    wheels = life.wheels.values()
-    alone = len(life.axles) == 1
-    shown = range(len(amplitudes)) if alone else (_three(life),)
-    panels: dict[str, dict[str, Any]] = {
-        "conicity [-]": {
-            f"{_MM * amplitudes[k]:g} mm" + ("" if alone else f", {axle}"): conicity[:, i, k]
-            for i, axle in enumerate(life.axles)
-            for k in shown
-        },
-        "NP [1/mm]": {axle: 1e-3 * conicity[:, i, -1] for i, axle in enumerate(life.axles)},
-    }
+    conicity, amplitudes = np.array(life.conicities), _MM * np.array(life.plan.declared.amplitudes)
+    if len(life.axles) == 1:
+        panels = {"conicity [-]": {f"{value:g} mm": conicity[:, 0, k] for k, value in enumerate(amplitudes)}}
+    else:
+        three = _three(life)
+        lines = {axle: conicity[:, i, three] for i, axle in enumerate(life.axles)}
+        panels = {f"conicity, {amplitudes[three]:g} mm": lines}
+    panels["NP [1/mm]"] = {axle: 1e-3 * conicity[:, i, -1] for i, axle in enumerate(life.axles)}
     for label, column in (("Sh", "flange_height"), ("Sd", "flange_thickness"), ("qR", "qR")):
-        panels[f"{label} − {label}₀ [mm]"] = {w.name: _MM * (w[column] - w[column][0]) for w in wheels}
+        panels |= _by_side(life.wheels.values(), f"{label} − {label}₀ [mm]", partial(_since_new, column=column))
     panels["mass of a wheel [g]"] = {"mean": 1e3 * np.cumsum(life["mass"])}
-    if life.rails:
-        panels["rail, side [mm]"] = {rail.name: _MM * rail["side_depth"] for rail in life.rails.values()}
-        panels["rail, top [mm]"] = {rail.name: _MM * rail["top_depth"] for rail in life.rails.values()}
+    for label, column in (("rail, side [mm]", "side_depth"), ("rail, top [mm]", "top_depth")):
+        panels |= _by_side(life.rails.values(), label, partial(_since_new, column=column))
     return panels
 
 
@@ -256,10 +257,6 @@ def _balance(life: Life) -> Table:
         ("mass worn off a wheel", number(1e3 * mass), "g"),
         ("frictional energy of a wheel", number(1e-6 * energy), "MJ"),
         ("mass for energy", number(1e9 * mass / energy) if energy > 0.0 else "", "µg/J"),
-        *((what, number(_trust(life)[name]), "") for name, (_, what) in TRUST.items()),
+        *((what, number(life.trust.as_dict()[name]), "") for name, (_, what) in TRUST.items()),
     ]
     return Table("Energy and worn mass, mean of all wheels", [("", ""), ("value", ""), ("", "unit")], rows)
-
-
-def _trust(life: Life) -> Mapping[str, float]:
-    return life.trust.as_dict()

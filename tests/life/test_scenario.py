@@ -112,7 +112,10 @@ def test_fingerprint_follows_input_profiles_and_draw(tmp_path):
     one = scenario.read(written(tmp_path, LEAST))
     assert scenario.read(written(tmp_path, "# a comment\n" + LEAST)).fingerprint == one.fingerprint
     others = [scenario.read(written(tmp_path, LEAST + more)) for more in ("seed = 1", "[profiles]\nwheel = '1/40'")]
-    assert len({one.fingerprint, *(other.fingerprint for other in others), one.worn(one.wheel, 1).fingerprint}) == 4
+    assert (
+        len({one.fingerprint, *(other.fingerprint for other in others), one.worn(one.wheels, one.rails, 1).fingerprint})
+        == 4
+    )
 
 
 def test_curve_has_transitions_circle_and_cant():

@@ -150,7 +150,8 @@ def test_rails_may_differ_and_are_mirrored(tmp_path):
     """With another rail on the right and the same on the left the vehicle moves the other way."""
     text = (
         'name = "s"\nlength = 8.0\nspeed = 20.0\nvehicle = "wheelset"\n'
-        '[methods]\nnormal = "analyn"\ntangential = "fastrip"\nstrips = 20\nelements = 12\n[profiles]\n'
+        '[methods]\nnormal = "analyn"\ntangential = "fastrip"\nstrips = 20\nelements = 12\n'
+        "[recording]\nsettling = 2.0\n[profiles]\n"
     )
     moved = []
     for rails in ('rail = "54E1"\nleft_rail = "60E1"', 'rail = "60E1"\nleft_rail = "54E1"'):
