@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 from functools import reduce
 from operator import add
@@ -57,6 +58,7 @@ class Life:
     conicities : list of ndarray, shape (axles, amplitudes + 1)
         Equivalent conicity of each axle at the amplitudes of the plan, and the nonlinearity parameter
         (γe(4 mm) - γe(2 mm))/2 mm [1/m] (EN 15302:2021; the formula is recalled), on the unworn rail of the first scenario.
+        nan for an axle whose wheels differ so much that it does not oscillate about the track's centre.
     """
 
     def __init__(self, plan: ScenarioSet) -> None:
@@ -242,7 +244,11 @@ class Life:
         }  # fmt: skip
         rows = []
         for right, left in self.axles.values():
-            found = conicity(right, first.rail, (*amplitudes, *_NONLINEARITY), left_wheel=left, **options).conicity
+            try:
+                found = conicity(right, first.rail, (*amplitudes, *_NONLINEARITY), left_wheel=left, **options).conicity
+            except ContactError:
+                rows.append([math.nan] * (len(amplitudes) + 1))
+                continue
             *wanted, low, high = found.tolist()
             rows.append([*wanted, (high - low) / (_NONLINEARITY[1] - _NONLINEARITY[0])])
         return np.array(rows)

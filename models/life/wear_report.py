@@ -153,8 +153,8 @@ def _steps(life: Life) -> Table:
             extreme("flange_height", k, max),
             extreme("flange_thickness", k, min),
             extreme("qR", k, min),
-            f"{life.conicities[k][:, three].max():.4f}",
-            f"{1e-3 * life.conicities[k][:, -1].max():.4f}",
+            _greatest(life.conicities[k][:, three]),
+            _greatest(1e-3 * life.conicities[k][:, -1]),
         )
         for k in shown
     ]
@@ -173,6 +173,12 @@ def _steps(life: Life) -> Table:
         ],
         rows,
     )
+
+
+def _greatest(values: Any) -> str:
+    """Return the greatest of the values that exist; "none" if there are none."""
+    known = values[np.isfinite(values)]
+    return f"{known.max():.4f}" if known.size else "none"
 
 
 def _wheels(life: Life) -> Table:

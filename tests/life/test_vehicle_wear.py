@@ -247,6 +247,18 @@ def test_page_and_result_have_all_wheels_and_rails(life):
     assert stored["nonlinearity"].shape == (len(life.rows), 1)
 
 
+def test_an_axle_that_does_not_oscillate_about_the_centre_has_no_conicity(tmp_path):
+    """A left wheel that is 9 mm smaller pushes the wheelset far to one side. The report says none, not nan."""
+    life = Life(plan(tmp_path))
+    left = life.wheels["wheelset", "left"]
+    left.profiles.append(Profile("wheel", left.new.y, left.new.z - 9e-3, left.new.angle))
+    life.conicities[0] = life._conicity()
+    assert np.isnan(life.conicities[0]).all()
+    text = wear_report.page_of(life).split("<picture>")[0]
+    assert "none" in text
+    assert "nan" not in text
+
+
 def test_scenarios_on_the_same_rails_must_have_the_same_rail(tmp_path):
     other = '[[scenarios]]\nfile = "left.toml"\nweight = 1.0\nrails = "right"\n'
     plan(tmp_path, other=other)
