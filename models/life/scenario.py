@@ -37,15 +37,24 @@ _LONGEST_STEP = 1e-3  # [s]
 class Profiles:
     """Profiles of the right side: standard names, or files with paths relative to the scenario's file.
 
-    `left_rail` is the left rail, mirrored to the right side, where it differs from the right one; it needs a vehicle.
+    Parameters
+    ----------
+    wheel, rail : name of a standard profile, or a file
+    left_rail : the left rail, mirrored to the right side, where it differs from the right one; it needs a vehicle
+    inclination : of a rail of EN 13674-1, a number or "1/40"
+    unit, side, zero, repair, smoothing, wavelength : for files, as for `contact.geometry.profile.read`
     """
 
     wheel: str = "S1002"
     rail: str = "60E1"
     left_rail: str | None = None
-    inclination: float | None = None
+    inclination: float | str | None = None
     unit: str | None = None
+    side: str | None = None
+    zero: str | None = None
+    repair: bool = False
     smoothing: float | None = None
+    wavelength: float | None = None
 
     def load(self, folder: Path) -> tuple[Profile, Profile]:
         """Return wheel and right rail. Paths of files are relative to `folder`."""
@@ -58,8 +67,10 @@ class Profiles:
         return self._load(folder, self.rail, "rail"), self._load(folder, self.left_rail, "rail")
 
     def _load(self, folder: Path, name: str, kind: Kind) -> Profile:
-        given: dict[str, Any] = {"unit": self.unit, "smoothing": self.smoothing, "inclination": self.inclination}
-        return profile.load(str(folder / name) if (folder / name).is_file() else name, kind, **given)
+        names = ("wheel", "rail", "left_rail")
+        given: dict[str, Any] = {key: value for key, value in vars(self).items() if key not in names}
+        is_file = (folder / name).is_file() or ("." in name and not profile.is_standard(name))
+        return profile.load(str(folder / name) if is_file else name, kind, **given)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,7 +133,8 @@ class Declaration:
     seed : seed of the random irregularities, not negative
     vehicle : file of a vehicle relative to the scenario's file, or one of the included ones, `manchester` and `wheelset`
         (`models.vehicle`). Without it the run is that of the quasi-static wheelset of the table `wheelset`.
-    track, wheelset, friction, profiles, methods, damage, recording : separate tables
+    friction : coefficient of friction, 0.3 by default, or a table
+    track, wheelset, profiles, methods, damage, recording : separate tables
     """
 
     name: str
