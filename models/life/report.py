@@ -148,6 +148,7 @@ def trusted(trust: Trust) -> Table:
 def damaged(both: dict[str, Histogram]) -> Table:
     """Return the damage of wheels or of rails, by name, as a table."""
     rows = []
+    is_wheel = next(iter(both.values())).profile.kind == "wheel"
     for side, h in both.items():
         rolled = h.distance
         rows.append(
@@ -158,9 +159,10 @@ def damaged(both: dict[str, Histogram]) -> Table:
                 number(float(h["T_gamma"].sum()) / rolled),
                 number(100.0 * h["stress_exceedance"].max() / rolled),
                 number(100.0 * h["fatigue_exceedance"].max() / rolled),
+                *(() if is_wheel else (number(1e6 * float(h.fatigue.max())),)),
             )
         )
-    deepest = "nm/km" if next(iter(both.values())).profile.kind == "wheel" else "µm/10⁶ passes"
+    deepest = "nm/km" if is_wheel else "µm/10⁶ passes"
     return Table(
         "Per kilometre rolled",
         [
@@ -170,6 +172,7 @@ def damaged(both: dict[str, Histogram]) -> Table:
             ("mean T-gamma", "N"),
             ("stress index > 0", "% of the distance"),
             ("surface fatigue > 0", "% of the distance"),
+            *(() if is_wheel else (("Burstow, greatest", "per 10⁶ axles"),)),
         ],
         rows,
     )
