@@ -15,7 +15,7 @@ PRIVATE = {
         f"models/vehicle/kernels/{name}.py": {"contact._jit.kernel"}
         for name in ("benches", "elements", "frames", "motion", "wheels")
     },
-    "models/vehicle/simulation.py": {"contact._jit.compiled_for"},
+    **{f"models/vehicle/{name}.py": {"contact._jit.compiled_for"} for name in ("coupling", "simulation")},
     "models/wheelset/dynamics.py": {"contact._jit.kernel"},
     "models/wheelset/motion.py": {"contact._jit.kernel"},
     "tests/test_jit.py": {"contact._jit"},  # the test of that module
