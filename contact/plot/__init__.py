@@ -17,6 +17,7 @@ from contact.plot.position import Wheel, position
 from contact.plot.profiles import profile_check
 from contact.plot.rolling import conicity, contact_points
 from contact.plot.shakedown import shakedown
+from contact.plot.stress import stress
 from contact.plot.wear import fatigue, shares, wear, worn_profile
 
 __all__ = [
@@ -32,6 +33,7 @@ __all__ = [
     "profile_check",
     "shakedown",
     "shares",
+    "stress",
     "time_histories",
     "wear",
     "worn_profile",
