@@ -204,6 +204,11 @@ def test_on_a_ramp_the_wheel_touches_ahead_or_behind_the_axle(rate):
     assert patch.approach == pytest.approx(5e-5 / stretched, rel=2e-3)
 
 
+def test_a_steep_ramp_is_touched_beyond_the_first_reach():
+    pair = SurfacePair(CONE, lifted(0.3), **UNDER)
+    assert pair.touch(Pose(), station=-0.1) == pytest.approx(R0 - R0 * math.hypot(1.0, 0.3) + 0.03, abs=2e-7)
+
+
 @pytest.mark.parametrize("turned", [0.0, 0.3, 0.7, -0.7])
 def test_a_cylinder_with_a_chord_falls_and_turns_about_its_end(turned):
     """The wheel stands on the sharp end of its flat, at the distance R0 from the axle."""
@@ -290,6 +295,7 @@ POINTS = np.stack((ARC.y, ARC.z), axis=1)
         (lambda: Flat(0.05, depth=1e-3, shape="chord"), "follows from its length"),
         (lambda: SurfacePair(CONE, lifted(0.1)), "rail_origin = None"),
         (lambda: SurfacePair(CONE, ARC, rows=5, **UNDER), "rows = 5 is outside"),
+        (lambda: SurfacePair(CONE, ARC, reach=1.0, **UNDER), "reach = 1 is outside"),
         (lambda: SurfacePair(ARC, ARC, **UNDER), "not a profile of a wheel"),
         (
             lambda: SurfacePair(CONE, ARC, **UNDER).contacts(Pose(y=0.5), penetration=1e-4),

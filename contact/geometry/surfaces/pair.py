@@ -34,6 +34,7 @@ ROWS = COLUMNS = 60
 #: Elements of the gap from which strips are made, and its room beyond the overlap along and across.
 _STRIPS, _ROOM = Division(61, 41), (0.15, 0.35)
 _MIRROR = np.diag([1.0, -1.0, 1.0])
+_FARTHEST = 0.3  # [m] from the axle
 _MOST_STEPS, _LOAD_TOLERANCE = 40, 1e-5
 
 
@@ -108,7 +109,8 @@ class SurfacePair:
         if they are further apart than the first limit [m] or their angles differ by more than the second [rad], as in
         CONTACT with its D_SEP and A_SEP. Otherwise they share one plane.
     reach : float
-        Distance before and behind the axle that is searched [m], at most 0.3.
+        Distance before and behind the axle that is searched [m], 0.01 to 0.3. It is doubled, up to 0.3, as long as the bodies
+        still come closer at its ends, as on a steep ramp.
     tilted : bool
         False: contact frames are turned about x only, as in CONTACT. True: they follow the rail's normal in all directions,
         so the pressure of a ramp also acts along the track.
@@ -166,7 +168,7 @@ class SurfacePair:
         self.tape = 0.5 * require_number("flange_back", flange_back, 0.1, 3.0) + TAPE_FROM_FLANGE_BACK
         self.combine_distance = require_number("combine_distance", combine_distance, 0.0)
         self.combine_angle = require_number("combine_angle", combine_angle, 0.0)
-        self.reach = require_number("reach", reach, 1e-3, 0.3)
+        self.reach = require_number("reach", reach, 1e-2, _FARTHEST)
         self.tilted = bool(tilted)
         both = spacing if spacing is None or isinstance(spacing, tuple) else (spacing, spacing)
         if both is not None:
@@ -185,12 +187,15 @@ class SurfacePair:
             moved = replace(moved, y=-moved.y, roll=-moved.roll, y_rate=-moved.y_rate, roll_rate=-moved.roll_rate)
         wheel = PlacedWheel(self.wheel, self.nominal_radius, self.tape, replace(pose, z=0.0), rotation)
         rail = PlacedRail(self.rail, self.rail_origin, station, moved)
-        ends = (
-            wheel.nodes(np.array([-rotation]))[1],
-            rail.nodes(station + np.array([-self.reach, 0.0, self.reach]))[1],
-        )
-        low, high = max(float(np.nanmin(y)) for y in ends), min(float(np.nanmax(y)) for y in ends)
-        scene = Scene(wheel, rail, (-self.reach, self.reach, low, high)) if high > low else None
+        reach, scene = self.reach, None
+        while True:
+            ends = wheel.nodes(np.array([-rotation]))[1], rail.nodes(station + np.linspace(-reach, reach, 5))[1]
+            low, high = max(float(np.nanmin(y)) for y in ends), min(float(np.nanmax(y)) for y in ends)
+            if high > low:
+                scene = Scene(wheel, rail, (-reach, reach, low, high))
+            if scene is None or not scene.reaches_out or reach >= _FARTHEST:
+                break
+            reach = min(2.0 * reach, _FARTHEST)
         if scene is None or not scene.overlaps:
             raise ContactError(f"pose.y = {pose.y:g}: the {self.side} wheel does not lie above its rail")
         return scene

@@ -85,6 +85,12 @@ class Scene:
         self._grids: dict[tuple[float, float, float, float], tuple[Array, Array, Array, Heights]] = {}
         self.overlaps = bool(np.isfinite(self.gap).any())
 
+    @property
+    def reaches_out(self) -> bool:
+        """Whether the gap still falls towards the front or the back of the box, so that contact may lie beyond."""
+        least = np.nanmin(np.where(np.isfinite(self.gap), self.gap, np.inf), axis=0)
+        return bool(least[0] < least[2] or least[-1] < least[-3])
+
     def _heights(self, x: Array, y: Array) -> tuple[Array, Heights]:
         """Return the vertical gap [m] on a grid of the track plane, NaN where a body is absent, and the rail."""
         rail = heights(self.rail, self._frame, x, y - self._middle, deepest=False)
