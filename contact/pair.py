@@ -15,7 +15,7 @@ from contact.damage import DamageParameters
 from contact.elastic_rail import ElasticRail, Settled
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
-from contact.geometry.records import Irregularity, Pose, Velocity
+from contact.geometry.records import Irregularity, Pose, Velocity, contact_angle
 from contact.geometry.wheelset import Pair
 from contact.kernels.arrays import Bench, Ledger
 from contact.kernels.enumerations import Height, NoAnswer
@@ -69,6 +69,11 @@ class Contact:
     used_friction: float
     status: Status
     gap_error: float
+
+    @property
+    def contact_angle(self) -> float:
+        """Contact angle [rad], positive if the rail pushes the wheel to the track's centre, on either side."""
+        return contact_angle(self.angle, self.position[1])
 
     @property
     def T_gamma(self) -> float:

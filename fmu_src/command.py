@@ -42,7 +42,7 @@ def fmu(
     rail: Annotated[str | None, typer.Option(help=f"Profile of the rail: {PROFILE}.")] = None,
     reading: opt.Reading,
     accumulation: Annotated[
-        bool, typer.Option("--accumulation", help="Give WheelRailPair the outputs of accumulated damage, 1200 numbers.")
+        bool, typer.Option("--accumulation", help="Give WheelRailPair the outputs of accumulated damage, 1500 numbers.")
     ] = False,
     describe: Annotated[
         bool, typer.Option("--describe", help="Print the variables as Markdown and build nothing.")

@@ -15,6 +15,7 @@ from rich.markup import escape
 import contact
 from contact.cli import creep_table, extras, problem, report
 from contact.cli import options as opt
+from contact.cli.along import along
 from contact.cli.compare import compare
 from contact.cli.document import flat
 from contact.cli.geometry import conicity, list_profiles
@@ -181,6 +182,7 @@ app.command()(stress)
 app.command()(transient)
 app.command("rail")(elastic_rail)
 app.command()(roller)
+app.command()(along)
 app.command("geometry")(points)
 app.command()(conicity)
 app.command("profiles")(list_profiles)

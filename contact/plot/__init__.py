@@ -11,6 +11,7 @@ except ImportError as missing:
 
 from contact.plot.comparison import comparison
 from contact.plot.lines import curve, time_histories
+from contact.plot.passage import passage
 from contact.plot.patches import patch
 from contact.plot.position import Wheel, position
 from contact.plot.profiles import profile_check
@@ -26,6 +27,7 @@ __all__ = [
     "contact_points",
     "curve",
     "fatigue",
+    "passage",
     "patch",
     "position",
     "profile_check",
