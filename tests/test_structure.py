@@ -15,6 +15,7 @@ PRIVATE = {
         f"models/vehicle/kernels/{name}.py": {"contact._jit.kernel"}
         for name in ("benches", "elements", "frames", "motion", "wheels")
     },
+    "models/vehicle/coupling.py": {"contact._jit.compiled_for"},
     "models/vehicle/simulation.py": {"contact._jit.compiled_for"},
     "models/wheelset/dynamics.py": {"contact._jit.kernel"},
     "models/wheelset/motion.py": {"contact._jit.kernel"},
