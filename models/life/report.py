@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import MISSING, Field, fields, is_dataclass
 from functools import partial
@@ -19,7 +18,7 @@ from models.life.harvest import BODIES
 from models.life.run import BALANCE, Run
 from models.life.scenario import Scenario
 from models.life.trust import TRUST, Trust
-from models.wheelset.ports import SIDES
+from models.wheelset.ports import INWARDS, SIDES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -106,7 +105,7 @@ def _panels(s: dict[str, Any]) -> dict[str, dict[str, dict[str, Any]]]:
         "Motion": {
             "y − alignment [mm]": {"wheelset": 1e3 * (s["lateral"] - s["alignment"])},
             "yaw [mrad]": {"wheelset": 1e3 * s["yaw"]},
-            "contact angle [°]": both("contact_angle", math.degrees(1.0)),
+            "contact angle [°]": {side: inwards * s[f"{side}_contact_angle"] for side, inwards in INWARDS.items()},
         },
         "Forces": {
             "lateral [kN]": both("lateral_force", 1e-3),
