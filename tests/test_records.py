@@ -267,6 +267,7 @@ def test_a_histogram_with_wear_is_sketched():
     depth = np.where(np.arange(n) == n // 2, 3e-6, 0.0)
     values = {name: histogram[name] for name in ("contact", "volume", "T_gamma", "energy_index")}
     values |= {name: histogram[name] for name in ("stress_exceedance", "fatigue_exceedance", "energy_index_max")}
+    values |= {name: histogram[name] for name in ("rcf_forward", "rcf_backward")}
     histogram.restore(values | {"wear": depth}, 1.0, set(), set())
     (bar,) = drawn(histogram._repr_html_())
     assert bar[:, 1].min() == 0.0

@@ -111,7 +111,7 @@ class Declaration:
     alike : which wheels wear alike, by their mean: "none"; "sides", the two of an axle, on a line with as many curves to
         either side; "all", in a vehicle that is turned and whose axles change places. The quasi-static wheelset needs "all"
     mileage_per_year : mileage of the vehicle in a year [m]; needed if scenarios have tonnes_per_year
-    pressure_limit : limit of the pressure in scenarios that give none [Pa], see `PRESSURE_LIMIT`; inf: elastic pressures
+    pressure_limit : limit of the pressure in scenarios that give none [Pa], default 5 k (full indentation); inf: elastic
     amplitudes : amplitudes of the equivalent conicity in the results [m]
     """
 
