@@ -18,11 +18,20 @@ from contact.halfspace import linear
 from contact.halfspace.gap import Division, Gap
 from contact.halfspace.solve import solve_gap, solve_pressure
 from contact.kalker import constant_table
+from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.separation import Separation
 from contact.solution import Solution
-from contact.solver import N_ELEMENTS, N_STRIPS, Solver, require_conformal, require_resolution, require_trustworthy
+from contact.solver import (
+    N_ELEMENTS,
+    N_STRIPS,
+    Solver,
+    require_conformal,
+    require_max_iterations,
+    require_resolution,
+    require_trustworthy,
+)
 
 Array = NDArray[np.float64]
 
@@ -42,6 +51,7 @@ def solve(
     n_elements: int = N_ELEMENTS,
     spacing: float | tuple[float, float] | None = None,
     conformal: bool = False,
+    max_iterations: int = MAX_ITERATIONS,
     start: Solution | None = None,
     progress: Callable[[int, float], None] | None = None,
     throw: bool = True,
@@ -72,6 +82,8 @@ def solve(
         Let the contact angle vary over the patch by the separation's `tilt` and `rolling` (`contact.kernels.conformal`).
         Slip, pressure and traction then follow the curved surface. Fx, Fy, Mz are resultants in the frame of the plane
         and include the lateral part of the pressure. Fields are measured along the surface.
+    max_iterations : int
+        Most iterations of the strip half space, 1 to 1000. When they are used up, the status is NOT_CONVERGED.
     start : Solution
         Solution of a similar problem at the same resolution. An iterative normal method may start from it. This changes
         the computing time, and the result only within the method's tolerance.
@@ -104,6 +116,7 @@ def solve(
     surface = as_friction(friction)
     speed = require_number("speed", speed, 0.0)
     n_strips, n_elements = require_resolution(n_strips, n_elements)
+    max_iterations = require_max_iterations(max_iterations)
     method, rolling = lookup("normal", normal), lookup("tangential", tangential)
     division = Division(n_strips, n_elements, _pair(spacing))
     if rolling.elementwise and (surface.slope, surface.slope_far) != (1.0, 1.0):
@@ -138,7 +151,9 @@ def solve(
     elif not isinstance(separation, Separation):
         raise ContactError(f"normal = {normal!r} needs a contact.Separation; separation = {separation!r} is on a grid")
     else:
-        problem = _StripProblem(separation, creepage, load, approach, surface, material, speed, method.name)
+        problem = _StripProblem(
+            separation, creepage, load, approach, surface, material, speed, method.name, max_iterations
+        )
         kernel_name = DEFAULT_TANGENTIAL if rolling.elementwise else rolling.kernel
         if rolling.name == kernel_name and not rolling.calibrated:  # nothing more to do, so the solution stays lazy
             return problem.solve(kernel_name, n_strips, n_elements, start, conformal, throw=throw)
@@ -166,7 +181,7 @@ def _pair(spacing: object) -> tuple[float, float] | None:
     return dx, dy
 
 
-_Key = tuple[str, str, int, int, Material, bool, tuple[float, float, float] | None]
+_Key = tuple[str, str, int, int, Material, bool, int, tuple[float, float, float] | None]
 #: The solvers that a thread has used last, and how many of them are kept.
 _LATEST, _MOST = threading.local(), 4
 
@@ -176,7 +191,7 @@ def _prepared(key: _Key, friction: Friction, speed: float) -> Solver:
     solvers: dict[_Key, Solver] = _LATEST.__dict__.setdefault("solvers", {})
     solver = solvers.pop(key, None)
     if solver is None:
-        normal, tangential, n_strips, n_elements, material, conformal, coefficients = key
+        normal, tangential, n_strips, n_elements, material, conformal, max_iterations, coefficients = key
         solver = Solver(
             normal=normal,
             tangential=tangential,
@@ -186,6 +201,7 @@ def _prepared(key: _Key, friction: Friction, speed: float) -> Solver:
             material=material,
             speed=speed,
             conformal=conformal,
+            max_iterations=max_iterations,
         )
         if coefficients is not None:
             solver.calibrate(constant_table(*coefficients))
@@ -206,6 +222,7 @@ class _StripProblem(NamedTuple):
     material: Material
     speed: float
     normal: str
+    max_iterations: int
 
     def solve(
         self,
@@ -218,7 +235,7 @@ class _StripProblem(NamedTuple):
         throw: bool = False,
     ) -> Solution:
         """Return the solution. `coefficients` are C11, C22, C23 to use instead of those of linear theory."""
-        key = self.normal, tangential, n_strips, n_elements, self.material, conformal, coefficients
+        key = self.normal, tangential, n_strips, n_elements, self.material, conformal, self.max_iterations, coefficients
         solver = _prepared(key, self.friction, self.speed)
         if start is not None:
             solver.start_from(start)

@@ -18,11 +18,12 @@ import contact
 from fmu_src import archive
 from fmu_src.catalogue import Model
 from fmu_src.description import model_description
+from fmu_src.description_fmi3 import build_description
 from fmu_src.description_fmi3 import model_description as description_fmi3
 from fmu_src.documentation import markdown, page
 from fmu_src.icon import png
 from fmu_src.native import source
-from fmu_src.native.emit import OWN_LIBM, TRIPLES, objects
+from fmu_src.native.emit import OWN_LIBM, TRIPLES, objects, sources
 from fmu_src.native.libm import compile_libm
 from fmu_src.native.licences import licences
 from fmu_src.terminals import terminals
@@ -112,22 +113,39 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -
     component = model.module("native").component(**model.all_options)
     table = component.table
     objects_of = kernels(model, cache, say)
-    sources = [*chain.from_iterable(objects_of.values()), *sorted(WRAPPER.iterdir())]
-    code = b"".join(path.read_bytes() for path in sources)
-    guid, xml = model_description(table, INTERFACES, code + description_fmi3(table, INTERFACES_3, "").encode())
+    kernels_in_c = sources(_kept(model, cache))
+    code = b"".join(
+        path.read_bytes() for path in (*chain.from_iterable(objects_of.values()), *sorted(WRAPPER.iterdir()))
+    )
+    compiled = [path.name for path in (*sorted(WRAPPER.glob("*.c")), *kernels_in_c)] + ["model.c"]
+    guid, xml = model_description(
+        table, INTERFACES, code + description_fmi3(table, INTERFACES_3, "").encode(), compiled
+    )
     with TemporaryDirectory() as directory:
         generated = Path(directory)
         source.write(component, guid, generated)
+        in_c = generated / "sources"
+        in_c.mkdir()
+        in_c_files = [
+            *source.write(component, guid, in_c, kernels_in_c=True),
+            *kernels_in_c,
+            *sorted(WRAPPER.iterdir()),
+        ]
+        in_c_files += sorted(HEADERS.glob("fmi[23]*.h"))
         documents = [
             (f"documentation/{table.name}.md", (markdown(table) + _TRIED).encode()),
             *((f"resources/{resource}", content) for resource, content in model.resources.items()),
             *((f"documentation/licenses/{name}", text.encode()) for name, text in licences(HEADERS)),
             ("documentation/index.html", page(table).encode()),
+            *((f"sources/{path.name}", path.read_bytes()) for path in in_c_files),
         ]
         of_version = {
             folder: [("model.png", png(table.name))],
             folder / "fmi3": [("terminalsAndIcons/icon.png", png(table.name))],
         }
+        of_version[folder / "fmi3"].append(
+            ("sources/buildDescription.xml", build_description(table.name, compiled).encode())
+        )
         if found := terminals(table):
             of_version[folder / "fmi3"].append(("terminalsAndIcons/terminalsAndIcons.xml", found.encode()))
         libraries = {}
@@ -194,7 +212,8 @@ def compile_kernels(chosen: Sequence[Model], cache: Path, say: Callable[[str], N
     """Compile the kernels that are not in the cache, in one process, where the models share most of the work."""
     words: list[str | Path] = []
     for folder, model in {_kept(model, cache): model for model in chosen}.items():
-        if not all(path.exists() for platform in TRIPLES for path in objects(folder, platform)):
+        parts = chain(sources(folder), *(objects(folder, platform) for platform in TRIPLES))
+        if not all(path.exists() for path in parts):
             folder.mkdir(parents=True, exist_ok=True)
             words += [model.name, json.dumps(dict(model.options)), folder]
     if words:
