@@ -3,6 +3,7 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
+READY_FOR_DEMO := $(VENV)/.ready-for-demo
 READY_FOR_DOCS := $(VENV)/.ready-for-docs
 
 .DEFAULT_GOAL := help
@@ -11,20 +12,27 @@ READY_FOR_DOCS := $(VENV)/.ready-for-docs
 help:            ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
 
-$(READY): pyproject.toml
-	@echo "Setting up $(VENV) (some minutes the first time) ..."
+$(BIN)/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "Python 3.11 or newer is needed; give its name with PYTHON=..."; exit 1; }
-	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(PYTHON) -m venv $(VENV)
+
+$(READY): pyproject.toml | $(BIN)/python
+	@echo "Setting up $(VENV) for development (some minutes the first time) ..."
 	$(BIN)/python -m pip install --quiet --editable '.[dev]'
+	@touch $@ $(READY_FOR_DEMO)
+
+$(READY_FOR_DEMO): pyproject.toml | $(BIN)/python
+	@echo "Setting up $(VENV) for the demo (a minute the first time) ..."
+	$(BIN)/python -m pip install --quiet --editable '.[plot,fmu]'
 	@touch $@
 
-demo: $(READY)   ## build the FMUs, run the coupled wheelset, write pictures and a CSV to out/
+demo: $(READY_FOR_DEMO) ## build the FMUs, run the coupled wheelset, write pictures and a CSV to out/
 	$(BIN)/python build_fmu.py --packaging python
 	$(BIN)/contact demo --out out
 
-fmu: $(READY)    ## build the FMUs into dist/
+fmu: $(READY)    ## build the FMUs into dist/native and dist/python (five minutes the first time, then seconds)
 	$(BIN)/python build_fmu.py
-	$(BIN)/python -m fmu_src.lint dist/*.fmu dist/native/*.fmu dist/native/fmi3/*.fmu
+	$(BIN)/python -m fmu_src.lint dist/python/*.fmu dist/native/*.fmu dist/native/fmi3/*.fmu
 
 test: $(READY)   ## run the tests
 	$(BIN)/python -m pytest -n 2 --dist worksteal
@@ -73,8 +81,9 @@ dist/explorer.html: $(EXPLORER) | $(READY)
 
 explorer: dist/explorer.html ## compile the kernels to WebAssembly and write the contact explorer, one web page
 
-docs: $(READY_FOR_DOCS) dist/explorer.html ## build the documentation site in build/docs/html; warnings are errors
+docs: $(READY_FOR_DOCS) dist/explorer.html ## build the documentation site in build/docs/html; warnings, broken links and misspellings are errors
 	$(BIN)/python -m sphinx -W --keep-going -q -b html docs build/docs/html
+	$(BIN)/python docs/check.py build/docs/html
 	@echo "build/docs/html/index.html"
 
 pictures: $(READY) ## make the pictures of the README and of the page on vehicles

@@ -2,12 +2,21 @@
 
 import math
 import operator
+import warnings
 from collections.abc import Iterable
 from difflib import get_close_matches
 
 
 class ContactError(ValueError):
     """Invalid input. The message names the argument, its value and the allowed range."""
+
+
+class PlausibilityWarning(UserWarning):
+    """Input that is allowed but hardly meant: a wrong unit, a wrong sign, a wheel beside its rail."""
+
+
+class ProfileWarning(PlausibilityWarning):
+    """A fault of a measured profile. The message says what was seen and the option that cures it."""
 
 
 def require_number(
@@ -45,6 +54,15 @@ def require_number(
     return number
 
 
+def doubt(name: str, value: float, limit: float, hint: str, level: int = 3) -> None:
+    """Warn of a value that is allowed but larger than `limit` in magnitude. `hint` says what is usual, or the unit.
+
+    The default `level` of the stack is the caller of the function that doubts.
+    """
+    if abs(value) > limit:
+        warnings.warn(f"{name} = {value:g}: {hint}", PlausibilityWarning, stacklevel=level)
+
+
 def require_integer(name: str, value: object, minimum: float = -math.inf, maximum: float = math.inf) -> int:
     """Return `value` as an int within [`minimum`, `maximum`].
 
@@ -72,6 +90,23 @@ def require_integer(name: str, value: object, minimum: float = -math.inf, maximu
             f"{name} = {value!r} is not an integer in the allowed range {left}{minimum:g}, {maximum:g}{right}"
         )
     return number
+
+
+def ratio(name: str, value: object) -> object:
+    """Return the number that a text like "1/40" or "1:40" means; any other value unchanged.
+
+    Raises
+    ------
+    ContactError
+        For other texts.
+    """
+    if not isinstance(value, str):
+        return value
+    above, slash, below = value.replace(":", "/").partition("/")
+    try:
+        return float(above) / float(below) if slash else float(above)
+    except (ValueError, ZeroDivisionError):
+        raise ContactError(f"{name} = {value!r} is neither a number nor a ratio like 1/40") from None
 
 
 def suggestion(word: object, known: Iterable[str]) -> str:

@@ -70,6 +70,18 @@ class Contact:
     status: Status
     gap_error: float
 
+    @property
+    def T_gamma(self) -> float:
+        """|Fx vx| + |Fy vy| of this patch [N = J/m]. The patches add up to `PairDamage.T_gamma`."""
+        return abs(self.Fx * self.creepage.longitudinal) + abs(self.Fy * self.creepage.lateral)
+
+
+class PairArchard(NamedTuple):
+    """Archard's wear of a pair, under the names of `contact.damage.ArchardWear`: [m per m rolled], [m³ per m rolled]."""
+
+    depth_max: float
+    volume: float
+
 
 class PairDamage(NamedTuple):
     """Damage of all patches of a pair. Names and units are those of `contact.damage.Damage`.
@@ -90,6 +102,11 @@ class PairDamage(NamedTuple):
     fatigue_index: float
     stress_index: float
     energy_index: float
+
+    @property
+    def archard(self) -> PairArchard:
+        """Archard's wear, as in `Solution.damage`: ``damage.archard.volume``."""
+        return PairArchard(self.archard_depth, self.archard_volume)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -168,7 +185,7 @@ class WheelRailPair:
     Raises
     ------
     ContactError
-        For unknown methods or a resolution outside its range.
+        For arguments of a wrong type, unknown methods or a resolution outside its range.
     """
 
     def __init__(
@@ -185,6 +202,13 @@ class WheelRailPair:
         damage: DamageParameters | None = None,
         ledger: Ledger | None = None,
     ) -> None:
+        if not isinstance(pair, Pair):
+            raise ContactError(
+                f"pair = {pair!r} is no contact.geometry.wheelset.Pair; make one from a wheel and a rail"
+            )
+        for name, given, kind in (("material", material, Material), ("damage", damage, DamageParameters)):
+            if not isinstance(given, kind | None):
+                raise ContactError(f"{name} = {given!r} is no {kind.__module__}.{kind.__name__}")
         self.pair = pair
         method, rolling = (lookup(*kind, batched=True) for kind in (("normal", normal), ("tangential", tangential)))
         n_strips, n_elements = require_resolution(n_strips, n_elements)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.creepage import Creepage
-from contact.errors import ContactError, require_number
+from contact.errors import ContactError, doubt, require_number
 from contact.friction import Friction, as_friction
 from contact.halfspace import linear
 from contact.halfspace.gap import Division, Gap
@@ -114,6 +114,7 @@ def solve(
     else:
         require_number("approach", approach)
     surface = as_friction(friction)
+    _doubt(surface, creepage)
     speed = require_number("speed", speed, 0.0)
     n_strips, n_elements = require_resolution(n_strips, n_elements)
     max_iterations = require_max_iterations(max_iterations)
@@ -261,3 +262,17 @@ def _patch_coefficients(problem: _StripProblem, solution: Solution) -> tuple[flo
         return linear.flexibilities(problem.solve(DEFAULT_TANGENTIAL, n, n).strips, solution.material, n)
 
     return linear.coefficients(linear.extrapolated(at), solution.strips, solution.material)
+
+
+def _doubt(surface: Friction, creepage: Creepage) -> None:
+    """Warn of coefficients of friction and creepages that no wheel and rail have."""
+    doubt("friction", surface.static, 1.0, "steel on steel has 0.05 to 0.6", 4)
+    for name in ("longitudinal", "lateral"):
+        doubt(
+            f"creepage.{name}",
+            getattr(creepage, name),
+            0.1,
+            "a rolling wheel has less than 0.02 (20 per mille); is it in per mille?",
+            4,
+        )
+    doubt("creepage.spin", creepage.spin, 20.0, "a flange has about 2; the unit is 1/m", 4)

@@ -10,7 +10,9 @@ from pathlib import Path
 from sphinx.application import Sphinx
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT))
+sys.path[:0] = [str(ROOT), str(ROOT / "docs")]
+
+import generated  # noqa: E402
 
 import contact  # noqa: E402
 
@@ -69,8 +71,10 @@ def _is_alias(app: Sphinx, what: str, name: str, item: object, skip: bool, optio
     return True if (item.__doc__ or "").startswith("Alias for field number") else None
 
 
-def _append_variables(app: Sphinx, page: str, source: list[str]) -> None:
-    """The tables of the FMUs' variables come from the FMUs' own tables."""
+def _append_generated(app: Sphinx, page: str, source: list[str]) -> None:
+    """Append what is made from the code: variables of the FMUs, keys of scenarios, options of the command line."""
+    if page in ("scenarios", "command_line"):
+        source[0] += getattr(generated, page)()
     if page == "fmu":
         command = [sys.executable, ROOT / "build_fmu.py", "--describe"]
         source[0] += subprocess.run(command, check=True, capture_output=True, text=True).stdout
@@ -79,4 +83,4 @@ def _append_variables(app: Sphinx, page: str, source: list[str]) -> None:
 def setup(app: Sphinx) -> None:
     app.connect("autodoc-process-docstring", _escape_bars, priority=400)  # before numpydoc
     app.connect("autodoc-skip-member", _is_alias)
-    app.connect("source-read", _append_variables)
+    app.connect("source-read", _append_generated)

@@ -24,7 +24,7 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
         "--packaging",
         choices=["python", "native", "all"],
         default="all",
-        help="python: for hosts with Python, into FOLDER; native: for any host, into FOLDER/native (default: all)",
+        help="python: for hosts with Python, into FOLDER/python; native: for any host, into FOLDER/native (default: all)",
     )
     parser.add_argument(
         "--out", type=Path, default=Path("dist"), metavar="FOLDER", help="output folder (default: dist)"
@@ -56,8 +56,8 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
     if arguments.packaging != "native":
         for model in chosen:
             print(f"{model.table.name}, for hosts with Python ... ", end="", flush=True)
-            print(_size(python.build(model, arguments.out)))
-        build_system(arguments.out)
+            print(_size(python.build(model, arguments.out / "python")))
+        build_system(arguments.out / "python")
     if arguments.packaging != "python":
         build_native(chosen, arguments.out / "native")
         build_system(arguments.out / "native")

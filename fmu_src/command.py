@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
+import sys
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from contact.cli.output import stop
+from contact.cli import options as opt
+from contact.cli.document import document
+from contact.cli.output import reported, stop
 
 
 class Packaging(StrEnum):
@@ -19,27 +23,15 @@ class Packaging(StrEnum):
     all = "all"
 
 
-class Unit(StrEnum):
-    """Unit of a profile file."""
-
-    m = "m"
-    mm = "mm"
-
-
-class Side(StrEnum):
-    """Side of the track that a profile file shows."""
-
-    right = "right"
-    left = "left"
-
-
 PROFILE = "a name of `contact profiles`, or a file"
 
 
+@reported
 def fmu(
+    *,
     packaging: Annotated[
         Packaging,
-        typer.Option(help="python: for hosts with Python; native: for any host, into the subfolder native."),
+        typer.Option(help="python: for hosts with Python; native: for any host. Each has a folder of its name."),
     ] = Packaging.all,
     out: Annotated[Path, typer.Option(help="Folder for the FMUs.")] = Path("dist"),
     points: Annotated[
@@ -48,17 +40,14 @@ def fmu(
     ] = None,
     wheel: Annotated[str | None, typer.Option(help=f"Profile of the wheel: {PROFILE}.")] = None,
     rail: Annotated[str | None, typer.Option(help=f"Profile of the rail: {PROFILE}.")] = None,
-    unit: Annotated[Unit | None, typer.Option(help="Unit of the profile files, for plain columns.")] = None,
-    side: Annotated[Side | None, typer.Option(help="Side that the files show, for plain columns.")] = None,
-    smoothing: Annotated[
-        float | None, typer.Option(help="Measurement noise in m to smooth out of the files, for example 2e-6.")
-    ] = None,
+    reading: opt.Reading,
     accumulation: Annotated[
         bool, typer.Option("--accumulation", help="Give WheelRailPair the outputs of accumulated damage, 1200 numbers.")
     ] = False,
     describe: Annotated[
         bool, typer.Option("--describe", help="Print the variables as Markdown and build nothing.")
     ] = False,
+    as_json: opt.Json = False,
 ) -> None:
     """Build the FMUs: Wheelset, WheelRailContact and WheelRailPair.
 
@@ -77,10 +66,16 @@ def fmu(
         "points": points,
         "wheel": wheel,
         "rail": rail,
-        "unit": unit,
-        "side": side,
-        "smoothing": smoothing,
+        **vars(reading),
     }
-    words = [f"--{name}={value}" for name, value in options.items() if value is not None]
-    switches = {"--accumulation": accumulation, "--describe": describe}
-    main([*words, *(word for word, on in switches.items() if on)], "contact fmu")
+    repair = options.pop("profile_repair")
+    words = [f"--{name.replace('_', '-')}={value}" for name, value in options.items() if value is not None]
+    switches = {"--accumulation": accumulation, "--describe": describe, "--profile-repair": repair}
+    words += [word for word, on in switches.items() if on]
+    if not as_json:
+        main(words, "contact fmu")
+        return
+    with contextlib.redirect_stdout(sys.stderr):
+        main(words, "contact fmu")
+    files = sorted(str(path) for path in out.rglob("*") if path.suffix in (".fmu", ".ssp"))
+    typer.echo(document({"files": files}))

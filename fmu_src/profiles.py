@@ -1,6 +1,6 @@
 """Profiles as resources of an FMU. Both packagings read their points and tangents when an instance is made.
 
-`python -m fmu_src.profiles FMU [--wheel NAME|FILE] [--rail NAME|FILE] [--smoothing M]` replaces the profiles in a finished
+`python -m fmu_src.profiles FMU [--wheel NAME|FILE] [--rail NAME|FILE]` replaces the profiles in a finished
 FMU. This needs no compiler.
 
 A resource is little-endian and holds, in this order: 8 bytes that identify a wheel or a rail, a checksum of everything that
@@ -112,20 +112,30 @@ def add_options(parser: argparse.ArgumentParser) -> None:
             metavar="NAME|FILE",
             help=f"profile of the {kind}: a name of `contact profiles`, or a file (formats: contact.geometry.files)",
         )
-    parser.add_argument("--unit", choices=["m", "mm"], help="unit of the profile files, for plain columns")
-    parser.add_argument("--side", choices=["right", "left"], help="side that the files show, for plain columns")
+    parser.add_argument("--inclination", metavar="1/40", help="inclination of a rail of EN 13674-1")
+    parser.add_argument("--profile-unit", choices=profile.UNITS, help="unit of the profile files, for plain columns")
+    parser.add_argument("--profile-side", choices=profile.SIDES, help="side that the files show, for plain columns")
+    parser.add_argument("--profile-zero", choices=profile.ZEROS, help="zero of the profile files")
     parser.add_argument(
-        "--smoothing",
+        "--profile-repair", action="store_true", help="sort rows, keep one scan, drop spikes and back steps"
+    )
+    parser.add_argument(
+        "--profile-smoothing",
         type=float,
         metavar="M",
         help="measurement noise in m to smooth out of the files, for example 2e-6 (needs scipy)",
+    )
+    parser.add_argument(
+        "--profile-wavelength", type=float, metavar="M", help="instead: waves of this length in m are halved, like 3e-3"
     )
 
 
 def chosen(arguments: argparse.Namespace) -> dict[Kind, Profile]:
     """Return the profiles that the command line names."""
+    prefix = "profile_"
+    reading = {key.removeprefix(prefix): value for key, value in vars(arguments).items() if key.startswith(prefix)}
     return {
-        kind: profile.load(name, kind, unit=arguments.unit, side=arguments.side, smoothing=arguments.smoothing)
+        kind: profile.load(name, kind, inclination=arguments.inclination, **reading)
         for kind in MAGIC
         if (name := getattr(arguments, kind))
     }

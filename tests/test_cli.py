@@ -123,11 +123,14 @@ def test_no_contact_draws_nothing_and_says_so(tmp_path):
             ("solve", "--curvatures", "1", "1", "--wheel", "s1002", "--y", "0"),
             "--wheel, --y: --curvatures replaces wheel, rail and position",
         ),
-        (("compare", "--curvatures", "1", "1", "--smoothing", "2e-6"), "--smoothing: --curvatures replaces"),
+        (
+            ("compare", "--curvatures", "1", "1", "--profile-smoothing", "2e-6"),
+            "--profile-smoothing: --curvatures replaces",
+        ),
         (("solve", "--normal", "magic"), "normal = 'magic' is not a registered method"),
         (("solve", "--wheel", "round"), "wheel = 'round' is no profile of the standards; they are S1002, 1/40"),
         (("solve", "--wheel", "S1003"), "wheel = 'S1003' is no profile of the standards, did you mean 'S1002'"),
-        (("solve", "--wheel", "missing.prw"), "missing.prw' cannot be read"),
+        (("solve", "--wheel", "missing.prw"), "missing.prw' is missing: there is no such file"),
         (("solve", "--rail", "rail A", "--inclination", "0.05"), "EN 15302 rail A has no inclination"),
         (
             ("solve", "--rail", "some.prr", "--inclination", "0.05"),
@@ -139,9 +142,9 @@ def test_no_contact_draws_nothing_and_says_so(tmp_path):
         (("solve", "--load", "1", "--penetration", "1e-5"), "exclude each other"),
         (("solve", "--y", "1.0"), "pose.y = 1"),
         (("solve", "--penetration", "-1e-5"), "penetration = -1e-05"),
-        (("solve", "--curvatures", "1", "1", "--plot", "nowhere/at/all.png"), "all.png cannot be written"),
-        (("solve", "--curvatures", "1", "1", "--plot", "picture.nonsense"), "picture.nonsense cannot be written"),
-        (("curve", "--csv", "nowhere/at/all.csv"), "all.csv cannot be written"),
+        (("solve", "--curvatures", "1", "1", "--out", "nowhere/at/all.png"), "all.png cannot be written"),
+        (("solve", "--curvatures", "1", "1", "--out", "picture.nonsense"), "picture.nonsense cannot be written"),
+        (("curve", "--out", "nowhere/at/all.csv"), "all.csv cannot be written"),
         (("curve", "--max", "inf"), "max = inf is outside the allowed range"),
         (("curve", "--tangential", "magic"), "tangential = 'magic'"),
         (("patch", "--yaw", "3"), "pose.yaw = 3"),
@@ -173,7 +176,7 @@ def test_patch_draws_both_wheels(tmp_path):
 def test_solve_draws_what_it_solved(tmp_path):
     mpl = pytest.importorskip("matplotlib")
     path = tmp_path / "patch.png"
-    result = call("solve", "--curvatures", 1, 1, "--creepage", 1e-3, 0, 0, "--plot", path, "--json")
+    result = call("solve", "--curvatures", 1, 1, "--creepage", 1e-3, 0, 0, "--out", path, "--json")
     assert json.loads(result.stdout), "JSON alone on stdout"
     assert mpl.image.imread(path).std() > 0.05
 
@@ -182,7 +185,7 @@ def test_curve_is_odd_in_creepage_ends_at_the_friction_limit_and_is_written(tmp_
     pytest.importorskip("matplotlib")
     paths = [tmp_path / name for name in ("curve.csv", "curve.png")]
     words = ("--points", 5, "--max", 0.02, "--tangential", "fastrip", "--tangential", "fastsim", "--friction", 0.25)
-    result = call("curve", *words, "--csv", paths[0], "--plot", paths[1])
+    result = call("curve", *words, "--out", paths[0], "--out", paths[1])
     rows = list(csv.DictReader(paths[0].open(encoding="utf-8")))
     assert [row["tangential"] for row in rows] == ["fastrip"] * 5 + ["fastsim"] * 5
     force = np.array([float(row["Fx"]) / float(row["N"]) for row in rows]).reshape(2, 5)
@@ -197,7 +200,7 @@ def test_curve_is_odd_in_creepage_ends_at_the_friction_limit_and_is_written(tmp_
 
 def test_curve_over_spin_holds_the_other_creepages(tmp_path):
     path = tmp_path / "spin.csv"
-    call("curve", "--over", "spin", "--points", 3, "--creepage", 1e-3, -2e-3, 9.0, "--csv", path)
+    call("curve", "--over", "spin", "--points", 3, "--creepage", 1e-3, -2e-3, 9.0, "--out", path)
     rows = list(csv.DictReader(path.open(encoding="utf-8")))
     assert [float(row["spin"]) for row in rows] == [0.0, 0.5, 1.0]
     assert {(float(row["longitudinal"]), float(row["lateral"])) for row in rows} == {(1e-3, -2e-3)}
@@ -215,7 +218,7 @@ def test_conicity_gives_the_numbers_of_the_python_api(tmp_path):
     pytest.importorskip("matplotlib")
     paths = [tmp_path / name for name in ("conicity.csv", "conicity.png")]
     words = ("--wheel", "wheel A", "--left-wheel", "wheel B", "--rail", "rail A", "--gauge", 1.4351645)
-    result = call("conicity", *words, "--csv", paths[0], "--plot", paths[1])
+    result = call("conicity", *words, "--out", paths[0], "--out", paths[1])
     rail, a, b = (profile.named(name) for name in ("rail A", "wheel A", "wheel B"))
     found = conicity(a, rail, left_wheel=b, gauge=1.4351645)
     rows = list(csv.DictReader(paths[0].open(encoding="utf-8")))
@@ -230,7 +233,7 @@ def test_conicity_gives_the_numbers_of_the_python_api(tmp_path):
 def test_files_have_no_wavelength_without_conicity(tmp_path):
     path = tmp_path / "conicity.csv"
     words = ("--wheel", "wheel I", "--rail", "rail A", "--gauge", 1.4351645, "--amplitude", 1e-3)
-    assert json.loads(call("conicity", *words, "--json", "--csv", path).stdout)["wavelength"] == [None]
+    assert json.loads(call("conicity", *words, "--json", "--out", path).stdout)["wavelength"] == [None]
     assert next(csv.DictReader(path.open(encoding="utf-8")))["wavelength"] == ""
 
 
@@ -238,7 +241,7 @@ def test_geometry_gives_the_contact_points_of_old_names(tmp_path):
     pytest.importorskip("matplotlib")
     paths = [tmp_path / name for name in ("points.csv", "points.png")]
     words = ("--wheel", "1:40", "--rail", "UIC 60", "--inclination", 0.05, "--max", 2e-3, "--step", 1e-3, "--roll")
-    result = call("geometry", *words, "--csv", paths[0], "--plot", paths[1])
+    result = call("geometry", *words, "--out", paths[0], "--out", paths[1])
     wheel, rail = profile.named("1/40"), profile.rail_60e1(0.05)
     found = contact_points(wheel, rail, np.linspace(-2e-3, 2e-3, 5), roll=True)
     rows = list(csv.DictReader(paths[0].open(encoding="utf-8")))
@@ -259,8 +262,10 @@ def test_profile_files_are_smoothed_on_request(tmp_path):
     path = tmp_path / "rail.txt"
     noise = 2e-6 * np.random.default_rng(2).standard_normal(rail.y.size)
     path.write_text("\n".join(f"{y:.9f} {z:.9f}" for y, z in zip(rail.y, rail.z + noise, strict=True)))
-    words = ("geometry", "--rail", path, "--unit", "m", "--drawn-side", "right", "--max", 1e-3, "--json")
-    raw, smooth = (json.loads(call(*words, *more).stdout)["right_angle"] for more in ((), ("--smoothing", 2e-6)))
+    words = ("geometry", "--rail", path, "--profile-unit", "m", "--profile-side", "right", "--max", 1e-3, "--json")
+    raw, smooth = (
+        json.loads(call(*words, *more).stdout)["right_angle"] for more in ((), ("--profile-smoothing", 2e-6))
+    )
     true = contact_points(profile.s1002(), rail, np.linspace(-1e-3, 1e-3, 21)).right.angle
     assert np.abs(smooth - true).mean() < 0.5 * np.abs(raw - true).mean()
 
@@ -338,5 +343,129 @@ def test_missing_matplotlib_ends_a_plot_with_code_1(monkeypatch, tmp_path):
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.delattr(contact, "plot", raising=False)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    result = call("solve", "--curvatures", 1, 1, "--plot", tmp_path / "no.png", code=1)
+    result = call("solve", "--curvatures", 1, 1, "--out", tmp_path / "no.png", code=1)
     assert "wheelrail-contact[plot]" in result.stderr
+
+
+def test_json_has_version_command_inputs_and_units():
+    words = ("--curvatures", 1.1, 0.8, "--creepage", 1e-3, 0.0, 0.1, "--load", 60e3, "--json")
+    answer = json.loads(call("solve", *words).stdout)
+    assert (answer["version"], answer["command"]) == (contact.__version__, "solve")
+    given = {
+        "load": 60e3,
+        "curvatures": [1.1, 0.8],
+        "creepage": [1e-3, 0.0, 0.1],
+        "pressure_limit": None,
+        "side": "right",
+    }
+    assert {name: answer["inputs"][name] for name in given} == given
+    wanted = {
+        "load": "N",
+        "curvatures": "1/m",
+        "creepage": "1, 1, 1/m",
+        "max_pressure": "Pa",
+        "Mz": "N m",
+        "area": "m²",
+    }
+    assert {name: answer["units"][name] for name in wanted} == wanted
+
+
+def test_every_number_of_a_solution_has_a_unit_or_is_a_count():
+    answer = json.loads(call("solve", "--json").stdout)
+    (patch,) = answer["patches"]
+    names = {name for name, value in (patch | patch["damage"]).items() if not isinstance(value, str | dict)}
+    assert names - set(answer["units"]) == {"n_patches"}
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("patch", "--out", "{}/patch.json"),
+        ("curve", "--points", 2),
+        ("geometry", "--max", 1e-3, "--step", 1e-3),
+        ("conicity", "--amplitude", 1e-3),
+        ("profiles",),
+        ("methods",),
+        ("compare", "--curvatures", 1, 1, "--no-reference"),
+    ],
+)
+def test_every_command_has_json(words, tmp_path):
+    answer = json.loads(call(*(str(word).format(tmp_path) for word in words), "--json").stdout)
+    assert (answer["version"], answer["command"]) == (contact.__version__, words[0])
+    assert {"inputs", "units"} < set(answer)
+
+
+def test_results_are_written_as_json_and_csv_with_any_command(tmp_path):
+    paths = [tmp_path / name for name in ("a.json", "a.csv")]
+    shown = json.loads(call("solve", "--json", "--out", paths[0], "--out", paths[1]).stdout)
+    assert json.loads(paths[0].read_text(encoding="utf-8")) == shown
+    (row,) = csv.DictReader(paths[1].open(encoding="utf-8"))
+    assert float(row["damage.T_gamma"]) == shown["patches"][0]["damage"]["T_gamma"]
+    assert float(row["position.1"]) == shown["patches"][0]["position"][1]
+
+
+def test_gauge_and_back_to_back_move_the_contact():
+    def on_wheel(*words):
+        return json.loads(call("solve", *words, "--json").stdout)["patches"][0]["rolling_radius"]
+
+    wheel, rail = profile.s1002(), profile.rail_60e1()
+    (patch,) = wheelset.contacts(wheel, rail, wheelset.Pose(), load=80e3, gauge=1.437, flange_back=1.357)
+    assert on_wheel("--gauge", 1.437, "--back-to-back", 1.357) == patch.rolling_radius != on_wheel()
+
+
+def test_the_contact_angle_has_one_sign_on_both_sides_and_in_all_commands():
+    answers = json.loads(call("solve", "--side", "both", "--json").stdout)["patches"]
+    left, right = (answer["contact_angle"] for answer in answers)
+    points = json.loads(call("geometry", "--max", 1e-3, "--step", 1e-3, "--json").stdout)
+    assert left == right > 0.0
+    assert min(points["right_angle"][1], points["left_angle"][1]) > 0.0
+    shown = next(line for line in call("solve", "--side", "both").stdout.splitlines() if "contact angle" in line)
+    assert "-" not in shown
+
+
+def test_units_of_headings_are_not_swallowed_by_markup():
+    assert "spin creepage [1/m]" in call("curve", "--over", "spin", "--points", 2).stdout
+    assert "amplitude [mm]" in call("conicity", "--amplitude", 1e-3).stdout
+
+
+def test_absurd_input_is_answered_with_a_warning_on_one_line():
+    for words, wanted in (
+        (("--y", -0.02), "contact: warning: pose.y = -0.02: a flange touches at about 0.007 m; the unit is m"),
+        (("--friction", 30), "contact: warning: friction = 30: steel on steel has 0.05 to 0.6"),
+        (("--creepage", -0.128, 0, 0), "contact: warning: creepage.longitudinal = -0.128: a rolling wheel has less"),
+    ):
+        result = call("solve", *words)
+        assert wanted in result.stderr
+        assert result.stderr.count("\n") == 1, "and nothing else"
+    assert call("solve").stderr == ""
+
+
+def test_an_inclination_may_be_a_ratio_on_the_command_line():
+    by_ratio, by_number = (call("solve", "--inclination", value, "--json").stdout for value in ("1/20", "0.05"))
+    assert json.loads(by_ratio)["patches"] == json.loads(by_number)["patches"]
+    assert "neither a number nor a ratio" in call("solve", "--inclination", "steep", code=2).stderr
+
+
+def test_check_names_faults_and_draws_them(tmp_path):
+    wheel = profile.s1002()
+    z = wheel.z.copy()
+    z[350] += 1e-4
+    path = tmp_path / "wheel.txt"
+    path.write_text("\n".join(f"{1e3 * a:.4f} {1e3 * b:.4f}" for a, b in zip(wheel.y, z, strict=True)))
+    words = ("check", path, "--kind", "wheel", "--profile-unit", "mm", "--profile-side", "right")
+    assert "spikes: 1 point up to 100 µm off" in call(*words).stdout
+    answer = json.loads(call(*words, "--json").stdout)
+    assert answer["files"][0]["findings"][0]["fault"] == "spikes"
+    assert "nothing found" in call(*words, "--profile-repair").stdout
+    result = call("check", tmp_path, tmp_path / "no.whl", *words[2:], code=2)
+    assert "no.whl' is missing" in result.stdout
+    assert "spikes" in result.stdout
+    pytest.importorskip("matplotlib")
+    call(*words, "--out", tmp_path / "check.png")
+    assert (tmp_path / "check.png").stat().st_size > 5000
+
+
+def test_a_file_that_cannot_be_written_is_refused_before_the_computation(tmp_path, monkeypatch):
+    monkeypatch.setattr("contact.cli.problem.solve_position", None)
+    assert "there is no folder" in call("solve", "--out", tmp_path / "no/a.csv", code=2).stderr
+    assert "a file ends in one of" in call("solve", "--out", tmp_path / "a.docx", code=2).stderr

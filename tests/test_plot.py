@@ -214,3 +214,41 @@ def test_conicity_is_drawn_over_the_amplitude_beside_the_difference():
     np.testing.assert_array_equal(left.lines[1].get_xdata(), 1e3 * found.amplitude)
     assert [text.get_text() for text in left.texts] == [f"{value:.3f}" for value in found.conicity]
     np.testing.assert_allclose(right.lines[1].get_ydata(), 1e3 * found.points.radius_difference)
+
+
+def test_sides_and_methods_look_the_same_in_every_figure():
+    both = [
+        plot.time_histories([0.0, 1.0], {"a": {"lateral": [0, 1]}, "b": {"left": [0, 1], "right": [1, 0]}}),
+        plot.time_histories([0.0, 1.0], {"b": {"right": [0, 1], "left": [1, 0]}}),
+    ]
+    seen = [{line.get_label(): line.get_color() for ax in figure.axes for line in ax.lines} for figure in both]
+    assert {side: seen[0][side] for side in ("right", "left")} == seen[1]
+    assert seen[0]["lateral"] not in seen[1].values()
+    alone, together = (
+        plot.curve([0, 1], {name: [0, 1] for name in names}) for names in (["polach"], ["fastsim", "polach"])
+    )
+    look = [
+        next((line.get_color(), line.get_linestyle()) for line in figure.axes[0].lines if line.get_label() == "polach")
+        for figure in (alone, together)
+    ]
+    assert look[0] == look[1]
+
+
+def test_all_tangential_methods_are_told_apart_and_the_legend_stands_beside_them():
+    names = list(contact.methods().tangential)
+    figure = plot.curve([0.0, 1.0], {name: [0.0, 1.0] for name in names})
+    looks = {(line.get_color(), line.get_linestyle()) for line in figure.axes[0].lines if line.get_label() in names}
+    assert len(looks) == len(names) >= 16
+    figure.canvas.draw()
+    legend = figure.axes[0].get_legend().get_window_extent()
+    assert legend.x0 >= figure.axes[0].get_window_extent().x1
+
+
+def test_the_slip_in_the_title_is_that_of_the_drawn_zones():
+    s = contact.solve(
+        contact.Separation.hertzian(1.1, 0.8), contact.Creepage(1e-3, 0.0, 0.3), load=80e3, n_strips=40, n_elements=40
+    )
+    inside = s.p > 0.0
+    share = s.dA[inside & ~s.stick].sum() / s.dA[inside].sum()
+    assert 0.05 < share < 0.95
+    assert f"slip {100.0 * share:.0f} %" in plot.patch(s).axes[0].get_title(loc="left")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -17,17 +16,17 @@ import contact
 from contact.cli import creep_table, extras, problem, report
 from contact.cli import options as opt
 from contact.cli.compare import compare
+from contact.cli.document import flat
 from contact.cli.geometry import conicity, list_profiles
 from contact.cli.geometry import geometry as points
 from contact.cli.manchester import manchester
-from contact.cli.output import drawing, reported, write_csv, write_picture
+from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.plugins import add_plugins
 from contact.cli.problem import Position, Touch
+from contact.cli.profile_check import check
 from contact.cli.statistics import statistics
 from contact.creepage import Creepage
 from contact.errors import require_number
-from contact.friction import ROOM_TEMPERATURE
-from contact.geometry import profile
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, methods
 
 PICTURE_RESOLUTION = {"n_strips": 60, "n_elements": 60}
@@ -49,130 +48,78 @@ app = typer.Typer(
 def solve(
     context: typer.Context,
     *,
-    wheel: opt.WheelName = "s1002",
-    rail: opt.RailName = "60e1",
-    inclination: opt.Inclination = None,
-    unit: opt.Unit = None,
-    drawn_side: opt.Drawn = None,
-    smoothing: opt.Smoothing = None,
-    radius: opt.Radius = 0.46,
+    place: opt.Place,
+    reading: opt.Reading,
     side: opt.Sides = opt.Side.right,
-    y: opt.Y = 0.0,
-    roll: opt.Roll = 0.0,
-    yaw: opt.Yaw = 0.0,
-    speed: opt.Speed = 20.0,
-    load: opt.Load = None,
-    penetration: opt.Penetration = None,
-    friction: opt.Friction = 0.3,
-    falling: opt.Falling = None,
-    slip_velocity: opt.SlipVelocity = "global",
-    gauge_friction: opt.GaugeFriction = None,
-    hot: opt.Hot = None,
-    temperature: opt.Background = ROOM_TEMPERATURE,
-    pressure_limit: opt.PressureLimit = math.inf,
-    creepage: opt.Creep = None,
+    amount: opt.Amount,
     curvatures: opt.Curvatures = None,
+    surface: opt.Surface,
+    gauge_friction: opt.GaugeFriction = None,
+    pressure_limit: opt.PressureLimit = math.inf,
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangential = DEFAULT_TANGENTIAL,
     conformal: opt.Conformal = False,
     as_json: opt.Json = False,
-    plot: opt.Plot = None,
+    out: opt.Files = None,
 ) -> None:
     """Solve the contact of a wheel on a rail, or of two curvatures: patch, forces, damage.
 
     Examples:  contact solve --y 3e-3 --load 80e3   ·   contact solve --curvatures 1.1 0.8 --creepage 1e-3 0 0.1
     """
-    if plot is not None:
-        drawing()
-    surface = opt.surface(friction, falling, slip_velocity, gauge_friction, hot, temperature)
-    material = opt.steel(pressure_limit)
-    options = {"friction": surface, "material": material, "normal": normal, "tangential": tangential}
-    options |= PICTURE_RESOLUTION if plot else {}
-    given = None if creepage is None else Creepage(*creepage)
+    prepare(out)
+    options = {"friction": surface.law(gauge_friction), "material": opt.steel(pressure_limit)}
+    options |= {"normal": normal, "tangential": tangential, **(PICTURE_RESOLUTION if out else {})}
     opt.require_use(context)
     if curvatures is not None:
-        touches = [problem.solve_hertzian(curvatures, load, penetration, given, options | {"speed": speed})]
+        hertzian = problem.solve_hertzian(
+            curvatures, amount.load, amount.penetration, amount.given, options | {"speed": place.speed}
+        )
+        touches = [hertzian]
         title = f"Half curvatures {curvatures[0]:g} and {curvatures[1]:g} 1/m"
     else:
-        case = _position(
-            wheel, rail, opt.reading(inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed
-        )
-        touches = problem.solve_position(case, load, penetration, given, options | {"conformal": conformal})
+        case = place.position(reading, side)
+        options |= {"conformal": conformal}
+        touches = problem.solve_position(case, amount.load, amount.penetration, amount.given, options)
         title = _title(case)
-    if as_json:
-        patches = [report.data(touch, radius) for touch in touches]
-        typer.echo(json.dumps({"version": contact.__version__, "patches": patches}, indent=2))
-    else:
-        report.show(touches, title, radius, Console())
-    if plot is not None:
-        _draw(plot, touches, lambda drawn: drawn.patch([t.solution for t in touches], [t.name for t in touches]))
+    _deliver(touches, title, place.radius, as_json, out, lambda drawn: drawn.patch(*_named(touches)))
 
 
 @app.command()
 @reported
 def patch(
     *,
-    wheel: opt.WheelName = "s1002",
-    rail: opt.RailName = "60e1",
-    inclination: opt.Inclination = None,
-    unit: opt.Unit = None,
-    drawn_side: opt.Drawn = None,
-    smoothing: opt.Smoothing = None,
-    radius: opt.Radius = 0.46,
+    place: opt.Place,
+    reading: opt.Reading,
     side: opt.Sides = opt.Side.both,
-    y: opt.Y = 0.0,
-    roll: opt.Roll = 0.0,
-    yaw: opt.Yaw = 0.0,
-    speed: opt.Speed = 20.0,
-    load: opt.Load = None,
-    penetration: opt.Penetration = None,
-    friction: opt.Friction = 0.3,
-    falling: opt.Falling = None,
-    slip_velocity: opt.SlipVelocity = "global",
+    amount: opt.Amount,
+    surface: opt.Surface,
     gauge_friction: opt.GaugeFriction = None,
-    hot: opt.Hot = None,
-    temperature: opt.Background = ROOM_TEMPERATURE,
     pressure_limit: opt.PressureLimit = math.inf,
-    creepage: opt.Creep = None,
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangential = DEFAULT_TANGENTIAL,
     conformal: opt.Conformal = False,
-    out: opt.Out = Path("patch.png"),
+    as_json: opt.Json = False,
+    out: opt.Files = None,
 ) -> None:
     """Draw the contact patches of a wheelset position: profiles, pressure, stick and slip, tractions, energy index.
 
-    Example:  contact patch --y 6e-3 --yaw 2e-3 --out flange.png
+    Without --out it writes patch.png. Example:  contact patch --y 6e-3 --yaw 2e-3 --out flange.png
     """
     drawing()
-    case = _position(
-        wheel, rail, opt.reading(inclination, unit, drawn_side, smoothing), radius, side, y, roll, yaw, speed
-    )
-    surface = opt.surface(friction, falling, slip_velocity, gauge_friction, hot, temperature)
-    material = opt.steel(pressure_limit)
-    options = {
-        "friction": surface,
-        "material": material,
-        "normal": normal,
-        "tangential": tangential,
-        **PICTURE_RESOLUTION,
-    }
-    options |= {"conformal": conformal}
-    touches = problem.solve_position(
-        case, load, penetration, None if creepage is None else Creepage(*creepage), options
-    )
-    report.show(touches, _title(case), radius, Console())
+    case = place.position(reading, side)
+    options = {"friction": surface.law(gauge_friction), "material": opt.steel(pressure_limit)}
+    options |= {"normal": normal, "tangential": tangential, "conformal": conformal, **PICTURE_RESOLUTION}
+    touches = problem.solve_position(case, amount.load, amount.penetration, amount.given, options)
     sides = {name: [t for t in touches if t.side == name] for name in case.sides}
-    _draw(
-        out,
-        touches,
-        lambda drawn: drawn.position(
-            [
-                drawn.Wheel(name, case.wheel, case.rail, [t.patch for t in one], [t.solution for t in one])
-                for name, one in sides.items()
-            ],
-            roll,
-        ),
-    )
+
+    def figure(drawn: Any) -> Any:
+        wheels = [
+            drawn.Wheel(name, case.wheel, case.rail, [t.patch for t in one], [t.solution for t in one])
+            for name, one in sides.items()
+        ]
+        return drawn.position(wheels, place.roll)
+
+    _deliver(touches, _title(case), place.radius, as_json, out or [Path("patch.png")], figure)
 
 
 @app.command()
@@ -186,27 +133,21 @@ def curve(
     creepage: opt.Creep = None,
     load: opt.Load = None,
     speed: opt.Speed = 20.0,
-    friction: opt.Friction = 0.3,
-    falling: opt.Falling = None,
-    slip_velocity: opt.SlipVelocity = "global",
-    hot: opt.Hot = None,
-    temperature: opt.Background = ROOM_TEMPERATURE,
+    surface: opt.Surface,
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangentials = [DEFAULT_TANGENTIAL],  # noqa: B006 (typer copies it)
-    table: opt.Csv = None,
-    plot: opt.Plot = None,
+    as_json: opt.Json = False,
+    out: opt.Files = None,
 ) -> None:
     """Compute creep curves: force over one creepage, for one or several tangential methods. The others are in --creepage.
 
-    Example:  contact curve --over lateral --tangential fastrip --tangential fastsim --plot curve.png
+    Example:  contact curve --over lateral --tangential fastrip --tangential fastsim --out curve.png
     """
-    if plot is not None:
-        drawing()
+    prepare(out)
     end = largest if largest is not None else (1.0 if over is opt.Motion.spin else 0.01)
     start = Creepage() if creepage is None else Creepage(*creepage)
     values = np.linspace(0.0, require_number("max", end), points).tolist()
-    surface = opt.surface(friction, falling, slip_velocity, hot=hot, background=temperature)
-    options = {"friction": surface, "normal": normal, "speed": speed}
+    options = {"friction": surface.law(), "normal": normal, "speed": speed}
     rows = problem.sweep(over.value, values, start, curvatures, load, tangential, options)
     force, unit = ("Fx" if over is opt.Motion.longitudinal else "Fy"), ("1/m" if over is opt.Motion.spin else "-")
     axis, ordinate = f"{over} creepage [{unit}]", f"−{force}/N"
@@ -214,11 +155,14 @@ def curve(
         method: [0.0 - row[force] / max(row["N"], 1e-300) for row in rows if row["tangential"] == method]
         for method in tangential
     }
-    report.show_curve(values, curves, axis, ordinate, Console())
-    if table is not None:
-        write_csv(rows, table)
-    if plot is not None:
-        write_picture(drawing().curve(values, curves, xlabel=axis, ylabel=f"{ordinate} [-]", limit=friction), plot)
+    deliver(
+        {"rows": rows},
+        show=lambda console: report.show_curve(values, curves, axis, ordinate, console),
+        as_json=as_json,
+        out=out,
+        rows=lambda: rows,
+        figure=lambda: drawing().curve(values, curves, xlabel=axis, ylabel=f"{ordinate} [-]", limit=surface.friction),
+    )
 
 
 app.command()(compare)
@@ -226,14 +170,22 @@ app.command()(statistics)
 app.command("geometry")(points)
 app.command()(conicity)
 app.command("profiles")(list_profiles)
+app.command()(check)
 app.command()(manchester)
 app.add_typer(creep_table.app)
 
 
 @app.command("methods")
-def list_methods() -> None:
+@reported
+def list_methods(as_json: opt.Json = False) -> None:
     """List the normal and tangential methods and what each can do."""
-    report.show_methods(methods(), Console())
+    known = methods()
+    names = ("name", "title", "source", "abilities")
+    content = {
+        kind: [{name: getattr(method, name) for name in names} for method in of_kind.values()]
+        for kind, of_kind in known._asdict().items()
+    }
+    deliver(content, show=lambda console: report.show_methods(known, console), as_json=as_json)
 
 
 @app.callback(invoke_without_command=True)
@@ -255,27 +207,6 @@ def run(arguments: Sequence[str]) -> None:
     app(args=list(arguments), prog_name="contact")
 
 
-def _position(
-    wheel: str,
-    rail: str,
-    reading: dict[str, Any],
-    radius: float,
-    side: opt.Side,
-    y: float,
-    roll: float,
-    yaw: float,
-    speed: float,
-) -> Position:
-    return Position(
-        profile.load(wheel, "wheel", **reading),
-        profile.load(rail, "rail", **reading),
-        ("left", "right") if side is opt.Side.both else (side.value,),
-        problem.Pose(y=y, roll=roll, yaw=yaw),
-        speed,
-        radius,
-    )
-
-
 def _title(case: Position) -> str:
     pose = case.pose
     return (
@@ -284,9 +215,32 @@ def _title(case: Position) -> str:
     )
 
 
-def _draw(path: Path, touches: Sequence[Touch], picture: Callable[[Any], Any]) -> None:
-    """Write the figure that `picture` makes with `contact.plot`. Without contact, print a message instead."""
-    if touches:
-        write_picture(picture(drawing()), path)
-    else:
-        typer.echo("no contact: no picture is written", err=True)
+def _named(touches: Sequence[Touch]) -> tuple[list[Any], list[str]]:
+    return [touch.solution for touch in touches], [touch.name for touch in touches]
+
+
+def _deliver(
+    touches: Sequence[Touch],
+    title: str,
+    radius: float,
+    as_json: bool,
+    out: Sequence[Path] | None,
+    picture: Callable[[Any], Any],
+) -> None:
+    """Print solved patches and write them to files. `picture` draws them with `contact.plot`; without contact there is none."""
+    patches = [report.data(touch, radius) for touch in touches]
+    if not touches and out:
+        typer.echo("no contact: no picture and no table is written", err=True)
+        out = [path for path in out if path.suffix.lower() == ".json"]
+
+    def show(console: Console) -> None:
+        report.show(touches, title, radius, console)
+
+    deliver(
+        {"patches": patches},
+        show=show,
+        as_json=as_json,
+        out=out,
+        rows=lambda: [flat(row) for row in patches],
+        figure=lambda: picture(drawing()),
+    )

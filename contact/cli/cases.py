@@ -12,22 +12,24 @@ import json
 import tomllib
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 from contact.cli import options as opt
-from contact.cli.problem import OF_A_POSITION, Position, amount_of, find_patches, standard_load
+from contact.cli.problem import OF_A_POSITION, amount_of, find_patches, standard_load
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
-from contact.geometry import profile
-from contact.geometry.wheelset import Pose
 from contact.separation import Separation
 from contact.study import Case
 
-_TEXTS = ("name", "wheel", "rail", "unit", "drawn_side", "side")
-_NUMBERS = ("inclination", "smoothing", "radius", "y", "roll", "yaw", "speed", "load", "penetration", "friction")
+_TEXTS = ("name", "wheel", "rail", "inclination", "profile_unit", "profile_side", "profile_zero", "side")
+_NUMBERS = (
+    *("profile_smoothing", "profile_wavelength", "radius", "gauge", "back_to_back"),
+    *("y", "roll", "yaw", "speed", "load", "penetration", "friction"),
+)
+_SWITCHES = {"profile_repair": {"true": True, "false": False}}
 _LISTS = {"creepage": 3, "curvatures": 2}
-_SIDES = {"left": ("left",), "right": ("right",), "both": ("left", "right")}
 
 
 def read(path: Path, defaults: Mapping[str, Any]) -> list[Case]:
@@ -83,12 +85,12 @@ def cases_of(given: Mapping[str, Any]) -> list[Case]:
                 **common,
             )
         ]
-    if given["side"] not in _SIDES:
-        raise ContactError(f"side = {given['side']!r} is none of {', '.join(_SIDES)}")
-    reading = opt.reading(*(given[option] for option in ("inclination", "unit", "drawn_side", "smoothing")))
-    wheel, rail = (profile.load(given[kind], kind, **reading) for kind in ("wheel", "rail"))
-    pose = Pose(y=given["y"], roll=given["roll"], yaw=given["yaw"])
-    position = Position(wheel, rail, _SIDES[given["side"]], pose, given["speed"], given["radius"])
+    if given["side"] not in list(opt.Side):
+        raise ContactError(f"side = {given['side']!r} is none of {', '.join(opt.Side)}")
+    place = opt.Place(**{entry.name: given[entry.name] for entry in fields(opt.Place)})
+    reading = opt.Reading(**{entry.name: given[entry.name] for entry in fields(opt.Reading)})
+    position = place.position(reading, opt.Side(given["side"]))
+    pose = position.pose
     found = list(find_patches(position, load, penetration))
     name = name or f"y = {1e3 * pose.y:g} mm, yaw {1e3 * pose.yaw:g} mrad"
     return [
@@ -132,12 +134,18 @@ def _value(where: str, name: str, value: Any) -> Any:
         return str(value)
     if name in _NUMBERS:
         return _number(f"{where}: {name}", value)
+    if name in _SWITCHES:
+        if str(value).lower() not in _SWITCHES[name]:
+            raise ContactError(f"{where}: {name} = {value!r} is neither true nor false")
+        return _SWITCHES[name][str(value).lower()]
     if name in _LISTS:
         parts = value.split() if isinstance(value, str) else value
         if not isinstance(parts, list) or len(parts) != _LISTS[name]:
             raise ContactError(f"{where}: {name} = {value!r} is not a list of {_LISTS[name]} numbers")
         return tuple(_number(f"{where}: {name}", part) for part in parts)
-    raise ContactError(f"{where}: unknown name {name!r}; allowed: {', '.join((*_TEXTS, *_NUMBERS, *_LISTS))}")
+    raise ContactError(
+        f"{where}: unknown name {name!r}; allowed: {', '.join((*_TEXTS, *_NUMBERS, *_SWITCHES, *_LISTS))}"
+    )
 
 
 def _number(name: str, value: Any) -> float:

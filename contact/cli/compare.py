@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 from rich.console import Console
@@ -49,22 +49,11 @@ def compare(
     context: typer.Context,
     file: File = None,
     *,
-    wheel: opt.WheelName = "s1002",
-    rail: opt.RailName = "60e1",
-    inclination: opt.Inclination = None,
-    unit: opt.Unit = None,
-    drawn_side: opt.Drawn = None,
-    smoothing: opt.Smoothing = None,
-    radius: opt.Radius = 0.46,
+    place: opt.Place,
+    reading: opt.Reading,
     side: opt.Sides = opt.Side.right,
-    y: opt.Y = 0.0,
-    roll: opt.Roll = 0.0,
-    yaw: opt.Yaw = 0.0,
-    speed: opt.Speed = 20.0,
-    load: opt.Load = None,
-    penetration: opt.Penetration = None,
+    amount: opt.Amount,
     friction: opt.Friction = 0.3,
-    creepage: opt.Creep = None,
     curvatures: opt.Curvatures = None,
     methods: Methods = None,
     every: All = False,
@@ -72,7 +61,7 @@ def compare(
     resolution: Resolution = RESOLUTION,
     reference_elements: Elements = REFERENCE_ELEMENTS,
     as_json: opt.Json = False,
-    out: opt.Files = None,
+    out: opt.Pages = None,
 ) -> None:
     """Solve the same contact with several methods and compare forces, patches, times and errors against the half space.
 
@@ -80,11 +69,8 @@ def compare(
     """
     require_endings(out or [])
     opt.require_use(context)
-    given: dict[str, Any] = {
-        "wheel": wheel, "rail": rail, "inclination": inclination, "unit": unit, "drawn_side": drawn_side,
-        "smoothing": smoothing, "radius": radius, "side": side.value, "y": y, "roll": roll, "yaw": yaw, "speed": speed,
-        "load": load, "penetration": penetration, "friction": friction, "creepage": creepage, "curvatures": curvatures,
-    }  # fmt: skip
+    given = vars(place) | vars(reading) | vars(amount)
+    given |= {"side": side.value, "friction": friction, "curvatures": curvatures}
     problems = cases.cases_of(given) if file is None else cases.read(file, given)
     if not problems:
         Console().print("no contact: there is nothing to compare")

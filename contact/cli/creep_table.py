@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 from contact import force_table as table
-from contact.cli.output import reported
+from contact.cli import options as opt
+from contact.cli.output import deliver, reported
 from contact.cli.progress import progress_bar
 from contact.study import creep_table
 from contact.study import effective as effective_creepage
@@ -28,6 +29,7 @@ def build(
         int, typer.Option(min=10, max=400, help="rows and columns of the half space on the ellipse")
     ] = 60,
     processes: Annotated[int | None, typer.Option(min=1, help="processes", show_default="all cores")] = None,
+    as_json: opt.Json = False,
 ) -> None:
     """Compute the table with the half space: 4104 cases, some minutes. An interrupted run continues where it stopped.
 
@@ -35,6 +37,7 @@ def build(
     """
     with progress_bar() as bar:
         creep_table.build(out, elements, processes=processes, progress=bar)
+    deliver({"files": [str(out)]}, show=lambda console: None, as_json=as_json)
     typer.echo(f"wrote {out}", err=True)
 
 
@@ -43,6 +46,7 @@ def build(
 def effective(
     out: Annotated[Path, typer.Option(help="CSV file")],
     forces: Annotated[Path, typer.Option(help="table of creep forces, from `contact table build`")] = table.FILE,
+    as_json: opt.Json = False,
 ) -> None:
     """Fit the effective creepages of `fastrip_mapped` to the table of creep forces. It takes two minutes and needs scipy.
 
@@ -50,4 +54,5 @@ def effective(
     """
     with progress_bar() as bar:
         effective_creepage.build(out, forces, progress=bar)
+    deliver({"files": [str(out)]}, show=lambda console: None, as_json=as_json)
     typer.echo(f"wrote {out}", err=True)

@@ -6,7 +6,7 @@ from importlib.util import find_spec
 
 #: Extra → a module that it installs, and what needs it.
 EXTRAS = {
-    "plot": ("matplotlib", "pictures: patch, demo, run, wear, --plot"),
+    "plot": ("matplotlib", "pictures: patch, demo, run, wear, --out"),
     "xarray": ("xarray", "result files: run, wear"),
     "profiles": ("scipy", "smoothing of measured profiles"),
     "scale": ("dask", "wear on several processes"),

@@ -33,7 +33,7 @@ def manchester(
     resolution: Resolution = RESOLUTION,
     reference_elements: Elements = REFERENCE_ELEMENTS,
     as_json: opt.Json = False,
-    out: opt.Files = None,
+    out: opt.Pages = None,
 ) -> None:
     """Compute the Manchester contact benchmark (A-2.2) and compare it with the results of CONTACT.
 

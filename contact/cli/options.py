@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
-from contact import friction
-from contact.cli.problem import OF_A_POSITION, STANDARD_LOAD
+from contact.cli.problem import OF_A_POSITION, STANDARD_LOAD, Pose, Position
+from contact.creepage import Creepage
 from contact.errors import ContactError
-from contact.friction import LAWS, ROOM_TEMPERATURE, VELOCITIES
+from contact.friction import LAWS, ROOM_TEMPERATURE, VELOCITIES, as_friction
+from contact.friction import Friction as Law
+from contact.geometry import profile
 from contact.material import STEEL, Material
 
 
@@ -41,13 +43,36 @@ RailName = Annotated[
     str, typer.Option("--rail", help="a name from `contact profiles`, or a file", rich_help_panel=PROFILES)
 ]
 Inclination = Annotated[
-    float | None, typer.Option(help="inclination of a rail of EN 13674-1; default 0.025", rich_help_panel=PROFILES)
+    str | None,
+    typer.Option(help="inclination of a rail of EN 13674-1, like 1/40 or 0.05; default 1/40", rich_help_panel=PROFILES),
 ]
-Unit = Annotated[str | None, typer.Option(help="unit of profile files: mm or m", rich_help_panel=PROFILES)]
-Drawn = Annotated[str | None, typer.Option(help="side shown by profile files: right or left", rich_help_panel=PROFILES)]
+Unit = Annotated[
+    str | None, typer.Option(help=f"unit of profile files: {', '.join(profile.UNITS)}", rich_help_panel=PROFILES)
+]
+Drawn = Annotated[
+    str | None, typer.Option(help=f"side that profile files show: {', '.join(profile.SIDES)}", rich_help_panel=PROFILES)
+]
+Zero = Annotated[
+    str | None,
+    typer.Option(help=f"zero of profile files: {', '.join(profile.ZEROS)}", rich_help_panel=PROFILES),
+]
+Repair = Annotated[
+    bool,
+    typer.Option(
+        "--profile-repair",
+        help="sort rows, keep one scan, drop spikes and back steps of profile files",
+        rich_help_panel=PROFILES,
+    ),
+]
 Smoothing = Annotated[
     float | None,
     typer.Option(help="noise of profile files in m, to be removed by smoothing, like 2e-6", rich_help_panel=PROFILES),
+]
+Wavelength = Annotated[
+    float | None,
+    typer.Option(
+        help="instead: waves of this length in m along the profile are halved, like 3e-3", rich_help_panel=PROFILES
+    ),
 ]
 Radius = Annotated[float, typer.Option(help="nominal rolling radius in m", rich_help_panel=PROFILES)]
 Sides = Annotated[Side, typer.Option(help="which wheel", rich_help_panel=POSITION)]
@@ -131,8 +156,7 @@ Tangential = Annotated[str, typer.Option(help="tangential method", rich_help_pan
 Tangentials = Annotated[
     list[str], typer.Option("--tangential", help="tangential method; repeat to compare", rich_help_panel=METHOD)
 ]
-Json = Annotated[bool, typer.Option("--json", help="print JSON instead of a table", rich_help_panel=OUTPUT)]
-Plot = Annotated[Path | None, typer.Option(help="write a picture: .png, .pdf or .svg", rich_help_panel=OUTPUT)]
+Json = Annotated[bool, typer.Option("--json", help="print JSON with inputs, units and version", rich_help_panel=OUTPUT)]
 Over = Annotated[Motion, typer.Option(help="creepage to vary", rich_help_panel=LOADING)]
 Largest = Annotated[
     float | None,
@@ -168,14 +192,113 @@ Amplitudes = Annotated[
         show_default=False,
     ),
 ]
-Out = Annotated[Path, typer.Option(help="file of the picture: .png, .pdf or .svg", rich_help_panel=OUTPUT)]
-Csv = Annotated[Path | None, typer.Option("--csv", help="write the table to this file", rich_help_panel=OUTPUT)]
+CurveRadius = Annotated[
+    list[float] | None,
+    typer.Option(help="radius of a curve in m, for the radial steering index; may be repeated", rich_help_panel=TRACK),
+]
 Files = Annotated[
+    list[Path] | None,
+    typer.Option("--out", help="write .png, .pdf, .svg, .csv or .json; may be repeated", rich_help_panel=OUTPUT),
+]
+Pages = Annotated[
     list[Path] | None,
     typer.Option(
         "--out", help="write .html, .md, .json, .csv, .png, .pdf or .svg; may be repeated", rich_help_panel=OUTPUT
     ),
 ]
+
+
+@dataclass
+class Reading:
+    """How profiles are read: the arguments of `contact.geometry.profile.load`, with the prefix `profile`."""
+
+    inclination: Inclination = None
+    profile_unit: Unit = None
+    profile_side: Drawn = None
+    profile_zero: Zero = None
+    profile_repair: Repair = False
+    profile_smoothing: Smoothing = None
+    profile_wavelength: Wavelength = None
+
+    def load(self, name: str, kind: profile.Kind) -> profile.Profile:
+        """Return the profile with this name or in this file."""
+        options = {
+            key.removeprefix("profile_"): value for key, value in vars(self).items() if key.startswith("profile_")
+        }
+        return profile.load(name, kind, inclination=self.inclination, **options)
+
+
+@dataclass
+class Surface:
+    """Friction."""
+
+    friction: Friction = 0.3
+    falling: Falling = None
+    slip_velocity: SlipVelocity = "global"
+    hot: Hot = None
+    temperature: Background = ROOM_TEMPERATURE
+
+    def law(self, gauge: tuple[float, float, float] | None = None) -> Law:
+        """Return the friction options as an argument of `contact.solve`."""
+        law, kinetic, half_speed = self.falling or ("coulomb", self.friction, 1.0)
+        factor, border, width = gauge or (1.0, 0.0, 1.0)
+        hot_factor, reference, over = self.hot or (1.0, self.temperature, 1.0)
+        return replace(
+            as_friction(self.friction),
+            kinetic=kinetic,
+            half_speed=half_speed,
+            law=law,
+            velocity=self.slip_velocity,
+            gauge_factor=factor,
+            border=border,
+            border_width=width,
+            hot_factor=hot_factor,
+            reference_temperature=reference,
+            temperature_range=over,
+            background_temperature=self.temperature,
+        )
+
+
+@dataclass
+class Place:
+    """A wheelset on its rails."""
+
+    wheel: WheelName = "s1002"
+    rail: RailName = "60e1"
+    radius: Radius = 0.46
+    gauge: Gauge = 1.435
+    back_to_back: BackToBack = 1.360
+    y: Y = 0.0
+    roll: Roll = 0.0
+    yaw: Yaw = 0.0
+    speed: Speed = 20.0
+
+    def position(self, reading: Reading, side: Side) -> Position:
+        """Return the wheelset with its profiles."""
+        return Position(
+            reading.load(self.wheel, "wheel"),
+            reading.load(self.rail, "rail"),
+            ("left", "right") if side is Side.both else (side.value,),
+            Pose(y=self.y, roll=self.roll, yaw=self.yaw),
+            self.speed,
+            self.radius,
+            self.gauge,
+            self.back_to_back,
+        )
+
+
+@dataclass
+class Amount:
+    """Load and creepage."""
+
+    load: Load = None
+    penetration: Penetration = None
+    creepage: Creep = None
+
+    @property
+    def given(self) -> Creepage | None:
+        """The creepage of the options, instead of that of the rolling wheelset."""
+        return None if self.creepage is None else Creepage(*self.creepage)
 
 
 def require_use(context: typer.Context) -> None:
@@ -195,41 +318,6 @@ def require_use(context: typer.Context) -> None:
         raise ContactError(f"{', '.join(idle)}: --curvatures replaces wheel, rail and position")
 
 
-def surface(
-    static: float,
-    falling: tuple[str, float, float] | None,
-    velocity: str,
-    gauge: tuple[float, float, float] | None = None,
-    hot: tuple[float, float, float] | None = None,
-    background: float = ROOM_TEMPERATURE,
-) -> friction.Friction:
-    """Return the friction options as an argument of `contact.solve`."""
-    law, kinetic, half_speed = falling or ("coulomb", static, 1.0)
-    factor, border, width = gauge or (1.0, 0.0, 1.0)
-    hot_factor, reference, over = hot or (1.0, background, 1.0)
-    return replace(
-        friction.as_friction(static),
-        kinetic=kinetic,
-        half_speed=half_speed,
-        law=law,
-        velocity=velocity,
-        gauge_factor=factor,
-        border=border,
-        border_width=width,
-        hot_factor=hot_factor,
-        reference_temperature=reference,
-        temperature_range=over,
-        background_temperature=background,
-    )
-
-
 def steel(pressure_limit: float) -> Material:
     """Return STEEL with a pressure limit [Pa]."""
     return replace(STEEL, pressure_limit=pressure_limit)
-
-
-def reading(
-    inclination: float | None, unit: str | None, drawn_side: str | None, smoothing: float | None
-) -> dict[str, Any]:
-    """Return the profile options as arguments of `contact.geometry.profile.load`."""
-    return {"inclination": inclination, "unit": unit, "side": drawn_side, "smoothing": smoothing}

@@ -3,26 +3,38 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Sequence
+import warnings
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
 import typer
+from rich.console import Console
 
+from contact.cli.document import document, running
 from contact.cli.extras import EXTRAS, missing
-from contact.errors import ContactError
+from contact.cli.groups import expanded
+from contact.errors import ContactError, PlausibilityWarning
 from contact.study.files import PICTURES, csv_of, require_ending, write
 
 Command = TypeVar("Command", bound=Callable[..., None])
 
 
 def reported(command: Command) -> Command:
-    """Return the command with errors as messages on stderr: exit code 2 for bad input, 1 for a missing extra."""
+    """Return the command with its groups of options, and with errors and warnings as messages on stderr.
+
+    The exit code is 2 for bad input and 1 for a missing extra.
+    """
+    command = expanded(command)
+    name = command.__name__.removeprefix("list_")
 
     @functools.wraps(command)
     def wrapper(*args: Any, **kwargs: Any) -> None:
         try:
-            command(*args, **kwargs)
+            with warnings.catch_warnings(), running(name, kwargs):
+                warnings.simplefilter("always", PlausibilityWarning)
+                warnings.showwarning = _say  # type: ignore[assignment]
+                command(*args, **kwargs)
         except ContactError as error:
             stop(str(error), 2)
         except ImportError as error:
@@ -31,6 +43,13 @@ def reported(command: Command) -> Command:
             stop(str(error), 1)
 
     return wrapper  # type: ignore[return-value]
+
+
+def _say(message: Warning | str, category: type[Warning], *place: Any) -> None:
+    """Print a warning on one line, in place of `warnings.showwarning`."""
+    typer.echo(
+        f"contact: {'warning' if issubclass(category, PlausibilityWarning) else category.__name__}: {message}", err=True
+    )
 
 
 def drawing() -> Any:
@@ -49,14 +68,37 @@ def require_extra(extra: str) -> None:
         stop(f"{module} is missing ({use}): pip install 'wheelrail-contact[{extra}]'", 1)
 
 
-def write_picture(figure: Any, path: Path) -> None:
-    write(path, {}, lambda: figure)
-    typer.echo(f"wrote {path}", err=True)
+def deliver(
+    content: Mapping[str, Any],
+    *,
+    show: Callable[[Console], None],
+    as_json: bool = False,
+    out: Sequence[Path] | None = None,
+    rows: Callable[[], Sequence[Mapping[str, Any]]] | None = None,
+    figure: Callable[[], Any] | None = None,
+) -> None:
+    """Print results, or their JSON, and write them to each of the files `out`: JSON, rows as CSV, or the figure."""
+    text = document(content) if as_json or any(path.suffix.lower() == ".json" for path in out or []) else ""
+    if as_json:
+        typer.echo(text)
+    else:
+        show(Console())
+    texts: dict[str, Callable[[], str]] = {".json": lambda: f"{text}\n"}
+    if rows is not None:
+        texts[".csv"] = lambda: csv_of(rows())
+    for path in out or []:
+        write(path, texts, figure)
+        typer.echo(f"wrote {path}", err=True)
 
 
-def write_csv(rows: Sequence[dict[str, Any]], path: Path) -> None:
-    write(path, {".csv": lambda: csv_of(rows)})
-    typer.echo(f"wrote {path}", err=True)
+def prepare(out: Sequence[Path] | None) -> None:
+    """Refuse, before the computation, files that cannot be written, and pictures if matplotlib is missing."""
+    for path in out or []:
+        require_ending(path, (".csv", ".json", *PICTURES))
+        if not path.absolute().parent.is_dir():
+            raise ContactError(f"{path} cannot be written: there is no folder {str(path.parent)!r}")
+    if any(path.suffix.lower() in PICTURES for path in out or []):
+        drawing()
 
 
 def require_endings(paths: Sequence[Path]) -> None:

@@ -18,7 +18,10 @@ from contact.solve import solve
 STANDARD_LOAD = 80e3  # load [N] if neither load nor penetration is given
 #: Options that do not apply to two given curvatures. Speed and radius do apply; its damage depends on them.
 OF_A_POSITION = frozenset(
-    {"wheel", "rail", "inclination", "unit", "drawn_side", "smoothing", "side", "y", "roll", "yaw", "conformal"}
+    {
+        *("wheel", "rail", "inclination", "profile_unit", "profile_side", "profile_zero", "profile_repair"),
+        *("profile_smoothing", "profile_wavelength", "gauge", "back_to_back", "side", "y", "roll", "yaw", "conformal"),
+    }
 )
 
 
@@ -39,7 +42,7 @@ class Touch:
 
 @dataclass(frozen=True)
 class Position:
-    """A wheelset on its rails: profiles in the right-side convention, sides to solve, pose, speed [m/s] and radius [m]."""
+    """A wheelset on its rails: profiles in the right-side convention, sides to solve, pose, speed [m/s], lengths [m]."""
 
     wheel: Profile
     rail: Profile
@@ -47,6 +50,8 @@ class Position:
     pose: Pose
     speed: float
     radius: float
+    gauge: float = 1.435
+    back_to_back: float = 1.360
 
 
 def find_patches(case: Position, load: float | None, penetration: float | None) -> Iterator[tuple[str, int, Patch]]:
@@ -62,6 +67,8 @@ def find_patches(case: Position, load: float | None, penetration: float | None) 
             penetration=penetration,
             side=side,
             nominal_radius=case.radius,
+            gauge=case.gauge,
+            flange_back=case.back_to_back,
         )
         for number, patch in enumerate(found, 1):
             yield side, number, patch

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 from contact.cli.problem import Touch
@@ -16,8 +17,17 @@ from contact.registry import Methods
 from contact.solution import Solution
 from contact.study.table import number
 
+
+def contact_angle(touch: Touch) -> float:
+    """Return the contact angle [rad], positive if the rail pushes the wheel to the track's centre, on either side.
+
+    `Patch.angle` turns the track frame into the contact frame, so its sign differs from side to side.
+    """
+    angle = touch.patch.angle if touch.patch is not None else 0.0
+    return angle if touch.side == "left" else -angle
+
+
 PLACE: Sequence[tuple[str, str, Callable[[Patch], float]]] = (
-    ("contact angle", "°", lambda p: math.degrees(p.angle)),
     ("position y", "mm", lambda p: 1e3 * p.position[1]),
     ("position z", "mm", lambda p: 1e3 * p.position[2]),
     ("rolling radius", "mm", lambda p: 1e3 * p.rolling_radius),
@@ -61,15 +71,16 @@ LOCAL_DAMAGE: Sequence[tuple[str, str, Callable[[Damage], float]]] = (
 def show(touches: Sequence[Touch], title: str, wheel_radius: float, console: Console) -> None:
     """Print the patches side by side: place, contact, damage."""
     if not touches:
-        console.print(f"[bold]{title}[/bold]\nno contact: all forces are zero")
+        console.print(f"[bold]{escape(title)}[/bold]\nno contact: all forces are zero")
         return
-    table = Table(title=title, title_justify="left", title_style="bold", header_style="bold")
+    table = Table(title=escape(title), title_justify="left", title_style="bold", header_style="bold")
     table.add_column("quantity")
     table.add_column("unit", style="dim")
     for touch in touches:
         table.add_column(touch.name, justify="right")
     if touches[0].patch is not None:
         patches = [t.patch for t in touches if t.patch is not None]
+        table.add_row("contact angle", "°", *(number(math.degrees(contact_angle(t))) for t in touches))
         for label, unit, value in (*PLACE, *((SHARE,) if any(p.share < 1.0 for p in patches) else ())):
             table.add_row(label, unit, *(number(value(p)) for p in patches))
         table.add_section()
@@ -93,6 +104,7 @@ def data(touch: Touch, wheel_radius: float) -> dict[str, Any]:
         content = {
             "side": touch.side,
             "angle": p.angle,
+            "contact_angle": contact_angle(touch),
             "position": list(p.position),
             "rolling_radius": p.rolling_radius,
             "share": p.share,
@@ -130,9 +142,9 @@ def show_curve(
     values: Iterable[float], relative: Mapping[str, Sequence[float]], axis: str, force: str, console: Console
 ) -> None:
     """Print creep curves, one column for each method."""
-    table = Table(title=f"{force} over {axis}", title_justify="left", title_style="bold", header_style="bold")
+    table = Table(title=escape(f"{force} over {axis}"), title_justify="left", title_style="bold", header_style="bold")
     for heading in (axis, *relative):
-        table.add_column(heading, justify="right")
+        table.add_column(escape(heading), justify="right")
     for k, value in enumerate(values):
         table.add_row(f"{value:.5g}", *(f"{column[k]:.4f}" for column in relative.values()))
     console.print(table)

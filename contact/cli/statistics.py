@@ -41,7 +41,7 @@ def statistics(
     stored: Stored = None,
     processes: Processes = None,
     as_json: opt.Json = False,
-    out: opt.Files = None,
+    out: opt.Pages = None,
 ) -> None:
     """Compute errors of the tangential methods over 3220 cases on ellipses (Vollebregt, Iwnicki, Xie, Shackleton 2012).
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table as RichTable
 
+from contact.cli.document import document
 from contact.cli.output import write_all
 from contact.study.table import Table
 
@@ -19,7 +21,7 @@ from contact.study.table import Table
 def show_study(found: Any, *, as_json: bool, out: Sequence[Path] | None, notes: Iterable[str] = ()) -> None:
     """Print the tables and notes of a study, or its JSON, and write its files."""
     if as_json:
-        typer.echo(found.json())
+        typer.echo(document(json.loads(found.json())))
     else:
         console = Console()
         show_tables(found.tables(), console)

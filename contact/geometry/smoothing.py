@@ -40,10 +40,55 @@ def smoothed(y: Array, z: Array, tolerance: float) -> tuple[Array, Array, Array]
         from scipy.interpolate import splev, splprep
     except ImportError as missing:
         raise ImportError("smoothing needs scipy: pip install 'wheelrail-contact[profiles]'") from missing
-    u = np.concatenate(([0.0], np.cumsum(np.hypot(np.diff(y), np.diff(z)))))
+    u = _chords(y, z)
     try:
         spline, _ = splprep([y, z], u=u, s=y.size * tolerance**2, k=3)
     except (TypeError, ValueError) as error:
         raise ContactError(f"smoothing = {tolerance:g}: no spline was found through these points: {error}") from None
     (y, z), (dy, dz) = splev(u, spline), splev(u, spline, der=1)
     return y, z, np.unwrap(np.arctan2(dz, dy))
+
+
+def filtered(y: Array, z: Array, wavelength: float) -> tuple[Array, Array, Array]:
+    """Return points and tangents of the cubic spline in which waves of `wavelength` along the profile have half their height.
+
+    The spline minimises ∫ (distance)² ds + λ ∫ (second derivative)² ds for y and z over the chord length s. A wave of length
+    L keeps the share 1/(1 + (wavelength/L)⁴), so λ = (wavelength/2π)⁴, whatever the spacing of the points.
+
+    Parameters
+    ----------
+    y, z : ndarray, shape (n,), n >= 5
+        Measured points [m].
+    wavelength : float
+        [m], 1e-4 ... 0.05.
+
+    Returns
+    -------
+    y, z, angle : ndarray, shape (n,)
+        The spline at the points' chord lengths [m], and the angle of its tangent [rad].
+
+    Raises
+    ------
+    ContactError
+        If the wavelength is outside its range, or there are fewer than five points.
+    ImportError
+        If scipy is not installed.
+    """
+    require_number("wavelength", wavelength, 1e-4, 0.05)
+    if y.size < 5:
+        raise ContactError(f"wavelength = {wavelength:g}: {y.size} points are too few to smooth; at least 5 are needed")
+    try:
+        from scipy.interpolate import make_smoothing_spline
+    except ImportError as missing:
+        raise ImportError("smoothing needs scipy: pip install 'wheelrail-contact[profiles]'") from missing
+    s = _chords(y, z)
+    # In units of the wavelength, because the solver of scipy looks at absolute numbers.
+    u, weights = s / wavelength, np.gradient(s) / wavelength
+    splines = [make_smoothing_spline(u, values, weights, lam=(0.5 / np.pi) ** 4) for values in (y, z)]
+    dy, dz = (spline.derivative()(u) for spline in splines)
+    return splines[0](u), splines[1](u), np.unwrap(np.arctan2(dz, dy))
+
+
+def _chords(y: Array, z: Array) -> Array:
+    """Return the length of the chords up to each point [m]."""
+    return np.concatenate(([0.0], np.cumsum(np.hypot(np.diff(y), np.diff(z)))))

@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact import workspace
 from contact.creepage import Creepage
-from contact.errors import ContactError, require_integer, require_number
+from contact.errors import ContactError, doubt, require_integer, require_number
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Patch, Pose, Velocity
 from contact.kernels.enumerations import Height, NoAnswer
@@ -294,8 +294,13 @@ def contacts(
         For input outside its range, for profiles that do not overlap laterally or lie far inside each other, or if no z
         gives the load.
     """
-    pair = Pair(wheel, rail, **options)
-    return pair.contacts(pose, velocity, load=load, penetration=penetration, irregularity=irregularity)
+    found = Pair(wheel, rail, **options).contacts(
+        pose, velocity, load=load, penetration=penetration, irregularity=irregularity
+    )
+    doubt("pose.y", pose.y, 0.015, "a flange touches at about 0.007 m; the unit is m")
+    for name in ("roll", "yaw"):
+        doubt(f"pose.{name}", getattr(pose, name), 0.05, "a wheelset has less than 0.03 rad; the unit is rad")
+    return found
 
 
 _ROLLING, _IDEAL = Velocity(), Irregularity()

@@ -13,6 +13,7 @@ from contact.plot.comparison import comparison
 from contact.plot.lines import curve, time_histories
 from contact.plot.patches import patch
 from contact.plot.position import Wheel, position
+from contact.plot.profiles import profile_check
 from contact.plot.rolling import conicity, contact_points
 from contact.plot.shakedown import shakedown
 from contact.plot.wear import fatigue, shares, wear, worn_profile
@@ -26,6 +27,7 @@ __all__ = [
     "fatigue",
     "patch",
     "position",
+    "profile_check",
     "shakedown",
     "shares",
     "time_histories",

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure, FigureBase
 
 from contact.errors import ContactError
 from contact.plot.mesh import PatchMesh
-from contact.plot.patches import Scale, arrows, heading, window, zones
+from contact.plot.patches import Scale, arrows, heading, slip_share, window, zones
 from contact.plot.style import DPI, FAINT, colour_map, nice, style
 from contact.solution import Solution
 
@@ -107,7 +107,7 @@ def _traction(ax: Axes, s: Solution, scale: Scale) -> ScalarMappable:
     limits = 0.0, nice(max(scale.traction, 1.0) * 1e-6)
     numbers = f"$F_x$ = {s.Fx * 1e-3:.3g} kN,  $F_y$ = {s.Fy * 1e-3:.3g} kN".replace("-", "−")
     known = s.has_fields
-    share = f"slip {100.0 * s.slip_ratio:.0f} %" if known else "forces only"
+    share = slip_share(s) if s.p.size else ""
     ax.set_title(f"{numbers}\n{share}", loc="left", fontsize=8.0)
     values = np.hypot(s.qx, s.qy) * 1e-6 if known else np.zeros(s.p.shape)
     colours = window(ax, s, values, colour_map("YlOrRd", 0.7), limits, scale)

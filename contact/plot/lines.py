@@ -11,8 +11,9 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError
-from contact.plot.style import DPI, FAINT, LINES, colours, style
+from contact.plot.style import DPI, FAINT, looks, style
 
+_INSIDE = 4  # curves whose legend finds a place among them
 Lines = Mapping[str, ArrayLike]
 
 
@@ -52,11 +53,12 @@ def curve(
     abscissa = np.asarray(creepage, dtype=np.float64)
     with style():
         if ax is None:
-            ax = Figure(figsize=(5.6, 3.6), dpi=DPI, layout="constrained").subplots()
+            width = 5.6 if len(curves) <= _INSIDE else 7.6
+            ax = Figure(figsize=(width, 3.6), dpi=DPI, layout="constrained").subplots()
         sides = set()  # signs of the ordinates
-        for k, ((name, values), colour) in enumerate(zip(curves.items(), colours(len(curves)), strict=True)):
-            ordinate = _ordinate(name, values, abscissa)
-            ax.plot(abscissa, ordinate, color=colour, lw=1.6, ls="-" if k < len(LINES) else "-.", label=name)
+        for name, look in looks(curves).items():
+            ordinate = _ordinate(name, curves[name], abscissa)
+            ax.plot(abscissa, ordinate, color=look.colour, lw=1.6, ls=look.dashes, label=name)
             sides.update(np.sign(ordinate[ordinate != 0.0]).tolist())
         if limit is not None:
             for side in sides:
@@ -64,7 +66,10 @@ def curve(
         ax.axhline(0.0, color=FAINT, lw=0.6, zorder=0)
         ax.set(xlabel=xlabel, ylabel=ylabel)
         ax.margins(x=0.0)
-        ax.legend()
+        if len(curves) <= _INSIDE:
+            ax.legend()
+        else:  # beside the curves, which it would cover
+            ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0)
     return ax.figure
 
 
@@ -96,13 +101,20 @@ def time_histories(
         raise ContactError("panels is empty; at least one is needed")
     abscissa = np.asarray(time, dtype=np.float64)
     names = list(dict.fromkeys(name for lines in panels.values() for name in lines))
-    colour = dict(zip(names, colours(len(names)), strict=True))
+    look = looks(names)
     with style():
         figure = Figure(figsize=(7.4, 0.9 + 1.5 * len(panels)), dpi=DPI, layout="constrained")
         axes = figure.subplots(len(panels), 1, squeeze=False, sharex=True)[:, 0]
         for ax, (label, lines) in zip(axes, panels.items(), strict=True):
             for name, values in lines.items():
-                ax.plot(abscissa, _ordinate(name, values, abscissa), color=colour[name], lw=1.2, label=name)
+                ax.plot(
+                    abscissa,
+                    _ordinate(name, values, abscissa),
+                    color=look[name].colour,
+                    ls=look[name].dashes,
+                    lw=1.2,
+                    label=name,
+                )
             ax.set_ylabel(label)
             ax.yaxis.set_major_locator(MaxNLocator(4))
             ax.grid(visible=True)

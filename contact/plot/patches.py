@@ -78,9 +78,7 @@ def patch(
             pressure = _pressure(column[0], solved, title, scale)
             energy = _energy(column[1], solved, scale)
             column[1].set_xlabel("y [mm]")
-        for row, colours, label in zip(
-            grid, (pressure, energy), ("pressure [MPa]", f"energy index [{scale.energy_unit}]"), strict=True
-        ):
+        for row, colours, label in zip(grid, (pressure, energy), ("pressure [MPa]", scale.energy_label), strict=True):
             row[0].set_ylabel("x [mm], rolling ↑")
             slender = max(20.0, 8.0 * scale.half_x / (len(row) * scale.half_y))
             figure.colorbar(colours, ax=list(row), label=label, pad=0.02, aspect=slender)
@@ -133,6 +131,8 @@ class EnergyScale(Scale):
         self.energy_unit, self.energy_factor = ("MPa", 1e-6) if top >= 0.1e6 else ("kPa", 1e-3)
         high, low = (nice(max(e, 1.0) * self.energy_factor) for e in (top, -bottom))
         self.energy = (-low if bottom < -0.01 * top else 0.0, high)
+        returned = "\nviolet: elastic energy comes back" if self.energy[0] < 0.0 else ""
+        self.energy_label = f"energy index [{self.energy_unit}]{returned}"
 
 
 def _pressure(ax: Axes, solution: Solution, title: str, scale: Scale) -> ScalarMappable:
@@ -141,12 +141,25 @@ def _pressure(ax: Axes, solution: Solution, title: str, scale: Scale) -> ScalarM
     if solution.p.size:
         numbers = (
             f"N = {solution.N * 1e-3:.3g} kN,  $p_0$ = {solution.max_pressure * 1e-6:.4g} MPa\n"
-            f"area {solution.area * 1e6:.3g} mm²,  slip {100.0 * solution.slip_ratio:.0f} %"
+            f"area {solution.area * 1e6:.3g} mm²,  {slip_share(solution)}"
         )
     heading(ax, title, numbers)
     colours = window(ax, solution, solution.p * 1e-6, colour_map("Blues", 0.75), scale.pressure, scale)
     arrows(ax, solution, scale)
     return colours
+
+
+def slip_share(solution: Solution) -> str:
+    """Return the share of the drawn slip zone in the patch, as text; "forces only" if a method gives no fields.
+
+    It is counted on the elements, so it agrees with the drawn boundary. `Solution.slip_ratio` is that of the strips.
+    """
+    meshes = [PatchMesh(solution, k) for k in range(solution.n_patches)]
+    if not all(mesh.has_fields for mesh in meshes):
+        return "forces only"
+    whole = sum(float(mesh.dA[mesh.inside].sum()) for mesh in meshes)
+    slipping = sum(float(mesh.dA[mesh.inside & ~mesh.stick].sum()) for mesh in meshes)
+    return f"slip {100.0 * slipping / whole:.0f} %"
 
 
 def heading(ax: Axes, title: str, numbers: str) -> None:

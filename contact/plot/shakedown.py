@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from contact.damage.shakedown import ELLIPSE, LINE, shakedown_limit
 from contact.errors import ContactError
-from contact.plot.style import DPI, FAINT, INK, colours, style
+from contact.plot.style import DPI, FAINT, INK, looks, style
 from contact.solution import Solution
 
 _WIDEST = 0.6  # least upper end of the utilisation axis
@@ -54,7 +54,7 @@ def shakedown(runs: Mapping[str, Sequence[Solution]], title: str = "") -> Figure
         ax.plot(utilised, shakedown_limit(utilised), color=INK, lw=1.4)
         ax.plot(0.0, ELLIPSE[1.0], "o", color=INK, mfc="none", ms=5.0, clip_on=False)
         ax.plot(beyond, 1.0 / beyond, color=FAINT, lw=0.9, ls="--")
-        for (name, cloud), colour in zip(points.items(), colours(len(points)), strict=True):
+        for (name, cloud), (colour, _) in zip(points.items(), looks(points).values(), strict=True):
             if cloud.size:
                 ax.plot(*cloud.T, "o", color=colour, ms=2.6, mew=0.0, alpha=0.6, label=name)
         for x, y, text in (

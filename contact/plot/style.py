@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
-from typing import Any
+from typing import Any, NamedTuple
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.colors import Colormap, LinearSegmentedColormap
+
+from contact.registry import methods
 
 MM = 1e3  # per metre
 INK, FAINT, GRID = "#22262b", "#8a9099", "#eceef1"
@@ -40,9 +43,38 @@ def style() -> AbstractContextManager[None]:
     return mpl.rc_context(_STYLE)
 
 
-def colours(n: int) -> list[str]:
-    """Return n line colours. They repeat if there are more lines than colours."""
-    return [LINES[i % len(LINES)] for i in range(n)]
+class Look(NamedTuple):
+    """Colour and dashes of a line."""
+
+    colour: str
+    dashes: str
+
+
+def looks(names: Iterable[str]) -> dict[str, Look]:
+    """Return name → look of lines that are drawn together. Sides and methods look the same in every figure.
+
+    The right side is blue and the left orange. A method has the look of its place in the registry. Other names take the
+    colours that are left, in their order, and other dashes when the colours are used up.
+    """
+    wanted = list(dict.fromkeys(names))
+    sides = {name: LINES[_SIDES.index(word)] for name in wanted if (word := name.split(" ")[0]) in _SIDES}
+    registered = [*methods().tangential, *methods().normal]
+    if wanted and all(name in registered for name in wanted):
+        kinds = methods().tangential if wanted[0] in methods().tangential else methods().normal
+        return {name: _look(LINES, list(kinds).index(name)) for name in wanted}
+    free = [colour for colour in LINES if colour not in sides.values()]
+    others = [name for name in wanted if name not in sides]
+    return {name: Look(colour, "-") for name, colour in sides.items()} | {
+        name: _look(free, k) for k, name in enumerate(others)
+    }
+
+
+def _look(among: Sequence[str], k: int) -> Look:
+    return Look(among[k % len(among)], _DASHES[k // len(among) % len(_DASHES)])
+
+
+_SIDES = ("right", "left")
+_DASHES = ("-", "--", ":", "-.")
 
 
 def colour_map(name: str, to: float, low: float = 0.0, high: float = 1.0) -> Colormap:

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError, require_number
-from contact.plot.style import DPI, FAINT, INK, LINES, MM, colours, style
+from contact.plot.style import DPI, FAINT, INK, LINES, MM, looks, style
 
 if TYPE_CHECKING:
     from contact.accumulation import Histogram
@@ -127,7 +127,7 @@ def shares(profile: Profile, depths: Mapping[str, ArrayLike], title: str = "") -
         figure = Figure(figsize=(7.4, 4.6), dpi=DPI, layout="constrained")
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[1.6, 1.0])
         base = np.zeros(profile.y.size)
-        for (name, depth), colour in zip(depths.items(), colours(len(depths)), strict=True):
+        for (name, depth), (colour, _) in zip(depths.items(), looks(depths).values(), strict=True):
             values = _UM * np.asarray(depth, dtype=np.float64)
             if values.shape != base.shape:
                 raise ContactError(f"depths[{name!r}] has shape {values.shape}; the profile has {base.size} points")
@@ -202,7 +202,7 @@ def _merged(histograms: Mapping[str, Histogram]) -> Histogram:
 def _stack(ax: Axes, histograms: Mapping[str, Histogram], quantity: str, scale: float, edges: Array) -> None:
     """Draw one quantity of the histograms, stacked."""
     base = np.zeros(edges.size - 1)
-    for (name, histogram), colour in zip(histograms.items(), colours(len(histograms)), strict=True):
+    for (name, histogram), (colour, _) in zip(histograms.items(), looks(histograms).values(), strict=True):
         top = base + scale * histogram[quantity]
         ax.stairs(top, edges, baseline=base, fill=True, color=colour, lw=0.0, label=name)
         base = top

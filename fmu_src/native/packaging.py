@@ -61,6 +61,7 @@ INTERFACES_3 = {
     "CoSimulation": {**_COMMON_3, "canHandleVariableCommunicationStepSize": "true"},
 }
 
+_BEAT = 15.0  # between two signs of life of a long command [s]
 WRAPPER = Path(__file__).parent / "c"
 HEADERS = Path(fmpy.__file__).parent / "c-code"  # headers of the FMI project (2-clause BSD licence)
 #: -ffp-contract=off: fused operations would make the results differ between processors.
@@ -194,11 +195,19 @@ def compiler(platform: str) -> list[str]:
     return [sys.executable, "-m", "ziglang", "cc", "-target", _ZIG[platform], "-fno-sanitize=undefined"]
 
 
-def run(*command: str | Path) -> None:
-    """Run a command. If it fails, raise an error with its output."""
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
-    if done.returncode:
-        raise RuntimeError(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
+def run(*command: str | Path, waiting: Callable[[], None] | None = None) -> None:
+    """Run a command. If it fails, raise an error with its output. Every 15 s that it lasts, `waiting` is called."""
+    words = list(map(str, command))
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+        said = None
+        while said is None:
+            try:
+                said, _ = process.communicate(timeout=_BEAT)
+            except subprocess.TimeoutExpired:
+                if waiting is not None:
+                    waiting()
+    if process.returncode:
+        raise RuntimeError(f"{' '.join(words)}\n{said}")
 
 
 def kernels(model: Model, cache: Path, say: Callable[[str], None]) -> dict[str, list[Path]]:
@@ -217,8 +226,8 @@ def compile_kernels(chosen: Sequence[Model], cache: Path, say: Callable[[str], N
             folder.mkdir(parents=True, exist_ok=True)
             words += [model.name, json.dumps(dict(model.options)), folder]
     if words:
-        say("compiling the kernels (some minutes)")
-        run(sys.executable, "-m", "fmu_src.native.emit", *words)
+        say(f"compiling the kernels of {len(words) // 3} FMUs for 3 systems, some minutes the first time")
+        run(sys.executable, "-m", "fmu_src.native.emit", *words, waiting=lambda: say("still compiling the kernels"))
 
 
 def _kept(model: Model, cache: Path) -> Path:

@@ -9,6 +9,8 @@ from typing import Annotated, Any
 
 import typer
 
+from contact.cli import options as opt
+from contact.cli.document import document
 from contact.cli.output import drawing, reported, require_extra, stop
 from contact.cli.progress import progress_bar
 from models.life import checkpoint, declared_set, scenario
@@ -32,6 +34,7 @@ def run(
     out: Out = None,
     fresh: Fresh = False,
     every: Annotated[float, typer.Option(help="Seconds between two checkpoints.")] = 15.0,
+    as_json: opt.Json = False,
 ) -> None:
     """Run a scenario: a vehicle or a wheelset over a track, with time series, damage of wheels and rails, and a report.
 
@@ -43,6 +46,8 @@ def run(
     started = start(scenario.read(file))
     complete(started, folder / "checkpoint.npz", fresh, every)
     _finish(started, folder)
+    if as_json:
+        typer.echo(document({"scenario": started.scenario.name, **_results(folder, started.trust)}))
 
 
 def complete(started: Run | VehicleRun, path: Path, fresh: bool, every: float) -> None:
@@ -80,6 +85,7 @@ def wear(
     workers: Annotated[int, typer.Option(help="Processes of this machine; more than one need dask.")] = 1,
     scheduler: Annotated[str | None, typer.Option(help="Address of a dask scheduler, tcp://host:8786.")] = None,
     go_on: Annotated[bool, typer.Option("--go-on", help="Go on if the energy of a run does not close.")] = False,
+    as_json: opt.Json = False,
 ) -> None:
     """Compute the wear of a wheel over a mileage: run a set of scenarios, change the profile, and repeat.
 
@@ -109,6 +115,15 @@ def wear(
     _write(folder, lambda: wear_report.dataset(life), lambda: wear_report.page_of(life))
     typer.echo(f"{1e-3 * life.mileage:.0f} km in {len(life.wheels) - 1} steps, ended by {life.ended}", err=True)
     _warn(life.trust)
+    if as_json:
+        ended = {"mileage": life.mileage, "steps": len(life.wheels) - 1, "ended_by": life.ended}
+        typer.echo(document({"set": life.plan.name, **ended, **_results(folder, life.trust)}))
+
+
+def _results(folder: Path, trust: Trust) -> dict[str, Any]:
+    """Return what both commands say in JSON: the files, and how far they can be trusted."""
+    files = [str(folder / name) for name in ("result.nc", "report.html")]
+    return {"files": files, "trust": trust.as_dict(), "warnings": list(trust.warnings)}
 
 
 def _resumable(path: Path) -> str:

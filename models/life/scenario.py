@@ -33,18 +33,32 @@ _LONGEST_STEP = 1e-3  # [s]
 
 @dataclass(frozen=True, kw_only=True)
 class Profiles:
-    """Profiles of the right side: standard names, or files with paths relative to the scenario's file."""
+    """Profiles of the right side: standard names, or files with paths relative to the scenario's file.
+
+    Parameters
+    ----------
+    wheel, rail : name of a standard profile, or a file
+    inclination : of a rail of EN 13674-1, a number or "1/40"
+    unit, side, zero, repair, smoothing, wavelength : for files, as for `contact.geometry.profile.read`
+    """
 
     wheel: str = "S1002"
     rail: str = "60E1"
-    inclination: float | None = None
+    inclination: float | str | None = None
     unit: str | None = None
+    side: str | None = None
+    zero: str | None = None
+    repair: bool = False
     smoothing: float | None = None
+    wavelength: float | None = None
 
     def load(self, folder: Path) -> tuple[Profile, Profile]:
         """Return wheel and rail. Paths of files are relative to `folder`."""
-        given: dict[str, Any] = {"unit": self.unit, "smoothing": self.smoothing, "inclination": self.inclination}
-        wheel, rail = (str(folder / name) if (folder / name).is_file() else name for name in (self.wheel, self.rail))
+        given: dict[str, Any] = {key: value for key, value in vars(self).items() if key not in ("wheel", "rail")}
+        wheel, rail = (
+            str(folder / name) if (folder / name).is_file() or ("." in name and not profile.is_standard(name)) else name
+            for name in (self.wheel, self.rail)
+        )
         return profile.load(wheel, "wheel", **given), profile.load(rail, "rail", **given)
 
 
@@ -108,7 +122,8 @@ class Declaration:
     seed : seed of the random irregularities, not negative
     vehicle : file of a vehicle relative to the scenario's file, or one of the included ones, `manchester` and `wheelset`
         (`models.vehicle`). Without it the run is that of the quasi-static wheelset of the table `wheelset`.
-    track, wheelset, friction, profiles, methods, damage, recording : separate tables
+    friction : coefficient of friction, 0.3 by default, or a table
+    track, wheelset, profiles, methods, damage, recording : separate tables
     """
 
     name: str

@@ -26,7 +26,8 @@ class Curve:
     ----------
     start : start of the first transition [m]
     radius : radius of the circle [m], 100 to 100000
-    length, transition : length of the circle and of each transition [m]; a transition has at least 1 m
+    length : length of the circle [m]
+    transition : length of each transition [m], at least 1 m
     cant : height of the outer rail above the inner rail [m], 0 to 0.2
     direction : "right" or "left"
     """

@@ -28,8 +28,9 @@ class Body:
     Parameters
     ----------
     name : str
+        Any name; springs and dampers refer to it.
     mass : float
-        [kg].
+        Mass [kg].
     inertia : tuple of float
         Moments of inertia about x, y and z through the centre of gravity [kg m²].
     at, height : float
@@ -206,7 +207,8 @@ class VehicleDeclaration:
     name, source : str
         Title, and where the numbers are from.
     radius, gauge, gauge_point, flange_back : float
-        As for `contact.geometry.wheelset.Pair` [m].
+        Nominal rolling radius, track gauge, depth below the top of the rail at which it is measured, distance of the backs
+        of the flanges [m].
     bodies, wheelsets, springs, dampers, stops : tuple
         See the classes of this module. Wheelsets are numbered from the front.
     rail : Rail

@@ -17,8 +17,8 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
-from contact.cli.output import drawing, stop
-from contact.errors import ContactError
+from contact.cli import options as opt
+from contact.cli.output import deliver, drawing, reported, stop
 from contact.geometry.wheelset import Pair, Pose
 from contact.solution import Solution
 from models.wheelset import master
@@ -43,6 +43,7 @@ class Moment:
     index: int
 
 
+@reported
 def demo(
     out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("out"),
     seconds: Annotated[float, typer.Option(help="Simulated time in s.")] = 5.0,
@@ -53,10 +54,11 @@ def demo(
     scheme: Annotated[str, typer.Option(help="gauss_seidel, jacobi or iterated.")] = "gauss_seidel",
     fmus: Annotated[Path, typer.Option(help="Folder with the FMUs that `contact fmu` made.")] = Path("dist"),
     python: Annotated[bool, typer.Option("--python", help="Couple Python objects instead of FMUs.")] = False,
+    as_json: opt.Json = False,
 ) -> None:
     """Run a wheelset above its critical speed into flange contact: one Wheelset FMU and two WheelRailContact FMUs."""
     plot = drawing()
-    console = Console()
+    console = Console(stderr=True)
     try:
         parameters = WheelsetParameters(speed=speed, lateral=lateral)
         with ExitStack() as stack:
@@ -70,10 +72,13 @@ def demo(
         for moment in moments(history):
             _picture(plot, history, moment, parameters, friction).savefig(out / f"{moment.name}.png")
             files.append(f"{moment.name}.png")
-        console.print(_summary(history, parameters, friction, durations))
+        values = _summary(history, parameters, friction, durations)
+        deliver(
+            {"summary": values, "files": [str(out / name) for name in files]},
+            show=lambda console: console.print(_table(values)),
+            as_json=as_json,
+        )
         console.print("wrote " + ", ".join(str(out / name) for name in files))
-    except ContactError as error:
-        stop(str(error), 2)
     except OSError as error:
         stop(f"{error.filename}: {error.strerror}", 1)
 
@@ -86,7 +91,7 @@ def _fmus(
         from models.wheelset.fmu import FmuComponent
     except ImportError as missing:
         stop(f"{missing}; pip install 'wheelrail-contact[fmu]', or use --python", 1)
-    paths = [folder / f"{name}.fmu" for name in FMUS]
+    paths = [folder / "python" / f"{name}.fmu" for name in FMUS]
     for path in paths:
         if not path.is_file():
             stop(
@@ -197,7 +202,8 @@ def _histories(plot: Any, history: History) -> Any:
     return plot.time_histories(history["time"], panels, title=f"wheelset S1002 on 60E1 at {history.speed:g} m/s")
 
 
-def _summary(history: History, parameters: WheelsetParameters, friction: float, durations: Array) -> Table:
+def _summary(history: History, parameters: WheelsetParameters, friction: float, durations: Array) -> dict[str, str]:
+    """Return what the run came to, as text with units."""
     y, t = 1e3 * np.abs(history["lateral"]), history["time"]
     first, last = t <= min(0.5, t[-1]), t >= t[-1] - min(0.5, t[-1])
     angle = max(np.abs(history[f"{side}.contact.angle"]).max() for side in SIDES)
@@ -205,19 +211,23 @@ def _summary(history: History, parameters: WheelsetParameters, friction: float, 
     pressure = max(history[f"{side}.pressure.max"].max() for side in SIDES)
     dissipated = float(history.creep_power.sum() * history.step)
     residual = float(np.abs(history.power_residual).max())
+    return {
+        "speed": f"{history.speed:.4g} m/s",
+        "linear critical speed": f"{critical_speed(parameters, friction):.3g} m/s",
+        "amplitude, first half second": f"{y[first].max():.3g} mm",
+        "amplitude, last half second": f"{y[last].max():.3g} mm",
+        "steepest contact angle": f"{math.degrees(angle):.3g}°",
+        "normal load": f"{np.min(load) * 1e-3:.3g} … {np.max(load) * 1e-3:.3g} kN",
+        "greatest pressure": f"{pressure * 1e-6:.4g} MPa",
+        "energy dissipated by friction": f"{dissipated:.4g} J",
+        "power residual of the coupling": f"{residual:.2g} J ({100.0 * residual / dissipated:.2g} %)",
+        "time per coupled step, median": f"{1e3 * np.median(durations):.2g} ms",
+    }
+
+
+def _table(values: dict[str, str]) -> Table:
     table = Table("quantity", "value", title="wheelset S1002 on 60E1")
     table.columns[1].justify = "right"
-    for name, value in (
-        ("speed", f"{history.speed:.4g} m/s"),
-        ("linear critical speed", f"{critical_speed(parameters, friction):.3g} m/s"),
-        ("amplitude, first half second", f"{y[first].max():.3g} mm"),
-        ("amplitude, last half second", f"{y[last].max():.3g} mm"),
-        ("steepest contact angle", f"{math.degrees(angle):.3g}°"),
-        ("normal load", f"{np.min(load) * 1e-3:.3g} … {np.max(load) * 1e-3:.3g} kN"),
-        ("greatest pressure", f"{pressure * 1e-6:.4g} MPa"),
-        ("energy dissipated by friction", f"{dissipated:.4g} J"),
-        ("power residual of the coupling", f"{residual:.2g} J ({100.0 * residual / dissipated:.2g} %)"),
-        ("time per coupled step, median", f"{1e3 * np.median(durations):.2g} ms"),
-    ):
+    for name, value in values.items():
         table.add_row(name, value)
     return table

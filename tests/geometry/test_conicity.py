@@ -8,7 +8,7 @@ import pytest
 
 import reference
 from contact import ContactError
-from contact.geometry import conicity, contact_points, equivalent_conicity, profile
+from contact.geometry import conicity, contact_points, equivalent_conicity, nonlinearity, profile, steering
 from contact.geometry.wheelset import Pair, Pose
 
 CONE, ARC = profile.cone(0.05), profile.rail_arc(0.3)
@@ -156,3 +156,28 @@ def test_known_points_must_lie_at_equal_steps_and_far_enough():
     assert equivalent_conicity(points, 2e-3).conicity == pytest.approx(0.05, rel=1e-5)
     with pytest.raises(ContactError, match=r"amplitudes = 0\.003 reach beyond the points"):
         equivalent_conicity(points, 3e-3)
+
+
+def test_a_cone_steers_by_its_slope_and_has_no_nonlinearity():
+    """Δr = 2 γ y of a cone on rails whose crowns stay under it; without a flange all displacements count."""
+    slope = 0.05
+    points = contact_points(profile.cone(slope), profile.rail_60e1(), np.linspace(-9e-3, 9e-3, 181))
+    found = steering(points, [500.0, 1000.0])
+    assert found.at == pytest.approx(9e-3)
+    assert found.available == pytest.approx(2.0 * slope * 9e-3, rel=1e-3)
+    np.testing.assert_allclose(found.needed, 1.5 * 0.46 / found.curve_radius, rtol=1e-12)
+    assert found.smallest_radius == pytest.approx(1.5 * 0.46 / found.available)
+    np.testing.assert_allclose(found.index, found.smallest_radius / found.curve_radius, rtol=1e-12)
+    assert nonlinearity(points) == pytest.approx(0.0, abs=0.02)
+
+
+def test_a_flange_ends_the_steering():
+    points = contact_points(profile.s1002(), profile.rail_60e1(), np.linspace(-8e-3, 8e-3, 321))
+    gentle, steep = (steering(points, 300.0, flange=np.radians(angle)) for angle in (10.0, 60.0))
+    assert gentle.at < steep.at < 8e-3
+    assert gentle.available < steep.available
+    assert points.right.angle[points.y <= gentle.at].max() <= np.radians(10.0)
+    with pytest.raises(ContactError, match="curve_radius = 1 is outside"):
+        steering(points, 1.0)
+    with pytest.raises(ContactError, match="steeper at all displacements"):
+        steering(points, 300.0, flange=1e-3)

@@ -1,11 +1,15 @@
 """`contact run` from file to report, with an interruption."""
 
+import json
+from pathlib import Path
+
 import pytest
 import typer
 from typer.testing import CliRunner
 
 from models.life import commands, report
 from models.life.run import Run
+from models.life.trust import TRUST
 
 SCENARIO = """
 name = "short & sharp"
@@ -68,3 +72,12 @@ def test_bad_scenario_ends_with_a_message(call, tmp_path):
     ended = call("out")
     assert ended.exit_code == 2
     assert "case.toml.recording.spacing = 'wide' is not a number" in ended.output
+
+
+def test_json_of_a_run_names_its_files_and_how_far_it_can_be_trusted(call, tmp_path, monkeypatch):
+    monkeypatch.setattr(report, "page_of", lambda run: "")
+    answer = json.loads(call("out", "--json").stdout)
+    assert answer["command"] == "run"
+    assert answer["inputs"]["file"] == str(tmp_path / "case.toml")
+    assert all(Path(name).is_file() for name in answer["files"])
+    assert set(answer["trust"]) == set(TRUST)

@@ -3,11 +3,13 @@
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from contact.damage import DamageParameters, Usfd
 from contact.errors import ContactError
 from contact.friction import Friction
+from contact.geometry import profile
 from models.life import scenario
 from models.life.harvest import Harvest
 from models.life.track import Curve, Track
@@ -146,3 +148,21 @@ def test_manchester_wheelset_has_the_published_primary_suspension(tmp_path):
     assert p.lateral_stiffness == pytest.approx(7.768e6)
     assert p.yaw_stiffness == pytest.approx(62.782e6)
     assert p.mass == 1900.0
+
+
+def test_profiles_of_a_scenario_take_every_option_that_the_reader_asks_for(tmp_path):
+    wheel = profile.s1002()
+    rows = "\n".join(f"{-1e3 * (y + 0.07):.5f} {1e3 * z:.5f}" for y, z in zip(wheel.y, wheel.z, strict=True))
+    (tmp_path / "wheel.txt").write_text(rows)
+    text = 'name = "a"\nlength = 100.0\nspeed = 20.0\n[profiles]\nwheel = "wheel.txt"\ninclination = "1/20"\n{}'
+    path = tmp_path / "case.toml"
+    path.write_text(text.format(""))
+    with pytest.raises(ContactError, match=r"unit = None: .wheel\.txt. does not say its unit; give one of 'm', 'mm'"):
+        scenario.read(path)
+    path.write_text(text.format('unit = "mm"\nside = "left"\nzero = "flange_back"\n'))
+    found = scenario.read(path)
+    np.testing.assert_allclose(found.wheel.z, wheel.z, atol=1e-8)
+    np.testing.assert_array_equal(found.rail.z, profile.rail_60e1(0.05).z)
+    path.write_text(text.replace("wheel.txt", "wheel18.txt").format(""))
+    with pytest.raises(ContactError, match=r"wheel18\.txt' is missing"):
+        scenario.read(path)

@@ -332,3 +332,25 @@ def test_a_wheel_at_standstill_has_no_creep(right):
     assert found.status == Status.OK
     assert found.used_friction == 0.0
     assert all(c.creepage == contact.Creepage(0.0, 0.0, 0.0) for c in found.contacts)
+
+
+def test_the_patches_share_T_gamma_and_damage_has_the_names_of_a_solution():
+    found = make(rail=WORN).solve(Pose(y=6.37e-3, yaw=4e-3), Velocity(forward=20.0), load=80e3)
+    assert len(found.contacts) > 1
+    assert sum(one.T_gamma for one in found.contacts) == pytest.approx(found.damage.T_gamma, rel=1e-12)
+    assert min(one.T_gamma for one in found.contacts) > 0.0
+    assert found.damage.archard == (found.damage.archard_depth, found.damage.archard_volume)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "options", "message"),
+    [
+        ((WHEEL,), {}, r"pair = Profile.* is no contact.geometry.wheelset.Pair; make one"),
+        ((None,), {}, r"pair = None is no"),
+        ((Pair(WHEEL, RAIL),), {"material": 2e11}, r"material = .* is no contact.material.Material"),
+        ((Pair(WHEEL, RAIL),), {"damage": "archard"}, "damage = 'archard' is no"),
+    ],
+)
+def test_an_argument_of_a_wrong_type_is_a_contact_error(arguments, options, message):
+    with pytest.raises(ContactError, match=message):
+        WheelRailPair(*arguments, **options)

@@ -24,7 +24,7 @@ def fmus(tmp_path_factory) -> Path:
     """Return the folder with the FMUs that `python build_fmu.py --packaging python` builds."""
     folder = tmp_path_factory.mktemp("fmus")
     _build("python", folder)
-    return folder
+    return folder / "python"
 
 
 @pytest.fixture(scope="session")

@@ -27,7 +27,7 @@ def test_demo_is_a_command_of_the_command_line():
 @pytest.mark.parametrize("kind", ["fmus", "python"])
 def test_demo_leaves_pictures_and_numbers(kind, fmus, tmp_path):
     out = tmp_path / "results of a run"
-    source = ["--python"] if kind == "python" else ["--fmus", fmus]
+    source = ["--python"] if kind == "python" else ["--fmus", fmus.parent]
     result = run("--out", out, "--seconds", 0.1, *source)
     assert result.exit_code == 0, result.output
     assert sorted(path.name for path in out.iterdir()) == FILES
@@ -67,6 +67,6 @@ def test_demo_refuses_impossible_runs(arguments, message, tmp_path):
 
 
 def test_demo_passes_on_what_an_fmu_refuses(fmus, tmp_path):
-    result = run("--fmus", fmus, "--out", tmp_path, "--seconds", 0.01, "--lateral", 0.5)
+    result = run("--fmus", fmus.parent, "--out", tmp_path, "--seconds", 0.01, "--lateral", 0.5)
     assert result.exit_code == 2
     assert "do not overlap" in result.stderr

@@ -281,7 +281,17 @@ def exchanged(file: Path, folder: Path) -> tuple[Path, list[profile.Profile]]:
         options += [f"--{kind}", path]
         read.append(profile.read(path, kind=kind, unit="mm", side="right"))
     path = Path(shutil.copy(file, folder))
-    command = [sys.executable, "-m", "fmu_src.profiles", path, *options, "--unit", "mm", "--side", "right"]
+    command = [
+        sys.executable,
+        "-m",
+        "fmu_src.profiles",
+        path,
+        *options,
+        "--profile-unit",
+        "mm",
+        "--profile-side",
+        "right",
+    ]
     subprocess.run(command, check=True, cwd=ROOT)
     return path, read
 

@@ -1,0 +1,105 @@
+"""JSON of every command: version, inputs, units and results."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from enum import Enum
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import contact
+
+#: Unit → names of inputs and results that have it. "1" is a pure number.
+_NAMES = {
+    "m": "curve_radius smallest_radius needed available "
+    "y radius gauge back_to_back left_radius reach step amplitude penetration approach profile_smoothing "
+    "profile_wavelength smoothing wavelength centre position rolling_radius length width radius_difference right_on_wheel "
+    "right_on_rail right_radius left_on_wheel left_on_rail distance at mileage",
+    "rad": "roll yaw angle contact_angle angle_difference right_angle left_angle",
+    "m/s": "speed velocity",
+    "N": "load N Fx Fy force_x force_y normal_force T_gamma T_gamma_spin dissipation power_per_metre",
+    "N m": "Mz",
+    "Pa": "pressure_limit max_pressure stress_index_max energy_index_max shear_modulus",
+    "K": "temperature",
+    "m²": "area",
+    "N/m": "normal_stiffness",
+    "1/m": "curvatures spin nonlinearity",
+    "m²/m": "pearce_sherratt",
+    "m/m": "usfd archard_depth_max",
+    "m³/m": "archard_volume",
+    "s": "seconds every duration",
+    "1": "friction inclination slip_ratio utilisation longitudinal lateral conicity share gap_error fatigue_index "
+    "burstow index",
+    "1, 1, 1/m": "creepage",
+}
+UNITS = {name: unit for unit, names in _NAMES.items() for name in names.split()}
+
+
+_RUNNING: ContextVar[tuple[str, Mapping[str, Any]]] = ContextVar("_RUNNING", default=("", {}))
+
+
+@contextmanager
+def running(command: str, inputs: Mapping[str, Any]) -> Iterator[None]:
+    """Context manager in which `document` has the name and the inputs of a command."""
+    token = _RUNNING.set((command, inputs))
+    try:
+        yield
+    finally:
+        _RUNNING.reset(token)
+
+
+def document(content: Mapping[str, Any]) -> str:
+    """Return the results of the running command as JSON with version, command, inputs and units.
+
+    Infinite values and values that are no number become null.
+    """
+    command, given = _RUNNING.get()
+    inputs = _plain({name: value for name, value in given.items() if name not in ("context", "as_json", "out")})
+    results = _plain(dict(content))
+    units = {name: UNITS[name] for name in sorted({*_keys(inputs), *_keys(results)} & set(UNITS))}
+    head = {"version": contact.__version__, "command": command, "inputs": inputs, "units": units}
+    return json.dumps(head | results, indent=2, allow_nan=False, ensure_ascii=False)
+
+
+def _plain(value: Any) -> Any:
+    """Return a value as JSON can hold it."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(inner) for key, inner in value.items()}
+    if isinstance(value, Enum):
+        return value.value
+    if isinstance(value, np.ndarray):
+        return _plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [_plain(inner) for inner in value]
+    if isinstance(value, np.generic):
+        return _plain(value.item())
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return str(value) if isinstance(value, Path) else value
+
+
+def _keys(value: Any) -> Iterator[str]:
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield key
+            yield from _keys(inner)
+    elif isinstance(value, list):
+        for inner in value:
+            yield from _keys(inner)
+
+
+def flat(row: Mapping[str, Any], before: str = "") -> dict[str, Any]:
+    """Return a nested row as a row of CSV: ``creepage.spin``, and numbers of lists as ``position.0``."""
+    cells: dict[str, Any] = {}
+    for key, value in row.items():
+        name = f"{before}{key}"
+        if isinstance(value, list | tuple):
+            value = {str(k): inner for k, inner in enumerate(value)}
+        cells |= flat(value, f"{name}.") if isinstance(value, Mapping) else {name: value}
+    return cells

@@ -1,0 +1,304 @@
+"""Checks of the points of a profile: what is wrong with a measurement, where, and which option of `read` cures it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import NDArray
+
+from contact.geometry.profile import Kind
+
+Array = NDArray[np.float64]
+Points = NDArray[np.float64]  # shape (n, 2): y, z [m]
+
+FLANGE_BACK = 0.070  # distance of the back of the flange from the tape circle [m] (EN 13715)
+TIP_FROM_TAPE = 0.055  # distance of the flange's tip from the tape circle [m] (EN 13715)
+FLANGE = 0.015  # a flange's tip lies at least this far below the median of a wheel's points [m]
+CROWN_FROM_GAUGE = 0.036  # half the width of a rail's head [m], from its gauge face
+
+_JUMP = 0.4  # of the extent: a step this long starts another scan
+_LOOPS = 4.0  # length of the path over the extent beyond which rows are not in order; S1002 has 1.5
+_MOST_SCANS = 10
+_RETURN = 0.2  # share of the points on the way back that makes a backward scan
+_SPIKE, _OVER_NEIGHBOURS = 2e-5, 8.0  # least deviation of a spike [m], and over the median of the points around it
+_GAP, _OVER_SPACING = 2.5e-3, 8.0  # least length of a gap [m], and over the median spacing
+_KINK, _KINK_OVER = np.radians(8.0), 6.0  # least turn at a kink [rad], and over the median of the turns around it
+_CHAMFER = 12e-3  # corners nearer to the ends of the profile are chamfers [m]
+_ROUGH = 3e-3  # error of tangents [rad] above which noise is reported
+_TANGENT_OF_NOISE = 1.2  # error of a spline's tangents over noise/spacing (docs/profiles.md, measured)
+_HEIGHT, _SIDE = 1e-3, 6e-3  # offsets that are reported [m]
+_DEEPER = 4e-3  # by how much the field side of a rail may be deeper than its gauge side [m]
+_STEEPEST = np.radians(75.0)  # steeper parts cannot touch
+
+
+class Fault(StrEnum):
+    """What can be wrong with the points of a profile."""
+
+    UNSORTED = "unsorted rows"
+    SCANS = "several scans"
+    BACKWARD = "backward scan"
+    ZIGZAG = "back steps"
+    SPIKE = "spikes"
+    GAP = "gap"
+    KINK = "kinks"
+    NOISE = "noise"
+    HEIGHT = "offset of height"
+    SIDE = "offset to the side"
+
+
+#: Faults with which the points are no curve: `read` refuses them unless it may repair them.
+FATAL = frozenset({Fault.UNSORTED, Fault.SCANS, Fault.BACKWARD})
+
+
+@dataclass(frozen=True, eq=False)
+class Finding:
+    """One fault of a profile.
+
+    Attributes
+    ----------
+    fault : Fault
+    seen : str
+        What was seen, with numbers.
+    cure : str
+        The option of `read` that cures it, or what else helps.
+    at : ndarray, shape (m, 2)
+        Where: y, z [m].
+    """
+
+    fault: Fault
+    seen: str
+    cure: str
+    at: Points
+
+    def __str__(self) -> str:
+        return f"{self.fault}: {self.seen}; {self.cure}"
+
+
+def order(points: Points) -> list[Finding]:
+    """Return the faults in the order of the rows: not sorted, several scans, a scan there and back."""
+    if len(points) < 8:
+        return []
+    extent = float(np.hypot(*np.ptp(points, axis=0)))
+    parts = scans(points)
+    lengths = [_length(part) / extent for part in parts]
+    cure = "repair=True"
+    if len(parts) > _MOST_SCANS or max(lengths) > _LOOPS:
+        path = _length(points) / extent
+        seen = f"the path through the points is {path:.0f} times as long as the profile is wide"
+        return [Finding(Fault.UNSORTED, seen, f"{cure} sorts them along the profile", points[:0])]
+    if len(parts) > 1:
+        seen = f"the points run over the profile {len(parts)} times, with {', '.join(str(len(part)) for part in parts)} points"
+        return [Finding(Fault.SCANS, seen, f"{cure} keeps the scan with the most points", parts[1][:1])]
+    turn = turning(points)
+    if turn:
+        seen = f"after {turn + 1} of {len(points)} points, at y = {_mm(points[turn, 0])}, the scan turns and comes back"
+        return [Finding(Fault.BACKWARD, seen, f"{cure} keeps the longer way", points[turn : turn + 1])]
+    return []
+
+
+def shape(points: Points, resolution: float = 0.0) -> list[Finding]:
+    """Return the faults of points in order: back steps, spikes, gaps, kinks, noise.
+
+    `resolution` is the last decimal place of the numbers [m].
+    """
+    found = []
+    back = np.flatnonzero(backward(points))
+    if back.size:
+        seen = f"{_count(back.size)} going back along the profile, the first at y = {_mm(points[back[0], 0])}"
+        found.append(Finding(Fault.ZIGZAG, seen, "repair=True drops them", points[back]))
+    wild = np.flatnonzero(spikes(points))
+    if wild.size:
+        far = 1e6 * np.abs(_deviation(points)[wild]).max()
+        seen = f"{_count(wild.size)} up to {far:.0f} µm off the neighbours, the first at y = {_mm(points[wild[0], 0])}"
+        found.append(Finding(Fault.SPIKE, seen, "repair=True drops them", points[wild]))
+    chord = np.hypot(*np.diff(points, axis=0).T)
+    for k in np.flatnonzero((chord > max(_GAP, _OVER_SPACING * float(np.median(chord)))) & ~_steep(points)):
+        seen = f"no points over {_mm(chord[k])} from y = {_mm(points[k, 0])} on, where a wheel and a rail can touch"
+        found.append(Finding(Fault.GAP, seen, "measure again: no option fills it", points[k : k + 2]))
+    bent = kinks(points)
+    if bent.size:
+        largest = np.degrees(np.abs(_turns(points))[bent - 1].max())
+        seen = f"{_count(bent.size)} with a corner of up to {largest:.0f}°, the first at y = {_mm(points[bent[0], 0])}"
+        found.append(Finding(Fault.KINK, seen, "if they are not real, a smoothing rounds them", points[bent]))
+    sigma, h = noise(points), float(np.median(chord))
+    if _TANGENT_OF_NOISE * sigma > _ROUGH * h:
+        source = (
+            "numbers rounded to" if 0.2 * resolution <= sigma <= 0.6 * resolution else "noise under a resolution of"
+        )
+        rounding = f" ({source} {1e3 * resolution:g} mm)" if resolution else ""
+        seen = (
+            f"points {_mm(h)} apart with a noise of {1e6 * sigma:.2g} µm{rounding} give tangents "
+            f"{1e3 * _TANGENT_OF_NOISE * sigma / h:.0f} mrad off"
+        )
+        found.append(Finding(Fault.NOISE, seen, f"smoothing={sigma:.1g} removes it, or wavelength=3e-3", points[:0]))
+    return found
+
+
+def place(points: Points, kind: Kind) -> list[Finding]:
+    """Return offsets of height and side from the zero that this library expects, for points in the right-side convention."""
+    y, z = points.T
+    found = []
+    if kind == "rail":
+        if abs(z[0] - z[-1]) > _DEEPER and z[0] < z[-1]:
+            seen = f"the field side reaches {_mm(z[-1] - z[0])} deeper than the gauge side"
+            found.append(Finding(Fault.SIDE, seen, "if the file shows the other side, set side", points[[0, -1]]))
+        return found
+    tip = int(np.argmax(z)) if has_flange(points) else 0
+    if tip and abs(y[tip] + TIP_FROM_TAPE) > _SIDE:
+        seen = f"the flange's tip lies at y = {_mm(y[tip])}, usually at {_mm(-TIP_FROM_TAPE)}"
+        from_back = abs(y[tip] - FLANGE_BACK + TIP_FROM_TAPE) <= _SIDE
+        cure = (
+            "set zero='flange_back': y seems to count from the back of the flange" if from_back else "set zero='shape'"
+        )
+        return [Finding(Fault.SIDE, seen, cure, points[tip : tip + 1])]
+    if not y.min() < 0.0 < y.max():
+        seen = f"the profile lies between y = {_mm(y.min())} and {_mm(y.max())}; the tape circle at y = 0 is not on it"
+        return [Finding(Fault.SIDE, seen, "move its zero to the tape circle", points[[0, -1]])]
+    tread = float(np.interp(0.0, y[tip:], z[tip:]))
+    if abs(tread) > _HEIGHT:
+        change = "larger" if tread > 0.0 else "smaller"
+        seen = f"the tread at the tape circle lies at z = {_mm(tread)}; the wheel's radius becomes that much {change}"
+        found.append(Finding(Fault.HEIGHT, seen, "set zero='shape'", np.array([[0.0, tread]])))
+    return found
+
+
+def has_flange(points: Points) -> bool:
+    """Return whether the lowest point of a wheel, with z down, is a flange's tip."""
+    return bool(points[:, 1].max() > np.median(points[:, 1]) + FLANGE)
+
+
+def scans(points: Points) -> list[Points]:
+    """Return the parts of the points between long jumps, without parts of one or two points."""
+    step = np.hypot(*np.diff(points, axis=0).T)
+    jumps = np.flatnonzero(step > _JUMP * np.hypot(*np.ptp(points, axis=0))) + 1
+    return [part for part in np.split(points, jumps) if len(part) > 2] or [points]
+
+
+def turning(points: Points) -> int:
+    """Return the index at which a scan turns and comes back; 0 if it does not."""
+    far = int(np.argmax(np.hypot(*(points - points[0]).T)))
+    back = len(points) - 1 - far
+    returned = np.hypot(*(points[-1] - points[far])) > _JUMP * np.hypot(*(points[far] - points[0]))
+    return far if returned and back > _RETURN * len(points) else 0
+
+
+def backward(points: Points) -> NDArray[np.bool_]:
+    """Return which points lie behind the previous one: the step to them goes back against the chord of the points around."""
+    step = np.diff(points, axis=0)
+    turned = np.zeros(len(points), dtype=bool)
+    padded = np.pad(points, ((2, 2), (0, 0)), mode="edge")
+    around = padded[4:] - padded[:-4]  # from two points before to two points after
+    turned[1:] = (step * (around[1:] + around[:-1])).sum(axis=1) < 0.0
+    return turned
+
+
+def spikes(points: Points) -> NDArray[np.bool_]:
+    """Return which single points stand off, with both neighbours bent the other way (a corner has straight neighbours)."""
+    d = _deviation(points)
+    if len(points) < 9:
+        return np.zeros(len(points), dtype=bool)
+    around = np.median(sliding_window_view(np.pad(np.abs(d), 6, mode="edge"), 13), axis=1)
+    before, after = np.roll(d, 1), np.roll(d, -1)
+    opposite = (before * d < -0.2 * d * d) & (after * d < -0.2 * d * d)
+    return (np.abs(d) > np.maximum(_SPIKE, _OVER_NEIGHBOURS * around)) & opposite
+
+
+def kinks(points: Points) -> NDArray[np.intp]:
+    """Return the indices of corners where wheel and rail can touch, away from the ends of the profile."""
+    if len(points) < 12:
+        return np.zeros(0, dtype=np.intp)
+    turn = np.abs(_turns(points))
+    around = np.median(sliding_window_view(np.pad(turn, 5, mode="edge"), 11), axis=1)
+    wild = spikes(points) | backward(points) | np.roll(backward(points), -1)
+    free = ~(wild[:-2] | wild[1:-1] | wild[2:])
+    steep = _steep(points)
+    along = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))))
+    inner = np.minimum(along, along[-1] - along)[1:-1] > _CHAMFER
+    found = (turn > np.maximum(_KINK, _KINK_OVER * around)) & free & inner & ~steep[1:] & ~steep[:-1]
+    return np.flatnonzero(found) + 1
+
+
+def noise(points: Points) -> float:
+    """Return the root mean square of the noise across the profile [m]: the rest beside local cubics through nine points."""
+    if len(points) < 9:
+        return 0.0
+    windows = sliding_window_view(points, 9, axis=0)  # (windows, 2, 9)
+    along = windows[:, :, -1] - windows[:, :, 0]
+    length = np.hypot(*along.T)
+    good = length > 0.0
+    along, windows = along[good] / length[good, None], windows[good] - windows[good, :, :1]
+    u = (along[:, :, None] * windows).sum(axis=1) / length[good, None]
+    v = along[:, 0, None] * windows[:, 1] - along[:, 1, None] * windows[:, 0]
+    powers = u[:, :, None] ** np.arange(4)
+    rest = v - (powers @ (np.linalg.pinv(powers) @ v[:, :, None]))[:, :, 0]
+    return float(np.sqrt(np.median((rest**2).sum(axis=1)) / 4.35)) if rest.size else 0.0  # median of χ² with 5 degrees
+
+
+def repaired(points: Points) -> Points:
+    """Return the points as one scan in order, without back steps and spikes.
+
+    Unsorted rows are joined from an end of the profile, each to its nearest neighbour. Of several scans the one with the
+    most points is kept, of a scan there and back the longer way.
+    """
+    for finding in order(points):
+        if finding.fault is Fault.UNSORTED:
+            points = _joined(points)
+        elif finding.fault is Fault.SCANS:
+            points = max(scans(points), key=len)
+    turn = turning(points)
+    if turn:
+        points = points[: turn + 1] if turn + 1 >= len(points) - turn else points[turn:]
+    for faulty in (spikes, backward, spikes):
+        while faulty(points).any() and len(points) > 9:
+            points = points[~faulty(points)]
+    return points
+
+
+def _joined(points: Points) -> Points:
+    """Return the points in the order of their nearest neighbours, from the one with the least y."""
+    left = points[np.lexsort(points.T[::-1])]
+    chain = [left[0]]
+    left = left[1:]
+    while len(left):
+        k = int(np.argmin(((left - chain[-1]) ** 2).sum(axis=1)))
+        chain.append(left[k])
+        left = np.delete(left, k, axis=0)
+    return np.array(chain)
+
+
+def _deviation(points: Points) -> Array:
+    """Return the distance of each point from the chord of its neighbours [m], with its sign; 0 at both ends."""
+    d = np.zeros(len(points))
+    chord = points[2:] - points[:-2]
+    arm = points[1:-1] - points[:-2]
+    length = np.hypot(*chord.T)
+    cross = chord[:, 0] * arm[:, 1] - chord[:, 1] * arm[:, 0]
+    d[1:-1] = np.where(length > 0.0, cross / np.where(length > 0.0, length, 1.0), 0.0)
+    return d
+
+
+def _turns(points: Points) -> Array:
+    """Return the change of direction at every inner point [rad]."""
+    direction = np.unwrap(np.arctan2(*np.diff(points, axis=0).T[::-1]))
+    return np.diff(direction)
+
+
+def _steep(points: Points) -> NDArray[np.bool_]:
+    """Return which segments are too steep to touch."""
+    dy, dz = np.abs(np.diff(points, axis=0).T)
+    return np.arctan2(dz, dy) > _STEEPEST
+
+
+def _length(points: Points) -> float:
+    return float(np.hypot(*np.diff(points, axis=0).T).sum())
+
+
+def _count(n: int) -> str:
+    return "1 point" if n == 1 else f"{n} points"
+
+
+def _mm(value: float) -> str:
+    return f"{1e3 * value:.3g} mm"
