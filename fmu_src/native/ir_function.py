@@ -128,10 +128,9 @@ class Function:
             return _double(text)
         if not re.fullmatch(r"-?\d+", text):
             raise unknown(f"{kind} {text}")
-        number = int(text)
         if kind == "i64":
-            return f"INT64_C({number})" if number > -(2**63) else "INT64_MIN"
-        return str(number)
+            return f"INT64_C({text})" if int(text) > -(2**63) else "INT64_MIN"
+        return text
 
     def _pointer(self, operand: str) -> str:
         return self._value(operand.removeprefix("ptr "), "ptr")
@@ -317,11 +316,16 @@ def _compared(predicate: str, kind: str, a: str, b: str) -> str:
     return f"{a} {_COMPARED[rest]} {b}" if first == "o" else f"!({a} {_OPPOSITE[rest]} {b})"
 
 
-def _double(text: str) -> str:
-    """Return a float64 constant in C, exactly."""
+def number(text: str) -> float:
+    """Return the value of a float64 constant of the IR, which has a decimal form or that of its bits."""
     if not re.fullmatch(r"0x[0-9A-F]{16}|[-+]?\d+\.\d+(?:e[-+]\d+)?", text):
         raise unknown(f"double {text}")
-    value = struct.unpack("<d", struct.pack("<Q", int(text, 16)))[0] if text.startswith("0x") else float(text)
+    return struct.unpack("<d", struct.pack("<Q", int(text, 16)))[0] if text.startswith("0x") else float(text)
+
+
+def _double(text: str) -> str:
+    """Return a float64 constant in C, exactly."""
+    value = number(text)
     if value != value:
         return "NAN"
     if abs(value) == float("inf"):

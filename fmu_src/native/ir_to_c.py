@@ -11,7 +11,7 @@ import re
 import struct
 from collections.abc import Iterator, Sequence
 
-from fmu_src.native.ir_function import GLOBAL, Function, identifier, unknown
+from fmu_src.native.ir_function import GLOBAL, Function, identifier, number, unknown
 
 # Memory is read and written by memcpy, because the IR does not say which types a pointer may alias.
 _ACCESS = """static inline {type} load_{name}(const char *p) {{ {type} v; memcpy(&v, p, sizeof v); return v; }}
@@ -29,8 +29,10 @@ _HEADER = "\n".join(
     )
 )
 _CONSTANT = re.compile(
-    rf'({GLOBAL}) = (.*?)\b(?:constant|global) \[(\d+) x i8\](?: c"(.*?)"| (zeroinitializer))?(?:, align \d+)?$'
+    rf'({GLOBAL}) = (.*?)\b(?:constant|global) \[(\d+) x (\w+)\](?: (?:c"(.*?)"|\[(.*)\]|(zeroinitializer)))?(?:, align \d+)?$'
 )
+#: Type of the elements of a constant → its form for `struct`.
+_PACKED = {"double": "d", "i64": "q", "i32": "i", "i8": "b", "i1": "?"}
 
 
 def as_c(ir: str) -> str:
@@ -49,19 +51,31 @@ def as_c(ir: str) -> str:
 
 
 def _constant(line: str) -> str:
-    """Return the C code of a constant: bytes of the IR, as 64-bit words."""
+    """Return the C code of a constant array: its bytes as 64-bit words."""
     found = _CONSTANT.match(line)
-    if not found:
+    if not found or found[4] not in _PACKED:
         raise unknown(line)
-    name, linkage, size, text, zero = found.groups()
-    head = f"const uint64_t {identifier(name)}[{-(-int(size) // 8)}]"
-    if text is None and zero is None:
+    name, linkage, count, kind, text, listed, zero = found.groups()
+    size = int(count) * struct.calcsize(_PACKED[kind])
+    head = f"const uint64_t {identifier(name)}[{-(-size // 8)}]"
+    if text is None and listed is None and zero is None:
         return f"extern {head};"
-    content = bytes(int(size)) if zero else _bytes(text)
-    if len(content) != int(size):
+    content = bytes(size) if zero else _bytes(text) if text is not None else _packed(listed, kind)
+    if len(content) != size:
         raise unknown(line)
-    words = struct.unpack(f"<{-(-len(content) // 8)}Q", content + bytes(-len(content) % 8))
-    return f"{'static ' if 'internal' in linkage else ''}{head} = {{{', '.join(map(hex, words))}}};"
+    words = struct.unpack(f"<{-(-size // 8)}Q", content + bytes(-size % 8))
+    own = "static " if re.search(r"\b(?:internal|private)\b", linkage) else ""
+    return f"{own}{head} = {{{', '.join(map(hex, words))}}};"
+
+
+def _packed(listed: str, kind: str) -> bytes:
+    """Return the bytes of the elements of a constant. What LLVM leaves open becomes 0."""
+    values = [element.split()[1] for element in listed.split(",")]
+    if kind == "double":
+        numbers = [0.0 if value in ("poison", "undef") else number(value) for value in values]
+        return struct.pack(f"<{len(numbers)}d", *numbers)
+    words = {"poison": 0, "undef": 0, "true": 1, "false": 0}
+    return struct.pack(f"<{len(values)}{_PACKED[kind]}", *(words[v] if v in words else int(v) for v in values))
 
 
 def _bytes(text: str) -> bytes:

@@ -146,6 +146,24 @@ declare double @llvm.fabs.f64(double)
     assert other(0.5, 4) == one(0.5, 4) == 1.1 + 0x225C5C + 7.0
 
 
+def test_tables_of_numbers(tmp_path):
+    """LLVM makes tables of a switch. What it leaves open may be anything."""
+    ir = """@t = private unnamed_addr constant [3 x double] [double 1.250000e+00, double 0x3FB999999999999A, double poison], align 8
+@k = private constant [3 x i64] [i64 5, i64 -6, i64 7], align 8
+define double @f(i64 %i) {
+  %p = getelementptr inbounds nuw double, ptr @t, i64 %i
+  %q = getelementptr inbounds nuw i64, ptr @k, i64 %i
+  %x = load double, ptr %p, align 8
+  %n = load i64, ptr %q, align 8
+  %y = sitofp i64 %n to double
+  %r = fadd double %x, %y
+  ret double %r
+}
+"""
+    one, other, _keep = _both(ir, ctypes.c_double, [ctypes.c_int64], tmp_path)
+    assert [other(i) for i in (0, 1)] == [one(i) for i in (0, 1)] == [6.25, 0.1 - 6.0]
+
+
 @pytest.mark.parametrize(
     "line",
     [
