@@ -276,7 +276,8 @@ class Function:
 
 def _blocks(lines: Sequence[str]) -> Iterator[tuple[str, list[str]]]:
     """Yield label and instructions of each block. A switch becomes one line. The first block may have no label: %0."""
-    label, body, begun = "%0", [], ""
+    body: list[str] = []
+    label, begun = "%0", ""
     for line in lines:
         if found := re.match(r'("[^"]+"|[\w$.\-]+):', line):
             if body:

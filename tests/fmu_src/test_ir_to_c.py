@@ -148,7 +148,7 @@ declare double @llvm.fabs.f64(double)
 
 def test_tables_of_numbers(tmp_path):
     """LLVM makes tables of a switch. What it leaves open may be anything."""
-    ir = """@t = private unnamed_addr constant [3 x double] [double 1.250000e+00, double 0x3FB999999999999A, double poison], align 8
+    ir = """@t = private unnamed_addr constant [3 x double] [double 1.25e+00, double 0x3FB999999999999A, double poison], align 8
 @k = private constant [3 x i64] [i64 5, i64 -6, i64 7], align 8
 define double @f(i64 %i) {
   %p = getelementptr inbounds nuw double, ptr @t, i64 %i
