@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import shutil
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
@@ -23,6 +24,14 @@ def write(component: Component, guid: str, folder: Path, *, kernels_in_c: bool =
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8")
     return [folder / name for name in texts]
+
+
+def write_whole(component: Component, guid: str, others: Iterable[Path], folder: Path) -> list[Path]:
+    """Write all that a C compiler needs into a new folder: these files, and copies of the others. Return the paths."""
+    folder.mkdir()
+    written = write(component, guid, folder, kernels_in_c=True)
+    names = {path.name for path in written}
+    return [*written, *(Path(shutil.copy(path, folder)) for path in others if path.name not in names)]
 
 
 def header(component: Component, guid: str, *, kernels_in_c: bool = False) -> str:

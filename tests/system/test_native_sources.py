@@ -10,7 +10,7 @@ import fmpy
 import numpy as np
 import pytest
 
-from fmu_src.native.packaging import run
+from fmu_src.native.linking import FROM_C, link, run
 from reference.native import HOST
 
 FLAGS = ("-std=c11", "-O1", "-ffp-contract=off", "-Wall", "-Wno-unused-parameter", "-fno-sanitize=undefined")
@@ -99,3 +99,13 @@ def test_fmi_3_lists_the_same_files(native_fmi3_folder, unzipped):
         native_fmi3_folder / "sources" / path.name for path in _listed(unzipped("WheelRailContact"))
     ]
     assert all((native_fmi3_folder / "sources" / name).exists() for name in files.sourceFiles)
+
+
+@pytest.mark.parametrize("platform", FROM_C)
+def test_the_option_arm_makes_a_library_from_the_same_sources(unzipped, tmp_path, platform):
+    """It needs nothing but the C library, and has all functions of FMI."""
+    folder = unzipped("EllipticContact")
+    library = link(platform, "EllipticContact", sorted((folder / "sources").iterdir()), [], tmp_path)
+    content = library.read_bytes()
+    assert content[:4] in (b"\x7fELF", b"\xcf\xfa\xed\xfe")
+    assert all(name in content for name in (b"fmi2DoStep", b"fmi3DoStep"))
