@@ -15,6 +15,7 @@ _TYPES = {
     "double": ("double", 8, "double"),
     "i64": ("int64_t", 8, "int64"),
     "i32": ("int32_t", 4, "int32"),
+    "i16": ("int16_t", 2, "int16"),
     "i8": ("int8_t", 1, "int8"),
     "i1": ("bool", 1, "int8"),
     "ptr": ("char *", 8, "pointer"),
@@ -128,6 +129,8 @@ class Function:
             return _double(text)
         if not re.fullmatch(r"-?\d+", text):
             raise unknown(f"{kind} {text}")
+        if mask := _mask(kind):
+            return f"UINT64_C({int(text) & mask})"
         if kind == "i64":
             return f"INT64_C({text})" if int(text) > -(2**63) else "INT64_MIN"
         return text
@@ -219,6 +222,10 @@ class Function:
             return kind, f"-{self._value(more, kind)}"
         if word in _OF_INTEGERS:
             operator, unsigned = _OF_INTEGERS[word]
+            if mask := _mask(kind):
+                if not unsigned:
+                    raise unknown(f"{word} {operands}")
+                return kind, f"({f' {operator} '.join(self._value(part, kind) for part in _split(more))}) & {mask:#x}"
             to = f"({'u' if unsigned and kind != 'i1' else ''}{_c(kind)})"
             return kind, f"({_c(kind)})({f' {operator} '.join(to + self._value(part, kind) for part in _split(more))})"
         if word in ("icmp", "fcmp"):
@@ -249,12 +256,14 @@ class Function:
             raise unknown(operands)
         source, text, target = found.groups()
         value = self._value(text, source)
-        if word in ("uitofp", "zext") and source != "i1":
+        if word in ("uitofp", "zext") and source in _TYPES and source != "i1":
             value = f"(u{_c(source)}){value}"
         if word == "sext" and source == "i1":
             value = f"-(int){value}"
-        if word == "trunc" and target == "i1":
-            return target, f"{value} & 1"
+        if word == "trunc" and (mask := 1 if target == "i1" else _mask(target)):
+            return target, f"{value} & {mask:#x}"
+        if _mask(source) and word in ("sitofp", "sext"):
+            raise unknown(f"{word} {operands}")
         return target, f"({_c(target)}){value}"
 
     def _call(self, operands: str) -> tuple[str, str]:
@@ -305,7 +314,9 @@ def _compared(predicate: str, kind: str, a: str, b: str) -> str:
         return f"{a} {_COMPARED[predicate]} {b}"
     first, rest = predicate[0], predicate[1:]
     if kind != "double":
-        to = f"({'u' if first == 'u' else ''}{_c(kind)})" if kind != "ptr" else ""
+        if first == "s" and _mask(kind):
+            raise unknown(f"icmp {predicate} {kind}")
+        to = f"({'u' if first == 'u' else ''}{_c(kind)})" if kind in _TYPES and kind != "ptr" else ""
         return f"{to}{a} {_COMPARED[rest]} {to}{b}"
     if predicate in ("ord", "uno"):
         return f"{'' if predicate == 'ord' else '!'}({a} == {a} && {b} == {b})"
@@ -335,9 +346,15 @@ def _double(text: str) -> str:
 
 
 def _c(kind: str) -> str:
-    if kind not in _TYPES:
+    if kind not in _TYPES and not _mask(kind):
         raise unknown(f"type {kind}")
-    return _TYPES[kind][0]
+    return _TYPES[kind][0] if kind in _TYPES else "uint64_t"
+
+
+def _mask(kind: str) -> int:
+    """Return the bits of an integer type that C has not, for example i13 of a table that LLVM packs into a number; else 0."""
+    found = re.match(r"i(\d+)$", kind)
+    return 2 ** int(found[1]) - 1 if found and kind not in _TYPES and int(found[1]) < 64 else 0
 
 
 def _suffix(kind: str) -> str:

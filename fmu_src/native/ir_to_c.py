@@ -19,7 +19,7 @@ static inline void store_{name}(char *p, {type} v) {{ memcpy(p, &v, sizeof v); }
 _HEADER = "\n".join(
     (
         *(f"#include <{name}.h>" for name in ("math", "stdbool", "stdint", "string")),
-        *(_ACCESS.format(type=f"{name}_t", name=name) for name in ("int64", "int32", "int8")),
+        *(_ACCESS.format(type=f"{name}_t", name=name) for name in ("int64", "int32", "int16", "int8")),
         _ACCESS.format(type="double", name="double"),
         _ACCESS.format(type="char *", name="pointer"),
         "static inline int64_t smin(int64_t a, int64_t b) { return a < b ? a : b; }",

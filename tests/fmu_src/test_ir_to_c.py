@@ -164,6 +164,31 @@ define double @f(i64 %i) {
     assert [other(i) for i in (0, 1)] == [one(i) for i in (0, 1)] == [6.25, 0.1 - 6.0]
 
 
+def test_integers_of_a_width_that_c_has_not(tmp_path):
+    """LLVM packs small tables into one number, here thirteen bits."""
+    ir = """define i64 @f(i64 %i) {
+  %n = trunc i64 %i to i13
+  %m = and i13 %n, 15
+  %s = lshr i13 -2817, %m
+  %w = mul i13 %s, %n
+  %b = trunc i13 %s to i1
+  %c = icmp ugt i13 %w, 100
+  %x = zext i13 %w to i64
+  %y = select i1 %b, i64 %x, i64 -1
+  %h = trunc i64 %i to i16
+  %k = ashr i16 %h, 3
+  %l = sext i16 %k to i64
+  %z = zext i1 %c to i64
+  %t = add i64 %y, %z
+  %r = xor i64 %t, %l
+  ret i64 %r
+}
+"""
+    one, other, _keep = _both(ir, ctypes.c_int64, [ctypes.c_int64], tmp_path)
+    cases = [i for i in range(-70000, 70000, 37) if i & 15 < 13]
+    assert [other(i) for i in cases] == [one(i) for i in cases]
+
+
 @pytest.mark.parametrize(
     "line",
     [
