@@ -1,7 +1,7 @@
 """One function of LLVM IR in C (see `ir_to_c`).
 
-A value of the IR becomes a variable of the C function, a block becomes a label. A phi takes its value from a variable that
-each block before it sets, so that the phis of one block may swap values.
+A value of the IR becomes a variable of the C function, a structure one for each member. A block becomes a label. A phi takes
+its value from a variable that each block before it sets, so that the phis of one block may swap values.
 """
 
 from __future__ import annotations
@@ -68,7 +68,6 @@ class Function:
         self._names: dict[str, str] = {}
         self._taken: set[str] = set()
         self._variables: dict[str, str] = {}
-        self._structures: dict[str, list[str]] = {}  # values of the members of structures, which have no variable
         arguments = (argument.split() for argument in _split(given))
         declared = ", ".join(f"{_c(words[0])} {self._local(words[-1])}" for words in arguments)
         linkage = "static " if re.search(r"\binternal\b", lines[0]) else ""
@@ -84,9 +83,9 @@ class Function:
             if i > 0:  # nothing jumps to the first block
                 lines.append(f"{self._label(label)}:;")
             for name, (kind, _) in self._phis[label].items():
-                own = self._declare(name, kind)
-                self._variables[f"{own}_in"] = _c(kind)
-                lines.append(f"    {own} = {own}_in;")
+                for own, of_member in self._declare(name, kind):
+                    self._variables[f"{own}_in"] = _c(of_member)
+                    lines.append(f"    {own} = {own}_in;")
             for text in body:
                 if " = phi " not in text:
                     lines += [f"    {line}" for line in self._statements(text, label)]
@@ -108,10 +107,24 @@ class Function:
     def _label(self, name: str) -> str:
         return self._local("%to " + name)[2:]
 
-    def _declare(self, name: str, kind: str) -> str:
-        own = self._local(name)
-        self._variables[own] = _c(kind)
-        return own
+    def _declare(self, name: str, kind: str) -> list[tuple[str, str]]:
+        """Declare the variables of a value: its own, or those of its members. Return (variable, type)."""
+        own, kinds = self._local(name), _members(kind)
+        listed = [(own, kind)] if kinds is None else [(f"{own}_m{i}", k) for i, k in enumerate(kinds)]
+        self._variables.update({variable: _c(k) for variable, k in listed})
+        return listed
+
+    def _values(self, text: str, kind: str) -> list[str]:
+        """Return the C expressions of an operand: one, or those of its members."""
+        kinds = _members(kind)
+        if kinds is None:
+            return [self._value(text, kind)]
+        if text.startswith("{"):
+            return [self._typed(member) for member in _split(text[1:-1])]
+        known = text.startswith("%")
+        if not known and text not in ("poison", "undef", "zeroinitializer"):
+            raise unknown(f"{kind} {text}")
+        return [f"{self._local(text)}_m{i}" if known else "0" for i in range(len(kinds))]
 
     def _value(self, text: str, kind: str) -> str:
         """Return the C expression of an operand."""
@@ -150,14 +163,19 @@ class Function:
         name, rest = found[1], re.sub(r"\s+", " ", _MARKS.sub("", found[2])).strip().rstrip(", ")
         word, _, operands = rest.partition(" ")
         if word == "insertvalue":
-            self._insert(name, operands)
-            return []
+            return self._insert(name, operands)
+        if word == "extractvalue":
+            structure, index = _split(operands)
+            kind, value = _structure(structure)
+            ((own, _),) = self._declare(name, _split(kind[1:-1])[int(index)])
+            return [f"{own} = {self._values(value, kind)[int(index)]};"]
         if word == "call" and "@llvm.lifetime" in operands:
             return []
         if name is None:
             return self._effect(word, operands, label)
         kind, expression = self._expression(word, operands, name)
-        return [f"{self._declare(name, kind)} = {expression};"]
+        ((own, _),) = self._declare(name, kind)
+        return [f"{own} = {expression};"]
 
     def _effect(self, word: str, operands: str, label: str) -> list[str]:
         """Return the C statements of an instruction without a value."""
@@ -185,8 +203,9 @@ class Function:
     def _jump(self, target: str, label: str) -> str:
         """Return the statements that go from the block `label` to `target`."""
         moves = [
-            f"{self._local(name)}_in = {self._value(values[label], kind)};"
+            f"{own}_in = {value};"
             for name, (kind, values) in self._phis[target].items()
+            for (own, _), value in zip(self._declare(name, kind), self._values(values[label], kind), strict=True)
         ]
         return " ".join((*moves, f"goto {self._label(target)};"))
 
@@ -196,21 +215,21 @@ class Function:
         place = self._pointer(where)
         if not what.startswith("{"):
             return [f"store_{_suffix(what.split()[0])}({place}, {self._typed(what)});"]
-        structure, _, name = what.rpartition(" ")
+        structure, name = _structure(what)
         offset, lines = 0, []
-        for kind, value in zip(_split(structure[1:-1]), self._structures[name], strict=True):
+        for kind, value in zip(_split(structure[1:-1]), self._values(name, structure), strict=True):
             offset = -(-offset // _size(kind)) * _size(kind)
             lines.append(f"store_{_suffix(kind)}({place} + {offset}, {value});")
             offset += _size(kind)
         return lines
 
-    def _insert(self, name: str, operands: str) -> None:
-        """Note the members of a structure after one of them is set."""
+    def _insert(self, name: str, operands: str) -> list[str]:
+        """Return the statements for a structure of which one member is set."""
         before, member, index = _split(operands)
-        structure, _, old = before.rpartition(" ")
-        members = list(self._structures.get(old, ["0"] * len(_split(structure[1:-1]))))
-        members[int(index)] = self._typed(member)
-        self._structures[name] = members
+        structure, old = _structure(before)
+        values = self._values(old, structure)
+        values[int(index)] = self._typed(member)
+        return [f"{own} = {value};" for (own, _), value in zip(self._declare(name, structure), values, strict=True)]
 
     def _expression(self, word: str, operands: str, name: str) -> tuple[str, str]:
         """Return type and C expression of an instruction with a value."""
@@ -303,7 +322,7 @@ def _blocks(lines: Sequence[str]) -> Iterator[tuple[str, list[str]]]:
 def _phis(body: Sequence[str]) -> Iterator[tuple[str, tuple[str, dict[str, str]]]]:
     """Yield name → (type, value for each block before)."""
     for line in body:
-        if found := re.match(rf"({LOCAL}) = phi (\S+) (.*)$", line):
+        if found := re.match(rf"({LOCAL}) = phi (\{{.*?\}}|\S+) (.*)$", line):
             pairs = re.findall(rf"\[ (.*?), ({LOCAL}) \]", found[3])
             yield found[1], (found[2], {block: value for value, block in pairs})
 
@@ -355,6 +374,21 @@ def _mask(kind: str) -> int:
     """Return the bits of an integer type that C has not, for example i13 of a table that LLVM packs into a number; else 0."""
     found = re.match(r"i(\d+)$", kind)
     return 2 ** int(found[1]) - 1 if found and kind not in _TYPES and int(found[1]) < 64 else 0
+
+
+def _structure(text: str) -> tuple[str, str]:
+    """Return type and value of an operand that is a structure."""
+    depth = 0
+    for i, character in enumerate(text):
+        depth += (character == "{") - (character == "}")
+        if depth == 0:
+            return text[: i + 1], text[i + 1 :].strip()
+    raise unknown(text)
+
+
+def _members(kind: str) -> list[str] | None:
+    """Return the types of the members of a structure, None for another type."""
+    return _split(kind[1:-1]) if kind.startswith("{") else None
 
 
 def _suffix(kind: str) -> str:
