@@ -17,8 +17,7 @@ from models.life.spectra import Irregularities
 from models.life.track import Curve, Track
 from models.vehicle.course import lay
 from models.vehicle.declared import read
-from models.vehicle.kernels.frames import lay_frames
-from models.vehicle.kernels.layout import Book
+from models.vehicle.kernels.motion import ask
 from models.vehicle.kernels.wheels import press
 from models.vehicle.simulation import ContactOptions, Simulation
 
@@ -45,9 +44,9 @@ def measured(speed: float, track: Track, options: ContactOptions, seconds: float
     start = time.process_time()
     vehicle.advance(STEP, steps)
     spent = (time.process_time() - start) / steps
-    s, calls = float(vehicle.state.books[Book.DISTANCE]), 500
-    lay_frames(vehicle.model, s, speed, vehicle.scratch.frames)
-    arguments = vehicle.model, vehicle.state, s, vehicle.benches, vehicle.scratch
+    calls = 500
+    ask(vehicle.model, vehicle.state, vehicle.benches.motions, vehicle.scratch)
+    arguments = vehicle.benches, vehicle.scratch
     press(*arguments)
     start = time.process_time()
     for _ in range(calls):  # the call from Python costs a few per cent of it

@@ -11,6 +11,8 @@ from contact.citation import cite
 from contact.creepage import Creepage
 from contact.errors import ContactError
 from contact.forces import forces
+from contact.halfspace.third_body import ThirdBody
+from contact.halfspace.transient import Transient
 from contact.hertz import HertzContact, hertz
 from contact.material import STEEL, Material
 from contact.registry import Method, Methods, methods
@@ -42,6 +44,8 @@ __all__ = [
     "Solver",
     "Status",
     "Strips",
+    "ThirdBody",
+    "Transient",
     "cite",
     "compare",
     "forces",

@@ -54,6 +54,15 @@ def require_number(
     return number
 
 
+def require_pair(name: str, value: object) -> tuple[float, float]:
+    """Return two positive numbers from `value`, a positive number or a pair of them, or raise a ContactError."""
+    both = value if isinstance(value, tuple | list) else (value, value)
+    if len(both) != 2:
+        raise ContactError(f"{name} = {value!r} is not a number or a pair of numbers")
+    first, second = (require_number(name, one, 0.0, open_minimum=True) for one in both)
+    return first, second
+
+
 def doubt(name: str, value: float, limit: float, hint: str, level: int = 3) -> None:
     """Warn of a value that is allowed but larger than `limit` in magnitude. `hint` says what is usual, or the unit.
 

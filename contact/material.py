@@ -10,7 +10,7 @@ from contact.errors import require_number
 
 @dataclass(frozen=True, slots=True)
 class Material:
-    """Pair of quasi-identical elastic half spaces: normal and tangential displacement are not coupled.
+    """Pair of elastic half spaces. Unlike bodies couple normal and tangential displacement by the constant `coupling`.
 
     Parameters
     ----------
@@ -28,6 +28,9 @@ class Material:
         Pressure p_c at which the softer body yields as a whole [Pa]; default infinite. The pressure is limited to p_c, and
         the bodies approach further (elastic-perfectly plastic, theory.md 8.4). For comparison: first yield is at 3.1 to
         3.3 k, shakedown at 4.0 k (line) to 4.7 k (circle), full indentation at about 5 k [R].
+    coupling : float
+        K = [(1 - 2nu_r)/G_r - (1 - 2nu_w)/G_w] G/4 of rail and wheel [-], in [-0.5, 0.5]; 0 for like bodies. Dundurs' constant
+        is K/(1 - nu). Only the element-wise half space uses it (unlike.md); all other methods neglect it.
 
     Raises
     ------
@@ -40,6 +43,7 @@ class Material:
     hardness: float = 2.7e9
     shear_yield: float = 300e6
     pressure_limit: float = math.inf
+    coupling: float = 0.0
 
     def __post_init__(self) -> None:
         require_number("shear_modulus", self.shear_modulus, 0.0, open_minimum=True)
@@ -48,6 +52,7 @@ class Material:
         require_number("shear_yield", self.shear_yield, 0.0, open_minimum=True)
         if self.pressure_limit != math.inf:
             require_number("pressure_limit", self.pressure_limit, 0.0, open_minimum=True)
+        require_number("coupling", self.coupling, -0.5, 0.5)
 
     @property
     def contact_modulus(self) -> float:
@@ -58,13 +63,13 @@ class Material:
     def from_pair(cls, E1: float, nu1: float, E2: float, nu2: float, **strength: float) -> Material:
         """Return the material of two bodies with Young's moduli `E1`, `E2` [Pa] and Poisson ratios `nu1`, `nu2` (Kalker 1990).
 
-        `strength` are the other parameters. The normal problem of dissimilar bodies is exact. Their coupling of normal and
-        tangential displacement is neglected.
+        Body 1 is the rail, body 2 the wheel. `strength` are the other parameters.
         """
         G1 = require_number("E1", E1, 0.0, open_minimum=True) / (2.0 * (1.0 + require_number("nu1", nu1, 0.0, 0.5)))
         G2 = require_number("E2", E2, 0.0, open_minimum=True) / (2.0 * (1.0 + require_number("nu2", nu2, 0.0, 0.5)))
         G = 2.0 / (1.0 / G1 + 1.0 / G2)
-        return cls(G, 0.5 * G * (nu1 / G1 + nu2 / G2), **strength)
+        K = 0.25 * G * ((1.0 - 2.0 * nu1) / G1 - (1.0 - 2.0 * nu2) / G2)
+        return cls(G, 0.5 * G * (nu1 / G1 + nu2 / G2), **{"coupling": K, **strength})
 
 
 #: Wheel steel on rail steel, with the constants of the reference computations (G = 82 GPa, nu = 0.28).

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import NamedTuple
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +12,10 @@ from contact import workspace
 from contact.case import cases, set_surface
 from contact.creepage import Creepage
 from contact.damage import DamageParameters
+from contact.elastic_rail import ElasticRail, Settled
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
-from contact.geometry.records import Irregularity, Pose, Velocity
+from contact.geometry.records import Irregularity, Pose, Velocity, contact_angle
 from contact.geometry.wheelset import Pair
 from contact.kernels.arrays import Bench, Ledger
 from contact.kernels.enumerations import Height, NoAnswer
@@ -69,6 +70,11 @@ class Contact:
     used_friction: float
     status: Status
     gap_error: float
+
+    @property
+    def contact_angle(self) -> float:
+        """Contact angle [rad], positive if the rail pushes the wheel to the track's centre, on either side."""
+        return contact_angle(self.angle, self.position[1])
 
     @property
     def T_gamma(self) -> float:
@@ -129,6 +135,7 @@ class PairSolution:
     damage : damage of all patches
     status : Status
     gap_error : the greatest of the patches [-]
+    deflection : lateral and vertical deflection of an elastic rail [m], added to its irregularity; 0 for a rigid rail
     """
 
     force: Array
@@ -146,6 +153,7 @@ class PairSolution:
     damage: PairDamage
     status: Status
     gap_error: float
+    deflection: tuple[float, float] = (0.0, 0.0)
 
     @property
     def slip_ratio(self) -> float:
@@ -219,6 +227,7 @@ class WheelRailPair:
         self.bench.case[:] = cases(
             1, method, rolling, material, conformal=conformal, max_iterations=require_max_iterations(max_iterations)
         )
+        self._deflection = 0.0, 0.0
         self.bench.damage_parameters[:] = (damage or DamageParameters()).record(material, 1.0, 1.0)
 
     def forget(self) -> None:
@@ -227,6 +236,7 @@ class WheelRailPair:
         Interacting strips start from the last call. This changes their results within their tolerance, 1e-4.
         """
         self.bench.memory[:] = 0.0
+        self._deflection = 0.0, 0.0
 
     def solve(
         self,
@@ -239,6 +249,7 @@ class WheelRailPair:
         irregularity: Irregularity | None = None,
         friction: float | Friction = 0.3,
         distance: float = 0.0,
+        rail: ElasticRail | None = None,
     ) -> PairSolution:
         """Find and solve all patches at one instant.
 
@@ -254,6 +265,9 @@ class WheelRailPair:
             Coulomb's coefficient mu ≥ 0 [-], or a friction law, evaluated with the sliding velocity of each patch.
         distance : float
             Distance rolled in this state [m], not negative, for the ledger. If the solution fails, nothing is added.
+        rail : contact.elastic_rail.ElasticRail
+            Springs under the rail. Its deflection is found, from that of the last call; `forget` resets it. If the force
+            jumps and no deflection is in balance, the status is NOT_CONVERGED. It takes three to thirty times as long.
 
         Returns
         -------
@@ -266,6 +280,18 @@ class WheelRailPair:
         ContactError
             For input outside its range, if wheel and rail do not overlap laterally, or if no z gives the load.
         """
+        if rail is not None:
+            return self._deflect(
+                rail,
+                pose,
+                velocity,
+                load=load,
+                penetration=penetration,
+                vertical=vertical,
+                irregularity=irregularity,
+                friction=friction,
+                distance=distance,
+            )
         if vertical is None:
             mode, amount = self.pair.prescribed(load, penetration)
         elif load is None and penetration is None:
@@ -298,6 +324,32 @@ class WheelRailPair:
             status=Status(total.status),
             gap_error=float(total.gap_error),
         )
+
+    def _deflect(
+        self,
+        rail: ElasticRail,
+        pose: Pose,
+        velocity: Velocity | None,
+        *,
+        irregularity: Irregularity | None,
+        distance: float,
+        **others: Any,
+    ) -> PairSolution:
+        """Return the solution with the rail in balance. Wear is added only there."""
+        settled = Settled(
+            rail,
+            lambda moved: self.solve(pose, velocity, irregularity=moved, **others),
+            irregularity or Irregularity(),
+            free_height=any(others[name] is not None for name in ("load", "penetration", "vertical")),
+            start=self._deflection,
+        )
+        solution = settled.solution
+        self._deflection = deflection = settled.dy, settled.dz
+        if distance != 0.0 and settled.balanced:
+            moved = replace(settled.given, y=settled.given.y + settled.dy, z=settled.given.z + settled.dz)
+            solution = self.solve(pose, velocity, irregularity=moved, distance=distance, **others)
+        status = solution.status if settled.balanced else Status.NOT_CONVERGED
+        return replace(solution, deflection=deflection, status=status)
 
 
 def _contact(found: np.record) -> Contact:

@@ -18,22 +18,31 @@ Array = NDArray[np.float64]
 def pressure_at(solution: Solution, x: ArrayLike, y: ArrayLike) -> Array:
     """Return the contact pressure [Pa] at points of the contact plane: the work of `Solution.pressure`."""
     x, y = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64))
+    result = np.zeros(x.shape)
+    for k in range(len(solution.patch_edges)):
+        result += pressure_of_patch(solution, k, x, y)  # a sum, because the ellipses of multi_hertz may overlap
+    return result
+
+
+def pressure_of_patch(solution: Solution, k: int, x: ArrayLike, y: ArrayLike) -> Array:
+    """Return the contact pressure [Pa] of patch `k` at points of the contact plane; 0 outside the patch."""
+    x, y = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64))
     result, limit = np.zeros(x.shape), solution.material.pressure_limit
-    for k, (low, high) in enumerate(solution.patch_edges):
-        own = solution.strips.patch == k
-        knots = np.r_[low, solution.strips.y[own], high]
-        a, p0 = solution.strips.a[own], solution.strips.p0[own]
-        inside = (y > low) & (y < high)
-        centre = np.interp(y[inside], solution.strips.y[own], solution.strips.x_c[own])
-        a2 = np.maximum(_parabolic(knots, np.r_[0.0, a**2, 0.0], y[inside]), 0.0)
-        load = np.maximum(_parabolic(knots, np.r_[0.0, p0 * a, 0.0], y[inside]), 0.0)
-        square = a2 - (x[inside] - centre) ** 2
-        load = load * _elastic_over_limited(load, a2, limit)
-        result[inside] += np.where(  # a sum, because the ellipses of multi_hertz may overlap
-            square > 0.0,
-            np.minimum(load * np.sqrt(np.maximum(square, 0.0)) / np.where(a2 > 0.0, a2, 1.0), limit),
-            0.0,
-        )
+    low, high = solution.patch_edges[k]
+    own = solution.strips.patch == k
+    knots = np.r_[low, solution.strips.y[own], high]
+    a, p0 = solution.strips.a[own], solution.strips.p0[own]
+    inside = (y > low) & (y < high)
+    centre = np.interp(y[inside], solution.strips.y[own], solution.strips.x_c[own])
+    a2 = np.maximum(_parabolic(knots, np.r_[0.0, a**2, 0.0], y[inside]), 0.0)
+    load = np.maximum(_parabolic(knots, np.r_[0.0, p0 * a, 0.0], y[inside]), 0.0)
+    square = a2 - (x[inside] - centre) ** 2
+    load = load * _elastic_over_limited(load, a2, limit)
+    result[inside] = np.where(
+        square > 0.0,
+        np.minimum(load * np.sqrt(np.maximum(square, 0.0)) / np.where(a2 > 0.0, a2, 1.0), limit),
+        0.0,
+    )
     return result
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -229,6 +230,12 @@ class Solution:
     def utilisation(self) -> float:
         """Utilised friction: creep force over normal force [-]; 0 without contact."""
         return math.hypot(self.Fx, self.Fy - self.pressure_y) / self.N if self.N > 0.0 else 0.0
+
+    def with_status(self, status: Status) -> Solution:
+        """Return a copy with another status."""
+        other = copy.copy(self)
+        other.__dict__["status"] = status
+        return other
 
     @cached_property
     def damage(self) -> Damage:

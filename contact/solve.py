@@ -12,15 +12,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.creepage import Creepage
-from contact.errors import ContactError, doubt, require_number
+from contact.errors import ContactError, doubt, require_number, require_pair
 from contact.friction import Friction, as_friction
+from contact.given_force import solve_for_force, wanted_force
 from contact.halfspace import linear
 from contact.halfspace.gap import Division, Gap
-from contact.halfspace.solve import solve_gap, solve_pressure
+from contact.halfspace.solve import press_gap, press_solution
+from contact.halfspace.third_body import ThirdBody
 from contact.kalker import constant_table
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.material import STEEL, Material
-from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.separation import Separation
 from contact.solution import Solution
 from contact.solver import (
@@ -42,6 +44,7 @@ def solve(
     *,
     load: float | None = None,
     approach: float | None = None,
+    force: float | tuple[float | None, float | None] | None = None,
     friction: float | Friction = 0.3,
     material: Material = STEEL,
     speed: float = 20.0,
@@ -52,6 +55,7 @@ def solve(
     spacing: float | tuple[float, float] | None = None,
     conformal: bool = False,
     max_iterations: int = MAX_ITERATIONS,
+    layer: ThirdBody | None = None,
     start: Solution | None = None,
     progress: Callable[[int, float], None] | None = None,
     throw: bool = True,
@@ -66,6 +70,11 @@ def solve(
         Rigid velocity of the wheel relative to the rail, over the speed.
     load, approach : float
         Normal force [N] ≥ 0, or rigid approach [m] measured from g = 0 (negative: apart). Give exactly one of them.
+    force : float or (float or None, float or None)
+        Tangential force Fx, or (Fx, Fy), on the wheel [N], instead of the creepages in its direction. These are found; those
+        of `creepage` are the start. The spin is given, and so is a creepage whose force is None. `Solution.creepage` is the
+        answer. If no creepage up to 1 makes the force, the status is UNREACHABLE, and the forces are those of the largest
+        creepage that was tried.
     friction : float or contact.friction.Friction
         Coulomb's coefficient mu ≥ 0 [-], or a friction law.
     material : Material
@@ -84,6 +93,8 @@ def solve(
         and include the lateral part of the pressure. Fields are measured along the surface.
     max_iterations : int
         Most iterations of the strip half space, 1 to 1000. When they are used up, the status is NOT_CONVERGED.
+    layer : contact.ThirdBody
+        A layer between the bodies that shears and yields; only with tangential="halfspace".
     start : Solution
         Solution of a similar problem at the same resolution. An iterative normal method may start from it. This changes
         the computing time, and the result only within the method's tolerance.
@@ -113,17 +124,20 @@ def solve(
         require_number("load", load, 0.0)
     else:
         require_number("approach", approach)
+    wanted = None if force is None else wanted_force(force)
     surface = as_friction(friction)
     _doubt(surface, creepage)
     speed = require_number("speed", speed, 0.0)
     n_strips, n_elements = require_resolution(n_strips, n_elements)
     max_iterations = require_max_iterations(max_iterations)
     method, rolling = lookup("normal", normal), lookup("tangential", tangential)
-    division = Division(n_strips, n_elements, _pair(spacing))
+    division = Division(n_strips, n_elements, None if spacing is None else require_pair("spacing", spacing))
     if rolling.elementwise and (surface.slope, surface.slope_far) != (1.0, 1.0):
         raise ContactError(
             f"friction.slope = {surface.slope:g}: tangential = {tangential!r} is the half space itself; allowed: slope 1"
         )
+    if layer is not None:
+        require_layer(layer, rolling, surface)
     if conformal:
         require_conformal(rolling)
         if not isinstance(separation, Separation):
@@ -132,14 +146,12 @@ def solve(
         raise ContactError(
             f"material.pressure_limit = {material.pressure_limit:g}: normal = {normal!r} is elastic; allowed: inf"
         )
+    if method.elementwise and not rolling.elementwise:
+        raise ContactError(f"tangential = {tangential!r} does not work with normal = {normal!r}; allowed: halfspace")
+    evaluate: Callable[[Creepage], Solution]
     if method.elementwise:
-        if not rolling.elementwise:
-            raise ContactError(
-                f"tangential = {tangential!r} does not work with normal = {normal!r}; allowed: halfspace"
-            )
-        solution: Solution = solve_gap(
+        evaluate = press_gap(
             separation,
-            creepage,
             division,
             load=load,
             approach=approach,
@@ -147,39 +159,36 @@ def solve(
             material=material,
             speed=speed,
             conformal=conformal,
+            layer=layer,
             progress=progress,
-        )
+        ).roll
     elif not isinstance(separation, Separation):
         raise ContactError(f"normal = {normal!r} needs a contact.Separation; separation = {separation!r} is on a grid")
     else:
+        size = n_strips, n_elements
         problem = _StripProblem(
-            separation, creepage, load, approach, surface, material, speed, method.name, max_iterations
+            separation, load, approach, surface, material, speed, method.name, size, start, conformal, max_iterations
         )
-        kernel_name = DEFAULT_TANGENTIAL if rolling.elementwise else rolling.kernel
-        if rolling.name == kernel_name and not rolling.calibrated:  # nothing more to do, so the solution stays lazy
-            return problem.solve(kernel_name, n_strips, n_elements, start, conformal, throw=throw)
-        solution = problem.solve(kernel_name, n_strips, n_elements, start, conformal and not rolling.elementwise)
-        if rolling.calibrated and solution.N > 0.0:
-            coefficients = _patch_coefficients(problem, solution)
-            solution = problem.solve(kernel_name, n_strips, n_elements, start, conformal, coefficients)
-        if rolling.name != kernel_name and not rolling.elementwise:
-            solution = replace(solution, tangential=rolling.name)
-        if rolling.elementwise:
-            solution = solve_pressure(solution, separation if conformal else None, surface, division, progress)
+        if wanted is None and not (rolling.calibrated or rolling.elementwise):  # the solution stays lazy
+            return problem.solve(creepage, rolling.name, throw=throw)
+        evaluate = _rolling(problem, creepage, rolling, division, layer, progress)
+    if wanted is None:
+        solution = evaluate(creepage)
+    else:
+        solution = solve_for_force(wanted, creepage, evaluate, rolling.saturates)
     if throw:
         require_trustworthy(solution.status, separation.y, load, approach)
     return solution
 
 
-def _pair(spacing: object) -> tuple[float, float] | None:
-    """Return the size (dx, dy) of the elements [m], or None."""
-    if spacing is None:
-        return None
-    both = spacing if isinstance(spacing, tuple | list) else (spacing, spacing)
-    if len(both) != 2:
-        raise ContactError(f"spacing = {spacing!r} is not a number or a pair of numbers")
-    dx, dy = (require_number("spacing", value, 0.0, open_minimum=True) for value in both)
-    return dx, dy
+def require_layer(layer: object, tangential: Method, friction: Friction) -> None:
+    """Raise a ContactError if a third body cannot be used with this method and friction."""
+    if not isinstance(layer, ThirdBody):
+        raise ContactError(f"layer = {layer!r} is not a contact.ThirdBody")
+    if not tangential.elementwise:
+        raise ContactError(f"layer: tangential = {tangential.name!r} has no third body; allowed: halfspace")
+    if (friction.velocity != "global" and friction.law != "coulomb") or friction.hot_factor < 1.0:
+        raise ContactError("layer: friction must not depend on local slip or temperature")
 
 
 _Key = tuple[str, str, int, int, Material, bool, int, tuple[float, float, float] | None]
@@ -213,55 +222,77 @@ def _prepared(key: _Key, friction: Friction, speed: float) -> Solver:
 
 
 class _StripProblem(NamedTuple):
-    """One contact problem, to be solved on strips by different methods and resolutions."""
+    """One contact problem, to be solved on strips for different creepages and by different methods and resolutions."""
 
     separation: Separation
-    creepage: Creepage
     load: float | None
     approach: float | None
     friction: Friction
     material: Material
     speed: float
     normal: str
+    size: tuple[int, int]
+    start: Solution | None
+    conformal: bool
     max_iterations: int
 
     def solve(
         self,
+        creepage: Creepage,
         tangential: str,
-        n_strips: int,
-        n_elements: int,
-        start: Solution | None = None,
-        conformal: bool = False,
         coefficients: tuple[float, float, float] | None = None,
         throw: bool = False,
     ) -> Solution:
         """Return the solution. `coefficients` are C11, C22, C23 to use instead of those of linear theory."""
-        key = self.normal, tangential, n_strips, n_elements, self.material, conformal, self.max_iterations, coefficients
+        key = self.normal, tangential, *self.size, self.material, self.conformal, self.max_iterations, coefficients
         solver = _prepared(key, self.friction, self.speed)
-        if start is not None:
-            solver.start_from(start)
+        if self.start is not None:
+            solver.start_from(self.start)
         return solver.solve(
             self.separation,
-            self.creepage,
+            creepage,
             load=self.load,
             approach=self.approach,
             friction=self.friction,
             speed=self.speed,
-            warm=start is not None,
+            warm=self.start is not None,
             throw=throw,
         )
 
 
-def _patch_coefficients(problem: _StripProblem, solution: Solution) -> tuple[float, float, float]:
-    """Return C11, C22, C23 of linear theory on the patch of `solution`.
+def _rolling(
+    problem: _StripProblem,
+    creepage: Creepage,
+    method: Method,
+    division: Division,
+    layer: ThirdBody | None,
+    progress: Callable[[int, float], None] | None,
+) -> Callable[[Creepage], Solution]:
+    """Return the function from creepage to solution. What does not depend on the creepage is solved now."""
+    if method.elementwise:
+        first = problem._replace(conformal=False).solve(creepage, DEFAULT_TANGENTIAL)
+        if first.N <= 0.0:
+            return lambda creepage: replace(first, tangential=method.name, creepage=creepage)
+        bent = problem.separation if problem.conformal else None
+        return press_solution(first, bent, problem.friction, division, layer, progress).roll
+    if not method.calibrated:
+        return lambda creepage: problem.solve(creepage, method.name)
+    first = problem.solve(creepage, method.kernel)
+    coefficients = _patch_coefficients(problem, creepage, first) if first.N > 0.0 else None
+    return lambda creepage: replace(problem.solve(creepage, method.kernel, coefficients), tangential=method.name)
+
+
+def _patch_coefficients(problem: _StripProblem, creepage: Creepage, first: Solution) -> tuple[float, float, float]:
+    """Return C11, C22, C23 of linear theory on the patch of `first`.
 
     Linear theory is solved on coarse patches with n strips and extrapolated to n → ∞.
     """
 
     def at(n: int) -> Array:
-        return linear.flexibilities(problem.solve(DEFAULT_TANGENTIAL, n, n).strips, solution.material, n)
+        coarse = problem._replace(size=(n, n), start=None, conformal=False)
+        return linear.flexibilities(coarse.solve(creepage, DEFAULT_TANGENTIAL).strips, problem.material, n)
 
-    return linear.coefficients(linear.extrapolated(at), solution.strips, solution.material)
+    return linear.coefficients(linear.extrapolated(at), first.strips, problem.material)
 
 
 def _doubt(surface: Friction, creepage: Creepage) -> None:

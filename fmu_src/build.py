@@ -38,7 +38,7 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
     parser.add_argument(
         "--accumulation",
         action="store_true",
-        help="give WheelRailPair 1200 outputs more: damage that accumulates in bins over both profiles",
+        help="give WheelRailPair 1500 outputs more: damage that accumulates in bins over both profiles",
     )
     parser.add_argument(
         "--arm",

@@ -42,7 +42,7 @@ def fmu(
     rail: Annotated[str | None, typer.Option(help=f"Profile of the rail: {PROFILE}.")] = None,
     reading: opt.Reading,
     accumulation: Annotated[
-        bool, typer.Option("--accumulation", help="Give WheelRailPair the outputs of accumulated damage, 1200 numbers.")
+        bool, typer.Option("--accumulation", help="Give WheelRailPair the outputs of accumulated damage, 1500 numbers.")
     ] = False,
     arm: Annotated[
         bool, typer.Option("--arm", help="Add libraries for 64-bit ARM to the native FMUs (some minutes).")

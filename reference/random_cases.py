@@ -141,7 +141,7 @@ def run(normal: str, tangential: str, n: int, seed: int, solved: int) -> dict[st
     by_load = {"load": 10 ** rng.uniform(0, math.log10(250e3), n)}
     by_approach = {"approach": 10 ** rng.uniform(-8, -4, n) + np.array([separations[k].g.min() for k in which])}
     half = n // 2
-    statuses, not_converged = np.zeros(6, dtype=int), np.zeros(len(KINDS), dtype=int)
+    statuses, not_converged = np.zeros(max(contact.Status) + 1, dtype=int), np.zeros(len(KINDS), dtype=int)
     worst = {
         "finite": 0.0,
         "force": -1.0,
@@ -166,7 +166,7 @@ def run(normal: str, tangential: str, n: int, seed: int, solved: int) -> dict[st
         )
         columns = [getattr(found, name) for name in found.__slots__]
         worst["finite"] += sum(int((~np.isfinite(column)).sum()) for column in columns)
-        statuses += np.bincount(found.status, minlength=6)
+        statuses += np.bincount(found.status, minlength=statuses.size)
         np.add.at(not_converged, which[part][found.status == contact.Status.NOT_CONVERGED] % len(KINDS), 1)
         bound = friction[part] * found.N
         scale = np.where(bound > 0, bound, 1.0)

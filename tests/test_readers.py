@@ -156,3 +156,43 @@ def test_a_profile_of_more_points_than_the_fmu_reads_is_refused():
     y = np.linspace(-0.03, 0.03, profiles.MOST_POINTS + 1)
     with pytest.raises(contact.ContactError, match="100001 points: an FMU reads at most 100000"):
         profiles.pack(profile.Profile("rail", y, 5.0 * y**2, 10.0 * y, "fine"))
+
+
+def _maltreated(rng, shape):
+    """Return the points of a profile [mm] after one of several accidents."""
+    points = 1e3 * np.column_stack((shape.y, shape.z))
+    return [
+        lambda: rng.normal(size=(rng.integers(1, 300), 2)) * rng.choice([1e-6, 1.0, 50.0, 1e6]),
+        lambda: points[rng.permutation(len(points))],
+        lambda: points + rng.normal(size=points.shape) * rng.choice([1e-3, 0.1, 1.0, 10.0]),
+        lambda: points[np.sort(rng.integers(0, len(points), rng.integers(2, 40)))],
+        lambda: np.repeat(points, 3, axis=0),
+        lambda: np.concatenate((points, points[::-1], points)),
+        lambda: points * rng.choice([1.0, -1.0, 0.0], 2),
+        lambda: points + rng.uniform(-200.0, 200.0, 2),
+        lambda: np.round(points, rng.integers(0, 3)),
+    ][rng.integers(9)]()
+
+
+@pytest.mark.slow
+def test_whatever_a_file_holds_a_profile_or_a_contact_error_comes_out(tmp_path):
+    pytest.importorskip("scipy")
+    path, read = tmp_path / "points.txt", 0
+    for seed in range(120):
+        rng = np.random.default_rng(seed)
+        kind = ("wheel", "rail")[seed % 2]
+        points = _maltreated(rng, profile.s1002() if kind == "wheel" else profile.rail_60e1())
+        path.write_text("\n".join(f"{a:.6g} {b:.6g}" for a, b in points))
+        options = {
+            "side": rng.choice(profile.SIDES),
+            "zero": rng.choice(profile.ZEROS),
+            "repair": bool(rng.integers(2)),
+        }
+        options |= [{}, {"smoothing": 3e-6}, {"wavelength": 3e-3}][rng.integers(3)]
+        try:
+            found = profile.check(path, kind=kind, unit="mm", **options)
+        except contact.ContactError:
+            continue
+        read += 1
+        assert str(found)
+    assert 30 < read < 120

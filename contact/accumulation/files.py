@@ -17,7 +17,7 @@ from contact.errors import ContactError
 from contact.geometry.profile import Profile
 from contact.material import Material
 
-FORMAT = "wheelrail-contact damage histogram 2"
+FORMAT = "wheelrail-contact damage histogram 3"
 
 
 def save(histogram: Histogram, path: str | PathLike[str]) -> None:

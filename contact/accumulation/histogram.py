@@ -35,6 +35,8 @@ SUMS = {
     "energy_index": ("Pa m", "mean energy index along the strip times distance"),
     "stress_exceedance": ("m", "distance rolled with a positive stress index somewhere along the strip"),
     "fatigue_exceedance": ("m", "distance rolled with a positive surface fatigue index of the patch"),
+    "rcf_forward": ("m", "Burstow's index times distance, where the creep force drives the wheel forward"),
+    "rcf_backward": ("m", "Burstow's index times distance, where the creep force brakes the wheel"),
 }
 #: Name → unit and meaning of the maxima so far, 0 where there was no contact.
 MAXIMA = {"energy_index_max": ("Pa", "greatest energy index")}
@@ -79,7 +81,7 @@ class Histogram:
     -----
     ``histogram[name]`` is a copy of one quantity over the bins. `per` divides the sums. `SUMS` and `MAXIMA` hold units and
     meanings: ``contact`` [m], ``wear`` [m] (of a rail [m²]), ``volume`` [m³], ``T_gamma`` [N m], ``energy_index`` [Pa m],
-    ``stress_exceedance`` and ``fatigue_exceedance`` [m], ``energy_index_max`` [Pa].
+    ``stress_exceedance`` and ``fatigue_exceedance`` [m], ``rcf_forward`` and ``rcf_backward`` [m], ``energy_index_max`` [Pa].
 
     The depth of a wheel is spread over its circumference. A cross-section of a rail is passed once by each axle. The depth
     of a rail is therefore that of one pass, and its totals are those of one pass times the distance. Bins much narrower
@@ -168,7 +170,9 @@ class Histogram:
                 f"patch.on_{self.profile.kind} = ({y:g}, {z:g}) does not lie on {self.profile!r}; "
                 "was it found with another profile?"
             )
-        deposit.strip_rates(done.strips, n, done.fields, done.constants, done.damage, done.damage_fields, rates)
+        deposit.strip_rates(
+            done.strips, n, done.fields, done.constants, done.damage, done.damage_fields, solution.Fx, rates
+        )
         is_wheel = self.profile.kind == "wheel"
         settings = np.array([(self._start, self.width, distance)], LEDGER)[0]
         deposit.deposit(rates, edges, done.strips, n, settings, patch.share, is_wheel, values)
@@ -243,6 +247,16 @@ class Histogram:
         if self.profile.kind == "wheel" or self.distance <= 0.0:
             return self["wear"]
         return self.per("pass")["wear"]
+
+    @property
+    def fatigue(self) -> Array:
+        """Burstow's index over the bins of one axle pass, or of one revolution of a wheel, without a floor [-].
+
+        Cracks grow where the creep force on the rolling surface points against the running direction: in a rail under a
+        wheel that is driven forward, in a wheel that is braked. Passes in the other direction do not count.
+        """
+        name = "rcf_backward" if self.profile.kind == "wheel" else "rcf_forward"
+        return self[name] / self.distance if self.distance > 0.0 else self[name]
 
     @property
     def volume(self) -> float:

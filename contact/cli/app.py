@@ -15,6 +15,7 @@ from rich.markup import escape
 import contact
 from contact.cli import creep_table, extras, problem, report
 from contact.cli import options as opt
+from contact.cli.along import along
 from contact.cli.compare import compare
 from contact.cli.document import flat
 from contact.cli.geometry import conicity, list_profiles
@@ -24,7 +25,11 @@ from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.plugins import add_plugins
 from contact.cli.problem import Position, Touch
 from contact.cli.profile_check import check
+from contact.cli.rail import rail as elastic_rail
+from contact.cli.roller import roller
 from contact.cli.statistics import statistics
+from contact.cli.stress import stress
+from contact.cli.transient import transient
 from contact.creepage import Creepage
 from contact.errors import require_number
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, methods
@@ -56,19 +61,25 @@ def solve(
     surface: opt.Surface,
     gauge_friction: opt.GaugeFriction = None,
     pressure_limit: opt.PressureLimit = math.inf,
+    bodies: opt.Bodies = None,
+    fx: opt.LongitudinalForce = None,
+    fy: opt.LateralForce = None,
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangential = DEFAULT_TANGENTIAL,
     conformal: opt.Conformal = False,
+    layer: opt.Layer = None,
     as_json: opt.Json = False,
     out: opt.Files = None,
 ) -> None:
     """Solve the contact of a wheel on a rail, or of two curvatures: patch, forces, damage.
 
     Examples:  contact solve --y 3e-3 --load 80e3   ·   contact solve --curvatures 1.1 0.8 --creepage 1e-3 0 0.1
+    ·   contact solve --curvatures 1.1 0.8 --fx 12e3
     """
     prepare(out)
-    options = {"friction": surface.law(gauge_friction), "material": opt.steel(pressure_limit)}
+    options = {"friction": surface.law(gauge_friction), "material": opt.material(pressure_limit, bodies)}
     options |= {"normal": normal, "tangential": tangential, **(PICTURE_RESOLUTION if out else {})}
+    options |= {"force": opt.force(fx, fy), "layer": opt.third_body(layer)}
     opt.require_use(context)
     if curvatures is not None:
         hertzian = problem.solve_hertzian(
@@ -107,7 +118,7 @@ def patch(
     """
     drawing()
     case = place.position(reading, side)
-    options = {"friction": surface.law(gauge_friction), "material": opt.steel(pressure_limit)}
+    options = {"friction": surface.law(gauge_friction), "material": opt.material(pressure_limit)}
     options |= {"normal": normal, "tangential": tangential, "conformal": conformal, **PICTURE_RESOLUTION}
     touches = problem.solve_position(case, amount.load, amount.penetration, amount.given, options)
     sides = {name: [t for t in touches if t.side == name] for name in case.sides}
@@ -167,6 +178,11 @@ def curve(
 
 app.command()(compare)
 app.command()(statistics)
+app.command()(stress)
+app.command()(transient)
+app.command("rail")(elastic_rail)
+app.command()(roller)
+app.command()(along)
 app.command("geometry")(points)
 app.command()(conicity)
 app.command("profiles")(list_profiles)

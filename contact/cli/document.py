@@ -17,26 +17,31 @@ import contact
 
 #: Unit → names of inputs and results that have it. "1" is a pure number.
 _NAMES = {
-    "m": "curve_radius smallest_radius needed available "
-    "y radius gauge back_to_back left_radius reach step amplitude penetration approach profile_smoothing "
+    "m": "station wheel_z x z origin flat flat_depth begin end spacing step offset roller_radius deflection_y deflection_z "
+    "curve_radius smallest_radius needed available "
+    "y radius gauge back_to_back left_radius reach amplitude penetration approach profile_smoothing "
     "profile_wavelength smoothing wavelength centre position rolling_radius length width radius_difference right_on_wheel "
     "right_on_rail right_radius left_on_wheel left_on_rail distance at mileage",
-    "rad": "roll yaw angle contact_angle angle_difference right_angle left_angle",
+    "rad": "rotation turned roll yaw angle contact_angle angle_difference right_angle left_angle",
     "m/s": "speed velocity",
-    "N": "load N Fx Fy force_x force_y normal_force T_gamma T_gamma_spin dissipation power_per_metre",
+    "N": "load vertical Q Y N Fx Fy Fz fx fy preload force_x force_y normal_force T_gamma T_gamma_spin dissipation "
+    "power_per_metre",
     "N m": "Mz",
-    "Pa": "pressure_limit max_pressure stress_index_max energy_index_max shear_modulus",
+    "Pa": "value pressure_limit max_pressure stress_index_max energy_index_max shear_modulus",
     "K": "temperature",
     "m²": "area",
-    "N/m": "normal_stiffness",
+    "N/m": "normal_stiffness springs",
     "1/m": "curvatures spin nonlinearity",
     "m²/m": "pearce_sherratt",
     "m/m": "usfd archard_depth_max",
     "m³/m": "archard_volume",
     "s": "seconds every duration",
-    "1": "friction inclination slip_ratio utilisation longitudinal lateral conicity share gap_error fatigue_index "
-    "burstow index",
+    "1": "friction inclination slip_ratio utilisation longitudinal lateral conicity slope share gap_error fatigue_index "
+    "burstow index fit_error",
     "1, 1, 1/m": "creepage",
+    "m, m, rad": "shift",
+    "Pa, -, Pa, -": "bodies",
+    "m/Pa, Pa, Pa/m": "layer",
 }
 UNITS = {name: unit for unit, names in _NAMES.items() for name in names.split()}
 

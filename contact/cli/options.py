@@ -15,6 +15,7 @@ from contact.errors import ContactError
 from contact.friction import LAWS, ROOM_TEMPERATURE, VELOCITIES, as_friction
 from contact.friction import Friction as Law
 from contact.geometry import profile
+from contact.halfspace.third_body import ThirdBody
 from contact.material import STEEL, Material
 
 
@@ -130,6 +131,22 @@ PressureLimit = Annotated[
     float,
     typer.Option(help="upper limit of the pressure in Pa, elastic-perfectly plastic", rich_help_panel=LOADING),
 ]
+Bodies = Annotated[
+    tuple[float, float, float, float] | None,
+    typer.Option(
+        help="Young's modulus in Pa and Poisson's ratio of the rail, then of the wheel; default steel",
+        metavar="E_RAIL NU_RAIL E_WHEEL NU_WHEEL",
+        rich_help_panel=LOADING,
+    ),
+]
+Layer = Annotated[
+    tuple[float, float, float] | None,
+    typer.Option(
+        help="third body for the half space: flexibility in m/Pa, yield stress in Pa (inf: elastic), hardening in Pa/m",
+        metavar="FLEXIBILITY YIELD HARDENING",
+        rich_help_panel=METHOD,
+    ),
+]
 Conformal = Annotated[
     bool,
     typer.Option("--conformal", help="let the contact angle vary over the patch", rich_help_panel=METHOD),
@@ -143,6 +160,43 @@ Creep = Annotated[
         rich_help_panel=LOADING,
     ),
 ]
+LongitudinalForce = Annotated[
+    float | None,
+    typer.Option("--fx", help="longitudinal force on the wheel in N instead of its creepage", rich_help_panel=LOADING),
+]
+LateralForce = Annotated[
+    float | None,
+    typer.Option("--fy", help="lateral force on the wheel in N instead of its creepage", rich_help_panel=LOADING),
+]
+Shift = Annotated[
+    tuple[float, float, float] | None,
+    typer.Option(
+        "--shift",
+        help="shift of the wheel against the rail before rolling: along x and y in m, rotation in rad",
+        metavar="X Y ROTATION",
+        rich_help_panel=LOADING,
+    ),
+]
+Rolled = Annotated[float, typer.Option("--distance", help="distance rolled in m", rich_help_panel=LOADING)]
+RollingStep = Annotated[
+    float | None, typer.Option("--step", help="length of a step in m; default one element", rich_help_panel=METHOD)
+]
+Spacing = Annotated[float, typer.Option(help="size of the half space's elements in m", rich_help_panel=METHOD)]
+Springs = Annotated[
+    tuple[float, float],
+    typer.Option(help="lateral and vertical stiffness under the rail in N/m; inf is rigid", rich_help_panel=TRACK),
+]
+Preload = Annotated[
+    tuple[float, float],
+    typer.Option(help="external force on the rail in N, to the right and down", rich_help_panel=TRACK),
+]
+RollerRadius = Annotated[float, typer.Argument(help="radius of the roller in m")]
+Spin = Annotated[
+    float | None, typer.Option(help="rotation of the wheel in rad/s, negative; default free", rich_help_panel=POSITION)
+]
+Offset = Annotated[
+    float, typer.Option(help="distance of the wheelset ahead of the roller's axle in m", rich_help_panel=POSITION)
+]
 Curvatures = Annotated[
     tuple[float, float] | None,
     typer.Option(
@@ -155,6 +209,17 @@ Normal = Annotated[str, typer.Option(help="normal method, see `contact methods`"
 Tangential = Annotated[str, typer.Option(help="tangential method", rich_help_panel=METHOD)]
 Tangentials = Annotated[
     list[str], typer.Option("--tangential", help="tangential method; repeat to compare", rich_help_panel=METHOD)
+]
+Body = Annotated[str, typer.Option(help="body of the stresses: rail or wheel", rich_help_panel=METHOD)]
+Criterion = Annotated[
+    str,
+    typer.Option(
+        help="stress of the picture: von_mises, tresca, largest_principal, shear_xz, shear_yz", rich_help_panel=METHOD
+    ),
+]
+DangVanSlope = Annotated[
+    float,
+    typer.Option("--slope", help="weight of the hydrostatic stress in Dang Van's criterion", rich_help_panel=METHOD),
 ]
 Json = Annotated[bool, typer.Option("--json", help="print JSON with inputs, units and version", rich_help_panel=OUTPUT)]
 Over = Annotated[Motion, typer.Option(help="creepage to vary", rich_help_panel=LOADING)]
@@ -318,6 +383,16 @@ def require_use(context: typer.Context) -> None:
         raise ContactError(f"{', '.join(idle)}: --curvatures replaces wheel, rail and position")
 
 
-def steel(pressure_limit: float) -> Material:
-    """Return STEEL with a pressure limit [Pa]."""
-    return replace(STEEL, pressure_limit=pressure_limit)
+def material(pressure_limit: float, bodies: tuple[float, float, float, float] | None = None) -> Material:
+    """Return the material of rail and wheel, or STEEL, with a pressure limit [Pa]."""
+    return replace(STEEL if bodies is None else Material.from_pair(*bodies), pressure_limit=pressure_limit)
+
+
+def force(longitudinal: float | None, lateral: float | None) -> tuple[float | None, float | None] | None:
+    """Return the options --fx and --fy as an argument of `contact.solve`."""
+    return None if longitudinal is None and lateral is None else (longitudinal, lateral)
+
+
+def third_body(layer: tuple[float, float, float] | None) -> ThirdBody | None:
+    """Return the option --layer as an argument of `contact.solve`."""
+    return None if layer is None else ThirdBody(*layer)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import re
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -36,7 +37,7 @@ def reported(command: Command) -> Command:
                 warnings.showwarning = _say  # type: ignore[assignment]
                 command(*args, **kwargs)
         except ContactError as error:
-            stop(str(error), 2)
+            stop(in_options(str(error)), 2)
         except ImportError as error:
             if "pip install 'wheelrail-contact[" not in str(error):
                 raise
@@ -45,10 +46,19 @@ def reported(command: Command) -> Command:
     return wrapper  # type: ignore[return-value]
 
 
+def in_options(text: str) -> str:
+    """Return a message about a profile with the options of the command line in place of those of Python."""
+    text = re.sub(r"\brepair=True", "--profile-repair", text)
+    text = re.sub(r"\b(zero|smoothing|wavelength)='?([\w.+-]+)'?", r"--profile-\1 \2", text)
+    text = re.sub(r"\b(unit|side) = None: ", r"--profile-\1 is missing: ", text)
+    return re.sub(r"\bset (unit|side)\b", r"set --profile-\1", text)
+
+
 def _say(message: Warning | str, category: type[Warning], *place: Any) -> None:
     """Print a warning on one line, in place of `warnings.showwarning`."""
     typer.echo(
-        f"contact: {'warning' if issubclass(category, PlausibilityWarning) else category.__name__}: {message}", err=True
+        f"contact: {'warning' if issubclass(category, PlausibilityWarning) else category.__name__}: {in_options(str(message))}",
+        err=True,
     )
 
 

@@ -10,7 +10,7 @@ import typer
 from rich.console import Console
 
 from contact.cli import options as opt
-from contact.cli.output import deliver, drawing, prepare, reported
+from contact.cli.output import deliver, drawing, in_options, prepare, reported
 from contact.errors import ContactError
 from contact.geometry import profile
 
@@ -59,7 +59,7 @@ def check(
 
     def show(console: Console) -> None:
         for text in (*map(str, found), *unread):
-            console.print(text, markup=False, highlight=False, soft_wrap=True)
+            console.print(in_options(text), markup=False, highlight=False, soft_wrap=True)
 
     deliver(
         {"files": [_plain(one) for one in found], "unread": unread},

@@ -17,17 +17,8 @@ from contact.registry import Methods
 from contact.solution import Solution
 from contact.study.table import number
 
-
-def contact_angle(touch: Touch) -> float:
-    """Return the contact angle [rad], positive if the rail pushes the wheel to the track's centre, on either side.
-
-    `Patch.angle` turns the track frame into the contact frame, so its sign differs from side to side.
-    """
-    angle = touch.patch.angle if touch.patch is not None else 0.0
-    return angle if touch.side == "left" else -angle
-
-
 PLACE: Sequence[tuple[str, str, Callable[[Patch], float]]] = (
+    ("contact angle", "°", lambda p: math.degrees(p.contact_angle)),
     ("position y", "mm", lambda p: 1e3 * p.position[1]),
     ("position z", "mm", lambda p: 1e3 * p.position[2]),
     ("rolling radius", "mm", lambda p: 1e3 * p.rolling_radius),
@@ -80,7 +71,6 @@ def show(touches: Sequence[Touch], title: str, wheel_radius: float, console: Con
         table.add_column(touch.name, justify="right")
     if touches[0].patch is not None:
         patches = [t.patch for t in touches if t.patch is not None]
-        table.add_row("contact angle", "°", *(number(math.degrees(contact_angle(t))) for t in touches))
         for label, unit, value in (*PLACE, *((SHARE,) if any(p.share < 1.0 for p in patches) else ())):
             table.add_row(label, unit, *(number(value(p)) for p in patches))
         table.add_section()
@@ -104,7 +94,7 @@ def data(touch: Touch, wheel_radius: float) -> dict[str, Any]:
         content = {
             "side": touch.side,
             "angle": p.angle,
-            "contact_angle": contact_angle(touch),
+            "contact_angle": p.contact_angle,
             "position": list(p.position),
             "rolling_radius": p.rolling_radius,
             "share": p.share,

@@ -121,6 +121,8 @@ def inspect(
         lines, path, side or ("" if known.read in (formats.miniprof, formats.miniprof_sections) else "right")
     )
     scale = UNITS[unit] if unit else content.unit or 1.0
+    if len(content.points) > MOST_POINTS:
+        raise ContactError(f"path = {str(path)!r} holds {len(content.points)} points; allowed: {MOST_POINTS}")
     measured = content.points * scale
     disorder = inspection.order(measured)
     fatal = bool(disorder) and not repair
@@ -197,8 +199,6 @@ def _placed(points: Points, content: Content, kind: Kind, path: Path, zero: str 
     points = _ordered(points)
     if len(points) < 4:
         raise ContactError(f"path = {str(path)!r} holds {len(points)} distinct points; at least 4 make a profile")
-    if len(points) > MOST_POINTS:
-        raise ContactError(f"path = {str(path)!r} holds {len(points)} points; allowed: {MOST_POINTS}")
     if (
         zero is None
         and kind == "wheel"
@@ -222,7 +222,7 @@ def _origin(points: Points, kind: Kind, path: Path) -> Points:
         if not gauge.size:
             raise ContactError(f"zero = 'shape': the gauge side of {path.name!r} does not reach 14 mm below the top")
         return np.array([y[gauge[-1]] + inspection.CROWN_FROM_GAUGE, top])
-    if not inspection.has_flange(points):
+    if not inspection.has_flange(points) or y[np.argmax(z)] == y.max():
         raise ContactError(f"zero = 'shape': the wheel in {path.name!r} has no flange to find the tape circle from")
     tape = y[np.argmax(z)] + inspection.TIP_FROM_TAPE
     outside = y > y[np.argmax(z)]

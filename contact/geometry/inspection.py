@@ -79,9 +79,9 @@ class Finding:
 
 def order(points: Points) -> list[Finding]:
     """Return the faults in the order of the rows: not sorted, several scans, a scan there and back."""
-    if len(points) < 8:
-        return []
     extent = float(np.hypot(*np.ptp(points, axis=0)))
+    if len(points) < 8 or extent == 0.0:
+        return []
     parts = scans(points)
     lengths = [_length(part) / extent for part in parts]
     cure = "repair=True"

@@ -66,6 +66,11 @@ class Irregularity:
         require_number("irregularity.roll", self.roll, -LARGEST_RAIL_ROLL, LARGEST_RAIL_ROLL)
 
 
+def contact_angle(angle: float, y: float) -> float:
+    """Return an angle of the contact frame at `y` [m] in the track as contact angle, positive towards the track's centre."""
+    return -angle if y > 0.0 else angle
+
+
 @dataclass(frozen=True, slots=True)
 class Patch:
     """One contact patch. Vectors are in track coordinates; signs are those of the actual side.
@@ -113,3 +118,11 @@ class Patch:
     edges: tuple[float, float]
     load: float | None = None
     share: float = 1.0
+
+    @property
+    def contact_angle(self) -> float:
+        """Contact angle [rad], positive if the rail pushes the wheel to the track's centre, on either side.
+
+        `angle` turns the track frame into the contact frame, so its sign differs from side to side.
+        """
+        return contact_angle(self.angle, self.position[1])

@@ -4,5 +4,6 @@ from contact.halfspace.gap import Gap
 from contact.halfspace.norm import Normal, norm
 from contact.halfspace.solution import GridSolution
 from contact.halfspace.tang import Tangential, tang
+from contact.halfspace.transient import Transient
 
-__all__ = ["Gap", "GridSolution", "Normal", "Tangential", "norm", "tang"]
+__all__ = ["Gap", "GridSolution", "Normal", "Tangential", "Transient", "norm", "tang"]

@@ -41,8 +41,8 @@ class Gap:
     __slots__ = ("dx", "dy", "h", "x", "y")
 
     def __init__(self, x: ArrayLike, y: ArrayLike, h: ArrayLike) -> None:
-        self.x, self.dx = _even("x", x)
-        self.y, self.dy = _even("y", y)
+        self.x, self.dx = even("x", x)
+        self.y, self.dy = even("y", y)
         self.h = np.array(h, dtype=np.float64)
         wanted = self.y.size, self.x.size
         if self.h.shape != wanted:
@@ -55,7 +55,8 @@ class Gap:
         return f"Gap({self.y.size} × {self.x.size} elements of {self.dx:g} × {self.dy:g} m, least {self.h.min():g} m)"
 
 
-def _even(name: str, values: ArrayLike) -> tuple[Array, float]:
+def even(name: str, values: ArrayLike) -> tuple[Array, float]:
+    """Return centres of elements [m] as an array, and their step [m]. They must increase in equal steps."""
     array = np.array(values, dtype=np.float64)
     if array.ndim != 1 or not 2 <= array.size <= MAX_SIDE:
         raise ContactError(f"{name} has shape {array.shape}; (n,) with n in [2, {MAX_SIDE}] is needed")

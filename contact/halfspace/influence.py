@@ -81,10 +81,11 @@ def fast_length(n: int) -> int:
 class Influence:
     """The half space under a grid of `shape` (ny, nx): displacement difference [m] from tractions [Pa].
 
-    The displacement is also exact in one more column, at the +x side of the grid.
+    The displacement is also exact in one more column, at the +x side of the grid. `layer` is the shear flexibility of a
+    layer between the bodies [m/Pa].
     """
 
-    def __init__(self, shape: tuple[int, ...], dx: float, dy: float, material: Material) -> None:
+    def __init__(self, shape: tuple[int, ...], dx: float, dy: float, material: Material, layer: float = 0.0) -> None:
         ny, nx = shape
         self.shape = ny, nx
         self._padded = fast_length(2 * ny), fast_length(2 * nx + 2)
@@ -93,6 +94,8 @@ class Influence:
         #: Transfer functions C_zz, C_xx, C_yy, C_xy [m/Pa]
         self.zz = scale * (1.0 - nu) * (I1 + I2)
         self.xx, self.yy, self.xy = self.zz + scale * nu * I1, self.zz + scale * nu * I2, scale * nu * I3
+        if layer > 0.0:  # the traction of an element shears the layer there
+            self.xx, self.yy = self.xx + layer, self.yy + layer
         self._inverse = 1.0 / self.zz
         #: C_zz of an element on itself [m/Pa]
         self.own = 2.0 * scale * (1.0 - nu) * (dy / dx * math.asinh(dx / dy) + math.asinh(dy / dx))

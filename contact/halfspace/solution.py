@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from contact.creepage import Creepage
 from contact.halfspace.bent import Bent
 from contact.halfspace.tang import Tangential
+from contact.halfspace.third_body import Sheared
 from contact.material import Material
 from contact.solution import Solution, Status, Strips
 
@@ -22,10 +23,11 @@ class GridSolution(Solution):
 
     The strips are the rows of elements with contact. The peak pressure of a strip is the largest of its elements. Fields
     span the columns with contact; the pressure is zero outside the patch. `grid` holds x [m], y [m] and p [Pa] of the
-    rectangle of elements around the contact.
+    rectangle of elements around the contact. `layer` is the state of a third body, None without one.
     """
 
     grid: tuple[Array, Array, Array] = field(repr=False)
+    layer: Sheared | None = field(default=None, repr=False)
 
     def pressure(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Return the contact pressure [Pa] at points `x`, `y` [m]; 0 outside. p² is bilinear between the elements."""
@@ -62,6 +64,7 @@ def assemble(
     speed: float,
     normal: str,
     tangential: str,
+    layer: Sheared | None = None,
 ) -> GridSolution:
     """Return the solution from fields of shape (ny, nx) over increasing `x`, `y` [m].
 
@@ -145,4 +148,5 @@ def assemble(
         patch_edges=edges.reshape(-1, 2),
         memory=np.zeros(0),
         grid=(x[full[1]], y[full[0]], p[full]),
+        layer=None if layer is None else layer.part(box),
     )

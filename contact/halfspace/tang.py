@@ -17,7 +17,6 @@ x + dx/2 and the traction to x. Both choices have errors of first order with opp
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -28,20 +27,15 @@ from contact.creepage import Creepage
 from contact.halfspace import zones
 from contact.halfspace.bent import Bent
 from contact.halfspace.influence import Influence, tangential
-from contact.halfspace.krylov import gmres
+from contact.halfspace.newton import Newton, Operator
 from contact.material import Material
 
 Array = NDArray[np.float64]
 
 #: Position of the rigid slip ahead of the element's centre, over dx. The value is that of CONTACT.
 OFFSET = 1.0 / 6.0
-#: Limits: Newton steps, GMRES steps in each of them, and transient distances.
-MAX_NEWTON, MAX_KRYLOV, MAX_DISTANCES = 25, 80, 12
-#: Relative accuracy of the linear systems. A smaller value costs more than it saves.
-_INEXACT = 1e-2
-#: rho over the diagonal of the operator. With 1, an element that slips in the wrong direction would reverse its slip
-#: instead of sticking.
-_STIFFER = 3.0
+#: Largest number of transient distances.
+MAX_DISTANCES = 12
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +75,8 @@ def tang(
     offset: float = OFFSET,
     tolerance: float = 1e-6,
     start: tuple[Array, Array] | None = None,
+    added: Array | None = None,
+    layer: float = 0.0,
     progress: Callable[[int, float], None] | None = None,
 ) -> Tangential:
     """Solve the tangential problem of steady rolling towards +x.
@@ -102,6 +98,10 @@ def tang(
         Upper bound of the residual.
     start : (qx, qy)
         Traction to start from [Pa]; default 0.
+    added : ndarray, shape (2, ny, nx)
+        Slip over V from other causes than creepage and traction, added to the rigid slip.
+    layer : float
+        Shear flexibility of a layer between the bodies [m/Pa].
     progress : callable
         Called with the number of the Newton step and the residual.
 
@@ -116,13 +116,15 @@ def tang(
     if not bound.any():
         rigid = np.zeros((2, *p.shape))
         if touching.any():
-            rigid[:, touching] = _rigid_slip(x, y, rows, 0.0)[:, touching]
+            rigid[:, touching] = rigid_slip(x, y, rows, 0.0)[:, touching]
         return Tangential(whole[0], whole[1], rigid[0], rigid[1], np.zeros(p.shape, dtype=bool), 0, 0, 0.0, True)
     across, along = (np.flatnonzero(touching.any(axis=axis)) for axis in (1, 0))
     window = slice(across[0], across[-1] + 1), slice(along[0], along[-1] + 1)
     dx, dy = float(x[1] - x[0]), float(y[1] - y[0])
-    w = np.ascontiguousarray(_rigid_slip(x, y, rows, offset * dx)[:, *window])
-    rolling = _Rolling(np.ascontiguousarray(bound[window]), w, dx, dy, material, tolerance, progress)
+    w = np.ascontiguousarray(rigid_slip(x, y, rows, offset * dx)[:, *window])
+    if added is not None:
+        w += added[:, *window]
+    rolling = _Rolling(np.ascontiguousarray(bound[window]), w, (dx, dy), material, layer, tolerance, progress)
     q = np.zeros_like(w) if start is None else np.stack([field[window] for field in start])
     q, residual = rolling.steady(q)
     s = rolling.slip(q, w)
@@ -135,7 +137,7 @@ def tang(
     )
 
 
-def _rigid_slip(x: Array, y: Array, rows: Bent, ahead: float) -> Array:
+def rigid_slip(x: Array, y: Array, rows: Bent, ahead: float) -> Array:
     """Return the rigid slip over V, shape (2, ny, nx)."""
     w = np.empty((2, y.size, x.size))
     w[0] = (rows.vx - rows.phi * y)[:, None]
@@ -143,93 +145,43 @@ def _rigid_slip(x: Array, y: Array, rows: Bent, ahead: float) -> Array:
     return w
 
 
-class _Rolling:
-    """One tangential problem on the smallest grid that contains the contact, and the state of its solution."""
+class _Rolling(Newton):
+    """One problem of steady rolling on the smallest grid that contains the contact."""
 
     def __init__(
         self,
         bound: Array,
         w: Array,
-        dx: float,
-        dy: float,
+        steps: tuple[float, float],
         material: Material,
+        layer: float,
         tolerance: float,
         progress: Callable[[int, float], None] | None,
     ) -> None:
-        self.bound, self.w, self.dx, self._dy, self._material = bound, w, dx, dy, material
-        self.tolerance, self.progress = tolerance, progress
-        self.iterations = self.products = 0
-        self._influence = h = Influence(bound.shape, dx, dy, material)
-        determinant = h.xx * h.yy - h.xy * h.xy
-        self._inverse = h.yy / determinant, h.xx / determinant, -h.xy / determinant
+        self.w, self.dx = w, steps[0]
+        super().__init__(bound, Influence(bound.shape, *steps, material, layer), tolerance, progress)
+        self._own = tangential(np.array([0.0, self.dx]), np.zeros(2), *steps, material)[0] + np.array([layer, 0.0])
         self._fade(0.0)
-        self.zone, self._stiffness = np.empty_like(bound), np.empty_like(bound)
-        self._step = np.empty((3, *w.shape))
-        self._tangent, self._correction, self._rhs = self._step
-        self._scale = math.sqrt(float(np.einsum("ij,ij->", bound, bound)))
 
     def _fade(self, per_metre: float) -> None:
         """Set the operator for steady rolling (`per_metre` = 0) or transient rolling over the distance 1/`per_metre` [m]."""
-        h, dx = self._influence, self.dx
+        h, dx = self.influence, self.dx
         difference = (1.0 - h.ahead) / dx + per_metre
-        self._transfer = h.xx * difference, h.yy * difference, h.xy * difference
-        here, next_ = tangential(np.array([0.0, dx]), np.zeros(2), dx, self._dy, self._material)[0]
-        self._own = float(here * (1.0 / dx + per_metre) - next_ / dx)
-        self._share = 1.0 / (1.0 + dx * per_metre)
-
-    def _times(self, transfer: tuple[Array, Array, Array], q: Array) -> Array:
-        """Return the product of the transfer functions (xx, yy, xy) with a field of shape (2, ny, nx)."""
-        self.products += 1
-        x, y = self._influence.forward(q)
-        xx, yy, xy = transfer
-        return self._influence.back(np.stack((xx * x + xy * y, xy * x + yy * y)))
-
-    def slip(self, q: Array, w: Array) -> Array:
-        """Return the slip over V for the traction `q` and the rigid slip `w`."""
-        return w + self._times(self._transfer, q)
+        here, next_ = self._own
+        own, share = float(here * (1.0 / dx + per_metre) - next_ / dx), 1.0 / (1.0 + dx * per_metre)
+        self.operator = Operator((h.xx * difference, h.yy * difference, h.xy * difference), own, share * dx, share)
 
     def steady(self, q: Array) -> tuple[Array, float]:
         """Return traction and residual of steady rolling. `q` is the start."""
-        traction, residual = self._newton(q, self.w)
+        traction, residual = self.solve(q, self.w)
         if residual <= self.tolerance:
             return traction, residual
-        h = self._influence
+        h = self.influence
         length = 0.25 * self.bound.shape[1] * self.dx
         for _ in range(MAX_DISTANCES):
             self._fade(1.0 / length)
-            before = self._times((h.xx / length, h.yy / length, h.xy / length), q)
-            q, _ = self._newton(q, self.w - before)
+            before = self.times((h.xx / length, h.yy / length, h.xy / length), q)
+            q, _ = self.solve(q, self.w - before)
             self._fade(0.0)
             length *= 1.5
-        return self._newton(q, self.w)
-
-    def _newton(self, q: Array, w: Array) -> tuple[Array, float]:
-        """Return the last iterate of Newton's iteration from `q`, and its residual."""
-        rho = _STIFFER * self._own
-        for step in range(MAX_NEWTON + 1):
-            square = zones.linearise(q, self.slip(q, w), self.bound, rho, self.zone, self._step, self._stiffness)
-            residual = math.sqrt(square) / self._scale
-            if self.progress is not None:
-                self.progress(self.iterations, residual)
-            if residual <= self.tolerance or step == MAX_NEWTON:
-                break
-            self.iterations += 1
-            moved = self._times(self._transfer, self._correction)
-            zones.restrict(moved, self.zone, self._tangent)
-            change, _ = gmres(self._apply, self._precondition, self._rhs - moved, _INEXACT, MAX_KRYLOV)
-            q = q + change + self._correction
-            zones.admit(q, self.zone, self.bound)
-        return q, residual
-
-    def _apply(self, v: Array) -> Array:
-        """Return the product of the Newton step's matrix with a restricted change `v`."""
-        moved = self._times(self._transfer, v)
-        zones.restrict(moved, self.zone, self._tangent)
-        return moved + self._stiffness * v
-
-    def _precondition(self, v: Array) -> Array:
-        """Return an approximate solution of the Newton step with the right hand side `v`."""
-        u = self._times(self._inverse, np.where(self.zone == zones.STICK, v, 0.0))
-        change = np.empty_like(v)
-        zones.accumulate(v, u, self.zone, self._stiffness, self._own, self.dx, self._share, change)
-        return change
+        return self.solve(q, self.w)

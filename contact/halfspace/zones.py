@@ -61,11 +61,11 @@ def restrict(v, zone, tangent):
 
 
 @kernel
-def accumulate(v, u, zone, stiffness, own, dx, share, out):
-    """Precondition `v` into `out`: in stick the sum of `u` from the leading edge, in slip `v` over a flexibility.
+def accumulate(v, u, zone, stiffness, own, gain, share, out):
+    """Precondition `v` into `out`: in stick the sum of `gain`·`u` from the leading edge, in slip `v` over a flexibility.
 
     The flexibility is that of the element itself (`own`) plus `stiffness`. From one element to the next the sum is
-    multiplied by `share` (1 in steady rolling).
+    multiplied by `share` (1 in steady rolling, 0 in a time step).
     """
     nx = zone.shape[1]
     for i in range(zone.shape[0]):
@@ -73,8 +73,8 @@ def accumulate(v, u, zone, stiffness, own, dx, share, out):
         for j in range(nx - 1, -1, -1):
             sum_x, sum_y = share * sum_x, share * sum_y
             if zone[i, j] == STICK:
-                sum_x += share * dx * u[0, i, j]
-                sum_y += share * dx * u[1, i, j]
+                sum_x += gain * u[0, i, j]
+                sum_y += gain * u[1, i, j]
                 out[0, i, j], out[1, i, j] = sum_x, sum_y
             else:
                 flexibility = own + stiffness[i, j]

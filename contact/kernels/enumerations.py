@@ -98,6 +98,7 @@ class Status(IntEnum):
     SATURATED = 3  # full slip: |F| = mu N up to the effect of spin
     OUT_OF_RANGE = 4  # the patch reaches the end of the separation: data are missing
     NOT_CONVERGED = 5
+    UNREACHABLE = 6  # a given tangential force that no creepage makes; the FMUs take creepages
 
     @property
     def message(self) -> str:
@@ -111,6 +112,7 @@ _MESSAGES = {
     Status.SATURATED: "solved; the whole patch slips",
     Status.OUT_OF_RANGE: "the contact patch reaches the end of the given separation; extend y",
     Status.NOT_CONVERGED: "the iteration stopped at its cap; the last iterate is returned",
+    Status.UNREACHABLE: "no creepage makes the given force; the solution is that of the creepage in the record",
 }
 
 

@@ -13,7 +13,8 @@ def enter(patch, n, damage, bench):
     """
     ledger, strips, fields = bench.ledger, bench.own.strips, bench.own.fields
     settings, rates, edges = ledger.settings[0], ledger.rates, ledger.edges
-    strip_rates(strips, n, fields, bench.damage_parameters[0], damage, bench.damage_fields, rates)
+    forward = bench.result[0].Fx
+    strip_rates(strips, n, fields, bench.damage_parameters[0], damage, bench.damage_fields, forward, rates)
     on_wheel, on_rail = (patch.wheel_y, patch.wheel_z), (patch.rail_y, patch.rail_z)
     place(ledger.wheel, ledger.wheel_arc, on_wheel, patch.angle, 1.0, strips, n, edges)
     deposit(rates, edges, strips, n, settings, patch.share, True, ledger.bins[Body.WHEEL])

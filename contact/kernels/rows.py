@@ -141,7 +141,9 @@ class Bin(IntEnum):
     ENERGY_INDEX = 4
     STRESS_EXCEEDANCE = 5
     FATIGUE_EXCEEDANCE = 6
-    ENERGY_INDEX_MAX = 7  # a maximum; the others are sums
+    RCF_FORWARD = 7  # Burstow's index where the creep force on the wheel points forward
+    RCF_BACKWARD = 8
+    ENERGY_INDEX_MAX = 9  # a maximum; the others are sums
 
 
 class Body(IntEnum):

@@ -11,11 +11,13 @@ except ImportError as missing:
 
 from contact.plot.comparison import comparison
 from contact.plot.lines import curve, time_histories
+from contact.plot.passage import passage
 from contact.plot.patches import patch
 from contact.plot.position import Wheel, position
 from contact.plot.profiles import profile_check
 from contact.plot.rolling import conicity, contact_points
 from contact.plot.shakedown import shakedown
+from contact.plot.stress import stress
 from contact.plot.wear import fatigue, shares, wear, worn_profile
 
 __all__ = [
@@ -25,11 +27,13 @@ __all__ = [
     "contact_points",
     "curve",
     "fatigue",
+    "passage",
     "patch",
     "position",
     "profile_check",
     "shakedown",
     "shares",
+    "stress",
     "time_histories",
     "wear",
     "worn_profile",

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from contact.errors import ContactError
 from contact.plot.style import DPI, FAINT, looks, style
 
-_INSIDE = 4  # curves whose legend finds a place among them
+INSIDE = 4  # most curves whose legend finds a place among them
 Lines = Mapping[str, ArrayLike]
 
 
@@ -53,7 +53,7 @@ def curve(
     abscissa = np.asarray(creepage, dtype=np.float64)
     with style():
         if ax is None:
-            width = 5.6 if len(curves) <= _INSIDE else 7.6
+            width = 5.6 if len(curves) <= INSIDE else 7.6
             ax = Figure(figsize=(width, 3.6), dpi=DPI, layout="constrained").subplots()
         sides = set()  # signs of the ordinates
         for name, look in looks(curves).items():
@@ -66,7 +66,7 @@ def curve(
         ax.axhline(0.0, color=FAINT, lw=0.6, zorder=0)
         ax.set(xlabel=xlabel, ylabel=ylabel)
         ax.margins(x=0.0)
-        if len(curves) <= _INSIDE:
+        if len(curves) <= INSIDE:
             ax.legend()
         else:  # beside the curves, which it would cover
             ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0)

@@ -67,7 +67,7 @@ def position(wheels: Sequence[Wheel], roll: float = 0.0) -> Figure:
     if not solutions:
         raise ContactError("wheels holds no contact patch; at least one is needed")
     titles = [
-        f"{w.side} {k + 1}: {math.degrees(p.angle):+.1f}°".replace("-", "−")
+        f"{w.side} {k + 1}: {math.degrees(p.contact_angle):+.1f}°".replace("-", "−")
         for w in wheels
         for k, p in enumerate(w.patches)
     ]

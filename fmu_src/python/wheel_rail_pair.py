@@ -145,7 +145,7 @@ class WheelRailPairSlave(TableSlave):
         return self.pair
 
 
-def _carried(values: Values) -> dict[str, float]:
+def _carried(values: Values) -> dict[str, Any]:
     """Return the argument of `WheelRailPair.solve` for the load, none if the height is given."""
     name = {"NormalForce": "load", "VerticalForce": "vertical"}.get(values.item("load.kind"))
     return {} if name is None else {name: max(values["load.normal_force"], 0.0)}

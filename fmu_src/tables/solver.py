@@ -51,7 +51,7 @@ _THERMAL = Thermal()
 #: Least load [N]. Suspensions and round-off give small negative loads at lift-off; more is a wrong sign.
 LEAST_LOAD = -1e3
 NO_LOAD = f"from {LEAST_LOAD:g} N to 0 there is no contact"
-_STATUS_NAMES = ("OK", "NoContact", "Saturated", "OutOfRange", "NotConverged")
+_STATUS_NAMES = ("OK", "NoContact", "Saturated", "OutOfRange", "NotConverged", "Unreachable")
 STATUS = Enumeration("Status", tuple(zip(_STATUS_NAMES, (status.message for status in Status), strict=True)))
 
 

@@ -114,7 +114,7 @@ _OF_ACCUMULATION = frozenset((*ACCUMULATED, *(f"accumulation.{name}" for name in
 def table(inclination: float = 1.0 / 40.0, accumulation: bool = False) -> Table:
     """Return the table. `inclination` is the default of `rail.inclination` (tangent).
 
-    Only with `accumulation` hosts see the damage that accumulates: it has 1200 outputs.
+    Only with `accumulation` hosts see the damage that accumulates: it has 1500 outputs.
     """
     return Table(
         "WheelRailPair",

@@ -13,6 +13,7 @@ from contact.cli import options as opt
 from contact.cli.document import document
 from contact.cli.output import drawing, reported, require_extra, stop
 from contact.cli.progress import progress_bar
+from contact.errors import ContactError
 from models.life import checkpoint, declared_set, scenario
 from models.life.run import Run
 from models.life.scale import Workers
@@ -87,7 +88,7 @@ def wear(
     go_on: Annotated[bool, typer.Option("--go-on", help="Go on if the energy of a run does not close.")] = False,
     as_json: opt.Json = False,
 ) -> None:
-    """Compute the wear of a wheel over a mileage: run a set of scenarios, change the profile, and repeat.
+    """Compute the wear of wheels and rails over a mileage: run a set of scenarios, change the profiles, and repeat.
 
     If the command is interrupted, call it again: it continues from the last complete step. The result does not depend on the
     number of workers. It stops if the energy of a run does not close to 2 % of its dissipation.
@@ -110,14 +111,24 @@ def wear(
         stop(str(missing), 1)
     except KeyboardInterrupt:
         stop(f"interrupted at {1e-3 * life.mileage:.0f} km; {_resumable(path)}", 130)
-    from models.life import wear_report
+    except ContactError:
+        if life.mileage > 0.0:  # what has been found so far may show why
+            _tell(life, folder, as_json)
+        raise
+    _tell(life, folder, as_json)
 
-    _write(folder, lambda: wear_report.dataset(life), lambda: wear_report.page_of(life))
-    typer.echo(f"{1e-3 * life.mileage:.0f} km in {len(life.wheels) - 1} steps, ended by {life.ended}", err=True)
+
+def _tell(life: Life, folder: Path, as_json: bool) -> None:
+    """Write result and report of a study, and say how it ended."""
+    from models.life import wear_report, wear_result
+
+    _write(folder, lambda: wear_result.dataset(life), lambda: wear_report.page_of(life))
+    ended = f"ended by {life.ended}" if life.ended else "not ended"
+    typer.echo(f"{1e-3 * life.mileage:.0f} km in {len(life.rows) - 1} steps, {ended}", err=True)
     _warn(life.trust)
     if as_json:
-        ended = {"mileage": life.mileage, "steps": len(life.wheels) - 1, "ended_by": life.ended}
-        typer.echo(document({"set": life.plan.name, **ended, **_results(folder, life.trust)}))
+        found = {"mileage": life.mileage, "steps": len(life.rows) - 1, "ended_by": life.ended}
+        typer.echo(document({"set": life.plan.name, **found, **_results(folder, life.trust)}))
 
 
 def _results(folder: Path, trust: Trust) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 from dataclasses import dataclass, field
 from importlib.metadata import version
 from os import PathLike
@@ -12,24 +13,49 @@ import numpy as np
 
 from contact.errors import ContactError, require_number
 from contact.geometry.profile import Profile
+from contact.material import STEEL
 from models.life import scenario
 from models.life.declared import build, read_table
 from models.life.flange import Flange
 from models.life.scenario import Scenario
+from models.life.vehicle import GRAVITY
 
 #: A study in which the depth allows less than this share of the wished step stops.
 LEAST_SHARE = 0.01
+#: Which wheels wear alike → how many parts of (wheelset, side) tell them apart.
+ALIKE = {"none": 2, "sides": 1, "all": 0}
+#: Limit of the pressure in wear [Pa]: full indentation at 5 k (recalled, constants.md 10). Elastic pressures of new profiles
+#: exceed 2.16 GPa in flange roots, where Archard's map has seizure; steel yields before.
+PRESSURE_LIMIT = 5.0 * STEEL.shear_yield
 
 
 @dataclass(frozen=True, kw_only=True)
 class Share:
-    """One scenario of the set: its file, relative to the set's file, and its weight > 0, its share of the mileage."""
+    """One scenario of the set.
+
+    Parameters
+    ----------
+    file : file of the scenario, relative to the set's file
+    weight : its share of the mileage of the vehicle; 0 is other traffic, whose wheels do not wear
+    tonnes_per_year : gross tonnes that pass over its rails in this manner in a year; 0: its rails do not wear
+    rails : name of its rails; scenarios with the same name run on the same ones. Default: rails of its own
+    """
 
     file: str
     weight: float
+    tonnes_per_year: float = 0.0
+    rails: str = ""
 
     def __post_init__(self) -> None:
-        require_number("weight", self.weight, 0.0, open_minimum=True)
+        require_number("weight", self.weight, 0.0)
+        require_number("tonnes_per_year", self.tonnes_per_year, 0.0, 1e10)
+        if self.weight == 0.0 and self.tonnes_per_year == 0.0:
+            raise ContactError("weight = 0 and tonnes_per_year = 0: the scenario would wear nothing")
+
+    @property
+    def line(self) -> str:
+        """Name of the rails."""
+        return self.rails or Path(self.file).stem
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,7 +106,12 @@ class Declaration:
     mileage : mileage at which the wear run ends [m], positive
     scenarios : scenarios with their weights, at least one
     steps : see `Steps`
-    limits : dimensions of the flange at which the wear run ends too, see `models.life.flange`
+    limits : dimensions of the flange at which a wheel is worn out, see `models.life.flange`
+    reprofile : whether all wheels are then restored by the greatest cut that one of them needs; otherwise the run ends
+    alike : which wheels wear alike, by their mean: "none"; "sides", the two of an axle, on a line with as many curves to
+        either side; "all", in a vehicle that is turned and whose axles change places. The quasi-static wheelset needs "all"
+    mileage_per_year : mileage of the vehicle in a year [m]; needed if scenarios have tonnes_per_year
+    pressure_limit : limit of the pressure in scenarios that give none [Pa], see `PRESSURE_LIMIT`; inf: elastic pressures
     amplitudes : amplitudes of the equivalent conicity in the results [m]
     """
 
@@ -89,19 +120,33 @@ class Declaration:
     scenarios: tuple[Share, ...]
     steps: Steps = field(default_factory=Steps)
     limits: Flange = field(default_factory=Flange.limits)
+    reprofile: bool = False
+    alike: str = "none"
+    mileage_per_year: float | None = None
+    pressure_limit: float = PRESSURE_LIMIT
     amplitudes: tuple[float, ...] = (1e-3, 2e-3, 3e-3, 4e-3, 5e-3)
 
     def __post_init__(self) -> None:
         require_number("mileage", self.mileage, 0.0, 1e10, open_minimum=True)
         if not self.scenarios:
             raise ContactError("scenarios is empty; at least one is needed")
+        if not any(share.weight > 0.0 for share in self.scenarios):
+            raise ContactError("scenarios: none of them has a weight above 0")
+        if self.alike not in ALIKE:
+            raise ContactError(f"alike = {self.alike!r} is none of {', '.join(ALIKE)}")
+        if self.mileage_per_year is not None:
+            require_number("mileage_per_year", self.mileage_per_year, 0.0, 1e10, open_minimum=True)
+        elif any(share.tonnes_per_year > 0.0 for share in self.scenarios):
+            raise ContactError("mileage_per_year is missing; tonnes_per_year needs it")
+        if self.pressure_limit != math.inf:
+            require_number("pressure_limit", self.pressure_limit, 1e8, 1e11)
         for k, value in enumerate(self.amplitudes):
             require_number(f"amplitudes[{k}]", value, 1e-4, 0.02)
 
 
 @dataclass(frozen=True)
 class ScenarioSet:
-    """A declaration with its scenarios, which share one wheel."""
+    """A declaration with its scenarios. Those with a weight share wheel and vehicle."""
 
     declared: Declaration
     scenarios: tuple[Scenario, ...]
@@ -111,9 +156,33 @@ class ScenarioSet:
         return self.declared.name
 
     @property
+    def first(self) -> Scenario:
+        """The first scenario of the vehicle that wears."""
+        return self.scenarios[self.first_number]
+
+    @property
+    def first_number(self) -> int:
+        """Number of that scenario."""
+        return next(k for k, weight in enumerate(self.weights) if weight > 0.0)
+
+    @property
     def wheel(self) -> Profile:
         """The unworn wheel."""
-        return self.scenarios[0].wheel
+        return self.first.wheel
+
+    def group(self, wheel: tuple[str, str]) -> tuple[str, ...]:
+        """Return what tells a wheel, (wheelset, side), from those that do not wear alike."""
+        return wheel[: ALIKE[self.declared.alike]]
+
+    @property
+    def groups(self) -> tuple[tuple[str, ...], ...]:
+        """The groups of wheels that wear alike, in the order of the wheels."""
+        return tuple(dict.fromkeys(self.group(wheel) for wheel in self.first.wheel_names))
+
+    def passes(self, number: int, axle_load: float) -> float:
+        """Return the axle passes over the rails of a scenario for each metre of mileage [1/m]. `axle_load` is in N."""
+        tonnes, mileage = self.declared.scenarios[number].tonnes_per_year, self.declared.mileage_per_year
+        return tonnes / mileage * 1e3 * GRAVITY / axle_load if mileage else 0.0
 
     @property
     def weights(self) -> tuple[float, ...]:
@@ -134,20 +203,38 @@ def read(path: str | PathLike[str]) -> ScenarioSet:
     Raises
     ------
     ContactError
-        As `scenario.read`, and if the scenarios differ in wheel, radius, bins or damage parameters.
+        As `scenario.read`, and if scenarios that share wheels or rails differ in what describes them.
     """
     path = Path(path)
     declared = build(Declaration, read_table(path), path.name)
-    scenarios = tuple(scenario.read(path.parent / share.file) for share in declared.scenarios)
-    first = scenarios[0]
+    scenarios = tuple(
+        scenario.read(path.parent / share.file).limited(declared.pressure_limit) for share in declared.scenarios
+    )
+    found = ScenarioSet(declared, scenarios)
+    lines: dict[str, tuple[Share, Scenario]] = {}
+    first = (declared.scenarios[found.first_number], found.first)
     for share, other in zip(declared.scenarios, scenarios, strict=True):
-        same = np.array_equal(first.wheel.y, other.wheel.y) and np.array_equal(first.wheel.z, other.wheel.z)
-        if not same or (first.radius, first.declared.recording.bins, first.declared.damage) != (
-            other.radius,
-            other.declared.recording.bins,
-            other.declared.damage,
-        ):
+        if share.weight > 0.0:
+            _require_same(path.name, "wheel", (share, other), first)
+        _require_same(path.name, "rail", (share, other), lines.setdefault(share.line, (share, other)))
+        if other.vehicle is None and (declared.alike != "all" or share.tonnes_per_year > 0.0):
             raise ContactError(
-                f"{path.name}: {share.file} has another wheel, radius, bins or damage than {declared.scenarios[0].file}"
+                f'{path.name}: {share.file} has no vehicle; its wheels wear alike (alike = "all") and its rails not at all '
+                "(tonnes_per_year = 0)"
             )
-    return ScenarioSet(declared, scenarios)
+    return found
+
+
+def _require_same(path: str, body: str, one: tuple[Share, Scenario], other: tuple[Share, Scenario]) -> None:
+    """Raise a ContactError unless two scenarios can wear the same body, "wheel" or "rail"."""
+    a, b = one[1], other[1]
+    mine, theirs = ((a.wheel,), (b.wheel,)) if body == "wheel" else (a.rails, b.rails)
+    same = all(np.array_equal(p.y, q.y) and np.array_equal(p.z, q.z) for p, q in zip(mine, theirs, strict=True))
+    alike = _bookkeeping(a) == _bookkeeping(b)
+    if not same or not alike or (body == "wheel" and a.wheel_names != b.wheel_names):
+        raise ContactError(f"{path}: {one[0].file} has another {body}, radius, bins or damage than {other[0].file}")
+
+
+def _bookkeeping(given: Scenario) -> tuple[object, ...]:
+    """Return what histograms must have in common to be added up."""
+    return given.radius, given.declared.recording.bins, given.declared.damage

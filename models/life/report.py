@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import MISSING, Field, fields, is_dataclass
 from functools import partial
@@ -19,7 +18,7 @@ from models.life.harvest import BODIES
 from models.life.run import BALANCE, Run
 from models.life.scenario import Scenario
 from models.life.trust import TRUST, Trust
-from models.wheelset.ports import SIDES
+from models.wheelset.ports import INWARDS, SIDES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -106,7 +105,7 @@ def _panels(s: dict[str, Any]) -> dict[str, dict[str, dict[str, Any]]]:
         "Motion": {
             "y − alignment [mm]": {"wheelset": 1e3 * (s["lateral"] - s["alignment"])},
             "yaw [mrad]": {"wheelset": 1e3 * s["yaw"]},
-            "contact angle [°]": both("contact_angle", math.degrees(1.0)),
+            "contact angle [°]": {side: inwards * s[f"{side}_contact_angle"] for side, inwards in INWARDS.items()},
         },
         "Forces": {
             "lateral [kN]": both("lateral_force", 1e-3),
@@ -149,6 +148,7 @@ def trusted(trust: Trust) -> Table:
 def damaged(both: dict[str, Histogram]) -> Table:
     """Return the damage of wheels or of rails, by name, as a table."""
     rows = []
+    is_wheel = next(iter(both.values())).profile.kind == "wheel"
     for side, h in both.items():
         rolled = h.distance
         rows.append(
@@ -159,9 +159,10 @@ def damaged(both: dict[str, Histogram]) -> Table:
                 number(float(h["T_gamma"].sum()) / rolled),
                 number(100.0 * h["stress_exceedance"].max() / rolled),
                 number(100.0 * h["fatigue_exceedance"].max() / rolled),
+                *(() if is_wheel else (number(1e6 * float(h.fatigue.max())),)),
             )
         )
-    deepest = "nm/km" if next(iter(both.values())).profile.kind == "wheel" else "µm/10⁶ passes"
+    deepest = "nm/km" if is_wheel else "µm/10⁶ passes"
     return Table(
         "Per kilometre rolled",
         [
@@ -171,6 +172,7 @@ def damaged(both: dict[str, Histogram]) -> Table:
             ("mean T-gamma", "N"),
             ("stress index > 0", "% of the distance"),
             ("surface fatigue > 0", "% of the distance"),
+            *(() if is_wheel else (("Burstow, greatest", "per 10⁶ axles"),)),
         ],
         rows,
     )

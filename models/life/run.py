@@ -233,6 +233,11 @@ class Run:
         return float(self.harvest.energy.sum())
 
     @property
+    def axle_load(self) -> float:
+        """Static load of the axle [N]."""
+        return self._p.axle_load
+
+    @property
     def trust(self) -> Trust:
         """How far the run can be trusted."""
         balance = self.balance

@@ -12,6 +12,7 @@ from contact.errors import ContactError, require_number
 Item = TypeVar("Item")
 Answer = TypeVar("Answer")
 
+_PATIENCE = 20.0  # for the first worker [s]
 _DEATHS = 5  # a task is given up after this number of workers have died with it
 
 
@@ -32,14 +33,15 @@ class Workers:
     Raises
     ------
     ContactError
-        If the number is outside its range.
+        If the number is outside its range, or on entry if the scheduler does not answer or has no workers.
     ImportError
         If dask is needed and the extra `scale` is not installed.
     """
 
     def __init__(self, count: int = 1, scheduler: str | None = None) -> None:
         self._count, self._scheduler = int(require_number("workers", count, 1, 512)), scheduler
-        self._stack, self._client = ExitStack(), None
+        self._stack = ExitStack()
+        self._client: Any = None
 
     def __enter__(self) -> Self:
         if self._scheduler is None and self._count == 1:
@@ -59,6 +61,13 @@ class Workers:
             self._client = self._stack.enter_context(Client(address, timeout="20s"))
         except OSError as error:
             raise ContactError(f"scheduler = {self._scheduler!r} does not answer: {error}") from None
+        try:
+            self._client.wait_for_workers(1, timeout=_PATIENCE)
+        except TimeoutError:
+            self._stack.close()
+            raise ContactError(
+                f"scheduler = {address!r} has no workers after {_PATIENCE:g} s; start some with: dask worker {address}"
+            ) from None
         return self
 
     def __exit__(

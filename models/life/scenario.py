@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import hashlib
+import math
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from contact.damage import Burstow, DamageParameters
+from contact.damage import DamageParameters
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry import profile
-from contact.geometry.profile import Profile
+from contact.geometry.profile import Kind, Profile
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solver import N_ELEMENTS, N_STRIPS, require_resolution
@@ -23,6 +24,7 @@ from models.life.vehicle import Vehicle
 from models.vehicle.declared import VehicleDeclaration
 from models.vehicle.declared import read as read_vehicle
 from models.wheelset.parameters import WheelsetParameters
+from models.wheelset.ports import SIDES
 
 _CREEP_COEFFICIENT = (
     12e6  # [N] a little above the longitudinal coefficient of the default wheel under 54.5 kN (docs/coupling.md)
@@ -38,12 +40,14 @@ class Profiles:
     Parameters
     ----------
     wheel, rail : name of a standard profile, or a file
+    left_rail : the left rail, mirrored to the right side, where it differs from the right one; it needs a vehicle
     inclination : of a rail of EN 13674-1, a number or "1/40"
     unit, side, zero, repair, smoothing, wavelength : for files, as for `contact.geometry.profile.read`
     """
 
     wheel: str = "S1002"
     rail: str = "60E1"
+    left_rail: str | None = None
     inclination: float | str | None = None
     unit: str | None = None
     side: str | None = None
@@ -53,13 +57,20 @@ class Profiles:
     wavelength: float | None = None
 
     def load(self, folder: Path) -> tuple[Profile, Profile]:
-        """Return wheel and rail. Paths of files are relative to `folder`."""
-        given: dict[str, Any] = {key: value for key, value in vars(self).items() if key not in ("wheel", "rail")}
-        wheel, rail = (
-            str(folder / name) if (folder / name).is_file() or ("." in name and not profile.is_standard(name)) else name
-            for name in (self.wheel, self.rail)
-        )
-        return profile.load(wheel, "wheel", **given), profile.load(rail, "rail", **given)
+        """Return wheel and right rail. Paths of files are relative to `folder`."""
+        return self._load(folder, self.wheel, "wheel"), self._load(folder, self.rail, "rail")
+
+    def load_rails(self, folder: Path) -> tuple[Profile, ...]:
+        """Return the right and the left rail, or nothing if they are the same."""
+        if self.left_rail is None:
+            return ()
+        return self._load(folder, self.rail, "rail"), self._load(folder, self.left_rail, "rail")
+
+    def _load(self, folder: Path, name: str, kind: Kind) -> Profile:
+        names = ("wheel", "rail", "left_rail")
+        given: dict[str, Any] = {key: value for key, value in vars(self).items() if key not in names}
+        is_file = (folder / name).is_file() or ("." in name and not profile.is_standard(name))
+        return profile.load(str(folder / name) if is_file else name, kind, **given)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -150,17 +161,16 @@ class Declaration:
                     raise ContactError(
                         f"track.{name} needs a vehicle; the quasi-static wheelset takes the alignment only"
                     )
+            factor = as_friction(self.friction).gauge_factor
+            if factor != 1.0:
+                raise ContactError(
+                    f"friction.gauge_factor = {factor:g} needs a vehicle; the quasi-static wheelset has the same friction "
+                    "over the profile; allowed: 1"
+                )
+            if self.profiles.left_rail is not None:
+                raise ContactError(f"profiles.left_rail = {self.profiles.left_rail!r} needs a vehicle")
         elif self.wheelset != Vehicle():
             raise ContactError(f"wheelset and vehicle = {self.vehicle!r} exclude each other")
-        if self.damage.burstow != Burstow():
-            raise ContactError(
-                "damage.burstow: a run does not accumulate Burstow's index, so its constants would have no effect; remove it"
-            )
-        factor = as_friction(self.friction).gauge_factor
-        if factor != 1.0:
-            raise ContactError(
-                f"friction.gauge_factor = {factor:g}: a run has the same friction over the profile; allowed: 1"
-            )
 
 
 @dataclass(frozen=True)
@@ -171,11 +181,15 @@ class Scenario:
     ----------
     declared : Declaration
     wheel, rail : Profile
-        Profiles of the right side. The left side is the mirror image.
+        Unworn profiles of the right side. The left side is the mirror image.
     draw : tuple of int
         Number of the realisation of the irregularities, in addition to the seed. In a wear run it is the mileage step.
     vehicle : VehicleDeclaration, optional
         None is the quasi-static wheelset of `models.wheelset`.
+    every_wheel : tuple of Profile
+        Profile of every wheel, in the order of `wheel_names`; empty if all are as `wheel`.
+    both_rails : tuple of Profile
+        Profiles of the right and the left rail; empty if both are as `rail`. Left profiles are mirrored to the right side.
     """
 
     declared: Declaration
@@ -183,6 +197,24 @@ class Scenario:
     rail: Profile
     draw: tuple[int, ...] = ()
     vehicle: VehicleDeclaration | None = None
+    every_wheel: tuple[Profile, ...] = ()
+    both_rails: tuple[Profile, ...] = ()
+
+    @property
+    def wheel_names(self) -> tuple[tuple[str, str], ...]:
+        """Wheelset and side of every wheel: axle by axle, the right one before the left one."""
+        axles = ("wheelset",) if self.vehicle is None else tuple(axle.name for axle in self.vehicle.wheelsets)
+        return tuple((axle, side) for axle in axles for side in SIDES)
+
+    @property
+    def wheels(self) -> tuple[Profile, ...]:
+        """Profile of every wheel, in the order of `wheel_names`."""
+        return self.every_wheel or (self.wheel,) * len(self.wheel_names)
+
+    @property
+    def rails(self) -> tuple[Profile, ...]:
+        """Profiles of the right and the left rail."""
+        return self.both_rails or (self.rail,) * len(SIDES)
 
     @property
     def name(self) -> str:
@@ -234,9 +266,21 @@ class Scenario:
         d = self.declared
         return Line(d.track, (d.seed, *self.draw), d.recording.settling)
 
-    def worn(self, wheel: Profile, draw: int) -> Scenario:
-        """Return this scenario with another wheel and another realisation of the irregularities."""
-        return replace(self, wheel=wheel, draw=(draw,))
+    def worn(self, wheels: tuple[Profile, ...], rails: tuple[Profile, ...], draw: int) -> Scenario:
+        """Return this scenario with other wheels and rails, and another realisation of the irregularities.
+
+        The quasi-static wheelset has the same wheel on both sides and the same rail: the first ones.
+        """
+        if self.vehicle is None:
+            return replace(self, wheel=wheels[0], rail=rails[0], draw=(draw,))
+        return replace(self, every_wheel=wheels, both_rails=rails, draw=(draw,))
+
+    def limited(self, pressure: float) -> Scenario:
+        """Return this scenario with a pressure limit [Pa], if it has none of its own."""
+        if self.declared.methods.pressure_limit is not None or math.isinf(pressure):
+            return self
+        methods = replace(self.declared.methods, pressure_limit=pressure)
+        return replace(self, declared=replace(self.declared, methods=methods))
 
     @property
     def fingerprint(self) -> str:
@@ -246,7 +290,7 @@ class Scenario:
         )
         if self.declared.track.measured is not None:
             digest.update(Path(self.declared.track.measured).read_bytes())
-        for shape in (self.wheel, self.rail):
+        for shape in (self.wheel, self.rail, *self.every_wheel, *self.both_rails):
             for row in (shape.y, shape.z, shape.angle):
                 digest.update(row.tobytes())
         return digest.hexdigest()[:32]
@@ -274,9 +318,11 @@ def from_table(table: dict[str, Any], path: Path) -> Scenario:
         declared = replace(declared, track=replace(declared.track, measured=str(measured)))
     try:
         wheel, rail = declared.profiles.load(path.parent)
+        rails = declared.profiles.load_rails(path.parent)
     except (ContactError, OSError) as error:
         raise ContactError(f"{path.name}.profiles: {error}") from None
     if declared.vehicle is None:
         return Scenario(declared, wheel, rail)
     beside = path.parent / declared.vehicle
-    return Scenario(declared, wheel, rail, vehicle=read_vehicle(beside if beside.is_file() else declared.vehicle))
+    vehicle = read_vehicle(beside if beside.is_file() else declared.vehicle)
+    return Scenario(declared, wheel, rail, vehicle=vehicle, both_rails=rails)

@@ -1,93 +1,83 @@
-"""Wear over a mileage: run the scenarios, change the profile, and repeat."""
+"""Wear over a mileage: run the scenarios, change the profiles, and repeat."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Iterable, Mapping
 from functools import reduce
 from operator import add
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.accumulation import Histogram, worn_profile
+from contact.accumulation import Histogram
 from contact.errors import ContactError
 from contact.geometry import conicity
 from contact.geometry.profile import Profile
 from models.life.declared_set import ScenarioSet
-from models.life.flange import Flange
+from models.life.outcome import Outcome, outcome
+from models.life.part import Part, Rail, Wheel
+from models.life.reprofiling import cut, forecast
 from models.life.scale import Workers
 from models.life.scenario import Scenario
-from models.life.start import start
 from models.life.trust import TRUST, Trust, worst
+from models.wheelset.ports import SIDES
 
 Array = NDArray[np.float64]
 
-DENSITY = 7850.0  # density of steel [kg/m³]
-#: Column of the steps → unit and meaning. Flange dimensions are those at the end of a step. The first row is the unworn wheel.
+#: Column of the steps → unit and meaning. The first row is the unworn vehicle.
 COLUMNS = {
     "mileage": ("m", "mileage at the end of the step"),
-    "deepest": ("m", "greatest smoothed depth worn off in the step"),
-    "area": ("m2", "cross-section worn off in the step, before smoothing"),
-    "area_smoothed": ("m2", "the same after smoothing, between the profiles before and after"),
-    "mass": ("kg", "mass worn off a wheel in the step"),
-    "energy": ("J", "frictional energy of a wheel in the step"),
-    "flange_height": ("m", "Sh"),
-    "flange_thickness": ("m", "Sd"),
-    "qR": ("m", "qR"),
-    "tread_depth": ("m", "depth worn off at the tape circle since the start"),
+    "deepest": ("m", "greatest smoothed depth worn off a wheel or a rail in the step"),
+    "mass": ("kg", "mass worn off in the step, mean of all wheels"),
+    "energy": ("J", "frictional energy in the step, mean of all wheels"),
+    "cut": ("m", "taken off the radius of all wheels at the end of the step to restore their profile"),
     **{name: (unit, f"{what}: worst of the runs, or sum") for name, (unit, what) in TRUST.items()},
 }
-
-
-class Worn(NamedTuple):
-    """What a run has done to its wheels: the sum of their histograms, their frictional energy [J], and how far to trust it."""
-
-    wheels: Histogram
-    energy: float
-    trust: Trust
-
-
-def harvest(scenario: Scenario) -> Worn:
-    """Run a scenario and return the damage of all its wheels together."""
-    run = start(scenario)
-    while not run.done:
-        run.advance()
-    wheels = reduce(add, (each for key, each in run.damage().items() if key[-1] == "wheel"))
-    return Worn(wheels, run.energy, run.trust)
+#: Amplitudes of the nonlinearity parameter [m].
+_NONLINEARITY = (2e-3, 4e-3)
 
 
 class Life:
-    """Wear of a wheel under a set of scenarios.
+    """Wear of a vehicle's wheels, and of the rails of its line, under a set of scenarios.
 
-    All wheels have the same wear, the mean over the wheels of the runs. This corresponds to as many curves to the right as to
-    the left, and to a vehicle that is turned now and then. The rails do not wear. Each step has its own realisation of the
-    irregularities.
+    Wheels wear by the mean over the scenarios, weighted by their shares of the mileage. Those of a group
+    (`ScenarioSet.group`) wear alike, by their mean. The right and the left rail of a line wear by the axle passes of its
+    traffic. Each step has its own realisation of the irregularities.
 
     Attributes
     ----------
     plan : ScenarioSet
-    wheels : list of Profile
-        The unworn wheel, and the wheel at the end of each step.
+    wheels : dict of tuple to Wheel
+        Group → wheel.
+    rails : dict of (str, str) to Rail
+        (line, side) → rail, of lines with traffic.
     rows : list of ndarray
-        One row for each of the wheels, in the order of `COLUMNS`.
-    shares : ndarray, shape (scenarios, points)
-        Smoothed depth that each scenario has worn off at each point of the profile [m].
-    conicities : list of ndarray
-        Equivalent conicity at the amplitudes of the plan, of each profile on the rail of the first scenario.
+        One row for each step, in the order of `COLUMNS`.
+    conicities : list of ndarray, shape (axles, amplitudes + 1)
+        Equivalent conicity of each axle at the amplitudes of the plan, and the nonlinearity parameter
+        (γe(4 mm) - γe(2 mm))/2 mm [1/m] (EN 15302:2021; the formula is recalled), on the unworn rail of the first scenario.
+        nan for an axle whose wheels differ so much that it does not oscillate about the track's centre.
     """
 
     def __init__(self, plan: ScenarioSet) -> None:
         self.plan = plan
-        self.wheels = [plan.wheel]
-        self.shares = np.zeros((len(plan.scenarios), plan.wheel.y.size))
-        self.rows = [self._row(0.0, {}, plan.wheel)]
-        self.conicities = [self._conicity(plan.wheel)]
+        count = len(plan.scenarios)
+        self.wheels = {group: Wheel(" ".join(group) or "all wheels", plan.wheel, count) for group in plan.groups}
+        self.rails: dict[tuple[str, str], Rail] = {
+            (share.line, side): Rail(f"{share.line} {side}", rail, count)
+            for share, scenario in zip(plan.declared.scenarios, plan.scenarios, strict=True)
+            if share.tonnes_per_year > 0.0
+            for side, rail in zip(SIDES, scenario.rails, strict=True)
+        }
+        self.rows = [self._row({})]
+        self.conicities = [self._conicity()]
 
     @property
-    def wheel(self) -> Profile:
-        """The present wheel."""
-        return self.wheels[-1]
+    def parts(self) -> tuple[Part, ...]:
+        """All wheels and rails that wear."""
+        return (*self.wheels.values(), *self.rails.values())
 
     @property
     def mileage(self) -> float:
@@ -97,18 +87,49 @@ class Life:
     def __getitem__(self, column: str) -> Array:
         return np.array(self.rows)[:, list(COLUMNS).index(column)]
 
+    def tonnes(self, line: str) -> float:
+        """Return the gross tonnes that have passed over the rails of a line so far [t]."""
+        yearly = sum(share.tonnes_per_year for share in self.plan.declared.scenarios if share.line == line)
+        return (
+            yearly * self.mileage / self.plan.declared.mileage_per_year if self.plan.declared.mileage_per_year else 0.0
+        )
+
+    @property
+    def worn_out(self) -> str:
+        """Wheels that have reached a limit, with the limit; "" if there are none."""
+        reached = {wheel.name: wheel.flange.exceeded(self.plan.declared.limits) for wheel in self.wheels.values()}
+        return "; ".join(f"{name}: {limit}" for name, limit in reached.items() if limit)
+
     @property
     def ended(self) -> str:
         """Reason for the end of the wear run: "mileage" or a limit; "" while it has not ended."""
-        limit = Flange.measured(self.wheel).exceeded(self.plan.declared.limits)
-        if limit:
-            return limit
+        if self.worn_out and not self.plan.declared.reprofile:
+            return self.worn_out
         return "mileage" if self.mileage >= self.plan.declared.mileage else ""
+
+    @property
+    def cut(self) -> float:
+        """Reduction of the radius that would restore all wheels now [m]: the greatest that one of them needs."""
+        return max(cut(wheel.present, self.plan.wheel) for wheel in self.wheels.values())
+
+    @property
+    def forecast(self) -> tuple[str, str, float] | None:
+        """Wheel, limit and mileage [m] of the next reprofiling by the trend of the last steps; None if there is no trend."""
+        since = int(np.flatnonzero(self["cut"])[-1]) + 1 if self["cut"].any() else 0
+        found = {
+            wheel.name: forecast(wheel, self["mileage"][since:], self.plan.declared.limits)
+            for wheel in self.wheels.values()
+        }
+        known = {name: trend for name, trend in found.items() if trend is not None}
+        if not known:
+            return None
+        name = min(known, key=lambda each: known[each][1])
+        return name, *known[name]
 
     def step(
         self, workers: Workers, watch: Callable[[int, int], None] = lambda done, total: None, *, go_on: bool = False
     ) -> None:
-        """Run all scenarios on the present wheel, and wear it up to the limits of a step (`Steps`).
+        """Run all scenarios on the present profiles, and wear these up to the limits of a step (`Steps`).
 
         Parameters
         ----------
@@ -116,102 +137,135 @@ class Life:
         watch : callable
             Called with the number of runs done and the total number.
         go_on : bool
-            Wear the profile also if the energy of a run does not close (`models.life.trust`).
+            Wear the profiles also if the energy of a run does not close (`models.life.trust`).
 
         Raises
         ------
         ContactError
             If a run fails, as `Run.advance`, if its energy does not close, if there is no wear, or if the steps become too
-            short (`Steps.length`). The wheel is then as before.
+            short (`Steps.length`). The profiles are then as before.
         """
-        number = len(self.wheels) - 1
-        scenarios = [each.worn(self.wheel, number) for each in self.plan.scenarios]
-        found = workers.map(harvest, scenarios, watch)
-        trusts = [each.trust for each in found]
-        trust = worst(trusts)
+        declared, number = self.plan.declared, len(self.rows) - 1
+        found = workers.map(outcome, [self._present(k, number) for k in range(len(self.plan.scenarios))], watch)
+        trust = worst([each.trust for each in found])
         if not trust.closes and not go_on:
-            which = scenarios[trusts.index(max(trusts, key=lambda each: abs(each.residual)))]
-            raise ContactError(f"{self.plan.name}: step {number + 1}, {which.name}: {trust.warnings[0]}")
-        per_metre = [
-            each.wheels.scaled(weight / each.wheels.distance)
-            for each, weight in zip(found, self.plan.weights, strict=True)
-        ]
-        smoothing = self.plan.declared.steps.smoothing
-        total = reduce(add, per_metre)
-        rate = float(_depth(self.wheel, worn_profile(total, smoothing=smoothing)).max())
-        if rate <= 0.0:
+            at = found.index(max(found, key=lambda each: abs(each.trust.residual)))
+            raise ContactError(
+                f"{self.plan.name}: step {number + 1}, {self.plan.scenarios[at].name}: {trust.warnings[0]}"
+            )
+        damage = self._damage(found)
+        rates = {part.name: part.rate(damage[part.name], declared.steps.smoothing) for part in self.parts}
+        fastest = max(rates, key=lambda name: rates[name])
+        if rates[fastest] <= 0.0:
             raise ContactError(f"{self.plan.name}: step {number + 1} has no wear")
-        length = self.plan.declared.steps.length(rate, self.plan.declared.mileage - self.mileage)
-        worn = worn_profile(total, length, smoothing=smoothing)
-        wheel = Profile("wheel", worn.y, worn.z, worn.angle, self.plan.wheel.name)
-        for k, histogram in enumerate(per_metre):
-            self.shares[k] += _depth(self.wheel, worn_profile(histogram, length, smoothing=smoothing))
-        energies = [each.energy / each.wheels.distance for each in found]
+        try:
+            length = declared.steps.length(rates[fastest], declared.mileage - self.mileage)
+        except ContactError as error:
+            raise ContactError(f"{self.plan.name}: step {number + 1}, {fastest}: {error}") from None
+        for part in self.parts:
+            part.wear(damage[part.name], length, declared.steps.smoothing)
+        members = self.members
+        masses = [wheel["mass"][-1] * members[group] for group, wheel in self.wheels.items()]
+        powers = [weight * each.energy / _distance(each.wheels.values()) for weight, each in self._weighted(found)]
         booked = {
-            "deepest": length * rate,
-            "area": length * float(total["wear"].sum()) * total.width,
-            "area_smoothed": _area_between(self.wheel, wheel),
-            "mass": DENSITY * length * total.volume,
-            "energy": length * float(np.dot(self.plan.weights, energies)),
+            "mileage": self.mileage + length,
+            "deepest": max(part["deepest"][-1] for part in self.parts),
+            "mass": sum(masses) / sum(members.values()),
+            "energy": length * sum(powers),
             **trust.as_dict(),
         }
-        self.rows.append(self._row(self.mileage + length, booked, wheel))
-        self.wheels.append(wheel)
-        self.conicities.append(self._conicity(wheel))
+        self.conicities.append(self._conicity())
+        if self.worn_out and declared.reprofile:
+            booked["cut"] = self.cut
+            for wheel in self.wheels.values():
+                wheel.restore_profile()
+        self.rows.append(self._row(booked))
+
+    def _present(self, k: int, number: int) -> Scenario:
+        """Return scenario k on the present profiles. Other traffic keeps its wheels."""
+        scenario, share = self.plan.scenarios[k], self.plan.declared.scenarios[k]
+        wheels = scenario.wheels
+        if share.weight > 0.0:
+            wheels = tuple(self.wheels[self.plan.group(name)].present for name in scenario.wheel_names)
+        worn = (self.rails.get((share.line, side)) for side in SIDES)
+        rails = tuple(own if rail is None else rail.present for rail, own in zip(worn, scenario.rails, strict=True))
+        return scenario.worn(wheels, rails, number)
+
+    def _weighted(self, found: Iterable[Outcome]) -> list[tuple[float, Outcome]]:
+        return [(weight, each) for weight, each in zip(self.plan.weights, found, strict=True) if weight > 0.0]
+
+    def _damage(self, found: list[Outcome]) -> dict[str, dict[int, Histogram]]:
+        """Return the damage of each part by each scenario that wears it, as `Part` needs it."""
+        damage: dict[str, dict[int, Histogram]] = {part.name: {} for part in self.parts}
+        for k, (share, weight, each) in enumerate(
+            zip(self.plan.declared.scenarios, self.plan.weights, found, strict=True)
+        ):
+            for group, wheel in self.wheels.items():
+                own = [h for name, h in each.wheels.items() if self.plan.group(name) == group]
+                if weight > 0.0:
+                    together = reduce(add, own)
+                    damage[wheel.name][k] = together.scaled(weight / together.distance)
+            for side, histogram in each.rails.items():
+                rail, passes = self.rails.get((share.line, side)), self.plan.passes(k, each.axle_load)
+                if rail is not None and passes > 0.0:
+                    damage[rail.name][k] = histogram.scaled(passes / histogram.distance)
+        return damage
+
+    @property
+    def members(self) -> dict[tuple[str, ...], int]:
+        """Number of wheels of each group."""
+        names = [self.plan.group(name) for name in self.plan.first.wheel_names]
+        return {group: names.count(group) for group in self.wheels}
 
     @property
     def trust(self) -> Trust:
         """How far the runs of all steps can be trusted."""
         return worst([Trust(*(float(row[list(COLUMNS).index(name)]) for name in TRUST)) for row in self.rows])
 
-    def _row(self, mileage: float, booked: dict[str, float], wheel: Profile) -> Array:
-        size = Flange.measured(wheel)
-        told = {
-            "mileage": mileage,
-            "flange_height": size.height,
-            "flange_thickness": size.thickness,
-            "qR": size.qR,
-            "tread_depth": float(np.interp(0.0, self.plan.wheel.y, _depth(self.plan.wheel, wheel))),
-        }
-        return np.array([(booked | told).get(name, 0.0) for name in COLUMNS])
+    @staticmethod
+    def _row(booked: dict[str, float]) -> Array:
+        return np.array([booked.get(name, 0.0) for name in COLUMNS])
 
-    def _conicity(self, wheel: Profile) -> Array:
-        first = self.plan.scenarios[0]
+    @property
+    def axles(self) -> dict[str, tuple[Profile, Profile]]:
+        """Name of each axle that differs from the others → its right and left profile at the end of the last step."""
+        axles: dict[str, tuple[Profile, Profile]] = {}
+        for axle in dict.fromkeys(name for name, _ in self.plan.first.wheel_names):
+            right, left = (self.wheels[self.plan.group((axle, side))] for side in SIDES)
+            alone = axle if self.plan.group((axle, SIDES[0])) else right.name
+            axles[alone] = (right.last, left.last)
+        return axles
+
+    def _conicity(self) -> Array:
+        first, amplitudes = self.plan.first, self.plan.declared.amplitudes
         p = first.vehicle or first.parameters
-        found = conicity(
-            wheel,
-            first.rail,
-            self.plan.declared.amplitudes,
-            nominal_radius=p.radius,
-            gauge=p.gauge,
-            flange_back=p.flange_back,
-            gauge_point=p.gauge_point,
-        )
-        return found.conicity
+        options: dict[str, Any] = {
+            "nominal_radius": p.radius, "gauge": p.gauge, "flange_back": p.flange_back, "gauge_point": p.gauge_point
+        }  # fmt: skip
+        rows = []
+        for right, left in self.axles.values():
+            try:
+                found = conicity(right, first.rail, (*amplitudes, *_NONLINEARITY), left_wheel=left, **options).conicity
+            except ContactError:
+                rows.append([math.nan] * (len(amplitudes) + 1))
+                continue
+            *wanted, low, high = found.tolist()
+            rows.append([*wanted, (high - low) / (_NONLINEARITY[1] - _NONLINEARITY[0])])
+        return np.array(rows)
 
     def save(self) -> dict[str, Array]:
         """Return the whole state as arrays."""
-        return {
-            "rows": np.array(self.rows),
-            "wheels": np.array([(w.y, w.z, w.angle) for w in self.wheels]),
-            "shares": self.shares.copy(),
-            "conicities": np.array(self.conicities),
-        }
+        parts = {f"{part.name}.{name}": array for part in self.parts for name, array in part.save().items()}
+        return {"rows": np.array(self.rows), "conicities": np.array(self.conicities), **parts}
 
     def restore(self, saved: Mapping[str, Array]) -> None:
         """Restore the state from `save` of the same set."""
-        name = self.plan.wheel.name
         self.rows, self.conicities = list(saved["rows"]), list(saved["conicities"])
-        self.wheels = [self.plan.wheel, *(Profile("wheel", y, z, angle, name) for y, z, angle in saved["wheels"][1:])]
-        self.shares[:] = saved["shares"]
+        for part in self.parts:
+            prefix = f"{part.name}."
+            part.restore({name.removeprefix(prefix): a for name, a in saved.items() if name.startswith(prefix)})
 
 
-def _depth(before: Profile, after: Profile) -> Array:
-    """Return the displacement of each point [m]."""
-    return np.hypot(after.y - before.y, after.z - before.z)
-
-
-def _area_between(before: Profile, after: Profile) -> float:
-    """Return the area between two profiles [m²] by the shoelace formula. Their ends must coincide, at least nearly."""
-    y, z = (np.concatenate((a, b[::-1])) for a, b in ((before.y, after.y), (before.z, after.z)))
-    return abs(0.5 * float(np.dot(y, np.roll(z, -1)) - np.dot(z, np.roll(y, -1))))
+def _distance(histograms: Iterable[Histogram]) -> float:
+    """Return the distance that all wheels together have rolled [m]."""
+    return sum(histogram.distance for histogram in histograms)

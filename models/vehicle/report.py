@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from functools import partial
 from typing import Any
@@ -17,6 +16,7 @@ from models.vehicle import assess
 from models.vehicle.ledgers import BODIES
 from models.vehicle.run import BALANCE, VehicleRun
 from models.vehicle.simulation import SIDES
+from models.wheelset.ports import INWARDS
 
 
 def page_of(run: VehicleRun) -> str:
@@ -145,6 +145,6 @@ def _panels(run: VehicleRun) -> dict[str, dict[str, dict[str, Any]]]:
         "Forces": {**both("Y [kN]", "lateral_force", 1e-3), **both("Q [kN]", "vertical_force", 1e-3)},
         "Friction": {
             **both("T-gamma [N]", "T_gamma", 1.0),
-            **both("angle [°]", "contact_angle", math.degrees(1.0)),
+            **{f"{side} angle [°]": wheels("contact_angle", inwards, side) for side, inwards in INWARDS.items()},
         },
     }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -102,26 +103,39 @@ class VehicleRun:
         )
         self._options = options
         names = [axle.name for axle in vehicle.wheelsets]
-        profiles = {"wheel": scenario.wheel, "rail": scenario.rail}
+        rails = dict(zip(SIDES, scenario.rails, strict=True))
         self.histograms = {
             (name, side, body): Histogram(
-                profiles[body], width=d.recording.bins, radius=vehicle.radius, parameters=d.damage
+                wheel if body == "wheel" else rails[side],
+                width=d.recording.bins,
+                radius=vehicle.radius,
+                parameters=d.damage,
             )
-            for name in names
-            for side in SIDES
+            for (name, side), wheel in zip(scenario.wheel_names, scenario.wheels, strict=True)
             for body in BODIES
         }
         ledgers = tuple(ledger(*self._pair(name, side), options.n_strips) for name in names for side in SIDES)
         track = lay(d.track, d.length, scenario.speed, (d.seed, *scenario.draw), d.recording.settling)
         ahead = max(axle.at for axle in vehicle.wheelsets) + 1.0  # all axles start before the irregularities
-        self.simulation = Simulation(
-            vehicle, track, scenario.wheel, scenario.rail, scenario.friction, options, ledgers=ledgers, start=-ahead
-        )
+        self.simulation = self._simulation(track, ledgers=ledgers, start=-ahead)
         self.step = d.recording.step or min(_LONGEST_STEP, 0.7 * self._stable(vehicle))
         self._require_stable()
         self._counted, self._distance = 0.0, 0.0
         self._before = self.simulation.state.u.copy()
         self._rows: list[Array] = []
+
+    def _simulation(self, track: Array, **options: Any) -> Simulation:
+        """Return the vehicle with the profiles of the scenario on a track."""
+        scenario = self.scenario
+        assert scenario.vehicle is not None
+        rails = scenario.rails * len(scenario.vehicle.wheelsets)
+        return Simulation(
+            scenario.vehicle, track, scenario.wheels, rails, scenario.friction, self._options, **options
+        )  # fmt: skip
+
+    def _on_straight(self, speed: float) -> Simulation:
+        """Return the vehicle on ideal straight track at a speed [m/s]."""
+        return self._simulation(lay(Track(), 1.0, lambda s: speed, (0,), 0.0))
 
     def _pair(self, name: str, side: str) -> tuple[Histogram, Histogram]:
         return self.histograms[name, side, "wheel"], self.histograms[name, side, "rail"]
@@ -140,11 +154,7 @@ class VehicleRun:
         """Raise a ContactError if a small motion grows in a step by more than any motion of a vehicle does."""
         vehicle, slowest = self.scenario.vehicle, self.scenario.slowest
         assert vehicle is not None
-        straight = Simulation(
-            vehicle, lay(Track(), 1.0, lambda s: slowest, (0,), 0.0), self.scenario.wheel, self.scenario.rail,
-            self.scenario.friction, self._options,
-        )  # fmt: skip
-        factor = linear.amplification(straight, self.step)
+        factor = linear.amplification(self._on_straight(slowest), self.step)
         if factor > _LARGEST_AMPLIFICATION:
             raise ContactError(
                 f"recording.step = {self.step:g} s is too long at {slowest:g} m/s: a small motion grows {factor:.3g} times "
@@ -267,16 +277,13 @@ class VehicleRun:
     @cached_property
     def critical_speed(self) -> float:
         """Linear critical speed on straight track [m/s]; inf above 150 m/s."""
-        vehicle = self.scenario.vehicle
-        assert vehicle is not None
+        return linear.critical_speed(self._on_straight, tolerance=2.0)
 
-        def at_speed(speed: float) -> Simulation:
-            track = lay(Track(), 1.0, lambda s: speed, (0,), 0.0)
-            return Simulation(
-                vehicle, track, self.scenario.wheel, self.scenario.rail, self.scenario.friction, self._options
-            )
-
-        return linear.critical_speed(at_speed, tolerance=2.0)
+    @property
+    def axle_load(self) -> float:
+        """Mean static load of an axle [N]."""
+        model = self.simulation.model
+        return 2.0 * float(model.bodies["load"][model.wheelsets].mean())
 
     def damage(self) -> dict[tuple[str, str, str], Histogram]:
         """Return the histograms of all wheels and rails, filled with the damage so far."""

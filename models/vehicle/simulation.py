@@ -146,11 +146,12 @@ class Simulation:
         for number, i in enumerate(self.model.wheelsets):
             load = float(self.model.bodies[i]["load"])
             state.loads[number] = load
-            state.q[i, Axis.Z] = self._height(2 * number, speed, load)
+            heights = [self._height(2 * number + side, speed, load) for side in range(2)]
+            state.q[i, Axis.Z] = 0.5 * (heights[0] + heights[1])
             state.u[i, Axis.PITCH] = -speed / self.vehicle.radius
 
     def _height(self, wheel: int, speed: float, load: float) -> float:
-        """Return the height of a wheelset at which its right wheel carries the static load."""
+        """Return the height of a wheelset at which one of its wheels carries the static load."""
         solved = self._pairs[wheel].solve(Pose(), Velocity(speed), vertical=load, friction=self._friction)
         return solved.z
 

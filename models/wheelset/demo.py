@@ -25,7 +25,7 @@ from models.wheelset import master
 from models.wheelset.components import Component, DirectContact, SolveOptions, direct
 from models.wheelset.master import History, Scheme
 from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import CONTACT_PORTS, SIDES, WHEELSET_PORTS
+from models.wheelset.ports import CONTACT_PORTS, INWARDS, SIDES, WHEELSET_PORTS
 from models.wheelset.stability import critical_speed
 
 Array = NDArray[np.float64]
@@ -194,7 +194,7 @@ def _histories(plot: Any, history: History) -> Any:
     panels = {
         "y [mm]": {"lateral": 1e3 * history["lateral"]},
         "ψ [mrad]": {"yaw": 1e3 * history["yaw"]},
-        "contact angle [°]": both("contact.angle", math.degrees(1.0)),
+        "contact angle [°]": {side: inwards * history[f"{side}.contact.angle"] for side, inwards in INWARDS.items()},
         "N [kN]": both("load.normal_force", 1e-3),
         "$F_y$ [kN]": both("force.y", 1e-3),
         "friction [kW]": both("power.friction", 1e-3),

@@ -6,10 +6,14 @@ have the names of the contact's outputs after the same prefix.
 
 from __future__ import annotations
 
+import math
+
 from contact.geometry.wheelset import Side
 
 #: Sides in the order of every array.
 SIDES: tuple[Side, Side] = ("right", "left")
+#: Factor that shows an angle of a side's contact frame [rad] in degrees, positive if the rail pushes to the track's centre.
+INWARDS: dict[Side, float] = {"right": -math.degrees(1.0), "left": math.degrees(1.0)}
 #: Number of samples of the separation, a build option of `WheelRailContact`.
 POINTS = 41
 

@@ -20,6 +20,7 @@ CURVE = (
 SET = """
 name = "short"
 mileage = 1e6
+alike = "all"
 amplitudes = [3e-3]
 [[scenarios]]
 file = "straight.toml"

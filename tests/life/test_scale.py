@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from contact.errors import ContactError
-from models.life import declared_set
+from models.life import declared_set, scale
 from models.life.scale import Workers
 from models.life.wear import Life
 from tests.life.short_set import written
@@ -41,6 +41,17 @@ def test_killed_worker_loses_nothing(tmp_path):
 def test_number_of_workers_has_a_range():
     with pytest.raises(ContactError, match=r"workers = 0 is outside the allowed range \[1, 512\]"):
         Workers(0)
+
+
+def test_a_scheduler_without_workers_is_named(monkeypatch):
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.setattr(scale, "_PATIENCE", 0.2)
+    with (
+        distributed.LocalCluster(n_workers=0, dashboard_address=":0") as cluster,
+        pytest.raises(ContactError, match=r"scheduler = 'tcp://.*' has no workers after 0\.2 s; start some with"),
+        Workers(scheduler=cluster.scheduler_address),
+    ):
+        pass
 
 
 def test_wear_has_the_same_bits_with_any_number_of_workers(tmp_path):

@@ -57,7 +57,7 @@ def written(folder: Path, text: str) -> Path:
         (LEAST + "[methods]\npressure_limit = -1.0", r"case.toml.methods: .*pressure_limit = -1 is outside"),
         (
             LEAST + "[friction]\nstatic = 0.3\ngauge_factor = 0.5",
-            r"friction.gauge_factor = 0.5: a run has the same .*allowed: 1",
+            r"friction.gauge_factor = 0.5 needs a vehicle; .*allowed: 1",
         ),
         (
             LEAST + "[damage]\nwear_law = 'reye'",
@@ -114,7 +114,10 @@ def test_fingerprint_follows_input_profiles_and_draw(tmp_path):
     one = scenario.read(written(tmp_path, LEAST))
     assert scenario.read(written(tmp_path, "# a comment\n" + LEAST)).fingerprint == one.fingerprint
     others = [scenario.read(written(tmp_path, LEAST + more)) for more in ("seed = 1", "[profiles]\nwheel = '1/40'")]
-    assert len({one.fingerprint, *(other.fingerprint for other in others), one.worn(one.wheel, 1).fingerprint}) == 4
+    assert (
+        len({one.fingerprint, *(other.fingerprint for other in others), one.worn(one.wheels, one.rails, 1).fingerprint})
+        == 4
+    )
 
 
 def test_curve_has_transitions_circle_and_cant():

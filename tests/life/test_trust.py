@@ -4,7 +4,6 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from contact.damage import Burstow, DamageParameters
 from contact.errors import ContactError
 from models.life import commands, declared_set, report, result
 from models.life.declared_set import Steps
@@ -70,11 +69,6 @@ def test_a_study_whose_steps_become_too_short_stops_with_the_reason():
     assert steps.length(4.9e-10, 1e9) == pytest.approx(1.02e5, rel=1e-3)
     with pytest.raises(ContactError, match=r"10000 km would wear off 5.1e\+03 µm .* allows 98 km, below 1 % of it"):
         steps.length(5.1e-10, 1e9)
-
-
-def test_constants_without_effect_are_refused():
-    with pytest.raises(ContactError, match=r"damage\.burstow"):
-        scenario(damage=DamageParameters(burstow=Burstow(clip_negative=True)))
 
 
 def test_ctrl_c_names_a_checkpoint_only_if_there_is_one(tmp_path, monkeypatch):

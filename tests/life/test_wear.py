@@ -13,8 +13,9 @@ from contact.geometry import profile
 from models.life import commands, declared_set, wear_report
 from models.life.declared_set import Steps
 from models.life.flange import Flange
+from models.life.part import DENSITY, Wheel, displacement
 from models.life.scale import Workers
-from models.life.wear import DENSITY, Life
+from models.life.wear import Life
 from tests.life.short_set import CURVE, SET, written
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "scenarios"
@@ -28,6 +29,12 @@ def plan(tmp_path) -> Path:
 @pytest.fixture(scope="module")
 def life(tmp_path_factory) -> Life:
     return completed(Life(declared_set.read(written(tmp_path_factory.mktemp("set")))))
+
+
+def wheel_of(life: Life) -> Wheel:
+    """Return the wheel of a study in which all wear alike."""
+    (wheel,) = life.wheels.values()
+    return wheel
 
 
 def completed(life: Life) -> Life:
@@ -84,7 +91,7 @@ def test_wear_goes_on_to_the_mileage_in_steps_that_obey_the_rule(life):
     steps, length = life.plan.declared.steps, np.diff(life["mileage"])
     assert life.mileage == pytest.approx(1e6, rel=1e-15)
     assert (length <= steps.distance * (1.0 + 1e-12)).all()
-    assert (life["deepest"] <= steps.depth * (1.0 + 1e-12)).all()
+    assert (life["deepest"] <= steps.depth * (1.0 + 1e-9)).all()
     held = np.isclose(length, steps.distance) | np.isclose(life["deepest"][1:], steps.depth)
     assert held[:-1].all()  # the last one ends at the mileage
     assert len(length) >= 3
@@ -92,24 +99,26 @@ def test_wear_goes_on_to_the_mileage_in_steps_that_obey_the_rule(life):
 
 def test_worn_cross_section_survives_smoothing(life):
     """A Gaussian keeps the area: ∫ depth over the profile before smoothing is the area between the profiles after it."""
-    assert (life["area"][1:] > 0.0).all()
-    assert life["area_smoothed"] == pytest.approx(life["area"], rel=2e-3)
+    assert (wheel_of(life)["area"][1:] > 0.0).all()
+    assert wheel_of(life)["area_smoothed"] == pytest.approx(wheel_of(life)["area"], rel=2e-3)
 
 
 def test_mass_is_that_of_the_cross_section_around_the_wheel(life):
     """They agree within the spread of the rolling radii."""
-    assert life["mass"] == pytest.approx(DENSITY * 2.0 * np.pi * 0.46 * life["area"], rel=0.01)
+    assert life["mass"] == pytest.approx(DENSITY * 2.0 * np.pi * 0.46 * wheel_of(life)["area"], rel=0.01)
 
 
 def test_depth_is_the_sum_of_the_scenarios(life):
-    moved = np.hypot(life.wheel.y - life.plan.wheel.y, life.wheel.z - life.plan.wheel.z)
-    assert life.shares.sum(axis=0) == pytest.approx(moved, abs=0.01 * moved.max())
-    assert (life.shares.max(axis=1) > 0.0).all()
+    wheel = wheel_of(life)
+    moved = displacement(wheel.new, wheel.last)
+    assert wheel.shares.sum(axis=0) == pytest.approx(moved, abs=0.01 * moved.max())
+    assert (wheel.shares.max(axis=1) > 0.0).all()
 
 
 def test_worn_profile_stays_one_curve(life):
     """After many updates, tangents still agree with the points."""
-    y, z, angle = life.wheel.y, life.wheel.z, life.wheel.angle
+    last = wheel_of(life).last
+    y, z, angle = last.y, last.z, last.angle
     fresh = profile.Profile("wheel", y, z)
     inner = slice(5, -5)
     before = profile.Profile("wheel", life.plan.wheel.y, life.plan.wheel.z)
@@ -130,7 +139,7 @@ def test_resumed_wear_equals_the_uninterrupted_one_bit_for_bit(life):
 
 def test_limit_ends_the_wear(plan):
     plan.write_text(SET + "[limits]\nheight = 28.0e-3\n", encoding="utf-8")
-    assert Life(declared_set.read(plan)).ended.startswith("flange height 28.00 mm")
+    assert Life(declared_set.read(plan)).ended.startswith("all wheels: flange height 28.00 mm")
 
 
 @pytest.mark.parametrize(
@@ -138,6 +147,16 @@ def test_limit_ends_the_wear(plan):
     [
         (SET.replace("mileage = 1e6", "mileage = 0"), r"set.toml: mileage = 0 is outside the allowed range \]0, "),
         (SET.replace("weight = 1.0", "weight = -1.0"), r"set.toml.scenarios\[1\]: weight = -1 is outside"),
+        (
+            SET.replace("weight = 1.0", "weight = 0.0"),
+            "weight = 0 and tonnes_per_year = 0: the scenario would wear nothing",
+        ),
+        (SET.replace("weight = 1.0", "weight = 0.0\ntonnes_per_year = 1e6"), "mileage_per_year is missing"),
+        (SET.replace('"all"', '"both"'), "alike = 'both' is none of none, sides, all"),
+        (
+            SET.replace('alike = "all"\n', ""),
+            r"straight.toml has no vehicle; its wheels wear alike \(alike = \"all\"\)",
+        ),
         (SET.replace("distance", "distanse"), r"set.toml.steps.distanse is unknown, did you mean 'distance'"),
         (SET.replace("curve.toml", "none.toml"), r"none.toml'?: No such file"),
     ],
@@ -171,7 +190,7 @@ def test_command_writes_result_and_page_and_goes_on_from_its_checkpoint(plan, tm
     step = Life.step
 
     def interrupted(self, *given, **options):
-        if len(self.wheels) == 2:
+        if len(self.rows) == 2:
             raise KeyboardInterrupt
         step(self, *given, **options)
 
@@ -185,12 +204,13 @@ def test_command_writes_result_and_page_and_goes_on_from_its_checkpoint(plan, tm
     assert "warning: The balance of energy does not close" in resumed.output
     stored = xarray.load_dataset(tmp_path / "out" / "result.nc", engine="scipy")
     assert stored["mileage"].values[-1] == pytest.approx(8e5)
-    assert stored["conicity"].shape == (stored["mileage"].size, 1)
+    assert stored["conicity"].shape == (stored["mileage"].size, 1, 1)
     last = int(np.searchsorted(life["mileage"], 8e5 * (1.0 - 1e-9)))  # earlier wheels are those of the longer run
-    assert (stored["wheel_z"].values[:last] == np.array([w.z for w in life.wheels[:last]])).all()
+    rows = np.array([profile.z for profile in wheel_of(life).profiles[:last]])
+    assert (stored["wheel_z"].values[:last, 0] == rows).all()
     assert "<h1>short</h1>" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
 
 
 def test_page_of_an_unworn_wheel_has_no_trend(life):
     page = wear_report.page_of(Life(life.plan))
-    assert page.count("<picture>") == 2
+    assert page.count("<picture>") == 1

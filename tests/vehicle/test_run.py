@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from contact.errors import ContactError
+from contact.friction import Friction
 from contact.geometry import profile
 from models.life import checkpoint, declared_set, result
 from models.life.scale import Workers
@@ -134,10 +135,40 @@ def test_a_wear_study_takes_vehicles(tmp_path):
     assert abs(life["residual"][-1]) < 0.02
 
 
+def test_friction_of_the_gauge_face_acts_on_the_part_of_the_profile_that_it_names():
+    """Far beyond the profile the border leaves all of it, or nothing of it, to the factor."""
+
+    def dissipated(friction) -> float:
+        return completed(VehicleRun(scenario(length=3.0, friction=friction))).balance["dissipated"]
+
+    everywhere, nowhere = (Friction(0.3, gauge_factor=0.5, border=side) for side in (1.0, -1.0))
+    assert dissipated(everywhere) == pytest.approx(dissipated(0.15), rel=1e-9)
+    assert dissipated(nowhere) == dissipated(0.3)
+
+
+def test_rails_may_differ_and_are_mirrored(tmp_path):
+    """With another rail on the right and the same on the left the vehicle moves the other way."""
+    text = (
+        'name = "s"\nlength = 8.0\nspeed = 20.0\nvehicle = "wheelset"\n'
+        '[methods]\nnormal = "analyn"\ntangential = "fastrip"\nstrips = 20\nelements = 12\n'
+        "[recording]\nsettling = 2.0\n[profiles]\n"
+    )
+    moved = []
+    for rails in ('rail = "54E1"\nleft_rail = "60E1"', 'rail = "60E1"\nleft_rail = "54E1"'):
+        (tmp_path / "s.toml").write_text(text + rails, encoding="utf-8")
+        run = completed(VehicleRun(read_scenario(tmp_path / "s.toml")))
+        moved.append(run.series["wheelset_lateral"])
+        kinds = {key[1:]: histogram.profile.name for key, histogram in run.damage().items()}
+        assert kinds["right", "rail"] != kinds["left", "rail"]
+    assert np.abs(moved[0]).max() > 1e-6
+    assert moved[0] == pytest.approx(-moved[1], abs=1e-9)
+
+
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
         ({"vehicle": None, "track": Track(gauge=Irregularities(spectrum="FRA 5"))}, r"track\.gauge needs a vehicle"),
+        ({"vehicle": None, "profiles": Profiles(left_rail="54E1")}, r"profiles\.left_rail = '54E1' needs a vehicle"),
         ({"wheelset": Vehicle(mass=2000.0)}, r"wheelset and vehicle = 'wheelset' exclude each other"),
     ],
 )

@@ -39,11 +39,13 @@ def _depth(i, chord, area, fields, parameters, damage, damage_fields):
 
 
 @kernel
-def strip_rates(strips, n, fields, parameters, damage, damage_fields, rates):
+def strip_rates(strips, n, fields, parameters, damage, damage_fields, forward, rates):
     """Fill the rates of each of `n` strips, per metre rolled and metre across, from the arrays of `damage_kernel`.
 
     WEAR is the depth on a wheel. VOLUME, per metre across, is the depth on a rail per pass. T-gamma of the whole patch
-    is shared in proportion to contact area. A strip may have no area when a patch is about to separate.
+    is shared in proportion to contact area. A strip may have no area when a patch is about to separate. Burstow's index
+    holds for every place that the patch passes. The sign of `forward`, the longitudinal creep force on the wheel [N],
+    decides in which row it counts.
     """
     area = 0.0
     for i in range(n):
@@ -62,6 +64,8 @@ def strip_rates(strips, n, fields, parameters, damage, damage_fields, rates):
         rates[Bin.ENERGY_INDEX, i] = energy / length if length > 0.0 else 0.0
         rates[Bin.STRESS_EXCEEDANCE, i] = 1.0 if stress > 0.0 else 0.0
         rates[Bin.FATIGUE_EXCEEDANCE, i] = 1.0 if damage.fatigue_index > 0.0 else 0.0
+        rates[Bin.RCF_FORWARD, i] = damage.burstow if forward > 0.0 else 0.0
+        rates[Bin.RCF_BACKWARD, i] = damage.burstow if forward < 0.0 else 0.0
         rates[Bin.ENERGY_INDEX_MAX, i] = greatest
 
 

@@ -156,9 +156,15 @@ WHEEL = np.dtype(
         ("spin", "f8"),
         ("patches", "f8"),
         ("status", "f8"),
+        ("moment_x", "f8"),  # about the wheelset's centre, track coordinates [N m]
+        ("moment_y", "f8"),
+        ("moment_z", "f8"),
+        ("elastic", "f8"),  # energy stored in the contacts [J]
     ],
     align=True,
 )
+#: The rail under one wheel: slopes of its irregularities [-], coefficients of friction at rest and kinetic [-].
+SEAT = np.dtype([("along_y", "f8"), ("along_z", "f8"), ("friction", "f8"), ("kinetic", "f8")], align=True)
 
 
 class Model(NamedTuple):
@@ -192,7 +198,8 @@ class Scratch(NamedTuple):
 
     frames: Array  # shape (bodies, len(Frame))
     forces: Array  # generalised, shape (bodies, 6)
-    given: Any  # GIVEN, one record
+    given: Any  # GIVEN, what the contact of each wheel is asked, in the order of `wheels`
+    seats: Any  # SEAT, the rail under each wheel
     wheels: Any  # WHEEL, one for each wheel: axle by axle, right before left
     power: Array  # damper, dissipation, elastic energy of this step
 
@@ -202,7 +209,8 @@ def scratch(bodies: int, wheelsets: int) -> Scratch:
     return Scratch(
         np.zeros((bodies, len(Frame))),
         np.zeros((bodies, 6)),
-        np.zeros(1, GIVEN),
+        np.zeros(2 * wheelsets, GIVEN),
+        np.zeros(2 * wheelsets, SEAT),
         np.zeros(2 * wheelsets, WHEEL),
         np.zeros(3),
     )

@@ -6,7 +6,7 @@ from contact._jit import kernel
 from models.vehicle.kernels.elements import pull
 from models.vehicle.kernels.frames import carried, drift, gyrate, lay_frames, speed_at
 from models.vehicle.kernels.layout import Axis, Book, Frame
-from models.vehicle.kernels.wheels import count, press, rail_energy, sink
+from models.vehicle.kernels.wheels import act, count, press, rail_energy, seat, sink
 
 #: A normal force above this multiple of the static one is an impact.
 _IMPACT = 2.0
@@ -33,8 +33,8 @@ def _hold(model, state, speed, scratch, h):
 
 
 @kernel
-def _load(model, state, s, benches, h, scratch):
-    """Fill the generalised forces of all bodies at the present state; return the code of `press`."""
+def _load(model, state, motions, h, scratch):
+    """Fill the generalised forces of all bodies at the present state, with those of the contacts."""
     scratch.forces[:] = 0.0
     scratch.power[:] = 0.0
     gyrate(scratch.frames, model.bodies, state.u, scratch.forces)
@@ -45,7 +45,7 @@ def _load(model, state, s, benches, h, scratch):
         scratch.forces[i, Axis.Z] += body.mass * 9.81 * frame[Frame.COS_CANT]
         if body.wheelset != 0:
             scratch.forces[i, Axis.PITCH] -= body.torque
-    return press(model, state, s, benches, scratch)
+    act(model, state, motions, scratch)
 
 
 @kernel
@@ -95,16 +95,20 @@ def _kick(model, state, scratch, h):
 
 
 @kernel
-def step(model, state, benches, scratch, h):
-    """Advance by `h` [s]; return 0 or the code of `press`. Forces in `scratch` are those before the step."""
+def ask(model, state, motions, scratch):
+    """Fill the frames and what each contact is asked at the present state (`scratch.given`, `scratch.seats`)."""
+    s = state.books[Book.DISTANCE]
+    lay_frames(model, s, speed_at(model.track, model.spacing, s), scratch.frames)
+    seat(model, state, s, motions, scratch)
+
+
+@kernel
+def move(model, state, motions, scratch, h):
+    """Advance by `h` [s] after `ask`, with the answers of the contacts in `scratch.wheels`."""
     books = state.books
-    s = books[Book.DISTANCE]
-    speed = speed_at(model.track, model.spacing, s)
-    lay_frames(model, s, speed, scratch.frames)
+    speed = speed_at(model.track, model.spacing, books[Book.DISTANCE])
     work = _hold(model, state, speed, scratch, h)
-    failed = _load(model, state, s, benches, h, scratch)
-    if failed < 0:
-        return failed
+    _load(model, state, motions, h, scratch)
     count(model, state, scratch.wheels, _IMPACT)
     _, in_rails = rail_energy(model, state)
     _weigh(model, state, scratch.power[2] + in_rails, work, books)
@@ -116,6 +120,16 @@ def step(model, state, benches, scratch, h):
     books[Book.DISTANCE] += h * speed
     books[Book.TIME] += h
     books[Book.STEPS] += 1.0
+
+
+@kernel
+def step(model, state, benches, scratch, h):
+    """Advance by `h` [s]; return 0 or the code of `press`. Forces in `scratch` are those before the step."""
+    ask(model, state, benches.motions, scratch)
+    failed = press(benches, scratch)
+    if failed < 0:
+        return failed
+    move(model, state, benches.motions, scratch, h)
     return 0
 
 

@@ -13,71 +13,93 @@ from models.vehicle.kernels.frames import linear, place_on, smooth
 from models.vehicle.kernels.layout import TO_LEFT, Axis, Book, Frame, Row, Sum
 
 #: Share of load times approach that a contact stores: exact for an elliptic one.
-_ELASTIC = 0.4
+ELASTIC = 0.4
 
 
 @kernel
-def press(model, state, s, benches, scratch):
-    """Add the forces of all wheels to those of their axles; fill `scratch.wheels`.
+def seat(model, state, s, motions, scratch):
+    """Fill what each contact is asked: motion of axle and rail, and friction (`scratch.given`, `scratch.seats`).
 
-    Returns 0, or the number of the wheel from 1 on whose contact has no answer, negative.
+    `motions` are the constants of the pairs, records MOTION.
     """
-    track, given, total_power = model.track, scratch.given[0], scratch.power
+    track = model.track
     for axle_number in range(model.wheelsets.size):
         i = model.wheelsets[axle_number]
-        q, u, forces = state.q[i], state.u[i], scratch.forces[i]
+        q, u = state.q[i], state.u[i]
         k, d = place_on(track, model.spacing, s + model.bodies[i].place)
         t, ramp = d / model.spacing[0], scratch.frames[i, Frame.RATE_X]
         for side in range(2):
             w, row = 2 * axle_number + side, side * TO_LEFT
-            rail = state.rails[axle_number, side]
+            rail, given, here, motion = state.rails[axle_number, side], scratch.given[w], scratch.seats[w], motions[w]
             y, along_y = smooth(track, Row.RIGHT_Y + row, k, t, model.spacing[0])
             z, along_z = smooth(track, Row.RIGHT_Z + row, k, t, model.spacing[0])
-            yaw = q[Axis.YAW] - along_y
-            given.y, given.z, given.roll, given.yaw = q[Axis.Y], q[Axis.Z], q[Axis.ROLL], yaw
+            here.along_y, here.along_z = along_y, along_z
+            here.friction = linear(track, Row.RIGHT_FRICTION + row, k, t) * model.surface[0]
+            here.kinetic = linear(track, Row.RIGHT_FRICTION + row, k, t) * model.surface[1]
+            given.y, given.z, given.roll, given.yaw = q[Axis.Y], q[Axis.Z], q[Axis.ROLL], q[Axis.YAW] - along_y
             given.vx, given.vy, given.vz = u[Axis.X], u[Axis.Y], u[Axis.Z]
             given.roll_rate, given.yaw_rate, given.spin = u[Axis.ROLL], u[Axis.YAW], u[Axis.PITCH]
-            bench = bench_of(benches, w)
-            motion = bench.search.motion[0]
             given.rail_y, given.rail_z, given.rail_roll = y + rail[0], z + rail[1], 0.0
             given.rail_vy, given.rail_vz = u[Axis.X] * along_y + rail[2], u[Axis.X] * along_z + rail[3]
             # on a ramp of the cant the rails climb: as if they turned with the frame
             given.rail_roll_rate = ramp
             given.rail_vy -= ramp * (motion.origin_z + given.rail_z)
             given.rail_vz += ramp * (motion.mirror * motion.origin_y + given.rail_y)
-            case, factor = bench.case[0], linear(track, Row.RIGHT_FRICTION + row, k, t)
-            case.mu, case.kinetic, case.speed = factor * model.surface[0], factor * model.surface[1], u[Axis.X]
-            n = solve_pair(Height.GIVEN.value, 0.0, given, bench)
-            if n < 0:
-                return -1 - w
-            total = bench.total[0]
-            lx, ly, lz = axle(q[Axis.ROLL], yaw)
-            climbing = total.Mx + q[Axis.Y] * total.Fz - (q[Axis.Z] - motion.radius) * total.Fy
-            forces[Axis.X] += total.Fx - total.Fy * along_y - total.Fz * along_z - ramp / u[Axis.X] * climbing
-            forces[Axis.Y] += total.Fy
-            forces[Axis.Z] += total.Fz
-            forces[Axis.ROLL] += total.Mx * math.cos(yaw) + total.My * math.sin(yaw)
-            forces[Axis.PITCH] += lx * total.Mx + ly * total.My + lz * total.Mz
-            forces[Axis.YAW] += total.Mz
-            _report(bench, n, u[Axis.X], scratch.wheels[w])
-            total_power[1] += u[Axis.X] * scratch.wheels[w].dissipation
-            for c in range(n):
-                contact = bench.contacts[c]
-                total_power[2] += _ELASTIC * contact.N * contact.approach
+
+
+@kernel
+def press(benches, scratch):
+    """Solve the contacts of all wheels for what `seat` has filled, and fill `scratch.wheels`.
+
+    Returns 0, or the number of the wheel from 1 on whose contact has no answer, negative.
+    """
+    for w in range(scratch.wheels.size):
+        bench, given, here = bench_of(benches, w), scratch.given[w], scratch.seats[w]
+        case = bench.case[0]
+        case.mu, case.kinetic, case.speed = here.friction, here.kinetic, given.vx
+        n = solve_pair(Height.GIVEN.value, 0.0, given, bench)
+        if n < 0:
+            return -1 - w
+        _report(bench, n, scratch.wheels[w])
     return 0
 
 
 @kernel
-def _report(bench, n, speed, wheel):
+def act(model, state, motions, scratch):
+    """Add the forces of all wheels, `scratch.wheels`, to those of their axles, and their power and energy to the step's."""
+    power = scratch.power
+    for w in range(scratch.wheels.size):
+        i = model.wheelsets[w // 2]
+        q, forces, wheel, here = state.q[i], scratch.forces[i], scratch.wheels[w], scratch.seats[w]
+        yaw, speed = scratch.given[w].yaw, state.u[i, Axis.X]
+        Fx, Fy, Fz = wheel.longitudinal, wheel.lateral, -wheel.vertical
+        Mx, My, Mz = wheel.moment_x, wheel.moment_y, wheel.moment_z
+        lx, ly, lz = axle(q[Axis.ROLL], yaw)
+        climbing = Mx + q[Axis.Y] * Fz - (q[Axis.Z] - motions[w].radius) * Fy
+        ramp = scratch.frames[i, Frame.RATE_X]
+        forces[Axis.X] += Fx - Fy * here.along_y - Fz * here.along_z - ramp / speed * climbing
+        forces[Axis.Y] += Fy
+        forces[Axis.Z] += Fz
+        forces[Axis.ROLL] += Mx * math.cos(yaw) + My * math.sin(yaw)
+        forces[Axis.PITCH] += lx * Mx + ly * My + lz * Mz
+        forces[Axis.YAW] += Mz
+        power[1] += speed * wheel.dissipation
+        power[2] += wheel.elastic
+
+
+@kernel
+def _report(bench, n, wheel):
     """Fill what one wheel does."""
     total, largest = bench.total[0], 0
     wheel.longitudinal, wheel.lateral, wheel.vertical = total.Fx, total.Fy, -total.Fz
+    wheel.moment_x, wheel.moment_y, wheel.moment_z = total.Mx, total.My, total.Mz
     wheel.T_gamma, wheel.pmax = total.T_gamma, total.pmax
     wheel.patches, wheel.status = float(n), float(total.status)
-    wheel.normal, wheel.dissipation = 0.0, 0.0
+    wheel.normal, wheel.dissipation, wheel.elastic = 0.0, 0.0, 0.0
     for c in range(n):
         contact = bench.contacts[c]
         wheel.normal += contact.N
+        wheel.elastic += ELASTIC * contact.N * contact.approach
         wheel.dissipation -= (
             contact.Fx * contact.longitudinal + contact.Fy * contact.lateral + contact.Mz * contact.spin
         )

@@ -1,0 +1,337 @@
+"""Features beside steady rolling against CONTACT 25.1: docs/contact_features.md.
+
+    python benchmarks/contact_features.py FOLDER [--write docs/contact_features.md]
+
+FOLDER has the reference sets (G_subsurface, …), which are not part of the repository. CONTACT's tractions and forces act on the
+rail, ours on the wheel. Times are process times, the least of several runs in one thread.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import contact
+import reference
+from benchmarks.tables import table
+from contact.driven import drive
+from contact.elastic_rail import ElasticRail
+from contact.geometry.profile import Profile
+from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.halfspace import Gap
+from contact.pair import WheelRailPair
+from contact.roller import RollerRig
+from contact.stress import SurfaceLoad, below, largest
+
+Row = list[str]
+MU = 0.3
+BOTH = {"normal": "halfspace", "tangential": "halfspace"}
+
+
+def least(task: Callable[[], Any], runs: int = 3) -> float:
+    """Return the least process time [ms]."""
+    times = []
+    for _ in range(runs):
+        start = time.process_time()
+        task()
+        times.append(time.process_time() - start)
+    return 1e3 * min(times)
+
+
+def summary(name: str, errors: Any, unit: str) -> Row:
+    """Return a row: name, count, mean, 95 % and largest of the absolute errors, unit."""
+    e = np.abs(np.asarray(errors, dtype=np.float64)).ravel()
+    return [name, str(e.size), *(f"{v:.1e}" for v in (e.mean(), np.quantile(e, 0.95), e.max())), unit]
+
+
+def subsurface(folder: Path) -> Iterator[Row]:
+    """Set G: all stresses at all points, from CONTACT's tractions."""
+    errors, mises, peaks = [], [], []
+    for path in sorted((folder / "G_subsurface").glob("*.npz")):
+        d = np.load(path)
+        load = SurfaceLoad(d["x"] * 1e-3, d["y"] * 1e-3, d["pn"] * 1e6, -d["px"] * 1e6, -d["py"] * 1e6)
+        z = d["zs"] * 1e-3
+        field = below(load, z, margin=0.0)
+        rows, columns = (np.abs(a[:, None] - b).argmin(axis=0) for a, b in ((d["y"], d["ys"]), (d["x"], d["xs"])))
+        at = np.ix_(np.arange(z.size), rows, columns)
+        top = float(d["sigvm_max"])
+        names = "xx", "yy", "zz", "xy", "xz", "yz"
+        errors += [(1e-6 * getattr(field, name)[at] - d[f"s{name}"]).ravel() / top for name in names]
+        mises.append((1e-6 * field.von_mises[at] - d["sigvm"]).ravel() / top)
+        peaks.append(1e-6 * field.von_mises[at].max() / top - 1.0)
+    unit = "largest von Mises stress"
+    yield summary("G: stress components", np.concatenate(errors), unit)
+    yield summary("G: von Mises stress", np.concatenate(mises), unit)
+    yield summary("G: largest von Mises stress at CONTACT's points", peaks, unit)
+
+
+def given_forces(folder: Path) -> Iterator[Row]:
+    """Set H, module 3: one or both forces given on CONTACT's 44 × 44 elements."""
+    creepages, forces = [], []
+    for row in reference.rows(folder / "H_prescribed" / "module3.csv"):
+        gap, creepage, case = prescribed(row)
+        found = contact.solve(gap, creepage, **case, **BOTH)
+        limit = case["friction"] * case["load"]
+        saturation = 3.0 * limit * math.pi / (4.0 * case["material"].shear_modulus * found.area)
+        away = found.creepage.longitudinal + float(row["xi"]), found.creepage.lateral + float(row["eta"])
+        creepages.append(math.hypot(*away) / saturation)
+        forces.append(math.hypot(found.Fx + float(row["Fx_check"]), found.Fy + float(row["Fy_check"])) / limit)
+    yield summary("H: creepage", creepages, "creepage of saturation")
+    yield summary("H: force", forces, "μN")
+
+
+def transients(folder: Path) -> Iterator[Row]:
+    """Set I: every step of a shift and of rolling on CONTACT's 32 × 32 elements."""
+    forces, tractions = [], []
+    for path in sorted((folder / "I_transient").glob("*.npz")):
+        d = np.load(path)
+        material, N, mu = contact.Material(1e6 * float(d["G"]), float(d["nu"])), float(d["N"]), float(d["mu"])
+        gap = parabolas(1e-3 * float(d["aa"]), 1e-3 * float(d["bb"]), 1e6 * float(d["p0"]), material, 32)
+        patch = contact.Transient(gap, load=N, friction=mu, material=material)
+        for k in np.flatnonzero(d["T"] < 3):
+            x, y, turn = (float(v) for v in -d["kin"][k])
+            if d["T"][k] == 1:
+                s = patch.shift(1e-3 * x, 1e-3 * y, turn)
+            else:
+                s = patch.roll(contact.Creepage(x, y, 1e3 * turn), distance=gap.dx)
+            forces.append(math.hypot(s.Fx + d["Fx"][k], s.Fy + d["Fy"][k]) / (mu * N))
+            for kept in np.flatnonzero(d["field_steps"] == k):
+                load = SurfaceLoad.of(s)
+                top = 1e6 * mu * float(d["pn"].max())
+                i, j = (np.abs(a[:, None] - b).argmin(axis=0) for a, b in ((gap.y, load.y), (gap.x, load.x)))
+                for mine, theirs in ((load.qx, d["px"][kept]), (load.qy, d["py"][kept])):
+                    tractions.append((mine + 1e6 * theirs[np.ix_(i, j)]).ravel() / top)
+    yield summary("I: force of a step", forces, "μN")
+    yield summary("I: traction of an element", np.concatenate(tractions), "μ p0")
+
+
+def unlike(folder: Path) -> Iterator[Row]:
+    """Set J: unlike bodies on CONTACT's 40 × 40 elements; the creepage is found where no force is prescribed."""
+    forces, pressures, creepages = [], [], []
+    for row in reference.rows(folder / "J_dissimilar" / "summary.csv"):
+        v = {name: float(text) for name, text in row.items() if name not in ("case", "warn") and text}
+        rail, wheel = ((2e6 * v[f"G{k}"] * (1.0 + v[f"nu{k}"]), v[f"nu{k}"]) for k in (1, 2))
+        s = (2.0 * np.arange(40) + 1.0) / 40.0 - 1.0
+        x, y = (1.15e-3 * v[name] * s for name in ("a0", "b0"))
+        gap = Gap(x, y, 1e3 * (v["A"] * x**2 + v["B"] * y[:, None] ** 2))
+        free = v["F1"] == 1.0
+        found = contact.solve(
+            gap,
+            contact.Creepage(0.0 if free else -v["xi"], -v["eta"], -1e3 * v["phi"]),
+            load=v["N"],
+            friction=v["mu"],
+            material=contact.Material.from_pair(*rail, *wheel),
+            force=0.0 if free else None,
+            **BOTH,
+        )
+        forces.append(math.hypot(found.Fx + v["Fx"], found.Fy + v["Fy"]) / (v["mu"] * v["N"]))
+        pressures.append(1e-6 * found.max_pressure / v["pmax"] - 1.0)
+        creepages += [(found.creepage.longitudinal + v["xi"]) / v["xi"]] if free else []
+    yield summary("J: force", forces, "μN")
+    yield summary("J: largest pressure", pressures, "itself")
+    yield summary("J: creepage of free rolling", creepages, "itself")
+
+
+def deflections(folder: Path) -> Iterator[Row]:
+    """Set L: a rail on springs under S1002, by the default methods, on CONTACT's profiles."""
+    solver = WheelRailPair(pair_of(folder / "L_rail_deflection"))
+    sideways, down, forces = [], [], []
+    for row in reference.rows(folder / "L_rail_deflection" / "rail_deflection.csv"):
+        if row["patch"] != "1":
+            continue
+        v = {name: float(text) for name, text in row.items() if name not in ("id", "mode") and text}
+        springs = ElasticRail(1e3 * v["KYRAIL"], 1e3 * v["KZRAIL"], v["FYRAIL"], v["FZRAIL"])
+        height = row["mode"] == "z"
+        pose = Pose(y=1e-3 * v["y_ws"], z=1e-3 * v["value"] if height else 0.0, yaw=v["yaw"])
+        solver.forget()
+        velocity = Velocity(2.0, spin=-2.0 / 0.46 * 1.0003)
+        s = solver.solve(pose, velocity, vertical=None if height else v["value"], rail=springs)
+        true = -np.array([v["Fx_tr"], v["Fy_tr"], v["Fz_tr"]])
+        forces.append(np.linalg.norm(s.force - true) / np.linalg.norm(true))
+        sideways.append(1e3 * s.deflection[0] - v["dy_balance"])
+        down.append((1e3 * s.deflection[1] - v["dz_balance"]) / v["dz_balance"])
+    yield summary("L: force vector, default methods", forces, "itself")
+    yield summary("L: lateral deflection", sideways, "mm")
+    yield summary("L: vertical deflection", down, "itself")
+
+
+def third_bodies(folder: Path) -> Iterator[Row]:
+    """Set K: creep curves with elastic and plastic layers on CONTACT's 36 × 36 elements."""
+    errors: dict[str, list[float]] = {}
+    gap = None
+    for row in reference.rows(folder / "K_thirdbody" / "creepcurves.csv"):
+        v = {name: float(text or 0.0) for name, text in row.items() if name != "layer"}
+        material = contact.Material(1e6 * v["G"], v["nu"])
+        gap = gap or parabolas(1e-3 * v["a"], 1e-3 * v["b"], 1e6 * v["p0"], material, 36)
+        layer = None
+        if v["GG3"]:
+            layer = contact.ThirdBody(1e-9 * v["h3"] / v["GG3"], 1e6 * v["tau_c0"] or math.inf, 1e9 * v["k_tau"])
+        creepage = contact.Creepage(-v["xi"], -v["eta"], -1e3 * v["phi"])
+        s = contact.solve(gap, creepage, load=v["N"], friction=v["mu"], material=material, layer=layer, **BOTH)
+        away = math.hypot(s.Fx / (v["mu"] * s.N) + v["fx"], s.Fy / (v["mu"] * s.N) + v["fy"])
+        errors.setdefault("softening" if v["k_tau"] < 0.0 else "all other layers", []).append(away)
+    for name, found in errors.items():
+        yield summary(f"K: force, {name}", found, "μN")
+
+
+def rollers(folder: Path) -> Iterator[Row]:
+    """Set N: S1002 on rollers, by the default methods, on CONTACT's profiles."""
+    pair = pair_of(folder / "N_roller")
+    forces, creepages = [], []
+    for row in reference.rows(folder / "N_roller" / "roller.csv"):
+        if row["patch"] != "1":
+            continue
+        v = {name: float(text) for name, text in row.items() if name != "id" and text}
+        radius = 1e-3 * v["R_roller"]
+        rig = RollerRig(pair, radius, offset=1e-3 * v["x_ws"])
+        velocity = Velocity(v["RPITCH"] * radius, spin=v["VPITCH"])
+        s = rig.solve(Pose(y=1e-3 * v["y_ws"], yaw=v["yaw"]), velocity, vertical=v["Fz_in"])
+        true = -np.array([v["Fx_tr"], v["Fy_tr"], v["Fz_tr"]])
+        forces.append(np.linalg.norm(s.force - true) / np.linalg.norm(true))
+        creepages.append(s.patches[0].creepage.longitudinal + v["xi"])
+    yield summary("N: force vector, default methods", forces, "itself")
+    yield summary("N: longitudinal creepage", creepages, "1")
+
+
+def pair_of(folder: Path) -> Pair:
+    """Return S1002 on UIC60 with CONTACT's points."""
+    points = np.load(folder / "profiles.npz")
+    outlines = [1e-3 * points[name] for name in ("wheel_s1002_yz", "rail_uic60_yz")]
+    outlines = [xy[np.append(True, np.hypot(*np.diff(xy, axis=0).T) > 1e-7)] for xy in outlines]
+    wheel, rail = (Profile(kind, *xy.T) for kind, xy in zip(("wheel", "rail"), outlines, strict=True))
+    return Pair(wheel, rail, gauge=1.435, flange_back=1.360, material=contact.STEEL)
+
+
+def driven(folder: Path) -> Iterator[Row]:
+    """Set H, module 1: a longitudinal force given, the spin found, by the default methods on CONTACT's profiles."""
+    solver = WheelRailPair(pair_of(folder / "H_prescribed"))
+    errors = []
+    for row in reference.rows(folder / "H_prescribed" / "module1.csv"):
+        if row["patch"] == "1":
+            pose, force = Pose(y=1e-3 * float(row["y_ws"])), -float(row["Fx_ws_in"])
+            found = drive(solver, pose, Velocity(2.0), force=force, vertical=float(row["Fz_in"]))
+            errors.append(found.spin / float(row["VPITCH"]) - 1.0)
+    yield summary("H: spin of a driven wheel, default methods", errors, "itself")
+
+
+def prescribed(row: dict[str, str]) -> tuple[Gap, contact.Creepage, dict[str, Any]]:
+    """Return gap, known creepages and arguments of `contact.solve` of a row of set H."""
+    a, b, N, mu, G, p0 = (float(row[name]) for name in ("a", "b", "N", "mu", "G", "p0"))
+    material = contact.Material(1e6 * G, float(row["nu"]))
+    force = [None if not row[name] else -float(row[name]) * mu * N for name in ("fx_rel", "fy_rel")]
+    creepage = contact.Creepage(0.0, -float(row["eta_in"] or 0.0), -1e3 * float(row["phi"]))
+    gap = parabolas(1e-3 * a, 1e-3 * b, 1e6 * p0, material, 44)
+    return gap, creepage, {"load": N, "friction": mu, "material": material, "force": tuple(force)}
+
+
+def parabolas(a: float, b: float, p0: float, material: contact.Material, n: int) -> Gap:
+    """Return the gap of Hertz's ellipse a × b with the pressure p0, on n × n elements over 1.05 of its axes."""
+    s = (2.0 * np.arange(n) + 1.0) / n - 1.0
+    x, y = 1.05 * a * s, 1.05 * b * s
+    t = (np.arange(400_000) + 0.5) / 400_000
+    u, weight = a * t / (1.0 - t), a / (1.0 - t) ** 2 / t.size
+    scale, roots = p0 * a * b / material.contact_modulus, weight / np.sqrt((a**2 + u**2) * (b**2 + u**2))
+    A, B = (scale * float((roots / (q**2 + u**2)).sum()) for q in (a, b))
+    return Gap(x, y, A * x**2 + B * y[:, None] ** 2)
+
+
+def times_given_forces() -> Iterator[Row]:
+    """Both forces given on 44 × 44 elements, and by the default methods."""
+    gap = parabolas(5e-3, 4e-3, 1e9, contact.STEEL, 44)
+    N = 2.0 / 3.0 * math.pi * 5e-3 * 4e-3 * 1e9
+    spin, force = contact.Creepage(0.0, 0.0, 0.2), (0.5 * MU * N, -0.6 * MU * N)
+    one = least(lambda: contact.solve(gap, spin, load=N, **BOTH))
+    yield ["half space, creepages given, 44 × 44 elements", f"{one:.0f}"]
+    both = least(lambda: contact.solve(gap, spin, load=N, force=force, **BOTH))
+    yield ["half space, both forces given, 44 × 44 elements", f"{both:.0f}"]
+    separation = contact.Separation.hertzian(1.1, 0.8)
+    fast = least(lambda: contact.solve(separation, spin, load=N, force=force))
+    yield ["default methods, both forces given", f"{fast:.1f}"]
+
+
+def times_half_space() -> Iterator[Row]:
+    """Normal and tangential problem at 0.2 mm; CONTACT's default solver takes 2.1 s for it (docs/halfspace.md)."""
+    case = next(case for case in reference.patches() if case["name"] == "c40_dy+0_p1")
+    x, y = (np.arange(v[0], v[-1] + 0.3, 0.2) * 1e-3 for v in (case["x_p"], case["y_p"]))
+    separation = reference.separation_of(case)
+    y = y[y < separation.y[-1] + 1e-9]
+    g, A = (np.interp(y, separation.y, v) for v in (separation.g, separation.A))
+    gap = Gap(x, y, g[:, None] + A[:, None] * x**2)
+    creepage = contact.Creepage(case["xi"][0], case["eta"][0], case["phi"][0] * 1e3)
+    took = least(lambda: contact.solve(gap, creepage, approach=1e-3 * case["delta"], throw=False, **BOTH))
+    yield [f"half space at 0.2 mm, {y.size} × {x.size} elements; CONTACT 2100", f"{took:.0f}, 1/{2100.0 / took:.0f}"]
+
+
+def times_transients() -> Iterator[Row]:
+    """Rolling on 32 × 32 elements."""
+    patch = contact.Transient(parabolas(5e-3, 5e-3, 1e9, contact.STEEL, 32), load=52359.88, material=contact.STEEL)
+    x, _ = patch.grid
+    creepage = contact.Creepage(8e-4)
+    patch.shift(-6e-6)
+    step = least(lambda: patch.roll(creepage, distance=float(x[1] - x[0])), 20)
+    yield ["a step of transient rolling, 32 × 32 elements", f"{step:.1f}"]
+
+
+def times_subsurface() -> Iterator[Row]:
+    """Stresses below 44 × 44 elements."""
+    s = (np.arange(44) + 0.5) / 22.0 - 1.0
+    load = SurfaceLoad(5e-3 * s, 5e-3 * s, 1e9 * np.sqrt(np.maximum(1.0 - s**2 - s[:, None] ** 2, 0.0)))
+    z = np.linspace(0.0, 10e-3, 16)
+    yield ["stresses at 16 depths, 44 × 44 elements", f"{least(lambda: below(load, z, margin=0.0)):.0f}"]
+    yield ["largest von Mises stress, its place and depth", f"{least(lambda: largest(load)):.0f}"]
+
+
+PARTS: tuple[Callable[[Path], Iterator[Row]], ...] = (
+    subsurface,
+    given_forces,
+    driven,
+    transients,
+    unlike,
+    third_bodies,
+    deflections,
+    rollers,
+)
+TIMES: tuple[Callable[[], Iterator[Row]], ...] = (
+    times_half_space,
+    times_subsurface,
+    times_given_forces,
+    times_transients,
+)
+
+TEXT = """# CONTACT's features
+
+`benchmarks/contact_features.py` writes this page. The reference is CONTACT 25.1 (rev 2707, Apache-2.0) with the same inputs.
+The table has absolute errors: their mean, the value that 95 % do not exceed, and the largest.
+
+{errors}
+## Time
+
+Process time in one thread on a shared machine, the least of several runs.
+
+{times}"""
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path, nargs="?", help="folder of the reference sets; without it only times")
+    parser.add_argument("--write", type=Path, help="write the report also to this file")
+    arguments = parser.parse_args()
+    folder = arguments.folder and arguments.folder.resolve()
+    rows = [row for part in PARTS if folder for row in part(folder)]
+    text = TEXT.format(
+        errors=table(["set and quantity", "values", "mean", "95 %", "largest", "unit"], rows),
+        times=table(["task", "time [ms]"], [row for part in TIMES for row in part()]),
+    )
+    print(text)
+    if arguments.write:
+        arguments.write.write_text(text)
+
+
+if __name__ == "__main__":
+    main()

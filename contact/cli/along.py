@@ -1,0 +1,168 @@
+"""The command `along`: a wheel over a crossing, or over its flats and polygons."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from contact.cli import options as opt
+from contact.cli.output import deliver, drawing, prepare, reported
+from contact.cli.problem import STANDARD_LOAD
+from contact.errors import ContactError
+from contact.geometry.surfaces import Deviation, Flat, Polygon, RailSurface, SurfacePair, WheelSurface
+from contact.geometry.wheelset import Pose, Velocity
+from contact.passage import Passage, passage
+from contact.surface_pair import WheelRailSurfaces
+
+_WAY = "Way"
+_HEADINGS = ("at\nmm", "z\nmm", "patch", "x\nmm", "y\nmm", "N\nkN", "Fx\nkN", "Fy\nkN", "p max\nMPa", "fit\nerror")
+Begin = Annotated[float, typer.Option("--from", help="first station of the axle in m", rich_help_panel=_WAY)]
+End = Annotated[float, typer.Option("--to", help="last station in m", rich_help_panel=_WAY)]
+Count = Annotated[int, typer.Option("--points", help="number of stations", min=1, rich_help_panel=_WAY)]
+Turned = Annotated[
+    float, typer.Option("--angle", help="angle of the wheel at the first station in rad", rich_help_panel=_WAY)
+]
+Rolling = Annotated[
+    str | None,
+    typer.Option("--tangential", help="tangential method; default that of --normal", rich_help_panel=opt.METHOD),
+]
+Origin = Annotated[
+    tuple[float, float] | None,
+    typer.Option(
+        help="place y z of the origin of a rail of slices in m, right side of the track",
+        metavar="Y Z",
+        rich_help_panel=opt.PROFILES,
+    ),
+]
+FlatLength = Annotated[
+    float | None, typer.Option("--flat", help="length of a haversine flat in m", rich_help_panel=opt.PROFILES)
+]
+FlatDepth = Annotated[
+    float | None, typer.Option(help="its depth in m; default length²/(16 radius)", rich_help_panel=opt.PROFILES)
+]
+PolygonOf = Annotated[
+    tuple[int, float] | None,
+    typer.Option(
+        "--polygon",
+        help="out-of-roundness: order, amplitude in m",
+        metavar="ORDER AMPLITUDE",
+        rich_help_panel=opt.PROFILES,
+    ),
+]
+Vertical = Annotated[
+    float | None,
+    typer.Option(help="instead of a load: vertical force with friction in N", rich_help_panel=opt.LOADING),
+]
+
+
+@dataclass
+class OutOfRound:
+    """What changes along the way."""
+
+    origin: Origin = None
+    flat: FlatLength = None
+    flat_depth: FlatDepth = None
+    polygon: PolygonOf = None
+
+    def deviations(self, radius: float) -> list[Deviation]:
+        """Return flat and polygon of the wheel."""
+        found: list[Deviation] = []
+        if self.flat is not None:
+            found.append(Flat(self.flat, radius, self.flat_depth))
+        elif self.flat_depth is not None:
+            raise ContactError(f"flat_depth = {self.flat_depth:g} needs --flat")
+        return found if self.polygon is None else [*found, Polygon(*self.polygon)]
+
+
+@dataclass
+class Stations:
+    """The way of the axle."""
+
+    begin: Begin = 0.0
+    end: End = 0.2
+    points: Count = 21
+    turned: Turned = 0.0
+
+
+@reported
+def along(
+    *,
+    place: opt.Place,
+    change: OutOfRound,
+    reading: opt.Reading,
+    way: Stations,
+    load: opt.Load = None,
+    vertical: Vertical = None,
+    surface: opt.Surface,
+    normal: opt.Normal = "halfspace",
+    tangential: Rolling = None,
+    as_json: opt.Json = False,
+    out: opt.Files = None,
+) -> None:
+    """Roll a right wheel along a rail that changes along the way (.slcs), or with a flat, a polygon or slices (.slcw).
+
+    Examples:  contact along --rail nose.slcs --origin 0.75 0 --from -0.05 --to 0.15 --normal strip_halfspace --out nose.png
+
+    contact along --flat 0.05 --from -0.05 --to 0.05
+    """
+    prepare(out)
+    wheel = _wheel(place.wheel, reading).with_deviations(*change.deviations(place.radius))
+    slices = Path(place.rail).suffix == ".slcs"
+    rail = RailSurface.read(place.rail) if slices else reading.load(place.rail, "rail")
+    pair = SurfacePair(
+        wheel,
+        rail,
+        nominal_radius=place.radius,
+        gauge=place.gauge,
+        flange_back=place.back_to_back,
+        rail_origin=change.origin,
+    )
+    found = passage(
+        WheelRailSurfaces(pair, normal=normal, tangential=tangential),
+        np.linspace(way.begin, way.end, way.points),
+        Pose(y=place.y, roll=place.roll, yaw=place.yaw),
+        Velocity(place.speed),
+        rotation=way.turned,
+        load=STANDARD_LOAD if load is None and vertical is None else load,
+        vertical=vertical,
+        friction=surface.law(),
+    )
+    deliver(
+        {**found.columns(), "patches_of": found.rows()},
+        show=lambda console: _show(found, console),
+        as_json=as_json,
+        out=out,
+        rows=found.rows,
+        figure=lambda: drawing().passage(found, f"{place.wheel} on {place.rail}"),
+    )
+
+
+def _wheel(name: str, reading: opt.Reading) -> WheelSurface:
+    """Return a wheel from a file of slices, or of revolution."""
+    if Path(name).suffix == ".slcw":
+        return WheelSurface.read(name)
+    return WheelSurface.constant(reading.load(name, "wheel"))
+
+
+def _show(found: Passage, console: Console) -> None:
+    table = Table(header_style="bold", box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
+    for heading in _HEADINGS:
+        table.add_column(heading, justify="right", no_wrap=True)
+    for row in found.rows():
+        table.add_row(
+            f"{1e3 * row['station']:.1f}",
+            f"{1e3 * row['wheel_z']:.4f}",
+            str(row["patch"] + 1),
+            *(f"{1e3 * row[name]:.2f}" for name in ("x", "y")),
+            *(f"{1e-3 * row[name]:.2f}" for name in ("N", "Fx", "Fy")),
+            f"{1e-6 * row['max_pressure']:.0f}",
+            f"{row['fit_error']:.3f}",
+        )
+    console.print(table)

@@ -1,0 +1,89 @@
+"""The command `rail`: a wheel on a rail with springs under it, its deflection and the forces."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, cast
+
+from rich.console import Console
+from rich.table import Table
+
+from contact.cli import options as opt
+from contact.cli.output import deliver, prepare, reported
+from contact.cli.problem import standard_load
+from contact.elastic_rail import ElasticRail
+from contact.geometry.wheelset import Pair, Velocity
+from contact.pair import WheelRailPair
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
+from contact.study.table import number
+
+
+@reported
+def rail(
+    *,
+    place: opt.Place,
+    reading: opt.Reading,
+    side: opt.Sides = opt.Side.right,
+    load: opt.Load = None,
+    surface: opt.Surface,
+    springs: opt.Springs = (math.inf, math.inf),
+    preload: opt.Preload = (0.0, 0.0),
+    normal: opt.Normal = DEFAULT_NORMAL,
+    tangential: opt.Tangential = DEFAULT_TANGENTIAL,
+    as_json: opt.Json = False,
+    out: opt.Files = None,
+) -> None:
+    """Find the deflection of a rail on springs under a wheel, and the forces on the wheel.
+
+    Example:  contact rail --y 6.5e-3 --load 60e3 --springs 8e6 50e6
+    """
+    prepare(out)
+    elastic = ElasticRail(*springs, *preload)
+    case = place.position(reading, side)
+    rows: list[dict[str, Any]] = []
+    for name in case.sides:
+        pair = Pair(
+            case.wheel,
+            case.rail,
+            side=cast(Any, name),
+            nominal_radius=place.radius,
+            gauge=place.gauge,
+            flange_back=place.back_to_back,
+        )
+        s = WheelRailPair(pair, normal=normal, tangential=tangential).solve(
+            case.pose,
+            Velocity(forward=place.speed),
+            vertical=standard_load(load, None),
+            friction=surface.law(),
+            rail=elastic,
+        )
+        rows.append(
+            {
+                "side": name,
+                "deflection_y": s.deflection[0],
+                "deflection_z": s.deflection[1],
+                **{f"F{axis}": float(f) for axis, f in zip("xyz", s.force, strict=True)},
+                "z": s.z,
+                "max_pressure": s.max_pressure,
+                "status": s.status.name,
+            }
+        )
+    deliver({"sides": rows}, show=lambda console: _show(rows, console), as_json=as_json, out=out, rows=lambda: rows)
+
+
+def _show(rows: list[dict[str, Any]], console: Console) -> None:
+    table = Table(title="A wheel on an elastic rail", title_justify="left", title_style="bold", header_style="bold")
+    for heading in ("quantity", "unit", *(row["side"] for row in rows)):
+        table.add_column(heading)
+    for label, unit, key, factor in (
+        ("lateral deflection", "mm", "deflection_y", 1e3),
+        ("vertical deflection", "mm", "deflection_z", 1e3),
+        ("Fx on the wheel", "kN", "Fx", 1e-3),
+        ("Fy on the wheel", "kN", "Fy", 1e-3),
+        ("Fz on the wheel", "kN", "Fz", 1e-3),
+        ("wheelset z", "mm", "z", 1e3),
+        ("peak pressure", "MPa", "max_pressure", 1e-6),
+    ):
+        table.add_row(label, unit, *(number(factor * row[key]) for row in rows))
+    table.add_row("status", "", *(row["status"].lower().replace("_", " ") for row in rows))
+    console.print(table)

@@ -1,0 +1,59 @@
+"""The command `roller`: a wheel on a roller of a test rig."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+from contact.cli import options as opt
+from contact.cli import report
+from contact.cli.document import flat
+from contact.cli.output import deliver, drawing, prepare, reported
+from contact.cli.problem import Touch, standard_load
+from contact.geometry.wheelset import Pair, Velocity
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
+from contact.roller import RollerRig
+
+
+@reported
+def roller(
+    roller_radius: opt.RollerRadius,
+    *,
+    place: opt.Place,
+    reading: opt.Reading,
+    spin: opt.Spin = None,
+    offset: opt.Offset = 0.0,
+    load: opt.Load = None,
+    surface: opt.Surface,
+    normal: opt.Normal = DEFAULT_NORMAL,
+    tangential: opt.Tangential = DEFAULT_TANGENTIAL,
+    as_json: opt.Json = False,
+    out: opt.Files = None,
+) -> None:
+    """Solve the contact of the right wheel on a roller; the rail profile is that of the roller, --speed that of its surface.
+
+    Example:  contact roller 0.6 --y 3e-3 --load 60e3 --spin -43.5
+    """
+    prepare(out)
+    case = place.position(reading, opt.Side.right)
+    pair = Pair(
+        case.wheel,
+        case.rail,
+        side=cast(Any, "right"),
+        nominal_radius=place.radius,
+        gauge=place.gauge,
+        flange_back=place.back_to_back,
+    )
+    rig = RollerRig(pair, roller_radius, offset=offset, normal=normal, tangential=tangential)
+    velocity = Velocity(forward=place.speed, spin=spin)
+    found = rig.solve(case.pose, velocity, vertical=standard_load(load, None), friction=surface.law())
+    touches = [Touch(s, "right", p, k) for k, (p, s) in enumerate(zip(found.patches, found.solutions, strict=True), 1)]
+    title = f"{case.wheel.name or 'wheel'} on a roller of {roller_radius:g} m: y = {1e3 * place.y:g} mm"
+    patches = [report.data(touch, place.radius) for touch in touches]
+    deliver(
+        {"patches": patches},
+        show=lambda console: report.show(touches, title, place.radius, console),
+        as_json=as_json,
+        out=out,
+        rows=lambda: [flat(row) for row in patches],
+        figure=lambda: drawing().patch([t.solution for t in touches], [t.name for t in touches]),
+    )

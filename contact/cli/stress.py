@@ -1,0 +1,106 @@
+"""The command `stress`: the largest stresses below the patches of a wheel on a rail, and a picture of one patch."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from contact.cli import options as opt
+from contact.cli import problem
+from contact.cli.document import flat
+from contact.cli.output import deliver, drawing, prepare, reported
+from contact.cli.problem import Touch
+from contact.errors import require_number
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
+from contact.stress import SurfaceLoad, dang_van, largest
+from contact.stress.field import CRITERIA, require_criterion
+from contact.study.table import number
+
+#: Depths for Dang Van's criterion over the radius of a circle with the contact's area.
+_DEPTHS = np.linspace(0.0, 1.5, 16)
+
+
+@reported
+def stress(
+    context: typer.Context,
+    *,
+    place: opt.Place,
+    reading: opt.Reading,
+    side: opt.Sides = opt.Side.right,
+    amount: opt.Amount,
+    curvatures: opt.Curvatures = None,
+    surface: opt.Surface,
+    normal: opt.Normal = DEFAULT_NORMAL,
+    tangential: opt.Tangential = DEFAULT_TANGENTIAL,
+    body: opt.Body = "rail",
+    criterion: opt.Criterion = "von_mises",
+    slope: opt.DangVanSlope = 1.0 / 3.0,
+    as_json: opt.Json = False,
+    out: opt.Files = None,
+) -> None:
+    """Compute the largest stresses below the contact of a wheel on a rail, or of two curvatures, and their depth.
+
+    Examples:  contact stress --y 3e-3 --out stress.png   ·   contact stress --curvatures 1.1 0.8 --creepage 2e-3 0 0
+    """
+    prepare(out)
+    require_criterion(criterion)
+    require_number("slope", slope, 0.0, 3.0)
+    options = {"friction": surface.law(), "normal": normal, "tangential": tangential}
+    opt.require_use(context)
+    if curvatures is not None:
+        options["speed"] = place.speed
+        touches = [problem.solve_hertzian(curvatures, amount.load, amount.penetration, amount.given, options)]
+    else:
+        case = place.position(reading, side)
+        touches = problem.solve_position(case, amount.load, amount.penetration, amount.given, options)
+    touches = [touch for touch in touches if touch.solution.N > 0.0]
+    found = [stresses(touch, body, slope) for touch in touches]
+    if not touches and out:
+        typer.echo("no contact: no picture and no table is written", err=True)
+        out = [path for path in out if path.suffix.lower() == ".json"]
+
+    def figure() -> Any:
+        worst = max(touches, key=lambda touch: largest(touch.solution, criterion, body=body).value)
+        return drawing().stress(worst.solution, criterion, body=body, title=f"{body}, {worst.name}")
+
+    deliver(
+        {"patches": found},
+        show=lambda console: _show(touches, found, body, console),
+        as_json=as_json,
+        out=out,
+        rows=lambda: [flat(row) for row in found],
+        figure=figure,
+    )
+
+
+def stresses(touch: Touch, body: str, slope: float) -> dict[str, Any]:
+    """Return the largest stresses of a patch [Pa] with their places [m], as plain data."""
+    surface, nu = SurfaceLoad.of(touch.solution), touch.solution.material.poisson_ratio
+    content: dict[str, Any] = {"name": touch.name, "body": body, "N": touch.solution.N}
+    for name in CRITERIA:
+        peak = largest(surface, name, body=body, poisson_ratio=nu)
+        content[name] = {"value": peak.value, "x": peak.x, "y": peak.y, "z": peak.z}
+    worst = dang_van(surface, surface.radius * _DEPTHS, slope=slope, body=body, poisson_ratio=nu).peak
+    content["dang_van"] = {"value": worst.value, "y": worst.y, "z": worst.z}
+    return content
+
+
+def _show(touches: Sequence[Touch], found: Sequence[dict[str, Any]], body: str, console: Console) -> None:
+    if not touches:
+        console.print("no contact: no stress")
+        return
+    title = f"Largest stresses in the {body}"
+    table = Table(title=title, title_justify="left", title_style="bold", header_style="bold")
+    for heading in ("quantity", "unit"):
+        table.add_column(heading)
+    for touch in touches:
+        table.add_column(touch.name, justify="right")
+    for name in (*CRITERIA, "dang_van"):
+        table.add_row(name.replace("_", " "), "MPa", *(number(1e-6 * one[name]["value"]) for one in found))
+        table.add_row("  depth", "mm", *(number(1e3 * one[name]["z"]) for one in found))
+    console.print(table)

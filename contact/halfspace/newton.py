@@ -1,0 +1,112 @@
+"""Newton's iteration with active sets of stick and slip, for one tangential problem on a grid.
+
+    s = w + operator·q,    |q| <= mu p,    s = 0 where |q| < mu p,    q = -mu p s/|s| where s != 0
+
+Each step is a linear system, solved by GMRES with the products by FFT.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.halfspace import zones
+from contact.halfspace.influence import Influence
+from contact.halfspace.krylov import gmres
+
+Array = NDArray[np.float64]
+#: Transfer functions xx, yy, xy; real for even influence numbers.
+Transfer = tuple[NDArray[Any], NDArray[Any], NDArray[Any]]
+
+#: Limits: Newton steps, and GMRES steps in each of them.
+MAX_NEWTON, MAX_KRYLOV = 25, 80
+#: Relative accuracy of the linear systems. A smaller value costs more than it saves.
+_INEXACT = 1e-2
+#: rho over the diagonal of the operator. With 1, an element that slips in the wrong direction would reverse its slip
+#: instead of sticking.
+_STIFFER = 3.0
+
+
+class Operator(NamedTuple):
+    """Slip over V from traction, and what its preconditioner needs.
+
+    Attributes
+    ----------
+    transfer : transfer functions xx, yy, xy on the padded grid
+    own : slip of an element from its own traction
+    gain, share : in stick, the traction is `gain` times the inverse of C plus `share` of that of the element ahead
+    """
+
+    transfer: Transfer
+    own: float
+    gain: float
+    share: float
+
+
+class Newton:
+    """One tangential problem: the friction bound, the half space and the state of the iteration."""
+
+    def __init__(
+        self,
+        bound: Array,
+        influence: Influence,
+        tolerance: float,
+        progress: Callable[[int, float], None] | None,
+    ) -> None:
+        self.bound, self.influence, self.tolerance, self.progress = bound, influence, tolerance, progress
+        self.iterations = self.products = 0
+        h = influence
+        determinant = h.xx * h.yy - h.xy * h.xy
+        self._inverse = h.yy / determinant, h.xx / determinant, -h.xy / determinant
+        self.operator: Operator
+        self.zone, self._stiffness = np.empty_like(bound), np.empty_like(bound)
+        self._step = np.empty((3, 2, *bound.shape))
+        self._tangent, self._correction, self._rhs = self._step
+        self._scale = math.sqrt(float(np.einsum("ij,ij->", bound, bound)))
+
+    def times(self, transfer: Transfer, q: Array) -> Array:
+        """Return the product of the transfer functions (xx, yy, xy) with a field of shape (2, ny, nx)."""
+        self.products += 1
+        x, y = self.influence.forward(q)
+        xx, yy, xy = transfer
+        return self.influence.back(np.stack((xx * x + xy * y, xy * x + yy * y)))
+
+    def slip(self, q: Array, w: Array) -> Array:
+        """Return the slip over V for the traction `q` and the rigid slip `w`."""
+        return w + self.times(self.operator.transfer, q)
+
+    def solve(self, q: Array, w: Array) -> tuple[Array, float]:
+        """Return the last iterate of Newton's iteration from `q`, and its residual."""
+        rho = _STIFFER * self.operator.own
+        for step in range(MAX_NEWTON + 1):
+            square = zones.linearise(q, self.slip(q, w), self.bound, rho, self.zone, self._step, self._stiffness)
+            residual = math.sqrt(square) / self._scale
+            if self.progress is not None:
+                self.progress(self.iterations, residual)
+            if residual <= self.tolerance or step == MAX_NEWTON:
+                break
+            self.iterations += 1
+            moved = self.times(self.operator.transfer, self._correction)
+            zones.restrict(moved, self.zone, self._tangent)
+            change, _ = gmres(self._apply, self._precondition, self._rhs - moved, _INEXACT, MAX_KRYLOV)
+            q = q + change + self._correction
+            zones.admit(q, self.zone, self.bound)
+        return q, residual
+
+    def _apply(self, v: Array) -> Array:
+        """Return the product of the Newton step's matrix with a restricted change `v`."""
+        moved = self.times(self.operator.transfer, v)
+        zones.restrict(moved, self.zone, self._tangent)
+        return moved + self._stiffness * v
+
+    def _precondition(self, v: Array) -> Array:
+        """Return an approximate solution of the Newton step with the right hand side `v`."""
+        u = self.times(self._inverse, np.where(self.zone == zones.STICK, v, 0.0))
+        change = np.empty_like(v)
+        operator = self.operator
+        zones.accumulate(v, u, self.zone, self._stiffness, operator.own, operator.gain, operator.share, change)
+        return change

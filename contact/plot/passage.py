@@ -1,0 +1,60 @@
+"""Figure of a wheel that rolls along surfaces: heights, contact points, forces and pressure over the distance."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from contact.errors import ContactError
+from contact.plot.style import DPI, INK, LINES, MM, style
+
+if TYPE_CHECKING:
+    from contact.passage import Passage
+
+_GPA, _KN = 1e-9, 1e-3
+
+
+def passage(run: Passage, title: str = "") -> Figure:
+    """Draw height of the wheel, contact points, forces and largest pressure over the distance.
+
+    Areas of points are proportional to the normal forces of their patches; patches are numbered from the field side.
+
+    Raises
+    ------
+    ContactError
+        If there are fewer than two stations.
+    """
+    if run.station.size < 2:
+        raise ContactError(f"{run.station.size} station: a figure over the distance needs at least two")
+    rows, columns = run.rows(), run.columns()
+    at = MM * columns["station"]
+    with style():
+        figure = Figure(figsize=(7.4, 8.4), dpi=DPI, layout="constrained")
+        height, ahead, across, force, pressure = figure.subplots(5, 1, sharex=True)
+        height.plot(at, -MM * columns["z"], color=INK, lw=1.2)
+        height.set(ylabel="wheel rises\n[mm]", title=title)
+        largest = max((row["N"] for row in rows), default=1.0)
+        for k in sorted({row["patch"] for row in rows}):
+            own = [row for row in rows if row["patch"] == k]
+            s = MM * np.array([row["station"] for row in own])
+            area = 4.0 + 30.0 * np.array([row["N"] for row in own]) / largest
+            for ax, name in ((ahead, "x"), (across, "y")):
+                ax.scatter(s, MM * np.array([row[name] for row in own]), s=area, color=LINES[k % len(LINES)], lw=0.0)
+            pressing = np.array([row["N"] for row in own])
+            force.plot(s, _KN * pressing, ".", ms=3.0, color=LINES[k % len(LINES)], label=f"N, patch {k + 1}")
+            pressure.plot(
+                s, _GPA * np.array([row["max_pressure"] for row in own]), ".", ms=3.0, color=LINES[k % len(LINES)]
+            )
+        force.plot(at, _KN * columns["Q"], color=INK, lw=1.0, label="vertical force Q")
+        force.plot(at, _KN * columns["Y"], color=INK, lw=1.0, ls=":", label="lateral force Y")
+        force.legend(ncols=2)
+        ahead.set(ylabel="contact ahead\nof the axle [mm]")
+        across.set(ylabel="contact at y\n[mm]")
+        force.set(ylabel="force [kN]")
+        pressure.set(ylabel="largest\npressure [GPa]", xlabel="station of the axle [mm]", ylim=(0.0, None))
+        for ax in (height, ahead, across, force, pressure):
+            ax.grid(visible=True)
+            ax.margins(x=0.01)
+    return figure

@@ -1,0 +1,190 @@
+"""A wheel on a roller of a test rig: curvature of the roller, creepages and forces (roller.md).
+
+The axle of the roller lies fixed at its radius R under the track plane; the rail profile is turned on it. A point of the
+profile at the height z (down) has the radius r_r = R - z. In the plane of a patch with the contact angle δ the gap gets the
+roller's curvature,
+
+    A (x - x_c)² + A_r x²,   A_r = cos δ/(2 r_r).
+
+The surfaces move with V_r = ω_r r_r and V_w = -ω_w r_w, and creepages refer to V = (V_r + V_w)/2. Spin of the roller's
+surface is -ω_r sin δ. If the wheelset stands x_w ahead of the roller, the line through both axles is inclined by
+x_w/(r_r + r_w), and the wheel lies x_w²/(2 (r_r + r_w)) deeper.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.creepage import Creepage
+from contact.errors import ContactError, require_number
+from contact.friction import Friction, as_friction
+from contact.geometry.records import Patch, Pose, Velocity
+from contact.geometry.wheelset import Pair
+from contact.material import STEEL, Material
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
+from contact.rising_root import rising_root
+from contact.separation import Separation
+from contact.solution import Solution, Status
+from contact.solve import solve
+from contact.solver import N_ELEMENTS, N_STRIPS
+
+Array = NDArray[np.float64]
+
+#: Search of the penetration under a load: where it starts, its end [m], the shortest bracket [m], and the error of the load.
+_START, _DEEPEST, _SHORTEST, _TOLERANCE = 5e-5, 2e-3, 1e-12, 1e-6
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RigSolution:
+    """Action of the roller on the wheel, in track coordinates turned with the line through both axles.
+
+    Attributes
+    ----------
+    force : (x, y, z) on the wheel [N]
+    patches : the patches, with gap, creepages and approach on the roller
+    solutions : their solutions, in the contact frames
+    inclination : of the line through both axles [rad]; 0 without offset
+    status : the worst of the patches
+    """
+
+    force: Array
+    patches: tuple[Patch, ...]
+    solutions: tuple[Solution, ...]
+    inclination: float
+    status: Status
+
+
+class RollerRig:
+    """One wheel on one roller.
+
+    Parameters
+    ----------
+    pair : contact.geometry.wheelset.Pair
+        Profiles, side, gauge, …; the rail profile is that of the roller.
+    radius : float
+        Radius of the roller where the rail profile has z = 0 [m], 0.05 to 10.
+    offset : float
+        Distance of the wheelset's axle ahead of the roller's axle [m], within a tenth of the radius.
+    material, normal, tangential, n_strips, n_elements
+        As in `contact.solve`.
+
+    Raises
+    ------
+    ContactError
+        For arguments outside their range.
+    """
+
+    def __init__(
+        self,
+        pair: Pair,
+        radius: float,
+        *,
+        offset: float = 0.0,
+        material: Material = STEEL,
+        normal: str = DEFAULT_NORMAL,
+        tangential: str = DEFAULT_TANGENTIAL,
+        n_strips: int = N_STRIPS,
+        n_elements: int = N_ELEMENTS,
+    ) -> None:
+        if not isinstance(pair, Pair):
+            raise ContactError(f"pair = {pair!r} is not a contact.geometry.wheelset.Pair")
+        self.pair = pair
+        self.radius = require_number("radius", radius, 0.05, 10.0)
+        self.offset = require_number("offset", offset, -0.1 * radius, 0.1 * radius)
+        self._options: dict[str, Any] = {"material": material, "normal": normal, "tangential": tangential}
+        self._options |= {"n_strips": n_strips, "n_elements": n_elements}
+
+    def contacts(self, pose: Pose, velocity: Velocity, *, penetration: float | None = None) -> tuple[Patch, ...]:
+        """Return the patches on the roller. `velocity.forward` is the speed of the roller's surface at `radius` [m/s]."""
+        found = self.pair.contacts(pose, velocity, penetration=penetration)
+        return tuple(self._on_roller(patch, velocity) for patch in found)
+
+    def solve(
+        self,
+        pose: Pose,
+        velocity: Velocity,
+        *,
+        vertical: float | None = None,
+        friction: float | Friction = 0.3,
+    ) -> RigSolution:
+        """Find and solve all patches.
+
+        Parameters
+        ----------
+        pose : Pose
+            Of the wheelset; `z` is found under a load.
+        velocity : Velocity
+            `forward` is the speed of the roller's surface at its radius [m/s], positive. `spin` is that of the wheel
+            [rad/s], negative; the other rates are those of the wheelset.
+        vertical : float
+            Vertical force on the wheel [N], positive; default: `pose.z` is given.
+        friction : float or contact.friction.Friction
+
+        Returns
+        -------
+        RigSolution
+
+        Raises
+        ------
+        ContactError
+            For arguments outside their range, or if no height gives the force.
+        """
+        require_number("velocity.forward", velocity.forward, 0.0, open_minimum=True)
+        surface = as_friction(friction)
+        if vertical is None:
+            return self._solved(self.contacts(pose, velocity), surface)
+        load = require_number("vertical", vertical, 0.0, open_minimum=True)
+        found: RigSolution | None = None
+
+        def residual(penetration: float) -> float:
+            nonlocal found
+            found = self._solved(self.contacts(pose, velocity, penetration=penetration), surface)
+            left = -float(found.force[2]) - load
+            return 0.0 if abs(left) <= _TOLERANCE * load else left
+
+        root = rising_root(residual, _START, load / _START, (0.0, _DEEPEST), shortest=_SHORTEST)
+        if found is None or abs(root.residual) > 1e-3 * load:
+            raise ContactError(f"vertical = {load:g}: no height was found at which the wheel carries it on this roller")
+        return found
+
+    def _on_roller(self, patch: Patch, velocity: Velocity) -> Patch:
+        """Return a patch on a prismatic rail as a patch on the roller."""
+        cosine, sine = math.cos(patch.angle), math.sin(patch.angle)
+        radius = self.radius - patch.position[2]
+        speed = velocity.forward / self.radius
+        spin = -velocity.forward / self.pair.nominal_radius if velocity.spin is None else velocity.spin
+        rolling, local = -spin * patch.rolling_radius, speed * radius
+        V = 0.5 * (rolling + local)
+        c, forward = patch.creepage, velocity.forward
+        creepage = Creepage(
+            (c.longitudinal * forward + local - forward) / V,
+            c.lateral * forward / V,
+            (c.spin * forward + sine * speed) / V,
+        )
+        s, own = patch.separation, 0.5 * cosine / radius
+        A = s.A + own
+        gap = Separation(s.y, s.g + s.A * own / A * s.x_c**2, A, s.A * s.x_c / A, s.tilt, s.rolling)
+        lower = 0.5 * cosine * self.offset**2 / (radius + patch.rolling_radius)
+        return replace(patch, separation=gap, creepage=creepage, approach=patch.approach - lower)
+
+    def _solved(self, patches: tuple[Patch, ...], friction: Friction) -> RigSolution:
+        """Return the solution of the patches at their approach."""
+        force, solutions = np.zeros(3), []
+        mirror = -1.0 if self.pair.side == "left" else 1.0
+        for patch in patches:
+            own = friction.placed(patch.on_rail[0], patch.angle, mirror)
+            s = solve(
+                patch.separation, patch.creepage, approach=patch.approach, friction=own, throw=False, **self._options
+            )
+            cosine, sine = math.cos(patch.angle), math.sin(patch.angle)
+            local = np.array([s.Fx, cosine * s.Fy + sine * s.N, sine * s.Fy - cosine * s.N])
+            force += patch.share * local
+            solutions.append(s)
+        status = max((s.status for s in solutions if s.status is not Status.NO_CONTACT), default=Status.NO_CONTACT)
+        inclination = self.offset / (self.radius + self.pair.nominal_radius)
+        return RigSolution(force, patches, tuple(solutions), inclination, status)

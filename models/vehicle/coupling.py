@@ -1,0 +1,118 @@
+"""A vehicle without contacts: whoever drives it solves the contacts, as FMUs do (docs/own_vehicle.md)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact._jit import compiled_for
+from contact.errors import ContactError
+from models.vehicle.kernels import motion
+from models.vehicle.kernels.layout import Book
+from models.vehicle.simulation import SIDES, Simulation
+
+Array = NDArray[np.float64]
+
+#: What a contact is asked, by the names of the inputs of the FMU `WheelRailPair`.
+QUESTION = (
+    *("pose.y", "pose.z", "pose.roll", "pose.yaw"),
+    *("velocity.x", "velocity.y", "velocity.z", "velocity.roll", "velocity.yaw", "velocity.spin"),
+    *("irregularity.y", "irregularity.z", "irregularity.roll"),
+    *("irregularity.y_rate", "irregularity.z_rate", "irregularity.roll_rate"),
+    "friction.coefficient",
+)
+#: What it answers → member of the record WHEEL. The first six have the names of the FMU's outputs and act on the wheel in track
+#: coordinates, moments about the wheelset's centre. The normal force [N] tells impacts and lifted wheels. Dissipation [N] and
+#: elastic energy [J] are for the balance of energy alone.
+ANSWER = {
+    "force.x": "longitudinal",
+    "force.y": "lateral",
+    "force.z": "vertical",
+    "moment.x": "moment_x",
+    "moment.y": "moment_y",
+    "moment.z": "moment_z",
+    "normal": "normal",
+    "dissipation": "dissipation",
+    "elastic": "elastic",
+}
+
+
+class Contact(Protocol):
+    """The contact of one wheel, wherever it is computed."""
+
+    def answer(self, question: Array, time: float, step: float) -> Array:
+        """Return the values of `ANSWER` for those of `QUESTION`. `step` is the time until the next question [s]."""
+
+
+class OpenVehicle:
+    """A vehicle that asks for the forces at its wheels.
+
+    Parameters
+    ----------
+    simulation : Simulation
+        The vehicle on its track at the start. Its own contacts are not used from here on.
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+        model, state, scratch, motions = (
+            simulation.model, simulation.state, simulation.scratch, simulation.benches.motions
+        )  # fmt: skip
+        self._ask: Any = compiled_for(motion.ask, model, state, motions, scratch)
+        self._move: Any = compiled_for(motion.move, model, state, motions, scratch, 1.0)
+        self._arguments = model, state, motions, scratch
+        self._late: Array | None = None  # answers to the questions of the step before
+
+    @property
+    def wheels(self) -> tuple[tuple[str, str], ...]:
+        """Wheelset and side of each wheel, in the order of the questions."""
+        simulation = self._simulation
+        return tuple((simulation.names[i], side) for i in simulation.model.wheelsets for side in SIDES)
+
+    @property
+    def time(self) -> float:
+        """Time since the start [s]."""
+        return self._simulation.time
+
+    def ask(self) -> Array:
+        """Return the questions at the present state, shape (wheels, len(QUESTION))."""
+        self._ask(*self._arguments)
+        scratch = self._simulation.scratch
+        given = scratch.given.view(np.float64).reshape(scratch.given.size, -1)
+        return np.column_stack((given, scratch.seats["friction"]))
+
+    def move(self, answers: Array, h: float) -> None:
+        """Advance by `h` [s] with the answers to the last questions, shape (wheels, len(ANSWER))."""
+        wheels = self._simulation.scratch.wheels
+        for column, (name, member) in zip(answers.T, ANSWER.items(), strict=True):
+            wheels[member] = -column if name == "force.z" else column
+        self._move(*self._arguments, float(h))
+
+    def run(self, contacts: Sequence[Contact], h: float, steps: int, *, parallel: bool = False) -> None:
+        """Advance by `steps` steps of `h` [s]: ask, let each contact answer, move.
+
+        With `parallel` the vehicle moves with the answers to the questions of the step before, as in a master that steps all
+        components at the same time (Jacobi). That needs half the step, and costs accuracy of first order in it.
+
+        Raises
+        ------
+        ContactError
+            If there are not as many contacts as wheels, or a contact has no answer.
+        """
+        if len(contacts) != len(self.wheels):
+            raise ContactError(f"{len(contacts)} contacts for {len(self.wheels)} wheels")
+        for _ in range(steps):
+            questions = self.ask()
+            answers = [contact.answer(own, self.time, h) for contact, own in zip(contacts, questions, strict=True)]
+            now = np.array(answers)
+            late, self._late = (now if self._late is None else self._late), now
+            self.move(late if parallel else now, h)
+
+    @property
+    def residual(self) -> float:
+        """What the integration has lost, over the dissipation in the contacts [-]."""
+        books = self._simulation.state.books
+        return float(books[Book.RESIDUAL] / books[Book.DISSIPATED]) if books[Book.DISSIPATED] > 0.0 else 0.0

@@ -1,0 +1,309 @@
+"""Surfaces through slices: exact limits, interruptions, search against constant profiles, errors."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+from contact import ContactError
+from contact.geometry import profile
+from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, Wave, WheelSurface
+from contact.geometry.surfaces.frame import Frame, PlacedRail, heights
+from contact.geometry.surfaces.sheet import Sheet
+from contact.geometry.surfaces.spline import approximated, slopes
+from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
+
+R0 = 0.460
+WHEEL, RAIL = profile.s1002(), profile.rail_60e1()
+CONE, ARC = profile.cone(0.0), profile.rail_arc(0.3)
+#: With this origin the crown of a rail lies under the tape circle.
+UNDER = {"rail_origin": (0.75, 0.0)}
+
+
+def lifted(rate):
+    """Return a rail that rises by `rate` along the track."""
+    s = np.linspace(-0.1, 0.1, 9)
+    return RailSurface(s, [np.stack((ARC.y, ARC.z - rate * at), axis=1) for at in s])
+
+
+# -- splines ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("n", [2, 3, 4, 5, 40])
+def test_slopes_are_those_of_the_not_a_knot_spline(n):
+    u = np.sort(np.random.default_rng(n).uniform(0.0, 1.0, n)) + np.arange(n)
+    f = np.random.default_rng(1).normal(size=(n, 2, 3))
+    assert slopes(u, f) == pytest.approx(CubicSpline(u, f)(u, 1), abs=1e-12)
+
+
+def test_slopes_of_functions_with_knots_of_their_own():
+    u = np.cumsum(np.random.default_rng(2).uniform(0.5, 2.0, (9, 2)), axis=0)
+    f = np.sin(u)
+    both = slopes(u, f)
+    for k in range(2):
+        assert both[:, k] == pytest.approx(CubicSpline(u[:, k], f[:, k])(u[:, k], 1), abs=1e-13)
+
+
+def test_slopes_of_a_closed_spline_are_periodic():
+    u = np.array([0.0, 0.5, 1.7, 2.0, 3.1, 4.4, 5.9])
+    f = np.cos(u)
+    wanted = CubicSpline(np.append(u, 2.0 * math.pi), np.append(f, f[0]), bc_type="periodic")(u, 1)
+    assert slopes(u, f, 2.0 * math.pi) == pytest.approx(wanted, abs=1e-13)
+
+
+def test_control_points_at_equal_steps_are_weighted_1_4_1():
+    f = np.random.default_rng(3).normal(size=12)
+    wanted = np.concatenate((f[:1], (f[:-2] + 4.0 * f[1:-1] + f[2:]) / 6.0, f[-1:]))
+    assert approximated(np.arange(12.0), f) == pytest.approx(wanted, abs=1e-14)
+    u = np.arange(12.0) / 12.0
+    assert approximated(u, f, 1.0) == pytest.approx((np.roll(f, 1) + 4.0 * f + np.roll(f, -1)) / 6.0, abs=1e-14)
+
+
+# -- surfaces ---------------------------------------------------------------------------------------------------------
+
+
+def test_a_cubic_surface_along_u_is_reproduced_and_derivatives_agree_with_differences():
+    u, v = np.array([0.0, 0.2, 0.5, 0.9, 1.0]), np.arange(6.0)
+    z = (1.0 + u - 2.0 * u**3)[:, None] * np.ones(6)
+    sheet = Sheet(u, np.stack((np.broadcast_to(v, z.shape), z)), np.ones(z.shape, bool))
+    at, across = np.random.default_rng(4).uniform(0.05, 0.95, 50), np.random.default_rng(5).uniform(0.1, 4.9, 50)
+    found = sheet.at(at, across)
+    assert found.f[1] == pytest.approx(1.0 + at - 2.0 * at**3, abs=1e-13)
+    assert found.f[0] == pytest.approx(across, abs=1e-13)
+    assert found.along[1] == pytest.approx(1.0 - 6.0 * at**2, abs=1e-12)
+    step = 1e-6
+    ahead, right = sheet.at(at + step, across).f, sheet.at(at, across + step).f
+    assert (ahead - found.f) / step == pytest.approx(found.along, abs=1e-5)
+    assert (right - found.f) / step == pytest.approx(found.across, abs=1e-5)
+
+
+def test_a_surface_is_constant_beyond_its_slices():
+    rail = lifted(0.1)
+    for end, beyond in ((-0.1, -0.5), (0.1, 3.0)):
+        assert rail.curves(np.array([beyond])) == pytest.approx(rail.curves(np.array([end])), abs=1e-15)
+        assert rail.at(np.array([beyond]), np.array([7.3])).along == pytest.approx(0.0)
+
+
+def test_a_part_begins_at_the_first_slice_that_has_it_and_the_rest_is_there_before():
+    y = np.linspace(-0.04, 0.04, 81)
+    whole, half = np.stack((y, 5.0 * y**2), axis=1), np.stack((y, 5.0 * y**2), axis=1)[40:]
+    length = np.hypot(*np.diff(whole, axis=0).T).sum()
+    features = [[np.nan, 0.0, length]] * 3 + [[0.0, length / 2.0, length]] * 3
+    rail = RailSurface(np.arange(6.0), [half] * 3 + [whole] * 3, features=features)
+    before, at, after = (np.isfinite(rail.curves(np.array([s]))[0, 0]) for s in (2.999999, 3.0, 4.5))
+    assert at.all()
+    assert after.all()
+    assert not before.all()
+    assert before[-1]
+    placed = PlacedRail(rail, (0.0, 0.0), 0.0, Irregularity())
+    frame = Frame.about_x(np.zeros(3), 0.0)
+    z = heights(placed, frame, np.array([2.0, 2.99, 3.0, 3.01]), np.array([-0.02, 0.02]), deepest=False).z
+    assert np.isnan(z[0]).tolist() == [True, True, False, False]
+    assert z[1] == pytest.approx(5.0 * 0.02**2, abs=1e-8)
+
+
+def test_a_corner_at_a_feature_is_kept():
+    y = np.linspace(-0.03, 0.03, 121)
+    roof = np.stack((y, 0.2 * np.abs(y)), axis=1)
+    half = np.hypot(0.03, 0.2 * 0.03)
+    sharp = RailSurface([0.0, 1.0], [roof, roof], features=[[0.0, half, 2.0 * half]] * 2, corners=[1])
+    frame, at = Frame.about_x(np.zeros(3), 0.0), np.array([-1e-4, 0.0, 1e-4])
+    placed = PlacedRail(sharp, (0.0, 0.0), 0.5, Irregularity())
+    assert heights(placed, frame, np.zeros(1), at, deepest=False).z[:, 0] == pytest.approx(0.2 * np.abs(at), abs=1e-12)
+
+
+def test_heights_of_a_ramp_are_exact_in_a_turned_and_in_a_tilted_frame():
+    y = np.linspace(-0.03, 0.03, 61)
+    plane = [np.stack((y, 0.3 * y - 0.1 * s), axis=1) for s in (-0.1, 0.0, 0.1)]
+    placed = PlacedRail(RailSurface([-0.1, 0.0, 0.1], plane), (0.7, 0.1), 0.02, Irregularity())
+    normal = np.array([0.1, -0.3, 1.0])
+    origin = np.array([0.0, 0.7, 0.1 - 0.1 * 0.02])
+    x, across = np.linspace(-0.01, 0.01, 5), np.linspace(-0.01, 0.01, 7)
+    flat = heights(placed, Frame.along_normal(origin, normal), x, across, deepest=False)
+    assert flat.z == pytest.approx(0.0, abs=1e-12)
+    assert flat.normal[2] == pytest.approx(1.0, abs=1e-12)
+    turned = heights(placed, Frame.about_x(origin, math.atan(0.3)), x, across, deepest=False)
+    cosine = math.cos(math.atan(0.3))
+    assert turned.z == pytest.approx(np.broadcast_to(-0.1 * x * cosine, turned.z.shape), abs=1e-12)
+
+
+# -- deviations -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "deviation",
+    [Polygon(12, 2e-4, 0.3), Wave(0.05, 1e-4, 0.01), Flat(0.06), Flat(0.05, shape="chord", angle=3.0)],
+)
+def test_the_slope_of_a_deviation_is_its_derivative(deviation):
+    u = np.linspace(-4.0, 4.0, 1001) + 1e-4
+    step = 1e-7
+    difference = (deviation.at(u + step)[0] - deviation.at(u - step)[0]) / (2.0 * step)
+    assert deviation.at(u)[1] == pytest.approx(difference, abs=1e-5)
+
+
+def test_a_chord_has_its_length_and_is_plane():
+    flat = Flat(0.05, shape="chord")
+    half = math.asin(0.025 / R0)
+    theta = np.linspace(-0.999 * half, 0.999 * half, 11)
+    r = R0 + flat.at(theta)[0]
+    assert r * np.cos(theta) == pytest.approx(R0 * math.cos(half), abs=1e-15)
+    assert flat.depth == pytest.approx(R0 - R0 * math.cos(half), rel=1e-2)
+
+
+# -- search -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "pose", [Pose(), Pose(y=3e-3, yaw=4e-3), Pose(y=5.5e-3, roll=2e-3, yaw=-6e-3), Pose(y=-4e-3, yaw=0.02)]
+)
+def test_constant_profiles_give_the_patches_of_the_pair(pose):
+    velocity = Velocity(20.0, y=0.05, yaw=0.1, spin=-43.6)
+    old, new = Pair(WHEEL, RAIL), SurfacePair(WHEEL, RAIL)
+    assert new.touch(pose) == pytest.approx(old.touch(pose), abs=3e-8)
+    wanted = old.contacts(pose, velocity, penetration=8e-5)
+    found = new.contacts(Pose(pose.y, old.z, pose.roll, pose.yaw), velocity)
+    assert len(found) == len(wanted)
+    for a, b in zip(found, wanted, strict=True):
+        assert a.angle == pytest.approx(b.angle, abs=5e-4)
+        assert a.position == pytest.approx(b.position, abs=1.5e-4)
+        assert a.approach == pytest.approx(b.approach, abs=2e-7)
+        assert a.rolling_radius == pytest.approx(b.rolling_radius, abs=2e-5)
+        for name in ("longitudinal", "lateral"):
+            assert getattr(a.creepage, name) == pytest.approx(getattr(b.creepage, name), abs=3e-5)
+        assert a.creepage.spin == pytest.approx(b.creepage.spin, abs=2e-3)
+
+
+def test_left_is_the_mirror_image_of_right():
+    pose, mirrored = Pose(y=4e-3, roll=1e-3, yaw=5e-3), Pose(y=-4e-3, roll=-1e-3, yaw=-5e-3)
+    right, left = (SurfacePair(WHEEL, RAIL, side=side) for side in ("right", "left"))
+    velocity, other = Velocity(20.0, 0.1, 0.05, 0.02, 0.03), Velocity(20.0, -0.1, 0.05, -0.02, -0.03)
+    irregular, across = Irregularity(1e-4, -2e-4, 1e-3, 0.01), Irregularity(-1e-4, -2e-4, -1e-3, -0.01)
+    a = right.contacts(pose, velocity, penetration=1e-4, irregularity=irregular)
+    b = left.contacts(mirrored, other, penetration=1e-4, irregularity=across)
+    assert right.z == left.z
+    for p, q in zip(a, b, strict=True):
+        assert q.position == (p.position[0], -p.position[1], p.position[2])
+        assert (q.creepage.lateral, q.creepage.spin) == (-p.creepage.lateral, -p.creepage.spin)
+        assert np.array_equal(q.gap.h, p.gap.h[::-1])
+        assert q.angle == -p.angle
+
+
+@pytest.mark.parametrize("rate", [0.1, -0.1, 0.02])
+def test_on_a_ramp_the_wheel_touches_ahead_or_behind_the_axle(rate):
+    pair = SurfacePair(CONE, lifted(rate), **UNDER)
+    stretched = math.hypot(1.0, rate)
+    z = pair.touch(Pose(), station=0.01)
+    assert z == pytest.approx(R0 - R0 * stretched - rate * 0.01, abs=2e-8)
+    (patch,) = pair.contacts(Pose(z=z + 5e-5), station=0.01)
+    assert patch.position[0] == pytest.approx(R0 * rate / stretched, abs=1e-5)
+    tilted = SurfacePair(CONE, lifted(rate), tilted=True, **UNDER)
+    (patch,) = tilted.contacts(Pose(z=z + 5e-5), station=0.01)
+    assert patch.frame.axes[2] == pytest.approx(np.array([rate, 0.0, 1.0]) / stretched, abs=1e-4)
+    assert patch.approach == pytest.approx(5e-5 / stretched, rel=2e-3)
+
+
+@pytest.mark.parametrize("turned", [0.0, 0.3, 0.7, -0.7])
+def test_a_cylinder_with_a_chord_falls_and_turns_about_its_end(turned):
+    """The wheel stands on the sharp end of its flat, at the distance R0 from the axle."""
+    flat = Flat(0.05, shape="chord", angle=1.0)
+    half = math.asin(0.025 / R0)
+    pair = SurfacePair(WheelSurface.constant(CONE, flat), ARC, **UNDER)
+    z = pair.touch(Pose(), rotation=-1.0 + turned * half)
+    assert z == pytest.approx(R0 - R0 * math.cos(half * (1.0 - abs(turned))), abs=1.5e-6)
+
+
+def test_a_polygon_touches_where_the_rigid_wheel_is_lowest():
+    polygon = Polygon(12, 2e-4)
+    pair = SurfacePair(WheelSurface.constant(CONE, polygon), ARC, **UNDER)
+    theta = np.linspace(-0.2, 0.2, 400001)
+    for rotation in (0.0, 0.05, -0.13):
+        lowest = ((R0 + polygon.at(theta - rotation)[0]) * np.cos(theta)).max()
+        assert pair.touch(Pose(), rotation=rotation) == pytest.approx(R0 - lowest, abs=1e-8)
+
+
+def test_slices_of_a_polygon_are_the_analytic_polygon():
+    polygon, theta = Polygon(12, 2e-4), np.linspace(-0.4, 0.4, 97)
+    y = np.linspace(-0.06, 0.06, 61)
+    measured = WheelSurface.from_deviations(theta, y, polygon.at(theta)[0][:, None] + 0.0 * y)
+    a, b = (SurfacePair(wheel, ARC, **UNDER) for wheel in (measured, WheelSurface.constant(CONE, polygon)))
+    for rotation in (0.0, 0.07):
+        assert a.touch(Pose(), rotation=rotation) == pytest.approx(b.touch(Pose(), rotation=rotation), abs=1e-9)
+
+
+def test_a_closed_wheel_continues_from_its_last_slice_to_the_first():
+    theta = np.linspace(-math.pi, math.pi, 73)[:-1]
+    y = np.linspace(-0.06, 0.06, 61)
+    closed = WheelSurface.from_deviations(theta, y, 1e-4 * np.sin(3.0 * theta)[:, None] + 0.0 * y)
+    assert closed.sheet.period is not None
+    u = np.linspace(0.9 * math.pi, 1.1 * math.pi, 11)
+    assert closed.at(u, np.full(11, 40.5)).f[1] == pytest.approx(1e-4 * np.sin(3.0 * u), abs=1e-8)
+    opened = WheelSurface.from_deviations(theta[:30], y, np.zeros((30, 61)))
+    assert opened.sheet.period is None
+
+
+@pytest.mark.slow
+def test_the_height_is_continuous_along_a_crossing():
+    """A nose rises out of the ground beside a rail that leaves: the touch moves over without a step."""
+    s, y = np.linspace(-0.2, 0.2, 21), np.linspace(-0.03, 0.03, 121)
+    slices = []
+    for at in s:
+        wing = (y - 0.01) ** 2 / 0.3 + 1e-3 + 0.01 * at
+        nose = (y + 0.012) ** 2 / 0.1 + 1e-3 - 0.01 * at
+        slices.append(np.stack((y, -0.5e-3 * np.log(np.exp(-wing / 0.5e-3) + np.exp(-nose / 0.5e-3))), axis=1))
+    pair = SurfacePair(WHEEL, RailSurface(s, slices), **UNDER)
+    z = [pair.touch(Pose(), station=float(at)) for at in np.linspace(-0.08, -0.04, 21)]
+    assert np.abs(np.diff(z)).max() < 1.001 * 0.01 * 2e-3  # no step: both parts rise or fall by 1 : 100
+    assert z[0] < max(z) > z[-1]
+
+
+# -- errors -----------------------------------------------------------------------------------------------------------
+
+POINTS = np.stack((ARC.y, ARC.z), axis=1)
+
+
+@pytest.mark.parametrize(
+    ("build", "message"),
+    [
+        (lambda: RailSurface([0.0, 2.0, 1.0], [POINTS] * 3), r"s must increase strictly; s\[1\] = 2, s\[2\] = 1"),
+        (lambda: RailSurface([0.0, math.nan], [POINTS] * 2), "finite positions"),
+        (lambda: RailSurface([0.0, 1.0], [POINTS]), "1 slices for 2 positions"),
+        (lambda: RailSurface([0.0], [POINTS[:3]]), "at least 4 finite points"),
+        (lambda: RailSurface([0.0], [np.where(POINTS[9] == POINTS, math.nan, POINTS)]), "at least 4 finite points"),
+        (lambda: RailSurface([0.0], [POINTS[[0, 1, 1, 2, 3]]]), "points 1 and the next coincide"),
+        (lambda: RailSurface([0.0, 1.0], [POINTS] * 2, features=[[0.0, 1.0]]), r"features has shape \(1, 2\)"),
+        (
+            lambda: RailSurface([0.0, 1.0], [POINTS] * 2, features=[[0.0, 0.01, 1.0], [0.0, math.nan, 1.0]]),
+            "without holes",
+        ),
+        (lambda: RailSurface([0.0], [POINTS], features=[[0.0, 0.03, 0.02]]), "must increase strictly"),
+        (lambda: RailSurface([0.0], [POINTS], features=[[0.0, 7.0, 9.0]]), "end within the slice"),
+        (lambda: RailSurface([0.0], [POINTS], corners=[1]), "is no inner feature"),
+        (lambda: RailSurface([0.0], [POINTS], spacing=0.0), r"spacing = 0 is outside"),
+        (lambda: RailSurface.constant(WHEEL), "not a profile of a rail"),
+        (lambda: WheelSurface([0.0, 7.0], [POINTS] * 2), "less than a full turn"),
+        (lambda: WheelSurface.from_deviations([0.0, 0.1], ARC.y, np.zeros((2, 5))), r"dr has shape \(2, 5\)"),
+        (lambda: WheelSurface.constant(CONE, 3.0), r"deviation = 3.0 has no method at\(u\)"),
+        (lambda: Polygon(0, 1e-4), "order = 0"),
+        (lambda: Flat(0.05, shape="square"), "shape = 'square'"),
+        (lambda: Flat(0.05, depth=1e-3, shape="chord"), "follows from its length"),
+        (lambda: SurfacePair(CONE, lifted(0.1)), "rail_origin = None"),
+        (lambda: SurfacePair(CONE, ARC, rows=5, **UNDER), "rows = 5 is outside"),
+        (lambda: SurfacePair(ARC, ARC, **UNDER), "not a profile of a wheel"),
+        (
+            lambda: SurfacePair(CONE, ARC, **UNDER).contacts(Pose(y=0.5), penetration=1e-4),
+            "does not lie above its rail",
+        ),
+        (lambda: SurfacePair(CONE, ARC, **UNDER).contacts(Pose(), load=1.0, penetration=1e-4), "exclude each other"),
+        (lambda: SurfacePair(CONE, ARC, **UNDER).contacts(Pose(), load=1e9), "no z was found"),
+        (lambda: SurfacePair(CONE, ARC, **UNDER).contacts(Pose(), station=math.nan), "station = nan"),
+    ],
+)
+def test_bad_input_is_refused_by_name(build, message):
+    with pytest.raises(ContactError, match=message):
+        build()
+
+
+def test_a_wheel_above_the_rail_has_no_patch():
+    assert SurfacePair(CONE, ARC, **UNDER).contacts(Pose(z=-1e-5)) == ()

@@ -1,0 +1,141 @@
+"""Shift and transient rolling: Mindlin's closed form, CONTACT's forces, the steady state, step lengths, errors."""
+
+import math
+
+import numpy as np
+import pytest
+
+import contact
+import reference
+from contact.halfspace import Gap, Transient, norm, tang
+
+MU, STEEL, N = 0.3, reference.STEEL, 52359.87755983
+RADIUS, P0 = 5e-3, 1e9
+#: Set I, circ_xi, CONTACT 25.1: shift [m] and creepage of the rail against the wheel; step and force on the rail over mu N.
+CIRC_SHIFT, CIRC_CREEPAGE = -6e-06, 0.0008
+CIRC_XI = [(0, 0.3412466), (1, 0.3191374), (5, 0.2327168), (10, 0.1298549), (20, -0.0551761)]
+B = math.pi * P0 / (4.0 * RADIUS * STEEL.contact_modulus)
+
+
+def circle(n=32, mu=MU, **others):
+    """Return a circle of 5 mm under p0 = 1 GPa on n × n elements over 1.05 of it, as in set I."""
+    x = RADIUS * 1.05 * ((2.0 * np.arange(n) + 1.0) / n - 1.0)
+    return Transient(Gap(x, x, B * (x**2 + x[:, None] ** 2)), load=N, friction=mu, material=STEEL, **others)
+
+
+@pytest.mark.parametrize("shift", [1e-6, 4e-6, 8e-6])
+def test_a_shift_has_mindlins_force(shift):
+    """Cattaneo and Mindlin: F/(mu N) = 1 - (1 - 8 G a W/(3 mu N (2 - nu)))^1.5, to the error of the elements."""
+    G, nu = STEEL.shear_modulus, STEEL.poisson_ratio
+    left = 1.0 - 8.0 * G * RADIUS * shift / (3.0 * MU * N * (2.0 - nu))
+    for lateral in (False, True):
+        motion = (0.0, shift) if lateral else (shift, 0.0)
+        s = circle().shift(*motion)
+        force = -(s.Fy if lateral else s.Fx) / (MU * N)
+        assert force == pytest.approx(1.0 - left**1.5, rel=4e-3)
+        assert s.status is contact.Status.OK
+
+
+@pytest.mark.parametrize(("step", "force"), CIRC_XI)
+def test_the_forces_of_the_steps_are_contacts(steps_of_circ_xi, step, force):
+    assert steps_of_circ_xi[step].Fx / (MU * N) == pytest.approx(-force, abs=2e-6)
+
+
+@pytest.fixture(scope="module")
+def steps_of_circ_xi():
+    patch = circle()
+    steps = [patch.shift(-CIRC_SHIFT)]
+    dx = 2.0 * 1.05 * RADIUS / 32.0
+    return steps + [patch.roll(contact.Creepage(-CIRC_CREEPAGE), distance=dx) for _ in range(20)]
+
+
+def test_rolling_ends_in_the_steady_state():
+    """After four lengths of the contact the force is within 1e-3 of steady rolling on the same elements."""
+    patch, creepage = circle(), contact.Creepage(6e-4, -4e-4, 0.1)
+    x, y = patch.grid
+    for _ in range(4 * 31):
+        last = patch.roll(creepage, distance=x[1] - x[0])
+    p = norm(B * (x**2 + x[:, None] ** 2), x[1] - x[0], x[1] - x[0], STEEL, load=N).p
+    steady = tang(p, x, y, creepage, MU, STEEL)
+    dA = (x[1] - x[0]) ** 2
+    assert (last.Fx, last.Fy) == pytest.approx((steady.qx.sum() * dA, steady.qy.sum() * dA), abs=1e-3 * MU * N)
+    assert patch.distance == pytest.approx(4 * 31 * (x[1] - x[0]))
+
+
+@pytest.mark.parametrize("elements", [0.5, 1.5, 2.0, 3.0])
+def test_the_length_of_a_step_matters_little(elements):
+    """The force over the distance against that of steps of one element: errors of first order."""
+    creepage = contact.Creepage(6e-4)
+    x, _ = circle().grid
+    dx = float(x[1] - x[0])
+    one, other = circle(), circle()
+    distance = 12.0 * dx
+    fine = [one.roll(creepage, distance=dx) for _ in range(12)][-1]
+    coarse = [other.roll(creepage, distance=elements * dx) for _ in range(round(distance / dx / elements))][-1]
+    assert coarse.Fx == pytest.approx(fine.Fx, abs=0.02 * MU * N)
+
+
+def test_a_shift_back_dissipates_and_leaves_traction():
+    patch = circle()
+    there, back = patch.shift(8e-6), patch.shift(-8e-6)
+    assert there.power_per_metre > 0.0
+    assert back.power_per_metre > 0.0
+    assert abs(back.Fx) < abs(there.Fx)
+    assert np.hypot(back.qx, back.qy).max() > 0.1 * MU * P0
+    ux, uy = patch.displacement
+    assert ux.shape == uy.shape == (32, 32)
+
+
+def test_traction_leaves_with_the_load():
+    """An element without pressure has no traction; full unloading forgets it."""
+    patch = circle()
+    patch.shift(8e-6)
+    less = patch.roll(contact.Creepage(), distance=1e-5, load=0.3 * N)
+    assert pytest.approx(0.3 * N, rel=1e-6) == less.N
+    assert (np.hypot(less.qx, less.qy) <= MU * less.p * (1.0 + 1e-9)).all()
+    assert patch.roll(contact.Creepage(), distance=1e-5, load=0.0).status is contact.Status.NO_CONTACT
+    again = patch.roll(contact.Creepage(), distance=1e-5, load=N)
+    assert abs(again.Fx) < 1e-9 * N
+
+
+def test_a_large_shift_slides():
+    s = circle().shift(1e-3, 5e-4)
+    assert s.status is contact.Status.SATURATED
+    assert math.hypot(s.Fx, s.Fy) == pytest.approx(MU * N, rel=1e-4)
+    assert s.power_per_metre == pytest.approx(MU * N * math.hypot(1e-3, 5e-4), rel=0.02)
+
+
+def test_a_separation_and_mirrored_motion():
+    separation = contact.Separation.hertzian(1.1, 0.8)
+    forces = []
+    for sign in (1.0, -1.0):
+        patch = Transient(separation, load=80e3, spacing=0.6e-3)
+        patch.shift(2e-6, sign * 3e-6, sign * 1e-3)
+        s = patch.roll(contact.Creepage(1e-3, sign * 5e-4, sign * 0.2), distance=0.6e-3)
+        forces.append((s.Fx, sign * s.Fy, sign * s.Mz))
+    np.testing.assert_allclose(forces[0], forces[1], atol=1e-5 * MU * 80e3)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: Transient(3.0, load=1.0), "separation = 3.0 is not a contact.Separation"),
+        (lambda: circle(mu=-1.0), "friction = -1 is outside"),
+        (lambda: Transient(contact.Separation.hertzian(1.0, 1.0), load=0.0), "load = 0 is outside"),
+        (lambda: Transient(contact.Separation.hertzian(1.0, 1.0), load=1.0, spacing=(1.0, 2.0, 3.0)), "spacing = "),
+        (lambda: circle(mu=contact.friction.Friction(0.3, 0.1, velocity="local", law="linear")), "one coefficient"),
+        (
+            lambda: Transient(
+                contact.Separation.hertzian(1.0, 1.0), load=1.0, material=contact.Material(8e10, 0.3, coupling=0.1)
+            ),
+            "material.coupling = 0.1: a step takes like bodies",
+        ),
+        (lambda: circle().shift(math.nan), "longitudinal = nan is outside"),
+        (lambda: circle().roll(contact.Creepage(), distance=0.0), "distance = 0 is outside"),
+        (lambda: circle().roll(1e-3, distance=1e-3), "creepage = 0.001 is not a contact.Creepage"),
+        (lambda: circle().roll(contact.Creepage(), distance=1e-3, load=2.0 * N), "load = .* is outside"),
+    ],
+)
+def test_bad_input_is_refused(call, message):
+    with pytest.raises(contact.ContactError, match=message):
+        call()

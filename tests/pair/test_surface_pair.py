@@ -1,0 +1,170 @@
+"""Forces on surfaces: against CONTACT, against constant profiles, balances, symmetry."""
+
+import math
+
+import numpy as np
+import pytest
+
+from contact import STEEL, ContactError, Status
+from contact.geometry import profile
+from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, WheelSurface
+from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.pair import WheelRailPair
+from contact.surface_pair import WheelRailSurfaces
+
+R0 = 0.460
+WHEEL, RAIL = profile.s1002(), profile.rail_60e1()
+FREE = Velocity(2.0, spin=-2.0 / R0)
+
+
+def crest(rate):
+    """Return a crowned rail that rises by `rate` along the track."""
+    arc, s = profile.rail_arc(0.3), np.linspace(-0.1, 0.1, 5)
+    return RailSurface(s, [np.stack((arc.y, arc.z - rate * at), axis=1) for at in s])
+
+
+#: Angle of the wheel [deg], height [mm], forces on the rail [N] in track axes, largest pressure [MPa], place x, y [mm]:
+#: CONTACT 25.1 (rev 2707), sweeps hav05 (80 kN on a haversine flat of 0.5 × 60 mm) and poly12 (12th order, .2 mm, at z).
+FLAT = [
+    (-5.98, 0.2462, (15.116, 451.85, 79999.997), 896.15, (0.0, 750.3824)),
+    (-1.71, 0.4088, (3732.85, -4218.18, 79999.963), 1093.17, (8.5033, 750.385)),
+    (0.0, 0.7050, (18906.6, -351.39, 79999.947), 532.41, (0.0, 750.5658)),
+]
+POLYGON = [
+    (-24, 0.436711, (6144.60, -418.788, 82788.83), 891.83, (0.7825, 750.3827)),
+    (-8, 0.0475956, (-5996.79, 811.866, 79717.04), 911.56, (-0.2343, 750.3826)),
+]
+
+
+def _compare(found, row):
+    """Compare with CONTACT, whose profiles are measured points of about the same profiles."""
+    _, z, force, pressure, place = row
+    assert 1e3 * found.z == pytest.approx(z, abs=1e-3)
+    assert np.linalg.norm(found.force + force) < 0.01 * np.linalg.norm(force)
+    assert 1e-6 * found.max_pressure == pytest.approx(pressure, rel=0.02)
+    assert 1e3 * np.array(found.contacts[0].patch.position[:2]) == pytest.approx(place, abs=0.2)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("row", FLAT)
+def test_a_haversine_flat_agrees_with_CONTACT(row):
+    wheel = WheelSurface.constant(WHEEL, Flat(0.060, R0, depth=0.5e-3))
+    pair = WheelRailSurfaces(SurfacePair(wheel, RAIL, rows=40, columns=40, material=STEEL))
+    _compare(pair.solve(Pose(), FREE, rotation=math.radians(row[0]), vertical=row[2][2]), row)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("row", POLYGON)
+def test_a_polygon_agrees_with_CONTACT(row):
+    wheel = WheelSurface.constant(WHEEL, Polygon(12, 2e-4))
+    pair = WheelRailSurfaces(SurfacePair(wheel, RAIL, rows=40, columns=40, material=STEEL))
+    _compare(pair.solve(Pose(z=1e-3 * row[1]), FREE, rotation=math.radians(row[0])), row)
+
+
+@pytest.mark.slow
+def test_constant_profiles_give_the_forces_of_the_pair():
+    pose, velocity = Pose(y=3e-3, yaw=2e-3), Velocity(20.0)
+    old = WheelRailPair(Pair(WHEEL, RAIL), normal="strip_halfspace", tangential="fastrip_mapped")
+    wanted = old.solve(pose, velocity, load=8e4)
+    pair = WheelRailSurfaces(SurfacePair(WHEEL, RAIL, rows=40, columns=40))
+    found = pair.solve(Pose(pose.y, wanted.z, 0.0, pose.yaw), velocity)
+    assert found.force == pytest.approx(wanted.force, abs=0.02 * np.linalg.norm(wanted.force))
+    assert found.moment == pytest.approx(wanted.moment, abs=0.02 * np.linalg.norm(wanted.moment))
+    assert found.max_pressure == pytest.approx(wanted.max_pressure, rel=0.05)
+    assert pytest.approx((wanted.Q, wanted.Y), abs=0.02 * wanted.Q) == (found.Q, found.Y)
+
+
+@pytest.mark.slow
+def test_loads_are_carried_and_power_is_what_the_forces_do():
+    pair = WheelRailSurfaces(SurfacePair(WheelSurface.constant(WHEEL, Flat(0.05)), RAIL, rows=30, columns=30))
+    normal = pair.solve(Pose(), FREE, rotation=0.02, load=6e4)
+    carried = sum(c.solution.N * math.cos(c.patch.angle) for c in normal.contacts)
+    assert carried == pytest.approx(6e4, rel=2e-4)
+    found = pair.solve(Pose(), Velocity(2.0, spin=-2.03 / R0), rotation=0.02, vertical=6e4)
+    assert pytest.approx(6e4, rel=2e-4) == found.Q
+    (contact,) = found.contacts
+    s = contact.solution
+    c = s.creepage
+    power = -(s.Fx * c.longitudinal + s.Fy * c.lateral + s.Mz * c.spin)
+    assert found.power_per_metre == pytest.approx(power, rel=2e-2)  # first order in the elements
+
+
+@pytest.mark.slow
+def test_on_a_ramp_the_tilted_frame_pushes_back_along_the_track():
+    """Without friction and with the frame along the normal, the force is normal to the ramp."""
+    rate = 0.1
+    cylinder = profile.cone(0.0)
+    options = {"rail_origin": (0.75, 0.0), "rows": 30, "columns": 30}
+    tilted = WheelRailSurfaces(SurfacePair(cylinder, crest(rate), tilted=True, **options))
+    found = tilted.solve(Pose(), FREE, load=3e4, friction=0.0)
+    assert pytest.approx(3e4, rel=2e-4) == found.Q
+    assert found.force[0] / found.force[2] == pytest.approx(rate, abs=2e-4)
+    about_x = WheelRailSurfaces(SurfacePair(cylinder, crest(rate), **options)).solve(
+        Pose(), FREE, load=3e4, friction=0.0
+    )
+    assert about_x.force[0] == 0.0
+    # about the axle a frictionless wheel of revolution has no moment
+    assert abs(found.moment[1]) < 1e-3 * 3e4 * R0
+    assert abs(about_x.moment[1]) == pytest.approx(rate / math.hypot(1.0, rate) * R0 * 3e4, rel=1e-2)
+
+
+def test_left_is_the_mirror_image_of_right():
+    wheel = WheelSurface.constant(WHEEL, Flat(0.05))
+    right, left = (
+        WheelRailSurfaces(SurfacePair(wheel, RAIL, side=side, rows=20, columns=20)) for side in ("right", "left")
+    )
+    a = right.solve(Pose(y=2e-3, yaw=3e-3), Velocity(20.0, 0.02), rotation=0.03, penetration=1e-4)
+    b = left.solve(Pose(y=-2e-3, yaw=-3e-3), Velocity(20.0, -0.02), rotation=0.03, penetration=1e-4)
+    assert b.force == pytest.approx(a.force * [1.0, -1.0, 1.0], rel=1e-9)
+    assert b.moment == pytest.approx(a.moment * [-1.0, 1.0, -1.0], rel=1e-7)
+    assert pytest.approx(a.Y, rel=1e-9) == b.Y
+
+
+def test_without_contact_there_is_no_force():
+    found = WheelRailSurfaces(SurfacePair(WHEEL, RAIL)).solve(Pose(z=-1e-4))
+    assert found.status is Status.NO_CONTACT
+    assert not found.force.any()
+    assert (found.max_pressure, found.power_per_metre) == (0.0, 0)
+
+
+@pytest.mark.slow
+def test_strips_agree_with_the_half_space_where_the_surface_is_smooth():
+    wheel = WheelSurface.constant(WHEEL, Flat(0.060, R0, depth=0.5e-3))
+    pair = SurfacePair(wheel, RAIL, rows=40, columns=40)
+    methods = {"normal": "strip_halfspace", "tangential": "fastrip_mapped"}
+    exact, fast = WheelRailSurfaces(pair), WheelRailSurfaces(pair, **methods)
+    slow, quick = (p.solve(Pose(), FREE, rotation=math.radians(-1.71), vertical=8e4) for p in (exact, fast))
+    assert quick.contacts[0].patch.fit_error < 0.02
+    assert quick.z == pytest.approx(slow.z, abs=1e-7)
+    assert quick.force == pytest.approx(slow.force, abs=0.01 * 8e4)
+    assert quick.max_pressure == pytest.approx(slow.max_pressure, rel=0.05)
+
+
+def test_the_fit_error_tells_where_a_strip_is_no_parabola():
+    """Standing on the haversine flat, a strip touches at both of its ends first."""
+    wheel = WheelSurface.constant(WHEEL, Flat(0.060, R0, depth=0.5e-3))
+    pair = SurfacePair(wheel, RAIL)
+    errors = [pair.contacts(Pose(), rotation=turned, penetration=5e-5)[0].fit_error for turned in (0.0, 0.1)]
+    assert errors[0] > 0.1
+    assert errors[1] < 1e-3
+
+
+def test_strips_of_constant_profiles_are_the_separation_of_the_pair():
+    old, new = Pair(WHEEL, RAIL), SurfacePair(WHEEL, RAIL)
+    (wanted,) = old.contacts(Pose(yaw=2e-3), penetration=8e-5)
+    (found,) = new.contacts(Pose(z=old.z, yaw=2e-3))
+    y = np.linspace(wanted.edges[0], wanted.edges[1], 21)
+    a, b = found.separation, wanted.separation
+    shift = wanted.position[1] - found.position[1]
+    assert np.interp(y + shift, a.y, a.g) == pytest.approx(np.interp(y, b.y, b.g), abs=6e-7)
+    assert np.interp(y + shift, a.y, a.A) == pytest.approx(np.interp(y, b.y, b.A), rel=5e-3)
+    assert np.interp(y + shift, a.y, a.x_c) + found.position[0] == pytest.approx(
+        np.interp(y, b.y, b.x_c) + wanted.position[0], abs=2e-5
+    )
+
+
+def test_wrong_arguments_are_refused_by_name():
+    with pytest.raises(ContactError, match=r"is not a contact\.geometry\.surfaces\.SurfacePair"):
+        WheelRailSurfaces(Pair(WHEEL, RAIL))
+    with pytest.raises(ContactError, match="only one may be given"):
+        WheelRailSurfaces(SurfacePair(WHEEL, RAIL)).solve(Pose(), vertical=1.0, load=1.0)
