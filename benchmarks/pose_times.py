@@ -3,7 +3,8 @@
     python benchmarks/pose_times.py [--poses 10000]
 
 A pose is a random lateral position, yaw, roll and load of S1002 on 60E1. Its time is the sum over its patches, the least of
-three runs. The normal problem is timed with a creep force law that takes next to no time: cold, when no call starts from
+three runs. A second table has rough and flat gaps, which no profile has, with three caps of the iterations: the worst case.
+The normal problem is timed with a creep force law that takes next to no time: cold, when no call starts from
 another one, and warm, when the call is repeated. The whole contact is timed with the default methods.
 """
 
@@ -18,6 +19,8 @@ import contact
 from benchmarks.tables import table
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Patch, Pose
+from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
+from reference.random_cases import nearly_flat, noisy, two_lobed
 
 REPEATS = 3
 
@@ -52,8 +55,29 @@ def seconds(solver: contact.Solver, patches: list[Patch], warm: bool) -> float:
     return total
 
 
+def of_rough_gaps(count: int) -> str:
+    """Return the table of the worst case: gaps with noise, nearly flat ones and two lobes, for three caps of the iterations."""
+    rng = np.random.default_rng(5)
+    gaps = [family(rng) for _ in range(count) for family in (noisy, nearly_flat, two_lobed)]
+    rows = []
+    for cap in (MAX_ITERATIONS, MAX_ITERATIONS // 2, MAX_ITERATIONS // 4):
+        solver, times, missed = contact.Solver(max_iterations=cap), [], 0
+        for gap in gaps:
+            least = np.inf
+            for _ in range(REPEATS):
+                start = time.perf_counter()
+                forces = solver.forces(gap, contact.Creepage(1e-3), load=80e3)
+                least = min(least, time.perf_counter() - start)
+            times.append(1e6 * least)
+            missed += forces.status == contact.Status.NOT_CONVERGED
+        rows.append([f"{cap}", *(f"{v:.0f}" for v in (*np.percentile(times, [50, 99]), max(times)))])
+        rows[-1].append(f"{missed / len(gaps):.1%}")
+    head = f"\n{len(gaps)} rough, nearly flat and two-lobed gaps, default methods, cold, µs\n"
+    return "\n".join((head, table(["max_iterations", "median", "99 %", "longest", "NOT_CONVERGED"], rows)))
+
+
 def main() -> None:
-    """Print the table."""
+    """Print the tables."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--poses", type=int, default=10_000)
     found = poses(parser.parse_args().poses)
@@ -75,6 +99,7 @@ def main() -> None:
         f"{len(found)} poses, {np.mean(several > 1):.0%} of them with several patches; times in µs with the call from Python\n"
     )
     print(table(["what", "median", "95 %", "99.9 %", "longest", "mean with several patches"], rows))
+    print(of_rough_gaps(500))
 
 
 if __name__ == "__main__":

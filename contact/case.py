@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.friction import Friction
+from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.records import CASE
 from contact.material import Material
 from contact.registry import Method
@@ -13,14 +14,22 @@ from contact.registry import Method
 Cases = NDArray[np.void]
 
 
-def cases(n: int, normal: Method, tangential: Method, material: Material, *, conformal: bool = False) -> Cases:
+def cases(
+    n: int,
+    normal: Method,
+    tangential: Method,
+    material: Material,
+    *,
+    conformal: bool = False,
+    max_iterations: int = MAX_ITERATIONS,
+) -> Cases:
     """Return `n` CASE records for these methods and this material. All other members are zero."""
     made = np.zeros(n, CASE)
     made["normal"], made["normal_family"] = normal.id, normal.family
     made["tangential"], made["tangential_family"] = tangential.id, tangential.family
     made["G"], made["nu"] = material.shear_modulus, material.poisson_ratio
     made["pressure_limit"] = material.pressure_limit
-    made["conformal"] = conformal
+    made["conformal"], made["max_iterations"] = conformal, max_iterations
     return made
 
 

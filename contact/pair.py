@@ -19,11 +19,12 @@ from contact.geometry.records import Irregularity, Pose, Velocity, contact_angle
 from contact.geometry.wheelset import Pair
 from contact.kernels.arrays import Bench, Ledger
 from contact.kernels.enumerations import Height, NoAnswer
+from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.pair import solve_pair
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solution import Status
-from contact.solver import N_ELEMENTS, N_STRIPS, require_resolution
+from contact.solver import N_ELEMENTS, N_STRIPS, require_max_iterations, require_resolution
 
 Array = NDArray[np.float64]
 
@@ -177,6 +178,8 @@ class WheelRailPair:
     conformal : bool
         Let the contact angle vary over each patch (`contact.kernels.conformal`). Methods that give forces only ignore it
         and use a plane.
+    max_iterations : int
+        Most iterations of the strip half space for each solution, 1 to 1000. They cap the time of a call.
     damage : DamageParameters, optional
         Constants of the damage models.
     ledger : contact.kernels.arrays.Ledger, optional
@@ -203,6 +206,7 @@ class WheelRailPair:
         n_strips: int = N_STRIPS,
         n_elements: int = N_ELEMENTS,
         conformal: bool = False,
+        max_iterations: int = MAX_ITERATIONS,
         damage: DamageParameters | None = None,
         ledger: Ledger | None = None,
     ) -> None:
@@ -220,7 +224,9 @@ class WheelRailPair:
         size = n_strips, n_elements, n_samples
         arrays = workspace.allocate(method, rolling, material.poisson_ratio, size)
         self.bench: Bench = workspace.bench(size, pair.space, arrays, ledger or workspace.closed_ledger())
-        self.bench.case[:] = cases(1, method, rolling, material, conformal=conformal)
+        self.bench.case[:] = cases(
+            1, method, rolling, material, conformal=conformal, max_iterations=require_max_iterations(max_iterations)
+        )
         self._deflection = 0.0, 0.0
         self.bench.damage_parameters[:] = (damage or DamageParameters()).record(material, 1.0, 1.0)
 

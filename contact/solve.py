@@ -20,11 +20,20 @@ from contact.halfspace.gap import Division, Gap
 from contact.halfspace.solve import press_gap, press_solution
 from contact.halfspace.third_body import ThirdBody
 from contact.kalker import constant_table
+from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.separation import Separation
 from contact.solution import Solution
-from contact.solver import N_ELEMENTS, N_STRIPS, Solver, require_conformal, require_resolution, require_trustworthy
+from contact.solver import (
+    N_ELEMENTS,
+    N_STRIPS,
+    Solver,
+    require_conformal,
+    require_max_iterations,
+    require_resolution,
+    require_trustworthy,
+)
 
 Array = NDArray[np.float64]
 
@@ -45,6 +54,7 @@ def solve(
     n_elements: int = N_ELEMENTS,
     spacing: float | tuple[float, float] | None = None,
     conformal: bool = False,
+    max_iterations: int = MAX_ITERATIONS,
     layer: ThirdBody | None = None,
     start: Solution | None = None,
     progress: Callable[[int, float], None] | None = None,
@@ -81,6 +91,8 @@ def solve(
         Let the contact angle vary over the patch by the separation's `tilt` and `rolling` (`contact.kernels.conformal`).
         Slip, pressure and traction then follow the curved surface. Fx, Fy, Mz are resultants in the frame of the plane
         and include the lateral part of the pressure. Fields are measured along the surface.
+    max_iterations : int
+        Most iterations of the strip half space, 1 to 1000. When they are used up, the status is NOT_CONVERGED.
     layer : contact.ThirdBody
         A layer between the bodies that shears and yields; only with tangential="halfspace".
     start : Solution
@@ -117,6 +129,7 @@ def solve(
     _doubt(surface, creepage)
     speed = require_number("speed", speed, 0.0)
     n_strips, n_elements = require_resolution(n_strips, n_elements)
+    max_iterations = require_max_iterations(max_iterations)
     method, rolling = lookup("normal", normal), lookup("tangential", tangential)
     division = Division(n_strips, n_elements, None if spacing is None else require_pair("spacing", spacing))
     if rolling.elementwise and (surface.slope, surface.slope_far) != (1.0, 1.0):
@@ -154,7 +167,7 @@ def solve(
     else:
         size = n_strips, n_elements
         problem = _StripProblem(
-            separation, load, approach, surface, material, speed, method.name, size, start, conformal
+            separation, load, approach, surface, material, speed, method.name, size, start, conformal, max_iterations
         )
         if wanted is None and not (rolling.calibrated or rolling.elementwise):  # the solution stays lazy
             return problem.solve(creepage, rolling.name, throw=throw)
@@ -178,7 +191,7 @@ def require_layer(layer: object, tangential: Method, friction: Friction) -> None
         raise ContactError("layer: friction must not depend on local slip or temperature")
 
 
-_Key = tuple[str, str, int, int, Material, bool, tuple[float, float, float] | None]
+_Key = tuple[str, str, int, int, Material, bool, int, tuple[float, float, float] | None]
 #: The solvers that a thread has used last, and how many of them are kept.
 _LATEST, _MOST = threading.local(), 4
 
@@ -188,7 +201,7 @@ def _prepared(key: _Key, friction: Friction, speed: float) -> Solver:
     solvers: dict[_Key, Solver] = _LATEST.__dict__.setdefault("solvers", {})
     solver = solvers.pop(key, None)
     if solver is None:
-        normal, tangential, n_strips, n_elements, material, conformal, coefficients = key
+        normal, tangential, n_strips, n_elements, material, conformal, max_iterations, coefficients = key
         solver = Solver(
             normal=normal,
             tangential=tangential,
@@ -198,6 +211,7 @@ def _prepared(key: _Key, friction: Friction, speed: float) -> Solver:
             material=material,
             speed=speed,
             conformal=conformal,
+            max_iterations=max_iterations,
         )
         if coefficients is not None:
             solver.calibrate(constant_table(*coefficients))
@@ -220,6 +234,7 @@ class _StripProblem(NamedTuple):
     size: tuple[int, int]
     start: Solution | None
     conformal: bool
+    max_iterations: int
 
     def solve(
         self,
@@ -229,7 +244,7 @@ class _StripProblem(NamedTuple):
         throw: bool = False,
     ) -> Solution:
         """Return the solution. `coefficients` are C11, C22, C23 to use instead of those of linear theory."""
-        key = self.normal, tangential, *self.size, self.material, self.conformal, coefficients
+        key = self.normal, tangential, *self.size, self.material, self.conformal, self.max_iterations, coefficients
         solver = _prepared(key, self.friction, self.speed)
         if self.start is not None:
             solver.start_from(self.start)

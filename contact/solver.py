@@ -18,6 +18,7 @@ from contact.errors import ContactError, require_integer, require_number
 from contact.friction import Friction, as_friction
 from contact.kernels.arrays import Workspace
 from contact.kernels.enumerations import LoadKind
+from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import RESULT
 from contact.material import STEEL, Material
@@ -41,6 +42,11 @@ N_SAMPLES = 101
 def require_resolution(n_strips: object, n_elements: object) -> tuple[int, int]:
     """Return both as integers in [4, 1000], or raise a ContactError."""
     return require_integer("n_strips", n_strips, 4, 1000), require_integer("n_elements", n_elements, 4, 1000)
+
+
+def require_max_iterations(value: object) -> int:
+    """Return `value` as an integer in [1, 1000], or raise a ContactError."""
+    return require_integer("max_iterations", value, 1, 1000)
 
 
 def require_conformal(tangential: Method) -> None:
@@ -82,6 +88,9 @@ class Solver:
         Let the contact angle vary over the patch, as in `contact.solve`.
     n_samples : int
         Number of separation samples to allocate memory for. A larger separation causes one reallocation.
+    max_iterations : int
+        Most iterations of the strip half space, 1 to 1000. They cap the time of a call. When they are used up, the status
+        is NOT_CONVERGED.
 
     Raises
     ------
@@ -109,6 +118,7 @@ class Solver:
         speed: float = 20.0,
         conformal: bool = False,
         n_samples: int = N_SAMPLES,
+        max_iterations: int = MAX_ITERATIONS,
     ) -> None:
         self.normal = lookup("normal", normal, batched=True)
         self.tangential = lookup("tangential", tangential, batched=True)
@@ -116,7 +126,10 @@ class Solver:
         if conformal:
             require_conformal(self.tangential)
         self.material, self.conformal = material, bool(conformal)
-        self._case = cases(1, self.normal, self.tangential, material, conformal=conformal)
+        self.max_iterations = require_max_iterations(max_iterations)
+        self._case = cases(
+            1, self.normal, self.tangential, material, conformal=conformal, max_iterations=self.max_iterations
+        )
         self._member = {name: self._case[name] for name in self._case.dtype.names or ()}
         self._result = np.zeros(1, RESULT)
         self._status = self._result["status"]

@@ -40,6 +40,11 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
         action="store_true",
         help="give WheelRailPair 1500 outputs more: damage that accumulates in bins over both profiles",
     )
+    parser.add_argument(
+        "--arm",
+        action="store_true",
+        help="add libraries for 64-bit ARM to the native FMUs, for Linux and macOS (some minutes)",
+    )
     profiles.add_options(parser)
     parser.add_argument("--describe", action="store_true", help="print the variables as Markdown and build nothing")
     arguments = parser.parse_args(words)
@@ -59,11 +64,11 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
             print(_size(python.build(model, arguments.out / "python")))
         build_system(arguments.out / "python")
     if arguments.packaging != "python":
-        build_native(chosen, arguments.out / "native")
+        build_native(chosen, arguments.out / "native", arm=arguments.arm)
         build_system(arguments.out / "native")
 
 
-def build_native(chosen: Sequence[Model], folder: Path) -> None:
+def build_native(chosen: Sequence[Model], folder: Path, *, arm: bool = False) -> None:
     """Build FMUs that need no Python and print the progress.
 
     One process compiles the kernels of all models. The models are then linked in parallel.
@@ -81,7 +86,7 @@ def build_native(chosen: Sequence[Model], folder: Path) -> None:
         def say_of_it(what: str) -> None:
             say(f"{model.table.name}: {what}")
 
-        for path in native.build(model, folder, place.objects(), say_of_it):
+        for path in native.build(model, folder, place.objects(), say_of_it, arm=arm):
             say_of_it(_size(path))
 
     print("Native, for hosts without Python:")

@@ -44,6 +44,9 @@ def fmu(
     accumulation: Annotated[
         bool, typer.Option("--accumulation", help="Give WheelRailPair the outputs of accumulated damage, 1500 numbers.")
     ] = False,
+    arm: Annotated[
+        bool, typer.Option("--arm", help="Add libraries for 64-bit ARM to the native FMUs (some minutes).")
+    ] = False,
     describe: Annotated[
         bool, typer.Option("--describe", help="Print the variables as Markdown and build nothing.")
     ] = False,
@@ -70,7 +73,7 @@ def fmu(
     }
     repair = options.pop("profile_repair")
     words = [f"--{name.replace('_', '-')}={value}" for name, value in options.items() if value is not None]
-    switches = {"--accumulation": accumulation, "--describe": describe, "--profile-repair": repair}
+    switches = {"--accumulation": accumulation, "--arm": arm, "--describe": describe, "--profile-repair": repair}
     words += [word for word, on in switches.items() if on]
     if not as_json:
         main(words, "contact fmu")

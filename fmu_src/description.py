@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from uuid import UUID
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
@@ -35,9 +35,18 @@ STOP_TIME = 1.0  # of the default experiment [s]
 Interfaces = Mapping[str, Mapping[str, str]]
 
 
-def model_description(table: Table, interfaces: Interfaces, code: bytes = b"") -> tuple[str, str]:
-    """Return (guid, XML) of an FMU with this table and these interfaces. The guid also depends on `code`."""
+def model_description(
+    table: Table, interfaces: Interfaces, code: bytes = b"", sources: Sequence[str] = ()
+) -> tuple[str, str]:
+    """Return (guid, XML) of an FMU with this table, these interfaces and these C files in sources/.
+
+    The guid also depends on `code`.
+    """
     root = _root(table, interfaces)
+    for interface in interfaces if sources else ():
+        listed = SubElement(next(root.iter(interface)), "SourceFiles")
+        for name in sources:
+            SubElement(listed, "File", name=name)
     guid = f"{{{UUID(bytes=hashlib.sha256(tostring(root) + code).digest()[:16])}}}"
     root.set("guid", guid)
     indent(root)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from fmu_src.description import ORIGIN, Interfaces, experiment, number, units
@@ -33,6 +33,20 @@ def model_description(table: Table, interfaces: Interfaces, token: str) -> str:
     experiment(root, table)
     _variables(root, table)
     _structure(root, table)
+    indent(root)
+    return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
+
+
+def build_description(name: str, sources: Sequence[str]) -> str:
+    """Return sources/buildDescription.xml for these C files."""
+    root = Element("fmiBuildDescription", fmiVersion="3.0")
+    configuration = SubElement(root, "BuildConfiguration", modelIdentifier=name)
+    files = SubElement(configuration, "SourceFileSet", language="C11", compilerOptions="-ffp-contract=off")
+    for source in sources:
+        SubElement(files, "SourceFile", name=source)
+    SubElement(
+        configuration, "Library", name="m", external="true", description="Mathematical functions of the C library"
+    )
     indent(root)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
 

@@ -8,6 +8,7 @@ import pytest
 import contact
 from contact.errors import ContactError
 from contact.friction import Friction
+from reference.random_cases import noisy
 
 #: Iterative and direct methods, one of each march, and one with forces only.
 PAIRS = [
@@ -271,3 +272,29 @@ def test_the_repr_of_a_solver_shows_its_settings():
         repr(prepared(friction=0.4))
         == "Solver(strip_halfspace + fastrip_mapped, 10 strips x 10 elements, friction 0.4)"
     )
+
+
+@pytest.mark.parametrize("cap", [1, 2, 5, 39])
+def test_a_cap_of_the_iterations_holds_and_says_when_it_is_reached(cap):
+    """Gaps with noise of 2 µm, of which some need 40 iterations and more."""
+    rng, solver, missed = np.random.default_rng(5), contact.Solver(max_iterations=cap), 0
+    for _ in range(20):
+        found = solver.solve(noisy(rng), contact.Creepage(1e-3), load=80e3, throw=False)
+        assert found.iterations <= cap
+        assert pytest.approx(80e3) == found.N
+        assert np.all(np.isfinite(found.p))
+        missed += found.status == contact.Status.NOT_CONVERGED
+    assert missed >= (15 if cap < 5 else 1 if cap == 5 else 0)
+
+
+def test_a_cap_that_is_not_reached_changes_nothing():
+    given = {"load": 80e3, "throw": False}
+    assert_same_bits(
+        contact.solve(ELLIPSE, CALLS[0][1], max_iterations=25, **given), contact.solve(ELLIPSE, CALLS[0][1], **given)
+    )
+
+
+@pytest.mark.parametrize("cap", [0, 1001, 2.5])
+def test_a_cap_out_of_range_is_refused_by_name(cap):
+    with pytest.raises(contact.ContactError, match=r"max_iterations = .*\[1, 1000\]"):
+        contact.Solver(max_iterations=cap)

@@ -59,6 +59,7 @@ CASE = _record(
     G               shear modulus [Pa]
     nu              Poisson's ratio [-]
     pressure_limit  [Pa]; 0 or infinite for none
+    max_iterations:int   of the strip half space
     mu              coefficient of friction; at rest, when it falls
     law:int         FrictionLaw
     kinetic         coefficient in fast sliding

@@ -22,6 +22,8 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from fmu_src.native.ir_to_c import as_c
+
 if TYPE_CHECKING:
     from fmu_src.native.component import Component
 
@@ -43,6 +45,8 @@ TRIPLES = {
 }
 #: Processors that kernels are compiled for: all since 2009, and those with AVX2 since 2013. The wrapper chooses at run time.
 CPUS = {"v2": "x86-64-v2", "v3": "x86-64-v3"}
+#: Processor for which the code is optimised that is then written as C.
+PLAIN = "x86-64"
 
 #: External symbols that the objects may need: libm and memory functions. Symbols of Python or numba are not allowed. This
 #: proves that nothing allocates, counts references or raises an exception (its pickled message would remain).
@@ -77,11 +81,16 @@ def objects(folder: Path, platform: str) -> list[Path]:
     return [folder / f"{platform}-{part}.o" for part in ("data", *CPUS)]
 
 
-def emit(components: Mapping[Path, Component]) -> None:
-    """Write the `objects` of each component for every platform into its folder.
+def sources(folder: Path) -> list[Path]:
+    """Return the paths of the same as C sources: the data, then the kernels."""
+    return [folder / "data.c", folder / "kernels.c"]
 
-    The names of the kernels end with the processor, for example model_outputs_v2. The objects of a component do not depend on
-    which others are emitted in the same call. No kernel can be called in this process afterwards.
+
+def emit(components: Mapping[Path, Component]) -> None:
+    """Write the `objects` of each component for every platform, and its `sources` in C, into its folder.
+
+    The names of the kernels end with the processor, for example model_outputs_v2, and in C with `any`. The objects of a
+    component do not depend on which others are emitted in the same call. No kernel can be called in this process afterwards.
 
     Raises
     ------
@@ -96,6 +105,7 @@ def emit(components: Mapping[Path, Component]) -> None:
         for folder, (entries, data, with_resources) in made.items():
             text = str(linked(entries, data, with_resources))
             parts += [pool.submit(_write_kernels, text, tuple(entries), suffix, folder) for suffix in CPUS]
+            parts.append(pool.submit(_write_sources, text, tuple(entries), folder))
             parts.append(pool.submit(_write_data, data_as_ir(data), folder))
         for part in parts:
             part.result()
@@ -120,9 +130,16 @@ def make_no_machine_code() -> None:
     caching.Cache.save_overload = lambda self, signature, compiled: None
 
 
+def _write_sources(text: str, entries: Sequence[str], folder: Path) -> None:
+    """Write the kernels of a component as C. `text` is their IR."""
+    _llvm_for_all()
+    sources(folder)[1].write_text(as_c(str(_optimised(text, entries, "any", PLAIN, vectors=False))))
+
+
 def _write_data(text: str, folder: Path) -> None:
-    """Write the objects of a component's data for all platforms. `text` is their IR."""
+    """Write the objects of a component's data for all platforms, and the data as C. `text` is their IR."""
     llvm = _llvm_for_all()
+    sources(folder)[0].write_text(as_c(text))
     for platform in TRIPLES:
         _write(llvm.parse_assembly(text), platform, "", objects(folder, platform)[0])
 
@@ -260,15 +277,19 @@ def _without_origin(text: str) -> str:
     )
 
 
-def _optimised(text: str, entries: Iterable[str], suffix: str, cpu: str) -> Any:
-    """Return the module optimised for a processor. The name of the processor is added to the names of the entries."""
+def _optimised(text: str, entries: Iterable[str], suffix: str, cpu: str, *, vectors: bool = True) -> Any:
+    """Return the module optimised for a processor. `suffix` is added to the names of the entries."""
     from llvmlite import binding as llvm
 
     module = llvm.parse_assembly(text)
     for name in entries:
         module.get_function(name).name = f"{name}_{suffix}"
     machine = _direct(module, next(iter(TRIPLES)), cpu)
-    builder = llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options(speed_level=3))
+    options = llvm.create_pipeline_tuning_options(speed_level=3 if vectors else 2)
+    if not vectors:  # the compiler of the C code chooses vectors and unrolls
+        options.loop_vectorization = options.slp_vectorization = False
+        options.loop_interleaving = options.loop_unrolling = False
+    builder = llvm.create_pass_builder(machine, options)
     builder.getModulePassManager().run(module, builder)
     refuse_the_rest(module)
     return module

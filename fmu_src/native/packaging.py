@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import subprocess
 import sys
 from collections.abc import Callable, Sequence
 from importlib.metadata import version
@@ -12,19 +11,18 @@ from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import fmpy
-
 import contact
 from fmu_src import archive
 from fmu_src.catalogue import Model
 from fmu_src.description import model_description
+from fmu_src.description_fmi3 import build_description
 from fmu_src.description_fmi3 import model_description as description_fmi3
 from fmu_src.documentation import markdown, page
 from fmu_src.icon import png
 from fmu_src.native import source
-from fmu_src.native.emit import OWN_LIBM, TRIPLES, objects
-from fmu_src.native.libm import compile_libm
+from fmu_src.native.emit import TRIPLES, objects, sources
 from fmu_src.native.licences import licences
+from fmu_src.native.linking import FROM_C, HEADERS, WRAPPER, link, run
 from fmu_src.terminals import terminals
 from models import wheelset
 
@@ -60,14 +58,8 @@ INTERFACES_3 = {
     "CoSimulation": {**_COMMON_3, "canHandleVariableCommunicationStepSize": "true"},
 }
 
-_BEAT = 15.0  # between two signs of life of a long command [s]
-WRAPPER = Path(__file__).parent / "c"
-HEADERS = Path(fmpy.__file__).parent / "c-code"  # headers of the FMI project (2-clause BSD licence)
-#: -ffp-contract=off: fused operations would make the results differ between processors.
-FLAGS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-Wall", "-Wextra", "-shared", "-s")
-_LINKED_AS = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib"}
+#: Platform of a library → name of its folder in FMI 3.0. Those that are not listed have the same name.
 _FMI3 = {"linux64": "x86_64-linux", "win64": "x86_64-windows", "darwin64": "x86_64-darwin"}
-_ZIG = {"linux64": "x86_64-linux-gnu.2.17", "win64": "x86_64-windows-gnu", "darwin64": "x86_64-macos.11.0"}
 #: Folder of sources of the kernels → names of folders and modules in it of which kernels are not made.
 _SOURCES: dict[Path, set[str]] = {
     Path(contact.__file__).parent: {"cli", "plot", "study", "halfspace"},
@@ -85,6 +77,7 @@ _SOURCES: dict[Path, set[str]] = {
             "source",
             "licences",
             "libm",
+            "linking",
             "records",
         ),
     },
@@ -94,14 +87,15 @@ _SOURCES: dict[Path, set[str]] = {
 _TRIED = """
 The libraries are for 64-bit Linux (glibc 2.17 or newer), Windows and macOS (11 or newer, Intel). They need only the C library
 of the system. The Linux library is tested; the Windows library is tested under Wine. The macOS library is UNTESTED: it has
-never been run.
+never been run. `sources/` has the FMU in C11 for other systems and processors; compile it with -ffp-contract=off. It was run
+on 64-bit Linux, with x86 and, by qemu, ARM.
 """
 
 
-def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -> list[Path]:
+def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None], *, arm: bool = False) -> list[Path]:
     """Write `folder`/<name>.fmu (FMI 2.0) and `folder`/fmi3/<name>.fmu (FMI 3.0) and return their paths.
 
-    Both have the same libraries. The same sources and tools give the same bytes.
+    Both have the same libraries and sources. The same sources and tools give the same bytes.
 
     Parameters
     ----------
@@ -109,87 +103,51 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None]) -
         Folder in which compiled kernels are kept from one build to the next.
     say : callable
         Called with a message on progress, since the first build takes minutes.
+    arm : bool
+        Add the libraries for 64-bit ARM, which are compiled from the sources.
     """
     component = model.module("native").component(**model.all_options)
     table = component.table
     objects_of = kernels(model, cache, say)
-    sources = [*chain.from_iterable(objects_of.values()), *sorted(WRAPPER.iterdir())]
-    code = b"".join(path.read_bytes() for path in sources)
-    guid, xml = model_description(table, INTERFACES, code + description_fmi3(table, INTERFACES_3, "").encode())
+    in_c = sources(_kept(model, cache))
+    parts = (*chain.from_iterable(objects_of.values()), *in_c, *sorted(WRAPPER.iterdir()))
+    code = b"".join(path.read_bytes() for path in parts)
+    listed = [path.name for path in (*sorted(WRAPPER.glob("*.c")), *in_c)] + ["model.c"]
+    guid, xml = model_description(table, INTERFACES, code + description_fmi3(table, INTERFACES_3, "").encode(), listed)
     with TemporaryDirectory() as directory:
-        generated = Path(directory)
-        source.write(component, guid, generated)
-        documents = [
+        made = Path(directory)
+        wrapper = [*sorted(WRAPPER.iterdir()), *source.write(component, guid, made)]
+        whole = source.write_whole(
+            component, guid, (*wrapper, *in_c, *sorted(HEADERS.glob("fmi[23]*.h"))), made / "sources"
+        )
+        libraries = {}
+        for platform in (*objects_of, *(FROM_C if arm else ())):
+            say(f"linking for {platform}")
+            of_platform = (whole, []) if platform in FROM_C else (wrapper, objects_of[platform])
+            libraries[platform] = link(platform, table.name, *of_platform, made)
+        common = [
             (f"documentation/{table.name}.md", (markdown(table) + _TRIED).encode()),
             *((f"resources/{resource}", content) for resource, content in model.resources.items()),
             *((f"documentation/licenses/{name}", text.encode()) for name, text in licences(HEADERS)),
             ("documentation/index.html", page(table).encode()),
+            *((f"sources/{path.name}", path.read_bytes()) for path in whole),
         ]
-        of_version = {
-            folder: [("model.png", png(table.name))],
-            folder / "fmi3": [("terminalsAndIcons/icon.png", png(table.name))],
-        }
+        of_2 = [("modelDescription.xml", xml.encode()), *common, ("model.png", png(table.name))]
+        of_3 = [
+            ("modelDescription.xml", description_fmi3(table, INTERFACES_3, guid).encode()),
+            *common,
+            ("terminalsAndIcons/icon.png", png(table.name)),
+            ("sources/buildDescription.xml", build_description(table.name, listed).encode()),
+        ]
         if found := terminals(table):
-            of_version[folder / "fmi3"].append(("terminalsAndIcons/terminalsAndIcons.xml", found.encode()))
-        libraries = {}
-        for platform, parts in objects_of.items():
-            say(f"linking for {platform}")
-            libraries[platform] = link(platform, table.name, parts, generated)
+            of_3.append(("terminalsAndIcons/terminalsAndIcons.xml", found.encode()))
+        for platform, path in libraries.items():
+            of_2.append((f"binaries/{platform}/{path.name}", path.read_bytes()))
+            of_3.append((f"binaries/{_FMI3.get(platform, platform)}/{path.name}", path.read_bytes()))
         return [
-            archive.write(
-                where / f"{table.name}.fmu",
-                [
-                    ("modelDescription.xml", description.encode()),
-                    *documents,
-                    *of_version[where],
-                    *((f"binaries/{names[p]}/{path.name}", path.read_bytes()) for p, path in libraries.items()),
-                ],
-            )
-            for where, description, names in (
-                (folder, xml, {platform: platform for platform in libraries}),
-                (folder / "fmi3", description_fmi3(table, INTERFACES_3, guid), _FMI3),
-            )
+            archive.write(where / f"{table.name}.fmu", files)
+            for where, files in ((folder, of_2), (folder / "fmi3", of_3))
         ]
-
-
-def link(platform: str, name: str, kernels: list[Path], generated: Path) -> Path:
-    """Compile the wrapper with the code in `generated`, link it with the kernels and return the path of the library."""
-    library = generated / platform / (name + _LINKED_AS[platform])
-    library.parent.mkdir(exist_ok=True)
-    sources = [*sorted(WRAPPER.glob("*.c")), generated / "model.c"]
-    libm = compile_libm(compiler(platform), library.parent, run) if platform in OWN_LIBM else []
-    run(
-        *compiler(platform), *FLAGS, f"-I{generated}", f"-I{WRAPPER}", f"-I{HEADERS}", *sources, *kernels, *libm,
-        "-o", library,
-        *_own_flags(platform, library.name),
-    )  # fmt: skip
-    return library
-
-
-def _own_flags(platform: str, name: str) -> list[str]:
-    """Return the linker options of a platform. A macOS library stores its own path, which must not be that of the build."""
-    own = {"linux64": ["-fPIC", "-Wl,-z,defs", "-lm"], "darwin64": ["-fPIC", f"-Wl,-install_name,@rpath/{name}"]}
-    return own.get(platform, [])
-
-
-def compiler(platform: str) -> list[str]:
-    """Return the command of the C compiler for a platform."""
-    return [sys.executable, "-m", "ziglang", "cc", "-target", _ZIG[platform], "-fno-sanitize=undefined"]
-
-
-def run(*command: str | Path, waiting: Callable[[], None] | None = None) -> None:
-    """Run a command. If it fails, raise an error with its output. Every 15 s that it lasts, `waiting` is called."""
-    words = list(map(str, command))
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
-        said = None
-        while said is None:
-            try:
-                said, _ = process.communicate(timeout=_BEAT)
-            except subprocess.TimeoutExpired:
-                if waiting is not None:
-                    waiting()
-    if process.returncode:
-        raise RuntimeError(f"{' '.join(words)}\n{said}")
 
 
 def kernels(model: Model, cache: Path, say: Callable[[str], None]) -> dict[str, list[Path]]:
@@ -203,7 +161,8 @@ def compile_kernels(chosen: Sequence[Model], cache: Path, say: Callable[[str], N
     """Compile the kernels that are not in the cache, in one process, where the models share most of the work."""
     words: list[str | Path] = []
     for folder, model in {_kept(model, cache): model for model in chosen}.items():
-        if not all(path.exists() for platform in TRIPLES for path in objects(folder, platform)):
+        parts = chain(sources(folder), *(objects(folder, platform) for platform in TRIPLES))
+        if not all(path.exists() for path in parts):
             folder.mkdir(parents=True, exist_ok=True)
             words += [model.name, json.dumps(dict(model.options)), folder]
     if words:

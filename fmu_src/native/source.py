@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import shutil
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
@@ -13,17 +14,27 @@ from fmu_src.native.component import Component
 from fmu_src.variables import Causality, Scalar, Table, Variable, identifier
 
 
-def write(component: Component, guid: str, folder: Path) -> None:
-    """Write model.h, model.c and records.h into a folder."""
-    for name, text in (
-        ("records.h", records.header()),
-        ("model.h", header(component, guid)),
-        ("model.c", body(component)),
-    ):
+def write(component: Component, guid: str, folder: Path, *, kernels_in_c: bool = False) -> list[Path]:
+    """Write model.h, model.c and records.h into a folder. Return their paths."""
+    texts = {
+        "records.h": records.header(),
+        "model.h": header(component, guid, kernels_in_c=kernels_in_c),
+        "model.c": body(component),
+    }
+    for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8")
+    return [folder / name for name in texts]
 
 
-def header(component: Component, guid: str) -> str:
+def write_whole(component: Component, guid: str, others: Iterable[Path], folder: Path) -> list[Path]:
+    """Write all that a C compiler needs into a new folder: these files, and copies of the others. Return the paths."""
+    folder.mkdir()
+    written = write(component, guid, folder, kernels_in_c=True)
+    names = {path.name for path in written}
+    return [*written, *(Path(shutil.copy(path, folder)) for path in others if path.name not in names)]
+
+
+def header(component: Component, guid: str, *, kernels_in_c: bool = False) -> str:
     """Return model.h: sizes, the guid, and the value references of fields, of time and of the first scalar of every row."""
     table = component.table
     parameters = sum(s.row.causality is Causality.PARAMETER for s in table.scalars)
@@ -41,6 +52,7 @@ def header(component: Component, guid: str) -> str:
     return f"""/* Generated from the variable table of {table.name}. */
 #ifndef MODEL_H
 #define MODEL_H
+{"#define KERNELS_IN_C" if kernels_in_c else "/* The kernels are objects. */"}
 #define MODEL_GUID "{guid}"
 #define N_VALUES {len(table.scalars) - accumulated}
 #define N_ACCUMULATED {accumulated}

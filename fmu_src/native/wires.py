@@ -33,6 +33,7 @@ MATERIAL = {
     "material.shear_modulus": "G",
     "material.poisson_ratio": "nu",
     "material.pressure_limit": "pressure_limit",
+    "method.max_iterations": "max_iterations",
 }
 
 

@@ -110,6 +110,7 @@ def _solve(values: Values, creepage: Creepage) -> Solution:
         speed=values["speed"],
         normal=values.item("method.normal"),
         tangential=values.item("method.tangential"),
+        max_iterations=values["method.max_iterations"],
         n_strips=values["resolution.n_strips"],
         n_elements=values["resolution.n_elements"],
         conformal=conformal and fields,

@@ -135,6 +135,7 @@ class WheelRailPairSlave(TableSlave):
                 material=material,
                 normal=values.item("method.normal"),
                 tangential=values.item("method.tangential"),
+                max_iterations=values["method.max_iterations"],
                 n_strips=values["resolution.n_strips"],
                 n_elements=values["resolution.n_elements"],
                 conformal=values.item("patches.surface") == "Conformal",

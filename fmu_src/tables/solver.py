@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 import contact
 from contact import Status, friction, registry
+from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.material import THERMAL_RANGE, Thermal
 from contact.solution import GAP_ERROR
 from contact.solver import N_ELEMENTS, N_STRIPS
@@ -107,6 +108,14 @@ def parameters() -> Iterable[Variable]:
         start=0.0,
         minimum=0.0,
         nominal=1e9,
+    )
+    yield parameter(
+        "method.max_iterations",
+        "Most iterations of interacting strips, which cap the time of a step; then the status is NotConverged",
+        integer=True,
+        start=MAX_ITERATIONS,
+        minimum=1,
+        maximum=1000,
     )
     yield parameter("resolution.n_strips", "Strips per patch", integer=True, start=N_STRIPS, minimum=4, maximum=1000)
     yield parameter(

@@ -37,6 +37,7 @@ _NORMAL_PROBLEM = (
     "load.normal_force",
     "load.approach",
     "method.normal",
+    "method.max_iterations",
     "material.shear_modulus",
     "material.poisson_ratio",
     "material.pressure_limit",

@@ -13,7 +13,8 @@ from contact.kernels.records import MAX_PATCHES
 from contact.solver import N_ELEMENTS, N_STRIPS
 from fmu_src.catalogue import models
 from fmu_src.native import source
-from fmu_src.native.packaging import HEADERS, compiler, kernels, run
+from fmu_src.native.linking import HEADERS, compiler, run
+from fmu_src.native.packaging import kernels
 from fmu_src.native.wheel_rail_contact import component
 from models.wheelset.ports import POINTS
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 
-from fmu_src.native.packaging import HEADERS, compiler, run
+from fmu_src.native.linking import HEADERS, compiler, run
 from reference.native import HOST
 
 SOURCE = HOST / "script.c"

@@ -40,6 +40,7 @@ from contact.kernels.normal.strip_system import (
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Sample, Strip, Vector
 
+#: Most iterations, if the case does not say another number. They cap the time.
 MAX_ITERATIONS = 40
 #: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops.
 TOLERANCE = 1e-4
@@ -214,7 +215,7 @@ def strip_halfspace(sep, case, own, result):
     converged, descending, searched, best = False, False, False, math.inf
     delta = result.approach - g_least  # ANALYN's, until the first pressures are known
     iteration, known, error, load, last_error = 0, 0, math.inf, 0.0, math.inf
-    for iteration in range(MAX_ITERATIONS):
+    for iteration in range(case.max_iterations):
         total = n * n_panels
         lay_panels(sep, g_least, skew, panels, n_panels, own)
         distances(panels, n_panels, own)

@@ -7,7 +7,8 @@
 
 #include "instance.h"
 
-#if defined(__x86_64__) || defined(_M_X64)
+/* Kernels as objects are for two kinds of x86-64 processors. Kernels in C are for any processor. */
+#if !defined(KERNELS_IN_C) && (defined(__x86_64__) || defined(_M_X64))
 #define HAS_TWO_KERNELS
 #include <cpuid.h>
 #endif

@@ -1,0 +1,71 @@
+"""Compile the C parts of an FMU with zig and link them to one library for each platform."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import fmpy
+
+from fmu_src.native.emit import OWN_LIBM
+from fmu_src.native.libm import compile_libm
+
+_BEAT = 15.0  # between two signs of life of a long command [s]
+WRAPPER = Path(__file__).parent / "c"
+HEADERS = Path(fmpy.__file__).parent / "c-code"  # headers of the FMI project (2-clause BSD licence)
+#: -ffp-contract=off: fused operations would make the results differ between processors.
+FLAGS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-Wall", "-Wextra", "-shared", "-s")
+#: Platform → target of zig, and the end of a library's name.
+_TARGETS = {
+    "linux64": ("x86_64-linux-gnu.2.17", ".so"),
+    "win64": ("x86_64-windows-gnu", ".dll"),
+    "darwin64": ("x86_64-macos.11.0", ".dylib"),
+    "aarch64-linux": ("aarch64-linux-gnu.2.17", ".so"),
+    "aarch64-darwin": ("aarch64-macos.11.0", ".dylib"),
+}
+#: Platforms whose library is made from the kernels in C. FMI 3.0 has these names, FMI 2.0 has none for 64-bit ARM.
+FROM_C = ("aarch64-linux", "aarch64-darwin")
+
+
+def link(platform: str, name: str, sources: Sequence[Path], objects: Sequence[Path], folder: Path) -> Path:
+    """Compile the C files among `sources`, link them with `objects` and return the path of the library in `folder`."""
+    target, ending = _TARGETS[platform]
+    library = folder / platform / (name + ending)
+    library.parent.mkdir(exist_ok=True)
+    libm = compile_libm(compiler(platform), library.parent, run) if platform in OWN_LIBM else []
+    include = [f"-I{path}" for path in (*sorted({path.parent for path in sources}), HEADERS)]
+    run(
+        *compiler(platform), *FLAGS, "-Wno-unused-parameter", *include,
+        *(path for path in sources if path.suffix == ".c"), *objects, *libm,
+        "-o", library, *_of_system(target, library.name),
+    )  # fmt: skip
+    return library
+
+
+def _of_system(target: str, name: str) -> list[str]:
+    """Return the linker options of a system. A macOS library stores its own path, which must not be that of the build."""
+    if "linux" in target:
+        return ["-fPIC", "-Wl,-z,defs", "-lm"]
+    return ["-fPIC", f"-Wl,-install_name,@rpath/{name}"] if "macos" in target else []
+
+
+def compiler(platform: str) -> list[str]:
+    """Return the command of the C compiler for a platform."""
+    return [sys.executable, "-m", "ziglang", "cc", "-target", _TARGETS[platform][0], "-fno-sanitize=undefined"]
+
+
+def run(*command: str | Path, waiting: Callable[[], None] | None = None) -> None:
+    """Run a command. If it fails, raise an error with its output. Every 15 s that it lasts, `waiting` is called."""
+    words = list(map(str, command))
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+        said = None
+        while said is None:
+            try:
+                said, _ = process.communicate(timeout=_BEAT)
+            except subprocess.TimeoutExpired:
+                if waiting is not None:
+                    waiting()
+    if process.returncode:
+        raise RuntimeError(f"{' '.join(words)}\n{said}")
