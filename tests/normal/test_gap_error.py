@@ -1,0 +1,27 @@
+"""The error estimate of the normal problem."""
+
+import pytest
+
+import contact
+from contact.geometry import profile
+from contact.geometry.wheelset import Pair, Pose
+from contact.solution import GAP_ERROR
+
+
+def test_a_lobe_without_a_patch_is_seen():
+    """ANALYN misses the second lobe of S1002 on 60E1 at y = 5 mm; its largest pressure is a third too low."""
+    pair = Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40))
+    (patch,) = (p for p in pair.contacts(Pose(y=5e-3, yaw=1e-3), load=80e3) if p.load)
+    given = {"load": patch.load, "throw": False}
+    missed = contact.solve(patch.separation, patch.creepage, **contact.THESIS, **given)
+    both = contact.solve(patch.separation, patch.creepage, **given)
+    assert (missed.n_patches, both.n_patches) == (1, 2)
+    assert missed.max_pressure < 0.7 * both.max_pressure
+    assert missed.gap_error > GAP_ERROR
+    assert both.gap_error < 0.01
+
+
+@pytest.mark.parametrize("method", ["analyn", "hertz", "strip_halfspace"])
+def test_an_ellipse_has_no_lobe_beside_its_patch(method):
+    found = contact.solve(contact.Separation.hertzian(1.1, 0.8), contact.Creepage(), load=80e3, normal=method)
+    assert found.gap_error < 0.01
