@@ -287,15 +287,12 @@ def strip_halfspace(sep, case, own, result):
             known, best = 0, math.inf
 
     result.iterations = iteration + 1
-    stepped = True  # lengths and ends have changed since the pressures were found
     if converged and descending:
         advance(n, n_panels, panels, vectors)
     elif not converged and n_panels > 0 and best * load < error:
         _take_best(n, n_panels, panels, vectors)
         error, load = best, 1.0
-    else:
-        stepped = False
-    if stepped:
+    if descending or not converged:  # lengths, ends or panels have changed since the pressures were found
         lay_panels(sep, g_least, skew, panels, n_panels, own)
         distances(panels, n_panels, own)
         half_lengths(vectors, n, n_panels, delta)
