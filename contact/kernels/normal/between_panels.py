@@ -25,6 +25,10 @@ def fill_probes(cosines, probes, spread):
     """
     n = spread.shape[1]
     count = min(n, PROBES)
+    for k in range(PROBES):  # the memory of an FMU holds anything at first
+        probes[k] = 0.0
+        for i in range(n):
+            spread[k, i] = 0.0
     for k in range((count + 1) // 2):
         probes[k] = (2 * k + 1) * n // (2 * count)
         probes[count - 1 - k] = n - 1 - probes[k]
