@@ -7,22 +7,26 @@ its value from a variable that each block before it sets, so that the phis of on
 from __future__ import annotations
 
 import re
-import struct
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
-#: Type of the IR → type in C, bytes, end of the names of the functions that load and store it.
-_TYPES = {
-    "double": ("double", 8, "double"),
-    "i64": ("int64_t", 8, "int64"),
-    "i32": ("int32_t", 4, "int32"),
-    "i16": ("int16_t", 2, "int16"),
-    "i8": ("int8_t", 1, "int8"),
-    "i1": ("bool", 1, "int8"),
-    "ptr": ("char *", 8, "pointer"),
-    "void": ("void", 0, ""),
-}
-LOCAL = r'%(?:"[^"]+"|[\w$.\-]+)'
-GLOBAL = r'@(?:"[^"]+"|[\w$.\-]+)'
+from fmu_src.native.ir_text import (
+    GLOBAL,
+    LOCAL,
+    TYPES,
+    blocks_of,
+    double_in_c,
+    identifier,
+    mask_of,
+    members_of,
+    phis_of,
+    size_of,
+    split,
+    split_structure,
+    suffix_of,
+    type_in_c,
+    unknown,
+)
+
 #: Words that do not change the result: promises to the optimiser, and how a function is called.
 _MARKS = re.compile(
     r"\b(?:nuw|nsw|nneg|exact|disjoint|inbounds|nusw|samesign|tail|notail|musttail|fastcc|volatile|noundef|nonnull|noalias"
@@ -47,16 +51,6 @@ _INTRINSICS = {
 }
 
 
-def unknown(text: str) -> ValueError:
-    """Return the error for IR that cannot be written as C."""
-    return ValueError(f"cannot be written as C: {text[:200]}")
-
-
-def identifier(name: str) -> str:
-    """Return the C name of a global value."""
-    return re.sub(r"\W", "_", name.strip('@%"'))
-
-
 class Function:
     """One function. `head` is its C declaration without the semicolon."""
 
@@ -68,13 +62,13 @@ class Function:
         self._names: dict[str, str] = {}
         self._taken: set[str] = set()
         self._variables: dict[str, str] = {}
-        arguments = (argument.split() for argument in _split(given))
-        declared = ", ".join(f"{_c(words[0])} {self._local(words[-1])}" for words in arguments)
+        arguments = (argument.split() for argument in split(given))
+        declared = ", ".join(f"{type_in_c(words[0])} {self._local(words[-1])}" for words in arguments)
         linkage = "static " if re.search(r"\binternal\b", lines[0]) else ""
         self._nothing = "return;" if result == "void" else "return 0;"
-        self.head = f"{linkage}{_c(result)} {identifier(name)}({declared or 'void'})"
-        self._blocks = dict(_blocks(lines[1:]))
-        self._phis = {label: dict(_phis(body)) for label, body in self._blocks.items()}
+        self.head = f"{linkage}{type_in_c(result)} {identifier(name)}({declared or 'void'})"
+        self._blocks = dict(blocks_of(lines[1:]))
+        self._phis = {label: dict(phis_of(body)) for label, body in self._blocks.items()}
 
     def code(self) -> str:
         """Return the function in C."""
@@ -84,7 +78,7 @@ class Function:
                 lines.append(f"{self._label(label)}:;")
             for name, (kind, _) in self._phis[label].items():
                 for own, of_member in self._declare(name, kind):
-                    self._variables[f"{own}_in"] = _c(of_member)
+                    self._variables[f"{own}_in"] = type_in_c(of_member)
                     lines.append(f"    {own} = {own}_in;")
             for text in body:
                 if " = phi " not in text:
@@ -109,18 +103,18 @@ class Function:
 
     def _declare(self, name: str, kind: str) -> list[tuple[str, str]]:
         """Declare the variables of a value: its own, or those of its members. Return (variable, type)."""
-        own, kinds = self._local(name), _members(kind)
+        own, kinds = self._local(name), members_of(kind)
         listed = [(own, kind)] if kinds is None else [(f"{own}_m{i}", k) for i, k in enumerate(kinds)]
-        self._variables.update({variable: _c(k) for variable, k in listed})
+        self._variables.update({variable: type_in_c(k) for variable, k in listed})
         return listed
 
     def _values(self, text: str, kind: str) -> list[str]:
         """Return the C expressions of an operand: one, or those of its members."""
-        kinds = _members(kind)
+        kinds = members_of(kind)
         if kinds is None:
             return [self._value(text, kind)]
         if text.startswith("{"):
-            return [self._typed(member) for member in _split(text[1:-1])]
+            return [self._typed(member) for member in split(text[1:-1])]
         known = text.startswith("%")
         if not known and text not in ("poison", "undef", "zeroinitializer"):
             raise unknown(f"{kind} {text}")
@@ -133,16 +127,16 @@ class Function:
         if text.startswith("@"):
             return f"(char *){identifier(text)}"
         if found := re.match(rf"getelementptr\s+\((\w+), ptr ({GLOBAL}), i64 (-?\d+)\)", text):
-            return f"((char *){identifier(found[2])} + {int(found[3]) * _size(found[1])})"
+            return f"((char *){identifier(found[2])} + {int(found[3]) * size_of(found[1])})"
         if text in ("poison", "undef", "null", "zeroinitializer", "false"):
             return "0"
         if text == "true":
             return "1"
         if kind == "double":
-            return _double(text)
+            return double_in_c(text)
         if not re.fullmatch(r"-?\d+", text):
             raise unknown(f"{kind} {text}")
-        if mask := _mask(kind):
+        if mask := mask_of(kind):
             return f"UINT64_C({int(text) & mask})"
         if kind == "i64":
             return f"INT64_C({text})" if int(text) > -(2**63) else "INT64_MIN"
@@ -165,9 +159,9 @@ class Function:
         if word == "insertvalue":
             return self._insert(name, operands)
         if word == "extractvalue":
-            structure, index = _split(operands)
-            kind, value = _structure(structure)
-            ((own, _),) = self._declare(name, _split(kind[1:-1])[int(index)])
+            structure, index = split(operands)
+            kind, value = split_structure(structure)
+            ((own, _),) = self._declare(name, split(kind[1:-1])[int(index)])
             return [f"{own} = {self._values(value, kind)[int(index)]};"]
         if word == "call" and "@llvm.lifetime" in operands:
             return []
@@ -211,22 +205,22 @@ class Function:
 
     def _store(self, operands: str) -> list[str]:
         """Return the statements that store a value, or each member of a structure."""
-        what, where = _split(operands)[:2]
+        what, where = split(operands)[:2]
         place = self._pointer(where)
         if not what.startswith("{"):
-            return [f"store_{_suffix(what.split()[0])}({place}, {self._typed(what)});"]
-        structure, name = _structure(what)
+            return [f"store_{suffix_of(what.split()[0])}({place}, {self._typed(what)});"]
+        structure, name = split_structure(what)
         offset, lines = 0, []
-        for kind, value in zip(_split(structure[1:-1]), self._values(name, structure), strict=True):
-            offset = -(-offset // _size(kind)) * _size(kind)
-            lines.append(f"store_{_suffix(kind)}({place} + {offset}, {value});")
-            offset += _size(kind)
+        for kind, value in zip(split(structure[1:-1]), self._values(name, structure), strict=True):
+            offset = -(-offset // size_of(kind)) * size_of(kind)
+            lines.append(f"store_{suffix_of(kind)}({place} + {offset}, {value});")
+            offset += size_of(kind)
         return lines
 
     def _insert(self, name: str, operands: str) -> list[str]:
         """Return the statements for a structure of which one member is set."""
-        before, member, index = _split(operands)
-        structure, old = _structure(before)
+        before, member, index = split(operands)
+        structure, old = split_structure(before)
         values = self._values(old, structure)
         values[int(index)] = self._typed(member)
         return [f"{own} = {value};" for (own, _), value in zip(self._declare(name, structure), values, strict=True)]
@@ -234,32 +228,35 @@ class Function:
     def _expression(self, word: str, operands: str, name: str) -> tuple[str, str]:
         """Return type and C expression of an instruction with a value."""
         kind, _, more = operands.partition(" ")
-        parts = _split(operands)
+        parts = split(operands)
         if word in _OF_FLOATS:
-            return kind, f" {_OF_FLOATS[word]} ".join(self._value(part, kind) for part in _split(more))
+            return kind, f" {_OF_FLOATS[word]} ".join(self._value(part, kind) for part in split(more))
         if word == "fneg":
             return kind, f"-{self._value(more, kind)}"
         if word in _OF_INTEGERS:
             operator, unsigned = _OF_INTEGERS[word]
-            if mask := _mask(kind):
+            if mask := mask_of(kind):
                 if not unsigned:
                     raise unknown(f"{word} {operands}")
-                return kind, f"({f' {operator} '.join(self._value(part, kind) for part in _split(more))}) & {mask:#x}"
-            to = f"({'u' if unsigned and kind != 'i1' else ''}{_c(kind)})"
-            return kind, f"({_c(kind)})({f' {operator} '.join(to + self._value(part, kind) for part in _split(more))})"
+                return kind, f"({f' {operator} '.join(self._value(part, kind) for part in split(more))}) & {mask:#x}"
+            to = f"({'u' if unsigned and kind != 'i1' else ''}{type_in_c(kind)})"
+            return (
+                kind,
+                f"({type_in_c(kind)})({f' {operator} '.join(to + self._value(part, kind) for part in split(more))})",
+            )
         if word in ("icmp", "fcmp"):
             kind, _, more = more.partition(" ")
-            return "i1", _compared(operands.split()[0], kind, *(self._value(part, kind) for part in _split(more)))
+            return "i1", _compared(operands.split()[0], kind, *(self._value(part, kind) for part in split(more)))
         if word == "select":
             condition, yes, no = parts
             return yes.split()[0], f"{self._typed(condition)} ? {self._typed(yes)} : {self._typed(no)}"
         if word == "load":
-            return parts[0], f"load_{_suffix(parts[0])}({self._pointer(parts[1])})"
+            return parts[0], f"load_{suffix_of(parts[0])}({self._pointer(parts[1])})"
         if word == "getelementptr" and len(parts) == 3:
-            return "ptr", f"{self._pointer(parts[1])} + {self._typed(parts[2])} * {_size(parts[0])}"
+            return "ptr", f"{self._pointer(parts[1])} + {self._typed(parts[2])} * {size_of(parts[0])}"
         if word == "alloca":
             memory = f"{self._local(name)}_memory"
-            self._variables[f"{memory}[{-(-_size(parts[0]) // 8)}]"] = "uint64_t"
+            self._variables[f"{memory}[{-(-size_of(parts[0]) // 8)}]"] = "uint64_t"
             return "ptr", f"(char *){memory}"
         if word in _CONVERSIONS:
             return self._converted(word, operands)
@@ -275,15 +272,15 @@ class Function:
             raise unknown(operands)
         source, text, target = found.groups()
         value = self._value(text, source)
-        if word in ("uitofp", "zext") and source in _TYPES and source != "i1":
-            value = f"(u{_c(source)}){value}"
+        if word in ("uitofp", "zext") and source in TYPES and source != "i1":
+            value = f"(u{type_in_c(source)}){value}"
         if word == "sext" and source == "i1":
             value = f"-(int){value}"
-        if word == "trunc" and (mask := 1 if target == "i1" else _mask(target)):
+        if word == "trunc" and (mask := 1 if target == "i1" else mask_of(target)):
             return target, f"{value} & {mask:#x}"
-        if _mask(source) and word in ("sitofp", "sext"):
+        if mask_of(source) and word in ("sitofp", "sext"):
             raise unknown(f"{word} {operands}")
-        return target, f"({_c(target)}){value}"
+        return target, f"({type_in_c(target)}){value}"
 
     def _call(self, operands: str) -> tuple[str, str]:
         """Return type and C expression of a call."""
@@ -291,7 +288,7 @@ class Function:
         if not found:
             raise unknown(f"call {operands}")
         kind, name, given = found.groups()
-        arguments = [self._typed(argument) for argument in _split(given)]
+        arguments = [self._typed(argument) for argument in split(given)]
         if not name.startswith("@llvm."):
             return kind, f"{identifier(name)}({', '.join(arguments)})"
         word = name.split(".")[1]
@@ -302,40 +299,15 @@ class Function:
         return kind, f"{word}({', '.join(arguments)})"
 
 
-def _blocks(lines: Sequence[str]) -> Iterator[tuple[str, list[str]]]:
-    """Yield label and instructions of each block. A switch becomes one line. The first block may have no label: %0."""
-    body: list[str] = []
-    label, begun = "%0", ""
-    for line in lines:
-        if found := re.match(r'("[^"]+"|[\w$.\-]+):', line):
-            if body:
-                yield label, body
-            label, body = "%" + found[1], []
-        elif text := re.sub(r", ![\w.]+ !\d+", "", line.strip()):
-            begun = f"{begun} {text}".strip()
-            if not begun.startswith("switch") or begun.endswith("]"):
-                body.append(begun)
-                begun = ""
-    yield label, body
-
-
-def _phis(body: Sequence[str]) -> Iterator[tuple[str, tuple[str, dict[str, str]]]]:
-    """Yield name → (type, value for each block before)."""
-    for line in body:
-        if found := re.match(rf"({LOCAL}) = phi (\{{.*?\}}|\S+) (.*)$", line):
-            pairs = re.findall(rf"\[ (.*?), ({LOCAL}) \]", found[3])
-            yield found[1], (found[2], {block: value for value, block in pairs})
-
-
 def _compared(predicate: str, kind: str, a: str, b: str) -> str:
     """Return the C expression of a comparison of floats (oeq, une …) or integers and pointers (eq, slt …)."""
     if predicate in _COMPARED:
         return f"{a} {_COMPARED[predicate]} {b}"
     first, rest = predicate[0], predicate[1:]
     if kind != "double":
-        if first == "s" and _mask(kind):
+        if first == "s" and mask_of(kind):
             raise unknown(f"icmp {predicate} {kind}")
-        to = f"({'u' if first == 'u' else ''}{_c(kind)})" if kind in _TYPES and kind != "ptr" else ""
+        to = f"({'u' if first == 'u' else ''}{type_in_c(kind)})" if kind in TYPES and kind != "ptr" else ""
         return f"{to}{a} {_COMPARED[rest]} {to}{b}"
     if predicate in ("ord", "uno"):
         return f"{'' if predicate == 'ord' else '!'}({a} == {a} && {b} == {b})"
@@ -345,75 +317,3 @@ def _compared(predicate: str, kind: str, a: str, b: str) -> str:
         return f"{'' if predicate == 'one' else '!'}({a} < {b} || {a} > {b})"
     # `u`: or one of them is not a number
     return f"{a} {_COMPARED[rest]} {b}" if first == "o" else f"!({a} {_OPPOSITE[rest]} {b})"
-
-
-def number(text: str) -> float:
-    """Return the value of a float64 constant of the IR, which has a decimal form or that of its bits."""
-    if not re.fullmatch(r"0x[0-9A-F]{16}|[-+]?\d+\.\d+(?:e[-+]\d+)?", text):
-        raise unknown(f"double {text}")
-    return struct.unpack("<d", struct.pack("<Q", int(text, 16)))[0] if text.startswith("0x") else float(text)
-
-
-def _double(text: str) -> str:
-    """Return a float64 constant in C, exactly."""
-    value = number(text)
-    if value != value:
-        return "NAN"
-    if abs(value) == float("inf"):
-        return "INFINITY" if value > 0.0 else "-INFINITY"
-    return repr(value) if value.is_integer() and abs(value) < 1e15 else value.hex()
-
-
-def _c(kind: str) -> str:
-    if kind not in _TYPES and not _mask(kind):
-        raise unknown(f"type {kind}")
-    return _TYPES[kind][0] if kind in _TYPES else "uint64_t"
-
-
-def _mask(kind: str) -> int:
-    """Return the bits of an integer type that C has not, for example i13 of a table that LLVM packs into a number; else 0."""
-    found = re.match(r"i(\d+)$", kind)
-    return 2 ** int(found[1]) - 1 if found and kind not in _TYPES and int(found[1]) < 64 else 0
-
-
-def _structure(text: str) -> tuple[str, str]:
-    """Return type and value of an operand that is a structure."""
-    depth = 0
-    for i, character in enumerate(text):
-        depth += (character == "{") - (character == "}")
-        if depth == 0:
-            return text[: i + 1], text[i + 1 :].strip()
-    raise unknown(text)
-
-
-def _members(kind: str) -> list[str] | None:
-    """Return the types of the members of a structure, None for another type."""
-    return _split(kind[1:-1]) if kind.startswith("{") else None
-
-
-def _suffix(kind: str) -> str:
-    if kind not in _TYPES:
-        raise unknown(f"type {kind}")
-    return _TYPES[kind][2]
-
-
-def _size(kind: str) -> int:
-    """Return the size of a type in bytes. In a structure each member counts at least 8, which is an upper bound."""
-    if kind in _TYPES:
-        return _TYPES[kind][1]
-    if found := re.match(r"\[(\d+) x (.*)\]$", kind):
-        return int(found[1]) * _size(found[2])
-    if kind.startswith("{"):
-        return sum(-(-_size(part) // 8) * 8 for part in _split(kind[1:-1]))
-    raise unknown(f"type {kind}")
-
-
-def _split(text: str) -> list[str]:
-    """Split at commas outside brackets."""
-    parts, depth, start = [], 0, 0
-    for i, character in enumerate(text):
-        depth += (character in "([{<") - (character in ")]}>")
-        if character == "," and depth == 0:
-            parts.append(text[start:i].strip())
-            start = i + 1
-    return [part for part in (*parts, text[start:].strip()) if part]
