@@ -83,7 +83,7 @@ dist/explorer.html: $(EXPLORER) | $(READY)
 explorer: dist/explorer.html ## compile the kernels to WebAssembly and write the contact explorer, one web page
 
 docs: $(READY_FOR_DOCS) dist/explorer.html ## build the documentation site in build/docs/html; warnings, broken links and misspellings are errors
-	$(BIN)/python -m sphinx -W --keep-going -q -b html docs build/docs/html
+	PYTHONPATH="$(CURDIR)" $(BIN)/python -m sphinx -W --keep-going -q -b html docs build/docs/html
 	$(BIN)/python docs/check.py build/docs/html
 	@echo "build/docs/html/index.html"
 
