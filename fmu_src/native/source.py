@@ -54,6 +54,7 @@ def header(component: Component, guid: str, *, kernels_in_c: bool = False) -> st
 #define MODEL_H
 {"#define KERNELS_IN_C" if kernels_in_c else "/* The kernels are objects. */"}
 #define MODEL_GUID "{guid}"
+#define ENTRY(name, cpu) {component.prefix}_##name##_##cpu
 #define N_VALUES {len(table.scalars) - accumulated}
 #define N_ACCUMULATED {accumulated}
 #define ACCUMULATES(values) {accumulates}
@@ -97,7 +98,8 @@ def body(component: Component) -> str:
         for given in (True, False)
     )
     files = ", ".join(
-        f"{{{_string(name)}, {_string(magic.rstrip(bytes(1)).decode())}}}" for name, magic in component.resources
+        f"{{{_string(name)}, {_string(magic.rstrip(bytes(1)).decode())}, {rows}}}"
+        for name, magic, rows in component.resources
     )
     return f"""/* Generated from the variable table of {table.name}. */
 #include <math.h>
