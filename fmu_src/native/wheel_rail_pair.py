@@ -33,7 +33,7 @@ from fmu_src.native.component import Component
 from fmu_src.native.memory import compiled, numbers_of
 from fmu_src.native.solver import choose, data, fill, forget_forged, lay_out, size_of
 from fmu_src.native.wires import MATERIAL, case_reader, reader, writer
-from fmu_src.profiles import MAGIC
+from fmu_src.profiles import MAGIC, ROWS
 from fmu_src.tables.solver import DAMAGE_OUTPUTS
 from fmu_src.tables.wheel_rail_pair import ACCUMULATED, BINS, LOAD_KIND, PATCH, PATCHES, RAIL, SIDE, WHEEL, table
 from fmu_src.variables import Table, identifier
@@ -89,7 +89,7 @@ def component(inclination: float, accumulation: bool = False) -> Component:
         table=interface,
         entries=lambda: entries(interface),
         data=data,
-        resources=((WHEEL, MAGIC["wheel"]), (RAIL, MAGIC["rail"])),
+        resources=((WHEEL, MAGIC["wheel"], ROWS), (RAIL, MAGIC["rail"], ROWS)),
         totals={
             "total.energy": ("power.friction",),
             "total.worn_volume": ("damage.archard_volume", "velocity.x"),

@@ -109,9 +109,10 @@ class WheelRailPairSlave(TableSlave):
             self._pair(self.values).bench.memory[:] = np.frombuffer(bytes.fromhex(memory))
 
     def _pair(self, values: Values) -> WheelRailPair:
-        """Return the pair with these parameters. It is made anew if they have changed."""
+        """Return the pair with these parameters. If they have changed, it is made anew and gets the memory of the old one."""
         wanted = [values[name] for name in self.parameters]
         if self.pair is None or wanted != self.built_with:
+            old = self.pair
             wheel, rail = self.profiles[0], self.profiles[1].rotated(-np.arctan(values["rail.inclination"]))
             material = Material(
                 values["material.shear_modulus"],
@@ -145,6 +146,8 @@ class WheelRailPairSlave(TableSlave):
                 conformal=values.item("patches.surface") == "Conformal",
                 **_accumulation(values, wheel, rail),
             )
+            if old is not None and old.bench.memory.size == self.pair.bench.memory.size:
+                self.pair.bench.memory[:] = old.bench.memory
             self.built_with = wanted
         return self.pair
 

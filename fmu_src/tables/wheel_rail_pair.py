@@ -123,13 +123,14 @@ def table(inclination: float = 1.0 / 40.0, accumulation: bool = False) -> Table:
         "the greatest of all patches. Damage accumulates in bins over the arc length of both profiles. Forces act on the "
         "wheel. Track frame: x forward, y to the right, z down. As co-simulation has no feedthrough, the outputs after a step "
         "belong to the inputs before it: one communication step late.",
-        [*_parameters(inclination), *_inputs(), *_outputs()],
+        [*parameters(inclination), *_inputs(), *_outputs()],
         step_size=1e-3,
         hidden=frozenset() if accumulation else _OF_ACCUMULATION,
     )
 
 
-def _parameters(inclination: float) -> Iterable[Variable]:
+def parameters(inclination: float) -> Iterable[Variable]:
+    """Yield the parameters, which the FMU `Vehicle` has too. `inclination` is a default, as in `table`."""
     yield parameter("side", "Which wheel and rail; the left side is the mirror image", enumeration=SIDE, start="Right")
     yield parameter("load.kind", "How the load is given", enumeration=LOAD_KIND, start="NormalForce")
     yield parameter(
