@@ -6,6 +6,9 @@ the structure itself. Only the step size is not part of the standard: it is in a
 Most masters of an SSP use the Jacobi scheme: every FMU steps with the values that were exchanged before the step. They differ
 in the first step. libcosim exchanges outputs during initialisation until the inputs have followed. fmpy starts every connector
 at 0. The contacts then see no load, so there is no contact, and the wheelset runs without creep forces for two steps.
+
+A second structure in the file, Connected.ssd, is the same with connectors of the whole, so that it can be a part of another
+system. libcosim 0.0.6 and Ecos 0.7.2 refuse such connections, so it is not the default.
 """
 
 from __future__ import annotations
@@ -24,9 +27,10 @@ from fmu_src.tables import wheel_rail_contact, wheelset
 from fmu_src.units import BASE_UNITS, UNITS
 from fmu_src.variables import Causality, Kind, Table
 from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import ENERGY, MOTION, POINTS, PROBLEM, REACTION, REPORT, SIDES
+from models.wheelset.ports import ENERGY, IRREGULARITY, MOTION, POINTS, PROBLEM, REACTION, REPORT, SIDES
 
 NAME = "coupled"
+CONNECTED = "Connected.ssd"
 STEP, STOP = 1e-4, 1.0  # [s]; at 28 m/s the Jacobi scheme is stable up to 0.67 ms (docs/coupling.md)
 
 _NAMESPACES = {
@@ -97,21 +101,29 @@ def build(folder: Path, parameters: WheelsetParameters | None = None) -> Path:
     components, connections = wheelset_on_rails(parameters or WheelsetParameters())
     files = {f"resources/{c.table.name}.fmu": (folder / f"{c.table.name}.fmu").read_bytes() for c in components}
     files["SystemStructure.ssd"] = structure(components, connections).encode()
+    files[CONNECTED] = structure(components, connections, connected=True).encode()
     return archive.write(folder / f"{NAME}.ssp", files.items())
 
 
-def structure(components: list[Component], connections: list[Connection]) -> str:
-    """Return the text of SystemStructure.ssd."""
+def structure(components: list[Component], connections: list[Connection], *, connected: bool = False) -> str:
+    """Return the text of a structure. If it is `connected`, the whole has connectors: irregularity in, motion out."""
     root = Element("ssd:SystemStructureDescription", {**_NAMESPACES, "version": "1.0", "name": NAME})
     system = SubElement(root, "ssd:System", name=NAME)
+    wheelset = components[0]
+    if connected:
+        _connectors(system, wheelset)
     _parameters(system, components)
     elements = SubElement(system, "ssd:Elements")
     used = set()
     for component in components:
-        used |= _component(elements, component, connections)
+        used |= _component(elements, component, connections, IRREGULARITY if connected else ())
     lines = SubElement(system, "ssd:Connections")
     for a, output, b, input_ in connections:
         SubElement(lines, "ssd:Connection", startElement=a, startConnector=output, endElement=b, endConnector=input_)
+    for name in IRREGULARITY if connected else ():
+        SubElement(lines, "ssd:Connection", startConnector=name, endElement=wheelset.name, endConnector=name)
+    for name in MOTION if connected else ():
+        SubElement(lines, "ssd:Connection", startElement=wheelset.name, startConnector=name, endConnector=name)
     _units(root, used)
     experiment = SubElement(root, "ssd:DefaultExperiment", startTime="0.0", stopTime=number(STOP))
     annotation = SubElement(
@@ -121,6 +133,15 @@ def structure(components: list[Component], connections: list[Connection]) -> str
     SubElement(algorithm, "osp:FixedStepAlgorithm", baseStepSize=number(STEP))
     indent(root)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
+
+
+def _connectors(system: Element, wheelset: Component) -> None:
+    """Add the connectors of the whole: the track's irregularity is its input, the wheelset's motion its output."""
+    connectors = SubElement(system, "ssd:Connectors")
+    for kind, names in (("input", IRREGULARITY), ("output", MOTION)):
+        for name in names:
+            connector = SubElement(connectors, "ssd:Connector", name=name, kind=kind)
+            SubElement(connector, "ssc:Real", unit=_unit(wheelset, name))
 
 
 def _parameters(system: Element, components: Iterable[Component]) -> None:
@@ -138,10 +159,12 @@ def _unit(component: Component, name: str) -> str:
     return component.table.scalars[component.table.span[name].start].unit
 
 
-def _component(elements: Element, component: Component, connections: Iterable[Connection]) -> set[str]:
-    """Add the element of a component and return the units of its connectors."""
+def _component(
+    elements: Element, component: Component, connections: Iterable[Connection], others: Iterable[str]
+) -> set[str]:
+    """Add the element of a component, with `others` among its connectors, and return the units of these."""
     shown = {end for a, output, b, input_ in connections for end in ((a, output), (b, input_))}
-    shown |= {(component.name, name) for name in itertools.chain(MOTION, ENERGY, REPORT)}
+    shown |= {(component.name, name) for name in itertools.chain(MOTION, ENERGY, REPORT, others)}
     attributes = {"type": "application/x-fmu-sharedlibrary", "implementation": "CoSimulation"}
     source = f"resources/{component.table.name}.fmu"
     element = SubElement(elements, "ssd:Component", {"name": component.name, "source": source, **attributes})
