@@ -18,7 +18,7 @@ from thesis_case import THESIS
 import contact
 from contact.elastic_rail import ElasticRail
 from contact.geometry import profile
-from contact.geometry.wheelset import Pair
+from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair
 
 ROOT = Path(__file__).parents[2]
