@@ -13,8 +13,8 @@ from fmu_src.native import records
 from fmu_src.native.component import Component
 from fmu_src.variables import Causality, Scalar, Table, Variable, identifier
 
-#: Files of the kernels in C and their data. Their names for each other are in kernels.h.
-_KERNELS = {"data.c", "kernels.c"}
+#: Ends of the names of the files of kernels in C and of their data. Their names for each other are in kernels.h.
+_KERNELS = ("data.c", "kernels.c")
 
 
 def write(component: Component, guid: str, folder: Path, *, kernels_in_c: bool = False) -> list[Path]:
@@ -39,7 +39,7 @@ def write_whole(component: Component, guid: str, others: Iterable[Path], folder:
     names = {path.name for path in written}
     copies = [Path(shutil.copy(path, folder)) for path in others if path.name not in names]
     for path in copies:
-        if path.name in _KERNELS:
+        if path.name.endswith(_KERNELS):
             path.write_text('#include "kernels.h"\n' + path.read_text(encoding="utf-8"), encoding="utf-8")
     return [*written, *copies]
 
@@ -65,6 +65,7 @@ def header(component: Component, guid: str, *, kernels_in_c: bool = False) -> st
 {"#define KERNELS_IN_C" if kernels_in_c else "/* The kernels are objects. */"}
 #define MODEL_GUID "{guid}"
 #define OWN(name) {table.name}_##name
+#define ENTRY(name, cpu) {component.prefix}_##name##_##cpu
 #define N_VALUES {len(table.scalars) - accumulated}
 #define N_ACCUMULATED {accumulated}
 #define ACCUMULATES(values) {accumulates}
@@ -108,7 +109,8 @@ def body(component: Component) -> str:
         for given in (True, False)
     )
     files = ", ".join(
-        f"{{{_string(name)}, {_string(magic.rstrip(bytes(1)).decode())}}}" for name, magic in component.resources
+        f"{{{_string(name)}, {_string(magic.rstrip(bytes(1)).decode())}, {rows}}}"
+        for name, magic, rows in component.resources
     )
     return f"""/* Generated from the variable table of {table.name}. */
 #include <math.h>

@@ -80,10 +80,11 @@ typedef struct {
 
 extern const Continuous states[N_STATES];
 
-/* A file in resources/ that an instance reads, and the bytes with which it begins. */
+/* A file in resources/ that an instance reads, the bytes with which it begins, and its number of rows. */
 typedef struct {
     const char *name;
     char magic[9];
+    int rows;
 } Resource;
 
 extern const Resource resources[N_RESOURCES];
@@ -157,7 +158,7 @@ typedef struct {
     Content is;
     double *memory; /* twice memory_size numbers: warm start of the next step, then the warm start of the present outputs */
     int64_t memory_size;
-    double *resources;       /* for each file: number of points n, then three columns of n numbers; NULL if there are none */
+    double *resources;       /* for each file: number of points n, then its rows of n numbers; NULL if there are none */
     uint64_t resources_hash; /* identifies the resources: a state of other resources is refused */
     double *work;        /* begins at a cache line, so that vectors are loaded at once */
     void *work_block;    /* allocated block that contains `work` */
