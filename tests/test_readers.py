@@ -12,23 +12,7 @@ from contact.cli import cases
 from contact.geometry import profile
 from fmu_src import archive, profiles
 from models.life import checkpoint, declared
-
-
-def damaged(content: bytes, number: int) -> list[bytes]:
-    """Return copies with changed bytes, cut off, or with a piece that stands twice; ten times as many in `make soak`."""
-    number *= 10 if "SOAK" in os.environ else 1
-    rng, copies = np.random.default_rng(number), []
-    for k in range(number):
-        copy = bytearray(content)
-        at = int(rng.integers(len(copy)))
-        if k % 3 == 0:
-            copy[at] ^= 1 << int(rng.integers(8))
-        elif k % 3 == 1:
-            del copy[at:]
-        else:
-            copy[at:at] = copy[at : at + int(rng.integers(1, 64))]
-        copies.append(bytes(copy))
-    return copies
+from tests import damaged
 
 
 def refused(read, path, copies: list[bytes], *arguments) -> None:
@@ -54,7 +38,7 @@ def test_a_damaged_histogram_is_refused(histogram, tmp_path):
     good = path.read_bytes()
     assert files.load(path).profile.name == histogram.profile.name
     # padding between the parts of the format may hold anything, so what is taken must be equal
-    for copy in damaged(good, 300):
+    for copy in damaged.of_bytes(good, 300):
         path.write_bytes(copy)
         try:
             found = files.load(path)
@@ -70,7 +54,7 @@ def test_a_damaged_checkpoint_is_refused(tmp_path):
     checkpoint.write(path, "mine", {"rows": np.arange(30.0), "wheel": np.ones((4, 5))})
     good = path.read_bytes()
     refused(checkpoint.read, path, [good[:n] for n in range(0, len(good), 7)], "mine")
-    for copy in damaged(good, 600):
+    for copy in damaged.of_bytes(good, 600):
         path.write_bytes(copy)
         try:
             found = checkpoint.read(path, "mine")

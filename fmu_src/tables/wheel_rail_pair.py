@@ -201,6 +201,19 @@ def parameters(inclination: float) -> Iterable[Variable]:
     yield parameter(
         "accumulation.width", "Width of a bin", unit="m", start=1e-3, minimum=1e-5, maximum=1e-2, nominal=1e-3
     )
+    for axis, way in (("y", "Lateral"), ("z", "Vertical")):
+        yield parameter(
+            f"rail.k{axis}",
+            f"{way} stiffness of the springs under this rail, which has no mass; 0 is rigid",
+            unit="N/m",
+            start=0.0,
+            minimum=0.0,
+            nominal=1e7,
+        )
+    for axis, way in (("y", "Lateral"), ("z", "Vertical")):
+        yield parameter(
+            f"rail.preload_{axis}", f"{way} external force on the rail on springs", unit="N", start=0.0, nominal=1e3
+        )
 
 
 def _inputs() -> Iterable[Variable]:
@@ -253,6 +266,10 @@ def _outputs() -> Iterable[Variable]:
     )
     yield output("wheel.Y_over_Q", "wheel.Y over wheel.Q; 0 without vertical force", nominal=0.1)
     yield output("used_friction", "Sum of the creep forces of all patches over that of the normal forces", nominal=0.1)
+    for axis, way in (("y", "Lateral"), ("z", "Vertical")):
+        yield output(
+            f"rail.deflection_{axis}", f"{way} deflection of the rail on springs, in balance", unit="m", nominal=1e-3
+        )
     yield from _accumulated()
 
 

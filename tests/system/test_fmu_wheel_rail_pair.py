@@ -20,6 +20,7 @@ from thesis_case import THESIS
 import contact
 from contact.accumulation import MAXIMA, SUMS, Histogram
 from contact.damage import WEAR_LAWS, DamageParameters
+from contact.elastic_rail import ElasticRail
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair
@@ -97,6 +98,23 @@ def test_left_is_the_mirror_image_of_right(fmu, open_pair):
         assert left[name] == factor * fmu[name]
     assert left["patch[1].angle"] == -fmu["patch[1].angle"]
     assert left["total.energy"] == fmu["total.energy"] > 0.0
+
+
+def test_a_rail_on_springs_is_in_balance_and_starts_from_its_last_deflection(open_pair):
+    springs = {"rail.ky": 8e6, "rail.kz": 5e7, "rail.preload_y": 500.0, "load.kind": 3, "load.normal_force": 6e4}
+    fmu, pair = open_pair(), WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(1.0 / 40.0)))
+    fmu.update(springs)
+    fmu.initialize()
+    rail = ElasticRail(8e6, 5e7, 500.0)
+    for k, y in enumerate((5e-3, 6e-3, 6.5e-3)):
+        fmu.update({"pose.y": y})
+        fmu.step(1e-3 * k, 1e-3)
+        wanted = pair.solve(Pose(y=y), Velocity(20.0, spin=-20.0 / 0.46), vertical=6e4, rail=rail)
+        assert fmu["rail.deflection_y"] == pytest.approx(wanted.deflection[0], abs=1e-15)
+        assert fmu["rail.deflection_z"] == pytest.approx(6e4 / 5e7, rel=1e-4)
+        assert fmu["force.y"] == pytest.approx(wanted.force[1], rel=1e-12)
+        assert 8e6 * fmu["rail.deflection_y"] == pytest.approx(500.0 - fmu["force.y"], abs=2.0)
+    assert fmu["rail.deflection_y"] > 1e-4
 
 
 def test_energy_is_the_power_times_the_time(fmu):

@@ -13,6 +13,7 @@
 #include <stdint.h>
 
 #include "model.h"
+#include "names.h"
 
 /* ---- the model: its functions take one array of all values, indexed by value reference, and one of working memory, which
  * begins with the warm start. component.py documents each function. Those that compute return 0 or the number of a message. */
@@ -43,6 +44,7 @@ typedef enum {
     TOTAL = 16, /* output that is integrated over time, with a start value */
     FIELD = 32, /* output of FMI 3.0, an array whose size depends on the resolution */
     TIME = 64,  /* a variable only in FMI 3.0 */
+    TUNABLE = 256, /* with PARAMETER: may change between steps and in event mode */
     ACCUMULATED = 128 /* output that adds up and is not in `values`: at the end of the warm start, if anything accumulates */
 } Role;
 #define ANY_OUTPUT (OUTPUT | STATE | TOTAL | ACCUMULATED)
@@ -244,8 +246,8 @@ void choose(double *values);
 void show_mirrored(double *values);
 bool in_range(const Variable *variable, double value);
 bool is_allowed(size_t i, const double *values);
-Status check_ranges(const Instance *instance, size_t n);
-Status prepare(Instance *instance);
+Status check_ranges(const Instance *instance, const double *values, size_t n);
+Status prepare(Instance *instance, double *values);
 int64_t evaluate(const Instance *instance, double *values, double h); /* does not change the content, but uses working memory */
 Status update(Instance *instance, double h, bool warm);
 void accumulate(Instance *instance);

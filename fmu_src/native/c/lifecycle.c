@@ -7,6 +7,10 @@
 
 #include "instance.h"
 
+#ifdef KERNELS_IN_C
+#include "kernels.h"
+#endif
+
 /* Kernels as objects are for two kinds of x86-64 processors. Kernels in C are for any processor. */
 #if !defined(KERNELS_IN_C) && (defined(__x86_64__) || defined(_M_X64))
 #define HAS_TWO_KERNELS
