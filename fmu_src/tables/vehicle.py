@@ -22,7 +22,9 @@ _HIDDEN = ("side", "load.kind", "wheel.radius", "wheel.flange_back", "track.gaug
 _HIDDEN_PAIR = (
     *_HIDDEN,
     *(f"accumulation.{name}" for name in ("wear_law", "first", "width")),
-    *(f"rail.{name}" for name in ("ky", "kz", "preload_y", "preload_z")),  # the vehicle has rails of its own, with masses
+    *(
+        f"rail.{name}" for name in ("ky", "kz", "preload_y", "preload_z")
+    ),  # the vehicle has rails of its own, with masses
 )
 SLOWEST = 0.5  # [m/s]
 START = -12.0  # place of the vehicle's reference at the start [m]
