@@ -39,9 +39,8 @@ def _entry_of_pair(name: str) -> Any:
     return types.ExternalFunction(name, result(*arguments, Doubles))
 
 
-_pair_memory, _pair_size, _pair_prepare, _pair_outputs = map(
-    _entry_of_pair, ("model_memory", "model_size", "model_prepare", "model_outputs")
-)
+_pair_memory, _pair_size = _entry_of_pair("model_memory"), _entry_of_pair("model_size")
+_pair_prepare, _pair_outputs = _entry_of_pair("model_prepare"), _entry_of_pair("model_outputs")
 _N_TOTALS = len(TOTALS)
 
 
