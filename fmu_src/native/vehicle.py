@@ -110,7 +110,7 @@ def _functions(wires: Wires, of_pair: Table, made: Assembly) -> Functions:
     n_parameters = sum(s.row.causality is Causality.PARAMETER for s in of_pair.scalars)
     n_axles, n_given = made.wheelsets.size, GIVEN.itemsize // 8
     n_wheels = 2 * n_axles
-    position, by_load = (pair_table.LOAD_KIND.number(name) for name in ("Position", "VerticalForce"))
+    position, by_load = (pair_table.LOAD_KIND.number(name) for name in ("Position", "NormalForce"))
     sides = np.array([pair_table.SIDE.number(name) for name in ("Right", "Left")], float)
     worst_status = max(int(status) for status in Status)
 
