@@ -14,7 +14,10 @@ from fmu_src import place, profiles, ssp
 from fmu_src.catalogue import Model, models, vehicles
 from fmu_src.documentation import markdown
 from fmu_src.python import packaging as python
+from fmu_src.tables.vehicle import START
+from models.life import scenario
 from models.wheelset import ports
+from models.wheelset.parameters import WheelsetParameters
 
 
 def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
@@ -74,6 +77,9 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
     if arguments.packaging != "python":
         build_native((*chosen, *of_vehicle), arguments.out / "native", arm=arguments.arm)
         build_system(arguments.out / "native")
+        if arguments.vehicle:
+            system = ssp.vehicle_on_rails(scenario.read(arguments.vehicle), START)
+            print(f"{system.name}, the vehicle and its contacts: {_size(ssp.build(arguments.out / 'native', system))}")
 
 
 def build_native(chosen: Sequence[Model], folder: Path, *, arm: bool = False) -> None:
@@ -108,7 +114,8 @@ def build_system(folder: Path) -> None:
     if obstacle := ssp.obstacle(folder):
         print(f"{ssp.NAME}, a system of these: not made, {obstacle}")
     else:
-        print(f"{ssp.NAME}, a system of these: {_size(ssp.build(folder))}")
+        made = ssp.build(folder, ssp.wheelset_on_rails(WheelsetParameters()))
+        print(f"{ssp.NAME}, a system of these: {_size(made)}")
 
 
 def _size(path: Path) -> str:

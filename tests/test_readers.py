@@ -10,7 +10,7 @@ import contact
 from contact.accumulation import Histogram
 from contact.cli import cases
 from contact.geometry import profile
-from fmu_src import archive, profiles
+from fmu_src import archive, profiles, resources
 from models.life import checkpoint, declared
 from tests import damaged
 
@@ -137,7 +137,7 @@ def test_the_command_without_options_does_nothing_and_says_how(tmp_path, monkeyp
 
 
 def test_a_profile_of_more_points_than_the_fmu_reads_is_refused():
-    y = np.linspace(-0.03, 0.03, profiles.MOST_POINTS + 1)
+    y = np.linspace(-0.03, 0.03, resources.MOST_POINTS + 1)
     with pytest.raises(contact.ContactError, match="100001 points: an FMU reads at most 100000"):
         profiles.pack(profile.Profile("rail", y, 5.0 * y**2, 10.0 * y, "fine"))
 

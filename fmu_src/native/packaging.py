@@ -85,8 +85,9 @@ _SOURCES: dict[Path, set[str]] = {
     },
     Path(wheelset.__file__).parent: set(),
 }
-#: The same of the models of vehicles, besides.
-_OF_VEHICLES = Path(vehicle.__file__).parent
+#: Modules in them of which only the kernels of vehicles are made, and the folder of these kernels.
+_ONLY_VEHICLES = {"vehicle", "open_vehicle", "vehicle_parts", "track"}
+_OF_VEHICLES = Path(vehicle.__file__).parent / "kernels"
 #: Section of the documentation in an FMU.
 _TRIED = """
 The libraries are for 64-bit Linux (glibc 2.17 or newer), Windows and macOS (11 or newer, Intel). They need only the C library
@@ -187,11 +188,13 @@ def _kept(model: Model, cache: Path) -> Path:
     """Return the cache folder of a model's kernels. Its name is a hash of everything that they are made from."""
     options = json.dumps(dict(model.options))
     fingerprint = hashlib.sha256(f"{model.name} {options} {version('numba')} {version('llvmlite')}".encode())
+    is_vehicle = "vehicle" in model.options
     for package, others in _SOURCES.items():
         for path in sorted(package.rglob("*.py")):
-            if not set(path.relative_to(package).with_suffix("").parts) & others:
+            if not set(path.relative_to(package).with_suffix("").parts) & (
+                others if is_vehicle else others | _ONLY_VEHICLES
+            ):
                 fingerprint.update(path.read_bytes())
-    if "vehicle" in model.options:
-        for path in (*sorted((_OF_VEHICLES / "kernels").glob("*.py")), find(model.options["vehicle"])):
-            fingerprint.update(path.read_bytes())
+    for path in (*sorted(_OF_VEHICLES.glob("*.py")), find(model.options["vehicle"])) if is_vehicle else ():
+        fingerprint.update(path.read_bytes())
     return cache / fingerprint.hexdigest()[:16]

@@ -39,9 +39,8 @@ def _entry_of_pair(name: str) -> Any:
     return types.ExternalFunction(name, result(*arguments, Doubles))
 
 
-_pair_memory, _pair_size, _pair_prepare, _pair_outputs = map(
-    _entry_of_pair, ("model_memory", "model_size", "model_prepare", "model_outputs")
-)
+_pair_memory, _pair_size = _entry_of_pair("model_memory"), _entry_of_pair("model_size")
+_pair_prepare, _pair_outputs = _entry_of_pair("model_prepare"), _entry_of_pair("model_outputs")
 _N_TOTALS = len(TOTALS)
 
 
@@ -111,7 +110,7 @@ def _functions(wires: Wires, of_pair: Table, made: Assembly) -> Functions:
     n_parameters = sum(s.row.causality is Causality.PARAMETER for s in of_pair.scalars)
     n_axles, n_given = made.wheelsets.size, GIVEN.itemsize // 8
     n_wheels = 2 * n_axles
-    position, by_load = (pair_table.LOAD_KIND.number(name) for name in ("Position", "VerticalForce"))
+    position, by_load = (pair_table.LOAD_KIND.number(name) for name in ("Position", "NormalForce"))
     sides = np.array([pair_table.SIDE.number(name) for name in ("Right", "Left")], float)
     worst_status = max(int(status) for status in Status)
 

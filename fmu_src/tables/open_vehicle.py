@@ -38,7 +38,7 @@ def _parameters(declared: VehicleDeclaration) -> Iterable[Variable]:
     yield vehicle.initial_distance()
     yield parameter(
         "initial.z",
-        "pose.z of each wheelset at the start, at which its wheels carry their load (WheelRailPair with VerticalForce)",
+        "pose.z of each wheelset at the start, at which its wheels carry their load (WheelRailPair with NormalForce)",
         unit="m",
         shape=(n,),
         start=1e-4,

@@ -19,8 +19,15 @@ from models.vehicle.declared import VehicleDeclaration, read
 TRACK = "track.rows"
 #: Parameters of the pair that the vehicle itself gives.
 _HIDDEN = ("side", "load.kind", "wheel.radius", "wheel.flange_back", "track.gauge_point")
-_HIDDEN_PAIR = (*_HIDDEN, *(f"accumulation.{name}" for name in ("wear_law", "first", "width")))
+_HIDDEN_PAIR = (
+    *_HIDDEN,
+    *(f"accumulation.{name}" for name in ("wear_law", "first", "width")),
+    *(
+        f"rail.{name}" for name in ("ky", "kz", "preload_y", "preload_z")
+    ),  # the vehicle has rails of its own, with masses
+)
 SLOWEST = 0.5  # [m/s]
+START = -12.0  # place of the vehicle's reference at the start [m]
 
 #: Motion of a body in the frame of the ideal track, in the order of `models.vehicle.kernels.layout.Axis`: unit and meaning.
 COORDINATES = (
@@ -72,7 +79,7 @@ def _parameters(declared: VehicleDeclaration, inclination: float) -> Iterable[Va
         "track.gauge": declared.gauge, "track.gauge_point": declared.gauge_point,
     }  # fmt: skip
     for row in wheel_rail_pair.parameters(inclination):
-        yield replace(row, start=starts.get(row.name, row.start))
+        yield replace(row, start=starts.get(row.name, row.start), tunable=False)  # tested only of one contact
     yield initial_distance()
     yield parameter(
         "resolution.step",
@@ -91,7 +98,7 @@ def initial_distance() -> Variable:
         "initial.distance",
         "Place of the vehicle's reference at the start, on the track's stations",
         unit="m",
-        start=-12.0,
+        start=START,
     )
 
 

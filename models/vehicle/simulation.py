@@ -147,8 +147,11 @@ class Simulation:
         motion.place(self.model, self.state, self.benches.motions, heights, float(start), speed)
 
     def _height(self, wheel: int, speed: float, load: float) -> float:
-        """Return the height of a wheelset at which one of its wheels carries the static load."""
-        solved = self._pairs[wheel].solve(Pose(), Velocity(speed), vertical=load, friction=self._friction)
+        """Return the height of a wheelset at which the normal forces of one of its wheels carry the static load.
+
+        With their friction a worn wheel may have no such height.
+        """
+        solved = self._pairs[wheel].solve(Pose(), Velocity(speed), load=load, friction=self._friction)
         return solved.z
 
     @property
