@@ -8,6 +8,9 @@ Most masters of an SSP use the Jacobi scheme: every FMU steps with the values th
 in the first step. libcosim exchanges outputs during initialisation until the inputs have followed. fmpy starts every connector
 at 0. The contacts then see no load, so there is no contact, and the wheelset runs without creep forces for two steps.
 The vehicle's contacts are elastic and cannot be late: its master steps them before the vehicle (`examples.coupled_vehicle`).
+
+The file of the wheelset has a second structure, Connected.ssd: the same with connectors of the whole, so that it can be a part
+of another system. libcosim 0.0.6 and Ecos 0.7.2 refuse such connections, so it is not the default.
 """
 
 from __future__ import annotations
@@ -32,9 +35,10 @@ from models.vehicle.course import lay
 from models.vehicle.kernels.layout import Axis
 from models.vehicle.simulation import ContactOptions, Simulation
 from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import ENERGY, MOTION, POINTS, PROBLEM, REACTION, REPORT, SIDES
+from models.wheelset.ports import ENERGY, IRREGULARITY, MOTION, POINTS, PROBLEM, REACTION, REPORT, SIDES
 
 NAME, VEHICLE = "coupled", "coupled_vehicle"
+CONNECTED = "Connected.ssd"
 STEP, STOP = 1e-4, 1.0  # [s]; at 28 m/s the Jacobi scheme is stable up to 0.67 ms (docs/coupling.md)
 STEP_OF_VEHICLE = 2e-4  # [s]
 
@@ -61,13 +65,18 @@ Connection = tuple[str, str, str, str]  # from element, connector, to element, c
 
 @dataclass(frozen=True)
 class System:
-    """FMUs and the connections between them; `shown` are the connectors that are not connected, and `step` is in s."""
+    """FMUs and the connections between them; `step` is in s.
+
+    `shown` are connectors that are not connected. `inputs` and `outputs` are those of the first FMU that the whole may offer.
+    """
 
     name: str
     components: list[Component]
     connections: list[Connection]
     shown: frozenset[str]
     step: float
+    inputs: tuple[str, ...] = ()
+    outputs: tuple[str, ...] = ()
 
 
 def wheelset_on_rails(parameters: WheelsetParameters) -> System:
@@ -84,7 +93,8 @@ def wheelset_on_rails(parameters: WheelsetParameters) -> System:
     for side in SIDES:
         connections += [("wheelset", f"{side}.{name}", side, name) for name in PROBLEM]
         connections += [(side, name, "wheelset", f"{side}.{name}") for name in REACTION]
-    return System(NAME, components, connections, frozenset((*MOTION, *ENERGY, *REPORT)), STEP)
+    shown = frozenset((*MOTION, *ENERGY, *REPORT))
+    return System(NAME, components, connections, shown, STEP, tuple(IRREGULARITY), tuple(MOTION))
 
 
 def vehicle_on_rails(given: Scenario, start: float) -> System:
@@ -159,21 +169,34 @@ def build(folder: Path, made: System) -> Path:
     """Write `folder`/<name of the system>.ssp from the FMUs in `folder` and return its path."""
     files = {f"resources/{c.table.name}.fmu": (folder / f"{c.table.name}.fmu").read_bytes() for c in made.components}
     files["SystemStructure.ssd"] = structure(made).encode()
+    if made.inputs:
+        files[CONNECTED] = structure(made, connected=True).encode()
     return archive.write(folder / f"{made.name}.ssp", files.items())
 
 
-def structure(made: System) -> str:
-    """Return the text of SystemStructure.ssd."""
+def structure(made: System, *, connected: bool = False) -> str:
+    """Return the text of a structure. If it is `connected`, the whole has the inputs and outputs of the system."""
     root = Element("ssd:SystemStructureDescription", {**_NAMESPACES, "version": "1.0", "name": made.name})
     system = SubElement(root, "ssd:System", name=made.name)
+    first, inputs, outputs = made.components[0], made.inputs if connected else (), made.outputs if connected else ()
+    if connected:
+        connectors, row = SubElement(system, "ssd:Connectors"), {s.name: s for s in first.table.scalars}
+        for kind, names in (("input", inputs), ("output", outputs)):
+            for name in names:
+                connector = SubElement(connectors, "ssd:Connector", name=name, kind=kind)
+                SubElement(connector, "ssc:Real", unit=row[name].unit)
     _parameters(system, made)
     elements = SubElement(system, "ssd:Elements")
     used = set()
     for component in made.components:
-        used |= _component(elements, component, made)
+        used |= _component(elements, component, made, inputs)
     lines = SubElement(system, "ssd:Connections")
     for a, output, b, input_ in made.connections:
         SubElement(lines, "ssd:Connection", startElement=a, startConnector=output, endElement=b, endConnector=input_)
+    for name in inputs:
+        SubElement(lines, "ssd:Connection", startConnector=name, endElement=first.name, endConnector=name)
+    for name in outputs:
+        SubElement(lines, "ssd:Connection", startElement=first.name, startConnector=name, endConnector=name)
     _units(root, used)
     experiment = SubElement(root, "ssd:DefaultExperiment", startTime="0.0", stopTime=number(STOP))
     annotation = SubElement(
@@ -199,10 +222,10 @@ def _parameters(system: Element, made: System) -> None:
                 SubElement(parameter, f"ssv:{of[name].row.kind}", value=str(int(value)))
 
 
-def _component(elements: Element, component: Component, made: System) -> set[str]:
-    """Add the element of a component and return the units of its connectors."""
+def _component(elements: Element, component: Component, made: System, inputs: tuple[str, ...]) -> set[str]:
+    """Add the element of a component, with `inputs` among its connectors, and return the units of these."""
     shown = {end for a, output, b, input_ in made.connections for end in ((a, output), (b, input_))}
-    shown |= {(component.name, name) for name in made.shown}
+    shown |= {(component.name, name) for name in (*made.shown, *inputs)}
     attributes = {"type": "application/x-fmu-sharedlibrary", "implementation": "CoSimulation"}
     source = f"resources/{component.table.name}.fmu"
     element = SubElement(elements, "ssd:Component", {"name": component.name, "source": source, **attributes})

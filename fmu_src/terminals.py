@@ -32,7 +32,7 @@ _OF_PAIR = {
         "Motion and load of the wheelset to this wheel, force and moment on the wheel back",
         ("pose", "velocity", "load", "wheelset", "force", "moment"),
     ),
-    "rail": ("Motion of the rail under this wheel", ("irregularity",)),
+    "rail": ("Motion of the rail under this wheel, and its deflection", ("irregularity", "rail")),
     "patches": ("All patches in track coordinates", ("patches", "patch", "pressure", "used_friction")),
 }
 

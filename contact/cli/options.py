@@ -238,6 +238,14 @@ DangVanSlope = Annotated[
     float,
     typer.Option("--slope", help="weight of the hydrostatic stress in Dang Van's criterion", rich_help_panel=METHOD),
 ]
+EnduranceLine = Annotated[
+    tuple[float, float, float] | None,
+    typer.Option(
+        "--endurance",
+        help="Dang Van stress in Pa, exponent and passages of a Woehler line; gives the passages to failure",
+        rich_help_panel=METHOD,
+    ),
+]
 Json = Annotated[bool, typer.Option("--json", help="print JSON with inputs, units and version", rich_help_panel=OUTPUT)]
 Over = Annotated[Motion, typer.Option(help="creepage to vary", rich_help_panel=LOADING)]
 Largest = Annotated[

@@ -79,7 +79,7 @@ def _parameters(declared: VehicleDeclaration, inclination: float) -> Iterable[Va
         "track.gauge": declared.gauge, "track.gauge_point": declared.gauge_point,
     }  # fmt: skip
     for row in wheel_rail_pair.parameters(inclination):
-        yield replace(row, start=starts.get(row.name, row.start))
+        yield replace(row, start=starts.get(row.name, row.start), tunable=False)  # tested only of one contact
     yield initial_distance()
     yield parameter(
         "resolution.step",
