@@ -98,7 +98,7 @@ def solve_on_rail(mode, amount, given, bench):
     settings.distance = 0.0
     code = _settle(mode, amount, given, bench)
     settings.distance = distance
-    if code >= 0 and distance > 0.0 and rail.balanced == 1:
+    if code >= 0 and distance > 0.0 and rail.balanced == 1 and bench.ledger.bins.shape[2] > 0:
         code = _solve_moved(mode, amount, given, bench)
     if code >= 0:
         dy, dz = rail.dy, rail.dz
