@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from contact import force_table, kalker
 from contact.kernels import families, memory, quadrature
-from contact.kernels.arrays import Bench, Ledger, Rule, Search, Size, Tables, Workspace
+from contact.kernels.arrays import Bench, Ledger, Rule, Search, Sheet, Size, SurfaceSearch, Tables, Workspace
 from contact.kernels.damage.deposit import arc_length
 from contact.kernels.normal import influence
 from contact.kernels.normal.between_panels import fill_probes
@@ -138,6 +138,22 @@ def search(wheel: Array, rail: Array, grid: Array, n_samples: int) -> Search:
     """
     made: Search = _laid(memory.lay_search, wheel.shape[1], rail.shape[1], grid.size, n_samples)
     made.wheel[:], made.rail[:], made.grid[:] = wheel, rail, grid
+    quadrature.fill_fejer(*made.across)
+    return made
+
+
+def sheet(u: Array, nodes: Array, runs: Array, period: tuple[float, float], deviation: Array) -> Sheet:
+    """Return the arrays of a surface, read-only. The arguments are the members of `Sheet`."""
+    made: Sheet = _laid(memory.lay_sheet, u.size, nodes.shape[2], deviation.shape[1])
+    for array, given in zip(made, (u, nodes, runs, period, deviation), strict=True):
+        array[:] = given
+    _read_only(*made)
+    return made
+
+
+def surface_search(wheel: Sheet, rail: Sheet, n_samples: int) -> SurfaceSearch:
+    """Return the arrays of a contact search over two surfaces. Separations have `n_samples` samples."""
+    made: SurfaceSearch = _laid(memory.lay_surface_search, wheel, rail, n_samples)
     quadrature.fill_fejer(*made.across)
     return made
 

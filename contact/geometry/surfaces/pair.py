@@ -10,10 +10,12 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from contact import workspace
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Pose, Velocity
+from contact.geometry.surfaces import compiled
 from contact.geometry.surfaces.frame import Frame, PlacedRail, PlacedWheel, heights
 from contact.geometry.surfaces.search import Lobe, Scene, combined, sample
 from contact.geometry.surfaces.strips import strips
@@ -23,7 +25,7 @@ from contact.halfspace.gap import Division, Gap
 from contact.halfspace.norm import norm
 from contact.kernels.geometry.search import axle
 from contact.kernels.geometry.settle import DEEPEST
-from contact.kernels.records import SLOWEST
+from contact.kernels.records import MAX_PATCHES, SLOWEST
 from contact.material import STEEL, Material
 from contact.separation import Separation
 
@@ -31,6 +33,7 @@ Array = NDArray[np.float64]
 Side = Literal["right", "left"]
 
 ROWS = COLUMNS = 60
+SAMPLES = 41  # of a separation
 #: Elements of the gap from which strips are made, and its room beyond the overlap along and across.
 _STRIPS, _ROOM = Division(61, 41), (0.15, 0.35)
 _MIRROR = np.diag([1.0, -1.0, 1.0])
@@ -176,6 +179,15 @@ class SurfacePair:
         elements = (require_number("rows", rows, 10, 1000), require_number("columns", columns, 10, 1000))
         self.division = Division(int(elements[0]), int(elements[1]), both)
         self.material = material
+        self._made = compiled.sheet(self.wheel), compiled.sheet(self.rail)
+        self.space = workspace.surface_search(*self._made, SAMPLES)
+        motion = self.space.motion[0]
+        motion.radius, motion.tape, motion.mirror = self.nominal_radius, self.tape, 1.0 if side == "right" else -1.0
+        motion.combine_distance, motion.most_patches = self.combine_distance, MAX_PATCHES
+        motion.origin_y, motion.origin_z = self.rail_origin
+        motion.reach, motion.tilted, motion.changing = self.reach, self.tilted, 1
+        self.space.case["G"], self.space.case["nu"] = material.shear_modulus, material.poisson_ratio
+        self.separations = self.space.separations
         self.z = 0.0  #: pose.z of the last search [m]: as given, or as found
 
     def scene(self, pose: Pose, station: float, rotation: float, irregularity: Irregularity | None = None) -> Scene:
