@@ -8,7 +8,19 @@ from __future__ import annotations
 
 from numba.extending import register_jitable
 
-from contact.kernels.arrays import Across, Array, Bench, Ledger, Rule, Search, Sheet, Size, Space, SurfaceSearch, Workspace
+from contact.kernels.arrays import (
+    Across,
+    Array,
+    Bench,
+    Ledger,
+    Rule,
+    Search,
+    Sheet,
+    Size,
+    Space,
+    SurfaceSearch,
+    Workspace,
+)
 from contact.kernels.block import cube, matrix, next_line, records, vector
 from contact.kernels.kalker import N_TABLE
 from contact.kernels.normal.between_panels import PROBES
@@ -160,9 +172,7 @@ def lay_sheet(block: Array, end: int, n_slices: int, n_paths: int, n_deviation: 
 
 
 @register_jitable
-def lay_surface_search(
-    block: Array, end: int, wheel: Sheet, rail: Sheet, n_samples: int
-) -> tuple[SurfaceSearch, int]:
+def lay_surface_search(block: Array, end: int, wheel: Sheet, rail: Sheet, n_samples: int) -> tuple[SurfaceSearch, int]:
     """Return the arrays of a contact search over two surfaces, and the new end."""
     motion, end = records(block, end, 2, MOTION)
     patches, end = records(block, end, MAX_PATCHES, PATCH)

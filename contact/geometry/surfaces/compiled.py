@@ -25,7 +25,10 @@ def sheet(surface: WheelSurface | RailSurface) -> arrays.Sheet:
     rows = []
     for f, start, end in ((s._f, s._start, s._end), (s._f_u, s._start_u, s._end_u)):
         for part in (f, start, end):
-            rows += [np.pad(part[0], ((0, 0), (0, m - part.shape[2]))), np.pad(part[1], ((0, 0), (0, m - part.shape[2])))]
+            rows += [
+                np.pad(part[0], ((0, 0), (0, m - part.shape[2]))),
+                np.pad(part[1], ((0, 0), (0, m - part.shape[2]))),
+            ]
     runs = np.stack((s.active.argmax(axis=1), m - s.active[:, ::-1].argmax(axis=1)), axis=1).astype(np.float64)
     if isinstance(surface, WheelSurface):
         fold = surface.middle

@@ -40,7 +40,9 @@ def track_frame(y: float) -> Frame:
 
 
 @kernel
-def limits_of(x: tuple[float, float], y: tuple[float, float], frame: Frame, space: SurfaceSearch) -> tuple[int, int, int, int]:
+def limits_of(
+    x: tuple[float, float], y: tuple[float, float], frame: Frame, space: SurfaceSearch
+) -> tuple[int, int, int, int]:
     """Return first path and end of the wheel, and of the rail, that reach into a range of x and y [m] of a frame."""
     wheel, rail, motion, nodes = space.wheel, space.rail, space.motion[0], space.section
     low, high = y[0] - _BESIDE, y[1] + _BESIDE
@@ -90,7 +92,16 @@ def fill_grid(box: Array, cells: Array, n_x: int, space: SurfaceSearch) -> float
     limits = limits_of(reach, (0.0, box[Box.DY] * (n_y - 1)), frame, space)
     least, to = AWAY, space.column
     for k in range(n_x):
-        column(box[Box.X] + k * box[Box.DX], rows, limits, frame, (space.wheel, space.rail), space.motion[0], space.section, to)
+        column(
+            box[Box.X] + k * box[Box.DX],
+            rows,
+            limits,
+            frame,
+            (space.wheel, space.rail),
+            space.motion[0],
+            space.section,
+            to,
+        )
         for i in range(n_y):
             cells[Cell.GAP, i, k] = to[Over.GAP, i]
             least = min(least, to[Over.GAP, i])
@@ -271,8 +282,14 @@ def touch(space: SurfaceSearch) -> float:
         least, row, col = least_gap(space.rough[layers * k])
         if least > lowest + _SLACK:
             continue
-        box[Box.X], box[Box.DX] = place_[Box.X] + (col - 1) * place_[Box.DX], 2.0 * place_[Box.DX] / (cells.shape[2] - 1)
-        box[Box.Y], box[Box.DY] = place_[Box.Y] + (row - 1) * place_[Box.DY], 2.0 * place_[Box.DY] / (cells.shape[1] - 1)
+        box[Box.X], box[Box.DX] = (
+            place_[Box.X] + (col - 1) * place_[Box.DX],
+            2.0 * place_[Box.DX] / (cells.shape[2] - 1),
+        )
+        box[Box.Y], box[Box.DY] = (
+            place_[Box.Y] + (row - 1) * place_[Box.DY],
+            2.0 * place_[Box.DY] / (cells.shape[1] - 1),
+        )
         fill_grid(box, cells, cells.shape[2], space)
         lowest = min(lowest, least_gap(cells[Cell.GAP])[0])
     return lowest

@@ -67,9 +67,7 @@ def deviation(table: Array, u: float) -> tuple[float, float]:
 
 
 @kernel
-def section(
-    sheet: Sheet, u: float, limits: tuple[int, int], rows: int, out: Array
-) -> tuple[int, int, float, float]:
+def section(sheet: Sheet, u: float, limits: tuple[int, int], rows: int, out: Array) -> tuple[int, int, float, float]:
     """Fill the first `rows` of `Node` in `out` with the cross-section at `u`; for a rail also y and z derived along u.
 
     Only the paths within `limits` are filled. Return the first, the end, and value and slope of the deviation, which is
@@ -197,9 +195,7 @@ def cover(nodes: Array, first: int, end: int, low: float, high: float) -> tuple[
 
 
 @kernel
-def heights(
-    nodes: Array, run: tuple[int, int], rows: Rows, sign: float, placing: Placing, to: Array
-) -> None:
+def heights(nodes: Array, run: tuple[int, int], rows: Rows, sign: float, placing: Placing, to: Array) -> None:
     """Fill height and x over the rows of a grid: the least sign·n where several branches lie over a row.
 
     `rows` are the first row, the step [m], their number, and whether cubics count, or chords. `to` begins with the row for the height, then the one for x. For

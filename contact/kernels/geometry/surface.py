@@ -116,7 +116,10 @@ def _describe(z: float, lobe: Record, neighbours: tuple[float, float], k: int, s
     along, across = _ROOM_X * (lobe.x_high - lobe.x_low), _ROOM_Y * (lobe.high - lobe.low)
     origin = about_x(x, y, 0.0, 0.0)
     limits = regions.limits_of(
-        (lobe.x_low - x - along, lobe.x_high - x + along), (lobe.low - y - across, lobe.high - y + across), origin, space
+        (lobe.x_low - x - along, lobe.x_high - x + along),
+        (lobe.low - y - across, lobe.high - y + across),
+        origin,
+        space,
     )
     height = _heights_at_origin(origin, limits, space)[0]
     if height >= AWAY:  # in a notch of the surface
