@@ -28,8 +28,8 @@ from contact.geometry.profile import Profile
 from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface
 from contact.geometry.surfaces.frame import Frame, PlacedWheel, heights
 from contact.geometry.wheelset import Pose, Velocity
-from contact.study.errors import mean_p95_max
 from contact.pair import WheelRailPair
+from contact.study.errors import mean_p95_max
 from contact.surface_pair import WheelRailSurfaces
 from reference import STEEL
 

@@ -5,10 +5,10 @@ It is the reference for `contact.pair.WheelRailPair`, which solves the same surf
 from __future__ import annotations
 
 from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
 from contact.friction import Friction
 from contact.geometry.records import Irregularity, Pose, Velocity

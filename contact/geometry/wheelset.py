@@ -19,7 +19,7 @@ The left side is computed as the mirror image of the right side, so both agree t
 from __future__ import annotations
 
 import math
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,13 +27,12 @@ from numpy.typing import ArrayLike, NDArray
 from contact import workspace
 from contact.creepage import Creepage
 from contact.errors import ContactError, doubt, require_integer, require_number
-from contact.geometry.posed import MAX_PENETRATION, Posed, Side
+from contact.geometry.posed import Posed, Side
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Patch, Pose, Velocity
-from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.geometry.prepare import facing, move, rail_origin, take_nodes
-from contact.kernels.geometry.settle import DEEPEST, first_touch, settle
-from contact.kernels.records import GIVEN, MAX_PATCHES
+from contact.kernels.geometry.settle import first_touch, settle
+from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Curve
 from contact.material import STEEL, Material
 from contact.separation import Separation

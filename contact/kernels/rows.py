@@ -97,7 +97,7 @@ class Curve(IntEnum):
 
 
 class Node(IntEnum):
-    """Rows of `nodes[slice, row, path]` of a surface: points, and their derivatives per path at both ends of the segment after them.
+    """Rows of `nodes[slice, row, path]` of a surface: points, and derivatives per path at both ends of the segment after them.
 
     They are followed by as many rows with their derivatives along the surface.
     """

@@ -16,17 +16,47 @@ _FAINT, _WIDE = 1e-3, 0.2
 
 
 @kernel
-def _solve(moments: tuple[float, float, float, float, float], right: tuple[float, float, float]) -> tuple[float, float]:
-    """Return the coefficients of t and t² of a least-squares parabola, from the sums of w tⁿ and of w h tⁿ."""
+def _bend(moments: tuple[float, float, float, float, float], right: tuple[float, float, float]) -> tuple[float, float]:
+    """Return c2 and t_c of the least-squares parabola c2 (t - t_c)² + c0, from the sums of w tⁿ and of w h tⁿ.
+
+    c2 is kept in its range. Then t_c follows from the best parabola with this c2, so two ends of equal height have t_c in
+    their middle.
+    """
     m0, m1, m2, m3, m4 = moments
     r0, r1, r2 = right
     centre = m1 / m0
     a11, a12, a22 = m2 - m1 * centre, m3 - m2 * centre, m4 - m2 * m2 / m0
     b1, b2 = r1 - r0 * centre, r2 - r0 * m2 / m0
     determinant = a11 * a22 - a12 * a12
-    if not determinant > 1e-12 * a11 * a22:
-        return 0.0, 0.0
-    return (b1 * a22 - b2 * a12) / determinant, (b2 * a11 - b1 * a12) / determinant
+    c2 = (b2 * a11 - b1 * a12) / determinant if determinant > 1e-12 * a11 * a22 else 0.0
+    c2 = min(max(c2, _FLATTEST), _SHARPEST)
+    return c2, (c2 * a12 - b1) / (2.0 * c2 * a11) if a11 > 0.0 else centre
+
+
+@kernel
+def _cut_row(h: Array, x: Array, i: int, level: float) -> tuple[float, float, float]:
+    """Return A, x_c and g of a row whose overlap is cut off by the end of a surface; A = 0 if it is not.
+
+    The parabola has the volume, the middle and the spread of what overlaps at `level`: the depth D - A (x - x_c)² over the
+    half length a has 4/3 D a, x_c, and the variance a²/5. For a whole parabola these are its own values. The last point
+    before the end counts for half a step.
+    """
+    n, m0, m1, m2, cut = h.shape[1], 0.0, 0.0, 0.0, False
+    for k in range(n):
+        depth = level - h[i, k]
+        if depth <= 0.0:
+            continue
+        ends = (k > 0 and h[i, k - 1] >= 0.5 * AWAY) or (k < n - 1 and h[i, k + 1] >= 0.5 * AWAY)
+        cut = cut or ends
+        w = 0.5 * depth if ends else depth
+        m0, m1, m2 = m0 + w, m1 + w * x[i, k], m2 + w * x[i, k] ** 2
+    if not cut or m0 <= 0.0:
+        return 0.0, 0.0, 0.0
+    step = (x[i, n - 1] - x[i, 0]) / (n - 1)
+    x_c = m1 / m0
+    a = math.sqrt(5.0 * max(m2 / m0 - x_c * x_c, step * step / 12.0))
+    top = 0.75 * m0 * step / a
+    return min(max(top / (a * a), _FLATTEST), _SHARPEST), x_c, level - top
 
 
 @kernel
@@ -37,7 +67,8 @@ def fit_rows(h: Array, x: Array, approach: float, wide: float, out: Array) -> fl
     and g are those of both surfaces at the pose: a flat makes A small, a ramp moves x_c. `h` is the gap from its least value,
     with AWAY where a body is absent, and `wide` the length of its grid [m]. The error is the root mean square of h minus the
     parabolas over the overlap, weighted with the depth, over the approach. Where a strip touches at two places, as on both
-    ends of a flat, it is large, and strips cannot describe the patch.
+    ends of a flat, it is large, and strips cannot describe the patch. Where a surface ends within the overlap, the parabola
+    stands for what is left of it (`_cut_row`).
     """
     n_x, total, square = h.shape[1], 0.0, 0.0
     for i in range(h.shape[0]):
@@ -54,21 +85,21 @@ def fit_rows(h: Array, x: Array, approach: float, wide: float, out: Array) -> fl
         for k in range(n_x):
             if h[i, k] >= 0.5 * AWAY:
                 continue
-            t = (x[i, k] - middle) / wide
-            w = max(least + window - h[i, k], 0.0) + _FAINT * window * math.exp(-((t / _WIDE) ** 2))
+            t = x[i, k] - middle
+            w = max(least + window - h[i, k], 0.0) + _FAINT * window * math.exp(-((t / (_WIDE * wide)) ** 2))
             t2 = t * t
             m0, m1, m2, m3, m4 = m0 + w, m1 + w * t, m2 + w * t2, m3 + w * t2 * t, m4 + w * t2 * t2
             r0, r1, r2 = r0 + w * h[i, k], r1 + w * h[i, k] * t, r2 + w * h[i, k] * t2
-        c1, c2 = _solve((m0, m1, m2, m3, m4), (r0, r1, r2))
-        A = min(max(c2 / (wide * wide), _FLATTEST), _SHARPEST)
-        t_c = min(max(-0.5 * c1 / (wide * wide * A), (x[i, 0] - middle) / wide), (x[i, n_x - 1] - middle) / wide)
-        bend = A * wide * wide
-        g = (r0 - bend * (m2 - 2.0 * t_c * m1 + t_c * t_c * m0)) / m0
-        out[Sep.G, i], out[Sep.A, i], out[Sep.XC, i] = g, A, middle + t_c * wide
+        A, x_c, g = _cut_row(h, x, i, least + window)
+        if A == 0.0:
+            A, x_c = _bend((m0, m1, m2, m3, m4), (r0, r1, r2))
+            g = (r0 - A * (m2 - 2.0 * x_c * m1 + x_c * x_c * m0)) / m0
+            x_c += middle
+        out[Sep.G, i], out[Sep.A, i], out[Sep.XC, i] = g, A, min(max(x_c, x[i, 0]), x[i, n_x - 1])
         for k in range(n_x):
             depth = approach - h[i, k]
             if depth > 0.0:
-                miss = g + bend * ((x[i, k] - middle) / wide - t_c) ** 2 - h[i, k]
+                miss = g + A * (x[i, k] - x_c) ** 2 - h[i, k]
                 total += depth
                 square += depth * miss * miss
     _open_beyond(out, 1, h.shape[0], 1)

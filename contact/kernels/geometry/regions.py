@@ -8,7 +8,7 @@ All heights are at pose.z = 0. Lowering the wheel by z changes the vertical gap 
 import math
 
 from contact._jit import kernel
-from contact.kernels.arrays import SurfaceSearch
+from contact.kernels.arrays import Sheet, SurfaceSearch
 from contact.kernels.geometry.curve import Array, Record
 from contact.kernels.geometry.section import (
     AWAY,
@@ -60,6 +60,26 @@ def limits_of(
             place(of_wheel(theta, motion, frame), (first, end), 2, (value, slope), nodes)
             wheel_first, wheel_end = cover(nodes, first, end, low, high)
     return wheel_first - 1, wheel_end + 1, rail_first - 1, rail_end + 1
+
+
+@kernel
+def aligned(low: float, high: float, n: int, station: float, rail: Sheet) -> tuple[float, float]:
+    """Return first position and step of `n` columns over low … high [m] of the track, at most a step further back.
+
+    Where a part of the rail begins or ends within the range, a column stands there. So what lies on the columns changes
+    smoothly as the wheel passes.
+    """
+    step = (high - low) / (n - 1)
+    for i in range(rail.u.size - 1):
+        x = rail.u[i] - station
+        y = rail.u[i + 1] - station
+        begins = rail.runs[i + 1, 0] < rail.runs[i, 0] or rail.runs[i + 1, 1] > rail.runs[i, 1]
+        ends = rail.runs[i + 1, 0] > rail.runs[i, 0] or rail.runs[i + 1, 1] < rail.runs[i, 1]
+        at = y if begins else x
+        if (begins or ends) and low < at < high:
+            step = (high - low) / (n - 2)
+            return at - step * math.ceil((at - low) / step), step
+    return low, step
 
 
 @kernel
@@ -153,7 +173,7 @@ def scan(space: SurfaceSearch) -> bool:
     reach, n_x = motion.reach, 0
     while True:
         low, high = _lateral_range(reach, space)
-        n_x = min(2 * int(math.ceil(reach / _COARSE)) + 1, coarse.shape[2])
+        n_x = min(2 * math.ceil(reach / _COARSE) + 1, coarse.shape[2])
         n_y = coarse.shape[1]
         if low < high:
             box[Box.X], box[Box.DX] = -reach, 2.0 * reach / (n_x - 1)
@@ -209,7 +229,7 @@ def _cover(label: Array, box: Array, n_x: int, wanted: float, to: Array, n: tupl
     top, bottom, left, right = label.shape[0], -1, n_x, -1
     for i in range(label.shape[0]):
         for k in range(n_x):
-            if label[i, k] == wanted or (wanted == 0.0 and label[i, k] > 0.0):
+            if label[i, k] == wanted if wanted > 0.0 else label[i, k] > 0.0:
                 top, bottom, left, right = min(top, i), max(bottom, i), min(left, k), max(right, k)
     to[Box.X], to[Box.DX] = box[Box.X] + (left - 1) * box[Box.DX], (right - left + 2) * box[Box.DX] / (n[1] - 1)
     to[Box.Y], to[Box.DY] = box[Box.Y] + (top - 1) * box[Box.DY], (bottom - top + 2) * box[Box.DY] / (n[0] - 1)
@@ -248,6 +268,8 @@ def lay_fine(level: float, space: SurfaceSearch) -> None:
         box[Box.LABEL] = 0.0
         if _cover(rough[Cell.LABEL], boxes[k + 1], size[1], 0.0, box, size):
             box[Box.LABEL] = boxes[k + 1, Box.LABEL]
+            ahead = box[Box.X] + (size[1] - 1) * box[Box.DX]
+            box[Box.X], box[Box.DX] = aligned(box[Box.X], ahead, size[1], space.motion[0].station, space.rail)
             fill_grid(box, cells, size[1], space)
             _exclude(cells[Cell.LABEL], box, int(boxes[0, Box.COLUMNS]), space)
     boxes[0, Box.LAID] = level
@@ -299,7 +321,8 @@ def touch(space: SurfaceSearch) -> float:
 def _measure(cells: Array, box: Array, wanted: float, z: float, lobe: Record) -> None:
     """Fill the lobe of one region of a grid.
 
-    Points are weighted with depth², as `search.lobes` does when integrated along x.
+    Points are weighted with depth², as `search.lobes` does when integrated along x. A point at the end of a surface counts
+    for half a step.
     """
     lobe.weight, lobe.moment, lobe.moment_x = 0.0, 0.0, 0.0
     lobe.cosine, lobe.sine, lobe.slant, lobe.tie = 0.0, 0.0, 0.0, 0.0
@@ -312,7 +335,9 @@ def _measure(cells: Array, box: Array, wanted: float, z: float, lobe: Record) ->
             if cells[Cell.LABEL, i, k] != wanted:
                 continue
             x, depth = cells[Cell.X, i, k], z - cells[Cell.GAP, i, k]
-            weight = depth * depth * area
+            before = k > 0 and cells[Cell.GAP, i, k - 1] >= AWAY
+            after = k < cells.shape[2] - 1 and cells[Cell.GAP, i, k + 1] >= AWAY
+            weight = depth * depth * (0.5 * area if before or after else area)
             slope_x, slope_y = cells[Cell.SLOPE_X, i, k], cells[Cell.SLOPE_Y, i, k]
             normal = 1.0 / math.sqrt(1.0 + slope_x * slope_x + slope_y * slope_y)
             lobe.weight += weight

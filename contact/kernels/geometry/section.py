@@ -159,7 +159,10 @@ def angle_near(x: float, motion: Record, frame: Frame) -> float:
 
 @kernel
 def place(placing: Placing, run: tuple[int, int], rows: int, rise: tuple[float, float], out: Array) -> None:
-    """Turn `rows` of nodes (y, z), and the derivatives, into (s, n). `rise` is what is added to z, and its derivative along u."""
+    """Turn `rows` of nodes (y, z), and the derivatives, into (s, n).
+
+    `rise` is what is added to z, and its derivative along u.
+    """
     _, _, _, s0, s_y, s_z, n0, n_y, n_z = placing
     value, slope = rise
     first, end = run
@@ -214,8 +217,8 @@ def heights(nodes: Array, run: tuple[int, int], rows: Rows, sign: float, placing
         s_a, s_b = nodes[Section.S, j], nodes[Section.S, j + 1]
         if max(s_a, s_b) < low or min(s_a, s_b) > high or s_a == s_b:
             continue
-        i0 = int(math.ceil(max((min(s_a, s_b) - low) * per_step, 0.0)))
-        i1 = int(math.floor(min((max(s_a, s_b) - low) * per_step, n - 1.0)))
+        i0 = math.ceil(max((min(s_a, s_b) - low) * per_step, 0.0))
+        i1 = math.floor(min((max(s_a, s_b) - low) * per_step, n - 1.0))
         if i1 < i0:
             continue
         n_a, n_b, per_s = nodes[Section.N, j], nodes[Section.N, j + 1], 1.0 / (s_b - s_a)

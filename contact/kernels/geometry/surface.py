@@ -61,12 +61,14 @@ def _sample(
     """Fill the gap `space.h` at `space.x` over a range of a frame, Y and TILT of `out`. Return the least gap [m]."""
     h, at, to = space.h, space.x, space.column
     n_y, n_x = h.shape
-    dx, dy = (x[1] - x[0]) / (n_x - 1), (y[1] - y[0]) / (n_y - 1)
+    dy = (y[1] - y[0]) / (n_y - 1)
+    first, dx = regions.aligned(x[0] + frame[0], x[1] + frame[0], n_x, space.motion[0].station, space.rail)
+    first -= frame[0]
     surfaces, rows = (space.wheel, space.rail), (y[0], dy, n_y, True)
     for k in range(n_x):
-        column(x[0] + k * dx, rows, limits, frame, surfaces, space.motion[0], space.section, to)
+        column(first + k * dx, rows, limits, frame, surfaces, space.motion[0], space.section, to)
         for i in range(n_y):
-            h[i, k], at[i, k] = to[Over.GAP, i], to[Over.WHEEL_X, i] if to[Over.GAP, i] < AWAY else x[0] + k * dx
+            h[i, k], at[i, k] = to[Over.GAP, i], to[Over.WHEEL_X, i] if to[Over.GAP, i] < AWAY else first + k * dx
         if k == n_x // 2:
             for i in range(n_y):
                 a, b = max(i - 1, 0), min(i + 1, n_y - 1)
