@@ -12,8 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 from contact.errors import ContactError, require_number
 from contact.friction import Friction
 from contact.geometry.records import Pose, Velocity
-from contact.pair import PairSolution, WheelRailPair
-from contact.surface_pair import SurfaceSolution, WheelRailSurfaces
+from contact.geometry.surfaces import SurfacePair
+from contact.pair import Contact, PairSolution, WheelRailPair
+from contact.registry import DEFAULT_TANGENTIAL
+from contact.surface_pair import SurfaceContact, SurfaceSolution, WheelRailSurfaces
 
 Array = NDArray[np.float64]
 
@@ -58,13 +60,25 @@ class Passage:
         """Return one row for each patch, in SI units: place, angle, normal and creep forces in its frame, quality."""
         rows = []
         for station, rotation, one in zip(self.station.tolist(), self.rotation.tolist(), self.solutions, strict=True):
-            for k, contact in enumerate(one.contacts):
+            contacts: Sequence[Contact | SurfaceContact] = one.contacts
+            for k, contact in enumerate(contacts):
                 x, y, z = contact.position
                 row = {"station": station, "rotation": rotation, "wheel_z": one.z, "patch": k, "x": x, "y": y, "z": z}
                 row |= {name: getattr(contact, name) for name in _OF_PATCH}
                 row["status"] = int(contact.status)
                 rows.append(row)
         return rows
+
+
+def solver_for(
+    pair: SurfacePair, normal: str = "halfspace", tangential: str | None = None
+) -> WheelRailPair | WheelRailSurfaces:
+    """Return the element-wise reference for "halfspace", else a solver on strips, with `fastrip_mapped` by default."""
+    if normal == "halfspace":
+        if tangential not in (None, "halfspace"):
+            raise ContactError(f"tangential = {tangential!r} is on strips; normal = 'halfspace' is not")
+        return WheelRailSurfaces(pair)
+    return WheelRailPair(pair, material=pair.material, normal=normal, tangential=tangential or DEFAULT_TANGENTIAL)
 
 
 def passage(

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from contact.errors import ContactError, require_number
 from contact.friction import Friction
+from contact.geometry.posed import MAX_PENETRATION
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
 from contact.geometry.surfaces.search import Scene
-from contact.geometry.wheelset import MAX_PENETRATION
 from contact.solution import Solution, Status
 from contact.solve import solve
 

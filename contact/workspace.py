@@ -182,7 +182,7 @@ def closed_ledger() -> Ledger:
     return _laid(memory.lay_ledger, nothing, nothing, np.zeros((2, len(Bin), 0)), 0)
 
 
-def bench(size: tuple[int, int, int], of_search: Search, arrays: Workspace, of_ledger: Ledger) -> Bench:
+def bench(size: tuple[int, int, int], of_search: Search | SurfaceSearch, arrays: Workspace, of_ledger: Ledger) -> Bench:
     """Return the arrays of a wheel-rail pair, which include its search, its workspace and its ledger."""
     full = Size(*size, 0, 1)
     kept = np.zeros(1 + memory.MAX_PATCHES * arrays.space.memory.size)

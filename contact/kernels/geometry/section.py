@@ -201,8 +201,9 @@ def cover(nodes: Array, first: int, end: int, low: float, high: float) -> tuple[
 def heights(nodes: Array, run: tuple[int, int], rows: Rows, sign: float, placing: Placing, to: Array) -> None:
     """Fill height and x over the rows of a grid: the least sign·n where several branches lie over a row.
 
-    `rows` are the first row, the step [m], their number, and whether cubics count, or chords. `to` begins with the row for the height, then the one for x. For
-    a rail (sign 1) the slopes along x and s follow. Rows without the body get the height sign·AWAY.
+    `rows` are the first row, the step [m], their number, and whether cubics count, or chords. `to` begins with the row for
+    the height, then the one for x. For a rail (sign 1) the slopes along x and s follow. Rows without the body get the height
+    sign·AWAY.
     """
     first, end = run
     low, step, n, fine = rows

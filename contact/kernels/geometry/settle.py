@@ -61,7 +61,7 @@ def carried(n: int, space: Search) -> float:
     return total
 
 
-def begin(space: Search, z: float):
+def begin(space: Search, z: float) -> tuple[bool, float, tuple[int, int, int]]:
     """Search along the curves or the surfaces of `space` at the pose without its z.
 
     Return whether the bodies lie above each other, z [m] at first touch, and three numbers for `describe`. Compiled code
