@@ -143,11 +143,10 @@ def search(wheel: Array, rail: Array, grid: Array, n_samples: int) -> Search:
 
 
 def sheet(u: Array, nodes: Array, runs: Array, period: tuple[float, float], deviation: Array) -> Sheet:
-    """Return the arrays of a surface, read-only. The arguments are the members of `Sheet`."""
+    """Return the arrays of a surface. The arguments are the members of `Sheet`."""
     made: Sheet = _laid(memory.lay_sheet, u.size, nodes.shape[2], deviation.shape[1])
     for array, given in zip(made, (u, nodes, runs, period, deviation), strict=True):
         array[:] = given
-    _read_only(*made)
     return made
 
 

@@ -33,7 +33,8 @@ def run(solver):
 def test_the_wheel_rolls_on_with_its_nominal_radius(solver, run):
     assert run.rotation == pytest.approx([0.1, 0.1 - 0.02 / R0, 0.1 - 0.04 / R0], abs=1e-15)
     alone = solver.solve(Pose(y=1e-3), Velocity(20.0), station=0.04, rotation=float(run.rotation[2]), penetration=8e-5)
-    assert np.array_equal(run.solutions[2].force, alone.force)
+    assert run.solutions[2].force == pytest.approx(alone.force, abs=1e-3 * alone.Q)  # strips start from the last call
+    assert run.solutions[2].z == alone.z
 
 
 def test_columns_and_rows_hold_what_the_solutions_say(run):
@@ -78,7 +79,7 @@ def test_the_command_gives_the_numbers_of_the_python_api(tmp_path):
     wanted = passage(solver, [0.0, 0.01], Pose(), Velocity(20.0), rotation=0.02, load=80e3)
     assert told["z"] == pytest.approx(wanted.columns()["z"], abs=1e-12)
     assert told["patches_of"][1]["N"] == pytest.approx(wanted.rows()[1]["N"], rel=1e-9)
-    assert len(output.read_text().splitlines()) == 3
+    assert len(output.read_text().splitlines()) == 1 + len(wanted.rows())
 
 
 @pytest.mark.slow

@@ -161,10 +161,11 @@ def test_constant_profiles_as_surfaces_give_the_solution_of_the_pair(pose, given
     velocity = Velocity(20.0, y=0.05, yaw=0.1, spin=-43.6)
     old, new = (WheelRailPair(pair(WHEEL, RAIL), **METHODS) for pair in (Pair, SurfacePair))
     wanted, found = (p.solve(pose, velocity, **given) for p in (old, new))
-    assert found.z == pytest.approx(wanted.z, abs=3e-8)
+    # under a load the height is that of ANALYN, which feels the number of samples
+    assert found.z == pytest.approx(wanted.z, abs=6e-7 if "load" in given else 6e-8)
     assert found.force == pytest.approx(wanted.force, abs=2e-3 * wanted.Q)
     assert found.moment == pytest.approx(wanted.moment, abs=2e-3 * wanted.Q)
-    assert found.max_pressure == pytest.approx(wanted.max_pressure, rel=1e-2)
+    assert found.max_pressure == pytest.approx(wanted.max_pressure, rel=1.5e-2)
     assert found.damage.T_gamma == pytest.approx(wanted.damage.T_gamma, rel=1e-2)
     for a, b in zip(found.contacts, wanted.contacts, strict=True):
         assert a.position == pytest.approx(b.position, abs=5e-5)
@@ -189,6 +190,20 @@ def test_a_repeated_call_gives_the_same_bits_whatever_was_solved_between():
     for between in ({"rotation": 0.03, "load": 6e4}, {"rotation": 0.02, "penetration": 1.9e-3}):
         pair.solve(Pose(), FREE, **between)
         assert np.array_equal(pair.solve(Pose(), FREE, rotation=0.02, load=6e4).force, first)
+
+
+@pytest.mark.slow
+def test_a_flat_is_passed_without_a_jump():
+    """Between the ends of the flat the contact goes over from one to the other. The load is carried at every angle."""
+    solver = WheelRailPair(SurfacePair(WheelSurface.constant(WHEEL, Flat(0.05, R0, 4e-4)), RAIL), normal="analyn")
+    steps = []
+    for step in (4e-3, 1e-3):
+        found = [
+            solver.solve(Pose(), FREE, rotation=float(a), load=8e4, friction=0.0) for a in np.arange(0, 0.07, step)
+        ]
+        assert [one.Q for one in found] == pytest.approx([8e4] * len(found), rel=1e-4)
+        steps.append(np.abs(np.diff([one.z for one in found])).max())
+    assert steps[1] < 0.5 * steps[0]
 
 
 def test_on_a_ramp_strips_in_the_tilted_frame_push_back_along_the_track():

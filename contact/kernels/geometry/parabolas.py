@@ -13,6 +13,9 @@ _LEAST_DEPTH = 0.15
 _FLATTEST, _SHARPEST = 0.02, 500.0  # [1/m] range of A: a radius of 25 m, and one of 1 mm
 #: A faint weight around the lowest point of a row, and its width over that of the grid, so that few points suffice.
 _FAINT, _WIDE = 1e-3, 0.2
+#: The best parabola over that by moments, in A: the first counts above the second value, the second below the first. Where
+#: a row is hollow, the best parabola is nearly flat and much longer than the overlap.
+_HOLLOW, _WHOLE = 0.4, 0.8
 
 
 @kernel
@@ -34,12 +37,12 @@ def _bend(moments: tuple[float, float, float, float, float], right: tuple[float,
 
 
 @kernel
-def _cut_row(h: Array, x: Array, i: int, level: float) -> tuple[float, float, float]:
-    """Return A, x_c and g of a row whose overlap is cut off by the end of a surface; A = 0 if it is not.
+def _by_moments(h: Array, x: Array, i: int, level: float) -> tuple[bool, float, float, float]:
+    """Return whether a surface ends within the overlap of a row, and A, x_c and g of the parabola with its moments.
 
     The parabola has the volume, the middle and the spread of what overlaps at `level`: the depth D - A (x - x_c)² over the
     half length a has 4/3 D a, x_c, and the variance a²/5. For a whole parabola these are its own values. The last point
-    before the end counts for half a step.
+    before an end counts for half a step.
     """
     n, m0, m1, m2, cut = h.shape[1], 0.0, 0.0, 0.0, False
     for k in range(n):
@@ -50,13 +53,13 @@ def _cut_row(h: Array, x: Array, i: int, level: float) -> tuple[float, float, fl
         cut = cut or ends
         w = 0.5 * depth if ends else depth
         m0, m1, m2 = m0 + w, m1 + w * x[i, k], m2 + w * x[i, k] ** 2
-    if not cut or m0 <= 0.0:
-        return 0.0, 0.0, 0.0
+    if m0 <= 0.0:
+        return False, _FLATTEST, 0.0, level
     step = (x[i, n - 1] - x[i, 0]) / (n - 1)
     x_c = m1 / m0
     a = math.sqrt(5.0 * max(m2 / m0 - x_c * x_c, step * step / 12.0))
     top = 0.75 * m0 * step / a
-    return min(max(top / (a * a), _FLATTEST), _SHARPEST), x_c, level - top
+    return cut, min(max(top / (a * a), _FLATTEST), _SHARPEST), x_c, level - top
 
 
 @kernel
@@ -67,8 +70,8 @@ def fit_rows(h: Array, x: Array, approach: float, wide: float, out: Array) -> fl
     and g are those of both surfaces at the pose: a flat makes A small, a ramp moves x_c. `h` is the gap from its least value,
     with AWAY where a body is absent, and `wide` the length of its grid [m]. The error is the root mean square of h minus the
     parabolas over the overlap, weighted with the depth, over the approach. Where a strip touches at two places, as on both
-    ends of a flat, it is large, and strips cannot describe the patch. Where a surface ends within the overlap, the parabola
-    stands for what is left of it (`_cut_row`).
+    ends of a flat, it is large, and strips cannot describe the patch. There, and where a surface ends within the
+    overlap, the parabola has the moments of the overlap (`_by_moments`).
     """
     n_x, total, square = h.shape[1], 0.0, 0.0
     for i in range(h.shape[0]):
@@ -90,11 +93,13 @@ def fit_rows(h: Array, x: Array, approach: float, wide: float, out: Array) -> fl
             t2 = t * t
             m0, m1, m2, m3, m4 = m0 + w, m1 + w * t, m2 + w * t2, m3 + w * t2 * t, m4 + w * t2 * t2
             r0, r1, r2 = r0 + w * h[i, k], r1 + w * h[i, k] * t, r2 + w * h[i, k] * t2
-        A, x_c, g = _cut_row(h, x, i, least + window)
-        if A == 0.0:
-            A, x_c = _bend((m0, m1, m2, m3, m4), (r0, r1, r2))
-            g = (r0 - A * (m2 - 2.0 * x_c * m1 + x_c * x_c * m0)) / m0
-            x_c += middle
+        cut, A, x_c, g = _by_moments(h, x, i, least + window)
+        if not cut:
+            bend, t_c = _bend((m0, m1, m2, m3, m4), (r0, r1, r2))
+            share = min(max((bend / A - _HOLLOW) / (_WHOLE - _HOLLOW), 0.0), 1.0)
+            share *= share * (3.0 - 2.0 * share)
+            level = (r0 - bend * (m2 - 2.0 * t_c * m1 + t_c * t_c * m0)) / m0
+            A, x_c, g = A + share * (bend - A), x_c + share * (middle + t_c - x_c), g + share * (level - g)
         out[Sep.G, i], out[Sep.A, i], out[Sep.XC, i] = g, A, min(max(x_c, x[i, 0]), x[i, n_x - 1])
         for k in range(n_x):
             depth = approach - h[i, k]
