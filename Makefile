@@ -7,7 +7,7 @@ READY_FOR_DEMO := $(VENV)/.ready-for-demo
 READY_FOR_DOCS := $(VENV)/.ready-for-docs
 
 .DEFAULT_GOAL := help
-.PHONY: help demo docs explorer test check soak lint fmu accuracy bench coupling smoothness pictures format clean
+.PHONY: help demo docs explorer test check soak bounds traps lint fmu accuracy bench coupling smoothness pictures format clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -41,7 +41,17 @@ check: $(READY)  ## run the quick tests (a minute once the kernels are compiled)
 	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow"
 
 soak: $(READY)   ## check memory over a million steps of every native FMU, and try wrong calls and damaged files (minutes)
-	SOAK=1 $(BIN)/python -m pytest tests/system/test_native_host.py tests/test_readers.py -k "leave_memory or wrong_call or damaged"
+	SOAK=1 $(BIN)/python -m pytest tests/system/test_native_host.py tests/test_readers.py tests/test_damaged_files.py \
+		-k "leave_memory or wrong_call or damaged or random_calls or any_order"
+
+# Kernels are compiled with the check into a cache of their own, because the usual one does not know the option.
+KERNELS := tests/normal tests/tangential tests/pair tests/geometry tests/damage tests/test_properties.py tests/test_every_method.py tests/test_robustness.py
+bounds: $(READY) ## run the tests of the kernels with numba's check of array bounds (twenty minutes)
+	NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=build/bounds $(BIN)/python -m pytest -n 2 --dist worksteal $(KERNELS)
+
+traps: $(READY)  ## run the same tests with floating-point traps; compile the kernels first, with the same tests
+	$(BIN)/python -m pytest -n 2 --dist worksteal $(KERNELS)
+	$(BIN)/python -m pytest -p tests.traps $(KERNELS)
 
 lint: $(READY)   ## ruff, mypy, import-linter
 	$(BIN)/ruff check .

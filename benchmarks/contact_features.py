@@ -19,7 +19,8 @@ import numpy as np
 
 import contact
 import reference
-from benchmarks.tables import table
+from benchmarks import bent_surface
+from benchmarks.tables import summary, table
 from contact.driven import drive
 from contact.elastic_rail import ElasticRail
 from contact.geometry.profile import Profile
@@ -42,12 +43,6 @@ def least(task: Callable[[], Any], runs: int = 3) -> float:
         task()
         times.append(time.process_time() - start)
     return 1e3 * min(times)
-
-
-def summary(name: str, errors: Any, unit: str) -> Row:
-    """Return a row: name, count, mean, 95 % and largest of the absolute errors, unit."""
-    e = np.abs(np.asarray(errors, dtype=np.float64)).ravel()
-    return [name, str(e.size), *(f"{v:.1e}" for v in (e.mean(), np.quantile(e, 0.95), e.max())), unit]
 
 
 def subsurface(folder: Path) -> Iterator[Row]:
@@ -180,25 +175,6 @@ def third_bodies(folder: Path) -> Iterator[Row]:
         yield summary(f"K: force, {name}", found, "μN")
 
 
-def grooves(folder: Path) -> Iterator[Row]:
-    """Set M, grooves: `conformal=True` against CONTACT with influence on the bent surface (variant 4)."""
-    pressures, forces = [], []
-    for row in reference.rows(folder / "M_conformal" / "conformal.csv"):
-        if not row["case"].startswith("groove_r10") or row["method"] != "conformal_if1_v4":
-            continue
-        ball, groove = 10e-3, 1e-5 * float(row["case"].removeprefix("groove_r"))
-        y = np.linspace(-8e-3, 8e-3, 801)
-        wheel, rail = (np.sqrt(r**2 - y**2) - r for r in (ball, groove))
-        tilt = -0.5 * sum(y / np.sqrt(r**2 - y**2) for r in (ball, groove))
-        separation = contact.Separation(y, rail - wheel, 0.5 / (0.42 + wheel), tilt=tilt, rolling=1.0 / 0.42)
-        slip = contact.Creepage(1.0 - 1.0002)  # the wheel turns faster than it rolls
-        s = contact.solve(separation, slip, load=1e4, spacing=(0.2e-3, 0.25e-3), conformal=True, **BOTH)
-        pressures.append(1e-6 * s.max_pressure / float(row["pmax"]) - 1.0)
-        forces.append((s.Fx + float(row["Fx_tr"])) / 3e3)
-    yield summary("M: largest pressure in grooves, half space", pressures, "itself")
-    yield summary("M: longitudinal force in grooves", forces, "μN")
-
-
 def rollers(folder: Path) -> Iterator[Row]:
     """Set N: S1002 on rollers, by the default methods, on CONTACT's profiles."""
     pair = pair_of(folder / "N_roller")
@@ -314,7 +290,7 @@ PARTS: tuple[Callable[[Path], Iterator[Row]], ...] = (
     unlike,
     third_bodies,
     deflections,
-    grooves,
+    bent_surface.errors,
     rollers,
 )
 TIMES: tuple[Callable[[], Iterator[Row]], ...] = (

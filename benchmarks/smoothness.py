@@ -241,6 +241,8 @@ patches the load is 80 kN vertically.
 ### Jumps under refinement
 
 The table has the largest jump of each result in finer steps. If the jump shrinks with the step, the curve is continuous.
+Between 6.670 and 6.671 mm the strip half space has a jump that does not shrink: with 20 strips the end of the patch is not
+steady there ([strip half space](strip_halfspace.md), section 5).
 
 {zoom}
 ## Load, creepage and spin

@@ -1,18 +1,24 @@
 """Print how fast a vehicle of eight wheels runs on one core, and the share of its contacts (`make bench`).
 
-    python benchmarks/vehicle_speed.py [--seconds 2]
+    python benchmarks/vehicle_speed.py [--seconds 2] [--fmu dist/native/Vehicle.fmu]
 
 The Manchester benchmark vehicle runs on straight track at 25 m/s and in a curve of 300 m at 15 m/s, with the alignment ERRI
-B176 low. Times are processor times, so they depend little on other processes, but some: of cores that share caches.
+B176 low. With `--fmu` the one kernel and the native FMU run on the track of `examples/scenarios/vehicle_300.toml`. Times are
+processor times, so they depend little on other processes, but some: of cores that share caches.
 """
 
 from __future__ import annotations
 
 import argparse
 import time
+from pathlib import Path
+
+import fmpy
+from fmpy.fmi2 import FMU2Slave
 
 from benchmarks.tables import table
 from contact.geometry import profile
+from models.life import scenario
 from models.life.spectra import Irregularities
 from models.life.track import Curve, Track
 from models.vehicle.course import lay
@@ -22,6 +28,7 @@ from models.vehicle.kernels.wheels import press
 from models.vehicle.simulation import ContactOptions, Simulation
 
 STEP = 4.6e-4  # [s]
+SCENARIO = Path(__file__).parents[1] / "examples" / "scenarios" / "vehicle_300.toml"
 ROUGH = Irregularities(spectrum="ERRI B176 low")
 CURVE = Curve(start=0.0, radius=300.0, length=1e4, transition=20.0, cant=0.1)
 TRACKS = {
@@ -45,7 +52,7 @@ def measured(speed: float, track: Track, options: ContactOptions, seconds: float
     vehicle.advance(STEP, steps)
     spent = (time.process_time() - start) / steps
     calls = 500
-    ask(vehicle.model, vehicle.state, vehicle.benches.motions, vehicle.scratch)
+    ask(vehicle.model, vehicle.state, vehicle.benches.motions, vehicle.scratch, speed)
     arguments = vehicle.benches, vehicle.scratch
     press(*arguments)
     start = time.process_time()
@@ -55,11 +62,45 @@ def measured(speed: float, track: Track, options: ContactOptions, seconds: float
     return STEP / spent, in_contacts / spent
 
 
+def beside_the_fmu(path: Path, seconds: float) -> list[list[str]]:
+    """Return the rows of the one kernel and of the native FMU, with the default methods, in a curve of 300 m."""
+    given = scenario.read(SCENARIO)
+    d, start, warm_up = given.declared, -12.0, round(85.0 / 15.0 / STEP)  # into the circle
+    rows = lay(d.track, d.length, given.speed, (d.seed,), d.recording.settling)
+    whole = Simulation(read("manchester"), rows, given.wheel, given.rail, d.friction, start=start)
+    description = fmpy.read_model_description(str(path))
+    references = {v.name: v.valueReference for v in description.modelVariables}
+    fmu = FMU2Slave(
+        guid=description.guid, unzipDirectory=fmpy.extract(str(path)), instanceName="vehicle",
+        modelIdentifier=description.coSimulation.modelIdentifier,
+    )  # fmt: skip
+    fmu.instantiate()
+    fmu.setupExperiment(startTime=0.0)
+    values = {"initial.distance": start, "resolution.step": STEP, "speed": given.speed(start)}
+    fmu.setReal([references[name] for name in values], list(values.values()))
+    fmu.enterInitializationMode()
+    fmu.exitInitializationMode()
+    steps = round(seconds / STEP)
+    whole.advance(STEP, warm_up)
+    fmu.doStep(0.0, warm_up * STEP)
+    at = [time.process_time()]
+    whole.advance(STEP, steps)
+    at.append(time.process_time())
+    fmu.doStep(warm_up * STEP, steps * STEP)
+    at.append(time.process_time())
+    return [
+        [name, f"{steps * STEP / (end - begin):.2f}"]
+        for name, begin, end in zip(("one kernel", "native FMU"), at, at[1:], strict=False)
+    ]
+
+
 def main() -> None:
-    """Print the table."""
+    """Print the tables."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seconds", type=float, default=2.0)
-    seconds = parser.parse_args().seconds
+    parser.add_argument("--fmu", type=Path)
+    arguments = parser.parse_args()
+    seconds = arguments.seconds
     rows = []
     for name, options in METHODS.items():
         for where, (speed, track) in TRACKS.items():
@@ -67,6 +108,9 @@ def main() -> None:
             rows.append([name, where, f"{ratio:.2f}", f"{share:.0%}"])
     print(f"Eight wheels, one core, steps of {1e3 * STEP:g} ms\n")
     print(table(["contact methods", "track", "simulated over processor time", "share of the contacts"], rows))
+    if arguments.fmu:
+        head = ["curve of 300 m, 15 m/s, default methods", "simulated over processor time"]
+        print("\n" + table(head, beside_the_fmu(arguments.fmu, seconds)))
 
 
 if __name__ == "__main__":

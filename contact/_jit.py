@@ -32,6 +32,8 @@ from numba.core.compiler_machinery import AnalysisPass, register_pass
 from numba.core.typed_passes import NoPythonSupportedFeatureValidation
 from numba.extending import overload
 
+from contact._remembered import remembering
+
 _KERNELS = Path(__file__).parent / "kernels"
 _PREFIX = "wheelrail-contact-"
 #: Caches that were not used for this time [s] are removed. At most `_MOST` caches are kept.
@@ -165,7 +167,7 @@ def _show_to_kernels(dispatcher: Any, function: Callable[..., Any]) -> None:
     numba would give each kernel machine code of its own, with all kernels that it calls in it, and a wrapper for calls from
     Python; and a version of its own to each literal. Together that is half of the time of compilation.
     """
-    linked = njit(**_OPTIONS, **_LINKED)(function)
+    linked = remembering(njit(**_OPTIONS, **_LINKED)(function))
 
     def get_call_template(arguments: tuple[Any, ...], named: Mapping[str, Any]) -> Any:
         plain = tuple(types.unliteral(argument) for argument in arguments)
@@ -180,6 +182,7 @@ def kernel(function: Callable[..., Any]) -> Any:
     if not config.DISABLE_JIT:
         _show_to_kernels(dispatcher, function)
         dispatcher._cache = _ContentCache(function)
+        remembering(dispatcher)
     return dispatcher
 
 

@@ -12,23 +12,26 @@ from contact import workspace
 from contact.case import cases, set_surface
 from contact.creepage import Creepage
 from contact.damage import DamageParameters
-from contact.elastic_rail import ElasticRail, Settled
+from contact.elastic_rail import ElasticRail
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
+from contact.geometry.flexible import WheelOffset
 from contact.geometry.posed import Posed
 from contact.geometry.records import Irregularity, Pose, Velocity, contact_angle
 from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair
 from contact.kernels.arrays import Bench, Ledger
+from contact.kernels.elastic_rail import solve_on_rail
 from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
-from contact.kernels.pair import solve_pair
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solution import Status
 from contact.solver import N_ELEMENTS, N_STRIPS, require_max_iterations, require_resolution
 
 Array = NDArray[np.float64]
+
+_RIGID = ElasticRail()
 
 
 @dataclass(frozen=True, slots=True)
@@ -234,7 +237,7 @@ class WheelRailPair:
         self.bench.case[:] = cases(
             1, method, rolling, material, conformal=conformal, max_iterations=require_max_iterations(max_iterations)
         )
-        self._deflection = 0.0, 0.0
+        self._rail = _RIGID
         self.bench.damage_parameters[:] = (damage or DamageParameters()).record(material, 1.0, 1.0)
 
     def forget(self) -> None:
@@ -243,7 +246,6 @@ class WheelRailPair:
         Interacting strips start from the last call. This changes their results within their tolerance, 1e-4.
         """
         self.bench.memory[:] = 0.0
-        self._deflection = 0.0, 0.0
 
     def solve(
         self,
@@ -259,6 +261,7 @@ class WheelRailPair:
         friction: float | Friction = 0.3,
         distance: float = 0.0,
         rail: ElasticRail | None = None,
+        offset: WheelOffset | None = None,
     ) -> PairSolution:
         """Find and solve all patches at one instant.
 
@@ -280,6 +283,8 @@ class WheelRailPair:
         rail : contact.elastic_rail.ElasticRail
             Springs under the rail. Its deflection is found, from that of the last call; `forget` resets it. If the force
             jumps and no deflection is in balance, the status is NOT_CONVERGED. It takes three to thirty times as long.
+        offset : contact.geometry.flexible.WheelOffset
+            Displacement and rotation of this wheel against its wheelset, with their rates.
 
         Returns
         -------
@@ -292,11 +297,11 @@ class WheelRailPair:
         ContactError
             For input outside its range, if wheel and rail do not overlap laterally, or if no z gives the load.
         """
-        if rail is not None:
-            return self._deflect(
-                rail,
+        if offset is not None:
+            return self._solve_flexible(
+                offset,
                 pose,
-                velocity,
+                velocity or Velocity(),
                 station=station,
                 rotation=rotation,
                 load=load,
@@ -305,6 +310,7 @@ class WheelRailPair:
                 irregularity=irregularity,
                 friction=friction,
                 distance=distance,
+                rail=rail,
             )
         if vertical is None:
             mode, amount = self.pair.prescribed(load, penetration)
@@ -314,8 +320,9 @@ class WheelRailPair:
             raise ContactError(f"vertical = {vertical} excludes load = {load} and penetration = {penetration}")
         self.bench.ledger.settings["distance"] = require_number("distance", distance, 0.0)
         set_surface(self.bench.case, as_friction(friction), (velocity or Velocity()).forward)
+        self._set_rail(_RIGID if rail is None else rail)
         given = self.pair.given(pose, velocity, irregularity, station=station, rotation=rotation)
-        code = solve_pair(mode, amount, given, self.bench)
+        code = solve_on_rail(mode, amount, given, self.bench)
         if vertical is not None and code == NoAnswer.NOT_SETTLED:
             raise ContactError(
                 f"vertical = {vertical:g}: no z was found at which normal and friction forces carry it together"
@@ -338,33 +345,26 @@ class WheelRailPair:
             damage=PairDamage(*(float(total[name]) for name in PairDamage._fields)),
             status=Status(total.status),
             gap_error=float(total.gap_error),
+            deflection=(float(self.bench.rail[0].dy), float(self.bench.rail[0].dz)),
         )
 
-    def _deflect(
-        self,
-        rail: ElasticRail,
-        pose: Pose,
-        velocity: Velocity | None,
-        *,
-        irregularity: Irregularity | None,
-        distance: float,
-        **others: Any,
-    ) -> PairSolution:
-        """Return the solution with the rail in balance. Wear is added only there."""
-        settled = Settled(
-            rail,
-            lambda moved: self.solve(pose, velocity, irregularity=moved, **others),
-            irregularity or Irregularity(),
-            free_height=any(others[name] is not None for name in ("load", "penetration", "vertical")),
-            start=self._deflection,
-        )
-        solution = settled.solution
-        self._deflection = deflection = settled.dy, settled.dz
-        if distance != 0.0 and settled.balanced:
-            moved = replace(settled.given, y=settled.given.y + settled.dy, z=settled.given.z + settled.dz)
-            solution = self.solve(pose, velocity, irregularity=moved, distance=distance, **others)
-        status = solution.status if settled.balanced else Status.NOT_CONVERGED
-        return replace(solution, deflection=deflection, status=status)
+    def _solve_flexible(self, offset: WheelOffset, pose: Pose, velocity: Velocity, **options: Any) -> PairSolution:
+        """Return the solution of a displaced wheel, with the moment about the centre of its wheelset."""
+        motion = self.pair.space.motion[0]
+        tape = float(motion.mirror * motion.tape)
+        moved_pose, moved_velocity, shift = offset.moved(pose, velocity, tape, self.pair.nominal_radius)
+        s = self.solve(moved_pose, moved_velocity, **options)
+        shift[2] = moved_pose.z - pose.z
+        moment = s.moment + np.cross(shift, s.force)
+        return replace(s, moment=moment, z=s.z - float(shift[2]))
+
+    def _set_rail(self, rail: ElasticRail) -> None:
+        if rail is not self._rail:
+            if not isinstance(rail, ElasticRail):
+                raise ContactError(f"rail = {rail!r} is not a contact.elastic_rail.ElasticRail")
+            springs = self.bench.rail
+            springs["ky"], springs["kz"], springs["preload_y"], springs["preload_z"] = rail.record()
+            self._rail = rail
 
 
 def _contact(found: np.record) -> Contact:

@@ -1,12 +1,14 @@
-"""Root of a rising function of one variable that may be flat or jump."""
+"""`rising_root`: the search of `contact.kernels.root` for a Python function."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import NamedTuple
 
-#: A step grows at most by this factor.
-_GROWTH = 4.0
+import numpy as np
+
+from contact.kernels.records import ROOT
+from contact.kernels.root import advance, begin
 
 
 class Root(NamedTuple):
@@ -41,25 +43,8 @@ def rising_root(
     most : int
         Largest number of evaluations.
     """
-    low, high = ends
-    x, value = start, residual(start)
-    longest = 2.0 * abs(value) / slope
-    for _ in range(most - 1):
-        if value == 0.0:
-            break
-        low, high = (x, high) if value < 0.0 else (low, x)
-        if high - low <= shortest:
-            break
-        ahead = x - min(max(value / slope, -longest), longest)
-        if not low < ahead < high:
-            known = low > ends[0] and high < ends[1]
-            ahead = 0.5 * (low + high) if known else min(max(ahead, ends[0]), ends[1])
-        other = residual(ahead)
-        steeper = (other - value) / (ahead - x)
-        # on a flat piece go further; the bracket keeps the search safe
-        slope = steeper if steeper > 0.0 else slope / _GROWTH
-        longest = max(_GROWTH * abs(ahead - x), longest)
-        x, value = ahead, other
-        if (x <= ends[0] and value > 0.0) or (x >= ends[1] and value < 0.0):
-            return Root(x, value, beyond=True)
-    return Root(x, value, beyond=False)
+    root = np.zeros(1, ROOT)[0]
+    begin(root, start, slope, *ends)
+    while advance(root, float(residual(float(root.x))), shortest, most):
+        pass
+    return Root(float(root.x), float(root.value), bool(root.beyond))

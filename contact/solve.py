@@ -16,6 +16,7 @@ from contact.errors import ContactError, doubt, require_number, require_pair
 from contact.friction import Friction, as_friction
 from contact.given_force import solve_for_force, wanted_force
 from contact.halfspace import linear
+from contact.halfspace.bent import Surface
 from contact.halfspace.gap import Division, Gap
 from contact.halfspace.solve import press_gap, press_solution
 from contact.halfspace.third_body import ThirdBody
@@ -90,7 +91,9 @@ def solve(
     conformal : bool
         Let the contact angle vary over the patch by the separation's `tilt` and `rolling` (`contact.kernels.conformal`).
         Slip, pressure and traction then follow the curved surface. Fx, Fy, Mz are resultants in the frame of the plane
-        and include the lateral part of the pressure. Fields are measured along the surface.
+        and include the lateral part of the pressure. Fields are measured along the surface. With normal="halfspace" the
+        influence numbers are those of the bent surface (`contact.halfspace.curved`), and N contains the part of the
+        traction along the plane's normal.
     max_iterations : int
         Most iterations of the strip half space, 1 to 1000. When they are used up, the status is NOT_CONVERGED.
     layer : contact.ThirdBody
@@ -273,8 +276,8 @@ def _rolling(
         first = problem._replace(conformal=False).solve(creepage, DEFAULT_TANGENTIAL)
         if first.N <= 0.0:
             return lambda creepage: replace(first, tangential=method.name, creepage=creepage)
-        bent = problem.separation if problem.conformal else None
-        return press_solution(first, bent, problem.friction, division, layer, progress).roll
+        surface = Surface.of(problem.separation) if problem.conformal else None
+        return press_solution(first, surface, problem.load, problem.friction, division, layer, progress).roll
     if not method.calibrated:
         return lambda creepage: problem.solve(creepage, method.name)
     first = problem.solve(creepage, method.kernel)

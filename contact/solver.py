@@ -16,6 +16,7 @@ from contact.case import cases, set_surface
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_integer, require_number
 from contact.friction import Friction, as_friction
+from contact.given_force import solve_for_force, wanted_force
 from contact.kernels.arrays import Workspace
 from contact.kernels.enumerations import LoadKind
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
@@ -189,6 +190,7 @@ class Solver:
         *,
         load: float | None = None,
         approach: float | None = None,
+        force: float | tuple[float | None, float | None] | None = None,
         friction: float | Friction | None = None,
         speed: float | None = None,
         warm: bool = False,
@@ -202,6 +204,9 @@ class Solver:
         creepage : Creepage
         load, approach : float
             Normal force [N] ≥ 0, or rigid approach [m]. Give exactly one of them.
+        force : float or (float or None, float or None)
+            Tangential force Fx, or (Fx, Fy), on the wheel [N], instead of the creepages in its direction, as in
+            `contact.solve`.
         friction, speed : optional
             For this and the following calls. Default: unchanged.
         warm : bool
@@ -220,6 +225,21 @@ class Solver:
         ContactError
             As `contact.solve`.
         """
+        if force is not None:
+
+            def evaluate(creepage: Creepage) -> Solution:
+                return self.solve(
+                    separation,
+                    creepage,
+                    load=load,
+                    approach=approach,
+                    friction=friction,
+                    speed=speed,
+                    warm=warm,
+                    throw=throw,
+                )
+
+            return solve_for_force(wanted_force(force), creepage, evaluate, self.tangential.saturates)
         n = self._run(self._full, separation, creepage, load, approach, (friction, speed), warm)
         prepared = Prepared(self.normal.name, self.tangential.name, self.material, self._speed)
         if throw:

@@ -184,5 +184,5 @@ def closed_ledger() -> Ledger:
 def bench(size: tuple[int, int, int], of_search: Search | SurfaceSearch, arrays: Workspace, of_ledger: Ledger) -> Bench:
     """Return the arrays of a wheel-rail pair, which include its search, its workspace and its ledger."""
     full = Size(*size, 0, 1)
-    kept = np.zeros(1 + memory.MAX_PATCHES * arrays.space.memory.size)
+    kept = np.zeros(memory.pair_memory_size(arrays.space.memory.size))
     return _laid(memory.lay_bench, full, kept, of_search, arrays, of_ledger)

@@ -11,10 +11,13 @@ from pathlib import Path
 
 from contact.errors import ContactError
 from fmu_src import place, profiles, ssp
-from fmu_src.catalogue import Model, models
+from fmu_src.catalogue import Model, models, vehicles
 from fmu_src.documentation import markdown
 from fmu_src.python import packaging as python
+from fmu_src.tables.vehicle import START
+from models.life import scenario
 from models.wheelset import ports
+from models.wheelset.parameters import WheelsetParameters
 
 
 def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
@@ -45,6 +48,12 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
         action="store_true",
         help="add libraries for 64-bit ARM to the native FMUs, for Linux and macOS (some minutes)",
     )
+    parser.add_argument(
+        "--vehicle",
+        type=Path,
+        metavar="SCENARIO",
+        help="add the native FMUs Vehicle and OpenVehicle: the vehicle of a scenario's file on its track",
+    )
     profiles.add_options(parser)
     parser.add_argument("--describe", action="store_true", help="print the variables as Markdown and build nothing")
     arguments = parser.parse_args(words)
@@ -52,11 +61,13 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
         parser.error(f"--points {arguments.points}: a separation has at least 3 samples")
 
     try:
-        chosen = models(arguments.points, profiles.chosen(arguments), arguments.accumulation)
+        given = profiles.chosen(arguments)
+        chosen = models(arguments.points, given, arguments.accumulation)
+        of_vehicle = vehicles(arguments.vehicle, given) if arguments.vehicle else ()
     except (ContactError, ImportError) as error:
         parser.error(str(error))
     if arguments.describe:
-        print("\n".join(markdown(model.table) for model in chosen))
+        print("\n".join(markdown(model.table) for model in (*chosen, *of_vehicle)))
         return
     if arguments.packaging != "native":
         for model in chosen:
@@ -64,8 +75,11 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
             print(_size(python.build(model, arguments.out / "python")))
         build_system(arguments.out / "python")
     if arguments.packaging != "python":
-        build_native(chosen, arguments.out / "native", arm=arguments.arm)
+        build_native((*chosen, *of_vehicle), arguments.out / "native", arm=arguments.arm)
         build_system(arguments.out / "native")
+        if arguments.vehicle:
+            system = ssp.vehicle_on_rails(scenario.read(arguments.vehicle), START)
+            print(f"{system.name}, the vehicle and its contacts: {_size(ssp.build(arguments.out / 'native', system))}")
 
 
 def build_native(chosen: Sequence[Model], folder: Path, *, arm: bool = False) -> None:
@@ -100,7 +114,8 @@ def build_system(folder: Path) -> None:
     if obstacle := ssp.obstacle(folder):
         print(f"{ssp.NAME}, a system of these: not made, {obstacle}")
     else:
-        print(f"{ssp.NAME}, a system of these: {_size(ssp.build(folder))}")
+        made = ssp.build(folder, ssp.wheelset_on_rails(WheelsetParameters()))
+        print(f"{ssp.NAME}, a system of these: {_size(made)}")
 
 
 def _size(path: Path) -> str:

@@ -8,25 +8,33 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
+from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
 from fmu_src import profiles
+from fmu_src.tables.vehicle import TRACK
+from fmu_src.track import pack
 from fmu_src.variables import Table
+from models.life import scenario
+from models.wheelset.ports import POINTS
 
 
 @dataclass(frozen=True)
 class Model:
     """An FMU: name of its modules, options of its table, slave and component, and its files in resources/.
 
-    `view` are options that change only what hosts see of the table, so the kernels do not depend on them.
+    `view` are options that change only what hosts see of the table, so the kernels do not depend on them. The objects of the
+    models `linked` are linked with its own.
     """
 
     name: str
-    options: Mapping[str, float]
+    options: Mapping[str, Any]
     resources: Mapping[str, bytes] = field(default_factory=dict)
     view: Mapping[str, bool] = field(default_factory=dict)
+    linked: tuple[Model, ...] = ()
 
     @property
     def table(self) -> Table:
@@ -34,7 +42,7 @@ class Model:
         return self.module("tables").table(**self.all_options)
 
     @property
-    def all_options(self) -> dict[str, float]:
+    def all_options(self) -> dict[str, Any]:
         """Options of table, slave and component."""
         return {**self.options, **self.view}
 
@@ -63,4 +71,27 @@ def models(points: int, given: Mapping[Kind, Profile] | None = None, accumulatio
             {"accumulation": accumulation},
         ),
         Model("wheelset", {}),
+    )
+
+
+def vehicles(path: Path, given: Mapping[Kind, Profile] | None = None) -> tuple[Model, ...]:
+    """Return the native FMUs of the vehicle of a scenario's file, on its track: with contacts, and without them.
+
+    Profiles are as in `models`.
+
+    Raises
+    ------
+    ContactError
+        As `models.life.scenario.read`, and if the scenario has no vehicle.
+    """
+    declared = scenario.read(path)
+    if declared.vehicle is None:
+        raise ContactError(f"{path}: the scenario has no vehicle")
+    pair = next(model for model in models(POINTS, given) if model.name == "wheel_rail_pair")
+    beside = path.parent / str(declared.declared.vehicle)
+    vehicle = str(beside) if beside.is_file() else declared.declared.vehicle
+    track = {TRACK: pack(declared)}
+    return (
+        Model("vehicle", {"vehicle": vehicle, **pair.options}, {**pair.resources, **track}, linked=(pair,)),
+        Model("open_vehicle", {"vehicle": vehicle}, track),
     )

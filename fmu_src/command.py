@@ -44,6 +44,10 @@ def fmu(
     accumulation: Annotated[
         bool, typer.Option("--accumulation", help="Give WheelRailPair the outputs of accumulated damage, 1500 numbers.")
     ] = False,
+    vehicle: Annotated[
+        Path | None,
+        typer.Option(help="File of a scenario: adds its vehicle as the native FMUs Vehicle and OpenVehicle."),
+    ] = None,
     arm: Annotated[
         bool, typer.Option("--arm", help="Add libraries for 64-bit ARM to the native FMUs (some minutes).")
     ] = False,
@@ -67,6 +71,7 @@ def fmu(
         "packaging": packaging,
         "out": out,
         "points": points,
+        "vehicle": vehicle,
         "wheel": wheel,
         "rail": rail,
         **vars(reading),

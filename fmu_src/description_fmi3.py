@@ -44,6 +44,13 @@ def build_description(name: str, sources: Sequence[str]) -> str:
     files = SubElement(configuration, "SourceFileSet", language="C11", compilerOptions="-ffp-contract=off")
     for source in sources:
         SubElement(files, "SourceFile", name=source)
+    # A host that makes a shared library cancels the prefix by FMI3_OVERRIDE_FUNCTION_PREFIX.
+    prefix = {
+        "name": "FMI3_FUNCTION_PREFIX",
+        "value": f"{name}_",
+        "description": "Before the names of all FMI functions",
+    }
+    SubElement(files, "PreprocessorDefinition", prefix)
     SubElement(
         configuration, "Library", name="m", external="true", description="Mathematical functions of the C library"
     )

@@ -3,15 +3,12 @@
 `python -m fmu_src.profiles FMU [--wheel NAME|FILE] [--rail NAME|FILE]` replaces the profiles in a finished
 FMU. This needs no compiler.
 
-A resource is little-endian and holds, in this order: 8 bytes that identify a wheel or a rail, a checksum of everything that
-follows (FNV-1a, 64 bits), the number n of points (64 bits), then n doubles of y [m], of z [m] and of the angle of the tangent
-[rad].
+A resource (`fmu_src.resources`) has the rows y [m], z [m] and the angle of the tangent [rad].
 """
 
 from __future__ import annotations
 
 import argparse
-import struct
 import zipfile
 import zlib
 from pathlib import Path
@@ -23,10 +20,10 @@ from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
 from contact.geometry.wheelset import Pair
 from fmu_src import archive
+from fmu_src import resources as files
 from fmu_src.tables.wheel_rail_pair import RAIL, WHEEL
 
-#: Greatest number of points of a profile that the native FMU reads (`native/c/resources.c`).
-MOST_POINTS = 100_000
+ROWS = 3
 MAGIC: dict[Kind, bytes] = {"wheel": b"wr-wheel", "rail": b"wr-rail\0"}
 _RESOURCES: dict[Kind, str] = {"wheel": WHEEL, "rail": RAIL}
 
@@ -39,14 +36,13 @@ def pack(given: Profile) -> bytes:
     ContactError
         If the profile has more points than an FMU reads, or cannot touch another one.
     """
-    if given.y.size > MOST_POINTS:
-        raise ContactError(f"profile of {given.y.size} points: an FMU reads at most {MOST_POINTS}")
+    if given.y.size > files.MOST_POINTS:
+        raise ContactError(f"profile of {given.y.size} points: an FMU reads at most {files.MOST_POINTS}")
     other: Profile = profile.rail_60e1() if given.kind == "wheel" else profile.s1002()
     Pair(
         *((given, other) if given.kind == "wheel" else (other, given)), gauge_point=1e-6
     )  # raises if they cannot touch
-    content = struct.pack("<q", given.y.size) + np.stack((given.y, given.z, given.angle)).astype("<f8").tobytes()
-    return MAGIC[given.kind] + struct.pack("<Q", _checksum(content)) + content
+    return files.pack(MAGIC[given.kind], np.stack((given.y, given.z, given.angle)))
 
 
 def unpack(resource: bytes, name: str) -> Profile:
@@ -58,13 +54,10 @@ def unpack(resource: bytes, name: str) -> Profile:
         If the bytes are not a profile.
     """
     kinds = [kind for kind, magic in MAGIC.items() if resource.startswith(magic)]
-    content = resource[16:]
-    if not kinds or len(content) < 8 or struct.unpack("<Q", resource[8:16]) != (_checksum(content),):
-        raise ContactError(f"resource {name} is not a profile: it is damaged or was not made by fmu_src.profiles")
-    (n,) = struct.unpack("<q", content[:8])
-    if not 4 <= n <= MOST_POINTS or len(content) != 8 + 24 * n:
-        raise ContactError(f"resource {name} is not a profile: it says {n} points")
-    y, z, angle = np.frombuffer(content[8:], "<f8").reshape(3, -1)
+    fault = f"resource {name} is not a profile"
+    if not kinds:
+        raise ContactError(f"{fault}: it is of another kind")
+    y, z, angle = files.unpack(resource, ROWS, fault)
     return Profile(kinds[0], y, z, angle, name)
 
 
@@ -139,13 +132,6 @@ def chosen(arguments: argparse.Namespace) -> dict[Kind, Profile]:
         for kind in MAGIC
         if (name := getattr(arguments, kind))
     }
-
-
-def _checksum(content: bytes) -> int:
-    value = 14695981039346656037
-    for byte in content:
-        value = (value ^ byte) * 1099511628211 & (1 << 64) - 1
-    return value
 
 
 def main() -> None:

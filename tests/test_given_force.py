@@ -164,3 +164,17 @@ def test_a_root_is_found_over_flats_and_jumps():
         root = rising_root(function, 0.0, 1.0, (-10.0, 10.0), shortest=1e-9)
         assert root.x == pytest.approx(true, abs=1e-6)
     assert rising_root(lambda x: -1.0, 0.0, 1.0, (-10.0, 10.0), shortest=1e-9).beyond
+
+
+@pytest.mark.parametrize("method", ["fastrip_mapped", "fastsim"])
+def test_a_prepared_solver_finds_the_same_creepages(method):
+    solver = contact.Solver(tangential=method, friction=MU)
+    for force in (12e3, (9e3, -5e3), (None, 7e3), 2.0 * MU * LOAD):
+        one = solver.solve(SEPARATION, contact.Creepage(0.0, 0.0, 0.2), load=LOAD, force=force)
+        other = contact.solve(
+            SEPARATION, contact.Creepage(0.0, 0.0, 0.2), load=LOAD, force=force, tangential=method, friction=MU
+        )
+        assert (one.status, one.Fx, one.Fy, one.creepage) == (other.status, other.Fx, other.Fy, other.creepage)
+    assert one.status is contact.Status.UNREACHABLE
+    with pytest.raises(contact.ContactError, match="force = 'much' is not a number"):
+        solver.solve(SEPARATION, contact.Creepage(), load=LOAD, force="much")

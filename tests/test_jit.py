@@ -8,7 +8,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from numba import float64
+from numba import float64, njit
+from numba.core.errors import TypingError
+from numba.core.types.functions import BaseFunction
 
 import contact
 from contact import _jit
@@ -89,3 +91,36 @@ def test_a_kernel_that_a_kernel_calls_is_compiled_once_and_not_for_python():
     assert _outer(1.0) == 5.0
     assert _times(2.0, 4) == 8.0
     assert len(_times.signatures) == 1
+
+
+def _polynomial(x, coefficients):
+    total = 0.0
+    for i in range(coefficients.shape[0]):
+        total = total * x + coefficients[i] if i > 1 else min(total, coefficients[i])
+    return total
+
+
+def test_remembered_types_give_the_machine_code_of_numba():
+    dispatcher, of_numba = _jit.kernel(_polynomial), njit(**_jit._OPTIONS, no_cfunc_wrapper=True)(_polynomial)
+    arguments = (float64, float64[::1])
+    code = []
+    for one in (dispatcher, of_numba):
+        text = one._compiler.compile(arguments, None).library.get_asm_str()  # nothing is read from the cache
+        code.append(
+            [line.split("#")[0] for line in text.splitlines() if line.startswith("\tv") or line.startswith("\tj")]
+        )
+    assert code[0] == code[1]
+    assert len(code[0]) > 5
+
+
+@_jit.kernel
+def _wrong(x):
+    return x + "a"
+
+
+def test_numba_searches_as_before_after_a_kernel_is_compiled_or_refused():
+    of_numba = BaseFunction.get_call_type
+    for _ in range(2):
+        with pytest.raises(TypingError, match="No implementation of function"):
+            _wrong(1.0)
+        assert BaseFunction.get_call_type is of_numba

@@ -10,25 +10,9 @@ import contact
 from contact.accumulation import Histogram
 from contact.cli import cases
 from contact.geometry import profile
-from fmu_src import archive, profiles
+from fmu_src import archive, profiles, resources
 from models.life import checkpoint, declared
-
-
-def damaged(content: bytes, number: int) -> list[bytes]:
-    """Return copies with changed bytes, cut off, or with a piece that stands twice; ten times as many in `make soak`."""
-    number *= 10 if "SOAK" in os.environ else 1
-    rng, copies = np.random.default_rng(number), []
-    for k in range(number):
-        copy = bytearray(content)
-        at = int(rng.integers(len(copy)))
-        if k % 3 == 0:
-            copy[at] ^= 1 << int(rng.integers(8))
-        elif k % 3 == 1:
-            del copy[at:]
-        else:
-            copy[at:at] = copy[at : at + int(rng.integers(1, 64))]
-        copies.append(bytes(copy))
-    return copies
+from tests import damaged
 
 
 def refused(read, path, copies: list[bytes], *arguments) -> None:
@@ -54,7 +38,7 @@ def test_a_damaged_histogram_is_refused(histogram, tmp_path):
     good = path.read_bytes()
     assert files.load(path).profile.name == histogram.profile.name
     # padding between the parts of the format may hold anything, so what is taken must be equal
-    for copy in damaged(good, 300):
+    for copy in damaged.of_bytes(good, 300):
         path.write_bytes(copy)
         try:
             found = files.load(path)
@@ -70,7 +54,7 @@ def test_a_damaged_checkpoint_is_refused(tmp_path):
     checkpoint.write(path, "mine", {"rows": np.arange(30.0), "wheel": np.ones((4, 5))})
     good = path.read_bytes()
     refused(checkpoint.read, path, [good[:n] for n in range(0, len(good), 7)], "mine")
-    for copy in damaged(good, 600):
+    for copy in damaged.of_bytes(good, 600):
         path.write_bytes(copy)
         try:
             found = checkpoint.read(path, "mine")
@@ -153,7 +137,7 @@ def test_the_command_without_options_does_nothing_and_says_how(tmp_path, monkeyp
 
 
 def test_a_profile_of_more_points_than_the_fmu_reads_is_refused():
-    y = np.linspace(-0.03, 0.03, profiles.MOST_POINTS + 1)
+    y = np.linspace(-0.03, 0.03, resources.MOST_POINTS + 1)
     with pytest.raises(contact.ContactError, match="100001 points: an FMU reads at most 100000"):
         profiles.pack(profile.Profile("rail", y, 5.0 * y**2, 10.0 * y, "fine"))
 

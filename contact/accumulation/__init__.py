@@ -5,6 +5,7 @@ This package is not part of the solver. Its input are patches and their solution
 
 from contact.accumulation.files import from_xarray, load, save, to_xarray
 from contact.accumulation.histogram import MAXIMA, SUMS, Histogram
+from contact.accumulation.section import Section
 from contact.accumulation.shape import worn_profile
 
-__all__ = ["MAXIMA", "SUMS", "Histogram", "from_xarray", "load", "save", "to_xarray", "worn_profile"]
+__all__ = ["MAXIMA", "SUMS", "Histogram", "Section", "from_xarray", "load", "save", "to_xarray", "worn_profile"]

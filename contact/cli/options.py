@@ -194,6 +194,23 @@ RollerRadius = Annotated[float, typer.Argument(help="radius of the roller in m")
 Spin = Annotated[
     float | None, typer.Option(help="rotation of the wheel in rad/s, negative; default free", rich_help_panel=POSITION)
 ]
+DriveForce = Annotated[
+    float | None,
+    typer.Option(
+        "--force", help="longitudinal force on the wheelset in N instead of its rotation", rich_help_panel=LOADING
+    ),
+]
+Torque = Annotated[
+    float | None,
+    typer.Option(help="drive torque about the axle in N m instead of its rotation", rich_help_panel=LOADING),
+]
+WheelOffset = Annotated[
+    tuple[float, float, float, float, float, float],
+    typer.Option(
+        help="displacement x y z in m and rotation roll pitch yaw in rad of the wheel against its wheelset",
+        rich_help_panel=POSITION,
+    ),
+]
 Offset = Annotated[
     float, typer.Option(help="distance of the wheelset ahead of the roller's axle in m", rich_help_panel=POSITION)
 ]
@@ -220,6 +237,14 @@ Criterion = Annotated[
 DangVanSlope = Annotated[
     float,
     typer.Option("--slope", help="weight of the hydrostatic stress in Dang Van's criterion", rich_help_panel=METHOD),
+]
+EnduranceLine = Annotated[
+    tuple[float, float, float] | None,
+    typer.Option(
+        "--endurance",
+        help="Dang Van stress in Pa, exponent and passages of a Woehler line; gives the passages to failure",
+        rich_help_panel=METHOD,
+    ),
 ]
 Json = Annotated[bool, typer.Option("--json", help="print JSON with inputs, units and version", rich_help_panel=OUTPUT)]
 Over = Annotated[Motion, typer.Option(help="creepage to vary", rich_help_panel=LOADING)]

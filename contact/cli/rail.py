@@ -1,4 +1,4 @@
-"""The command `rail`: a wheel on a rail with springs under it, its deflection and the forces."""
+"""The command `rail`: a wheel on a rail, with springs under it or under a given force or torque."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ from rich.table import Table
 from contact.cli import options as opt
 from contact.cli.output import deliver, prepare, reported
 from contact.cli.problem import standard_load
+from contact.driven import drive
 from contact.elastic_rail import ElasticRail
+from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Pair, Velocity
 from contact.pair import WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
@@ -28,14 +30,20 @@ def rail(
     surface: opt.Surface,
     springs: opt.Springs = (math.inf, math.inf),
     preload: opt.Preload = (0.0, 0.0),
+    spin: opt.Spin = None,
+    force: opt.DriveForce = None,
+    torque: opt.Torque = None,
+    wheel_offset: opt.WheelOffset = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangential = DEFAULT_TANGENTIAL,
     as_json: opt.Json = False,
     out: opt.Files = None,
 ) -> None:
-    """Find the deflection of a rail on springs under a wheel, and the forces on the wheel.
+    """Find the forces on a wheel, the deflection of a rail on springs, and the rotation that a force or a torque needs.
 
     Example:  contact rail --y 6.5e-3 --load 60e3 --springs 8e6 50e6
+
+    Example:  contact rail --y 2e-3 --torque 8e3
     """
     prepare(out)
     elastic = ElasticRail(*springs, *preload)
@@ -50,19 +58,24 @@ def rail(
             gauge=place.gauge,
             flange_back=place.back_to_back,
         )
-        s = WheelRailPair(pair, normal=normal, tangential=tangential).solve(
-            case.pose,
-            Velocity(forward=place.speed),
-            vertical=standard_load(load, None),
-            friction=surface.law(),
-            rail=elastic,
-        )
+        solver = WheelRailPair(pair, normal=normal, tangential=tangential)
+        velocity = Velocity(forward=place.speed, spin=spin)
+        options: dict[str, Any] = {"vertical": standard_load(load, None), "friction": surface.law(), "rail": elastic}
+        options["offset"] = WheelOffset(*wheel_offset) if any(wheel_offset) else None
+        turning = -place.speed / place.radius if spin is None else spin
+        if force is None and torque is None:
+            s = solver.solve(case.pose, velocity, **options)
+        else:
+            driven = drive(solver, case.pose, velocity, force=force, torque=torque, **options)
+            s, turning = driven.solution, driven.spin
         rows.append(
             {
                 "side": name,
                 "deflection_y": s.deflection[0],
                 "deflection_z": s.deflection[1],
                 **{f"F{axis}": float(f) for axis, f in zip("xyz", s.force, strict=True)},
+                "My": float(s.moment[1]),
+                "spin": turning,
                 "z": s.z,
                 "max_pressure": s.max_pressure,
                 "status": s.status.name,
@@ -72,7 +85,7 @@ def rail(
 
 
 def _show(rows: list[dict[str, Any]], console: Console) -> None:
-    table = Table(title="A wheel on an elastic rail", title_justify="left", title_style="bold", header_style="bold")
+    table = Table(title="A wheel on a rail", title_justify="left", title_style="bold", header_style="bold")
     for heading in ("quantity", "unit", *(row["side"] for row in rows)):
         table.add_column(heading)
     for label, unit, key, factor in (
@@ -81,6 +94,8 @@ def _show(rows: list[dict[str, Any]], console: Console) -> None:
         ("Fx on the wheel", "kN", "Fx", 1e-3),
         ("Fy on the wheel", "kN", "Fy", 1e-3),
         ("Fz on the wheel", "kN", "Fz", 1e-3),
+        ("moment about the axle", "N m", "My", 1.0),
+        ("rotation of the wheel", "rad/s", "spin", 1.0),
         ("wheelset z", "mm", "z", 1e3),
         ("peak pressure", "MPa", "max_pressure", 1e-6),
     ):

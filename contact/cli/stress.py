@@ -17,7 +17,7 @@ from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.problem import Touch
 from contact.errors import require_number
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
-from contact.stress import SurfaceLoad, dang_van, largest
+from contact.stress import Endurance, SurfaceLoad, dang_van, largest
 from contact.stress.field import CRITERIA, require_criterion
 from contact.study.table import number
 
@@ -40,6 +40,7 @@ def stress(
     body: opt.Body = "rail",
     criterion: opt.Criterion = "von_mises",
     slope: opt.DangVanSlope = 1.0 / 3.0,
+    endurance: opt.EnduranceLine = None,
     as_json: opt.Json = False,
     out: opt.Files = None,
 ) -> None:
@@ -50,6 +51,7 @@ def stress(
     prepare(out)
     require_criterion(criterion)
     require_number("slope", slope, 0.0, 3.0)
+    line = None if endurance is None else Endurance(*endurance)
     options = {"friction": surface.law(), "normal": normal, "tangential": tangential}
     opt.require_use(context)
     if curvatures is not None:
@@ -59,7 +61,7 @@ def stress(
         case = place.position(reading, side)
         touches = problem.solve_position(case, amount.load, amount.penetration, amount.given, options)
     touches = [touch for touch in touches if touch.solution.N > 0.0]
-    found = [stresses(touch, body, slope) for touch in touches]
+    found = [stresses(touch, body, slope, line) for touch in touches]
     if not touches and out:
         typer.echo("no contact: no picture and no table is written", err=True)
         out = [path for path in out if path.suffix.lower() == ".json"]
@@ -78,8 +80,8 @@ def stress(
     )
 
 
-def stresses(touch: Touch, body: str, slope: float) -> dict[str, Any]:
-    """Return the largest stresses of a patch [Pa] with their places [m], as plain data."""
+def stresses(touch: Touch, body: str, slope: float, line: Endurance | None) -> dict[str, Any]:
+    """Return the largest stresses of a patch [Pa] with their places [m] and passages to failure, as plain data."""
     surface, nu = SurfaceLoad.of(touch.solution), touch.solution.material.poisson_ratio
     content: dict[str, Any] = {"name": touch.name, "body": body, "N": touch.solution.N}
     for name in CRITERIA:
@@ -87,6 +89,9 @@ def stresses(touch: Touch, body: str, slope: float) -> dict[str, Any]:
         content[name] = {"value": peak.value, "x": peak.x, "y": peak.y, "z": peak.z}
     worst = dang_van(surface, surface.radius * _DEPTHS, slope=slope, body=body, poisson_ratio=nu).peak
     content["dang_van"] = {"value": worst.value, "y": worst.y, "z": worst.z}
+    if line is not None:
+        share = float(line.damage(worst.value))
+        content["passages"] = 1.0 / share if share > 0.0 else None
     return content
 
 
@@ -103,4 +108,6 @@ def _show(touches: Sequence[Touch], found: Sequence[dict[str, Any]], body: str, 
     for name in (*CRITERIA, "dang_van"):
         table.add_row(name.replace("_", " "), "MPa", *(number(1e-6 * one[name]["value"]) for one in found))
         table.add_row("  depth", "mm", *(number(1e3 * one[name]["z"]) for one in found))
+    if "passages" in found[0]:
+        table.add_row("passages to failure", "", *(number(one["passages"]) for one in found))
     console.print(table)

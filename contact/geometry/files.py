@@ -39,6 +39,7 @@ from contact.geometry.smoothing import filtered, smoothed
 NEAREST = 1e-6  # least distance of two points [m]
 NARROWEST, WIDEST = 0.03, 0.2  # range of the width of a wheel or a rail's head [m]
 LARGEST_FILE, MOST_POINTS = 20e6, 100_000  # bytes, points
+_FARTHEST = 1e6  # of a point from the origin [m]; products of larger numbers overflow
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,6 +125,8 @@ def inspect(
     if len(content.points) > MOST_POINTS:
         raise ContactError(f"path = {str(path)!r} holds {len(content.points)} points; allowed: {MOST_POINTS}")
     measured = content.points * scale
+    if not (np.abs(measured) < _FARTHEST).all():
+        raise ContactError(f"path = {str(path)!r}: a point is not within {_FARTHEST:g} m")
     disorder = inspection.order(measured)
     fatal = bool(disorder) and not repair
     points = _placed(inspection.repaired(measured) if disorder and repair else measured, content, kind, path, zero)
@@ -171,7 +174,11 @@ def read_folder(
 
 def _lines(path: Path) -> Sequence[str]:
     """Return the lines of a file. Raise a ContactError if it is missing, too large, or no regular file."""
-    if not path.exists():
+    try:
+        found = path.exists()
+    except OSError as error:  # a name that is too long
+        raise ContactError(f"path = {str(path)[:200]!r} cannot be read: {error.strerror}") from None
+    if not found:
         raise ContactError(f"path = {str(path)!r} is missing: there is no such file in {str(path.absolute().parent)!r}")
     if path.is_dir():
         raise ContactError(f"path = {str(path)!r} is a folder; profile.read_folder reads all its files")

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact._jit import kernel
+from contact.halfspace.curved import Curved
 from contact.halfspace.influence import Influence
 from contact.halfspace.krylov import dot, size
 from contact.material import Material
@@ -33,6 +34,8 @@ _LEAST_SIDE = 20
 _LIKELY = 0.7
 #: Relative change of the elements' stiffness at which its iteration stops. The relative error of the sum is its square.
 _STIFFNESS_TOLERANCE = 3e-2
+#: All rows.
+_ALL = slice(None)
 #: Rows and columns that are added on each side of the contact found on the coarser grid.
 _MARGIN = 2
 
@@ -57,6 +60,32 @@ class Normal:
     converged: bool
 
 
+@dataclass(frozen=True, slots=True)
+class _Ground:
+    """The half space under elements dx × dy [m], bent by the angles `tilt` of the rows if these are given."""
+
+    dx: float
+    dy: float
+    material: Material
+    tilt: Array | None = None
+
+    @property
+    def element(self) -> float:
+        """Area of an element [m²]."""
+        return self.dx * self.dy
+
+    @property
+    def coarser(self) -> _Ground:
+        """The plane half space under elements of twice the size."""
+        return _Ground(2.0 * self.dx, 2.0 * self.dy, self.material)
+
+    def under(self, shape: tuple[int, ...], rows: slice = _ALL) -> Influence:
+        """Return the influence numbers of a grid of `shape`, whose rows are these."""
+        if self.tilt is None:
+            return Influence(shape, self.dx, self.dy, self.material)
+        return Curved(shape, self.dx, self.dy, self.material, self.tilt[rows])
+
+
 def norm(
     gap: Array,
     dx: float,
@@ -67,6 +96,7 @@ def norm(
     approach: float | None = None,
     tolerance: float = 1e-5,
     start: Array | None = None,
+    tilt: Array | None = None,
 ) -> Normal:
     """Solve the normal problem on a grid.
 
@@ -83,50 +113,48 @@ def norm(
         Stop when the change of the pressure over the pressure (Euclidean norms) is below this.
     start : ndarray, shape (ny, nx)
         Pressure to start from [Pa]; default that of a coarser grid.
+    tilt : ndarray, shape (ny,)
+        Angle of each row of a bent surface [rad]; default the plane. Gap and approach are along the normal of the plane, and
+        so is the pressure times the area of an element (`contact.halfspace.curved`).
 
     Returns
     -------
     Normal
     """
-    scale = 1.0 / (dx * dy)
+    ground = _Ground(dx, dy, material, tilt)
+    scale = 1.0 / ground.element
+    if tilt is not None and start is None:
+        start = norm(gap, dx, dy, material, load=load, approach=approach, tolerance=1e-2).p
     if load is not None:
         if load <= 0.0:
             return Normal(np.zeros(gap.shape), float(gap.min()), 0.0, 0, True)
-        return _at_load(gap, dx, dy, material, load * scale, tolerance, start)
+        return _at_load(gap, ground, load * scale, tolerance, start)
     assert approach is not None
     if approach <= gap.min():
         return Normal(np.zeros(gap.shape), approach, 0.0, 0, True)
     if start is None:
-        start = _from_coarser(gap, dx, dy, material, approach)
-    p, iterations, converged = _in_window(gap - approach, dx, dy, material, start, tolerance)
-    return Normal(p, approach, _stiffness(p, dx, dy, material).sum() / scale, iterations, converged)
+        start = _from_coarser(gap, ground, approach)
+    p, iterations, converged = _in_window(gap - approach, ground, start, tolerance)
+    return Normal(p, approach, _stiffness(p, ground).sum() / scale, iterations, converged)
 
 
-def _at_load(
-    gap: Array,
-    dx: float,
-    dy: float,
-    material: Material,
-    total: float,
-    tolerance: float,
-    start: Array | None,
-) -> Normal:
+def _at_load(gap: Array, ground: _Ground, total: float, tolerance: float, start: Array | None) -> Normal:
     """Find the approach at which the pressures sum to `total` [Pa], by Newton's iteration. N(approach) is convex."""
     least = float(gap.min())
     if start is not None and start.any():
         p = start * (total / start.sum())
         touching = p > 0.0
-        approach = float((gap + Influence(gap.shape, dx, dy, material).normal(p))[touching].mean())
+        approach = float((gap + ground.under(gap.shape).normal(p))[touching].mean())
     elif min(gap.shape) >= 2 * _LEAST_SIDE:
-        coarse = _at_load(_halved(gap), 2.0 * dx, 2.0 * dy, material, 0.25 * total, 1e-2, None)
+        coarse = _at_load(_halved(gap), ground.coarser, 0.25 * total, 1e-2, None)
         p, approach = _doubled(coarse.p, gap.shape), coarse.approach
     else:
-        p, approach = np.zeros_like(gap), least + _rough_overlap(gap - least, dx, dy, material, total)
+        p, approach = np.zeros_like(gap), least + _rough_overlap(gap - least, ground, total)
     iterations, converged = 0, False
     for _ in range(MAX_STEPS):
-        p, n, solved = _in_window(gap - approach, dx, dy, material, p, tolerance)
+        p, n, solved = _in_window(gap - approach, ground, p, tolerance)
         iterations += n
-        rates = _stiffness(p, dx, dy, material)
+        rates = _stiffness(p, ground)
         if not rates.any():  # no contact is left: the approach was too small
             approach = least + 2.0 * (approach - least)
             continue
@@ -138,10 +166,10 @@ def _at_load(
         p, approach = np.maximum(p + rates * change, 0.0), approach + change
     if p.any():
         p = p * (total / p.sum())
-    return Normal(p, approach, float(rates.sum()) * dx * dy, iterations, converged)
+    return Normal(p, approach, float(rates.sum()) * ground.element, iterations, converged)
 
 
-def _rough_overlap(h: Array, dx: float, dy: float, material: Material, total: float) -> float:
+def _rough_overlap(h: Array, ground: _Ground, total: float) -> float:
     """Return an estimate of the overlap [m] under the load, as a start.
 
     It is the overlap at which independent springs carry the load. Their stiffness is that of a half space under the
@@ -151,8 +179,8 @@ def _rough_overlap(h: Array, dx: float, dy: float, material: Material, total: fl
     for _ in range(30):
         middle = 0.5 * (low + high)
         depth = np.maximum(middle - h, 0.0)
-        side = math.sqrt(np.count_nonzero(depth) * dx * dy)
-        carried = depth.sum() * material.contact_modulus / side if side > 0.0 else 0.0
+        side = math.sqrt(np.count_nonzero(depth) * ground.element)
+        carried = depth.sum() * ground.material.contact_modulus / side if side > 0.0 else 0.0
         low, high = (middle, high) if carried < total else (low, middle)
     return high
 
@@ -169,17 +197,16 @@ def _doubled(p: Array, shape: tuple[int, ...]) -> Array:
     return p.repeat(2, axis=0).repeat(2, axis=1)[: shape[0], : shape[1]]
 
 
-def _from_coarser(gap: Array, dx: float, dy: float, material: Material, approach: float) -> Array:
+def _from_coarser(gap: Array, ground: _Ground, approach: float) -> Array:
     """Return the pressure to start from [Pa], computed at half the resolution."""
     halved = _halved(gap) if min(gap.shape) >= 2 * _LEAST_SIDE else gap
     if halved is gap or approach <= halved.min():
         least = gap.min()
         level = least + _LIKELY * (approach - least)
-        return (
-            np.sqrt(np.maximum(level - gap, 0.0)) * material.contact_modulus
-        )  # Hertz' shape; its scale does not matter
-    start = _from_coarser(halved, 2.0 * dx, 2.0 * dy, material, approach)
-    p, _, _ = _in_window(halved - approach, 2.0 * dx, 2.0 * dy, material, start, 1e-2)
+        # Hertz' shape; its scale does not matter
+        return np.sqrt(np.maximum(level - gap, 0.0)) * ground.material.contact_modulus
+    start = _from_coarser(halved, ground.coarser, approach)
+    p, _, _ = _in_window(halved - approach, ground.coarser, start, 1e-2)
     return _doubled(p, gap.shape)
 
 
@@ -193,14 +220,7 @@ def _window(inside: NDArray[np.bool_]) -> tuple[slice, slice]:
     return slices[0], slices[1]
 
 
-def _in_window(
-    h: Array,
-    dx: float,
-    dy: float,
-    material: Material,
-    start: Array,
-    tolerance: float,
-) -> tuple[Array, int, bool]:
+def _in_window(h: Array, ground: _Ground, start: Array, tolerance: float) -> tuple[Array, int, bool]:
     """Solve for gap minus approach `h` on a window around the contact of `start`.
 
     The window is extended as long as elements outside it overlap. Return the pressure, the iterations and whether the
@@ -213,7 +233,7 @@ def _in_window(
     p, iterations = np.zeros_like(h), 0
     while True:
         window = _window(inside)
-        influence = Influence(h[window].shape, dx, dy, material)
+        influence = ground.under(h[window].shape, window[0])
         p[window], n, solved = _conjugate_gradients(
             h[window], influence, np.where(inside, start, 0.0)[window], tolerance
         )
@@ -222,7 +242,7 @@ def _in_window(
         beyond[window] = False
         if not beyond.any():
             return p, iterations, solved
-        beyond &= h + Influence(h.shape, dx, dy, material).normal(p) < 0.0
+        beyond &= h + ground.under(h.shape).normal(p) < 0.0
         if not beyond.any() or not solved:
             return p, iterations, solved
         inside, start = inside | beyond, p
@@ -305,7 +325,7 @@ def _advance(p, e, residual, direction, moved, touching, own):
     return abs(step) * math.sqrt(length / size) if size > 0.0 else 0.0, pulled, entered
 
 
-def _stiffness(p: Array, dx: float, dy: float, material: Material) -> Array:
+def _stiffness(p: Array, ground: _Ground) -> Array:
     """Return r = dp/d(approach) [Pa/m] on the elements in contact, from C r = 1 there."""
     touching = p > 0.0
     rates = np.zeros_like(p)
@@ -313,7 +333,7 @@ def _stiffness(p: Array, dx: float, dy: float, material: Material) -> Array:
         return rates
     window = _window(touching)
     inside = touching[window]
-    influence = Influence(inside.shape, dx, dy, material)
+    influence = ground.under(inside.shape, window[0])
     # conjugate gradients as above, with a fixed set of elements in contact
     r, residual, direction, square = np.zeros(inside.shape), inside.astype(np.float64), np.zeros(inside.shape), 1.0
     for _ in range(MAX_ITERATIONS):

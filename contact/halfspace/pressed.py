@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from contact.case import set_surface
 from contact.creepage import Creepage
 from contact.friction import Friction
-from contact.halfspace.bent import Bent
+from contact.halfspace.bent import Bent, Surface
+from contact.halfspace.curved import BentCoupling
 from contact.halfspace.heat import heat_up
 from contact.halfspace.norm import Normal
 from contact.halfspace.solution import GridSolution, assemble
@@ -23,7 +24,6 @@ from contact.halfspace.unlike import Coupling
 from contact.kernels.friction import of_bodies
 from contact.kernels.records import CASE
 from contact.material import Material
-from contact.separation import Separation
 from contact.solution import Status
 
 Array = NDArray[np.float64]
@@ -51,13 +51,14 @@ class Pressed:
 
     Parameters
     ----------
-    x, y, p : pressure [Pa], shape (ny, nx), at the centres `x`, `y` [m] of the elements
-    bent : the separation whose curved surface is the contact surface; None for the plane
+    x, y, p : pressure [Pa], shape (ny, nx), at the centres `x`, `y` [m] of the elements; `y` along the surface
+    surface : the curved surface in which the bodies touch; None for the plane
     material, friction, speed, progress : as in `contact.solve`
     record : approach, stiffness, iterations, status and normal method of the normal problem
     again : callable
-        Solves the normal problem again for a traction that opens the gap by a field [m], from a pressure. Only for unlike
-        bodies; without it the pressure does not follow the traction.
+        Solves the normal problem again for a traction that opens the gap by a field [m], from a pressure; the last argument
+        is the part of the load that the traction bears [N]. Without it the pressure keeps its shape.
+    load : normal force [N]; None if the approach is given
     """
 
     def __init__(
@@ -67,24 +68,25 @@ class Pressed:
         p: Array,
         record: PressedRecord,
         *,
-        bent: Separation | None,
+        surface: Surface | None,
         material: Material,
         friction: Friction,
         speed: float,
         progress: Callable[[int, float], None] | None,
         layer: ThirdBody | None = None,
-        again: Callable[[Array, Array], Normal] | None = None,
+        again: Callable[[Array, Array, float], Normal] | None = None,
+        load: float | None = None,
     ) -> None:
-        self.x, self.y, self.p, self.record, self.bent = x, y, p, record, bent
+        self.x, self.y, self.p, self.record, self.surface = x, y, p, record, surface
         self.material, self.friction, self.speed, self.progress = material, friction, speed, progress
-        self._again, self._layer = again, layer
+        self._again, self._layer, self.load = again, layer, load
         self._sheared: Sheared | None = None
         self._last: Tangential | None = None
 
     def roll(self, creepage: Creepage) -> GridSolution:
         """Return the solution for a creepage, by TANG. It starts from pressure and traction of the last call."""
-        rows = Bent.plane(creepage, self.y) if self.bent is None else Bent.of(self.bent, creepage, self.y)
-        if self.material.coupling == 0.0 or not self.p.any():
+        rows = Bent.plane(creepage, self.y) if self.surface is None else self.surface.rows(creepage, self.y)
+        if (self.material.coupling == 0.0 and self.surface is None) or not self.p.any():
             rolling, coefficient = self._tangential(creepage, rows, None)
             converged = rolling.converged
         else:
@@ -108,6 +110,7 @@ class Pressed:
             normal=record.normal,
             tangential="halfspace",
             layer=self._sheared,
+            surface=self.surface,
         )
 
     def _tangential(self, creepage: Creepage, rows: Bent, added: Array | None) -> tuple[Tangential, float]:
@@ -124,7 +127,7 @@ class Pressed:
     ) -> float:
         """Solve with a third body; keep the solution and its state, and return the coefficient of friction."""
         mu = float(self.friction.coefficient(self.speed * math.hypot(creepage.longitudinal, creepage.lateral)))
-        factor = self.friction.factor(self.y)[:, None] if self.friction.gauge_factor != 1.0 else 1.0
+        factor = self.friction.factor(rows.y)[:, None] if self.friction.gauge_factor != 1.0 else 1.0
         touching = np.where(self.p > 0.0, self.p, 1.0)
 
         def solve(bound: Array) -> Tangential:
@@ -149,24 +152,51 @@ class Pressed:
         return mu
 
     def _alternate(self, creepage: Creepage, rows: Bent) -> tuple[Tangential, float, bool]:
-        """Solve both problems of unlike bodies in turn until neither changes (Panagiotopoulos).
+        """Solve both problems of unlike bodies or on a bent surface in turn until neither changes (Panagiotopoulos).
 
         A change that grows is halved. Return the tangential solution, the coefficient of friction and whether it converged.
         """
-        coupling = Coupling(self.p.shape, float(self.x[1] - self.x[0]), float(self.y[1] - self.y[0]), self.material)
+        couplings = self._couplings()
         last, share = math.inf, 1.0
+        qx = qy = np.zeros(self.p.shape)
+        if self._last is not None:
+            qx, qy = self._last.qx, self._last.qy
         for _ in range(_MAX_TURNS):
-            rolling, coefficient = self._tangential(creepage, rows, coupling.slip(self.p))
-            if self._again is None:
-                return rolling, coefficient, rolling.converged
-            found = self._again(coupling.opening(rolling.qx, rolling.qy), self.p)
+            before = qx, qy
+            added = np.sum([c.slip(self.p, qx, qy) for c in couplings], axis=0)
+            rolling, coefficient = self._tangential(creepage, rows, added)
+            qx, qy = rolling.qx, rolling.qy
+            found = self._follow(np.sum([c.opening(qx, qy) for c in couplings], axis=0), rows, qy)
             change = float(np.abs(found.p - self.p).max() / found.p.max())
+            if self.surface is not None:  # the slip depends on the traction too
+                moved = max(float(np.abs(new - old).max()) for new, old in zip((qx, qy), before, strict=True))
+                change = max(change, moved / float(self.p.max()))
             if change <= _TURN_TOLERANCE:
                 return rolling, coefficient, rolling.converged and found.converged
             share = 0.5 * share if change > last else share
             self.p, last = self.p + share * (found.p - self.p), change
             self.record = self.record._replace(approach=found.approach, stiffness=found.stiffness)
         return rolling, coefficient, False
+
+    def _follow(self, opening: Array, rows: Bent, qy: Array) -> Normal:
+        """Return the pressure under a traction that opens the gap by `opening` [m] and bears a part of the load."""
+        sine = (rows.tilt / np.sqrt(1.0 + rows.tilt**2))[:, None]
+        area = float((self.x[1] - self.x[0]) * (self.y[1] - self.y[0]))
+        borne = -float((sine * qy).sum()) * area
+        if self._again is not None:
+            return self._again(opening, self.p, borne)
+        scale = 1.0
+        if self.load is not None:
+            scale = (self.load - borne) / (float((self.p / np.sqrt(1.0 + rows.tilt**2)[:, None]).sum()) * area)
+        return Normal(scale * self.p, self.record.approach, self.record.stiffness, 0, True)
+
+    def _couplings(self) -> list[Coupling | BentCoupling]:
+        """Return what couples pressure and traction."""
+        size = self.p.shape, float(self.x[1] - self.x[0]), float(self.y[1] - self.y[0]), self.material
+        found: list[Coupling | BentCoupling] = [Coupling(*size)] if self.material.coupling != 0.0 else []
+        if self.surface is not None:
+            found.append(BentCoupling(*size, self.surface.angle(self.y)))
+        return found
 
 
 def _roll(
@@ -184,7 +214,7 @@ def _roll(
     surface = np.zeros(1, CASE)
     set_surface(surface, friction, speed)
     case = surface[0]
-    factor = of_bodies(case) * (friction.factor(y)[:, None] if friction.gauge_factor != 1.0 else np.ones((1, 1)))
+    factor = of_bodies(case) * (friction.factor(rows.y)[:, None] if friction.gauge_factor != 1.0 else np.ones((1, 1)))
     local, hot = friction.velocity != "global" and friction.law != "coulomb", friction.hot_factor < 1.0
     mu = friction.static
     if not local:

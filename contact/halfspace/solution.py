@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.creepage import Creepage
-from contact.halfspace.bent import Bent
+from contact.halfspace.bent import Bent, Surface
 from contact.halfspace.tang import Tangential
 from contact.halfspace.third_body import Sheared
 from contact.material import Material
@@ -24,10 +24,18 @@ class GridSolution(Solution):
     The strips are the rows of elements with contact. The peak pressure of a strip is the largest of its elements. Fields
     span the columns with contact; the pressure is zero outside the patch. `grid` holds x [m], y [m] and p [Pa] of the
     rectangle of elements around the contact. `layer` is the state of a third body, None without one.
+
+    On the curved `surface` of a conformal contact (None for the plane), the rows are equally wide along the surface, and the y
+    of `grid` is the arc length. As on strips, all other places and areas are those in the plane.
     """
 
     grid: tuple[Array, Array, Array] = field(repr=False)
     layer: Sheared | None = field(default=None, repr=False)
+    surface: Surface | None = field(default=None, repr=False)
+
+    def along(self, y: ArrayLike) -> Array:
+        """Return the place on the grid [m] of a place in the plane [m]."""
+        return np.asarray(y, dtype=np.float64) if self.surface is None else self.surface.along(y)
 
     def pressure(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Return the contact pressure [Pa] at points `x`, `y` [m]; 0 outside. p² is bilinear between the elements."""
@@ -37,7 +45,7 @@ class GridSolution(Solution):
             return np.zeros(x.shape)
         square = np.pad(p**2, 1)
         u = (x - grid_x[0]) / (grid_x[1] - grid_x[0]) + 1.0
-        v = (y - grid_y[0]) / (grid_y[1] - grid_y[0]) + 1.0
+        v = (self.along(y) - grid_y[0]) / (grid_y[1] - grid_y[0]) + 1.0
         inside = (u >= 0) & (u < square.shape[1] - 1) & (v >= 0) & (v < square.shape[0] - 1)
         u, v = np.where(inside, u, 0.0), np.where(inside, v, 0.0)
         j, i = u.astype(np.int64), v.astype(np.int64)
@@ -65,25 +73,30 @@ def assemble(
     normal: str,
     tangential: str,
     layer: Sheared | None = None,
+    surface: Surface | None = None,
 ) -> GridSolution:
-    """Return the solution from fields of shape (ny, nx) over increasing `x`, `y` [m].
+    """Return the solution from fields of shape (ny, nx) over increasing `x`, `y` [m], `y` along the surface.
 
-    `own` are the creepages and the slope of each row.
+    `own` are place, creepages and slope of each row.
     """
     touching = p > 0.0
     rows, columns = np.flatnonzero(touching.any(axis=1)), np.flatnonzero(touching.any(axis=0))
     dx, dy = float(x[1] - x[0]), float(y[1] - y[0])
     box = np.ix_(rows, columns[::-1])  # element 0 at the leading edge
     qx, qy, sx, sy = (f[box] for f in (rolling.qx, rolling.qy, rolling.sx, rolling.sy))
-    grid_y = np.repeat(y[rows][:, None], columns.size, axis=1)
+    slope, level = own.tilt[rows][:, None], 1.0 / np.sqrt(1.0 + own.tilt**2)[:, None]
+    cosine = level[rows]
+    grid_y = np.repeat(own.y[rows][:, None], columns.size, axis=1)
     grid_x = np.repeat(x[columns[::-1]][None, :], rows.size, axis=0)
     inside = touching[box]
-    area = float(inside.sum()) * dx * dy
+    area = float((inside * cosine).sum()) * dx * dy
     label = np.cumsum(np.diff(rows, prepend=rows[:1]) > 1) if rows.size else rows
     first = x[np.argmax(touching[rows], axis=1)]
     last = x[x.size - 1 - np.argmax(touching[rows][:, ::-1], axis=1)]
     count = int(label[-1]) + 1 if rows.size else 0
     edges = np.array([(y[rows[label == k][0]] - 0.5 * dy, y[rows[label == k][-1]] + 0.5 * dy) for k in range(count)])
+    if surface is not None:
+        edges = surface.across(edges)
     length = columns.size * dx
     widths = np.array([edges[k, 1] - edges[k, 0] for k in range(count)])
     full = (
@@ -92,23 +105,21 @@ def assemble(
     )
     slips = inside & ~rolling.stick[box]
     force = dx * dy
-    slope = own.tilt[rows][:, None]
     bent = bool(own.tilt.any())
-    longer = np.sqrt(1.0 + slope * slope)
-    sideways = slope * p[box]
-    fx, fy = longer * qx, qy + sideways
+    sideways = cosine * slope * p[box]
+    fx, fy = qx, cosine * qy + sideways
     if status is Status.OK and rows.size and friction > 0.0 and slips.sum() == inside.sum():
         status = Status.SATURATED
     return GridSolution(
         Fx=float(fx.sum()) * force,
         Fy=float(fy.sum()) * force,
         Mz=float((grid_x * fy - grid_y * fx).sum()) * force,
-        N=float(p.sum()) * force,
+        N=float((p * level).sum() - (qy * cosine * slope).sum()) * force,
         approach=float(approach),
         max_pressure=float(p.max()),
         area=area,
-        slip_area=float(slips.sum()) * force,
-        power_per_metre=abs(float((longer * (qx * sx + qy * sy)).sum())) * force,
+        slip_area=float((slips * cosine).sum()) * force,
+        power_per_metre=abs(float((qx * sx + qy * sy).sum())) * force,
         normal_stiffness=stiffness,
         length=length,
         width=float(edges[-1, 1] - edges[0, 0]) if count else 0.0,
@@ -116,8 +127,8 @@ def assemble(
         iterations=iterations,
         status=status,
         strips=Strips(
-            y=y[rows],
-            dy=np.full(rows.size, dy),
+            y=own.y[rows],
+            dy=dy * cosine[:, 0],
             x_c=0.5 * (first + last),
             a=0.5 * (last - first + dx),
             p0=p[rows].max(axis=1, initial=0.0),
@@ -136,7 +147,7 @@ def assemble(
         sx=sx,
         sy=sy,
         stick=rolling.stick[box],
-        dA=np.full(inside.shape, dx * dy),
+        dA=np.full(inside.shape, dx * dy) * cosine,
         creepage=creepage,
         friction=friction,
         material=material,
@@ -149,4 +160,5 @@ def assemble(
         memory=np.zeros(0),
         grid=(x[full[1]], y[full[0]], p[full]),
         layer=None if layer is None else layer.part(box),
+        surface=surface,
     )

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError
 from contact.friction import Friction
+from contact.halfspace.bent import Surface
 from contact.halfspace.gap import Division, Gap, lay, least, overlap
 from contact.halfspace.norm import Normal, norm
 from contact.halfspace.pressed import Pressed, PressedRecord
@@ -23,8 +26,8 @@ Array = NDArray[np.float64]
 _COARSE, _MAX_STEPS = Division(20, 20), 40
 #: Tolerance of the normal problem of unlike bodies when it is solved again.
 _FINE = 1e-7
-#: The grid covers the overlap at this multiple of the estimated approach.
-_ROOM = 1.02
+#: The grid covers the overlap at this multiple of the estimated approach, which is that of a plane half space.
+_ROOM, _ROOM_BENT = 1.02, 1.1
 
 
 def press_gap(
@@ -41,27 +44,34 @@ def press_gap(
     progress: Callable[[int, float], None] | None,
 ) -> Pressed:
     """Return the normal problem of a gap, solved by NORM. Arguments as in `contact.solve`."""
-    grid = gap if isinstance(gap, Gap) else grid_of(gap, load, approach, material, division)
+    surface = Surface.of(gap) if conformal and isinstance(gap, Separation) else None
+    flat = gap if surface is None or isinstance(gap, Gap) else surface.unrolled()
+    grid = flat if isinstance(flat, Gap) else grid_of(flat, load, approach, material, division, surface is not None)
+    tilt = None if surface is None or grid is None else surface.angle(grid.y)
+    cosine = 1.0 if tilt is None else np.cos(tilt)[:, None]
     if grid is None:
         x = y = np.arange(2.0)
-        found = Normal(np.zeros((2, 2)), least(gap) if approach is None else approach, 0.0, 0, True)
+        found = Normal(np.zeros((2, 2)), least(flat) if approach is None else approach, 0.0, 0, True)
     else:
         x, y = grid.x, grid.y
-        found = norm(grid.h, grid.dx, grid.dy, material, load=load, approach=approach)
-    status = status_of(gap, found.p, y, found.converged)
+        found = norm(grid.h, grid.dx, grid.dy, material, load=load, approach=approach, tilt=tilt)
+    status = status_of(flat, found.p, y, found.converged)
     record = PressedRecord(found.approach, found.stiffness, found.iterations, status, "halfspace")
 
-    def again(opening: Array, p: Array) -> Normal:
+    def again(opening: Array, p: Array, borne: float) -> Normal:
         assert grid is not None
         h = grid.h + opening
-        return norm(h, grid.dx, grid.dy, material, load=load, approach=approach, tolerance=_FINE, start=p)
+        rest = None if load is None else load - borne
+        to: dict[str, Any] = {"load": rest, "approach": approach, "tolerance": _FINE}
+        new = norm(h, grid.dx, grid.dy, material, start=cosine * p, tilt=tilt, **to)
+        return replace(new, p=new.p / cosine)
 
     return Pressed(
         x,
         y,
-        found.p,
+        found.p / cosine,
         record,
-        bent=gap if conformal and isinstance(gap, Separation) else None,
+        surface=surface,
         material=material,
         friction=friction,
         speed=speed,
@@ -73,7 +83,8 @@ def press_gap(
 
 def press_solution(
     first: Solution,
-    bent: Separation | None,
+    surface: Surface | None,
+    load: float | None,
     friction: Friction,
     division: Division,
     layer: ThirdBody | None,
@@ -81,13 +92,16 @@ def press_solution(
 ) -> Pressed:
     """Return the normal problem of a solution with contact: its pressure, N, approach and normal stiffness.
 
-    `bent` is the separation whose curved surface is the contact surface; None for the plane.
+    `surface` is the curved surface in which the bodies touch; None for the plane. `load` [N] is None if the approach is given.
     """
     low, high = float(first.patch_edges.min()), float(first.patch_edges.max())
+    if surface is not None:
+        low, high = (float(surface.along(y)) for y in (low, high))
     back, front = ((first.strips.x_c + sign * first.strips.a) for sign in (-1.0, 1.0))
     x, y = division.centres((float(back.min()), float(front.max()), low, high))
-    p = first.pressure(x[None, :], y[:, None])
-    total = p.sum() * (x[1] - x[0]) * (y[1] - y[0])
+    place, cosine = (y, 1.0) if surface is None else (surface.across(y), np.cos(surface.angle(y))[:, None])
+    p = first.pressure(x[None, :], place[:, None])
+    total = (p * cosine).sum() * (x[1] - x[0]) * (y[1] - y[0])
     if not total > 0.0:
         raise ContactError(f"{division} leaves no element inside the patch")
     p *= first.N / total
@@ -98,12 +112,13 @@ def press_solution(
         y,
         p,
         record,
-        bent=bent,
+        surface=surface,
         material=first.material,
         friction=friction,
         speed=first.speed,
         progress=progress,
         layer=layer,
+        load=load,
     )
 
 
@@ -128,6 +143,7 @@ def grid_of(
     approach: float | None,
     material: Material,
     division: Division,
+    bent: bool = False,
 ) -> Gap | None:
     """Return the gap on elements over the undeformed overlap, which contains the contact; None without overlap."""
     if approach is None:
@@ -135,7 +151,7 @@ def grid_of(
         if load <= 0.0:
             return None
         touch = least(separation)
-        approach = touch + _ROOM * _estimate(separation, touch, load, material)
+        approach = touch + (_ROOM_BENT if bent else _ROOM) * _estimate(separation, touch, load, material)
     box = overlap(separation, approach)
     if box is None:
         return None

@@ -86,7 +86,7 @@ def tang(
     p : ndarray, shape (ny, nx)
         Pressure [Pa], 0 outside the contact.
     x, y : ndarray, shape (nx,), (ny,)
-        Centres of the elements [m], evenly spaced, increasing.
+        Centres of the elements [m], evenly spaced, increasing; `y` along the surface.
     creepage : Creepage or Bent
         Wheel minus rail over V, at the origin or of each row.
     friction : float or ndarray, shape (ny, nx)
@@ -116,12 +116,12 @@ def tang(
     if not bound.any():
         rigid = np.zeros((2, *p.shape))
         if touching.any():
-            rigid[:, touching] = rigid_slip(x, y, rows, 0.0)[:, touching]
+            rigid[:, touching] = rigid_slip(x, rows, 0.0)[:, touching]
         return Tangential(whole[0], whole[1], rigid[0], rigid[1], np.zeros(p.shape, dtype=bool), 0, 0, 0.0, True)
     across, along = (np.flatnonzero(touching.any(axis=axis)) for axis in (1, 0))
     window = slice(across[0], across[-1] + 1), slice(along[0], along[-1] + 1)
     dx, dy = float(x[1] - x[0]), float(y[1] - y[0])
-    w = np.ascontiguousarray(rigid_slip(x, y, rows, offset * dx)[:, *window])
+    w = np.ascontiguousarray(rigid_slip(x, rows, offset * dx)[:, *window])
     if added is not None:
         w += added[:, *window]
     rolling = _Rolling(np.ascontiguousarray(bound[window]), w, (dx, dy), material, layer, tolerance, progress)
@@ -137,10 +137,10 @@ def tang(
     )
 
 
-def rigid_slip(x: Array, y: Array, rows: Bent, ahead: float) -> Array:
+def rigid_slip(x: Array, rows: Bent, ahead: float) -> Array:
     """Return the rigid slip over V, shape (2, ny, nx)."""
-    w = np.empty((2, y.size, x.size))
-    w[0] = (rows.vx - rows.phi * y)[:, None]
+    w = np.empty((2, rows.y.size, x.size))
+    w[0] = (rows.vx - rows.phi * rows.y)[:, None]
     w[1] = rows.vy[:, None] + rows.phi[:, None] * (x + ahead)
     return w
 

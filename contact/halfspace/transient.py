@@ -205,7 +205,7 @@ class Transient:
         p = self._normal.p
         factor = self.friction.factor(grid.y)[:, None] if self.friction.gauge_factor != 1.0 else 1.0
         bound, rows = mu * factor * p, Bent.plane(motion, grid.y)
-        w, per_metre = rigid_slip(grid.x, grid.y, rows, OFFSET * distance), 1.0 / distance if distance > 0.0 else 1.0
+        w, per_metre = rigid_slip(grid.x, rows, OFFSET * distance), 1.0 / distance if distance > 0.0 else 1.0
         before, reach = self._before(p, distance)
         w = reach * w - per_metre * before
         found = self._coulomb(bound, w, per_metre)

@@ -62,8 +62,8 @@ class Coupling:
         transform = self._forward(p)
         return self._back(np.stack((self._x * transform, self._y * transform)))
 
-    def slip(self, p: Array) -> Array:
-        """Return the slip over V that the pressure causes in steady rolling, [u(x) - u(x + dx)]/dx, shape (2, ny, nx)."""
+    def slip(self, p: Array, qx: Array, qy: Array) -> Array:
+        """Return the slip over V in steady rolling, [u(x) - u(x + dx)]/dx, shape (2, ny, nx); the traction adds nothing."""
         transform = self._difference * self._forward(p)
         return self._back(np.stack((self._x * transform, self._y * transform)))
 

@@ -183,7 +183,8 @@ class Bench(NamedTuple):
 
     `search`, `own` and `damage_parameters` hold sizes and constants. `case` holds methods, material and friction.
     `patch_case` holds the same for the current patch. `memory` is the start for the next call: the number of patches,
-    then one piece for each of MAX_PATCHES. `contacts` and `total` are the results. `ledger` accumulates damage.
+    then one piece for each of MAX_PATCHES, then the deflection of the rail. `rail` holds its springs, `roots` and `moved`
+    are for the search of the deflection. `contacts` and `total` are the results. `ledger` accumulates damage.
     """
 
     search: Search
@@ -198,6 +199,9 @@ class Bench(NamedTuple):
     contacts: Array
     total: Array
     ledger: Ledger
+    rail: Array
+    roots: Array
+    moved: Array
 
 
 class Size(NamedTuple):

@@ -32,6 +32,8 @@ from contact.kernels.records import (
     CONTACT,
     DAMAGE,
     DAMAGE_PARAMETERS,
+    ELASTIC_RAIL,
+    GIVEN,
     LEDGER,
     LOBE,
     MAX_LOBES,
@@ -39,6 +41,7 @@ from contact.kernels.records import (
     MOTION,
     PATCH,
     RESULT,
+    ROOT,
     TOTAL,
 )
 from contact.kernels.rows import (
@@ -212,6 +215,12 @@ def lay_ledger(block: Array, end: int, wheel: Array, rail: Array, bins: Array, n
 
 
 @register_jitable
+def pair_memory_size(piece: int) -> int:
+    """Return the size of the memory of a pair whose patches have `piece` numbers each, see `Bench`."""
+    return 1 + MAX_PATCHES * piece + 2
+
+
+@register_jitable
 def lay_bench(
     block: Array, end: int, size: Size, memory: Array, search: Search, own: Workspace, ledger: Ledger
 ) -> tuple[Bench, int]:
@@ -224,7 +233,11 @@ def lay_bench(
     damage, end = records(block, end, 1, DAMAGE)
     contacts, end = records(block, end, MAX_PATCHES, CONTACT)
     total, end = records(block, end, 1, TOTAL)
+    rail, end = records(block, end, 1, ELASTIC_RAIL)
+    roots, end = records(block, end, 2, ROOT)
+    moved, end = records(block, end, 1, GIVEN)
     bench = Bench(
-        search, own, case, patch_case, result, memory, parameters, damage_fields, damage, contacts, total, ledger
-    )
+        search, own, case, patch_case, result, memory, parameters, damage_fields, damage, contacts, total, ledger,
+        rail, roots, moved,
+    )  # fmt: skip
     return bench, end

@@ -204,7 +204,7 @@ def solve_patch(k, under_load, bench):
     """
     search, own, memory = bench.search, bench.own, bench.memory
     patch, sep, parameters = search.patches[k], search.separations[k], bench.damage_parameters[0]
-    case, piece = bench.patch_case[0], (memory.size - 1) // MAX_PATCHES
+    case, piece = bench.patch_case[0], (memory.size - 3) // MAX_PATCHES
     _roll_patch(patch, under_load, search.motion[0], bench.case[0], case)
     samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
     space = _space_of_patch(own.space, memory[1 + k * piece : 1 + (k + 1) * piece])

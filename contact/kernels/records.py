@@ -292,6 +292,38 @@ DAMAGE_PARAMETERS = _record(
     """,
 )
 
+#: A rail on springs, and its deflection.
+ELASTIC_RAIL = _record(
+    "elastic_rail",
+    """
+    ky              lateral stiffness [N/m]; 0 is rigid
+    kz              vertical stiffness [N/m]; 0 is rigid
+    preload_y       external force on the rail [N]
+    preload_z       [N]
+    dy              lateral deflection [m]
+    dz              vertical deflection [m]
+    balanced:int    0 where the force jumps and no deflection is in balance
+    """,
+)
+
+#: A search for the root of a rising function.
+ROOT = _record(
+    "root",
+    """
+    x               where the function is wanted
+    before          where it was wanted before
+    value           its last value
+    slope           per x
+    first           ends of the range
+    last
+    low             ends of the bracket
+    high
+    longest         step
+    evaluations:int
+    beyond:int      1 where the sign does not change up to an end
+    """,
+)
+
 #: Bins of a ledger.
 LEDGER = _record(
     "ledger",

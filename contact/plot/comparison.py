@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -22,7 +23,7 @@ _BESIDE, _GAP, _ABOVE = 1.6, 0.15, 2.4
 
 
 def comparison(
-    groups: Sequence[tuple[str, Sequence[Solution]]], *, reference: bool = True, columns: int = 6, panel: float = 3.6
+    groups: Sequence[tuple[str, Sequence[Solution]]], *, reference: bool = True, columns: int = 8, panel: float = 3.6
 ) -> Figure:
     """Draw solutions side by side, one group below the other. All panels of a group have the same scales.
 
@@ -33,7 +34,7 @@ def comparison(
     reference : bool
         Take the first solution of each group as the reference: draw its outline as a dotted line in all panels.
     columns : int
-        Largest number of panels in a row, at least 1.
+        Largest number of panels in a row, at least 1. More solutions are divided evenly into rows.
     panel : float
         Longer side of a panel [inch].
 
@@ -50,7 +51,8 @@ def comparison(
         raise ContactError("groups is empty or holds an empty one; at least one solution is needed")
     if columns < 1:
         raise ContactError(f"columns = {columns} is outside the allowed range [1, inf[")
-    columns = min(columns, max(len(solutions) for _, solutions in groups))
+    most = max(len(solutions) for _, solutions in groups)
+    columns = math.ceil(most / math.ceil(most / columns))
     rows: list[tuple[str, Sequence[Solution], Solution | None, Scale]] = []
     for title, solutions in groups:
         scale, true = Scale(solutions, together=True), solutions[0] if reference else None

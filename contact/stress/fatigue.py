@@ -57,6 +57,42 @@ class DangVan:
         return Peak(float(self.equivalent[i, j]), 0.0, float(self.y[i, j]), float(self.z[i, j]))
 
 
+@dataclass(frozen=True, slots=True)
+class Endurance:
+    """Wöhler line of Dang Van's equivalent stress: N = cycles (limit/τ_DV)^exponent passages to failure (Basquin).
+
+    Parameters
+    ----------
+    limit : float
+        Equivalent stress that is borne `cycles` times [Pa], positive.
+    exponent : float
+        Positive [-].
+    cycles : float
+        At least 1 [-].
+
+    There are no defaults: the numbers depend on the steel and on the failure that is meant.
+
+    Raises
+    ------
+    ContactError
+        For a number outside its range.
+    """
+
+    limit: float
+    exponent: float
+    cycles: float
+
+    def __post_init__(self) -> None:
+        require_number("endurance.limit", self.limit, 0.0, open_minimum=True)
+        require_number("endurance.exponent", self.exponent, 0.0, 100.0, open_minimum=True)
+        require_number("endurance.cycles", self.cycles, 1.0)
+
+    def damage(self, equivalent: ArrayLike) -> Array:
+        """Return the share of the life that one passage takes [-], for equivalent stresses [Pa]; 0 for those below 0."""
+        ratio = np.maximum(np.asarray(equivalent, dtype=np.float64), 0.0) / self.limit
+        return np.asarray(ratio**self.exponent / self.cycles)
+
+
 def dang_van(
     load: Solution | SurfaceLoad,
     z: ArrayLike,

@@ -102,9 +102,13 @@ class SurfaceLoad:
 
 def _of_elements(solution: GridSolution) -> SurfaceLoad:
     x, y, p = solution.grid
-    dy = float(solution.strips.dy[0])
-    dx = float(solution.dA[0, 0]) / dy
-    row, column = np.rint((solution.y - y[0]) / dy).astype(int), np.rint((solution.x - x[0]) / dx).astype(int)
+    first = solution.strips
+    dx = float(solution.dA[0, 0] / first.dy[0])
+    dy = float(first.dy[0] * (1.0 if first.tilt is None else np.hypot(1.0, first.tilt[0])))
+    row, column = (
+        np.rint((solution.along(solution.y) - y[0]) / dy).astype(int),
+        np.rint((solution.x - x[0]) / dx).astype(int),
+    )
     qx, qy = np.zeros(p.shape), np.zeros(p.shape)
     qx[row, column], qy[row, column] = solution.qx, solution.qy
     # a border without load, so that a single row or column of elements is a grid too

@@ -75,7 +75,7 @@ class Comparison(Report):
                 seen |= both
         return tuple(chosen)
 
-    def figure(self, columns: int = 6) -> Figure:
+    def figure(self, columns: int = 8) -> Figure:
         """Return the picture of patches, pressures, stick and slip of the pairs in `drawn` (`contact.plot.comparison`)."""
         from contact.plot import comparison
 

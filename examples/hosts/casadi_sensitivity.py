@@ -1,4 +1,4 @@
-"""CasADi: the contact as a differentiable function, from the FMU for model exchange. Usage: casadi_sensitivity.py FMU."""
+"""CasADi: an FMU as a differentiable function, from model exchange. Usage: casadi_sensitivity.py FMU [INPUT VALUE OUTPUT]."""
 
 import sys
 import tempfile
@@ -7,13 +7,14 @@ import zipfile
 import casadi
 import numpy as np
 
+given, value, wanted = sys.argv[2:] or ("creepage.longitudinal", "1e-3", "force.x")
 with tempfile.TemporaryDirectory() as folder:
     zipfile.ZipFile(sys.argv[1]).extractall(folder)
     contact = casadi.DaeBuilder("contact", folder)
     force = contact.create("force", ["u"], ["y"])
     inputs = np.array([contact.start(name)[0] for name in contact.u()])
-    xi, Fx = contact.u().index("creepage.longitudinal"), contact.y().index("force.x")
-    inputs[xi] = 1e-3
+    i, k = contact.u().index(given), contact.y().index(wanted)
+    inputs[i] = float(value)
     outputs = force(inputs)
-    print("force.x", repr(float(outputs[Fx])))
-    print("d force.x/d creepage", repr(float(force.jacobian()(inputs, outputs)[Fx, xi])))
+    print(wanted, repr(float(outputs[k])))
+    print("slope", repr(float(force.jacobian()(inputs, outputs)[k, i])))

@@ -10,7 +10,7 @@ import numpy as np
 from numba import types
 from numpy.typing import NDArray
 
-from fmu_src.native.memory import Doubles
+from fmu_src.native.memory import PREFIX, Doubles
 from fmu_src.variables import Table
 
 #: Functions that C calls → types of the result and of the arguments. See `Component.entries`.
@@ -55,10 +55,10 @@ class Component:
         `failures`). At a cold start the warm start is all zeros.
     data : callable
         Returns constant arrays that the kernels read.
-    resources : tuple of (str, bytes)
-        Files in resources/ that an instance reads, and the 8 bytes with which each begins (`fmu_src.profiles`). The kernels
-        get the points of all files in sequence. For each file: the number of points n, then n values of y, of z and of the
-        angle.
+    resources : tuple of (str, bytes, int)
+        Files in resources/ that an instance reads, the 8 bytes with which each begins, and its number of rows
+        (`fmu_src.resources`). The kernels get the content of all files in sequence. For each file: the number of points n, then
+        n values of each row.
     lazy : tuple of str
         Rows that are computed only when a host reads them.
     totals : mapping
@@ -70,6 +70,11 @@ class Component:
     accumulates : str
         Parameter, an enumeration. With its first item nothing is added up: the memory of these rows is left out and the rows
         are zero.
+    prefix : str
+        Beginning of the names of the entries in the objects. An FMU that is linked with the objects of another one, whose
+        entries it calls (`fmu_src.native.vehicle`), has a prefix of its own.
+    exchange : bool
+        Whether the FMU can do model exchange.
     warnings, failures : mapping
         Number → text. The number may be a member of an enumeration of the kernels. A failure discards the step.
     """
@@ -77,10 +82,12 @@ class Component:
     table: Table
     entries: Callable[[], Mapping[str, Callable[..., Any]]]
     data: Callable[[], tuple[NDArray[np.float64], ...]]
-    resources: tuple[tuple[str, bytes], ...] = ()
+    resources: tuple[tuple[str, bytes, int], ...] = ()
     lazy: tuple[str, ...] = ()
     totals: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     accumulated: tuple[str, ...] = ()
     accumulates: str = ""
+    prefix: str = PREFIX
+    exchange: bool = True
     warnings: Mapping[int, str] = field(default_factory=dict)
     failures: Mapping[int, str] = field(default_factory=dict)

@@ -23,6 +23,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fmu_src.native.ir_to_c import as_c
+from fmu_src.native.memory import PREFIX
 
 if TYPE_CHECKING:
     from fmu_src.native.component import Component
@@ -81,9 +82,9 @@ def objects(folder: Path, platform: str) -> list[Path]:
     return [folder / f"{platform}-{part}.o" for part in ("data", *CPUS)]
 
 
-def sources(folder: Path) -> list[Path]:
-    """Return the paths of the same as C sources: the data, then the kernels."""
-    return [folder / "data.c", folder / "kernels.c"]
+def sources(folder: Path, prefix: str = PREFIX) -> list[Path]:
+    """Return the paths of the same as C sources: the data, then the kernels. `prefix` is that of the component."""
+    return [folder / (part if prefix == PREFIX else f"{prefix}_{part}") for part in ("data.c", "kernels.c")]
 
 
 def emit(components: Mapping[Path, Component]) -> None:
@@ -91,6 +92,7 @@ def emit(components: Mapping[Path, Component]) -> None:
 
     The names of the kernels end with the processor, for example model_outputs_v2, and in C with `any`. The objects of a
     component do not depend on which others are emitted in the same call. No kernel can be called in this process afterwards.
+    Names begin with `Component.prefix` instead of `model`.
 
     Raises
     ------
@@ -98,15 +100,16 @@ def emit(components: Mapping[Path, Component]) -> None:
         If the kernels need a symbol that is not in ALLOWED.
     """
     # This comes before machine code is switched off, since components may call kernels to make their data.
-    made = {folder: (own.entries(), own.data(), bool(own.resources)) for folder, own in components.items()}
+    made = {folder: (own.entries(), own.data(), bool(own.resources), own.prefix) for folder, own in components.items()}
     make_no_machine_code()
     with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as pool:
         parts = []
-        for folder, (entries, data, with_resources) in made.items():
-            text = str(linked(entries, data, with_resources))
-            parts += [pool.submit(_write_kernels, text, tuple(entries), suffix, folder) for suffix in CPUS]
-            parts.append(pool.submit(_write_sources, text, tuple(entries), folder))
-            parts.append(pool.submit(_write_data, data_as_ir(data), folder))
+        for folder, (entries, data, with_resources, prefix) in made.items():
+            text = str(linked(entries, data, with_resources, prefix))
+            names, in_c = tuple(_symbol(entry, prefix) for entry in entries), sources(folder, prefix)
+            parts += [pool.submit(_write_kernels, text, names, suffix, folder) for suffix in CPUS]
+            parts.append(pool.submit(_write_sources, text, names, in_c[1]))
+            parts.append(pool.submit(_write_data, data_as_ir(data, prefix), folder, in_c[0]))
         for part in parts:
             part.result()
 
@@ -130,16 +133,21 @@ def make_no_machine_code() -> None:
     caching.Cache.save_overload = lambda self, signature, compiled: None
 
 
-def _write_sources(text: str, entries: Sequence[str], folder: Path) -> None:
+def _symbol(entry: str, prefix: str) -> str:
+    """Return the name of an entry, model_outputs …, in the objects of a component with this prefix."""
+    return prefix + entry.removeprefix(PREFIX)
+
+
+def _write_sources(text: str, entries: Sequence[str], path: Path) -> None:
     """Write the kernels of a component as C. `text` is their IR."""
     _llvm_for_all()
-    sources(folder)[1].write_text(as_c(str(_optimised(text, entries, "any", PLAIN, vectors=False))))
+    path.write_text(as_c(str(_optimised(text, entries, "any", PLAIN, vectors=False))))
 
 
-def _write_data(text: str, folder: Path) -> None:
+def _write_data(text: str, folder: Path, in_c: Path) -> None:
     """Write the objects of a component's data for all platforms, and the data as C. `text` is their IR."""
     llvm = _llvm_for_all()
-    sources(folder)[0].write_text(as_c(text))
+    in_c.write_text(as_c(text))
     for platform in TRIPLES:
         _write(llvm.parse_assembly(text), platform, "", objects(folder, platform)[0])
 
@@ -178,16 +186,18 @@ def _write(module: Any, platform: str, cpu: str, path: Path) -> None:
     path.write_bytes(_direct(module, platform, cpu).emit_object(module))
 
 
-def data_as_ir(data: Sequence[Any]) -> str:
+def data_as_ir(data: Sequence[Any], prefix: str = PREFIX) -> str:
     """Return the IR of the arrays as constants that all kernels share."""
     lines = []
     for i, array in enumerate(data):
         content = "".join(f"\\{byte:02X}" for byte in array.tobytes())
-        lines.append(f'@model_data{i} = hidden constant [{array.nbytes} x i8] c"{content}", align 64')
+        lines.append(f'@{prefix}_data{i} = hidden constant [{array.nbytes} x i8] c"{content}", align 64')
     return "\n".join(lines)
 
 
-def linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any], with_resources: bool) -> Any:
+def linked(
+    entries: Mapping[str, Callable[..., Any]], data: Sequence[Any], with_resources: bool, prefix: str = PREFIX
+) -> Any:
     """Return one module of all entries, in which only these are visible from outside."""
     from llvmlite import binding as llvm
     from numba import cfunc
@@ -195,13 +205,14 @@ def linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any], with_
     from fmu_src.native.component import SIGNATURES
     from fmu_src.native.memory import Doubles
 
-    parts, glue = [], _Glue(data, with_resources)
+    parts, glue = [], _Glue(data, with_resources, prefix)
+    visible = {_symbol(entry, prefix) for entry in entries}
     for name, (result, arguments) in SIGNATURES.items():
         pointers = len(data) + with_resources
         signature = result(*arguments, *(Doubles for _ in range(pointers)))
         compiled = cfunc(signature, error_model="numpy")(entries[name])
         text = re.sub(r"^target .*$", "", _without_origin(compiled.inspect_llvm()), flags=re.MULTILINE)
-        glue.add(name, result, arguments, compiled.native_name.removeprefix("cfunc."))
+        glue.add(_symbol(name, prefix), result, arguments, compiled.native_name.removeprefix("cfunc."))
         parts.append(llvm.parse_assembly(text))
     module, *others = parts
     for part in others:
@@ -211,7 +222,7 @@ def linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any], with_
             function.linkage = "weak_any"
     module.link_in(llvm.parse_assembly(glue.text()))
     for i, symbol in enumerate((*module.functions, *module.global_variables)):
-        if symbol.name in entries:
+        if symbol.name in visible:
             symbol.visibility = "hidden"
         elif not symbol.is_declaration:
             symbol.linkage = "internal"
@@ -233,19 +244,19 @@ def _readable(name: str) -> str:
 class _Glue:
     """IR of functions with C calling conventions that call numba's functions and pass them the constant data."""
 
-    def __init__(self, data: Sequence[Any], with_resources: bool) -> None:
-        self.data, self.with_resources = data, with_resources
+    def __init__(self, data: Sequence[Any], with_resources: bool, prefix: str) -> None:
+        self.data, self.with_resources, self.prefix = data, with_resources, prefix
         # The kernels' arrays belong to the caller and have no reference count, so these two functions do nothing. ALLOWED
         # proves that nothing else of numba's runtime is needed.
         self.lines = ["define void @NRT_incref(ptr %0) { ret void }", "define void @NRT_decref(ptr %0) { ret void }"]
         for i, array in enumerate(data):
-            self.lines.append(f"@model_data{i} = external hidden constant [{array.nbytes} x i8], align 64")
+            self.lines.append(f"@{prefix}_data{i} = external hidden constant [{array.nbytes} x i8], align 64")
 
     def add(self, name: str, result: Any, arguments: Sequence[Any], body: str) -> None:
         """Add a function `name` that calls numba's `body`, i32 body(result*, exception**, arguments…), which never fails."""
         arguments_of_c = [*(f"{_TYPES[str(a)]} %a{i}" for i, a in enumerate(arguments)), "ptr %resources"]
         names = arguments_of_c if self.with_resources else arguments_of_c[:-1]
-        constants = [f"ptr @model_data{i}" for i in range(len(self.data))]
+        constants = [f"ptr @{self.prefix}_data{i}" for i in range(len(self.data))]
         kind = _TYPES[str(result)]
         types = ", ".join(["ptr", "ptr", *(n.split()[0] for n in names), *("ptr" for _ in constants)])
         self.lines += [
@@ -278,12 +289,18 @@ def _without_origin(text: str) -> str:
 
 
 def _optimised(text: str, entries: Iterable[str], suffix: str, cpu: str, *, vectors: bool = True) -> Any:
-    """Return the module optimised for a processor. `suffix` is added to the names of the entries."""
+    """Return the module optimised for a processor.
+
+    `suffix` is added to the names of the entries, and to those of another component's entries that this one calls.
+    """
     from llvmlite import binding as llvm
 
+    from fmu_src.native.component import SIGNATURES
+
     module = llvm.parse_assembly(text)
-    for name in entries:
-        module.get_function(name).name = f"{name}_{suffix}"
+    for function in module.functions:
+        if function.name in entries or (function.is_declaration and function.name in SIGNATURES):
+            function.name = f"{function.name}_{suffix}"
     machine = _direct(module, next(iter(TRIPLES)), cpu)
     options = llvm.create_pipeline_tuning_options(speed_level=3 if vectors else 2)
     if not vectors:  # the compiler of the C code chooses vectors and unrolls
@@ -312,8 +329,9 @@ def _with_own_libm(code: bytes, suffix: str) -> bytes:
 
 def refuse_the_rest(module: Any) -> None:
     needed = {f.name for f in module.functions if f.is_declaration and not f.name.startswith("llvm.")}
-    needed |= {g.name for g in module.global_variables if g.is_declaration and not g.name.startswith("model_data")}
+    needed |= {g.name for g in module.global_variables if g.is_declaration and not re.search(r"_data\d+$", g.name)}
     needed |= {g.name for g in module.global_variables if g.name.startswith(_REFUSED)}
+    needed = {name for name in needed if not re.fullmatch(rf"{PREFIX}_\w+_(?:{'|'.join(CPUS)}|any)", name)}
     if needed - ALLOWED:
         raise RuntimeError(f"the kernels need symbols that the FMU may not have: {', '.join(sorted(needed - ALLOWED))}")
 

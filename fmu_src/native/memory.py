@@ -7,6 +7,8 @@ from numba.core.errors import TypingError
 from numba.extending import intrinsic
 
 Doubles = types.CPointer(types.float64)
+#: With this the names of a component's entries begin.
+PREFIX = "model"
 
 #: The compile options of `contact._jit` without its cache, since the builder compiles these functions only once.
 compiled = njit(error_model="numpy")

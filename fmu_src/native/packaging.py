@@ -24,7 +24,8 @@ from fmu_src.native.emit import TRIPLES, objects, sources
 from fmu_src.native.licences import licences
 from fmu_src.native.linking import FROM_C, HEADERS, WRAPPER, link, run
 from fmu_src.terminals import terminals
-from models import wheelset
+from models import vehicle, wheelset
+from models.vehicle.declared import find
 
 _COMMON = {
     "needsExecutionTool": "false",
@@ -70,6 +71,7 @@ _SOURCES: dict[Path, set[str]] = {
             "lint",
             "place",
             "profiles",
+            "resources",
             "ssp",
             "terminals",
             "units",
@@ -83,6 +85,9 @@ _SOURCES: dict[Path, set[str]] = {
     },
     Path(wheelset.__file__).parent: set(),
 }
+#: Modules in them of which only the kernels of vehicles are made, and the folder of these kernels.
+_ONLY_VEHICLES = {"vehicle", "open_vehicle", "vehicle_parts", "track"}
+_OF_VEHICLES = Path(vehicle.__file__).parent / "kernels"
 #: Section of the documentation in an FMU.
 _TRIED = """
 The libraries are for 64-bit Linux (glibc 2.17 or newer), Windows and macOS (11 or newer, Intel). They need only the C library
@@ -107,13 +112,14 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None], *
         Add the libraries for 64-bit ARM, which are compiled from the sources.
     """
     component = model.module("native").component(**model.all_options)
-    table = component.table
+    table, kinds = component.table, ("ModelExchange", "CoSimulation")[not component.exchange :]
+    interfaces, interfaces_3 = ({kind: each[kind] for kind in kinds} for each in (INTERFACES, INTERFACES_3))
     objects_of = kernels(model, cache, say)
-    in_c = sources(_kept(model, cache))
+    in_c = [path for part in (model, *model.linked) for path in _sources(part, cache)]
     parts = (*chain.from_iterable(objects_of.values()), *in_c, *sorted(WRAPPER.iterdir()))
     code = b"".join(path.read_bytes() for path in parts)
     listed = [path.name for path in (*sorted(WRAPPER.glob("*.c")), *in_c)] + ["model.c"]
-    guid, xml = model_description(table, INTERFACES, code + description_fmi3(table, INTERFACES_3, "").encode(), listed)
+    guid, xml = model_description(table, interfaces, code + description_fmi3(table, interfaces_3, "").encode(), listed)
     with TemporaryDirectory() as directory:
         made = Path(directory)
         wrapper = [*sorted(WRAPPER.iterdir()), *source.write(component, guid, made)]
@@ -134,7 +140,7 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None], *
         ]
         of_2 = [("modelDescription.xml", xml.encode()), *common, ("model.png", png(table.name))]
         of_3 = [
-            ("modelDescription.xml", description_fmi3(table, INTERFACES_3, guid).encode()),
+            ("modelDescription.xml", description_fmi3(table, interfaces_3, guid).encode()),
             *common,
             ("terminalsAndIcons/icon.png", png(table.name)),
             ("sources/buildDescription.xml", build_description(table.name, listed).encode()),
@@ -152,16 +158,24 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None], *
 
 def kernels(model: Model, cache: Path, say: Callable[[str], None]) -> dict[str, list[Path]]:
     """Return the object files of a model's kernels by platform. They are compiled only if their sources or numba changed."""
-    compile_kernels([model], cache, say)
-    folder = _kept(model, cache)
-    return {platform: objects(folder, platform) for platform in TRIPLES}
+    parts = (model, *model.linked)
+    compile_kernels(parts, cache, say)
+    return {
+        platform: [path for part in parts for path in objects(_kept(part, cache), platform)] for platform in TRIPLES
+    }
+
+
+def _sources(model: Model, cache: Path) -> list[Path]:
+    """Return the C sources of a model's kernels."""
+    return sources(_kept(model, cache), model.module("native").component(**model.options).prefix)
 
 
 def compile_kernels(chosen: Sequence[Model], cache: Path, say: Callable[[str], None]) -> None:
     """Compile the kernels that are not in the cache, in one process, where the models share most of the work."""
     words: list[str | Path] = []
-    for folder, model in {_kept(model, cache): model for model in chosen}.items():
-        parts = chain(sources(folder), *(objects(folder, platform) for platform in TRIPLES))
+    every = chain.from_iterable((model, *model.linked) for model in chosen)
+    for folder, model in {_kept(model, cache): model for model in every}.items():
+        parts = chain(_sources(model, cache), *(objects(folder, platform) for platform in TRIPLES))
         if not all(path.exists() for path in parts):
             folder.mkdir(parents=True, exist_ok=True)
             words += [model.name, json.dumps(dict(model.options)), folder]
@@ -174,8 +188,13 @@ def _kept(model: Model, cache: Path) -> Path:
     """Return the cache folder of a model's kernels. Its name is a hash of everything that they are made from."""
     options = json.dumps(dict(model.options))
     fingerprint = hashlib.sha256(f"{model.name} {options} {version('numba')} {version('llvmlite')}".encode())
+    is_vehicle = "vehicle" in model.options
     for package, others in _SOURCES.items():
         for path in sorted(package.rglob("*.py")):
-            if not set(path.relative_to(package).with_suffix("").parts) & others:
+            if not set(path.relative_to(package).with_suffix("").parts) & (
+                others if is_vehicle else others | _ONLY_VEHICLES
+            ):
                 fingerprint.update(path.read_bytes())
+    for path in (*sorted(_OF_VEHICLES.glob("*.py")), find(model.options["vehicle"])) if is_vehicle else ():
+        fingerprint.update(path.read_bytes())
     return cache / fingerprint.hexdigest()[:16]

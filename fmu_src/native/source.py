@@ -13,6 +13,9 @@ from fmu_src.native import records
 from fmu_src.native.component import Component
 from fmu_src.variables import Causality, Scalar, Table, Variable, identifier
 
+#: Ends of the names of the files of kernels in C and of their data. Their names for each other are in kernels.h.
+_KERNELS = ("data.c", "kernels.c")
+
 
 def write(component: Component, guid: str, folder: Path, *, kernels_in_c: bool = False) -> list[Path]:
     """Write model.h, model.c and records.h into a folder. Return their paths."""
@@ -27,11 +30,18 @@ def write(component: Component, guid: str, folder: Path, *, kernels_in_c: bool =
 
 
 def write_whole(component: Component, guid: str, others: Iterable[Path], folder: Path) -> list[Path]:
-    """Write all that a C compiler needs into a new folder: these files, and copies of the others. Return the paths."""
+    """Write all that a C compiler needs into a new folder: these files, and copies of the others. Return the paths.
+
+    All names that one file uses of another begin with the name of the FMU, so that several can be linked into one program.
+    """
     folder.mkdir()
     written = write(component, guid, folder, kernels_in_c=True)
     names = {path.name for path in written}
-    return [*written, *(Path(shutil.copy(path, folder)) for path in others if path.name not in names)]
+    copies = [Path(shutil.copy(path, folder)) for path in others if path.name not in names]
+    for path in copies:
+        if path.name.endswith(_KERNELS):
+            path.write_text('#include "kernels.h"\n' + path.read_text(encoding="utf-8"), encoding="utf-8")
+    return [*written, *copies]
 
 
 def header(component: Component, guid: str, *, kernels_in_c: bool = False) -> str:
@@ -54,6 +64,8 @@ def header(component: Component, guid: str, *, kernels_in_c: bool = False) -> st
 #define MODEL_H
 {"#define KERNELS_IN_C" if kernels_in_c else "/* The kernels are objects. */"}
 #define MODEL_GUID "{guid}"
+#define OWN(name) {table.name}_##name
+#define ENTRY(name, cpu) {component.prefix}_##name##_##cpu
 #define N_VALUES {len(table.scalars) - accumulated}
 #define N_ACCUMULATED {accumulated}
 #define ACCUMULATES(values) {accumulates}
@@ -97,7 +109,8 @@ def body(component: Component) -> str:
         for given in (True, False)
     )
     files = ", ".join(
-        f"{{{_string(name)}, {_string(magic.rstrip(bytes(1)).decode())}}}" for name, magic in component.resources
+        f"{{{_string(name)}, {_string(magic.rstrip(bytes(1)).decode())}, {rows}}}"
+        for name, magic, rows in component.resources
     )
     return f"""/* Generated from the variable table of {table.name}. */
 #include <math.h>
@@ -159,7 +172,9 @@ def _role(row: Variable, component: Component) -> str:
         return "ACCUMULATED"
     if row.causality is Causality.LOCAL:
         return "OUTPUT"
-    return "TOTAL" if row.name in component.totals else row.causality.name
+    if row.name in component.totals:
+        return "TOTAL"
+    return row.causality.name + (" | TUNABLE" if row.tunable else "")
 
 
 def _number(value: float) -> str:

@@ -1,7 +1,7 @@
 """Native WheelRailPair: the functions that C calls, on one array of all values and one of working memory.
 
-`contact.kernels.pair.solve_pair` does the work, as in Python. This module converts profiles, values and memory to its
-arguments.
+`contact.kernels.elastic_rail.solve_on_rail` does the work, as in Python. This module converts profiles, values and memory
+to its arguments.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels import block, memory, quadrature
 from contact.kernels.block import ahead
 from contact.kernels.damage.deposit import arc_length
+from contact.kernels.elastic_rail import solve_on_rail
 from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes, turn
 from contact.kernels.geometry.settle import DEEPEST
-from contact.kernels.pair import solve_pair
 from contact.kernels.records import CASE, DAMAGE_PARAMETERS, GIVEN, MAX_PATCHES, SLOWEST, TOTAL
 from contact.kernels.rows import N_PROFILE_ROWS, Bin
 from fmu_src.differences import creepage_steps
@@ -33,7 +33,7 @@ from fmu_src.native.component import Component
 from fmu_src.native.memory import compiled, numbers_of
 from fmu_src.native.solver import choose, data, fill, forget_forged, lay_out, size_of
 from fmu_src.native.wires import MATERIAL, case_reader, reader, writer
-from fmu_src.profiles import MAGIC
+from fmu_src.profiles import MAGIC, ROWS
 from fmu_src.tables.solver import DAMAGE_OUTPUTS
 from fmu_src.tables.wheel_rail_pair import ACCUMULATED, BINS, LOAD_KIND, PATCH, PATCHES, RAIL, SIDE, WHEEL, table
 from fmu_src.variables import Table, identifier
@@ -89,7 +89,7 @@ def component(inclination: float, accumulation: bool = False) -> Component:
         table=interface,
         entries=lambda: entries(interface),
         data=data,
-        resources=((WHEEL, MAGIC["wheel"]), (RAIL, MAGIC["rail"])),
+        resources=((WHEEL, MAGIC["wheel"], ROWS), (RAIL, MAGIC["rail"], ROWS)),
         totals={
             "total.energy": ("power.friction",),
             "total.worn_volume": ("damage.archard_volume", "velocity.x"),
@@ -126,7 +126,7 @@ def _references(table: Table) -> Any:
 @compiled
 def _lay_start(work, piece, n_bins, resources):
     """Lay out `Start` in `work`. Return it and the index where it ends."""
-    kept, end = block.vector(work, 0, 1 + MAX_PATCHES * piece)
+    kept, end = block.vector(work, 0, memory.pair_memory_size(piece))
     bins, end = block.cube(work, end, 2, len(Bin), n_bins)
     counts, end = block.vector(work, end, 2)
     n_wheel = int(carray(resources, (1,))[0])
@@ -193,6 +193,9 @@ def _parameter_setter(table: Table) -> Callable[..., Any]:
         parameters.wear_law = int(v[at.accumulation_wear_law]) - 2  # the first item means that nothing accumulates
         settings.width = v[at.accumulation_width]
         settings.start = v[at.accumulation_first] / v[at.accumulation_width]
+        rail = bench.rail[0]
+        rail.ky, rail.kz = v[at.rail_ky], v[at.rail_kz]
+        rail.preload_y, rail.preload_z = v[at.rail_preload_y], v[at.rail_preload_z]
 
     return set_parameters
 
@@ -214,6 +217,7 @@ def _reporter(table: Table) -> Callable[..., Any]:
                 v[at.patch_n + PATCHES * row + k] = numbers[row]
         v[at.slip_ratio] = total.slip_area / total.area if total.area > 0.0 else 0.0
         v[at.power_friction] = v[at.velocity_x] * total.power
+        v[at.rail_deflection_y], v[at.rail_deflection_z] = bench.rail[0].dy, bench.rail[0].dz
 
     return report
 
@@ -300,7 +304,7 @@ def entries(table: Table) -> dict[str, Callable[..., Any]]:
 
     def model_memory(values, resources, published, centre, plane, creep):
         v = carray(values, (n_values,))
-        return 1 + MAX_PATCHES * memory.memory_size(size(v)) + 2 * len(Bin) * n_bins(v)
+        return memory.pair_memory_size(memory.memory_size(size(v))) + 2 * len(Bin) * n_bins(v)
 
     def model_size(values, resources, published, centre, plane, creep):
         v = carray(values, (n_values,))
@@ -342,7 +346,7 @@ def entries(table: Table) -> dict[str, Callable[..., Any]]:
         for k in range(MAX_PATCHES):
             forget_forged(bench.memory[1 + k * piece : 1 + (k + 1) * piece])
         mode = _HEIGHT[int(v[at.load_kind]) - 1]
-        failure = _failure(solve_pair(mode, max(v[at.load_normal_force], 0.0), given[0], bench))
+        failure = _failure(solve_on_rail(mode, max(v[at.load_normal_force], 0.0), given[0], bench))
         if failure > 0:
             return failure
         if not math.isfinite(bench.ledger.bins.sum()):

@@ -121,11 +121,12 @@ class TableSlave(Fmi2Slave):
         """Sort the value references by what a host may do with them."""
         every = list(enumerate(table.scalars))
         inputs = frozenset(r for r, s in every if s.row.causality is Causality.INPUT)
+        tunable = frozenset(r for r, s in every if s.row.tunable)
         exact = frozenset(r for r, s in every if s.row.initial == "exact")
         settable = {
             Phase.INSTANTIATED: inputs | exact,
             Phase.INITIALIZATION: inputs | exact,
-            Phase.STEPPING: inputs,
+            Phase.STEPPING: inputs | tunable,
             Phase.TERMINATED: frozenset[int](),
             Phase.LOST: frozenset[int](),
         }

@@ -12,6 +12,7 @@ from pythonfmu.enums import Fmi2Status
 
 from contact import Material, Status, workspace
 from contact.damage import WEAR_LAWS, DamageParameters
+from contact.elastic_rail import ElasticRail
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.wheelset import Pair
@@ -57,6 +58,7 @@ class WheelRailPairSlave(TableSlave):
                 **_carried(values),
                 friction=friction(values),
                 distance=values["velocity.x"] * step_size,
+                rail=_rail(values),
             )
             rows = {name: getattr(solution.damage, member) for name, member in DAMAGE_OUTPUTS.items()}
             power, worn = (values["velocity.x"] * x for x in (solution.power_per_metre, rows["damage.archard_volume"]))
@@ -76,6 +78,8 @@ class WheelRailPairSlave(TableSlave):
                 "wheel.Y": solution.Y,
                 "wheel.Y_over_Q": solution.Y_over_Q,
                 "used_friction": solution.used_friction,
+                "rail.deflection_y": solution.deflection[0],
+                "rail.deflection_z": solution.deflection[1],
                 "total.energy": values["total.energy"] + power * step_size,
                 "total.worn_volume": values["total.worn_volume"] + worn * step_size,
                 "total.distance": values["total.distance"] + values["velocity.x"] * step_size,
@@ -105,9 +109,10 @@ class WheelRailPairSlave(TableSlave):
             self._pair(self.values).bench.memory[:] = np.frombuffer(bytes.fromhex(memory))
 
     def _pair(self, values: Values) -> WheelRailPair:
-        """Return the pair with these parameters. It is made anew if they have changed."""
+        """Return the pair with these parameters. If they have changed, it is made anew and gets the memory of the old one."""
         wanted = [values[name] for name in self.parameters]
         if self.pair is None or wanted != self.built_with:
+            old = self.pair
             wheel, rail = self.profiles[0], self.profiles[1].rotated(-np.arctan(values["rail.inclination"]))
             material = Material(
                 values["material.shear_modulus"],
@@ -141,6 +146,8 @@ class WheelRailPairSlave(TableSlave):
                 conformal=values.item("patches.surface") == "Conformal",
                 **_accumulation(values, wheel, rail),
             )
+            if old is not None and old.bench.memory.size == self.pair.bench.memory.size:
+                self.pair.bench.memory[:] = old.bench.memory
             self.built_with = wanted
         return self.pair
 
@@ -149,6 +156,12 @@ def _carried(values: Values) -> dict[str, Any]:
     """Return the argument of `WheelRailPair.solve` for the load, none if the height is given."""
     name = {"NormalForce": "load", "VerticalForce": "vertical"}.get(values.item("load.kind"))
     return {} if name is None else {name: max(values["load.normal_force"], 0.0)}
+
+
+def _rail(values: Values) -> ElasticRail:
+    """Return the rail. A stiffness of 0 is rigid."""
+    ky, kz = (values[f"rail.k{axis}"] or math.inf for axis in "yz")
+    return ElasticRail(ky, kz, values["rail.preload_y"], values["rail.preload_z"])
 
 
 def _accumulation(values: Values, wheel: Profile, rail: Profile) -> dict[str, Any]:

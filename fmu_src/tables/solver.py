@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 import contact
 from contact import Status, friction, registry
@@ -55,8 +56,17 @@ _STATUS_NAMES = ("OK", "NoContact", "Saturated", "OutOfRange", "NotConverged", "
 STATUS = Enumeration("Status", tuple(zip(_STATUS_NAMES, (status.message for status in Status), strict=True)))
 
 
+#: Groups of parameters that a host may change during a run: work arrays and warm start do not depend on them.
+_TUNABLE = {"friction", "material", "thermal"}
+
+
 def parameters() -> Iterable[Variable]:
     """Yield the parameters of `contact.solve` other than geometry, creepages and load."""
+    for row in _parameters():
+        yield replace(row, tunable=row.name.split(".")[0] in _TUNABLE)
+
+
+def _parameters() -> Iterable[Variable]:
     steel = contact.STEEL
     yield parameter(
         "method.normal", "Method for the normal problem", enumeration=NORMAL_METHOD, start=registry.DEFAULT_NORMAL

@@ -123,13 +123,14 @@ def table(inclination: float = 1.0 / 40.0, accumulation: bool = False) -> Table:
         "the greatest of all patches. Damage accumulates in bins over the arc length of both profiles. Forces act on the "
         "wheel. Track frame: x forward, y to the right, z down. As co-simulation has no feedthrough, the outputs after a step "
         "belong to the inputs before it: one communication step late.",
-        [*_parameters(inclination), *_inputs(), *_outputs()],
+        [*parameters(inclination), *_inputs(), *_outputs()],
         step_size=1e-3,
         hidden=frozenset() if accumulation else _OF_ACCUMULATION,
     )
 
 
-def _parameters(inclination: float) -> Iterable[Variable]:
+def parameters(inclination: float) -> Iterable[Variable]:
+    """Yield the parameters, which the FMU `Vehicle` has too. `inclination` is a default, as in `table`."""
     yield parameter("side", "Which wheel and rail; the left side is the mirror image", enumeration=SIDE, start="Right")
     yield parameter("load.kind", "How the load is given", enumeration=LOAD_KIND, start="NormalForce")
     yield parameter(
@@ -200,6 +201,19 @@ def _parameters(inclination: float) -> Iterable[Variable]:
     yield parameter(
         "accumulation.width", "Width of a bin", unit="m", start=1e-3, minimum=1e-5, maximum=1e-2, nominal=1e-3
     )
+    for axis, way in (("y", "Lateral"), ("z", "Vertical")):
+        yield parameter(
+            f"rail.k{axis}",
+            f"{way} stiffness of the springs under this rail, which has no mass; 0 is rigid",
+            unit="N/m",
+            start=0.0,
+            minimum=0.0,
+            nominal=1e7,
+        )
+    for axis, way in (("y", "Lateral"), ("z", "Vertical")):
+        yield parameter(
+            f"rail.preload_{axis}", f"{way} external force on the rail on springs", unit="N", start=0.0, nominal=1e3
+        )
 
 
 def _inputs() -> Iterable[Variable]:
@@ -252,6 +266,10 @@ def _outputs() -> Iterable[Variable]:
     )
     yield output("wheel.Y_over_Q", "wheel.Y over wheel.Q; 0 without vertical force", nominal=0.1)
     yield output("used_friction", "Sum of the creep forces of all patches over that of the normal forces", nominal=0.1)
+    for axis, way in (("y", "Lateral"), ("z", "Vertical")):
+        yield output(
+            f"rail.deflection_{axis}", f"{way} deflection of the rail on springs, in balance", unit="m", nominal=1e-3
+        )
     yield from _accumulated()
 
 

@@ -275,6 +275,13 @@ class Scenario:
             return replace(self, wheel=wheels[0], rail=rails[0], draw=(draw,))
         return replace(self, every_wheel=wheels, both_rails=rails, draw=(draw,))
 
+    def reprofiled(self, cut: float) -> Scenario:
+        """Return this scenario with wheels whose nominal radius is smaller by `cut` [m]."""
+        if self.vehicle is not None:
+            return replace(self, vehicle=self.vehicle.reprofiled(cut))
+        wheelset = replace(self.declared.wheelset, radius=self.radius - cut)
+        return replace(self, declared=replace(self.declared, wheelset=wheelset))
+
     def limited(self, pressure: float) -> Scenario:
         """Return this scenario with a pressure limit [Pa], if it has none of its own."""
         if self.declared.methods.pressure_limit is not None or math.isinf(pressure):

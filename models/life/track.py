@@ -16,6 +16,7 @@ from models.life.spectra import CHANNELS, Irregularities, Realisation
 Array = NDArray[np.float64]
 
 RAIL_DISTANCE = 1.5  # distance of the rails' centres, over which cant is measured [m]
+_FARTHEST = 1e9  # distance or value of a measured series [m]; products of larger numbers overflow
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -147,6 +148,8 @@ def _measured(path: str, s: Array) -> list[Array]:
         rows = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
     except (OSError, ValueError) as error:
         raise ContactError(f"measured = {path!r}: {error}") from None
+    if not (np.abs(rows) < _FARTHEST).all():
+        raise ContactError(f"measured = {path!r}: a distance or a value is not within {_FARTHEST:g} m")
     if rows.shape[0] < 4 or rows.shape[1] != 1 + len(CHANNELS) or not (np.diff(rows[:, 0]) > 0.0).all():
         raise ContactError(
             f"measured = {path!r} needs the columns distance, {', '.join(CHANNELS)} and at least four rising distances"

@@ -113,6 +113,11 @@ class Life:
         return max(cut(wheel.present, self.plan.wheel) for wheel in self.wheels.values())
 
     @property
+    def turned_off(self) -> float:
+        """Reduction of the nominal radius of all wheels by reprofiling so far [m]."""
+        return float(self["cut"].sum())
+
+    @property
     def forecast(self) -> tuple[str, str, float] | None:
         """Wheel, limit and mileage [m] of the next reprofiling by the trend of the last steps; None if there is no trend."""
         since = int(np.flatnonzero(self["cut"])[-1]) + 1 if self["cut"].any() else 0
@@ -189,6 +194,7 @@ class Life:
             wheels = tuple(self.wheels[self.plan.group(name)].present for name in scenario.wheel_names)
         worn = (self.rails.get((share.line, side)) for side in SIDES)
         rails = tuple(own if rail is None else rail.present for rail, own in zip(worn, scenario.rails, strict=True))
+        scenario = scenario.reprofiled(self.turned_off) if share.weight > 0.0 else scenario
         return scenario.worn(wheels, rails, number)
 
     def _weighted(self, found: Iterable[Outcome]) -> list[tuple[float, Outcome]]:
@@ -237,7 +243,7 @@ class Life:
         return axles
 
     def _conicity(self) -> Array:
-        first, amplitudes = self.plan.first, self.plan.declared.amplitudes
+        first, amplitudes = self.plan.first.reprofiled(self.turned_off), self.plan.declared.amplitudes
         p = first.vehicle or first.parameters
         options: dict[str, Any] = {
             "nominal_radius": p.radius, "gauge": p.gauge, "flange_back": p.flange_back, "gauge_point": p.gauge_point

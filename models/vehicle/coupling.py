@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from contact._jit import compiled_for
 from contact.errors import ContactError
 from models.vehicle.kernels import motion
+from models.vehicle.kernels.frames import speed_at
 from models.vehicle.kernels.layout import Book
 from models.vehicle.simulation import SIDES, Simulation
 
@@ -61,8 +62,8 @@ class OpenVehicle:
         model, state, scratch, motions = (
             simulation.model, simulation.state, simulation.scratch, simulation.benches.motions
         )  # fmt: skip
-        self._ask: Any = compiled_for(motion.ask, model, state, motions, scratch)
-        self._move: Any = compiled_for(motion.move, model, state, motions, scratch, 1.0)
+        self._ask: Any = compiled_for(motion.ask, model, state, motions, scratch, 1.0)
+        self._move: Any = compiled_for(motion.move, model, state, motions, scratch, 1.0, 1.0)
         self._arguments = model, state, motions, scratch
         self._late: Array | None = None  # answers to the questions of the step before
 
@@ -79,7 +80,7 @@ class OpenVehicle:
 
     def ask(self) -> Array:
         """Return the questions at the present state, shape (wheels, len(QUESTION))."""
-        self._ask(*self._arguments)
+        self._ask(*self._arguments, self._speed)
         scratch = self._simulation.scratch
         given = scratch.given.view(np.float64).reshape(scratch.given.size, -1)
         return np.column_stack((given, scratch.seats["friction"]))
@@ -89,7 +90,13 @@ class OpenVehicle:
         wheels = self._simulation.scratch.wheels
         for column, (name, member) in zip(answers.T, ANSWER.items(), strict=True):
             wheels[member] = -column if name == "force.z" else column
-        self._move(*self._arguments, float(h))
+        self._move(*self._arguments, float(h), self._speed)
+
+    @property
+    def _speed(self) -> float:
+        """Speed at the present place [m/s]."""
+        model = self._simulation.model
+        return float(speed_at(model.track, model.spacing, self._simulation.distance))
 
     def run(self, contacts: Sequence[Contact], h: float, steps: int, *, parallel: bool = False) -> None:
         """Advance by `steps` steps of `h` [s]: ask, let each contact answer, move.

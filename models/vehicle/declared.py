@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from os import PathLike
 from pathlib import Path
+from typing import TypeVar
 
 from contact.errors import ContactError, require_number, suggestion
 from models.life.declared import build, read_table
@@ -103,6 +104,9 @@ class Joint:
         for pair in self.between:
             if len(pair) != 2:
                 raise ContactError(f"between = {pair} does not name two bodies")
+
+
+_J = TypeVar("_J", bound=Joint)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -241,6 +245,22 @@ class VehicleDeclaration:
         if not any("x" in body.held for body in self.bodies):
             raise ContactError("bodies: none of them has held = ['x'], so nothing keeps the speed")
 
+    def reprofiled(self, cut: float) -> VehicleDeclaration:
+        """Return the vehicle with wheels whose radius is smaller by `cut` [m], on which all else stands lower. Masses stay."""
+
+        def lower(joint: _J) -> _J:
+            ahead, right, height = joint.at
+            return replace(joint, at=(ahead, right, height - cut))
+
+        return replace(
+            self,
+            radius=self.radius - cut,
+            bodies=tuple(replace(body, height=body.height - cut) for body in self.bodies),
+            springs=tuple(map(lower, self.springs)),
+            dampers=tuple(map(lower, self.dampers)),
+            stops=tuple(map(lower, self.stops)),
+        )
+
 
 def read(path: str | PathLike[str]) -> VehicleDeclaration:
     """Return the vehicle in a TOML file, or an included one by its name (`manchester`, `wheelset`).
@@ -250,9 +270,15 @@ def read(path: str | PathLike[str]) -> VehicleDeclaration:
     ContactError
         If there is no such vehicle, or the file is not as this module says. The message names file, key and value.
     """
+    place = find(path)
+    return build(VehicleDeclaration, read_table(place), place.name)
+
+
+def find(path: str | PathLike[str]) -> Path:
+    """Return the file of a vehicle, or that of an included one. Raise ContactError if there is none."""
     inside = INCLUDED / f"{path}.toml"
     place = inside if inside.is_file() else Path(path)
     if not place.is_file():
         known = sorted(each.stem for each in INCLUDED.glob("*.toml"))
         raise ContactError(f"vehicle = {str(path)!r} is neither a file nor one of {', '.join(known)}")
-    return build(VehicleDeclaration, read_table(place), place.name)
+    return place

@@ -25,7 +25,7 @@ from models.vehicle.course import BEYOND, SPACING
 from models.vehicle.declared import VehicleDeclaration
 from models.vehicle.kernels import motion
 from models.vehicle.kernels.benches import Benches, gather
-from models.vehicle.kernels.layout import Axis, Book, Model, Row, Scratch, State, Sum, scratch
+from models.vehicle.kernels.layout import Book, Model, Row, Scratch, State, Sum, scratch
 
 Array = NDArray[np.float64]
 
@@ -138,21 +138,20 @@ class Simulation:
 
     def _place(self, start: float) -> None:
         """Put the vehicle on the rails at rest in its nominal place, rolling."""
-        state, books = self.state, self.state.books
-        books[Book.DISTANCE] = start
         k = int((start + BEYOND) / SPACING)
         speed = float(self.model.track[Row.SPEED, k])
-        state.u[:, Axis.X] = speed
+        heights = np.zeros(self.model.wheelsets.size)
         for number, i in enumerate(self.model.wheelsets):
             load = float(self.model.bodies[i]["load"])
-            state.loads[number] = load
-            heights = [self._height(2 * number + side, speed, load) for side in range(2)]
-            state.q[i, Axis.Z] = 0.5 * (heights[0] + heights[1])
-            state.u[i, Axis.PITCH] = -speed / self.vehicle.radius
+            heights[number] = 0.5 * sum(self._height(2 * number + side, speed, load) for side in range(2))
+        motion.place(self.model, self.state, self.benches.motions, heights, float(start), speed)
 
     def _height(self, wheel: int, speed: float, load: float) -> float:
-        """Return the height of a wheelset at which one of its wheels carries the static load."""
-        solved = self._pairs[wheel].solve(Pose(), Velocity(speed), vertical=load, friction=self._friction)
+        """Return the height of a wheelset at which the normal forces of one of its wheels carry the static load.
+
+        With their friction a worn wheel may have no such height.
+        """
+        solved = self._pairs[wheel].solve(Pose(), Velocity(speed), load=load, friction=self._friction)
         return solved.z
 
     @property

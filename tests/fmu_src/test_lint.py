@@ -6,6 +6,7 @@ from zipfile import ZipFile
 import pytest
 
 from fmu_src import lint
+from fmu_src.lint import files, structure, variables
 
 DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="M" guid="{123}" variableNamingConvention="structured">
@@ -37,50 +38,50 @@ DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
 </fmiModelDescription>
 """
 FAULTS = [  # rule, replaced text, new text
-    (lint.elements_in_order, r"(<Unit.*)(<TypeDef.*</TypeDefinitions>)", r"\2\1"),
-    (lint.names_are_structured, 'name="n"', 'name="n-1"'),
-    (lint.names_are_structured, 'name="n"', 'name="n[1"'),
-    (lint.names_are_structured, 'name="n"', 'name="x"'),
-    (lint.arrays_are_whole, r"u\[2\]", "u[3]"),
-    (lint.arrays_are_whole, r"u\[([12])\]", lambda m: f"u[{int(m[1]) - 1}]"),
-    (lint.arrays_are_whole, r"u\[([12])\]", lambda m: f"u[{3 - int(m[1])}]"),
-    (lint.arrays_are_whole, r"u\[2\]", "u[2,1]"),
-    (lint.references_are_unique, 'valueReference="5"', 'valueReference="0"'),
-    (lint.variability_fits, 'variability="fixed" ', ""),
-    (lint.variability_fits, 'variability="fixed"', 'variability="discrete"'),
-    (lint.variability_fits, 'variability="discrete"', 'variability="continuous"'),
-    (lint.starts_are_given, ' start="4"', ""),
-    (lint.starts_are_given, '<Integer min="0"', '<Integer min="0" start="0"'),
-    (lint.starts_are_given, 'causality="input"', 'causality="input" initial="exact"'),
-    (lint.numbers_are_within_range, 'start="4"', 'start="-1"'),
-    (lint.numbers_are_within_range, 'start="4"', 'start="9.5"'),
-    (lint.numbers_are_within_range, 'start="4"', 'start="nan"'),
-    (lint.numbers_are_within_range, 'max="9"', 'max="inf"'),
-    (lint.numbers_are_within_range, 'nominal="2"', 'nominal="0"'),
-    (lint.units_are_defined, '<Unit name="m"><BaseUnit m="1"/></Unit>', ""),
-    (lint.units_are_defined, '<BaseUnit m="1"/>', ""),
-    (lint.units_are_defined, 's="-1"', 's="-1.5"'),
-    (lint.units_are_defined, 's="-1"', 'min="-1"'),
-    (lint.units_are_defined, 'unit="m" start="0"', 'start="0"'),
-    (lint.types_are_declared, 'declaredType="T"', 'declaredType="U"'),
-    (lint.types_are_declared, 'declaredType="T"', ""),
-    (lint.types_are_declared, '<Integer min="0"', '<Integer declaredType="T" min="0"'),
-    (lint.types_are_declared, 'declaredType="T" start="1"', 'declaredType="T" start="3"'),
-    (lint.types_are_declared, 'value="2"', 'value="1"'),
-    (lint.structure_is_complete, '<Unknown index="4" dependencies=""/>', ""),
-    (lint.structure_is_complete, r"(<InitialUnknowns>)(<[^>]*>)(<[^>]*>)", r"\1\3\2"),
-    (lint.structure_is_complete, r"<Derivatives>.*</Derivatives>", ""),
-    (lint.structure_is_complete, 'derivative="4"', 'derivative="6"'),
-    (lint.structure_is_complete, 'derivative="4"', 'derivative="7"'),
-    (lint.dependencies_are_known, '(Outputs>.*)dependencies="2 3 4"', r'\1dependencies="1 2 3 4"'),
-    (lint.dependencies_are_known, 'dependencies="1 2 3 4"', 'dependencies="1 2 3 6"'),
-    (lint.dependencies_are_known, 'dependencies="1 2 3 4"', 'dependencies="1 2 2 3"'),
-    (lint.dependencies_are_known, 'dependenciesKind="dependent"', 'dependenciesKind="dependent dependent"'),
-    (lint.capabilities_are_consistent, 'canGetAndSetFMUstate="true"', ""),
-    (lint.capabilities_are_consistent, 'modelIdentifier="M"', 'modelIdentifier="M-1"'),
-    (lint.capabilities_are_consistent, "<CoSimulation.*?/>", ""),
-    (lint.experiment_is_one, 'stopTime="1"', 'stopTime="0"'),
-    (lint.experiment_is_one, 'stepSize="0.1"', 'stepSize="0"'),
+    (structure.elements_in_order, r"(<Unit.*)(<TypeDef.*</TypeDefinitions>)", r"\2\1"),
+    (variables.names_are_structured, 'name="n"', 'name="n-1"'),
+    (variables.names_are_structured, 'name="n"', 'name="n[1"'),
+    (variables.names_are_structured, 'name="n"', 'name="x"'),
+    (variables.arrays_are_whole, r"u\[2\]", "u[3]"),
+    (variables.arrays_are_whole, r"u\[([12])\]", lambda m: f"u[{int(m[1]) - 1}]"),
+    (variables.arrays_are_whole, r"u\[([12])\]", lambda m: f"u[{3 - int(m[1])}]"),
+    (variables.arrays_are_whole, r"u\[2\]", "u[2,1]"),
+    (variables.references_are_unique, 'valueReference="5"', 'valueReference="0"'),
+    (variables.variability_fits, 'variability="fixed" ', ""),
+    (variables.variability_fits, 'variability="fixed"', 'variability="discrete"'),
+    (variables.variability_fits, 'variability="discrete"', 'variability="continuous"'),
+    (variables.starts_are_given, ' start="4"', ""),
+    (variables.starts_are_given, '<Integer min="0"', '<Integer min="0" start="0"'),
+    (variables.starts_are_given, 'causality="input"', 'causality="input" initial="exact"'),
+    (variables.numbers_are_within_range, 'start="4"', 'start="-1"'),
+    (variables.numbers_are_within_range, 'start="4"', 'start="9.5"'),
+    (variables.numbers_are_within_range, 'start="4"', 'start="nan"'),
+    (variables.numbers_are_within_range, 'max="9"', 'max="inf"'),
+    (variables.numbers_are_within_range, 'nominal="2"', 'nominal="0"'),
+    (variables.units_are_defined, '<Unit name="m"><BaseUnit m="1"/></Unit>', ""),
+    (variables.units_are_defined, '<BaseUnit m="1"/>', ""),
+    (variables.units_are_defined, 's="-1"', 's="-1.5"'),
+    (variables.units_are_defined, 's="-1"', 'min="-1"'),
+    (variables.units_are_defined, 'unit="m" start="0"', 'start="0"'),
+    (variables.types_are_declared, 'declaredType="T"', 'declaredType="U"'),
+    (variables.types_are_declared, 'declaredType="T"', ""),
+    (variables.types_are_declared, '<Integer min="0"', '<Integer declaredType="T" min="0"'),
+    (variables.types_are_declared, 'declaredType="T" start="1"', 'declaredType="T" start="3"'),
+    (variables.types_are_declared, 'value="2"', 'value="1"'),
+    (structure.structure_is_complete, '<Unknown index="4" dependencies=""/>', ""),
+    (structure.structure_is_complete, r"(<InitialUnknowns>)(<[^>]*>)(<[^>]*>)", r"\1\3\2"),
+    (structure.structure_is_complete, r"<Derivatives>.*</Derivatives>", ""),
+    (structure.structure_is_complete, 'derivative="4"', 'derivative="6"'),
+    (structure.structure_is_complete, 'derivative="4"', 'derivative="7"'),
+    (structure.dependencies_are_known, '(Outputs>.*)dependencies="2 3 4"', r'\1dependencies="1 2 3 4"'),
+    (structure.dependencies_are_known, 'dependencies="1 2 3 4"', 'dependencies="1 2 3 6"'),
+    (structure.dependencies_are_known, 'dependencies="1 2 3 4"', 'dependencies="1 2 2 3"'),
+    (structure.dependencies_are_known, 'dependenciesKind="dependent"', 'dependenciesKind="dependent dependent"'),
+    (structure.capabilities_are_consistent, 'canGetAndSetFMUstate="true"', ""),
+    (structure.capabilities_are_consistent, 'modelIdentifier="M"', 'modelIdentifier="M-1"'),
+    (structure.capabilities_are_consistent, "<CoSimulation.*?/>", ""),
+    (structure.experiment_is_one, 'stopTime="1"', 'stopTime="0"'),
+    (structure.experiment_is_one, 'stepSize="0.1"', 'stepSize="0"'),
 ]
 
 
@@ -112,27 +113,27 @@ DESCRIPTION_3 = """<?xml version="1.0" encoding="UTF-8"?>
 </fmiModelDescription>
 """
 FAULTS_3 = [
-    (lint.elements_in_order, r"(<Unit.*)(<TypeDef.*</TypeDefinitions>)", r"\2\1"),
-    (lint.names_are_structured, 'name="n"', 'name="n-1"'),
-    (lint.dimensions_fit, 'Dimension valueReference="9"', 'Dimension valueReference="0"'),
-    (lint.dimensions_fit, 'start="4 5"', 'start="4 5 6"'),
-    (lint.references_are_unique, 'valueReference="8"', 'valueReference="7"'),
-    (lint.variability_fits, 'output" min', 'output" variability="continuous" min'),
-    (lint.starts_are_given, ' start="4 5"', ""),
-    (lint.numbers_are_within_range, 'start="4 5"', 'start="4 9.5"'),
-    (lint.units_are_defined, 'unit="m/s"', 'unit="kg"'),
-    (lint.types_are_declared, 'declaredType="T" start="1"', 'declaredType="T" start="3"'),
-    (lint.structure_is_complete, '<InitialUnknown valueReference="6"/>', ""),
-    (lint.structure_is_complete, "<ContinuousStateD.*?/>", ""),
-    (lint.dependencies_are_known, 'dependencies="0 1 3"', 'dependencies="0 1 5"'),
-    (lint.capabilities_are_consistent, 'canGetAndSetFMUState="true"', ""),
-    (lint.experiment_is_one, 'stopTime="1"', 'stopTime="0"'),
+    (structure.elements_in_order, r"(<Unit.*)(<TypeDef.*</TypeDefinitions>)", r"\2\1"),
+    (variables.names_are_structured, 'name="n"', 'name="n-1"'),
+    (variables.dimensions_fit, 'Dimension valueReference="9"', 'Dimension valueReference="0"'),
+    (variables.dimensions_fit, 'start="4 5"', 'start="4 5 6"'),
+    (variables.references_are_unique, 'valueReference="8"', 'valueReference="7"'),
+    (variables.variability_fits, 'output" min', 'output" variability="continuous" min'),
+    (variables.starts_are_given, ' start="4 5"', ""),
+    (variables.numbers_are_within_range, 'start="4 5"', 'start="4 9.5"'),
+    (variables.units_are_defined, 'unit="m/s"', 'unit="kg"'),
+    (variables.types_are_declared, 'declaredType="T" start="1"', 'declaredType="T" start="3"'),
+    (structure.structure_is_complete, '<InitialUnknown valueReference="6"/>', ""),
+    (structure.structure_is_complete, "<ContinuousStateD.*?/>", ""),
+    (structure.dependencies_are_known, 'dependencies="0 1 3"', 'dependencies="0 1 5"'),
+    (structure.capabilities_are_consistent, 'canGetAndSetFMUState="true"', ""),
+    (structure.experiment_is_one, 'stopTime="1"', 'stopTime="0"'),
 ]
 
 
 def rules(findings):
     """Return the rules to which the findings belong."""
-    return [rule for rule in (*lint.RULES, *lint.FILE_RULES) if any(f.startswith(rule.__doc__) for f in findings)]
+    return [rule for rule in (*lint.RULES, *files.RULES) if any(f.startswith(rule.__doc__) for f in findings)]
 
 
 @pytest.mark.parametrize("description", [DESCRIPTION, DESCRIPTION_3])
@@ -156,7 +157,7 @@ def test_every_rule_has_a_fault_that_it_alone_finds(description, faults):
     for _, old, new in faults:
         found = rules(lint.check(re.sub(old, new, description, flags=re.DOTALL)))
         alone |= {found[0]} if len(found) == 1 else set()
-    of_the_other = lint.arrays_are_whole if description is DESCRIPTION_3 else lint.dimensions_fit
+    of_the_other = variables.arrays_are_whole if description is DESCRIPTION_3 else variables.dimensions_fit
     assert alone == {*lint.RULES} - {of_the_other}
 
 
@@ -173,15 +174,15 @@ FILES = {
         ({}, []),
         ({"binaries/win64/M.dll": b"{123}"}, []),
         ({"resources/script.py": b"guid='{123}'", "binaries/linux64/M.so": b""}, []),
-        ({"binaries/win64/N.dll": b"{123}"}, [lint.libraries_are_named]),
-        ({"binaries/linux64/M.so": None}, [lint.libraries_are_named]),
-        ({"binaries/win64/M.dll": b"{124}"}, [lint.guid_is_the_same]),
-        ({"resources/script.py": b"guid='{124}'"}, [lint.guid_is_the_same]),
-        ({"documentation/licenses/M.txt": None}, [lint.licences_are_enclosed]),
-        ({"documentation/licenses/M.txt": b" "}, [lint.licences_are_enclosed]),
-        ({"resources/a b.txt": b""}, [lint.names_are_portable]),
-        ({"resources/../b.txt": b""}, [lint.names_are_portable]),
-        ({"resources/a.txt": b"", "resources/A.txt": b""}, [lint.names_are_portable]),
+        ({"binaries/win64/N.dll": b"{123}"}, [files.libraries_are_named]),
+        ({"binaries/linux64/M.so": None}, [files.libraries_are_named]),
+        ({"binaries/win64/M.dll": b"{124}"}, [files.guid_is_the_same]),
+        ({"resources/script.py": b"guid='{124}'"}, [files.guid_is_the_same]),
+        ({"documentation/licenses/M.txt": None}, [files.licences_are_enclosed]),
+        ({"documentation/licenses/M.txt": b" "}, [files.licences_are_enclosed]),
+        ({"resources/a b.txt": b""}, [files.names_are_portable]),
+        ({"resources/../b.txt": b""}, [files.names_are_portable]),
+        ({"resources/a.txt": b"", "resources/A.txt": b""}, [files.names_are_portable]),
     ],
 )
 def test_file_rules_find_each_fault(tmp_path, capsys, changed, found):

@@ -223,6 +223,9 @@ def test_a_worn_out_wheel_is_restored_and_the_study_goes_on(tmp_path):
     if at + 1 < len(life.rows):  # the next step began with the unworn wheel
         deepest = displacement(worn[0].new, worn[0].profiles[at + 1]).max()
         assert deepest == pytest.approx(worn[0]["deepest"][at + 1], rel=1e-9)
+    assert life.turned_off == pytest.approx(life["cut"].sum())
+    nominal = life.plan.first.radius
+    assert life._present(0, 9).radius == pytest.approx(nominal - life.turned_off, abs=1e-15)
     again = Life(declared_set.read(path))
     again.restore(life.save())
     assert all(

@@ -1,5 +1,7 @@
 """A driven wheel: the spin answers a force or a torque, CONTACT's spins, unreachable forces, errors."""
 
+import json
+
 import pytest
 
 from contact import ContactError, Status
@@ -7,6 +9,7 @@ from contact.driven import drive
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair
+from tests.command_line import call
 
 FREE = -2.0 / 0.46
 
@@ -80,3 +83,13 @@ def test_bad_input_is_refused(pair, arguments, message):
         drive(pair, Pose(), Velocity(2.0), vertical=7e4, **arguments)
     with pytest.raises(ContactError, match=r"velocity.forward = 0 is outside"):
         drive(pair, Pose(), Velocity(0.0), force=1.0, vertical=7e4)
+
+
+def test_the_command_line_finds_the_rotation_of_a_torque(pair):
+    words = ("rail", "--y", 2e-3, "--load", 7e4, "--torque", 5e3)
+    found = json.loads(call(*words, "--json").stdout)["sides"][0]
+    wanted = drive(pair, Pose(y=2e-3), Velocity(20.0), torque=5e3, vertical=7e4)
+    assert found["spin"] == pytest.approx(wanted.spin, rel=1e-6)
+    assert found["My"] == pytest.approx(5e3, abs=1e-2 * 7e4)
+    assert "rotation of the wheel" in call(*words).stdout
+    assert "exactly one of force and torque" in call(*words, "--force", 1e3, code=2).stderr

@@ -13,6 +13,7 @@ import pytest
 from contact_case import NAME
 from fmu_instance import Instance
 from fmu_instance_fmi3 import Instance3
+from pair_case import NAME as PAIR
 
 from reference.native import Host
 
@@ -140,6 +141,45 @@ def _require_wine() -> None:
 def _build(packaging: str, folder: Path) -> None:
     command = [sys.executable, ROOT / "build_fmu.py", "--packaging", packaging, "--accumulation", "--out", folder]
     subprocess.run(command, check=True, cwd=ROOT, timeout=1200)  # long, for the kernels of three FMUs on a busy machine
+
+
+@pytest.fixture(scope="session", params=["python", "native"])
+def pair_file(request) -> Path:
+    """Return the file of WheelRailPair in each packaging."""
+    folder = request.getfixturevalue("fmus") if request.param == "python" else request.getfixturevalue("native").parent
+    return folder / f"{PAIR}.fmu"
+
+
+@pytest.fixture
+def open_pair(pair_file, tmp_path):
+    """Return a function that instantiates WheelRailPair, each time from a new folder. All instances are freed at the end."""
+    instances = []
+
+    def open_pair(kind: str = "CoSimulation", path: Path = pair_file) -> Instance:
+        # pythonfmu 0.7.0 crashes at a path that must be encoded in a URI
+        odd = "with blanks, ümläuts and 100 %" if pair_file.parent.name == "native" else "plain"
+        folder = tmp_path / f"{odd}{len(instances)}" / PAIR
+        instances.append(Instance(Path(fmpy.extract(str(path), str(folder))), kind=kind))
+        return instances[-1]
+
+    yield open_pair
+    for instance in instances:
+        instance.fmu.freeInstance()
+
+
+@pytest.fixture
+def native_pair(native, tmp_path):
+    """Return a function that instantiates the native WheelRailPair."""
+    instances = []
+
+    def native_pair(kind: str = "CoSimulation", path: Path | None = None) -> Instance:
+        path = path or native.with_name(f"{PAIR}.fmu")
+        instances.append(Instance(Path(fmpy.extract(str(path), str(tmp_path / str(len(instances))))), kind=kind))
+        return instances[-1]
+
+    yield native_pair
+    for instance in instances:
+        instance.fmu.freeInstance()
 
 
 @pytest.fixture

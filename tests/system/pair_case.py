@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 import contact
+from contact.elastic_rail import ElasticRail
 from contact.geometry import profile
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
 from contact.pair import PairSolution, WheelRailPair
@@ -56,6 +57,11 @@ def solved(values: dict[str, float], pair: WheelRailPair) -> PairSolution:
         load=None if values.get("load.kind", 1) == 2 else values.get("load.normal_force", 80e3),
         irregularity=Irregularity(*part("irregularity", "y", "z", "roll", "y_rate", "z_rate", "roll_rate")),
         friction=values.get("friction.coefficient", 0.3),
+        rail=ElasticRail(
+            values.get("rail.ky", 0.0) or math.inf,
+            values.get("rail.kz", 0.0) or math.inf,
+            *part("rail", "preload_y", "preload_z"),
+        ),
     )
 
 
@@ -86,6 +92,8 @@ def expected(s: PairSolution, speed: float) -> dict[str, float]:
         "wheel.Y": s.Y,
         "wheel.Y_over_Q": s.Y_over_Q,
         "used_friction": s.used_friction,
+        "rail.deflection_y": s.deflection[0],
+        "rail.deflection_z": s.deflection[1],
     }
     for k in range(3):
         c = s.contacts[k] if k < len(s.contacts) else None
@@ -108,7 +116,19 @@ def scale(name: str, values: dict[str, float], wanted: dict[str, float]) -> floa
         return load * 1.0
     if leaf in ("mx", "my", "mz"):
         return load * 1e-2
-    if leaf in ("x", "y", "z", "rail_y", "rail_z", "wheel_y", "wheel_z", "Y_over_Q", "used_friction"):
+    if leaf in (
+        "x",
+        "y",
+        "z",
+        "deflection_y",
+        "deflection_z",
+        "rail_y",
+        "rail_z",
+        "wheel_y",
+        "wheel_z",
+        "Y_over_Q",
+        "used_friction",
+    ):
         return 1.0
     if leaf in ("longitudinal", "lateral", "angle", "spin", "ratio"):
         return 1.0
@@ -179,6 +199,13 @@ def random_case(seed: int) -> tuple[dict[str, float], WheelRailPair]:
         "load.normal_force": 10 ** rng.uniform(3.5, 5.2) if rng.random() < 0.95 else 0.0,
         "friction.coefficient": rng.uniform(0.0, 0.6),
     }  # fmt: skip
+    if rng.random() < 0.15:  # a rail on springs
+        values |= {
+            "rail.ky": rng.choice((0.0, 10 ** rng.uniform(6.5, 8.0))),
+            "rail.kz": rng.choice((0.0, 10 ** rng.uniform(7.0, 8.5))),
+            "rail.preload_y": rng.uniform(-5e3, 5e3),
+            "rail.preload_z": rng.uniform(-2e4, 2e4),
+        }
     pair = WheelRailPair(
         geometry,
         material=material,

@@ -1,4 +1,4 @@
-"""The native `WheelRailContact` of FMI 3.0. Its library is that of FMI 2.0; arrays and fields are variables."""
+"""The native `WheelRailContact` of FMI 3.0. Its library is that of FMI 2.0; arrays are variables."""
 
 import math
 from zipfile import ZipFile
@@ -7,6 +7,7 @@ import fmpy
 import numpy as np
 import pytest
 from contact_case import CREEPAGES, NAME, separation
+from contact_case_fmi3 import FIELDS, SHAPE, arrays, pose
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import FMU3Slave
 from fmpy.validation import validate_fmu
@@ -15,43 +16,12 @@ from random_cases import random_case
 from thesis_case import THESIS
 
 import contact
-from contact.kernels.records import MAX_PATCHES
 from contact.solver import N_ELEMENTS, N_STRIPS
-
-SHAPE = (MAX_PATCHES, N_STRIPS, N_ELEMENTS)
-
-FIELDS = {
-    "field.x": "x",
-    "field.y": "y",
-    "field.area": "dA",
-    "field.pressure": "p",
-    "field.traction_x": "qx",
-    "field.traction_y": "qy",
-    "field.slip_x": "sx",
-    "field.slip_y": "sy",
-    "field.stick": "stick",
-}
-
-
-def pose(fmu):
-    """Set `separation` and CREEPAGES in an instance and return it."""
-    s = separation()
-    fmu.update({"geometry.g": s.g, "geometry.A": s.A, **CREEPAGES})
-    fmu.update({"geometry.y0": -0.02, "geometry.dy": 0.001, "speed": 30.0})
-    return fmu
 
 
 @pytest.fixture
 def fmu(open_native_fmi3):
     return pose(open_native_fmi3()).initialize(stop_time=1.0)
-
-
-def arrays(values: dict) -> dict:
-    """Return the values of `random_case` with geometry.g[1] … as one array."""
-    whole = {name: value for name, value in values.items() if not name.endswith("]")}
-    for name in ("geometry.g", "geometry.A", "geometry.tilt"):
-        whole[name] = [value for key, value in values.items() if key.startswith(name + "[")]
-    return whole
 
 
 def scalars(values: dict) -> list:
@@ -182,111 +152,6 @@ def test_arrays_move_with_time_with_fmpy(native_fmi3):
         for k in range(11)
     ]
     np.testing.assert_allclose(result["force.n"], wanted, rtol=1e-9)
-
-
-# ---------------------------------------------------------------- fields
-
-
-@pytest.mark.parametrize("seed", range(25))
-def test_fields_are_those_of_the_solver(open_native_fmi3, seed):
-    case = random_case(seed)
-    fmu, whole, solution = open_native_fmi3(), arrays(case.values), case.solution
-    resolution = {name: whole.pop(f"resolution.{name}") for name in ("n_strips", "n_elements")}
-    fmu.configure(**resolution).update(whole)
-    fmu.initialize().step()
-    n = solution.strips.y.size
-    for name, attribute in FIELDS.items():
-        field = fmu[name]
-        assert field.shape == (4, *resolution.values())
-        field = field.reshape(-1, resolution["n_elements"])
-        known = solution.has_fields or attribute in ("x", "y", "dA", "p")  # with a creep force law the others are zero
-        wanted = getattr(solution, attribute) if known else np.zeros((n, resolution["n_elements"]))
-        np.testing.assert_allclose(field[:n], wanted, rtol=1e-12, atol=1e-12 * np.max(np.abs(wanted), initial=0.0))
-        assert not np.any(field[n:])
-    patch = fmu["field.patch"].reshape(-1, resolution["n_elements"])
-    np.testing.assert_array_equal(patch[:n, 0], solution.strips.patch + 1)
-    assert not np.any(patch[n:])
-
-
-@pytest.mark.parametrize("normal", ["analyn", "strip_halfspace"])
-def test_fields_add_up_to_the_forces_and_keep_coulombs_bound(open_native_fmi3, normal):
-    fmu = pose(open_native_fmi3())
-    fmu.update({"method.normal": list(contact.methods().batched.normal).index(normal) + 1})
-    fmu.initialize().step()
-    area, p, qx, qy = (fmu[f"field.{name}"] for name in ("area", "pressure", "traction_x", "traction_y"))
-    N, mu = fmu["force.n"], fmu["friction.coefficient"]
-    assert np.sum(p * area) == pytest.approx(N, rel=1e-12)
-    # forces and area are integrals in closed form, elements are exact only for the pressure
-    assert np.sum(area) == pytest.approx(fmu["patch.area"], rel=2e-3)
-    assert np.sum(qx * area) == pytest.approx(fmu["force.x"], abs=2e-3 * mu * N)
-    assert np.sum(qy * area) == pytest.approx(fmu["force.y"], abs=2e-3 * mu * N)
-    assert np.all(np.hypot(qx, qy) <= mu * p * (1.0 + 1e-12))
-    slip = np.hypot(fmu["field.slip_x"], fmu["field.slip_y"])
-    assert np.all((slip == 0.0) == (fmu["field.stick"] | (area == 0.0)))
-
-
-def test_fields_belong_to_the_last_step_whatever_was_computed_since(open_native_fmi3):
-    """Interacting strips start warm, so a repeated computation must start from the same memory as the step."""
-    fmu = pose(open_native_fmi3())
-    fmu.update({"method.normal": list(contact.methods().batched.normal).index("strip_halfspace") + 1})
-    fmu.initialize()
-    for k in range(3):
-        fmu.update({"load.normal_force": 8e4 + 2e3 * k})
-        fmu.step(k * 1e-3)
-    wanted = {name: fmu[name] for name in FIELDS}
-    derivative(fmu, ["force.x"], ["load.normal_force"])
-    fmu.update({"creepage.lateral": 5e-3})
-    assert all(np.array_equal(fmu[name], field) for name, field in wanted.items())
-    assert fmu["creep_stiffness"].shape == (3, 3)
-    assert all(np.array_equal(fmu[name], field) for name, field in wanted.items())
-    state = fmu.fmu.getFMUState()
-    content = fmu.fmu.serializeFMUState(state)
-    fmu.step(3e-3)
-    assert not np.array_equal(fmu["field.traction_y"], wanted["field.traction_y"])
-    fmu.fmu.setFMUState(state)
-    assert all(np.array_equal(fmu[name], field) for name, field in wanted.items())
-    fmu.fmu.freeFMUState(state)
-    other = open_native_fmi3()
-    copy = other.fmu.deserializeFMUState(content)
-    other.fmu.setFMUState(copy)
-    other.fmu.freeFMUState(copy)
-    assert all(np.array_equal(other[name], field) for name, field in wanted.items())
-
-
-def test_without_contact_fields_are_zero(fmu):
-    fmu.step()
-    fmu.update({"load.normal_force": 0.0})
-    fmu.step(1e-3)
-    assert not any(np.any(fmu[name]) for name in (*FIELDS, "field.patch"))
-
-
-def derivative(fmu, unknowns: list[str], knowns: list[str], seed=(1.0,)) -> np.ndarray:
-    references = [[fmu.variables[name].valueReference for name in names] for names in (unknowns, knowns)]
-    n = sum(int(np.prod(fmu.shape(name))) for name in unknowns)
-    return np.array(fmu.fmu.getDirectionalDerivative(*references, seed, nSensitivity=n))
-
-
-@pytest.mark.parametrize("known", ["creepage.longitudinal", "load.normal_force"])
-def test_fields_have_directional_derivatives(open_native_fmi3, known):
-    """They are compared with differences in model exchange. In full slip no element changes between stick and slip."""
-    fmu = pose(open_native_fmi3("ModelExchange"))
-    fmu.update({"creepage.longitudinal": 0.05})
-    fmu.initialize()
-    slopes = derivative(fmu, ["creep_stiffness", "field.traction_x"], [known])[9:].reshape(SHAPE)
-    at, found = fmu[known], []
-    for sign in (1.0, -1.0):
-        fmu.update({known: at * (1.0 + sign * 1e-5)})
-        found.append(fmu["field.traction_x"])
-    wanted = (found[0] - found[1]) / (2e-5 * at)
-    np.testing.assert_allclose(slopes, wanted, atol=2e-4 * np.max(np.abs(wanted)))
-
-
-def test_a_seed_of_an_array_applies_to_all_its_elements(fmu):
-    """A gap that is wider everywhere has the effect of a smaller approach."""
-    single = [derivative(fmu, ["approach"], ["geometry.g"], np.eye(41)[i].tolist())[0] for i in range(41)]
-    (together,) = derivative(fmu, ["approach"], ["geometry.g"], [1.0] * 41)
-    assert together == pytest.approx(1.0, abs=1e-6)
-    assert sum(single) == pytest.approx(together, abs=1e-4)
 
 
 # ---------------------------------------------------------------- behaviour for users

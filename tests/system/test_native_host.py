@@ -122,7 +122,7 @@ def test_valgrind_finds_nothing(request, name, command):
     """It looks for leaks and reads of uninitialised memory, over all calls and random ones."""
     host = request.getfixturevalue(name)
     if not shutil.which("valgrind"):
-        pytest.skip("valgrind is not installed")
+        pytest.skip("MEMORY IS NOT CHECKED: valgrind is not installed (apt-get install valgrind)")
     host("every_call", before=VALGRIND)
     host(command, 2000, before=VALGRIND)
 
@@ -130,7 +130,7 @@ def test_valgrind_finds_nothing(request, name, command):
 @pytest.mark.parametrize("name", OTHERS)
 def test_valgrind_finds_nothing_in_the_other_fmus(hosts, name):
     if not shutil.which("valgrind"):
-        pytest.skip("valgrind is not installed")
+        pytest.skip("MEMORY IS NOT CHECKED: valgrind is not installed (apt-get install valgrind)")
     hosts("linux64", name)("fuzz", 1000, before=VALGRIND)
 
 

@@ -10,7 +10,7 @@ import fmpy
 import numpy as np
 import pytest
 
-from fmu_src.native.linking import FROM_C, link, run
+from fmu_src.native.linking import FROM_C, HEADERS, compiler, link, run
 from reference.native import HOST
 
 FLAGS = ("-std=c11", "-O1", "-ffp-contract=off", "-Wall", "-Wno-unused-parameter", "-fno-sanitize=undefined")
@@ -89,6 +89,53 @@ def test_on_64_bit_arm_the_sources_give_the_same_numbers(unzipped):
     found, expected = _said(folder, _embedded(folder, "aarch64-linux-musl", "-static"), qemu), _of_library(folder)
     scale = np.maximum(np.abs(expected), 1e-9 * np.max(np.abs(expected)))
     assert np.max(np.abs(found - expected) / scale) < 1e-6
+
+
+def _linkable(folder: Path, name: str, into: Path) -> list[Path]:
+    """Compile the FMU's sources with its name before the functions of FMI. Return the objects."""
+    objects = []
+    for path in _listed(folder):
+        objects.append(into / f"{name}-{path.stem}.o")
+        prefix = [f"-DFMI{version}_FUNCTION_PREFIX={name}_" for version in (2, 3)]
+        run(*compiler("linux64"), *FLAGS, *prefix, f"-I{folder / 'sources'}", "-c", path, "-o", objects[-1])
+    return objects
+
+
+def test_two_fmus_link_into_one_program_and_give_their_numbers(unzipped, tmp_path):
+    """All their names begin with the name of the FMU: none clashes, not even between two FMUs with the same kernels."""
+    names = ("EllipticContact", "WheelRailContact")
+    objects = {name: _linkable(unzipped(name), name, tmp_path) for name in names}
+    for name, of_fmu in objects.items():
+        said = subprocess.run(
+            ["nm", "-g", "--defined-only", *of_fmu], check=True, capture_output=True, text=True
+        ).stdout
+        seen = {line.split()[2] for line in said.splitlines() if len(line.split()) == 3}
+        assert {f"{name}_fmi2DoStep", f"{name}_fmi3DoStep"} <= seen
+        assert {symbol for symbol in seen if not symbol.startswith(f"{name}_")} == set()
+    program = tmp_path / "two"
+    chosen = [f"-D{number}={name}" for number, name in zip(("ONE", "TWO"), names, strict=True)]
+    run(
+        *(*compiler("linux64"), *FLAGS, *chosen, f"-I{HEADERS}", HOST / "two_embedded.c"),
+        *(*objects[names[0]], *objects[names[1]], "-o", program, "-lm"),
+    )
+    words: list[object] = [program]
+    for name in names:
+        folder, outputs = unzipped(name), _outputs(unzipped(name))
+        guid = fmpy.read_model_description(str(folder)).guid
+        words += [guid, (folder / "resources").as_uri(), len(outputs), *outputs]
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=600)
+    assert done.returncode == 0, done.stderr
+    found = np.array([float.fromhex(line) for line in done.stdout.split()])
+    np.testing.assert_array_equal(found, np.concatenate([_of_library(unzipped(name)) for name in names]))
+
+
+def test_a_host_of_fmi_3_gets_the_prefix_and_may_cancel_it(native_fmi3_folder):
+    """fmpy and others define FMI3_OVERRIDE_FUNCTION_PREFIX for a shared library."""
+    (build,) = fmpy.read_model_description(str(native_fmi3_folder)).buildConfigurations
+    (files,) = build.sourceFileSets
+    (prefix,) = files.preprocessorDefinitions
+    assert (prefix.name, prefix.value) == ("FMI3_FUNCTION_PREFIX", "WheelRailContact_")
+    assert (native_fmi3_folder / "sources" / "fmi3Functions.h").read_text().count("FMI3_OVERRIDE_FUNCTION_PREFIX") >= 2
 
 
 def test_fmi_3_lists_the_same_files(native_fmi3_folder, unzipped):

@@ -20,6 +20,7 @@ TWO = {f"geometry.g[{i}]": 1e-6 * min((i - 12) ** 2, (i - 31) ** 2 + 1) for i in
 CONTACTS = {
     "no creepage": {},
     "creepage": CREEP,
+    "much spin": {"creepage.spin": -0.9},  # beyond the stick zone of strip theory
     "full slip": {"creepage.longitudinal": 0.1},
     "no friction": {**CREEP, "friction.coefficient": 0.0},
     "no contact": {"load.normal_force": 0.0},

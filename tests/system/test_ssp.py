@@ -16,7 +16,7 @@ from pyssp_standard.ssp import SSP
 from models.wheelset import master
 from models.wheelset.components import direct
 from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import LOAD, PROBLEM, REACTION, SIDES
+from models.wheelset.ports import IRREGULARITY, LOAD, MOTION, PROBLEM, REACTION, SIDES
 
 PACKAGINGS = ["python", *(["native"] if find_spec("fmu_src.native.wheelset") else [])]
 STEPS = 60
@@ -79,6 +79,29 @@ def test_connectors_are_variables_of_the_fmus_with_their_causality_and_unit(syst
         assert component.connectors
         for connector in component.connectors:
             assert variables[connector.name].causality == connector.kind
+
+
+def test_a_second_structure_has_connectors_of_the_whole(system, tmp_path):
+    """fmpy runs it, and an input of the system reaches the wheelset."""
+    connected = tmp_path / "connected.ssp"
+    with zipfile.ZipFile(system) as old, zipfile.ZipFile(connected, "w") as new:
+        for name in old.namelist():
+            if name != "SystemStructure.ssd":
+                new.writestr(name.replace("Connected.ssd", "SystemStructure.ssd"), old.read(name))
+    found = read_ssd(str(connected)).system
+    assert {c.name: c.kind for c in found.connectors} == {
+        **dict.fromkeys(IRREGULARITY, "input"),
+        **dict.fromkeys(MOTION, "output"),
+    }
+    with SSP(str(connected), mode="r") as package, package.system_structure as ssd:
+        ssd.check_compliance(ssd.schemas[ssd.identifier], ssd.namespaces)
+    (binding,) = found.parameterBindings
+    (parameters,) = binding.parameterValues
+    signals = {"irregularity.lateral": lambda time: 2e-3, "irregularity.slope": lambda time: 0.0}
+    options = {"stop_time": 2e-3, "step_size": 2e-4, "parameter_set": parameters}
+    moved, still = (simulate_ssp(str(connected), **options, **given) for given in ({"input": signals}, {}))
+    assert moved["lateral"][-1] == moved["wheelset.lateral"][-1]
+    assert moved["lateral"][-1] != still["lateral"][-1]
 
 
 def test_libcosim_gives_the_answer_of_the_example_master(system):

@@ -203,3 +203,20 @@ def test_fastsim_saturates_at_the_bound_of_the_strip_load(ellipse):
     sol = contact.solve(ellipse, contact.Creepage(0.5, 0, 0), load=N, friction=MU, **options)
     centre = np.hypot(sol.qx, sol.qy).max() / (MU * sol.max_pressure)
     assert centre == pytest.approx(4.0 / 3.0, rel=0.01), "Kalker's paraboloid is a third too high at the centre"
+
+
+@pytest.mark.parametrize("creepage", [(0.0, -1e-3, 0.6), (0.0, -2e-3, 1.0), (1e-3, -2e-3, 1.0)])
+def test_share_of_slip_is_that_of_the_fields_where_particles_stick_again(creepage):
+    """Lateral creepage against spin: the rigid slip reverses along the strips."""
+    n = 80
+    found = contact.solve(
+        contact.Separation.hertzian(1.2, 2.0), contact.Creepage(*creepage), load=N, friction=MU,
+        **contact.THESIS | {"n_elements": n},
+    )  # fmt: skip
+    lengths = -np.diff(np.cos(math.pi * np.arange(n + 1) / n))
+    weights = (found.strips.a * found.strips.dy)[:, None] * abs(lengths)
+    sticks = found.stick * weights
+    first_slip = np.argmax(found.stick < 0.5, axis=1)[:, None]
+    again = np.sum(sticks * (np.arange(n) > first_slip)) / weights.sum()
+    assert again > 0.01, "the case shows nothing"
+    assert found.slip_ratio == pytest.approx(1.0 - sticks.sum() / weights.sum(), abs=4e-3)

@@ -45,3 +45,14 @@ def test_faults_of_a_file_are_named(tmp_path, old, new, said):
 def test_unknown_vehicle_is_named():
     with pytest.raises(ContactError, match="neither a file nor one of manchester, wheelset"):
         read("lorry")
+
+
+def test_reprofiled_wheels_are_smaller_and_all_else_stands_lower():
+    whole, cut = read("manchester"), 5e-3
+    lower = whole.reprofiled(cut)
+    before, after = assemble(whole).bodies, assemble(lower).bodies
+    assert lower.radius == pytest.approx(whole.radius - cut, abs=1e-15)
+    assert before["height"] - after["height"] == pytest.approx(np.full(before.size, cut), abs=1e-12)
+    assert after["load"] == pytest.approx(before["load"], rel=1e-12)
+    arms = [assemble(each).elements["on_a"] for each in (whole, lower)]
+    assert arms[1] == pytest.approx(arms[0], abs=1e-12)

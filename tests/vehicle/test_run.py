@@ -1,5 +1,6 @@
 """Runs of scenarios with a vehicle: interruption, damage, files, assessment."""
 
+import dataclasses
 import math
 from pathlib import Path
 
@@ -82,6 +83,18 @@ def test_report_has_no_nan_and_names_the_limits(whole):
 def test_a_step_above_stability_is_refused():
     with pytest.raises(ContactError, match=r"recording.step = 0.0015 s is too long at 10 m/s"):
         VehicleRun(scenario(speed=10.0, recording=Recording(settling=1.0, step=1.5e-3)))
+
+
+def test_a_run_without_a_step_shortens_its_own_until_it_is_stable():
+    """A light rail on the contact's spring needs a shorter step than the spin of the axles, which gives the estimate."""
+    light = scenario()
+    heavy = VehicleRun(light).step
+    rail = dataclasses.replace(light.vehicle.rail, mass=15.0)
+    run = VehicleRun(dataclasses.replace(light, vehicle=dataclasses.replace(light.vehicle, rail=rail)))
+    assert run.step < 0.8 * heavy
+    for _ in range(8):
+        run.advance()
+    assert np.abs(run.simulation.state.rails).max() < 0.1
 
 
 def test_nadals_limit():

@@ -16,7 +16,7 @@ from contact.kernels.normal.influence import anywhere, at_centre
 from contact.kernels.rows import Strip
 
 #: Number of strips at which the gap is evaluated.
-PROBES = 8
+CHECKED = 8
 
 
 @kernel
@@ -58,7 +58,7 @@ def _deepest_outside(sep, n, delta, strips, result):
 def gap_error(sep, n, case, own, result):
     """Return the largest gap or overlap left, over the approach [-]; 1 at most.
 
-    Gaps are probed at the middles of `PROBES` of n strips, overlaps also where a lobe may have been missed.
+    Gaps are evaluated at the middles of `CHECKED` of n strips, overlaps also where a lobe may have been missed.
     """
     y, g, size, strips = sep.y, sep.g, sep.y.size, own.strips
     delta = result.approach - result.touch
@@ -66,8 +66,9 @@ def gap_error(sep, n, case, own, result):
         return 0.0
     per_modulus = (1.0 - case.nu) / (math.pi * case.G)
     largest, k = 0.0, 0
-    for probe in range(min(PROBES, n)):
-        i = (2 * probe + 1) * n // (2 * min(PROBES, n))
+    count = min(CHECKED, n)
+    for strip in range(count):
+        i = (2 * strip + 1) * n // (2 * count)
         at = strips[Strip.Y, i]
         k = cubic.locate(y, size, at, k)
         h = y[k + 1] - y[k]

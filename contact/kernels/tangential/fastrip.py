@@ -71,6 +71,7 @@ class _Lane(Row):
     FY = auto()
     MZ = auto()
     POWER = auto()
+    BACK = auto()  # length of the slip zone over a in which particles stick again
 
 
 class _Shown(Row):
@@ -201,11 +202,17 @@ def _slip_zone(elements, lanes, trace, falling, block, n, fields):
     varies along the strip, or None. numba compiles each on its own, the second without the code for varying friction.
     """
     for l in range(LANES):
-        lanes[_Lane.FX + l], lanes[_Lane.FY + l], lanes[_Lane.MZ + l], lanes[_Lane.POWER + l] = 0.0, 0.0, 0.0, 0.0
+        lanes[_Lane.FX + l], lanes[_Lane.FY + l], lanes[_Lane.MZ + l] = 0.0, 0.0, 0.0
+        lanes[_Lane.POWER + l], lanes[_Lane.BACK + l] = 0.0, 0.0
+    start = 1.0
     load_before, moment_before = 0.0, 0.0
     for k in range(elements.shape[1]):
         s, weight = elements[Element.S, k], elements[Element.SINE, k] * elements[Element.DX, k]
-        load_end, moment_end = elements[Element.LOAD_END, k], elements[Element.MOMENT_END, k]
+        load_end, moment_end, end = (
+            elements[Element.LOAD_END, k],
+            elements[Element.MOMENT_END, k],
+            elements[Element.END, k],
+        )
         recall(lanes, trace[k])
         sticks = 0
         for l in range(lanes.size // N_LANE_ROWS):  # as in `_normalise`, so that it is not unrolled
@@ -237,11 +244,15 @@ def _slip_zone(elements, lanes, trace, falling, block, n, fields):
             lanes[_Lane.FY + l] += share * ey
             lanes[_Lane.MZ + l] += share_s * ey
             lanes[_Lane.POWER + l] += amount * slip
+            zone = 2.0 * lanes[_Lane.E + l] - 1.0
+            length = (zone if zone < start else start) - end
+            again = 1.0 if ex * ex + ey * ey <= _AT_BOUND else 0.0
+            lanes[_Lane.BACK + l] += 0.5 * again * (length + abs(length))
             lanes[Now.SLIP + l] = slip
         if n <= fields.shape[1]:  # else only forces are wanted
             _to_fields(s, elements[Element.SINE, k], lanes, falling)
             _write(k, block, n, lanes, fields)
-        load_before, moment_before = load_end, moment_end
+        load_before, moment_before, start = load_end, moment_end, end
 
 
 @kernel
@@ -338,7 +349,7 @@ def fastrip(part, case, own, result):
             i = block + l
             a, dy, y, xc = strips[Strip.A, i], strips[Strip.DY, i], strips[Strip.Y, i], strips[Strip.XC, i]
             bound, e = lanes[_Lane.BOUND + l], lanes[_Lane.E + l]
-            slip_area += 2.0 * a * e * dy
+            slip_area += (2.0 * e - lanes[_Lane.BACK + l]) * a * dy
             if bound == 0.0:
                 continue
             outer, outer_s = lanes[_Lane.LOAD + l], lanes[_Lane.MOMENT + l]

@@ -19,73 +19,20 @@ patches it is .0062, without them .0114.
 """
 
 import math
-from enum import auto
 from typing import NamedTuple
 
 from contact._jit import chosen_by, kernel
-from contact.kernels import kalker
 from contact.kernels.rows import Element, Field, Strip
 from contact.kernels.tangential.effective import set_effective
 from contact.kernels.tangential.ellipses import equivalent_ellipse
-from contact.kernels.tangential.fastsim import NO_FRICTION
-from contact.kernels.tangential.lanes import (
-    FAR,
-    LANES,
-    N_LANE_ROWS,
-    Now,
-    Row,
-    Varying,
-    after,
-    decay_and_lag,
-    small_exp,
-    turned,
-)
-from contact.kernels.tangential.mapping import edge_direction, elastic_centre, mapped, slid_at
+from contact.kernels.tangential.lanes import FAR, LANES, N_LANE_ROWS, Now, Row, Varying, decay_and_lag, turned
+from contact.kernels.tangential.mapped_lanes import Lane, set_block
+from contact.kernels.tangential.mapping import elastic_centre, mapped, slid_at
 from contact.kernels.tangential.march import March, begin, bound_at, height_at, leave, march, slide, slip_at
 from contact.kernels.tangential.varying import begin_varying, soften, varies
 
-_LOG_ASPECT_FIT = 1.7  # ln(a/b) up to which the constants were fitted; they stay constant beyond
 _MOST = 2.0  # factor by which slip velocities may be scaled
 _ROUND_OFF = 1e-12  # a slip zone shorter than this, over half the length of its strip, is none
-
-
-class _Lane(Row):
-    """Rows of `lanes` after those of the march: the strip's constants, and its sums over mu p0."""
-
-    XS = after(March)  # rigid slip in slip, times the stiffness ratio: (XS, YS + 2 SPIN s)
-    YS = auto()
-    SPIN = auto()
-    R = auto()  # C22/C11
-    RATE = auto()
-    N = auto()  # exponent of the map less 1/2
-    POLE = auto()
-    FROM_EDGE = auto()
-    SUM_X = auto()
-    SUM_Y = auto()
-    SUM_M = auto()
-    POWER = auto()
-    STICK = auto()  # length in stick, over a
-    BOUND = auto()  # mu p0
-    UNIT = auto()  # of slip
-    TO_X = auto()  # change of the rigid slip by effective creepages, in that unit: (TO_X, TO_Y + TO_SPIN s)
-    TO_Y = auto()
-    TO_SPIN = auto()
-
-
-class _Input(Row):
-    """Inputs of the set-up, in rows that the march writes before it reads them."""
-
-    HALF = Now.X
-    AT = Now.Y
-    XC = Now.SLIP
-    VX = Now.SLIDES
-    VY = Now.STICK
-    PHI = March.TRIAL_X
-    C11 = March.TRIAL_Y
-    C22 = March.TRIAL_USED
-    C23 = _Lane.SUM_X
-    ROOT_ASPECT = _Lane.SUM_Y
-    FITTED = _Lane.SUM_M
 
 
 class _Shown(Row):
@@ -94,109 +41,13 @@ class _Shown(Row):
     SHARE = Now.STICK
 
 
-@kernel
-def _set_block(strips, block, last, case, table, centres, lanes):
-    """Fill `lanes` for the strips from `block` on: steps 1 and 2 of mapped_strip.md 3.
-
-    All rows are zero for a strip that carries no load.
-    """
-    G = case.G
-    y_c, y_spin, rho33 = centres
-    least = NO_FRICTION * G
-    for l in range(LANES):
-        i = min(block + l, last - 1)
-        a, bound, log_aspect = strips[Strip.A, i], case.mu * strips[Strip.BOUND, i], strips[Strip.ASPECT, i]
-        lanes[_Lane.BOUND + l] = bound if a > 0.0 and bound > least else 0.0
-        lanes[_Input.HALF + l], lanes[_Input.AT + l], lanes[_Input.XC + l] = a, strips[Strip.Y, i], strips[Strip.XC, i]
-        to_x, to_y, to_phi = strips[Strip.TO_X, i], strips[Strip.TO_Y, i], strips[Strip.TO_PHI, i]
-        lanes[_Input.VX + l], lanes[_Input.VY + l] = strips[Strip.VX, i] + to_x, strips[Strip.VY, i] + to_y
-        lanes[_Input.PHI + l] = strips[Strip.PHI, i] + to_phi
-        lanes[_Lane.TO_X + l], lanes[_Lane.TO_Y + l], lanes[_Lane.TO_SPIN + l] = to_x, to_y, to_phi
-        c11, c22, c23, _ = kalker.coefficients(table, log_aspect)
-        lanes[_Input.C11 + l], lanes[_Input.C22 + l], lanes[_Input.C23 + l] = c11, c22, c23
-        lanes[_Input.ROOT_ASPECT + l] = math.exp(0.5 * log_aspect)
-        lanes[_Input.FITTED + l] = min(max(log_aspect, -_LOG_ASPECT_FIT), _LOG_ASPECT_FIT)
-        lanes[_Lane.N + l] = strips[Strip.TO_EXPONENT, i]
-    edges = 0
-    for l in range(lanes.size // N_LANE_ROWS):
-        bound, a, y, xc = lanes[_Lane.BOUND + l], lanes[_Input.HALF + l], lanes[_Input.AT + l], lanes[_Input.XC + l]
-        vx, vy, phi, fitted = (
-            lanes[_Input.VX + l],
-            lanes[_Input.VY + l],
-            lanes[_Input.PHI + l],
-            lanes[_Input.FITTED + l],
-        )
-        c11, c22, c23 = lanes[_Input.C11 + l], lanes[_Input.C22 + l], lanes[_Input.C23 + l]
-        live = 1.0 if bound > 0.0 else 0.0
-        r = c22 / c11
-        rho23 = 0.75 * math.pi * c23 / (c22 * lanes[_Input.ROOT_ASPECT + l])
-        k11 = live * (4.0 / math.pi**2) * G * c11 / (bound + (1.0 - live))
-        k22 = k11 * r
-        translation = k11 * (vx - phi * y_c)
-        rotation = -k11 * phi * (y - y_c)
-        lateral = k22 * (vy + phi * xc)
-        psi = 0.5 * k22 * rho23 * phi * a
-
-        # T, the distance from stick, and psi, the spin, set exponent, stiffness, spin and turning rate
-        T2 = 0.25 * ((translation + rotation) * (translation + rotation) + lateral * lateral)
-        psi2 = psi * psi
-        h, t = psi2 / (1.0 + psi2), T2 / (1.0 + T2)
-        w = 1.0 / (1.0 + 100.0 * (T2 + psi2))  # the linear range, in which C23 and C33 of the moment are made exact
-        n_map = (0.32 + 0.12 * fitted) * h
-        n_map = (n_map if n_map < 0.45 else 0.45) + lanes[_Lane.N + l]
-        n_map = n_map if n_map < 0.45 else 0.45
-        n_map = n_map if n_map > -0.3 else -0.3
-        stretch = small_exp(0.47 * h) / (1.0 + 2.0 * n_map)
-        spin = psi * small_exp((0.19 - 0.07 * fitted) * h)
-        shift = (1.0 - rho23) * w
-        X = stretch * (translation + (1.0 + (rho33 - 1.0) * w) * rotation - w * k11 * phi * (y_spin - y_c))
-        Y = stretch * lateral * (1.0 - shift)
-        P = spin + (1.0 + 2.0 * n_map) * stretch * lateral * shift
-        used = 0.25 * X * X + (0.5 * Y + P) * (0.5 * Y + P)
-        from_edge = 1.0 if used > 1.0 else 0.0
-        edges += 1 if used > 1.0 else 0
-        pole = P if P < 1.0 else 1.0
-        lanes[March.X + l], lanes[March.Y + l], lanes[March.Z + l] = X, Y, 2.0 * P
-        lanes[_Lane.XS + l], lanes[_Lane.YS + l] = stretch * (translation + rotation) * r, stretch * lateral
-        lanes[_Lane.SPIN + l], lanes[_Lane.R + l], lanes[_Lane.N + l] = spin, r, n_map
-        lanes[_Lane.RATE + l] = small_exp(-0.43 + 0.79 * h - 0.54 * t)
-        lanes[_Lane.POLE + l] = -(pole if pole > -1.0 else -1.0)
-        lanes[_Lane.FROM_EDGE + l], lanes[March.SLIPS + l], lanes[March.USED + l] = (
-            from_edge,
-            from_edge,
-            used if used < 1.0 else 1.0,
-        )
-        lanes[March.EX + l], lanes[March.EY + l] = 0.0, 0.0
-        per_unit, to_phi = stretch * k22, lanes[_Lane.TO_SPIN + l]
-        lanes[_Lane.UNIT + l] = live / (per_unit + (1.0 - live))
-        lanes[_Lane.TO_X + l] = per_unit * (lanes[_Lane.TO_X + l] - to_phi * y)
-        lanes[_Lane.TO_Y + l] = per_unit * (lanes[_Lane.TO_Y + l] + to_phi * xc)
-        lanes[_Lane.TO_SPIN + l] = per_unit * to_phi * a
-    if edges > 0:
-        _set_edges(lanes)
-    for l in range(lanes.size // N_LANE_ROWS):
-        lanes[March.TX + l], lanes[March.TY + l], lanes[March.LEFT + l], lanes[March.CAME + l] = 0.0, 0.0, 1.0, -2.0
-        lanes[_Lane.SUM_X + l], lanes[_Lane.SUM_Y + l], lanes[_Lane.SUM_M + l] = 0.0, 0.0, 0.0
-        lanes[_Lane.POWER + l], lanes[_Lane.STICK + l] = 0.0, 0.0
-
-
-@kernel
-def _set_edges(lanes):
-    """Fill the direction of the strips that slip from their leading edge."""
-    for l in range(lanes.size // N_LANE_ROWS):
-        ex, ey = edge_direction(
-            lanes[_Lane.R + l], lanes[_Lane.XS + l], lanes[_Lane.YS + l] + 2.0 * lanes[_Lane.SPIN + l]
-        )
-        lanes[March.EX + l], lanes[March.EY + l] = lanes[_Lane.FROM_EDGE + l] * ex, lanes[_Lane.FROM_EDGE + l] * ey
-
-
 class Uneven(NamedTuple):
     """Rule with two flexibilities in slip, a parabolic bound, and the map onto the elliptic pressure."""
 
 
 @kernel
 def _begin(rule, lanes):
-    pass  # `_set_block` has set the state
+    pass  # `set_block` has set the state
 
 
 @kernel
@@ -212,7 +63,7 @@ def _height_at(rule, s):
 
 @kernel
 def _slip_at(rule, s, slope, x, y, lanes, l):
-    Xs, Ys, spin, r = lanes[_Lane.XS + l], lanes[_Lane.YS + l], lanes[_Lane.SPIN + l], lanes[_Lane.R + l]
+    Xs, Ys, spin, r = lanes[Lane.XS + l], lanes[Lane.YS + l], lanes[Lane.SPIN + l], lanes[Lane.R + l]
     return -slope * (r * x * x + y * y) - (Xs * x + (Ys + 2.0 * spin * s) * y)
 
 
@@ -222,12 +73,12 @@ def _slide(rule, place, bound, slope, lanes):
     s, step, middle, stretch = place
     ends = 0
     for l in range(LANES):
-        Xs, Ys, spin, r = lanes[_Lane.XS + l], lanes[_Lane.YS + l], lanes[_Lane.SPIN + l], lanes[_Lane.R + l]
+        Xs, Ys, spin, r = lanes[Lane.XS + l], lanes[Lane.YS + l], lanes[Lane.SPIN + l], lanes[Lane.R + l]
         slid, x, y, left = lanes[March.SLIPS + l], lanes[March.EX + l], lanes[March.EY + l], lanes[March.LEFT + l]
         trial_x, trial_y, used = lanes[March.TRIAL_X + l], lanes[March.TRIAL_Y + l], lanes[March.TRIAL_USED + l]
         c = -middle * (1.0 - r)
         wx, wy = Xs + c * x, Ys + 2.0 * spin * middle - c * y
-        rate = lanes[_Lane.RATE + l] * left * stretch / (r * y * y + x * x + 1e-300)
+        rate = lanes[Lane.RATE + l] * left * stretch / (r * y * y + x * x + 1e-300)
         far = rate * math.sqrt(wx * wx + wy * wy)
         rest, lag = decay_and_lag(far if far < FAR else FAR)
         at = s + left * step * (1.0 - lag)
@@ -238,12 +89,12 @@ def _slide(rule, place, bound, slope, lanes):
         slip = _slip_at(rule, s, slope, ex, ey, lanes, l)
         slides = 1.0 if used > 1.0 else slid
         ends += 1 if slides > 0.5 and slip < 0.0 else 0
-        shown = slid_at(s, (ex, ey), r, lanes[_Lane.POLE + l], (Xs, Ys, spin), lanes[_Lane.FROM_EDGE + l])
+        shown = slid_at(s, (ex, ey), r, lanes[Lane.POLE + l], (Xs, Ys, spin), lanes[Lane.FROM_EDGE + l])
         lanes[March.EX + l], lanes[March.EY + l] = ex, ey
         lanes[March.TX + l] = bound * ex if slides > 0.5 else trial_x
         lanes[March.TY + l] = bound * ey if slides > 0.5 else trial_y
         lanes[March.SLIPS + l], lanes[March.USED + l], lanes[March.LEFT + l] = slides, used, 1.0
-        shown += lanes[_Lane.TO_X + l] * ex + (lanes[_Lane.TO_Y + l] + lanes[_Lane.TO_SPIN + l] * s) * ey
+        shown += lanes[Lane.TO_X + l] * ex + (lanes[Lane.TO_Y + l] + lanes[Lane.TO_SPIN + l] * s) * ey
         lanes[Now.SLIP + l], lanes[Now.SLIDES + l] = 0.5 * (shown + abs(shown)) * slides, slides
         lanes[Now.STICK + l] = (1.0 - slid) * (1.0 - left) if slides > 0.5 else 1.0
         lanes[March.TRIAL_X + l], lanes[March.TRIAL_Y + l], lanes[March.TRIAL_USED + l] = x, y, slid
@@ -258,7 +109,7 @@ def _map(per_bound, lanes):
     """
     for l in range(lanes.size // N_LANE_ROWS):
         x, y, slides = lanes[March.TX + l] * per_bound, lanes[March.TY + l] * per_bound, lanes[March.SLIPS + l]
-        map_x, map_y = mapped(x, y, lanes[_Lane.POLE + l], lanes[_Lane.N + l])
+        map_x, map_y = mapped(x, y, lanes[Lane.POLE + l], lanes[Lane.N + l])
         lanes[Now.X + l] = map_x + slides * (lanes[March.EX + l] - map_x)
         lanes[Now.Y + l] = map_y + slides * (lanes[March.EY + l] - map_y)
 
@@ -274,11 +125,11 @@ def _leave(rule, s, k, elements, lanes):
         _map(1.0 / elements[Element.SINE, k] ** 2, lanes)
     step, weight = elements[Element.STEP, k], elements[Element.SINE, k] * elements[Element.DX, k]
     for l in range(LANES):
-        lanes[_Lane.SUM_X + l] += weight * lanes[Now.X + l]
-        lanes[_Lane.SUM_Y + l] += weight * lanes[Now.Y + l]
-        lanes[_Lane.SUM_M + l] += weight * s * lanes[Now.Y + l]
-        lanes[_Lane.POWER + l] += weight * lanes[Now.SLIP + l]
-        lanes[_Lane.STICK + l] += step * lanes[Now.STICK + l]
+        lanes[Lane.SUM_X + l] += weight * lanes[Now.X + l]
+        lanes[Lane.SUM_Y + l] += weight * lanes[Now.Y + l]
+        lanes[Lane.SUM_M + l] += weight * s * lanes[Now.Y + l]
+        lanes[Lane.POWER + l] += weight * lanes[Now.SLIP + l]
+        lanes[Lane.STICK + l] += step * lanes[Now.STICK + l]
 
 
 for _stub, _kernel in (
@@ -299,13 +150,13 @@ def _apply_friction(case, factor, elements, lanes, trace):
     `factor` scales the slip.
     """
     for l in range(LANES):
-        lanes[_Lane.SUM_X + l], lanes[_Lane.SUM_Y + l], lanes[_Lane.SUM_M + l] = 0.0, 0.0, 0.0
-        lanes[_Lane.POWER + l], lanes[_Lane.STICK + l] = 0.0, 0.0
+        lanes[Lane.SUM_X + l], lanes[Lane.SUM_Y + l], lanes[Lane.SUM_M + l] = 0.0, 0.0, 0.0
+        lanes[Lane.POWER + l], lanes[Lane.STICK + l] = 0.0, 0.0
     for k in range(elements.shape[1]):
         sine = elements[Element.SINE, k]
         weight = sine * elements[Element.DX, k]
         for l in range(LANES):
-            slip = trace[k, Now.SLIP + l] * lanes[_Lane.UNIT + l] * factor
+            slip = trace[k, Now.SLIP + l] * lanes[Lane.UNIT + l] * factor
             lanes[Varying.SLIP + l], lanes[Varying.FLUX + l] = slip, lanes[Varying.HEATING + l] * sine * slip
             lanes[Now.STICK + l] = trace[k, Now.STICK + l]
         soften(case, k, elements, lanes, trace)
@@ -320,11 +171,11 @@ def _apply_friction(case, factor, elements, lanes, trace):
             if fall < 1.0 and used > fall:
                 share = fall / used
                 trace[k, Now.SLIDES + l], trace[k, Now.STICK + l] = 1.0, 0.0
-            lanes[_Lane.SUM_X + l] += weight * (qx * share)
-            lanes[_Lane.SUM_Y + l] += weight * (qy * share)
-            lanes[_Lane.SUM_M + l] += weight * elements[Element.S, k] * (qy * share)
-            lanes[_Lane.POWER + l] += weight * slip * share
-            lanes[_Lane.STICK + l] += elements[Element.STEP, k] * trace[k, Now.STICK + l]
+            lanes[Lane.SUM_X + l] += weight * (qx * share)
+            lanes[Lane.SUM_Y + l] += weight * (qy * share)
+            lanes[Lane.SUM_M + l] += weight * elements[Element.S, k] * (qy * share)
+            lanes[Lane.POWER + l] += weight * slip * share
+            lanes[Lane.STICK + l] += elements[Element.STEP, k] * trace[k, Now.STICK + l]
             trace[k, _Shown.SHARE + l] = share
 
 
@@ -336,8 +187,8 @@ def _write_fields(block, last, elements, falling, lanes, trace, fields):
     """
     for k in range(elements.shape[1]):
         for l in range(min(LANES, last - block)):
-            i, bound = block + l, lanes[_Lane.BOUND + l]
-            qx, qy, slip = trace[k, Now.X + l], trace[k, Now.Y + l], trace[k, Now.SLIP + l] * lanes[_Lane.UNIT + l]
+            i, bound = block + l, lanes[Lane.BOUND + l]
+            qx, qy, slip = trace[k, Now.X + l], trace[k, Now.Y + l], trace[k, Now.SLIP + l] * lanes[Lane.UNIT + l]
             size = bound * elements[Element.SINE, k] * (trace[k, _Shown.SHARE + l] if falling else 1.0)
             fields[Field.QX, i, k], fields[Field.QY, i, k] = size * qx, size * qy
             fields[Field.SX, i, k], fields[Field.SY, i, k] = -slip * qx, -slip * qy
@@ -349,13 +200,13 @@ def _energy(strips, i, l, lanes):
     """Return what the slip of strip i, in lane l, dissipates and the work of its forces, per metre rolled [N]."""
     a, y, xc = strips[Strip.A, i], strips[Strip.Y, i], strips[Strip.XC, i]
     vx, vy, phi = strips[Strip.VX, i], strips[Strip.VY, i], strips[Strip.PHI, i]
-    load = lanes[_Lane.BOUND + l] * a * strips[Strip.DY, i]
+    load = lanes[Lane.BOUND + l] * a * strips[Strip.DY, i]
     work = (
-        lanes[_Lane.SUM_X + l] * (vx - phi * y)
-        + lanes[_Lane.SUM_Y + l] * (vy + phi * xc)
-        + a * lanes[_Lane.SUM_M + l] * phi
+        lanes[Lane.SUM_X + l] * (vx - phi * y)
+        + lanes[Lane.SUM_Y + l] * (vy + phi * xc)
+        + a * lanes[Lane.SUM_M + l] * phi
     )
-    return load * lanes[_Lane.POWER + l] * lanes[_Lane.UNIT + l], -load * work
+    return load * lanes[Lane.POWER + l] * lanes[Lane.UNIT + l], -load * work
 
 
 @kernel
@@ -378,7 +229,7 @@ def roll_patch(first, last, case, centres, own, result):
     factor, power, work = 1.0, 0.0, 0.0
     if falling:  # friction follows from the scaled slip, so its factor is needed first
         for block in range(first, last, LANES):
-            _set_block(strips, block, last, case, own.tables.kalker, centres, lanes)
+            set_block(strips, block, last, case, own.tables.kalker, centres, lanes)
             march(Uneven(), elements, lanes, trace)
             for l in range(min(LANES, last - block)):
                 more_power, more_work = _energy(strips, block + l, l, lanes)
@@ -386,23 +237,23 @@ def roll_patch(first, last, case, centres, own, result):
         factor = _factor(power, work)
         power, work = 0.0, 0.0
     for block in range(first, last, LANES):
-        _set_block(strips, block, last, case, own.tables.kalker, centres, lanes)
+        set_block(strips, block, last, case, own.tables.kalker, centres, lanes)
         march(Uneven(), elements, lanes, trace)
         if falling:
-            begin_varying(strips, block, last, case, lanes[_Lane.BOUND : _Lane.BOUND + LANES], lanes)
+            begin_varying(strips, block, last, case, lanes[Lane.BOUND : Lane.BOUND + LANES], lanes)
             _apply_friction(case, factor, elements, lanes, trace)
         for l in range(min(LANES, last - block)):
             i = block + l
             a, dy, y, xc = strips[Strip.A, i], strips[Strip.DY, i], strips[Strip.Y, i], strips[Strip.XC, i]
-            bound = lanes[_Lane.BOUND + l]
+            bound = lanes[Lane.BOUND + l]
             load = bound * a * dy
-            Fx, Fy = load * lanes[_Lane.SUM_X + l], load * lanes[_Lane.SUM_Y + l]
+            Fx, Fy = load * lanes[Lane.SUM_X + l], load * lanes[Lane.SUM_Y + l]
             result.Fx += Fx
             result.Fy += Fy
-            result.Mz += load * a * lanes[_Lane.SUM_M + l] + xc * Fy - y * Fx
+            result.Mz += load * a * lanes[Lane.SUM_M + l] + xc * Fy - y * Fx
             more_power, more_work = _energy(strips, i, l, lanes)
             power, work = power + more_power, work + more_work
-            stick = lanes[_Lane.STICK + l] + rest * (1.0 - lanes[March.SLIPS + l]) if bound > 0.0 else 0.0
+            stick = lanes[Lane.STICK + l] + rest * (1.0 - lanes[March.SLIPS + l]) if bound > 0.0 else 0.0
             slip = 2.0 - stick
             result.slip_area += slip * a * dy if slip > _ROUND_OFF else 0.0
         if fields.shape[1] >= last:  # else only forces are wanted

@@ -203,7 +203,9 @@ def _bound_even(rule, k, elements):
 @kernel
 def _height_even(rule, s):
     parabola = 1.0 - s * s
-    return math.sqrt(parabola) if rule.elliptic else parabola
+    return (
+        math.sqrt(0.5 * (parabola + abs(parabola))) if rule.elliptic else parabola
+    )  # idle lanes lie outside the strip
 
 
 @kernel

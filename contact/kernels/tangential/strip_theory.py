@@ -40,7 +40,7 @@ def stick_zone(xi, eta, psi, nu):
     discriminant, excess = eta * eta + (1.0 - psi * psi) * xi * xi, psi * psi - 1.0
     if discriminant < 0.0 or (opposed <= 0.0 <= excess):
         return 1.0, 0.0, 0.0, 0.0
-    root = math.sqrt(discriminant)
+    root = math.sqrt(0.5 * (discriminant + abs(discriminant)))  # compilers take the root before the condition
     D = square / (root + opposed) if opposed > 0.0 else (opposed - root) / excess
     e = D / (1.0 - nu)
     if excess > 0.0:

@@ -41,13 +41,13 @@ bool is_allowed(size_t i, const double *values)
 }
 
 /* Check the first n values, which are in order, since parameters come first. */
-Status check_ranges(const Instance *instance, size_t n)
+Status check_ranges(const Instance *instance, const double *values, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         const Variable *v = &variables[i];
-        if (v->role == OUTPUT || is_allowed(i, instance->is.values)) continue;
-        return report(instance, LOG_DISCARD, "%s = %g is outside the allowed range %s%g, %g%s", v->name,
-                      instance->is.values[i], v->open_minimum || isinf(v->minimum) ? "]" : "[", v->minimum, v->maximum,
+        if (v->role == OUTPUT || is_allowed(i, values)) continue;
+        return report(instance, LOG_DISCARD, "%s = %g is outside the allowed range %s%g, %g%s", v->name, values[i],
+                      v->open_minimum || isinf(v->minimum) ? "]" : "[", v->minimum, v->maximum,
                       isinf(v->maximum) ? "[" : "]");
     }
     return OK;
@@ -69,15 +69,14 @@ void free_work(Instance *instance)
     instance->work_block = instance->work = NULL;
 }
 
-/* Lay out and fill working memory for the parameters, which must be within their ranges. A warm start from other parameters is
- * discarded. */
-Status prepare(Instance *instance)
+/* Lay out and fill working memory for the parameters in `values`, which must be within their ranges. A warm start of another
+ * size is discarded. */
+Status prepare(Instance *instance, double *values)
 {
-    double *values = instance->is.values;
     int64_t number;
     Status status;
     if (instance->work && !memcmp(values, instance->prepared, N_PARAMETERS * sizeof(double))) return OK;
-    status = check_ranges(instance, N_PARAMETERS); /* those of a restored state have not been checked */
+    status = check_ranges(instance, values, N_PARAMETERS); /* those of a restored state have not been checked */
     if (status != OK) return status;
     int64_t memory_size = instance->model->memory(values, instance->resources);
     void *block = malloc((size_t)instance->model->size(values, instance->resources) * sizeof(double) + CACHE_LINE);
@@ -142,8 +141,8 @@ Status update(Instance *instance, double h, bool warm)
     int64_t number;
     Status status = OK;
     choose(values);
-    if (instance->is.is_new) status = check_ranges(instance, N_VALUES);
-    if (status == OK) status = prepare(instance);
+    if (instance->is.is_new) status = check_ranges(instance, values, N_VALUES);
+    if (status == OK) status = prepare(instance, values);
     if (status != OK) return status;
     memory_bytes = (size_t)instance->memory_size * sizeof(double);
     next = instance->memory, from = next + instance->memory_size;
@@ -184,8 +183,8 @@ Status update(Instance *instance, double h, bool warm)
 Status update_lazy(Instance *instance)
 {
     double solved[N_VALUES];
-    if (!instance->is.lazy_stale || prepare(instance) != OK) return OK;
     memcpy(solved, instance->is.solved, sizeof solved);
+    if (!instance->is.lazy_stale || prepare(instance, solved) != OK) return OK;
     instance->work_is_solved = false;
     instance->model->lazy(solved, instance->work, instance->resources);
     for (size_t i = 0; i < N_VALUES; i++)
@@ -202,9 +201,10 @@ Status update_lazy(Instance *instance)
 Status update_work(Instance *instance)
 {
     double solved[N_VALUES];
-    Status status = prepare(instance);
-    if (status != OK || instance->work_is_solved) return status;
+    Status status;
     memcpy(solved, instance->is.solved, sizeof solved);
+    status = prepare(instance, solved);
+    if (status != OK || instance->work_is_solved) return status;
     memcpy(instance->work, instance->memory + instance->memory_size, (size_t)instance->memory_size * sizeof(double));
     evaluate(instance, solved, 0.0);
     instance->work_is_solved = true;

@@ -5,6 +5,13 @@
 #include "fmi2Functions.h"
 #include "instance.h"
 
+#ifdef FMI2_FUNCTION_PREFIX /* for an FMU that is linked into a program; the header above adds no prefix */
+#define JOIN(a, b) a##b
+#define JOINED(a, b) JOIN(a, b)
+#undef fmi2FullName
+#define fmi2FullName(name) JOINED(FMI2_FUNCTION_PREFIX, name)
+#endif
+
 #define SHARED(call) ((fmi2Status)(call))
 #define NO_NULL(c, ...) REFUSE_NULL(c, fmi2Error, __VA_ARGS__)
 

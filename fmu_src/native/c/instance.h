@@ -13,6 +13,7 @@
 #include <stdint.h>
 
 #include "model.h"
+#include "names.h"
 
 /* ---- the model: its functions take one array of all values, indexed by value reference, and one of working memory, which
  * begins with the warm start. component.py documents each function. Those that compute return 0 or the number of a message. */
@@ -43,6 +44,7 @@ typedef enum {
     TOTAL = 16, /* output that is integrated over time, with a start value */
     FIELD = 32, /* output of FMI 3.0, an array whose size depends on the resolution */
     TIME = 64,  /* a variable only in FMI 3.0 */
+    TUNABLE = 256, /* with PARAMETER: may change between steps and in event mode */
     ACCUMULATED = 128 /* output that adds up and is not in `values`: at the end of the warm start, if anything accumulates */
 } Role;
 #define ANY_OUTPUT (OUTPUT | STATE | TOTAL | ACCUMULATED)
@@ -78,10 +80,11 @@ typedef struct {
 
 extern const Continuous states[N_STATES];
 
-/* A file in resources/ that an instance reads, and the bytes with which it begins. */
+/* A file in resources/ that an instance reads, the bytes with which it begins, and its number of rows. */
 typedef struct {
     const char *name;
     char magic[9];
+    int rows;
 } Resource;
 
 extern const Resource resources[N_RESOURCES];
@@ -155,7 +158,7 @@ typedef struct {
     Content is;
     double *memory; /* twice memory_size numbers: warm start of the next step, then the warm start of the present outputs */
     int64_t memory_size;
-    double *resources;       /* for each file: number of points n, then three columns of n numbers; NULL if there are none */
+    double *resources;       /* for each file: number of points n, then its rows of n numbers; NULL if there are none */
     uint64_t resources_hash; /* identifies the resources: a state of other resources is refused */
     double *work;        /* begins at a cache line, so that vectors are loaded at once */
     void *work_block;    /* allocated block that contains `work` */
@@ -243,8 +246,8 @@ void choose(double *values);
 void show_mirrored(double *values);
 bool in_range(const Variable *variable, double value);
 bool is_allowed(size_t i, const double *values);
-Status check_ranges(const Instance *instance, size_t n);
-Status prepare(Instance *instance);
+Status check_ranges(const Instance *instance, const double *values, size_t n);
+Status prepare(Instance *instance, double *values);
 int64_t evaluate(const Instance *instance, double *values, double h); /* does not change the content, but uses working memory */
 Status update(Instance *instance, double h, bool warm);
 void accumulate(Instance *instance);

@@ -7,6 +7,10 @@
 
 #include "instance.h"
 
+#ifdef KERNELS_IN_C
+#include "kernels.h"
+#endif
+
 /* Kernels as objects are for two kinds of x86-64 processors. Kernels in C are for any processor. */
 #if !defined(KERNELS_IN_C) && (defined(__x86_64__) || defined(_M_X64))
 #define HAS_TWO_KERNELS
@@ -102,16 +106,16 @@ static void restart(Instance *instance)
 }
 
 #define ENTRIES(cpu) \
-    int64_t model_memory_##cpu(double *, const double *); \
-    int64_t model_size_##cpu(double *, const double *); \
-    int64_t model_prepare_##cpu(double *, double *, const double *); \
-    int64_t model_start_##cpu(double *, double *, const double *); \
-    int64_t model_outputs_##cpu(double *, double *, double, const double *); \
-    int64_t model_lazy_##cpu(double *, double *, const double *); \
-    double model_difference_##cpu(double *, int64_t, const double *); \
-    int64_t model_field_##cpu(double *, double *, int64_t, const double *); \
-    static const Model model_##cpu = {model_memory_##cpu,  model_size_##cpu, model_prepare_##cpu,   model_start_##cpu, \
-                                      model_outputs_##cpu, model_lazy_##cpu, model_difference_##cpu, model_field_##cpu};
+    int64_t ENTRY(memory, cpu)(double *, const double *); \
+    int64_t ENTRY(size, cpu)(double *, const double *); \
+    int64_t ENTRY(prepare, cpu)(double *, double *, const double *); \
+    int64_t ENTRY(start, cpu)(double *, double *, const double *); \
+    int64_t ENTRY(outputs, cpu)(double *, double *, double, const double *); \
+    int64_t ENTRY(lazy, cpu)(double *, double *, const double *); \
+    double ENTRY(difference, cpu)(double *, int64_t, const double *); \
+    int64_t ENTRY(field, cpu)(double *, double *, int64_t, const double *); \
+    static const Model model_##cpu = {ENTRY(memory, cpu),  ENTRY(size, cpu), ENTRY(prepare, cpu),    ENTRY(start, cpu), \
+                                      ENTRY(outputs, cpu), ENTRY(lazy, cpu), ENTRY(difference, cpu), ENTRY(field, cpu)};
 #ifdef HAS_TWO_KERNELS
 ENTRIES(v2)
 ENTRIES(v3)

@@ -1,5 +1,5 @@
-/* Files that an instance reads when it is made: profiles, written by fmu_src/profiles.py. Their folder is a path or a file URI,
- * in UTF-8. */
+/* Files that an instance reads when it is made: profiles and tracks, written by fmu_src/resources.py. Their folder is a path or
+ * a file URI, in UTF-8. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -67,9 +67,9 @@ static FILE *open_to_read(const char *path)
 
 enum { MOST_POINTS = 100000 };
 
-/* Append the points of a file to the instance's resources, which hold `size` numbers. Return the new size, or 0 if the file is
+/* Append the content of a file to the instance's resources, which hold `size` numbers. Return the new size, or 0 if the file is
  * not a valid resource. */
-static size_t append(Instance *instance, FILE *file, const char *magic, size_t size)
+static size_t append(Instance *instance, FILE *file, const Resource *resource, size_t size)
 {
     struct {
         char magic[8];
@@ -79,9 +79,9 @@ static size_t append(Instance *instance, FILE *file, const char *magic, size_t s
     size_t length;
     double *grown, *points;
     uint64_t checksum;
-    if (fread(&head, 1, sizeof head, file) != sizeof head || memcmp(head.magic, magic, 8)) return 0;
+    if (fread(&head, 1, sizeof head, file) != sizeof head || memcmp(head.magic, resource->magic, 8)) return 0;
     if (head.n < 4 || head.n > MOST_POINTS) return 0;
-    length = 1 + 3 * (size_t)head.n;
+    length = 1 + (size_t)resource->rows * (size_t)head.n;
     grown = realloc(instance->resources, (size + length) * sizeof(double));
     if (!grown) return 0;
     instance->resources = grown;
@@ -115,10 +115,10 @@ bool load_resources(Instance *instance, const char *folder)
                    folder ? folder : "no folder: the resource location is NULL");
             return false;
         }
-        size = append(instance, file, resources[i].magic, size);
+        size = append(instance, file, &resources[i], size);
         fclose(file);
         if (size == 0) {
-            report(instance, LOG_ERROR, "resource %s is not a profile: it is damaged or was not made by fmu_src.profiles",
+            report(instance, LOG_ERROR, "resource %s is not valid: it is damaged, of another kind or not made by fmu_src.resources",
                    resources[i].name);
             return false;
         }

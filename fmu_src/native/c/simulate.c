@@ -45,9 +45,11 @@ Status update_discrete(Instance *instance, const char *function)
     return OK;
 }
 
+/* Totals are integrated on from the rates after the event. */
 Status enter_continuous(Instance *instance, const char *function)
 {
     REQUIRE(instance, function, EVENT);
+    if (N_TOTALS > 0 && refresh(instance) <= WARNING) accumulate(instance);
     instance->is.phase = CONTINUOUS;
     return OK;
 }

@@ -54,9 +54,11 @@ static bool is_possible(const Instance *instance, const State *state)
     if (!isfinite(is->time) || !isfinite(is->accepted_time) || isnan(is->stop_time)) return false;
     for (size_t i = 0; i < N_VALUES; i++)
         if (!is_allowed(i, is->solved) || !(is->is_new || is_allowed(i, is->values))) return false;
-    /* working memory is laid out for the parameters in `values` and then used with `solved` */
+    /* working memory and fields have the size that follows from `values` and are then used with `solved` */
     if (is->is_new && is->phase & (INSTANTIATED | CONFIGURATION | INITIALIZATION)) return true;
-    return !memcmp(is->values, is->solved, N_PARAMETERS * sizeof(double));
+    for (size_t i = 0; i < N_PARAMETERS; i++)
+        if (is->values[i] != is->solved[i] && !(is->is_new && variables[i].role & TUNABLE)) return false;
+    return true;
 }
 
 Status get_state(Instance *instance, const char *function, void **target)

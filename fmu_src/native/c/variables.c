@@ -87,6 +87,7 @@ Status before_set(Instance *instance, const char *function, const Reference refs
     Status status;
     REQUIRE(instance, function, INSTANTIATED | CONFIGURATION | INITIALIZATION | RUNNING);
     if (instance->is.phase & (INSTANTIATED | INITIALIZATION)) roles |= PARAMETER | TOTAL;
+    if (instance->is.phase & (EVENT | STEP_COMPLETE | STEP_FAILED)) roles |= TUNABLE;
     if (instance->arrays && n > 0 && (kinds == COUNT) != (instance->is.phase == CONFIGURATION))
         return report(instance, LOG_ERROR, "%s: only structural parameters are set, and only in configuration mode", function);
     if (instance->is.phase == CONFIGURATION) roles = PARAMETER;
@@ -134,8 +135,8 @@ Status derivative(Instance *instance, const char *function, const Reference unkn
         status = check(instance, knowns, n_knowns, REAL, INPUT | (instance->is.phase == INITIALIZATION ? PARAMETER : STATE),
                        n_seed, function);
     choose(instance->is.values);
-    if (status == OK) status = check_ranges(instance, N_VALUES);
-    if (status == OK) status = prepare(instance);
+    if (status == OK) status = check_ranges(instance, instance->is.values, N_VALUES);
+    if (status == OK) status = prepare(instance, instance->is.values);
     if (status != OK) return status;
 
     for (size_t k = 0; k < n_knowns; k++)

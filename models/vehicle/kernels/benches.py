@@ -147,4 +147,7 @@ def bench_of(benches, w):
         benches.contacts[w],
         benches.totals[w : w + 1],
         ledger,
+        t.rail,
+        t.roots,
+        t.moved,
     )

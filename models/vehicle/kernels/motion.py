@@ -95,18 +95,33 @@ def _kick(model, state, scratch, h):
 
 
 @kernel
-def ask(model, state, motions, scratch):
+def place(model, state, motions, heights, start, speed):
+    """Put the vehicle, all of whose state is zero, at rest in its nominal place at `start` [m], rolling at `speed` [m/s].
+
+    `heights` are the coordinates z of its wheelsets [m].
+    """
+    state.books[Book.DISTANCE] = start
+    for i in range(model.bodies.size):
+        state.u[i, Axis.X] = speed
+    for axle in range(model.wheelsets.size):
+        i = model.wheelsets[axle]
+        state.loads[axle, 0], state.loads[axle, 1] = model.bodies[i].load, model.bodies[i].load
+        state.q[i, Axis.Z] = heights[axle]
+        state.u[i, Axis.PITCH] = -speed / motions[2 * axle].radius
+
+
+@kernel
+def ask(model, state, motions, scratch, speed):
     """Fill the frames and what each contact is asked at the present state (`scratch.given`, `scratch.seats`)."""
     s = state.books[Book.DISTANCE]
-    lay_frames(model, s, speed_at(model.track, model.spacing, s), scratch.frames)
+    lay_frames(model, s, speed, scratch.frames)
     seat(model, state, s, motions, scratch)
 
 
 @kernel
-def move(model, state, motions, scratch, h):
+def move(model, state, motions, scratch, h, speed):
     """Advance by `h` [s] after `ask`, with the answers of the contacts in `scratch.wheels`."""
     books = state.books
-    speed = speed_at(model.track, model.spacing, books[Book.DISTANCE])
     work = _hold(model, state, speed, scratch, h)
     _load(model, state, motions, h, scratch)
     count(model, state, scratch.wheels, _IMPACT)
@@ -125,11 +140,12 @@ def move(model, state, motions, scratch, h):
 @kernel
 def step(model, state, benches, scratch, h):
     """Advance by `h` [s]; return 0 or the code of `press`. Forces in `scratch` are those before the step."""
-    ask(model, state, benches.motions, scratch)
+    speed = speed_at(model.track, model.spacing, state.books[Book.DISTANCE])
+    ask(model, state, benches.motions, scratch, speed)
     failed = press(benches, scratch)
     if failed < 0:
         return failed
-    move(model, state, benches.motions, scratch, h)
+    move(model, state, benches.motions, scratch, h, speed)
     return 0
 
 

@@ -1,0 +1,108 @@
+"""A massless rail on springs under a wheel: its deflection balances the contact force (elastic_rail.md).
+
+    k_y dy = F_y + P_y,   k_z dz = F_z + P_z,
+
+with the contact force F on the rail and an external force P on it, in track coordinates. The rail moves before the contact
+search. A stiffness of 0 in the record means that the rail is rigid in that direction.
+"""
+
+from contact._jit import kernel
+from contact.kernels.enumerations import Height, Status
+from contact.kernels.pair import solve_pair
+from contact.kernels.root import advance, begin
+
+#: Reach of the search for a deflection beyond where it starts [m], the shortest bracket [m], the largest error of the balance
+#: over the vertical force, and most deflections. The force of a warm pair repeats to about this error.
+_REACH, _SHORTEST, _TOLERANCE, _MOST = 0.03, 1e-12, 2e-5, 60
+
+
+@kernel
+def _left(residual, total):
+    """Return the residual [N], or 0.0 if it is within the tolerance."""
+    return 0.0 if abs(residual) <= _TOLERANCE * max(abs(total.Q), 1.0) else residual
+
+
+@kernel
+def _solve_moved(mode, amount, given, bench):
+    """As `solve_pair`, with the rail displaced by its deflection."""
+    rail = bench.rail[0]
+    bench.moved[0] = given
+    bench.moved[0].rail_y = given.rail_y + rail.dy
+    bench.moved[0].rail_z = given.rail_z + rail.dz
+    return solve_pair(mode, amount, bench.moved[0], bench)
+
+
+@kernel
+def _solve_settled(mode, amount, given, bench):
+    """As `solve_pair`, with the vertical deflection in balance."""
+    rail, total, root = bench.rail[0], bench.total[0], bench.roots[1]
+    if rail.kz <= 0.0:
+        rail.dz = 0.0
+        return _solve_moved(mode, amount, given, bench)
+    if mode != Height.GIVEN:  # the wheel's height follows from its load, so the force does not depend on dz
+        code = _solve_moved(mode, amount, given, bench)
+        left = _left(rail.kz * rail.dz + total.Fz - rail.preload_z, total)
+        if code < 0 or left == 0.0:
+            return code
+        rail.dz -= left / rail.kz
+        return _solve_moved(mode, amount, given, bench)
+    begin(root, rail.dz, rail.kz, rail.dz - _REACH, rail.dz + _REACH)
+    while True:
+        rail.dz = root.x
+        code = _solve_moved(mode, amount, given, bench)
+        value = _left(rail.kz * rail.dz + total.Fz - rail.preload_z, total)
+        if code < 0 or not advance(root, value, _SHORTEST, _MOST):
+            rail.balanced = 1 if root.value == 0.0 else 0
+            return code
+
+
+@kernel
+def _settle(mode, amount, given, bench):
+    """As `solve_pair`, with both deflections in balance."""
+    rail, total, root = bench.rail[0], bench.total[0], bench.roots[0]
+    rail.balanced = 1
+    if rail.ky <= 0.0:
+        rail.dy = 0.0
+        return _solve_settled(mode, amount, given, bench)
+    begin(root, rail.dy, rail.ky, rail.dy - _REACH, rail.dy + _REACH)
+    while True:
+        rail.dy, rail.balanced = root.x, 1
+        code = _solve_settled(mode, amount, given, bench)
+        value = _left(rail.ky * rail.dy + total.Fy - rail.preload_y, total)
+        if code < 0 or not advance(root, value, _SHORTEST, _MOST):
+            if root.value != 0.0:
+                rail.balanced = 0
+            return code
+
+
+@kernel
+def _sane(deflection):
+    """Return a deflection to start from [m]; 0 for a number that no search leaves, which a host can restore."""
+    return deflection if abs(deflection) <= 1.0 else 0.0
+
+
+@kernel
+def solve_on_rail(mode, amount, given, bench):
+    """As `solve_pair`, on the rail of `bench.rail`.
+
+    The search starts at the deflection of the last call, the last two numbers of `bench.memory`. If the force jumps and no
+    deflection is in balance, the status is NOT_CONVERGED. Wear is added only for the balance.
+    """
+    rail, memory, settings = bench.rail[0], bench.memory, bench.ledger.settings[0]
+    rail.dy, rail.dz = 0.0, 0.0
+    if rail.ky <= 0.0 and rail.kz <= 0.0:
+        return solve_pair(mode, amount, given, bench)
+    rail.dy, rail.dz = _sane(memory[memory.size - 2]), _sane(memory[memory.size - 1])
+    dy, dz = rail.dy, rail.dz
+    distance = settings.distance
+    settings.distance = 0.0
+    code = _settle(mode, amount, given, bench)
+    settings.distance = distance
+    if code >= 0 and distance > 0.0 and rail.balanced == 1:
+        code = _solve_moved(mode, amount, given, bench)
+    if code >= 0:
+        dy, dz = rail.dy, rail.dz
+        if rail.balanced == 0:
+            bench.total[0].status = Status.NOT_CONVERGED
+    memory[memory.size - 2], memory[memory.size - 1] = dy, dz
+    return code

@@ -1,0 +1,57 @@
+"""Files in resources/ of a native FMU: rows of numbers over points, which the FMU reads when an instance is made.
+
+A resource is little-endian and holds, in this order: 8 bytes that identify its kind, a checksum of everything that follows
+(FNV-1a, 64 bits), the number n of points (64 bits), then n doubles of each row.
+"""
+
+from __future__ import annotations
+
+import struct
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.errors import ContactError
+
+Array = NDArray[np.float64]
+
+#: Greatest number of points that an FMU reads (`native/c/resources.c`).
+MOST_POINTS = 100_000
+
+
+def pack(magic: bytes, rows: Array) -> bytes:
+    """Return the resource with these rows.
+
+    Raises
+    ------
+    ContactError
+        If there are more points than an FMU reads.
+    """
+    if rows.shape[1] > MOST_POINTS:
+        raise ContactError(f"{rows.shape[1]} points: an FMU reads at most {MOST_POINTS}")
+    content = struct.pack("<q", rows.shape[1]) + rows.astype("<f8").tobytes()
+    return magic + struct.pack("<Q", _checksum(content)) + content
+
+
+def unpack(resource: bytes, rows: int, fault: str) -> Array:
+    """Return the rows of a resource.
+
+    Raises
+    ------
+    ContactError
+        If the bytes are no such resource. The message begins with `fault`.
+    """
+    content = resource[16:]
+    if len(content) < 8 or struct.unpack("<Q", resource[8:16]) != (_checksum(content),):
+        raise ContactError(f"{fault}: it is damaged or was not made by fmu_src.resources")
+    (n,) = struct.unpack("<q", content[:8])
+    if not 4 <= n <= MOST_POINTS or len(content) != 8 + 8 * rows * n:
+        raise ContactError(f"{fault}: it says {n} points")
+    return np.frombuffer(content[8:], "<f8").reshape(rows, -1)
+
+
+def _checksum(content: bytes) -> int:
+    value = 14695981039346656037
+    for byte in content:
+        value = (value ^ byte) * 1099511628211 & (1 << 64) - 1
+    return value

@@ -1,0 +1,63 @@
+"""A track as a resource of the FMUs of vehicles: the rows of `models.vehicle.course.lay`, but for the speed, which is an input.
+
+`python -m fmu_src.track FMU SCENARIO` replaces the track in a finished FMU by that of a scenario (`models/life/readme.md`).
+"""
+
+from __future__ import annotations
+
+import argparse
+import zipfile
+from pathlib import Path
+
+from contact.errors import ContactError
+from fmu_src import archive, resources
+from fmu_src.tables.vehicle import TRACK
+from models.life import scenario
+from models.life.scenario import Scenario
+from models.vehicle.course import lay
+from models.vehicle.kernels.layout import Row
+
+MAGIC = b"wr-track"
+ROWS = len(Row)
+
+
+def pack(given: Scenario) -> bytes:
+    """Return the resource of the track of a scenario."""
+    d = given.declared
+    rows = lay(d.track, d.length, given.speed, (d.seed, *given.draw), d.recording.settling)
+    return resources.pack(MAGIC, rows)
+
+
+def exchange(fmu: Path, given: Scenario) -> None:
+    """Replace the track in an FMU file. If this fails, the file is unchanged.
+
+    Raises
+    ------
+    ContactError
+        If the file is not the FMU of a vehicle.
+    """
+    name = f"resources/{TRACK}"
+    try:
+        with zipfile.ZipFile(fmu) as content:
+            files = {each: content.read(each) for each in content.namelist()}
+    except zipfile.BadZipFile as error:
+        raise ContactError(f"{fmu} is not an FMU, or it is damaged: {error}") from None
+    if name not in files:
+        raise ContactError(f"{fmu} has no {name}: it is not the FMU of a vehicle")
+    archive.write(fmu, [*(files | {name: pack(given)}).items()])
+
+
+def main() -> None:
+    """Replace the track of the FMU that the command line names."""
+    parser = argparse.ArgumentParser(description="Replace the track in a finished FMU of a vehicle.")
+    parser.add_argument("fmu", type=Path)
+    parser.add_argument("scenario", type=Path, help="TOML file with the table [track]")
+    arguments = parser.parse_args()
+    try:
+        exchange(arguments.fmu, scenario.read(arguments.scenario))
+    except (ContactError, ImportError, OSError) as error:
+        parser.error(str(error))
+
+
+if __name__ == "__main__":
+    main()

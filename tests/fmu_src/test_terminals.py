@@ -1,0 +1,48 @@
+"""Terminals of the FMUs for FMI 3.0 follow its schema and group variables that exist."""
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+import fmpy
+import pytest
+
+from fmu_src.catalogue import models
+from fmu_src.terminals import of_table, terminals
+
+TABLES = {model.table.name: model.table for model in models(41, accumulation=True)}
+SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_terminals_follow_the_schema_of_fmi_3(name):
+    lxml = pytest.importorskip("lxml.etree", reason="THE SCHEMA IS NOT CHECKED: lxml is not installed")
+    schema = lxml.XMLSchema(lxml.parse(str(SCHEMA)))
+    schema.assertValid(lxml.fromstring(terminals(TABLES[name]).encode()))
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_members_are_variables(name):
+    variables = {row.element("") for row in TABLES[name].rows}
+    found = list(of_table(TABLES[name]))
+    assert found
+    for terminal in found:
+        assert set(terminal.members.values()) <= variables
+    root = ElementTree.fromstring(terminals(TABLES[name]))
+    assert [t.get("name") for t in root.iter("Terminal")] == [t.name for t in found]
+
+
+def test_terminals_that_are_connected_have_the_same_members():
+    """The wheelset's right side fits a contact."""
+    (contact,), (right, left) = (list(of_table(TABLES[name])) for name in ("WheelRailContact", "Wheelset"))
+    assert contact.kind == right.kind == left.kind
+    assert list(contact.members) == list(right.members) == list(left.members)
+
+
+def test_a_pair_has_terminals_for_its_wheelset_its_rail_and_its_patches():
+    found = {terminal.name: terminal.members for terminal in of_table(TABLES["WheelRailPair"])}
+    assert {"pose.y", "velocity.spin", "load.normal_force", "force.z", "moment.x"} <= set(found["wheelset"])
+    assert {"irregularity.y", "irregularity.roll_rate"} <= set(found["rail"])
+    assert {"patch.angle", "patch.pmax", "patches.count_real"} <= set(found["patches"])
+    connectors = [row for row in TABLES["WheelRailPair"].rows if row.causality == "input"]
+    grouped = {variable for members in found.values() for variable in members.values()}
+    assert {row.name for row in connectors} - grouped == {"friction.coefficient"}  # not of a wheelset or a rail

@@ -1,0 +1,97 @@
+"""A wheel displaced against its wheelset: rigid motions, pitch, mirror image, power, errors."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+from contact import ContactError
+from contact.geometry import profile
+from contact.geometry.flexible import WheelOffset
+from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.pair import WheelRailPair
+from tests.command_line import call
+
+V = 20.0
+VELOCITY = Velocity(V, 0.02, 0.01, 0.003, 0.01, -V / 0.46 * 1.001)
+
+
+@pytest.fixture(scope="module")
+def pairs():
+    wheel, rail = profile.s1002(), profile.rail_60e1()
+    return {side: WheelRailPair(Pair(wheel, rail, side=side)) for side in ("right", "left")}
+
+
+def same(one, other):
+    np.testing.assert_allclose(one.force, other.force, atol=2e-4 * one.Q)
+    np.testing.assert_allclose(one.moment, other.moment, atol=2e-4 * one.Q)
+    assert one.z == pytest.approx(other.z, abs=1e-9)
+
+
+def test_no_offset_changes_nothing(pairs):
+    one, other = (pairs["right"].solve(Pose(y=3e-3), VELOCITY, load=7e4, offset=o) for o in (WheelOffset(), None))
+    same(one, other)
+
+
+def test_a_displaced_wheel_is_a_displaced_wheelset(pairs):
+    offset = WheelOffset(y=2e-3, z=-1e-3, y_rate=0.03, z_rate=-0.02)
+    found = pairs["right"].solve(Pose(y=1e-3), VELOCITY, load=7e4, offset=offset)
+    moved = Velocity(V, 0.05, -0.01, 0.003, 0.01, VELOCITY.spin)
+    rigid = pairs["right"].solve(Pose(y=3e-3), moved, load=7e4)
+    np.testing.assert_allclose(found.force, rigid.force, atol=2e-4 * 7e4)
+    # the wheel is 1 mm higher on its axle, so the axle is 1 mm lower
+    assert found.z == pytest.approx(rigid.z + 1e-3, abs=1e-9)
+    arm = np.array([0.0, 2e-3, -1e-3])
+    np.testing.assert_allclose(found.moment, rigid.moment + np.cross(arm, rigid.force), atol=20.0)
+
+
+def test_a_turned_wheelset_is_one_whose_wheels_are_displaced_and_turned(pairs):
+    """The wheels of a yawed and rolled wheelset, described from the straight one."""
+    roll, yaw = 2e-3, 4e-3
+    for side, pair in pairs.items():
+        tape = (1 if side == "right" else -1) * float(pair.pair.space.motion[0].tape)
+        axis = np.array([-math.sin(yaw) * math.cos(roll), math.cos(yaw) * math.cos(roll), math.sin(roll)])
+        d = tape * (axis - (0.0, 1.0, 0.0))
+        rate = tape * np.array([-0.01, 0.0, 0.003])  # of the straight wheelset
+        rate -= tape * np.array(
+            [
+                math.sin(yaw) * math.sin(roll) * 0.003 - math.cos(yaw) * math.cos(roll) * 0.01,
+                -math.cos(yaw) * math.sin(roll) * 0.003 - math.sin(yaw) * math.cos(roll) * 0.01,
+                math.cos(roll) * 0.003,
+            ]
+        )
+        offset = WheelOffset(*d, roll, 0.0, yaw, *(-rate))
+        found = pair.solve(Pose(y=1e-3), VELOCITY, load=7e4, offset=offset)
+        same(found, pair.solve(Pose(y=1e-3, roll=roll, yaw=yaw), VELOCITY, load=7e4))
+
+
+def test_a_rate_of_pitch_is_spin_and_pitch_does_nothing(pairs):
+    found = pairs["right"].solve(Pose(), VELOCITY, load=7e4, offset=WheelOffset(pitch=0.05, pitch_rate=-0.04))
+    faster = Velocity(V, 0.02, 0.01, 0.003, 0.01, VELOCITY.spin - 0.04)
+    same(found, pairs["right"].solve(Pose(), faster, load=7e4))
+
+
+def test_the_left_wheel_is_the_mirror_image(pairs):
+    one = pairs["right"].solve(
+        Pose(y=2e-3), Velocity(V), load=7e4, offset=WheelOffset(1e-4, 1e-3, 2e-4, 1e-3, 0.0, 2e-3)
+    )
+    offset = WheelOffset(1e-4, -1e-3, 2e-4, -1e-3, 0.0, -2e-3)
+    other = pairs["left"].solve(Pose(y=-2e-3), Velocity(V), load=7e4, offset=offset)
+    np.testing.assert_allclose(other.force, one.force * (1, -1, 1), atol=1e-6 * 7e4)
+    np.testing.assert_allclose(other.moment, one.moment * (-1, 1, -1), atol=1e-6 * 7e4)
+
+
+def test_bad_offsets_are_refused():
+    with pytest.raises(ContactError, match=r"offset.yaw = 0.2 is outside the allowed range \[-0.1, 0.1\]"):
+        WheelOffset(yaw=0.2)
+    with pytest.raises(ContactError, match=r"offset.y_rate = nan is outside"):
+        WheelOffset(y_rate=math.nan)
+
+
+def test_the_command_line(pairs):
+    words = ("rail", "--y", 1e-3, "--load", 7e4)
+    found = json.loads(call(*words, "--wheel-offset", 0, 2e-3, 0, 0, 0, 0, "--json").stdout)["sides"][0]
+    wanted = pairs["right"].solve(Pose(y=1e-3), Velocity(20.0), vertical=7e4, offset=WheelOffset(y=2e-3))
+    assert found["Fy"] == pytest.approx(wanted.force[1], abs=10.0)
+    assert "offset.yaw = 0.5 is outside" in call(*words, "--wheel-offset", 0, 0, 0, 0, 0, 0.5, code=2).stderr

@@ -1,0 +1,86 @@
+"""Derivatives of the native `WheelRailPair`, and what it does at extreme inputs."""
+
+import math
+
+import numpy as np
+import pytest
+from differences import Tally, derivative, parts, quotient
+from fmpy.fmi1 import FMICallException
+from fmu_instance import DISCARD
+from pair_case import MOTION, random_case
+
+import contact
+
+WRENCH = ("force.x", "force.y", "force.z", "moment.x", "moment.y", "moment.z")
+
+
+@pytest.mark.parametrize(
+    ("known", "h"),
+    [
+        ("pose.y", 2e-8),
+        ("pose.roll", 2e-8),
+        ("pose.yaw", 2e-8),
+        ("velocity.spin", 3e-6),
+        ("velocity.yaw", 1e-7),
+        ("load.normal_force", 3.0),
+        ("friction.coefficient", 1e-6),
+    ],
+)
+def test_directional_derivatives_are_those_of_the_outputs(native_pair, known, h):
+    """Each component of the wrench is compared with central differences of other steps."""
+    fmu = native_pair("ModelExchange")
+    fmu.update({**MOTION, "pose.yaw": 1e-3})
+    fmu.initialize()
+    wanted = quotient(fmu, WRENCH, {known: 1.0}, h)
+    np.testing.assert_allclose(derivative(fmu, WRENCH, {known: 1.0}), wanted, rtol=1e-4)
+    assert wanted.all()
+
+
+def test_derivatives_of_random_motions(native_pair):
+    """They agree to 1e-4 of the slope of force and moment where these are smooth, for every continuous method.
+
+    The quotients use wider and narrower steps than the FMU, so that they see every kink within its steps.
+    """
+    fmu, tally = native_pair("ModelExchange"), Tally()
+    continuous = [method.continuous for method in contact.methods().batched.normal.values()]
+    for seed in range(40):
+        values, _ = random_case(seed)
+        fmu.fmu.reset()
+        fmu.update(values)
+        load, mu = abs(fmu.initialize()["force.z"]), values["friction.coefficient"]
+        if load == 0.0 or not continuous[values["method.normal"] - 1]:
+            continue
+        saturates = values["velocity.x"] * mu * load / (values["material.shear_modulus"] * fmu["patches.area"])
+        steps = dict.fromkeys(("pose.y", "pose.roll", "pose.yaw", "irregularity.y", "irregularity.roll"), 1e-7)
+        steps |= dict.fromkeys(("velocity.y", "velocity.roll", "velocity.yaw"), 1e-6 * saturates)
+        steps |= {"velocity.spin": 1e-6 * saturates / values["wheel.radius"], "friction.coefficient": 1e-6 * mu}
+        steps |= {"load.normal_force": 1e-4 * load} if values["load.kind"] == 1 else {"pose.z": 1e-8}
+        for known, h in steps.items():
+            quotients = [quotient(fmu, WRENCH, {known: 1.0}, share * h) for share in (3.0, 0.7)]
+            scale = np.maximum(parts([(0, 1, 2), (3, 4, 5)], quotients[0]), 1e-9 * mu * load / h)
+            tally.add((seed, known), derivative(fmu, WRENCH, {known: 1.0}), quotients, scale)
+    print(f"{tally.smooth} smooth, {len(tally.rough)} not")
+    assert not tally.wrong
+    assert len(tally.rough) < 0.08 * tally.smooth
+
+
+def test_extreme_inputs_give_finite_outputs_or_none(native_pair):
+    fmu = native_pair().initialize()
+    rng = np.random.default_rng(3)
+    inputs = [name for name, v in fmu.variables.items() if v.causality == "input"]
+    done = 0
+    for _ in range(200):
+        fmu.fmu.reset()
+        fmu.update({"load.kind": int(rng.integers(1, 3)), "method.tangential": int(rng.integers(1, 4))})
+        for name in rng.choice(inputs, rng.integers(1, 5)):
+            fmu.update({name: 10.0 ** rng.choice([-300.0, -9.0, -2.0, 0.0, 9.0, 300.0]) * rng.uniform(-1.0, 1.0)})
+        try:
+            fmu.initialize()
+            fmu.step()
+        except FMICallException as error:
+            if error.status != DISCARD:
+                raise
+            continue
+        done += 1
+        assert all(math.isfinite(value) for value in fmu.all("output").values())
+    assert done > 20

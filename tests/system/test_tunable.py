@@ -1,0 +1,159 @@
+"""Tunable parameters: friction and material may change during a run, between steps or in event mode."""
+
+import fmpy
+import numpy as np
+import pytest
+from contact_case import NAME
+from fmu_instance import ERROR, Instance, discarded, refused
+from thesis_case import THESIS
+
+METHODS = {name: value for name, value in THESIS.items() if name.startswith("method.")}
+CREEP = {"creepage.longitudinal": 2e-3, "creepage.lateral": -1e-3, **METHODS}
+#: Other values than at the start, one of each group, so that all of them change the forces.
+TUNED = {
+    "friction.law": 3,
+    "friction.kinetic": 0.1,
+    "friction.half_speed": 0.01,
+    "friction.hot_factor": 0.6,
+    "thermal.conductivity": 20.0,
+    "material.shear_modulus": 6e10,
+    "material.poisson_ratio": 0.25,
+    "material.pressure_limit": 8e8,
+}
+GROUPS = {"friction", "material", "thermal"}
+
+
+@pytest.fixture(params=["fmi2", "fmi3", "python"])
+def open_contact(request):
+    """Return a function that instantiates the FMU in each packaging and version of FMI."""
+    if request.param == "python":
+        opened = request.getfixturevalue("open_fmu")
+        return lambda: opened(NAME)
+    return request.getfixturevalue("open_native" if request.param == "fmi2" else "open_native_fmi3")
+
+
+def results(fmu) -> dict[str, np.ndarray]:
+    """Return all outputs but those that add up over time."""
+    return {name: value for name, value in fmu.all("output").items() if not name.startswith("total.")}
+
+
+def test_the_descriptions_name_friction_and_material(native, native_fmi3, fmus):
+    for path in (native, native_fmi3, fmus / f"{NAME}.fmu", native.with_name("WheelRailPair.fmu")):
+        variables = fmpy.read_model_description(str(path)).modelVariables
+        tunable = {v.name for v in variables if v.variability == "tunable"}
+        own = {v.name for v in variables if v.causality == "parameter" and v.name.split(".")[0] in GROUPS}
+        assert tunable == own > TUNED.keys()
+
+
+def test_a_step_after_tuning_is_that_of_an_fmu_with_these_parameters(open_contact):
+    """Bit for bit, in one step and in the next."""
+    fmu, other = open_contact(), open_contact()
+    fmu.update(CREEP)
+    fmu.initialize().step()
+    before = results(fmu)
+    fmu.update(TUNED)
+    other.update({**CREEP, **TUNED})
+    other.initialize().step()
+    for _ in range(2):
+        fmu.step()
+        for name, value in results(other).items():
+            np.testing.assert_array_equal(results(fmu)[name], value, err_msg=name)
+    assert abs(results(fmu)["force.x"]) < 0.8 * abs(before["force.x"])
+
+
+def test_what_belongs_to_the_last_step_stays_until_the_next(open_native_fmi3, open_native):
+    """Outputs that are computed when they are read, and fields."""
+    for fmu in (open_native(), open_native_fmi3()):
+        names = [n for n in fmu.variables if n.startswith(("creep_stiffness", "field.traction", "force"))]
+        fmu.update(CREEP)
+        fmu.initialize().step()
+        reading = {name: fmu[name] for name in names}
+        fmu.step()
+        fmu.update(TUNED)
+        for name in names:
+            np.testing.assert_array_equal(fmu[name], reading[name], err_msg=name)
+        fmu.step()
+        assert fmu["force.x"] != reading["force.x"]
+
+
+def test_fixed_parameters_cannot_be_tuned_nor_tunable_ones_in_continuous_time(open_native, open_native_fmi3):
+    for opened in (open_native, open_native_fmi3):
+        fmu = opened()
+        fmu.initialize().step()
+        refused(lambda: fmu.update({"wheel.radius": 0.4}), ERROR)  # noqa: B023 - called at once
+        fmu.update({"friction.kinetic": 0.2})
+        fmu = opened("ModelExchange")
+        fmu.initialize()
+        fmu.update({"friction.kinetic": 0.2})
+        fmu.fmu.enterContinuousTimeMode()
+        refused(lambda: fmu.update({"friction.kinetic": 0.3}), ERROR)  # noqa: B023
+        assert fmu["friction.kinetic"] == 0.2
+
+
+def test_a_value_out_of_range_is_discarded_by_name_and_the_instance_goes_on(open_native):
+    fmu = open_native()
+    fmu.update(CREEP)
+    fmu.initialize().step()
+    before = fmu.all("output")
+    fmu.update({"material.poisson_ratio": 0.7})
+    assert discarded(fmu).startswith("material.poisson_ratio = 0.7 is outside the allowed range [0, 0.5]")
+    assert fmu.all("output") == before
+    fmu.update({"material.poisson_ratio": 0.28})
+    fmu.step()
+    assert results(fmu)["force.x"] == before["force.x"]
+
+
+def test_a_state_between_tuning_and_the_step_is_restored(open_native):
+    fmu, other = open_native(), open_native()
+    fmu.update(CREEP)
+    fmu.initialize().step()
+    fmu.update(TUNED)
+    state = fmu.fmu.getFMUstate()
+    content = fmu.fmu.serializeFMUstate(state)
+    fmu.step()
+    wanted = fmu.all("output")
+    fmu.fmu.setFMUstate(state)
+    fmu.step(1e-3)
+    assert fmu.all("output") == wanted
+    fmu.fmu.freeFMUstate(state)
+    other.fmu.setFMUstate(other.fmu.deSerializeFMUstate(content))
+    other.step(1e-3)
+    assert other.all("output") == wanted
+
+
+@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
+def test_fmpy_tunes_during_a_run(native, native_fmi3, kind):
+    """Friction falls to a third in the middle. In full slip the force does too, and the energy follows from the power."""
+    signal = np.array([(0.0, 0.3), (0.5, 0.3), (0.5, 0.1), (1.0, 0.1)], [("time", float), ("friction.kinetic", float)])
+    start = {"creepage.longitudinal": 0.05, "friction.law": 3, "friction.half_speed": 1e-3, **METHODS}
+    for path in (native, native_fmi3):
+        found = fmpy.simulate_fmu(
+            str(path), fmi_type=kind, stop_time=1.0, step_size=0.01, output_interval=0.01, input=signal,
+            start_values=start, output=["force.x", "total.energy", "power.friction"],
+        )  # fmt: skip
+        early, late = (found[np.isclose(found["time"], time)][-1] for time in (0.4, 0.9))
+        assert late["force.x"] / early["force.x"] == pytest.approx(1 / 3, rel=5e-3)
+        energy = 0.5 * (early["power.friction"] + late["power.friction"])
+        # co-simulation sees the change one communication step late
+        assert found["total.energy"][-1] == pytest.approx(energy, rel=1e-6 if kind == "ModelExchange" else 0.02)
+
+
+def test_both_packagings_of_the_pair_keep_their_memory(native, open_fmu, tmp_path):
+    """The warm start of interacting strips, and the bins of accumulated damage."""
+    one = Instance(fmpy.extract(str(native.with_name("WheelRailPair.fmu")), str(tmp_path / "native")))
+    other, found = open_fmu("WheelRailPair"), []
+    for fmu in (one, other):
+        fmu.update({"pose.y": 2e-3, "velocity.spin": -43.6, "accumulation.wear_law": 2})
+        fmu.initialize()
+        rows = []
+        for tuned in ({}, {"material.shear_modulus": 7e10, "friction.law": 3}, {"friction.kinetic": 0.1}):
+            fmu.update(tuned)
+            fmu.step()
+            rows.append(fmu.all("output"))
+        found.append(rows)
+    one.free()
+    for mine, wanted in zip(*found, strict=True):
+        assert mine == pytest.approx(wanted, rel=1e-12, abs=1e-12)
+    worn = [sum(v for name, v in row.items() if name.startswith("accumulated.wheel.volume")) for row in found[0]]
+    assert 0.0 < worn[0] < worn[1] < worn[2]
+    assert worn[2] == pytest.approx(found[0][2]["total.worn_volume"], rel=1e-12)
