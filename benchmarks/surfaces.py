@@ -28,6 +28,7 @@ from contact.geometry.profile import Profile
 from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface
 from contact.geometry.surfaces.frame import Frame, PlacedWheel, heights
 from contact.geometry.wheelset import Pose, Velocity
+from contact.pair import WheelRailPair
 from contact.study.errors import mean_p95_max
 from contact.surface_pair import WheelRailSurfaces
 from reference import STEEL
@@ -105,7 +106,7 @@ def pair_of(folder: Path, sweep: str, elements: int, spacing: float | None = Non
     return pair, Velocity(2.0, spin=wheel.spin)
 
 
-def errors(row: list[Row], solver: WheelRailSurfaces, velocity: Velocity) -> dict[str, float]:
+def errors(row: list[Row], solver: WheelRailPair | WheelRailSurfaces, velocity: Velocity) -> dict[str, float]:
     """Return the errors of one pose, and the computing time [s]."""
     first = row[0]
     pose = Pose(y=1e-3 * float(first["y_ws"]), z=1e-3 * float(first["z_wm"]), yaw=float(first["yaw"]))
@@ -118,7 +119,7 @@ def errors(row: list[Row], solver: WheelRailSurfaces, velocity: Velocity) -> dic
     under = {"vertical": float(first["Fz_tr"])} if first["mode"] == "Fz" else {}
     found = solver.solve(pose, velocity, friction=MU, **place, **under)
     result = {"time": time.process_time() - begin, "contacts": float(len(found.contacts))}
-    result["fit"] = max((c.patch.fit_error for c in found.contacts), default=0.0)
+    result["fit"] = found.gap_error
     true = -np.array([float(first[name]) for name in ("Fx_tr", "Fy_tr", "Fz_tr")])
     result["force"] = float(np.linalg.norm(found.force - true) / np.linalg.norm(true))
     if first["mode"] == "Fz":
@@ -126,12 +127,12 @@ def errors(row: list[Row], solver: WheelRailSurfaces, velocity: Velocity) -> dic
     if len(found.contacts) != len(row):
         return result
     if first["mode"] != "Fz":
-        pens = [abs(1e3 * c.patch.approach - float(r["pen"])) for c, r in zip(found.contacts, row, strict=True)]
+        pens = [abs(1e3 * c.approach - float(r["pen"])) for c, r in zip(found.contacts, row, strict=True)]
         result["height"] = max(pens)
     # a cylinder on its own has the rail at y = 0; here it lies at the place of the wheel
     shift = 750.0 if first["sweep"].startswith("d09") else 0.0
     at = [
-        np.hypot(1e3 * c.patch.position[0] - float(r["xcp_tr"]), 1e3 * c.patch.position[1] - float(r["ycp_tr"]) - shift)
+        np.hypot(1e3 * c.position[0] - float(r["xcp_tr"]), 1e3 * c.position[1] - float(r["ycp_tr"]) - shift)
         for c, r in zip(found.contacts, row, strict=True)
     ]
     result["place"] = float(np.mean(at))
@@ -179,7 +180,7 @@ def main() -> None:
     parser.add_argument("--elements", type=int, default=60)
     parser.add_argument("--spacing", type=float, help="size of the elements [mm], instead of their number")
     parser.add_argument("--normal", default="halfspace")
-    parser.add_argument("--tangential", help="default: that of the normal method")
+    parser.add_argument("--tangential", default="fastrip_mapped", help="of strips")
     parser.add_argument("--gaps", action="store_true", help="print only the errors of the undeformed distance [µm]")
     parser.add_argument("--each", action="store_true", help="print every pose")
     chosen = parser.parse_args()
@@ -192,7 +193,9 @@ def main() -> None:
                 gaps = gap_errors(chosen.folder, list(poses(files, sweep)), sweep, pair)
                 print(sweep, len(gaps), "fields, mean and largest", f"{np.mean(gaps):.3f} {max(gaps):.3f} µm")
             continue
-        solver = WheelRailSurfaces(pair, normal=chosen.normal, tangential=chosen.tangential)
+        elementwise = chosen.normal == "halfspace"
+        methods = {"normal": chosen.normal, "tangential": chosen.tangential}
+        solver = WheelRailSurfaces(pair) if elementwise else WheelRailPair(pair, material=STEEL, **methods)
         found = []
         for pose in poses(files, sweep):
             found.append(errors(pose, solver, velocity))

@@ -16,7 +16,9 @@ from contact.elastic_rail import ElasticRail
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry.flexible import WheelOffset
+from contact.geometry.posed import Posed
 from contact.geometry.records import Irregularity, Pose, Velocity, contact_angle
+from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair
 from contact.kernels.arrays import Bench, Ledger
 from contact.kernels.elastic_rail import solve_on_rail
@@ -37,7 +39,7 @@ class Contact:
     """One patch of a pair.
 
     Forces act on the wheel. `position` is in track coordinates; everything else is in the contact frame, which is the
-    track frame turned by `angle` about x. Forces, moments and area are multiplied by the patch's share
+    track frame turned by `angle` about x, then by `pitch`. Forces, moments and area are multiplied by the patch's share
     (`contact.geometry.records.Patch`).
 
     Attributes
@@ -53,7 +55,9 @@ class Contact:
     on_rail, on_wheel : position on the profiles, (y, z), as in `contact.geometry.records.Patch` [m]
     used_friction : creep force over normal force [-]
     status : Status
-    gap_error : as `contact.Solution.gap_error` [-]
+    gap_error : as `contact.Solution.gap_error` [-]. On surfaces it is not less than the error of the parabolas along x that
+        stand for the gap of the strips, root mean square over the approach; 0 for a wheel of revolution on a straight rail
+    pitch : inclination of the frame's normal along the track [rad]; 0 except for surfaces with ``tilted=True``
     """
 
     N: float
@@ -73,6 +77,7 @@ class Contact:
     used_friction: float
     status: Status
     gap_error: float
+    pitch: float = 0.0
 
     @property
     def contact_angle(self) -> float:
@@ -169,9 +174,9 @@ class WheelRailPair:
 
     Parameters
     ----------
-    pair : contact.geometry.wheelset.Pair
-        Profiles, side, gauge, …, and the material of the search under a load. Do not search with it elsewhere at the same
-        time.
+    pair : contact.geometry.wheelset.Pair or contact.geometry.surfaces.SurfacePair
+        Profiles, or surfaces that change along the way, side, gauge, …, and the material of the search under a load. Do not
+        search with it elsewhere at the same time.
     material : Material
         Material of the contact solution.
     normal, tangential : str
@@ -186,7 +191,7 @@ class WheelRailPair:
     damage : DamageParameters, optional
         Constants of the damage models.
     ledger : contact.kernels.arrays.Ledger, optional
-        Bins over both profiles in which `solve(…, distance=…)` adds up wear and damage.
+        Bins over both profiles in which `solve(…, distance=…)` adds up wear and damage. Not for surfaces.
 
     Attributes
     ----------
@@ -201,7 +206,7 @@ class WheelRailPair:
 
     def __init__(
         self,
-        pair: Pair,
+        pair: Pair | SurfacePair,
         *,
         material: Material = STEEL,
         normal: str = DEFAULT_NORMAL,
@@ -213,10 +218,12 @@ class WheelRailPair:
         damage: DamageParameters | None = None,
         ledger: Ledger | None = None,
     ) -> None:
-        if not isinstance(pair, Pair):
+        if not isinstance(pair, Posed):
             raise ContactError(
                 f"pair = {pair!r} is no contact.geometry.wheelset.Pair; make one from a wheel and a rail"
             )
+        if ledger is not None and not isinstance(pair, Pair):
+            raise ContactError(f"ledger = {ledger!r}: {pair!r} has no profiles over which damage could be added up")
         for name, given, kind in (("material", material, Material), ("damage", damage, DamageParameters)):
             if not isinstance(given, kind | None):
                 raise ContactError(f"{name} = {given!r} is no {kind.__module__}.{kind.__name__}")
@@ -245,6 +252,8 @@ class WheelRailPair:
         pose: Pose,
         velocity: Velocity | None = None,
         *,
+        station: float = 0.0,
+        rotation: float = 0.0,
         load: float | None = None,
         penetration: float | None = None,
         vertical: float | None = None,
@@ -261,6 +270,9 @@ class WheelRailPair:
         pose, velocity, load, penetration, irregularity :
             As for `contact.geometry.wheelset.contacts`. The normal forces alone carry `load`, shared by the patches as
             ANALYN shares it; friction adds to the vertical force or relieves it.
+        station, rotation : float
+            Position of the axle along the slices of the rail [m], and angle by which the wheel has turned about the y axis
+            [rad], for surfaces. It decreases when rolling forward: the angle -rotation of the wheel is at the bottom.
         vertical : float
             Vertical force on the wheel [N] ≥ 0 that normal and friction forces carry together, by the methods of this
             pair; instead of `load` and `penetration`. It takes five to ten times as long.
@@ -290,6 +302,8 @@ class WheelRailPair:
                 offset,
                 pose,
                 velocity or Velocity(),
+                station=station,
+                rotation=rotation,
                 load=load,
                 penetration=penetration,
                 vertical=vertical,
@@ -307,7 +321,8 @@ class WheelRailPair:
         self.bench.ledger.settings["distance"] = require_number("distance", distance, 0.0)
         set_surface(self.bench.case, as_friction(friction), (velocity or Velocity()).forward)
         self._set_rail(_RIGID if rail is None else rail)
-        code = solve_on_rail(mode, amount, self.pair.given(pose, velocity, irregularity), self.bench)
+        given = self.pair.given(pose, velocity, irregularity, station=station, rotation=rotation)
+        code = solve_on_rail(mode, amount, given, self.bench)
         if vertical is not None and code == NoAnswer.NOT_SETTLED:
             raise ContactError(
                 f"vertical = {vertical:g}: no z was found at which normal and friction forces carry it together"
@@ -371,4 +386,5 @@ def _contact(found: np.record) -> Contact:
         used_friction=float(found.used_friction),
         status=Status(found.status),
         gap_error=float(found.gap_error),
+        pitch=float(found.pitch),
     )

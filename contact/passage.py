@@ -12,11 +12,15 @@ from numpy.typing import ArrayLike, NDArray
 from contact.errors import ContactError, require_number
 from contact.friction import Friction
 from contact.geometry.records import Pose, Velocity
-from contact.surface_pair import SurfaceSolution, WheelRailSurfaces
+from contact.geometry.surfaces import SurfacePair
+from contact.pair import Contact, PairSolution, WheelRailPair
+from contact.registry import DEFAULT_TANGENTIAL
+from contact.surface_pair import SurfaceContact, SurfaceSolution, WheelRailSurfaces
 
 Array = NDArray[np.float64]
 
 MOST_STATIONS = 100_000
+_OF_PATCH = ("angle", "approach", "N", "Fx", "Fy", "Mz", "max_pressure", "area", "gap_error")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,7 +36,7 @@ class Passage:
 
     station: Array
     rotation: Array
-    solutions: tuple[SurfaceSolution, ...]
+    solutions: tuple[SurfaceSolution | PairSolution, ...]
 
     def columns(self) -> dict[str, Array]:
         """Return the results of the whole wheel by name, in SI units: forces on the wheel, sums and maxima over patches."""
@@ -48,6 +52,7 @@ class Passage:
             "patches": np.array([float(len(one.contacts)) for one in all_]),
             "max_pressure": np.array([one.max_pressure for one in all_]),
             "power_per_metre": np.array([one.power_per_metre for one in all_]),
+            "gap_error": np.array([one.gap_error for one in all_]),
             "status": np.array([float(one.status) for one in all_]),
         }
 
@@ -55,19 +60,29 @@ class Passage:
         """Return one row for each patch, in SI units: place, angle, normal and creep forces in its frame, quality."""
         rows = []
         for station, rotation, one in zip(self.station.tolist(), self.rotation.tolist(), self.solutions, strict=True):
-            for k, contact in enumerate(one.contacts):
-                patch, found = contact.patch, contact.solution
-                x, y, z = patch.position
+            contacts: Sequence[Contact | SurfaceContact] = one.contacts
+            for k, contact in enumerate(contacts):
+                x, y, z = contact.position
                 row = {"station": station, "rotation": rotation, "wheel_z": one.z, "patch": k, "x": x, "y": y, "z": z}
-                row |= {name: getattr(patch, name) for name in ("angle", "approach", "rolling_radius", "fit_error")}
-                row |= {name: getattr(found, name) for name in ("N", "Fx", "Fy", "Mz", "max_pressure", "area")}
-                row |= {"power_per_metre": found.power_per_metre, "status": int(found.status)}
+                row |= {name: getattr(contact, name) for name in _OF_PATCH}
+                row["status"] = int(contact.status)
                 rows.append(row)
         return rows
 
 
+def solver_for(
+    pair: SurfacePair, normal: str = "halfspace", tangential: str | None = None
+) -> WheelRailPair | WheelRailSurfaces:
+    """Return the element-wise reference for "halfspace", else a solver on strips, with `fastrip_mapped` by default."""
+    if normal == "halfspace":
+        if tangential not in (None, "halfspace"):
+            raise ContactError(f"tangential = {tangential!r} is on strips; normal = 'halfspace' is not")
+        return WheelRailSurfaces(pair)
+    return WheelRailPair(pair, material=pair.material, normal=normal, tangential=tangential or DEFAULT_TANGENTIAL)
+
+
 def passage(
-    solver: WheelRailSurfaces,
+    solver: WheelRailPair | WheelRailSurfaces,
     stations: ArrayLike | Sequence[float],
     pose: Pose | None = None,
     velocity: Velocity | None = None,
@@ -82,11 +97,12 @@ def passage(
 
     Parameters
     ----------
-    solver : WheelRailSurfaces
+    solver : WheelRailPair or WheelRailSurfaces
+        The first solves on strips and is fast, the second is the reference.
     stations : array_like, shape (n,)
         Positions of the axle along the rail [m], in any order.
     pose, velocity, load, penetration, vertical, friction :
-        As for `WheelRailSurfaces.solve`.
+        As for `WheelRailPair.solve`.
     rotation : float
         Angle of the wheel at the first station [rad]. It rolls on with the nominal radius.
 
@@ -97,7 +113,7 @@ def passage(
     Raises
     ------
     ContactError
-        For invalid stations, and as `WheelRailSurfaces.solve`; the message then names the station.
+        For invalid stations, and as `WheelRailPair.solve`; the message then names the station.
     """
     try:
         along = np.array(stations, dtype=np.float64)

@@ -1,24 +1,22 @@
-"""`WheelRailSurfaces`: forces of one wheel on one rail, either of which may change along the way."""
+"""`WheelRailSurfaces`: one wheel on one rail that change along the way, by the element-wise half space.
+
+It is the reference for `contact.pair.WheelRailPair`, which solves the same surfaces on strips."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
 from contact.friction import Friction
+from contact.geometry.posed import MAX_PENETRATION
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
 from contact.geometry.surfaces.search import Scene
-from contact.geometry.wheelset import MAX_PENETRATION
-from contact.registry import DEFAULT_TANGENTIAL, lookup
 from contact.solution import Solution, Status
 from contact.solve import solve
-from contact.solver import N_ELEMENTS, N_STRIPS, require_resolution
 
 Array = NDArray[np.float64]
 
@@ -44,6 +42,61 @@ class SurfaceContact:
     solution: Solution
     force: Array
     moment: Array
+
+    @property
+    def N(self) -> float:
+        """Normal force [N]; as the following, under the name of `contact.pair.Contact`."""
+        return self.solution.N
+
+    @property
+    def Fx(self) -> float:
+        """Longitudinal creep force [N]."""
+        return self.solution.Fx
+
+    @property
+    def Fy(self) -> float:
+        """Lateral creep force [N]."""
+        return self.solution.Fy
+
+    @property
+    def Mz(self) -> float:
+        """Spin moment [N m]."""
+        return self.solution.Mz
+
+    @property
+    def area(self) -> float:
+        """Contact area [m²]."""
+        return self.solution.area
+
+    @property
+    def max_pressure(self) -> float:
+        """Largest pressure [Pa]."""
+        return self.solution.max_pressure
+
+    @property
+    def status(self) -> Status:
+        """Status of the solution."""
+        return self.solution.status
+
+    @property
+    def gap_error(self) -> float:
+        """0: the half space solves the gap itself."""
+        return 0.0
+
+    @property
+    def position(self) -> tuple[float, float, float]:
+        """Point of the wheel opposite the reference point, (x, y, z) [m]."""
+        return self.patch.wheel_position
+
+    @property
+    def angle(self) -> float:
+        """Contact angle [rad]."""
+        return self.patch.angle
+
+    @property
+    def approach(self) -> float:
+        """Depth of the interpenetration [m]."""
+        return self.patch.approach
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,6 +128,11 @@ class SurfaceSolution:
         return max((contact.solution.max_pressure for contact in self.contacts), default=0.0)
 
     @property
+    def gap_error(self) -> float:
+        """0: the half space solves the gap itself."""
+        return 0.0
+
+    @property
     def power_per_metre(self) -> float:
         """Frictional energy per metre rolled, sum over the patches [N]."""
         return sum(contact.solution.power_per_metre for contact in self.contacts)
@@ -86,13 +144,7 @@ class WheelRailSurfaces:
     Parameters
     ----------
     pair : SurfacePair
-        Surfaces, side, gauge, elements and material.
-    normal, tangential : str
-        Names from `contact.methods()`. "halfspace", the default, solves each patch on its own gap by NORM and TANG; it is
-        the accurate answer. All other methods solve it on strips with parabolas along x. They are faster, and good where
-        `SurfacePatch.fit_error` is small (docs/surfaces.md).
-    n_strips, n_elements : int
-        Strips per patch and elements per strip of these methods.
+        Surfaces, side, gauge, elements and material. Each patch is solved on its own gap, by NORM and TANG.
 
     Notes
     -----
@@ -101,27 +153,13 @@ class WheelRailSurfaces:
     Raises
     ------
     ContactError
-        For unknown methods, or a resolution outside its range.
+        If `pair` is no SurfacePair.
     """
 
-    def __init__(
-        self,
-        pair: SurfacePair,
-        *,
-        normal: str = "halfspace",
-        tangential: str | None = None,
-        n_strips: int = N_STRIPS,
-        n_elements: int = N_ELEMENTS,
-    ) -> None:
+    def __init__(self, pair: SurfacePair) -> None:
         if not isinstance(pair, SurfacePair):
             raise ContactError(f"pair = {pair!r} is not a contact.geometry.surfaces.SurfacePair")
         self.pair = pair
-        self.elementwise = lookup("normal", normal).elementwise
-        chosen = tangential or ("halfspace" if self.elementwise else DEFAULT_TANGENTIAL)
-        self._methods: dict[str, Any] = {"normal": normal, "tangential": lookup("tangential", chosen).name}
-        if not self.elementwise:
-            n_strips, n_elements = require_resolution(n_strips, n_elements)
-            self._methods |= {"n_strips": n_strips, "n_elements": n_elements}
 
     def solve(
         self,
@@ -167,26 +205,8 @@ class WheelRailSurfaces:
         return self._at(z, scene, pose, velocity, friction)
 
     def _settled(self, scene: Scene, load: float) -> float:
-        """Return z [m] at which the pressures of this method carry a vertical load."""
-        if self.elementwise:
-            return self.pair.settle(scene, load, lambda z: self.pair.carried(scene, z))
-        return self.pair.settle(scene, load, lambda z: self._carried(scene, z))
-
-    def _carried(self, scene: Scene, z: float) -> float:
-        """Return the vertical force of the pressures of the strips at the height z [N]."""
-        total = 0.0
-        for separation, approach, upright in self.pair.separations(scene, z):
-            found = solve(
-                separation,
-                Creepage(),
-                approach=approach,
-                friction=0.0,
-                material=self.pair.material,
-                throw=False,
-                **{**self._methods, "tangential": DEFAULT_TANGENTIAL},
-            )
-            total += found.N * upright
-        return total
+        """Return z [m] at which the pressures carry a vertical load."""
+        return self.pair.settle(scene, load, lambda z: self.pair.carried(scene, z))
 
     def _at(
         self, z: float, scene: Scene, pose: Pose, velocity: Velocity, friction: float | Friction
@@ -218,14 +238,15 @@ class WheelRailSurfaces:
 
     def _solved(self, patch: SurfacePatch, velocity: Velocity, friction: float | Friction) -> SurfaceContact:
         found = solve(
-            patch.gap if self.elementwise else patch.separation,
+            patch.gap,
             patch.creepage,
             approach=patch.approach,
             friction=friction,
             material=self.pair.material,
             speed=velocity.forward,
             throw=False,
-            **self._methods,
+            normal="halfspace",
+            tangential="halfspace",
         )
         pressing = found.p * found.dA
         tipping = np.array([-(found.y * pressing).sum(), (found.x * pressing).sum(), found.Mz])

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from contact import force_table, kalker
 from contact.kernels import families, memory, quadrature
-from contact.kernels.arrays import Bench, Ledger, Rule, Search, Size, Tables, Workspace
+from contact.kernels.arrays import Bench, Ledger, Rule, Search, Sheet, Size, SurfaceSearch, Tables, Workspace
 from contact.kernels.damage.deposit import arc_length
 from contact.kernels.normal import influence
 from contact.kernels.normal.between_panels import fill_probes
@@ -142,6 +142,21 @@ def search(wheel: Array, rail: Array, grid: Array, n_samples: int) -> Search:
     return made
 
 
+def sheet(u: Array, nodes: Array, runs: Array, period: tuple[float, float], deviation: Array) -> Sheet:
+    """Return the arrays of a surface. The arguments are the members of `Sheet`."""
+    made: Sheet = _laid(memory.lay_sheet, u.size, nodes.shape[2], deviation.shape[1])
+    for array, given in zip(made, (u, nodes, runs, period, deviation), strict=True):
+        array[:] = given
+    return made
+
+
+def surface_search(wheel: Sheet, rail: Sheet, n_samples: int) -> SurfaceSearch:
+    """Return the arrays of a contact search over two surfaces. Separations have `n_samples` samples."""
+    made: SurfaceSearch = _laid(memory.lay_surface_search, wheel, rail, n_samples)
+    quadrature.fill_fejer(*made.across)
+    return made
+
+
 def ledger(wheel: Array, rail: Array, n_strips: int, n_bins: int, first: float, width: float) -> Ledger:
     """Return an empty ledger for patches of at most `n_strips` strips each.
 
@@ -166,7 +181,7 @@ def closed_ledger() -> Ledger:
     return _laid(memory.lay_ledger, nothing, nothing, np.zeros((2, len(Bin), 0)), 0)
 
 
-def bench(size: tuple[int, int, int], of_search: Search, arrays: Workspace, of_ledger: Ledger) -> Bench:
+def bench(size: tuple[int, int, int], of_search: Search | SurfaceSearch, arrays: Workspace, of_ledger: Ledger) -> Bench:
     """Return the arrays of a wheel-rail pair, which include its search, its workspace and its ledger."""
     full = Size(*size, 0, 1)
     kept = np.zeros(memory.pair_memory_size(arrays.space.memory.size))

@@ -18,11 +18,10 @@ from contact.cli.problem import STANDARD_LOAD
 from contact.errors import ContactError
 from contact.geometry.surfaces import Deviation, Flat, Polygon, RailSurface, SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pose, Velocity
-from contact.passage import Passage, passage
-from contact.surface_pair import WheelRailSurfaces
+from contact.passage import Passage, passage, solver_for
 
 _WAY = "Way"
-_HEADINGS = ("at\nmm", "z\nmm", "patch", "x\nmm", "y\nmm", "N\nkN", "Fx\nkN", "Fy\nkN", "p max\nMPa", "fit\nerror")
+_HEADINGS = ("at\nmm", "z\nmm", "patch", "x\nmm", "y\nmm", "N\nkN", "Fx\nkN", "Fy\nkN", "p max\nMPa", "gap\nerror")
 Begin = Annotated[float, typer.Option("--from", help="first station of the axle in m", rich_help_panel=_WAY)]
 End = Annotated[float, typer.Option("--to", help="last station in m", rich_help_panel=_WAY)]
 Count = Annotated[int, typer.Option("--points", help="number of stations", min=1, rich_help_panel=_WAY)]
@@ -125,7 +124,7 @@ def along(
         rail_origin=change.origin,
     )
     found = passage(
-        WheelRailSurfaces(pair, normal=normal, tangential=tangential),
+        solver_for(pair, normal, tangential),
         np.linspace(way.begin, way.end, way.points),
         Pose(y=place.y, roll=place.roll, yaw=place.yaw),
         Velocity(place.speed),
@@ -163,6 +162,6 @@ def _show(found: Passage, console: Console) -> None:
             *(f"{1e3 * row[name]:.2f}" for name in ("x", "y")),
             *(f"{1e-3 * row[name]:.2f}" for name in ("N", "Fx", "Fy")),
             f"{1e-6 * row['max_pressure']:.0f}",
-            f"{row['fit_error']:.3f}",
+            f"{row['gap_error']:.3f}",
         )
     console.print(table)

@@ -37,7 +37,7 @@ _NAMES = {
     "m³/m": "archard_volume",
     "s": "seconds every duration",
     "1": "friction inclination slip_ratio utilisation longitudinal lateral conicity slope share gap_error fatigue_index "
-    "burstow index fit_error",
+    "burstow index",
     "1, 1, 1/m": "creepage",
     "m, m, rad": "shift",
     "Pa, -, Pa, -": "bodies",

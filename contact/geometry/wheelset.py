@@ -19,7 +19,7 @@ The left side is computed as the mirror image of the right side, so both agree t
 from __future__ import annotations
 
 import math
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,12 +27,12 @@ from numpy.typing import ArrayLike, NDArray
 from contact import workspace
 from contact.creepage import Creepage
 from contact.errors import ContactError, doubt, require_integer, require_number
+from contact.geometry.posed import Posed, Side
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Patch, Pose, Velocity
-from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.geometry.prepare import facing, move, rail_origin, take_nodes
-from contact.kernels.geometry.settle import DEEPEST, first_touch, settle
-from contact.kernels.records import GIVEN, MAX_PATCHES
+from contact.kernels.geometry.settle import first_touch, settle
+from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Curve
 from contact.material import STEEL, Material
 from contact.separation import Separation
@@ -40,14 +40,12 @@ from contact.separation import Separation
 __all__ = ["Irregularity", "Pair", "Patch", "Pose", "Velocity", "contacts"]
 
 Array = NDArray[np.float64]
-Side = Literal["right", "left"]
 
 TAPE_FROM_FLANGE_BACK = 0.070  # [m] EN 13715: the tape circle lies 70 mm outside the back of the flange
 SAMPLES = 81
-MAX_PENETRATION = 2e-3  # [m] that of a wheel under 10 MN; a larger value has a wrong unit
 
 
-class Pair:
+class Pair(Posed):
     """One wheel on one rail, with all arrays prepared for use at every time step of a model.
 
     Parameters
@@ -110,11 +108,7 @@ class Pair:
         for name, given in (("wheel", wheel), ("rail", rail)):
             if not isinstance(given, Profile) or given.kind != name:
                 raise ContactError(f"{name} = {given!r} is not a profile of a {name}")
-        if side not in ("right", "left"):
-            raise ContactError(f"side = {side!r} is neither 'right' nor 'left'")
-        self.side: Side = side
-        self._mirror = 1.0 if side == "right" else -1.0
-        self.nominal_radius = require_number("nominal_radius", nominal_radius, 0.05, 2.0)
+        super().__init__(side, nominal_radius)
         grid, n = _grid(samples)
         self.space = workspace.search(_facing(wheel), _facing(rail), grid, n)
         origin = _rail_origin(rail, require_number("gauge", gauge, 0.1, 3.0), gauge_point)
@@ -174,51 +168,6 @@ class Pair:
     def z(self) -> float:
         """pose.z of the last search [m]: as given, or as found for a load or a penetration."""
         return float(self.space.motion[0].z)
-
-    def given(
-        self, pose: Pose, velocity: Velocity | None = None, irregularity: Irregularity | None = None
-    ) -> np.record:
-        """Return the motion as the record GIVEN of `contact.kernels.records`. The default velocity is steady rolling."""
-        velocity, rail = velocity or _ROLLING, irregularity or _IDEAL
-        for name, argument, kind in (
-            ("pose", pose, Pose),
-            ("velocity", velocity, Velocity),
-            ("irregularity", rail, Irregularity),
-        ):
-            if not isinstance(argument, kind):
-                raise ContactError(f"{name} = {argument!r} is not a contact.geometry.wheelset.{kind.__name__}")
-        spin = -velocity.forward / self.nominal_radius if velocity.spin is None else velocity.spin
-        given = np.zeros(1, GIVEN)[0]
-        given.y, given.z, given.roll, given.yaw = pose.y, pose.z, pose.roll, pose.yaw
-        given.vx, given.vy, given.vz = velocity.forward, velocity.y, velocity.z
-        given.roll_rate, given.yaw_rate, given.spin = velocity.roll, velocity.yaw, spin
-        given.rail_y, given.rail_z, given.rail_roll = rail.y, rail.z, rail.roll
-        given.rail_vy, given.rail_vz, given.rail_roll_rate = rail.y_rate, rail.z_rate, rail.roll_rate
-        return given
-
-    @staticmethod
-    def prescribed(load: float | None, penetration: float | None) -> tuple[int, float]:
-        """Return how z is prescribed: `mode` (a `Height`) and `amount` [N] or [m] of the kernel `settle`."""
-        if load is not None and penetration is not None:
-            raise ContactError(f"load = {load} and penetration = {penetration} exclude each other")
-        if load is not None:
-            return Height.LOAD, require_number("load", load, 0.0)
-        if penetration is not None:
-            return Height.PENETRATION, require_number("penetration", penetration, 0.0, MAX_PENETRATION)
-        return Height.GIVEN, 0.0
-
-    def require_found(self, code: int, pose: Pose, load: float | None) -> None:
-        """Raise a ContactError if `code`, the result of `settle`, tells of a failure."""
-        if code == NoAnswer.NO_OVERLAP:
-            raise self._apart(pose)
-        if code == NoAnswer.NOT_SETTLED:
-            raise ContactError(
-                f"load = {load:g}: no z was found at which the {self.side} wheel carries it on this rail"
-            )
-        if code == NoAnswer.TOO_DEEP:
-            raise ContactError(
-                f"pose.z = {pose.z:g}: the {self.side} wheel lies more than {DEEPEST:g} m inside its rail"
-            )
 
     def _patch(self, k: int, loaded: bool) -> Patch:
         m, p = self._mirror, self.patches[k]
@@ -301,9 +250,6 @@ def contacts(
     for name in ("roll", "yaw"):
         doubt(f"pose.{name}", getattr(pose, name), 0.05, "a wheelset has less than 0.03 rad; the unit is rad")
     return found
-
-
-_ROLLING, _IDEAL = Velocity(), Irregularity()
 
 
 def _rows(profile: Profile) -> Array:

@@ -116,6 +116,51 @@ class Search(NamedTuple):
     result: Array
 
 
+class Sheet(NamedTuple):
+    """A surface that changes along its first coordinate u: the arrays of `contact.geometry.surfaces.sheet.Sheet`.
+
+    `runs` are the first path of each slice and the end. `period` is that of u, 0 for none; without it the surface is
+    constant beyond its slices, and `fold` is the middle of the full turn in which a wheel's slices lie, `NaN` for a rail.
+    `deviation` has the rows u, value and slope of what is added to z.
+    """
+
+    u: Array
+    nodes: Array
+    runs: Array
+    period: Array
+    deviation: Array
+
+
+class SurfaceSearch(NamedTuple):
+    """Arrays of a contact search over surfaces. Members that `Search` also has are the same.
+
+    `motion` is followed by that of the last search, whose grids serve again if only z and velocities differ.
+    `coarse` is a grid over all of the wheel, `rough` and `fine` are grids over the regions in which the bodies are close,
+    `boxes` their places. `section` and `column` are scratch, `h` and `x` the gap of a patch, row by row.
+    """
+
+    wheel: Sheet
+    rail: Sheet
+    motion: Array
+    patches: Array
+    separations: Array
+    lobes: Array
+    section: Array
+    column: Array
+    coarse: Array
+    rough: Array
+    fine: Array
+    boxes: Array
+    stack: Array
+    h: Array
+    x: Array
+    case: Array
+    across: Across
+    work: Array
+    strips: Array
+    result: Array
+
+
 class Ledger(NamedTuple):
     """Bins over both profiles in which damage is accumulated. Without bins nothing is entered.
 

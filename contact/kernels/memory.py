@@ -8,7 +8,19 @@ from __future__ import annotations
 
 from numba.extending import register_jitable
 
-from contact.kernels.arrays import Across, Array, Bench, Ledger, Rule, Search, Size, Space, Workspace
+from contact.kernels.arrays import (
+    Across,
+    Array,
+    Bench,
+    Ledger,
+    Rule,
+    Search,
+    Sheet,
+    Size,
+    Space,
+    SurfaceSearch,
+    Workspace,
+)
 from contact.kernels.block import cube, matrix, next_line, records, vector
 from contact.kernels.kalker import N_TABLE
 from contact.kernels.normal.between_panels import PROBES
@@ -37,10 +49,15 @@ from contact.kernels.rows import (
     N_PROFILE_ROWS,
     N_VECTOR_ROWS,
     Bin,
+    Box,
+    Cell,
     DamageField,
     Element,
     Field,
+    Node,
+    Over,
     Sample,
+    Section,
     Sep,
     Strip,
 )
@@ -48,6 +65,10 @@ from contact.kernels.tangential.lanes import LANES, N_LANE_ROWS, TRACE_WIDTH
 
 #: Number of strips of the normal problem that a search solves to find the height of a wheel under a load.
 SEARCH_STRIPS = 30
+
+#: Grids of a search over surfaces: rows and most columns of the coarse one, number, rows and columns of the others, and
+#: columns of the samples of a patch.
+COARSE_ROWS, COARSE_COLUMNS, GRIDS, FINE_ROWS, FINE_COLUMNS, PATCH_COLUMNS = 101, 151, 6, 29, 21, 19
 
 
 @register_jitable
@@ -137,6 +158,45 @@ def lay_search(
     result, end = records(block, end, 1, RESULT)
     search = Search(
         wheel, rail, motion, grid, patches, separations, line, placed, lobes, wheel_plane, rail_plane,
+        case, across, work, strips, result,
+    )  # fmt: skip
+    return search, end
+
+
+@register_jitable
+def lay_sheet(block: Array, end: int, n_slices: int, n_paths: int, n_deviation: int) -> tuple[Sheet, int]:
+    """Return the arrays of a surface, and the new end."""
+    u, end = vector(block, end, n_slices)
+    nodes, end = cube(block, end, n_slices, 2 * len(Node), n_paths)
+    runs, end = matrix(block, end, n_slices, 2)
+    period, end = vector(block, end, 2)
+    deviation, end = matrix(block, end, 3, n_deviation)
+    return Sheet(u, nodes, runs, period, deviation), end
+
+
+@register_jitable
+def lay_surface_search(block: Array, end: int, wheel: Sheet, rail: Sheet, n_samples: int) -> tuple[SurfaceSearch, int]:
+    """Return the arrays of a contact search over two surfaces, and the new end."""
+    motion, end = records(block, end, 2, MOTION)
+    patches, end = records(block, end, MAX_PATCHES, PATCH)
+    separations, end = cube(block, end, MAX_PATCHES, len(Sep), n_samples)
+    lobes, end = records(block, end, MAX_LOBES, LOBE)
+    section, end = matrix(block, end, len(Section), max(wheel.nodes.shape[2], rail.nodes.shape[2]))
+    column, end = matrix(block, end, len(Over), max(COARSE_ROWS, FINE_ROWS, n_samples))
+    coarse, end = cube(block, end, 2, COARSE_ROWS, COARSE_COLUMNS)
+    rough, end = cube(block, end, GRIDS * len(Cell), FINE_ROWS, FINE_COLUMNS)
+    fine, end = cube(block, end, GRIDS * len(Cell), FINE_ROWS, FINE_COLUMNS)
+    boxes, end = matrix(block, end, 2 * GRIDS + 1, len(Box))
+    stack, end = vector(block, end, COARSE_ROWS * COARSE_COLUMNS)
+    h, end = matrix(block, end, n_samples, PATCH_COLUMNS)
+    x, end = matrix(block, end, n_samples, PATCH_COLUMNS)
+    case, end = records(block, end, 1, CASE)
+    across, end = lay_across(block, end, SEARCH_STRIPS)
+    work, end = matrix(block, end, len(Sample), n_samples)
+    strips, end = matrix(block, end, len(Strip), MAX_PATCHES * SEARCH_STRIPS)
+    result, end = records(block, end, 1, RESULT)
+    search = SurfaceSearch(
+        wheel, rail, motion, patches, separations, lobes, section, column, coarse, rough, fine, boxes, stack, h, x,
         case, across, work, strips, result,
     )  # fmt: skip
     return search, end

@@ -126,6 +126,8 @@ _GIVEN = """
     rail_vy         [m/s]
     rail_vz         [m/s]
     rail_roll_rate  [rad/s]
+    station         position of the axle along the slices of a rail that changes along the track [m]
+    rotation        of the wheel about its axle, which decreases when rolling forward [rad]
     """
 
 #: Pose, velocity and irregularity of the rail as a caller gives them, of either side.
@@ -144,6 +146,9 @@ MOTION = _record(
     mirror          1 for the right side, -1 for the left
     origin_y        of the rail's profile without irregularity [m]
     origin_z        [m]
+    reach           distance before and behind the axle in which surfaces are searched [m]
+    tilted:int      1 where frames follow the normal of a surface in all directions, 0 where they turn about x
+    changing:int    1 where the wheel is no body of revolution
     """,
 )
 
@@ -160,6 +165,10 @@ LOBE = _record(
     cosine          weight times cosine of the angle
     sine            weight times its sine
     tie             share with which it still forms one patch with the one before it
+    x_low           range along the track; of surfaces, as the following [m]
+    x_high          [m]
+    moment_x        weight times x
+    slant           weight times the x component of the rail's normal
     """,
 )
 
@@ -186,6 +195,8 @@ PATCH = _record(
     point_y         the wheel's point opposite the reference point [m]
     point_z         [m]
     share           with which it counts; below 1 only while lobes pass into planes of their own
+    pitch           inclination of the frame's normal along the track, forward positive [rad]
+    fit_error       of the parabolas along x of a surface, root mean square over the approach [-]
     """,
 )
 
@@ -216,6 +227,7 @@ CONTACT = _record(
     used_friction   creep force over normal force [-]
     gap_error       [-]
     status:int      Status
+    pitch           inclination of the frame's normal along the track, forward positive [rad]
     """,
 )
 

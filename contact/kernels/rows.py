@@ -96,6 +96,76 @@ class Curve(IntEnum):
     OPENING = 4  # its slope along y [-]
 
 
+class Node(IntEnum):
+    """Rows of `nodes[slice, row, path]` of a surface: points, and derivatives per path at both ends of the segment after them.
+
+    They are followed by as many rows with their derivatives along the surface.
+    """
+
+    Y = 0
+    Z = 1
+    Y_START = 2
+    Z_START = 3
+    Y_END = 4
+    Z_END = 5
+
+
+class Section(IntEnum):
+    """Rows of a cross-section of a surface in a frame, one number a path: `Node` with s for y and n for z."""
+
+    S = 0
+    N = 1
+    S_START = 2
+    N_START = 3
+    S_END = 4
+    N_END = 5
+    S_ALONG = 6  # derivatives along the surface
+    N_ALONG = 7
+
+
+class Over(IntEnum):
+    """Rows of one column of heights over a frame, one number a row of the grid."""
+
+    RAIL = 0  # height along the normal [m]
+    RAIL_X = 1  # where, as the cross-section need not be plane in the frame [m]
+    RAIL_SLOPE_X = 2
+    RAIL_SLOPE_S = 3
+    WHEEL = 4
+    WHEEL_X = 5
+    GAP = 6  # at WHEEL_X
+
+
+class Cell(IntEnum):
+    """Layers of a grid over a region of the track plane."""
+
+    GAP = 0  # vertical, at pose.z = 0 [m]
+    RAIL = 1  # height of the rail [m]
+    SLOPE_X = 2  # of the rail
+    SLOPE_Y = 3
+    X = 4  # where; nearly that of the column [m]
+    LABEL = 5  # number of the connected region, 0 for none; below 0 for points that do not count
+
+
+class Box(IntEnum):
+    """Columns of `boxes`: places of the coarse grid, of the rough ones and of the fine ones, one a row.
+
+    From COLUMNS on they are notes, in the first row only.
+    """
+
+    X = 0
+    DX = 1
+    Y = 2
+    DY = 3
+    LABEL = 4  # that of the grid's region in the coarse grid
+    LEAST = 5  # least gap [m]
+    COLUMNS = 6  # of the coarse grid
+    GRIDS = 7  # number of rough grids, and of fine ones
+    ROUGH = 8  # z for which rough grids are laid [m]
+    LAID = 9  # z for which fine ones are
+    TOUCH = 10  # z at first touch
+    FIRST = 11  # z for which the first rough grids were laid
+
+
 class Vector(IntEnum):
     """Rows of the vectors of interacting strips, one number a strip of all panels."""
 

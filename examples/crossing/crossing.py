@@ -17,10 +17,9 @@ from numpy.typing import NDArray
 from contact.geometry import profile
 from contact.geometry.surfaces import RailSurface, SurfacePair
 from contact.geometry.wheelset import Pose, Velocity
-from contact.passage import Passage, passage
+from contact.passage import Passage, passage, solver_for
 from contact.plot import passage as draw
 from contact.plot import patch
-from contact.surface_pair import WheelRailSurfaces
 
 Array = NDArray[np.float64]
 
@@ -75,7 +74,7 @@ def crossing() -> RailSurface:
 def run(stations: Array, normal: str = "strip_halfspace") -> Passage:
     """Return the passage of a wheel under 80 kN."""
     pair = SurfacePair(profile.s1002(), crossing(), rail_origin=(0.75, 0.0))
-    return passage(WheelRailSurfaces(pair, normal=normal), stations, Pose(), Velocity(20.0), load=8e4)
+    return passage(solver_for(pair, normal), stations, Pose(), Velocity(20.0), load=8e4)
 
 
 def main() -> None:
@@ -91,17 +90,16 @@ def main() -> None:
         station = found.station[both[len(both) // 2]]
         touching = run(np.array([station]), "halfspace").solutions[0].contacts
         titles = [
-            f"{part}, y = {1e3 * c.patch.position[1]:.1f} mm"
-            for part, c in zip(("wing", "nose"), touching, strict=True)
+            f"{part}, y = {1e3 * c.position[1]:.1f} mm" for part, c in zip(("wing", "nose"), touching, strict=True)
         ]
         patch([c.solution for c in touching], titles).savefig(folder / "patches.png")
-    print("station, patch, x, y [mm], N [kN], largest pressure [MPa], fit error")
+    print("station, patch, x, y [mm], N [kN], largest pressure [MPa], gap error")
     for row in found.rows():
         at = (1e3 * row[name] for name in ("station", "x", "y"))
         station, x, y = at
         print(
             f"{station:6.1f} {row['patch'] + 1:2d} {x:8.2f} {y:8.2f} {1e-3 * row['N']:7.2f} "
-            f"{1e-6 * row['max_pressure']:7.0f} {row['fit_error']:7.4f}"
+            f"{1e-6 * row['max_pressure']:7.0f} {row['gap_error']:7.4f}"
         )
 
 

@@ -18,11 +18,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from contact.creepage import Creepage
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pose
-from contact.solve import solve
+from contact.pair import WheelRailPair
 
 Array = NDArray[np.float64]
 
@@ -48,19 +47,17 @@ class Table(NamedTuple):
     force: Array
 
     @classmethod
-    def of(cls, flat: Flat, angles: int = 61, depth: float = 4e-4, steps: int = 9) -> Table:
+    def of(cls, flat: Flat, angles: int = 61, deepest: float = 4e-4, steps: int = 9) -> Table:
         """Fill the table for a wheel S1002 on a rail 60E1."""
         pair = SurfacePair(WheelSurface.constant(profile.s1002(), flat), profile.rail_60e1())
         half = 0.5 * flat.length / RADIUS
-        angle, depths = np.linspace(-2.0 * half, 2.0 * half, angles), np.linspace(0.0, 1.0, steps) ** 2 * depth
+        angle, depths = np.linspace(-2.0 * half, 2.0 * half, angles), np.linspace(0.0, 1.0, steps) ** 2 * deepest
         touch, force = np.empty(angles), np.zeros((angles, steps))
+        solver = WheelRailPair(pair)
         for i, at in enumerate(angle.tolist()):
-            scene = pair.scene(Pose(), 0.0, at)
-            touch[i] = scene.touch()
-            for j in range(1, steps):
-                for separation, approach, upright in pair.separations(scene, float(touch[i] + depths[j])):
-                    found = solve(separation, Creepage(), approach=approach, friction=0.0, throw=False)
-                    force[i, j] += found.N * upright
+            for j, depth in enumerate(depths.tolist()):
+                found = solver.solve(Pose(), rotation=at, penetration=depth, friction=0.0)
+                touch[i], force[i, j] = found.z - depth, found.Q
         return cls(angle, touch, depths, force ** (2.0 / 3.0))
 
     def at(self, angle: float, z: float) -> float:

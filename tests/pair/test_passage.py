@@ -10,8 +10,8 @@ from contact import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pose, Velocity
+from contact.pair import WheelRailPair
 from contact.passage import passage
-from contact.surface_pair import WheelRailSurfaces
 from examples.crossing import crossing
 from tests.command_line import call
 
@@ -22,7 +22,7 @@ R0 = 0.460
 @pytest.fixture(scope="module")
 def solver():
     wheel = WheelSurface.constant(WHEEL, Polygon(20, 1e-4))
-    return WheelRailSurfaces(SurfacePair(wheel, RAIL, rows=20, columns=20), normal="strip_halfspace")
+    return WheelRailPair(SurfacePair(wheel, RAIL), normal="strip_halfspace")
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +33,8 @@ def run(solver):
 def test_the_wheel_rolls_on_with_its_nominal_radius(solver, run):
     assert run.rotation == pytest.approx([0.1, 0.1 - 0.02 / R0, 0.1 - 0.04 / R0], abs=1e-15)
     alone = solver.solve(Pose(y=1e-3), Velocity(20.0), station=0.04, rotation=float(run.rotation[2]), penetration=8e-5)
-    assert np.array_equal(run.solutions[2].force, alone.force)
+    assert run.solutions[2].force == pytest.approx(alone.force, abs=1e-3 * alone.Q)  # strips start from the last call
+    assert run.solutions[2].z == alone.z
 
 
 def test_columns_and_rows_hold_what_the_solutions_say(run):
@@ -41,7 +42,7 @@ def test_columns_and_rows_hold_what_the_solutions_say(run):
     assert columns["Q"] == pytest.approx([-one.force[2] for one in run.solutions])
     assert [row["station"] for row in rows] == [0.0, 0.02, 0.04]
     contact = run.solutions[1].contacts[0]
-    assert (rows[1]["N"], rows[1]["x"]) == (contact.solution.N, contact.patch.position[0])
+    assert (rows[1]["N"], rows[1]["x"]) == (contact.N, contact.position[0])
     assert columns["z"].max() - columns["z"].min() > 1e-5  # the polygon lifts the wheel
 
 
@@ -74,11 +75,11 @@ def test_the_command_gives_the_numbers_of_the_python_api(tmp_path):
     result = call(*words, "--normal", "strip_halfspace", "--json", "--out", output)
     told = json.loads(result.stdout)
     wheel = WheelSurface.constant(WHEEL, Flat(0.05, R0, 4e-4))
-    solver = WheelRailSurfaces(SurfacePair(wheel, RAIL), normal="strip_halfspace")
+    solver = WheelRailPair(SurfacePair(wheel, RAIL), normal="strip_halfspace")
     wanted = passage(solver, [0.0, 0.01], Pose(), Velocity(20.0), rotation=0.02, load=80e3)
     assert told["z"] == pytest.approx(wanted.columns()["z"], abs=1e-12)
     assert told["patches_of"][1]["N"] == pytest.approx(wanted.rows()[1]["N"], rel=1e-9)
-    assert len(output.read_text().splitlines()) == 3
+    assert len(output.read_text().splitlines()) == 1 + len(wanted.rows())
 
 
 @pytest.mark.slow
@@ -113,14 +114,14 @@ def test_a_wheel_goes_over_from_wing_rail_to_nose_without_a_jump():
     found = crossing.run(np.arange(0.150, 0.1705, 0.002))
     contacts = [one.contacts for one in found.solutions]
     assert [len(c) for c in contacts] == [1, *(2 for _ in contacts[1:-2]), 1, 1]
-    nose = np.array([sum(c.solution.N for c in one if c.patch.position[1] < 0.75) for one in contacts])
-    wing = np.array([sum(c.solution.N for c in one if c.patch.position[1] > 0.75) for one in contacts])
-    carried = [sum(c.solution.N * math.cos(c.patch.angle) for c in one) for one in contacts]
+    nose = np.array([sum(c.N for c in one if c.position[1] < 0.75) for one in contacts])
+    wing = np.array([sum(c.N for c in one if c.position[1] > 0.75) for one in contacts])
+    carried = [sum(c.N * math.cos(c.angle) for c in one) for one in contacts]
     assert carried == pytest.approx([8e4] * len(contacts), rel=2e-3)
     assert (np.diff(nose) > -300.0).all()  # N: only the contact angle changes at the end
     assert (np.diff(wing)[:-1] < 0.0).all()
     assert np.abs(np.diff(nose)).max() < 0.2 * 8e4
     z = found.columns()["z"]
     assert np.abs(np.diff(z)).max() < 3e-5  # 1 : 70 on 2 mm
-    ahead = [c.patch.position[0] for c in contacts[-1]]
+    ahead = [c.position[0] for c in contacts[-1]]
     assert ahead[0] > 4e-3  # the nose rises, so the wheel touches it ahead of the axle

@@ -5,34 +5,33 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contact import workspace
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
+from contact.geometry.posed import MAX_PENETRATION, Posed, Side
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Pose, Velocity
+from contact.geometry.surfaces import compiled
 from contact.geometry.surfaces.frame import Frame, PlacedRail, PlacedWheel, heights
 from contact.geometry.surfaces.search import Lobe, Scene, combined, sample
-from contact.geometry.surfaces.strips import strips
 from contact.geometry.surfaces.surface import RailSurface, WheelSurface
-from contact.geometry.wheelset import MAX_PENETRATION, TAPE_FROM_FLANGE_BACK, _rail_origin
+from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK, _rail_origin
 from contact.halfspace.gap import Division, Gap
 from contact.halfspace.norm import norm
 from contact.kernels.geometry.search import axle
 from contact.kernels.geometry.settle import DEEPEST
-from contact.kernels.records import SLOWEST
+from contact.kernels.records import MAX_PATCHES, SLOWEST
 from contact.material import STEEL, Material
-from contact.separation import Separation
 
 Array = NDArray[np.float64]
-Side = Literal["right", "left"]
 
 ROWS = COLUMNS = 60
-#: Elements of the gap from which strips are made, and its room beyond the overlap along and across.
-_STRIPS, _ROOM = Division(61, 41), (0.15, 0.35)
+SAMPLES = 41  # of a separation
 _MIRROR = np.diag([1.0, -1.0, 1.0])
 _FARTHEST = 0.3  # [m] from the axle
 _MOST_STEPS, _LOAD_TOLERANCE = 40, 1e-5
@@ -46,10 +45,6 @@ class SurfacePatch:
     ----------
     gap : contact.halfspace.Gap
         Undeformed distance over the plane of `frame`; its least value is 0. For the element-wise half space.
-    separation : contact.Separation
-        The same as parabolas along x, for all other methods (`contact.geometry.surfaces.strips`).
-    fit_error : float
-        Error of the parabolas over the approach [-], 0 for an exact parabola.
     approach : float
         Depth of the interpenetration along the normal of the frame [m].
     frame : Frame
@@ -65,8 +60,6 @@ class SurfacePatch:
     """
 
     gap: Gap
-    separation: Separation
-    fit_error: float
     approach: float
     frame: Frame
     creepage: Creepage
@@ -77,11 +70,10 @@ class SurfacePatch:
 
     def mirrored(self) -> SurfacePatch:
         """Return the patch of the mirror image."""
-        c, (x, y, z), (wx, wy, wz), s = self.creepage, self.position, self.wheel_position, self.separation
+        c, (x, y, z), (wx, wy, wz) = self.creepage, self.position, self.wheel_position
         return replace(
             self,
             gap=Gap(self.gap.x, -self.gap.y[::-1], self.gap.h[::-1]),
-            separation=Separation(-s.y[::-1], s.g[::-1], s.A[::-1], s.x_c[::-1]),
             frame=Frame(_MIRROR @ self.frame.origin, _MIRROR @ self.frame.axes @ _MIRROR),
             creepage=Creepage(c.longitudinal, -c.lateral, -c.spin),
             angle=-self.angle,
@@ -90,7 +82,7 @@ class SurfacePatch:
         )
 
 
-class SurfacePair:
+class SurfacePair(Posed):
     """A wheel and a rail of which one or both change along the way.
 
     Parameters
@@ -147,8 +139,7 @@ class SurfacePair:
         spacing: float | tuple[float, float] | None = None,
         material: Material = STEEL,
     ) -> None:
-        if side not in ("right", "left"):
-            raise ContactError(f"side = {side!r} is neither 'right' nor 'left'")
+        super().__init__(side, nominal_radius)
         if rail_origin is None:
             if not isinstance(rail, Profile):
                 raise ContactError(
@@ -163,8 +154,6 @@ class SurfacePair:
         self.rail = RailSurface.constant(rail) if isinstance(rail, Profile) else rail
         if not isinstance(self.wheel, WheelSurface) or not isinstance(self.rail, RailSurface):
             raise ContactError(f"wheel = {wheel!r} and rail = {rail!r} are not a WheelSurface and a RailSurface")
-        self.side: Side = side
-        self.nominal_radius = require_number("nominal_radius", nominal_radius, 0.05, 2.0)
         self.tape = 0.5 * require_number("flange_back", flange_back, 0.1, 3.0) + TAPE_FROM_FLANGE_BACK
         self.combine_distance = require_number("combine_distance", combine_distance, 0.0)
         self.combine_angle = require_number("combine_angle", combine_angle, 0.0)
@@ -176,6 +165,15 @@ class SurfacePair:
         elements = (require_number("rows", rows, 10, 1000), require_number("columns", columns, 10, 1000))
         self.division = Division(int(elements[0]), int(elements[1]), both)
         self.material = material
+        self._made = compiled.sheet(self.wheel), compiled.sheet(self.rail)
+        self.space = workspace.surface_search(*self._made, SAMPLES)
+        motion = self.space.motion[0]
+        motion.radius, motion.tape, motion.mirror = self.nominal_radius, self.tape, self._mirror
+        motion.combine_distance, motion.most_patches = self.combine_distance, MAX_PATCHES
+        motion.origin_y, motion.origin_z = self.rail_origin
+        motion.reach, motion.tilted, motion.changing = self.reach, self.tilted, 1
+        self.space.case["G"], self.space.case["nu"] = material.shear_modulus, material.poisson_ratio
+        self.separations = self.space.separations
         self.z = 0.0  #: pose.z of the last search [m]: as given, or as found
 
     def scene(self, pose: Pose, station: float, rotation: float, irregularity: Irregularity | None = None) -> Scene:
@@ -197,8 +195,17 @@ class SurfacePair:
                 break
             reach = min(2.0 * reach, _FARTHEST)
         if scene is None or not scene.overlaps:
-            raise ContactError(f"pose.y = {pose.y:g}: the {self.side} wheel does not lie above its rail")
+            raise self._apart(pose)
         return scene
+
+    def _apart(self, pose: Pose) -> ContactError:
+        return ContactError(f"pose.y = {pose.y:g}: the {self.side} wheel does not lie above its rail")
+
+    def given(self, *args: Any, station: float = 0.0, **options: Any) -> np.record:
+        """Return the motion as a record. Parameters as for `Posed.given`."""
+        made = super().given(*args, station=station, **options)
+        compiled.follow(self._made[1], self.rail, station)
+        return made
 
     def touch(self, pose: Pose, *, station: float = 0.0, rotation: float = 0.0) -> float:
         """Return z [m] at which the rigid wheel just touches the rail. Parameters as for `contacts`."""
@@ -296,11 +303,9 @@ class SurfacePair:
         found = []
         for lobe, frame in self._lobes(scene, z):
             sampled = sample(wheel, scene.rail, frame, lobe, self.division)
-            wider = sample(wheel, scene.rail, frame, lobe, _STRIPS, _ROOM)
-            if sampled is None or wider is None:
+            if sampled is None:
                 continue
             gap, approach = sampled
-            separation, fit_error = strips(wider[0], wider[1], approach)
             origin = np.zeros(1)
             depth = float(heights(wheel, frame, origin, origin, deepest=True).z[0, 0])
             point = frame.origin + frame.axes[2] * (depth if math.isfinite(depth) else 0.0)
@@ -308,8 +313,6 @@ class SurfacePair:
             found.append(
                 SurfacePatch(
                     gap=gap,
-                    separation=separation,
-                    fit_error=fit_error,
                     approach=approach,
                     frame=frame,
                     creepage=self._creepage(wheel, scene.rail, velocity, frame, point),  # type: ignore[arg-type]
@@ -320,16 +323,6 @@ class SurfacePair:
                 )
             )
         return tuple(patch if self.side == "right" else patch.mirrored() for patch in found)
-
-    def separations(self, scene: Scene, z: float) -> list[tuple[Separation, float, float]]:
-        """Return the separation, the approach [m] and the vertical part of the normal of every patch at the height z [m]."""
-        wheel, found = self._lowered(scene, z), []
-        for lobe, frame in self._lobes(scene, z):
-            wider = sample(wheel, scene.rail, frame, lobe, _STRIPS, _ROOM)
-            if wider is not None:
-                gap, approach = wider
-                found.append((strips(gap, approach, approach)[0], approach, float(frame.axes[2, 2])))
-        return found
 
     def _lobes(self, scene: Scene, z: float) -> list[tuple[Lobe, Frame]]:
         lobes = combined(scene.lobes(z), self.combine_distance, self.combine_angle)

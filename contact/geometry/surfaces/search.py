@@ -182,18 +182,13 @@ def combined(lobes: list[Lobe], distance: float, angle: float) -> list[Lobe]:
     return joined
 
 
-def sample(
-    wheel: Placed, rail: Placed, frame: Frame, lobe: Lobe, division: Division, room: tuple[float, float] = (0.0, 0.0)
-) -> tuple[Gap, float] | None:
+def sample(wheel: Placed, rail: Placed, frame: Frame, lobe: Lobe, division: Division) -> tuple[Gap, float] | None:
     """Return the gap of a patch with its least value at 0, and the approach [m] at the pose; None without overlap.
 
-    `wheel` is at its true height. The grid covers the overlap, and `room` on each side, in parts of its length and width.
-    Elements where a body is absent get a gap above all others.
+    `wheel` is at its true height. The grid covers the overlap. Elements where a body is absent get a gap above all others.
     """
     x, y, _ = frame.local(np.stack((lobe.x, lobe.y, lobe.z)))
-    back, front, low, high = float(x.min()), float(x.max()), float(y.min()), float(y.max())
-    along, across = room[0] * (front - back), room[1] * (high - low)
-    box = (back - along, front + along, low - across, high + across)
+    box = (float(x.min()), float(x.max()), float(y.min()), float(y.max()))
     if division.spacing is None:
         division = division._replace(spacing=(_step(box[0], box[1], division.columns), _step(*box[2:], division.rows)))
     centres = division.centres(box)

@@ -218,10 +218,14 @@ class WheelSurface(_Surface):
 
         return files.read_wheel(path, cls, **options)
 
+    @property
+    def middle(self) -> float:
+        """Middle of the slices [rad]. An open wheel is constant beyond them."""
+        return 0.5 * float(self.sheet.u[0] + self.sheet.u[-1])
+
     def _turned(self, u: Array) -> Array:
-        """Return the angles within half a turn from the middle of the slices, beyond which an open wheel is constant."""
-        middle = 0.5 * float(self.sheet.u[0] + self.sheet.u[-1])
-        return np.asarray(middle + np.mod(u - middle + math.pi, _FULL) - math.pi)
+        """Return the angles within half a turn from the middle of the slices."""
+        return np.asarray(self.middle + np.mod(u - self.middle + math.pi, _FULL) - math.pi)
 
     def curves(self, u: Array) -> Array:
         """Return the nodes (y, z) of the meridians at the angles `u`, shape (2, k, m) [m]."""

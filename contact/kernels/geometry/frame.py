@@ -16,6 +16,7 @@ from contact.kernels.records import SLOWEST
 from contact.kernels.rows import Curve, Sep
 
 Direction = tuple[float, float, float]
+Axes = tuple[float, float, float, float, float, float, float, float, float]
 
 MARGIN = 3e-3  # [m] by which samples extend beyond the interpenetration, enough for a second difference there
 _ARM = 0.2e-3  # [m] to both sides of a point, over which the curvature of the trace line is taken
@@ -24,10 +25,10 @@ _OPENING = 1.0  # slope at which the gap opens where a profile, or the patch's o
 
 
 @kernel
-def creepages(motion: Record, frame: Frame, x: float, y: float, z: float, patch: Record) -> None:
-    """Fill the creepages of `patch` at the wheel's point (x, y, z) (theory.md 9.4).
+def _motion_at(motion: Record, x: float, y: float, z: float) -> tuple[float, float, float, float, float, float]:
+    """Return the velocity of the wheel's point (x, y, z) minus that of the rail there, and the wheel's turning (theory.md 9.4).
 
-    They are the velocity of the wheel, v + Omega × p, minus that of the rail, divided by V, at least `SLOWEST`.
+    The velocity is v + Omega × p. All components are in track coordinates.
     """
     lx, ly, lz = axle(motion.roll, motion.yaw)
     wx = motion.roll_rate * math.cos(motion.yaw) + motion.spin * lx
@@ -37,11 +38,28 @@ def creepages(motion: Record, frame: Frame, x: float, y: float, z: float, patch:
     vx = motion.vx + wy * pz - wz * py
     vy = motion.vy + wz * x - wx * pz - motion.rail_vy + motion.rail_roll_rate * (z - motion.rail_z)
     vz = motion.vz + wx * py - wy * x - motion.rail_vz - motion.rail_roll_rate * (y - motion.rail_y)
+    return vx, vy, vz, wx, wy, wz
+
+
+@kernel
+def creepages(motion: Record, frame: Frame, x: float, y: float, z: float, patch: Record) -> None:
+    """Fill the creepages of `patch` at the wheel's point (x, y, z): its velocity in the rail over V, at least `SLOWEST`."""
+    vx, vy, vz, _, wy, wz = _motion_at(motion, x, y, z)
     c, s = frame[2], frame[3]
     speed = max(motion.vx, SLOWEST)
     patch.vx = vx / speed
     patch.vy = (vy * c + vz * s) / speed
     patch.phi = (wz * c - wy * s) / speed  # the rail's roll rate is about x, across the normal
+
+
+@kernel
+def slip(motion: Record, axes: Axes, x: float, y: float, z: float, patch: Record) -> None:
+    """Fill the creepages as `creepages`, in a frame with any axes x, y and z."""
+    vx, vy, vz, wx, wy, wz = _motion_at(motion, x, y, z)
+    speed = max(motion.vx, SLOWEST)
+    patch.vx = (vx * axes[0] + vy * axes[1] + vz * axes[2]) / speed
+    patch.vy = (vx * axes[3] + vy * axes[4] + vz * axes[5]) / speed
+    patch.phi = ((wx - motion.rail_roll_rate) * axes[6] + wy * axes[7] + wz * axes[8]) / speed
 
 
 @kernel
@@ -180,6 +198,7 @@ def describe(
         return False
 
     patch.angle, patch.low, patch.high, patch.load = angle, first, last, 0.0
+    patch.pitch, patch.fit_error = 0.0, 0.0
     patch.approach = -normal_gap(wheel, n_wheel, rail, n_rail, first, last)
     positions(motion, frame, wheel, n_wheel, patch)
     sample(frame, n_wheel, n_rail, low, high, patch, space.separations[k], space)

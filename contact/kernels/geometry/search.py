@@ -192,9 +192,9 @@ def lobes(line: Array, start: int, end: int, z: float, lobe: Record) -> int:
 
 @kernel
 def _transition(value: float, limit: float) -> float:
-    """Return 0 up to the limit, 1 from 5/4 of it on, and a smooth step between."""
+    """Return 0 up to the limit, 1 from 5/4 of it on, and a smooth step between; always 1 for a limit below 0."""
     if limit <= 0.0:
-        return 1.0 if value > 0.0 else 0.0
+        return 1.0 if value > 0.0 or limit < 0.0 else 0.0
     t = min(max((value - limit) / (_TRANSITION * limit), 0.0), 1.0)
     return t * t * (3.0 - 2.0 * t)
 
@@ -214,7 +214,10 @@ def combine(lobe: Record, n: int, distance: float, angle: float, most: int) -> i
     """
     for i in range(1, n):
         dy, dz = lobe[i].low - lobe[i - 1].high, lobe[i].low_z - lobe[i - 1].high_z
-        lobe[i].tie = 1.0 - _transition(math.sqrt(dy * dy + dz * dz), distance)
+        dx = max(lobe[i].x_low - lobe[i - 1].x_high, lobe[i - 1].x_low - lobe[i].x_high, 0.0)
+        if dx > 0.0 and dy < 0.0:  # surfaces that touch one behind the other
+            dy, dz = 0.0, 0.0
+        lobe[i].tie = 1.0 - _transition(math.sqrt(dx * dx + dy * dy + dz * dz), distance)
     k, tie, cosine, sine = 0, 0.0, 0.0, 0.0
     for i in range(1, n):
         cosine, sine = lobe[i - 1].cosine + tie * cosine, lobe[i - 1].sine + tie * sine
@@ -238,7 +241,12 @@ def combine(lobe: Record, n: int, distance: float, angle: float, most: int) -> i
 @kernel
 def join(lobe: Record, patch: Record) -> None:
     """Add a lobe to the patch on its left."""
-    patch.high, patch.high_z = lobe.high, lobe.high_z
+    if lobe.high > patch.high:
+        patch.high, patch.high_z = lobe.high, lobe.high_z
+    patch.low = min(patch.low, lobe.low)
+    patch.x_low, patch.x_high = min(patch.x_low, lobe.x_low), max(patch.x_high, lobe.x_high)
+    patch.moment_x += lobe.moment_x
+    patch.slant += lobe.slant
     patch.weight += lobe.weight
     patch.moment += lobe.moment
     patch.cosine += lobe.cosine

@@ -5,9 +5,10 @@ These are the entry kernels of the geometry. They return the number of patches o
 
 import math
 
-from contact._jit import kernel
-from contact.kernels.arrays import Samples, Search
+from contact._jit import chosen_by, inlined, kernel
+from contact.kernels.arrays import Samples, Search, SurfaceSearch
 from contact.kernels.enumerations import Height, LoadKind, NoAnswer
+from contact.kernels.geometry import surface
 from contact.kernels.geometry.curve import Array, Record
 from contact.kernels.geometry.frame import describe_all
 from contact.kernels.geometry.search import place, touch, trace, vertical_gap
@@ -17,6 +18,7 @@ from contact.kernels.rows import Sep
 
 _MAX_ITERATIONS = 60
 _TOLERANCE = 1e-11  # of the load; it becomes noise of the height and of difference quotients of FMUs
+_ROUGHER = 1e-8  # the same on surfaces that change along the way, whose grids make more noise
 DEEPEST = 5e-3  # [m] below first touch, far beyond any load that steel carries
 
 
@@ -43,7 +45,7 @@ def first_touch(wheel: Array, rail: Array, motion: Record, line: Array, placed: 
 def carried(n: int, space: Search) -> float:
     """Return the vertical force of the pressures of n patches by ANALYN [N]. Fill `load` of each patch.
 
-    The force is the sum of share N cos(angle).
+    The force is the sum of share N cos(angle) cos(pitch).
     """
     total = 0.0
     case, result, patches = space.case[0], space.result[0], space.patches
@@ -55,27 +57,62 @@ def carried(n: int, space: Search) -> float:
         clear(result)
         analyn(samples, case, space.across, space.work, space.strips, result)
         patches[k].load = result.N
-        total += patches[k].share * result.N * math.cos(patches[k].angle)
+        total += patches[k].share * result.N * math.cos(patches[k].angle) * math.cos(patches[k].pitch)
     return total
 
 
-@kernel
-def _describe_at(z: float, first: int, start: int, end: int, space: Search) -> int:
-    """Set motion.z to z, describe all patches there and return their number."""
+def begin(space: Search, z: float) -> tuple[bool, float, tuple[int, int, int]]:
+    """Search along the curves or the surfaces of `space` at the pose without its z.
+
+    Return whether the bodies lie above each other, z [m] at first touch, and three numbers for `describe`. Compiled code
+    runs the function for the type of `space`.
+    """
+    raise NotImplementedError
+
+
+def describe(space: Search, z: float, nodes: tuple[int, int, int]) -> int:
+    """Set motion.z to z, describe all patches there and return their number. Chosen as `begin`."""
+    raise NotImplementedError
+
+
+@inlined
+def _begin_curves(space, z):
+    first, start, end = oppose(space.wheel, space.rail, space.motion[0], space.line, space.placed)
+    above = end - start >= 3
+    return above, touch(space.line, start, end) if above else z, (first, start, end)
+
+
+@inlined
+def _describe_curves(space, z, nodes):
     space.motion[0].z = z
-    return describe_all(first, start, end, space)
+    return describe_all(nodes[0], nodes[1], nodes[2], space)
+
+
+@inlined
+def _begin_surfaces(space, z):
+    above, at = surface.begin(space)
+    return above, at if above else z, (0, 0, 0)
+
+
+@inlined
+def _describe_surfaces(space, z, nodes):
+    return surface.describe_at(z, space)
+
+
+chosen_by(begin, {Search: _begin_curves, SurfaceSearch: _begin_surfaces})
+chosen_by(describe, {Search: _describe_curves, SurfaceSearch: _describe_surfaces})
 
 
 @kernel
 def locate(space: Search) -> int:
     """Describe the patches at motion.z and return their number. The arrays of the normal problem are not needed."""
-    motion = space.motion[0]
-    first, start, end = oppose(space.wheel, space.rail, motion, space.line, space.placed)
-    if end - start < 3:
+    z = space.motion[0].z
+    above, z0, nodes = begin(space, z)
+    if not above:
         return NoAnswer.NO_OVERLAP.value
-    if motion.z > touch(space.line, start, end) + DEEPEST:
+    if z > z0 + DEEPEST:
         return NoAnswer.TOO_DEEP.value
-    return _describe_at(motion.z, first, start, end, space)
+    return describe(space, z, nodes)
 
 
 @kernel
@@ -88,23 +125,22 @@ def settle(mode: int, amount: float, space: Search) -> int:
     if mode == Height.GIVEN:
         return locate(space)
     motion = space.motion[0]
-    first, start, end = oppose(space.wheel, space.rail, motion, space.line, space.placed)
-    if end - start < 3:
+    above, z0, nodes = begin(space, motion.z)
+    if not above:
         return NoAnswer.NO_OVERLAP.value
-    z0 = touch(space.line, start, end)
     if amount <= 0.0:  # no load or depth: no patch, not even one due to round-off
         motion.z = z0 + amount
         return 0
     if mode == Height.PENETRATION:
-        return _describe_at(z0 + amount, first, start, end, space)
-    target = amount ** (2.0 / 3.0)
+        return describe(space, z0 + amount, nodes)
+    target, tolerance = amount ** (2.0 / 3.0), _ROUGHER if motion.changing else _TOLERANCE
     low, high, f_low, f_high = 0.0, math.inf, -target, 0.0
     p = 1e-4 * (amount / 1e5) ** (2.0 / 3.0)
     side = 0
     for iteration in range(_MAX_ITERATIONS):
-        n = _describe_at(z0 + p, first, start, end, space)
+        n = describe(space, z0 + p, nodes)
         force = carried(n, space)
-        if abs(force - amount) <= _TOLERANCE * amount or high - low <= 1e-15:
+        if abs(force - amount) <= tolerance * amount or high - low <= 1e-15:
             return n
         f = max(force, 0.0) ** (2.0 / 3.0) - target
         if f > 0.0:

@@ -1,0 +1,94 @@
+"""What wheels on rails have in common, whatever their surfaces: side, motion, and how the height is prescribed."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+
+from contact.errors import ContactError, require_number
+from contact.geometry.records import Irregularity, Pose, Velocity
+from contact.kernels.enumerations import Height, NoAnswer
+from contact.kernels.geometry.settle import DEEPEST
+from contact.kernels.records import GIVEN
+
+Side = Literal["right", "left"]
+
+MAX_PENETRATION = 2e-3  # [m] that of a wheel under 10 MN; a larger value has a wrong unit
+_ROLLING, _IDEAL = Velocity(), Irregularity()
+
+
+class Posed:
+    """A wheel of one side with its nominal radius [m], 0.05 to 2.
+
+    Raises
+    ------
+    ContactError
+        For another side or a radius outside its range.
+    """
+
+    def __init__(self, side: Side, nominal_radius: float) -> None:
+        if side not in ("right", "left"):
+            raise ContactError(f"side = {side!r} is neither 'right' nor 'left'")
+        self.side: Side = side
+        self._mirror = 1.0 if side == "right" else -1.0
+        self.nominal_radius = require_number("nominal_radius", nominal_radius, 0.05, 2.0)
+
+    def given(
+        self,
+        pose: Pose,
+        velocity: Velocity | None = None,
+        irregularity: Irregularity | None = None,
+        *,
+        station: float = 0.0,
+        rotation: float = 0.0,
+    ) -> np.record:
+        """Return the motion as the record GIVEN of `contact.kernels.records`. The default velocity is steady rolling.
+
+        `station` and `rotation` are those of `contact.geometry.surfaces.SurfacePair.contacts`; profiles that are constant
+        along the way do not depend on them.
+        """
+        velocity, rail = velocity or _ROLLING, irregularity or _IDEAL
+        for name, argument, kind in (
+            ("pose", pose, Pose),
+            ("velocity", velocity, Velocity),
+            ("irregularity", rail, Irregularity),
+        ):
+            if not isinstance(argument, kind):
+                raise ContactError(f"{name} = {argument!r} is not a contact.geometry.wheelset.{kind.__name__}")
+        spin = -velocity.forward / self.nominal_radius if velocity.spin is None else velocity.spin
+        given = np.zeros(1, GIVEN)[0]
+        given.y, given.z, given.roll, given.yaw = pose.y, pose.z, pose.roll, pose.yaw
+        given.vx, given.vy, given.vz = velocity.forward, velocity.y, velocity.z
+        given.roll_rate, given.yaw_rate, given.spin = velocity.roll, velocity.yaw, spin
+        given.rail_y, given.rail_z, given.rail_roll = rail.y, rail.z, rail.roll
+        given.rail_vy, given.rail_vz, given.rail_roll_rate = rail.y_rate, rail.z_rate, rail.roll_rate
+        given.station, given.rotation = require_number("station", station), require_number("rotation", rotation)
+        return given
+
+    @staticmethod
+    def prescribed(load: float | None, penetration: float | None) -> tuple[int, float]:
+        """Return how z is prescribed: `mode` (a `Height`) and `amount` [N] or [m] of the kernel `settle`."""
+        if load is not None and penetration is not None:
+            raise ContactError(f"load = {load} and penetration = {penetration} exclude each other")
+        if load is not None:
+            return Height.LOAD, require_number("load", load, 0.0)
+        if penetration is not None:
+            return Height.PENETRATION, require_number("penetration", penetration, 0.0, MAX_PENETRATION)
+        return Height.GIVEN, 0.0
+
+    def require_found(self, code: int, pose: Pose, load: float | None) -> None:
+        """Raise a ContactError if `code`, the result of `settle`, tells of a failure."""
+        if code == NoAnswer.NO_OVERLAP:
+            raise self._apart(pose)
+        if code == NoAnswer.NOT_SETTLED:
+            raise ContactError(
+                f"load = {load:g}: no z was found at which the {self.side} wheel carries it on this rail"
+            )
+        if code == NoAnswer.TOO_DEEP:
+            raise ContactError(
+                f"pose.z = {pose.z:g}: the {self.side} wheel lies more than {DEEPEST:g} m inside its rail"
+            )
+
+    def _apart(self, pose: Pose) -> ContactError:
+        raise NotImplementedError

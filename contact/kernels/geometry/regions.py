@@ -1,0 +1,380 @@
+"""Where two surfaces are close: grids of the vertical gap over the track plane, and lobes of interpenetration on them.
+
+A coarse grid over all of the wheel finds the regions. Each region has a grid of its own. No assumption is made on where a
+surface is touched, so contact may lie ahead of or behind the axle, at several places, and at the beginning of a nose.
+All heights are at pose.z = 0. Lowering the wheel by z changes the vertical gap by -z everywhere.
+"""
+
+import math
+
+from contact._jit import kernel
+from contact.kernels.arrays import Sheet, SurfaceSearch
+from contact.kernels.geometry.curve import Array, Record
+from contact.kernels.geometry.section import (
+    AWAY,
+    Frame,
+    about_x,
+    column,
+    cover,
+    extent,
+    of_rail,
+    of_wheel,
+    place,
+    section,
+)
+from contact.kernels.records import MAX_LOBES
+from contact.kernels.rows import Box, Cell, Over
+
+FARTHEST = 0.3  # [m] before and behind the axle
+_COARSE = 4e-3  # [m] step of the coarse grid along x
+_SLACK = 80e-6  # [m] by which heights on the coarse grid may miss a lobe
+_DEPTH = 130e-6  # [m] depth for which rough grids are laid at first; one of usual loads
+_BESIDE = 3e-3  # [m] beyond a grid, in which paths may reach into it at another x
+_ALL = 1 << 30
+
+
+@kernel
+def track_frame(y: float) -> Frame:
+    """Return the track frame with its origin moved sideways to `y` [m]."""
+    return about_x(0.0, y, 0.0, 0.0)
+
+
+@kernel
+def limits_of(
+    x: tuple[float, float], y: tuple[float, float], frame: Frame, space: SurfaceSearch
+) -> tuple[int, int, int, int]:
+    """Return first path and end of the wheel, and of the rail, that reach into a range of x and y [m] of a frame."""
+    wheel, rail, motion, nodes = space.wheel, space.rail, space.motion[0], space.section
+    low, high = y[0] - _BESIDE, y[1] + _BESIDE
+    wheel_first, wheel_end, rail_first, rail_end = _ALL, 0, _ALL, 0
+    for k in range(3):
+        at = x[0] + 0.5 * k * (x[1] - x[0])
+        u = motion.station + frame[0] + frame[3] * at
+        first, end, value, slope = section(rail, u, (0, _ALL), 2, nodes)
+        place(of_rail(u, motion, frame), (first, end), 2, (value, slope), nodes)
+        first, end = cover(nodes, first, end, low, high)
+        rail_first, rail_end = min(rail_first, first), max(rail_end, end)
+        if k == 1:
+            theta = math.asin(min(max((frame[0] + at) / motion.radius, -0.9), 0.9)) - motion.rotation
+            first, end, value, slope = section(wheel, theta, (0, _ALL), 2, nodes)
+            place(of_wheel(theta, motion, frame), (first, end), 2, (value, slope), nodes)
+            wheel_first, wheel_end = cover(nodes, first, end, low, high)
+    return wheel_first - 1, wheel_end + 1, rail_first - 1, rail_end + 1
+
+
+@kernel
+def aligned(low: float, high: float, n: int, station: float, rail: Sheet) -> tuple[float, float]:
+    """Return first position and step of `n` columns over low … high [m] of the track, at most a step further back.
+
+    Where a part of the rail begins or ends within the range, a column stands there. So what lies on the columns changes
+    smoothly as the wheel passes.
+    """
+    step = (high - low) / (n - 1)
+    for i in range(rail.u.size - 1):
+        x = rail.u[i] - station
+        y = rail.u[i + 1] - station
+        begins = rail.runs[i + 1, 0] < rail.runs[i, 0] or rail.runs[i + 1, 1] > rail.runs[i, 1]
+        ends = rail.runs[i + 1, 0] > rail.runs[i, 0] or rail.runs[i + 1, 1] < rail.runs[i, 1]
+        at = y if begins else x
+        if (begins or ends) and low < at < high:
+            step = (high - low) / (n - 2)
+            return at - step * math.ceil((at - low) / step), step
+    return low, step
+
+
+@kernel
+def _lateral_range(reach: float, space: SurfaceSearch) -> tuple[float, float]:
+    """Return the range of track y [m] over which both bodies lie."""
+    motion, nodes, frame = space.motion[0], space.section, track_frame(0.0)
+    first, end, value, slope = section(space.wheel, -motion.rotation, (0, _ALL), 2, nodes)
+    place(of_wheel(-motion.rotation, motion, frame), (first, end), 2, (value, slope), nodes)
+    low, high = extent(nodes, first, end)
+    rail_low, rail_high = AWAY * 1e3, -AWAY * 1e3
+    for k in range(5):
+        u = motion.station + reach * (0.5 * k - 1.0)
+        first, end, value, slope = section(space.rail, u, (0, _ALL), 2, nodes)
+        place(of_rail(u, motion, frame), (first, end), 2, (value, slope), nodes)
+        a, b = extent(nodes, first, end)
+        rail_low, rail_high = min(rail_low, a), max(rail_high, b)
+    return max(low, rail_low), min(high, rail_high)
+
+
+@kernel
+def fill_grid(box: Array, cells: Array, n_x: int, space: SurfaceSearch) -> float:
+    """Fill the layers of a grid at `box`, of which the first `n_x` columns count. Return the least gap [m].
+
+    Of the coarse grid only the gap is filled.
+    """
+    frame = track_frame(box[Box.Y])
+    n_y = cells.shape[1]
+    rows = 0.0, box[Box.DY], n_y, cells.shape[0] > 2
+    reach = box[Box.X], box[Box.X] + box[Box.DX] * (n_x - 1)
+    limits = limits_of(reach, (0.0, box[Box.DY] * (n_y - 1)), frame, space)
+    least, to = AWAY, space.column
+    for k in range(n_x):
+        column(
+            box[Box.X] + k * box[Box.DX],
+            rows,
+            limits,
+            frame,
+            (space.wheel, space.rail),
+            space.motion[0],
+            space.section,
+            to,
+        )
+        for i in range(n_y):
+            cells[Cell.GAP, i, k] = to[Over.GAP, i]
+            least = min(least, to[Over.GAP, i])
+            if cells.shape[0] > 2:
+                cells[Cell.RAIL, i, k] = to[Over.RAIL, i]
+                cells[Cell.SLOPE_X, i, k] = to[Over.RAIL_SLOPE_X, i]
+                cells[Cell.SLOPE_Y, i, k] = to[Over.RAIL_SLOPE_S, i]
+                cells[Cell.X, i, k] = to[Over.WHEEL_X, i]
+    box[Box.LEAST] = least
+    return least
+
+
+@kernel
+def label_regions(gap: Array, label: Array, n_x: int, level: float, stack: Array) -> int:
+    """Number the connected regions in which the gap is below `level`, from 1; neighbours may be diagonal. Return their number.
+
+    Cells with a label below 0 are left out.
+    """
+    n_y, count = gap.shape[0], 0
+    for i in range(n_y):
+        for k in range(n_x):
+            label[i, k] = min(label[i, k], 0.0)
+    for i in range(n_y):
+        for k in range(n_x):
+            if label[i, k] != 0.0 or gap[i, k] >= level:
+                continue
+            count += 1
+            label[i, k], stack[0], depth = float(count), float(i * n_x + k), 1
+            while depth > 0:
+                depth -= 1
+                here = int(stack[depth])
+                row, col = here // n_x, here % n_x
+                for a in range(max(row - 1, 0), min(row + 2, n_y)):
+                    for b in range(max(col - 1, 0), min(col + 2, n_x)):
+                        if label[a, b] == 0.0 and gap[a, b] < level:
+                            label[a, b] = float(count)
+                            stack[depth] = float(a * n_x + b)
+                            depth += 1
+    return count
+
+
+@kernel
+def scan(space: SurfaceSearch) -> bool:
+    """Fill the coarse grid. Return whether the bodies lie above each other.
+
+    The reach is doubled as long as the bodies still come closer at its ends, as on a steep ramp.
+    """
+    motion, box, coarse = space.motion[0], space.boxes[0], space.coarse
+    reach, n_x = motion.reach, 0
+    while True:
+        low, high = _lateral_range(reach, space)
+        n_x = min(2 * math.ceil(reach / _COARSE) + 1, coarse.shape[2])
+        n_y = coarse.shape[1]
+        if low < high:
+            box[Box.X], box[Box.DX] = -reach, 2.0 * reach / (n_x - 1)
+            box[Box.Y], box[Box.DY] = low, (high - low) / (n_y - 1)
+            fill_grid(box, coarse, n_x, space)
+        box[Box.COLUMNS] = n_x
+        found = low < high and box[Box.LEAST] < AWAY
+        if not found or reach >= FARTHEST:
+            return found
+        ends = AWAY, AWAY, AWAY, AWAY
+        for i in range(n_y):
+            ends = (
+                min(ends[0], coarse[0, i, 0]), min(ends[1], coarse[0, i, 2]),
+                min(ends[2], coarse[0, i, n_x - 1]), min(ends[3], coarse[0, i, n_x - 3]),
+            )  # fmt: skip
+        if not (ends[0] < ends[1] or ends[2] < ends[3]):
+            return True
+        reach = min(2.0 * reach, FARTHEST)
+
+
+@kernel
+def _least_between(before: float, here: float, after: float) -> float:
+    """Return by how much the parabola through three values falls below the middle one, which is the least."""
+    bend = before - 2.0 * here + after
+    if before >= AWAY or after >= AWAY or bend <= 0.0:
+        return 0.0
+    return (before - after) ** 2 / (8.0 * bend)
+
+
+@kernel
+def least_gap(gap: Array) -> tuple[float, int, int]:
+    """Return the least value between the points of a grid, by parabolas along both directions, with its row and column."""
+    row, col = 0, 0
+    for i in range(gap.shape[0]):
+        for k in range(gap.shape[1]):
+            if gap[i, k] < gap[row, col]:
+                row, col = i, k
+    here = gap[row, col]
+    fall = 0.0
+    if 0 < row < gap.shape[0] - 1:
+        fall += _least_between(gap[row - 1, col], here, gap[row + 1, col])
+    if 0 < col < gap.shape[1] - 1:
+        fall += _least_between(gap[row, col - 1], here, gap[row, col + 1])
+    return here - fall, row, col
+
+
+@kernel
+def _cover(label: Array, box: Array, n_x: int, wanted: float, to: Array, n: tuple[int, int]) -> bool:
+    """Set the place of a grid of n rows and columns `to` cover a region of another grid with one cell around it.
+
+    With `wanted` = 0 all regions count. Return whether there is one.
+    """
+    top, bottom, left, right = label.shape[0], -1, n_x, -1
+    for i in range(label.shape[0]):
+        for k in range(n_x):
+            if label[i, k] == wanted if wanted > 0.0 else label[i, k] > 0.0:
+                top, bottom, left, right = min(top, i), max(bottom, i), min(left, k), max(right, k)
+    to[Box.X], to[Box.DX] = box[Box.X] + (left - 1) * box[Box.DX], (right - left + 2) * box[Box.DX] / (n[1] - 1)
+    to[Box.Y], to[Box.DY] = box[Box.Y] + (top - 1) * box[Box.DY], (bottom - top + 2) * box[Box.DY] / (n[0] - 1)
+    return bottom >= 0
+
+
+@kernel
+def lay_rough(level: float, space: SurfaceSearch) -> int:
+    """Lay a rough grid over every region of the coarse one in which the gap may be below `level` [m]. Return their number."""
+    coarse, rough, boxes, layers = space.coarse, space.rough, space.boxes, len(Cell)
+    n_coarse = int(boxes[0, Box.COLUMNS])
+    coarse[1, :, :] = 0.0
+    n = min(label_regions(coarse[0], coarse[1], n_coarse, level + _SLACK, space.stack), rough.shape[0] // layers)
+    for k in range(n):
+        cells, box = rough[layers * k : layers * (k + 1)], boxes[k + 1]
+        size = cells.shape[1], cells.shape[2]
+        _cover(coarse[1], boxes[0], n_coarse, k + 1.0, box, size)
+        box[Box.LABEL] = k + 1.0
+        fill_grid(box, cells, size[1], space)
+        _exclude(cells[Cell.LABEL], box, n_coarse, space)
+    boxes[0, Box.GRIDS], boxes[0, Box.ROUGH] = n, level
+    return n
+
+
+@kernel
+def lay_fine(level: float, space: SurfaceSearch) -> None:
+    """Lay a fine grid over the part of every rough one in which the gap is below `level` [m]. An absent one has the label 0."""
+    layers, boxes = len(Cell), space.boxes
+    if level > boxes[0, Box.ROUGH]:
+        lay_rough(level, space)
+    n, most = int(boxes[0, Box.GRIDS]), space.fine.shape[0] // layers
+    for k in range(n):
+        rough, cells = space.rough[layers * k : layers * (k + 1)], space.fine[layers * k : layers * (k + 1)]
+        box, size = boxes[most + 1 + k], (cells.shape[1], cells.shape[2])
+        label_regions(rough[Cell.GAP], rough[Cell.LABEL], size[1], level, space.stack)
+        box[Box.LABEL] = 0.0
+        if _cover(rough[Cell.LABEL], boxes[k + 1], size[1], 0.0, box, size):
+            box[Box.LABEL] = boxes[k + 1, Box.LABEL]
+            ahead = box[Box.X] + (size[1] - 1) * box[Box.DX]
+            box[Box.X], box[Box.DX] = aligned(box[Box.X], ahead, size[1], space.motion[0].station, space.rail)
+            fill_grid(box, cells, size[1], space)
+            _exclude(cells[Cell.LABEL], box, int(boxes[0, Box.COLUMNS]), space)
+    boxes[0, Box.LAID] = level
+
+
+@kernel
+def _exclude(label: Array, box: Array, n_coarse: int, space: SurfaceSearch) -> None:
+    """Set the label of cells that belong to another region of the coarse grid to -1, that of all others to 0."""
+    coarse, place_ = space.coarse[1], space.boxes[0]
+    for i in range(label.shape[0]):
+        row = (box[Box.Y] + i * box[Box.DY] - place_[Box.Y]) / place_[Box.DY]
+        a = int(min(max(row + 0.5, 0.0), coarse.shape[0] - 1.0))
+        for k in range(label.shape[1]):
+            col = (box[Box.X] + k * box[Box.DX] - place_[Box.X]) / place_[Box.DX]
+            b = int(min(max(col + 0.5, 0.0), n_coarse - 1.0))
+            label[i, k] = 0.0 if coarse[a, b] == 0.0 or coarse[a, b] == box[Box.LABEL] else -1.0
+
+
+@kernel
+def touch(space: SurfaceSearch) -> float:
+    """Return the smallest vertical gap at pose.z = 0 [m].
+
+    The surroundings of the least point of every rough grid are divided once more.
+    """
+    layers, boxes = len(Cell), space.boxes
+    n, most = lay_rough(boxes[0, Box.LEAST] + _DEPTH, space), space.fine.shape[0] // layers
+    lowest = AWAY
+    for k in range(n):
+        lowest = min(lowest, boxes[k + 1, Box.LEAST])
+    for k in range(n):
+        place_, box, cells = boxes[k + 1], boxes[most + 1 + k], space.fine[layers * k : layers * (k + 1)]
+        least, row, col = least_gap(space.rough[layers * k])
+        if least > lowest + _SLACK:
+            continue
+        box[Box.X], box[Box.DX] = (
+            place_[Box.X] + (col - 1) * place_[Box.DX],
+            2.0 * place_[Box.DX] / (cells.shape[2] - 1),
+        )
+        box[Box.Y], box[Box.DY] = (
+            place_[Box.Y] + (row - 1) * place_[Box.DY],
+            2.0 * place_[Box.DY] / (cells.shape[1] - 1),
+        )
+        fill_grid(box, cells, cells.shape[2], space)
+        lowest = min(lowest, least_gap(cells[Cell.GAP])[0])
+    return lowest
+
+
+@kernel
+def _measure(cells: Array, box: Array, wanted: float, z: float, lobe: Record) -> None:
+    """Fill the lobe of one region of a grid.
+
+    Points are weighted with depth², as `search.lobes` does when integrated along x. A point at the end of a surface counts
+    for half a step.
+    """
+    lobe.weight, lobe.moment, lobe.moment_x = 0.0, 0.0, 0.0
+    lobe.cosine, lobe.sine, lobe.slant, lobe.tie = 0.0, 0.0, 0.0, 0.0
+    lobe.low, lobe.high, lobe.x_low, lobe.x_high = math.inf, -math.inf, math.inf, -math.inf
+    lobe.low_z, lobe.high_z = 0.0, 0.0
+    area = box[Box.DX] * box[Box.DY]
+    for i in range(cells.shape[1]):
+        y = box[Box.Y] + i * box[Box.DY]
+        for k in range(cells.shape[2]):
+            if cells[Cell.LABEL, i, k] != wanted:
+                continue
+            x, depth = cells[Cell.X, i, k], z - cells[Cell.GAP, i, k]
+            before = k > 0 and cells[Cell.GAP, i, k - 1] >= AWAY
+            after = k < cells.shape[2] - 1 and cells[Cell.GAP, i, k + 1] >= AWAY
+            weight = depth * depth * (0.5 * area if before or after else area)
+            slope_x, slope_y = cells[Cell.SLOPE_X, i, k], cells[Cell.SLOPE_Y, i, k]
+            normal = 1.0 / math.sqrt(1.0 + slope_x * slope_x + slope_y * slope_y)
+            lobe.weight += weight
+            lobe.moment += weight * y
+            lobe.moment_x += weight * x
+            lobe.cosine += weight * normal
+            lobe.sine += weight * slope_y * normal
+            lobe.slant -= weight * slope_x * normal
+            if y < lobe.low:
+                lobe.low, lobe.low_z = y, cells[Cell.RAIL, i, k]
+            if y > lobe.high:
+                lobe.high, lobe.high_z = y, cells[Cell.RAIL, i, k]
+            lobe.x_low, lobe.x_high = min(lobe.x_low, x), max(lobe.x_high, x)
+
+
+@kernel
+def lobes(z: float, space: SurfaceSearch) -> int:
+    """Fill `space.lobes` with the regions in which the wheel, lowered by z, lies inside the rail. Return their number.
+
+    They are ordered by their place across.
+    """
+    count, layers, lobe = 0, len(Cell), space.lobes
+    most = space.fine.shape[0] // layers
+    for k in range(int(space.boxes[0, Box.GRIDS])):
+        cells, box = space.fine[layers * k : layers * (k + 1)], space.boxes[most + 1 + k]
+        if box[Box.LABEL] == 0.0:
+            continue
+        n = label_regions(cells[Cell.GAP], cells[Cell.LABEL], cells.shape[2], z, space.stack)
+        for region in range(n):
+            if count == MAX_LOBES - 1:
+                return count
+            _measure(cells, box, region + 1.0, z, lobe[count])
+            spare, j = MAX_LOBES - 1, count
+            while j > 0 and lobe[j - 1].moment / lobe[j - 1].weight > lobe[j].moment / lobe[j].weight:
+                lobe[spare] = lobe[j]
+                lobe[j] = lobe[j - 1]
+                lobe[j - 1] = lobe[spare]
+                j -= 1
+            count += 1
+    return count
