@@ -48,8 +48,8 @@ class Posed:
     ) -> np.record:
         """Return the motion as the record GIVEN of `contact.kernels.records`. The default velocity is steady rolling.
 
-        `station` and `rotation` go to the search itself. They are those of `contact.geometry.surfaces.SurfacePair.contacts`; profiles that are constant
-        along the way do not depend on them.
+        `station` and `rotation` go to the search itself. They are those of
+        `contact.geometry.surfaces.SurfacePair.contacts`; profiles that are constant along the way do not depend on them.
         """
         velocity, rail = velocity or _ROLLING, irregularity or _IDEAL
         for name, argument, kind in (
