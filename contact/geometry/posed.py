@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from contact.errors import ContactError, require_number
 from contact.geometry.records import Irregularity, Pose, Velocity
-from contact.kernels.arrays import Search, SurfaceSearch
 from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import GIVEN
@@ -28,7 +27,7 @@ class Posed:
         For another side or a radius outside its range.
     """
 
-    space: Search | SurfaceSearch
+    space: Any  # arrays of the search: `Search` or `SurfaceSearch` of `contact.kernels.arrays`
 
     def __init__(self, side: Side, nominal_radius: float) -> None:
         if side not in ("right", "left"):
