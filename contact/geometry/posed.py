@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -27,6 +27,8 @@ class Posed:
         For another side or a radius outside its range.
     """
 
+    space: Any  # arrays of the search: `Search` or `SurfaceSearch` of `contact.kernels.arrays`
+
     def __init__(self, side: Side, nominal_radius: float) -> None:
         if side not in ("right", "left"):
             raise ContactError(f"side = {side!r} is neither 'right' nor 'left'")
@@ -45,8 +47,8 @@ class Posed:
     ) -> np.record:
         """Return the motion as the record GIVEN of `contact.kernels.records`. The default velocity is steady rolling.
 
-        `station` and `rotation` are those of `contact.geometry.surfaces.SurfacePair.contacts`; profiles that are constant
-        along the way do not depend on them.
+        `station` and `rotation` go to the search itself. They are those of
+        `contact.geometry.surfaces.SurfacePair.contacts`; profiles that are constant along the way do not depend on them.
         """
         velocity, rail = velocity or _ROLLING, irregularity or _IDEAL
         for name, argument, kind in (
@@ -63,7 +65,8 @@ class Posed:
         given.roll_rate, given.yaw_rate, given.spin = velocity.roll, velocity.yaw, spin
         given.rail_y, given.rail_z, given.rail_roll = rail.y, rail.z, rail.roll
         given.rail_vy, given.rail_vz, given.rail_roll_rate = rail.y_rate, rail.z_rate, rail.roll_rate
-        given.station, given.rotation = require_number("station", station), require_number("rotation", rotation)
+        motion = self.space.motion[0]
+        motion.station, motion.rotation = require_number("station", station), require_number("rotation", rotation)
         return given
 
     @staticmethod

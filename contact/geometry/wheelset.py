@@ -30,6 +30,7 @@ from contact.errors import ContactError, doubt, require_integer, require_number
 from contact.geometry.posed import Posed, Side
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Patch, Pose, Velocity
+from contact.kernels.arrays import Search
 from contact.kernels.geometry.prepare import facing, move, rail_origin, take_nodes
 from contact.kernels.geometry.settle import first_touch, settle
 from contact.kernels.records import MAX_PATCHES
@@ -110,7 +111,7 @@ class Pair(Posed):
                 raise ContactError(f"{name} = {given!r} is not a profile of a {name}")
         super().__init__(side, nominal_radius)
         grid, n = _grid(samples)
-        self.space = workspace.search(_facing(wheel), _facing(rail), grid, n)
+        self.space: Search = workspace.search(_facing(wheel), _facing(rail), grid, n)
         origin = _rail_origin(rail, require_number("gauge", gauge, 0.1, 3.0), gauge_point)
         motion = self.space.motion[0]
         motion.radius = self.nominal_radius

@@ -126,8 +126,6 @@ _GIVEN = """
     rail_vy         [m/s]
     rail_vz         [m/s]
     rail_roll_rate  [rad/s]
-    station         position of the axle along the slices of a rail that changes along the track [m]
-    rotation        of the wheel about its axle, which decreases when rolling forward [rad]
     """
 
 #: Pose, velocity and irregularity of the rail as a caller gives them, of either side.
@@ -146,6 +144,8 @@ MOTION = _record(
     mirror          1 for the right side, -1 for the left
     origin_y        of the rail's profile without irregularity [m]
     origin_z        [m]
+    station         position of the axle along the slices of a rail that changes along the track [m]
+    rotation        of the wheel about its axle, which decreases when rolling forward [rad]
     reach           distance before and behind the axle in which surfaces are searched [m]
     tilted:int      1 where frames follow the normal of a surface in all directions, 0 where they turn about x
     changing:int    1 where the wheel is no body of revolution

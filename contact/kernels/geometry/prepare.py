@@ -112,4 +112,3 @@ def move(given: Record, motion: Record) -> None:
     motion.rail_z = given.rail_z + motion.origin_z
     motion.rail_roll, motion.rail_roll_rate = mirror * given.rail_roll, mirror * given.rail_roll_rate
     motion.rail_vy, motion.rail_vz = mirror * given.rail_vy, given.rail_vz
-    motion.station, motion.rotation = given.station, given.rotation
