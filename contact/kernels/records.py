@@ -148,7 +148,7 @@ MOTION = _record(
     rotation        of the wheel about its axle, which decreases when rolling forward [rad]
     reach           distance before and behind the axle in which surfaces are searched [m]
     tilted:int      1 where frames follow the normal of a surface in all directions, 0 where they turn about x
-    changing:int    1 where the wheel is no body of revolution
+    changing:int    1 in a search over surfaces: the wheel is no body of revolution
     """,
 )
 

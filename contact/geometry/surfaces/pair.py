@@ -171,7 +171,7 @@ class SurfacePair(Posed):
         motion.radius, motion.tape, motion.mirror = self.nominal_radius, self.tape, self._mirror
         motion.combine_distance, motion.most_patches = self.combine_distance, MAX_PATCHES
         motion.origin_y, motion.origin_z = self.rail_origin
-        motion.reach, motion.tilted, motion.changing = self.reach, self.tilted, 1
+        motion.reach, motion.tilted = self.reach, self.tilted
         self.space.case["G"], self.space.case["nu"] = material.shear_modulus, material.poisson_ratio
         self.separations = self.space.separations
         self.z = 0.0  #: pose.z of the last search [m]: as given, or as found

@@ -77,6 +77,7 @@ def describe(space: Search, z: float, nodes: tuple[int, int, int]) -> int:
 
 @inlined
 def _begin_curves(space, z):
+    space.motion[0].changing = 0
     first, start, end = oppose(space.wheel, space.rail, space.motion[0], space.line, space.placed)
     above = end - start >= 3
     return above, touch(space.line, start, end) if above else z, (first, start, end)
@@ -90,6 +91,7 @@ def _describe_curves(space, z, nodes):
 
 @inlined
 def _begin_surfaces(space, z):
+    space.motion[0].changing = 1
     above, at = surface.begin(space)
     return above, at if above else z, (0, 0, 0)
 
