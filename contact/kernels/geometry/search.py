@@ -181,6 +181,7 @@ def lobes(line: Array, start: int, end: int, z: float, lobe: Record) -> int:
                 return MAX_LOBES
             k += 1
             lobe[k].weight, lobe[k].moment, lobe[k].cosine, lobe[k].sine = 0.0, 0.0, 0.0, 0.0
+            lobe[k].x_low, lobe[k].x_high, lobe[k].moment_x, lobe[k].slant = 0.0, 0.0, 0.0, 0.0
             lobe[k].low = line[Curve.Y, j] + t0 * h
             lobe[k].low_z = at(line, j, lobe[k].low)[0] + z
         _add_moments(line, j, z, t0, t1, lobe, k)
