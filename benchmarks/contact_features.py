@@ -23,6 +23,7 @@ from benchmarks import bent_surface
 from benchmarks.tables import summary, table
 from contact.driven import drive
 from contact.elastic_rail import ElasticRail
+from contact.geometry import profile
 from contact.geometry.profile import Profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.halfspace import Gap
@@ -282,6 +283,35 @@ def times_subsurface() -> Iterator[Row]:
     yield ["largest von Mises stress, its place and depth", f"{least(lambda: largest(load)):.0f}"]
 
 
+def times_curved() -> Iterator[Row]:
+    """The half space in the flange root of S1002 on 60E1, plane and bent."""
+    pair = Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40))
+    patch = max(pair.contacts(Pose(y=6.5e-3), load=80e3), key=lambda p: abs(p.angle))
+    for name, conformal in (("plane", False), ("bent", True)):
+        options: dict[str, Any] = {
+            "load": patch.load,
+            "spacing": 0.3e-3,
+            "conformal": conformal,
+            "throw": False,
+            **BOTH,
+        }
+        took = least(lambda o=options: contact.solve(patch.separation, patch.creepage, **o))  # type: ignore[misc]
+        yield [f"half space at 0.3 mm in a flange root, {name}", f"{took:.0f}"]
+
+
+def times_pair() -> Iterator[Row]:
+    """A wheel under a vertical force with a rigid rail, and on springs; warm, each pose .01 mm from the last."""
+    poses = [Pose(y=1e-5 * k) for k in range(300, 340)]
+    for name, rail in (("rigid rail", None), ("rail on springs", ElasticRail(8e6, 5e7))):
+        solver = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40)))
+
+        def run(solver: WheelRailPair = solver, rail: ElasticRail | None = rail) -> None:
+            for pose in poses:
+                solver.solve(pose, vertical=8e4, rail=rail)
+
+        yield [f"a pair under a vertical force, {name}", f"{least(run) / len(poses):.2f}"]
+
+
 PARTS: tuple[Callable[[Path], Iterator[Row]], ...] = (
     subsurface,
     given_forces,
@@ -298,6 +328,8 @@ TIMES: tuple[Callable[[], Iterator[Row]], ...] = (
     times_subsurface,
     times_given_forces,
     times_transients,
+    times_curved,
+    times_pair,
 )
 
 TEXT = """# CONTACT's features
