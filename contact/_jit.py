@@ -24,7 +24,6 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from llvmlite.binding import Linkage
 from numba import config, njit, typeof, types
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, UserProvidedCacheLocator
 from numba.core.codegen import JITCodeLibrary
@@ -137,46 +136,29 @@ class _LinkedLibrary(JITCodeLibrary):
         return _NoEnvironment()
 
 
-class _WholeLibrary(JITCodeLibrary):
-    """Machine code of a kernel for Python, optimised as a whole with all kernels that it calls.
+@register_pass(mutates_CFG=False, analysis_only=True)
+class _LinkedPass(AnalysisPass):
+    _name = "linked_library"
 
-    Nothing else may call its copies of these. LLVM inlines more of them then, and the default methods take an eighth less time.
-    """
+    def __init__(self) -> None:
+        AnalysisPass.__init__(self)
 
-    def _optimize_final_module(self) -> None:
-        for function in self._final_module.functions:
-            if not function.is_declaration and function.linkage == Linkage.linkonce_odr:
-                function.linkage = Linkage.internal
-        super()._optimize_final_module()
-
-
-def _compiler_into(library: type[JITCodeLibrary]) -> type[CompilerBase]:
-    """Return numba's compiler with another kind of library for its code."""
-
-    @register_pass(mutates_CFG=False, analysis_only=True)
-    class Choose(AnalysisPass):
-        _name = library.__name__
-
-        def __init__(self) -> None:
-            AnalysisPass.__init__(self)
-
-        def run_pass(self, state: Any) -> bool:
-            state.library = library(state.targetctx.codegen(), state.func_id.func_qualname)
-            state.library.enable_object_caching()
-            return False
-
-    class Compiler(CompilerBase):
-        def define_pipelines(self) -> list[Any]:
-            passes = DefaultPassBuilder.define_nopython_pipeline(self.state)
-            passes.add_pass_after(Choose, NoPythonSupportedFeatureValidation)
-            passes.finalize()
-            return [passes]
-
-    return Compiler
+    def run_pass(self, state: Any) -> bool:
+        state.library = _LinkedLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
+        return False
 
 
-_WHOLE = {"no_cfunc_wrapper": True, "pipeline_class": _compiler_into(_WholeLibrary)}
-_LINKED = {"no_cfunc_wrapper": True, "no_cpython_wrapper": True, "pipeline_class": _compiler_into(_LinkedLibrary)}
+class _Linked(CompilerBase):
+    """numba's compiler, for functions that only kernels call."""
+
+    def define_pipelines(self) -> list[Any]:
+        passes = DefaultPassBuilder.define_nopython_pipeline(self.state)
+        passes.add_pass_after(_LinkedPass, NoPythonSupportedFeatureValidation)
+        passes.finalize()
+        return [passes]
+
+
+_LINKED = {"no_cfunc_wrapper": True, "no_cpython_wrapper": True, "pipeline_class": _Linked}
 
 
 def _show_to_kernels(dispatcher: Any, function: Callable[..., Any]) -> None:
@@ -196,7 +178,7 @@ def _show_to_kernels(dispatcher: Any, function: Callable[..., Any]) -> None:
 
 def kernel(function: Callable[..., Any]) -> Any:
     """Compile `function` with the options above, once for each set of argument types."""
-    dispatcher = njit(**_OPTIONS, **_WHOLE)(function)
+    dispatcher = njit(**_OPTIONS, no_cfunc_wrapper=True)(function)
     if not config.DISABLE_JIT:
         _show_to_kernels(dispatcher, function)
         dispatcher._cache = _ContentCache(function)

@@ -101,7 +101,7 @@ def _polynomial(x, coefficients):
 
 
 def test_remembered_types_give_the_machine_code_of_numba():
-    dispatcher, of_numba = _jit.kernel(_polynomial), njit(**_jit._OPTIONS, **_jit._WHOLE)(_polynomial)
+    dispatcher, of_numba = _jit.kernel(_polynomial), njit(**_jit._OPTIONS, no_cfunc_wrapper=True)(_polynomial)
     arguments = (float64, float64[::1])
     code = []
     for one in (dispatcher, of_numba):
