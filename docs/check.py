@@ -1,4 +1,6 @@
-"""Check the built site: links inside it, and common misspellings of its texts. `make docs` runs it; it needs no network.
+"""Check the built site: links inside it, figures that are shown, and common misspellings of its texts.
+
+`make docs` runs it; it needs no network.
 
 python docs/check.py build/docs/html
 """
@@ -52,6 +54,13 @@ def broken_links(site: Path) -> Iterator[str]:
                 yield f"{where}: {link} leads to no place in {target.name}"
 
 
+def missing_figures(site: Path) -> Iterator[str]:
+    """Yield every page that has the name of a figure in place of its picture."""
+    for path in sorted(site.rglob("*.html")):
+        if "&lt;Figure size" in path.read_text(encoding="utf-8"):
+            yield f"{path.relative_to(site)}: a figure is not drawn"
+
+
 def misspellings() -> list[str]:
     """Return what codespell finds in the texts and comments under version control."""
     listed = subprocess.run(["git", "ls-files", "-z", *TEXTS], cwd=ROOT, capture_output=True, text=True, check=True)
@@ -68,7 +77,7 @@ def main() -> None:
     site = Path(sys.argv[1])
     if not (site / "index.html").is_file():
         raise SystemExit(f"{site} holds no site")
-    wrong = [*broken_links(site), *misspellings()]
+    wrong = [*broken_links(site), *missing_figures(site), *misspellings()]
     sys.stderr.writelines(f"{line}\n" for line in wrong)
     sys.exit(1 if wrong else 0)
 

@@ -1,5 +1,6 @@
 """Pictures: they show the solution at the right places, with common scales and without global side effects."""
 
+import os
 import subprocess
 import sys
 
@@ -252,3 +253,19 @@ def test_the_slip_in_the_title_is_that_of_the_drawn_zones():
     share = s.dA[inside & ~s.stick].sum() / s.dA[inside].sum()
     assert 0.05 < share < 0.95
     assert f"slip {100.0 * share:.0f} %" in plot.patch(s).axes[0].get_title(loc="left")
+
+
+NOTEBOOK = """
+from IPython.core.interactiveshell import InteractiveShell
+shell = InteractiveShell.instance()
+from contact import plot
+shown, _ = shell.display_formatter.format(plot.curve([0.0, 1.0], {"a": [0.0, 1.0]}, xlabel="x", ylabel="y"))
+print(*shown)
+"""
+
+
+def test_a_notebook_draws_figures_without_pyplot(tmp_path):
+    pytest.importorskip("IPython")
+    environment = {**os.environ, "IPYTHONDIR": str(tmp_path)}
+    done = subprocess.run([sys.executable, "-c", NOTEBOOK], capture_output=True, text=True, env=environment, check=True)
+    assert "image/png" in done.stdout.split()

@@ -10,6 +10,7 @@ except ImportError as missing:
     raise ImportError("contact.plot needs matplotlib: pip install 'wheelrail-contact[plot]'") from missing
 
 from contact.plot.comparison import comparison
+from contact.plot.display import show_in_notebooks
 from contact.plot.lines import curve, time_histories
 from contact.plot.passage import passage
 from contact.plot.patches import patch
@@ -38,3 +39,5 @@ __all__ = [
     "wear",
     "worn_profile",
 ]
+
+show_in_notebooks()
