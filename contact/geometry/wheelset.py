@@ -28,8 +28,8 @@ from contact import workspace
 from contact.creepage import Creepage
 from contact.errors import ContactError, doubt, require_integer, require_number
 from contact.geometry.posed import Posed, Side
-from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Patch, Pose, Velocity
+from contact.geometry.shape import Profile
 from contact.kernels.arrays import Search
 from contact.kernels.geometry.prepare import facing, move, rail_origin, take_nodes
 from contact.kernels.geometry.settle import first_touch, settle

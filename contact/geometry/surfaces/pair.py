@@ -14,8 +14,8 @@ from contact import workspace
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
 from contact.geometry.posed import MAX_PENETRATION, Posed, Side
-from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Pose, Velocity
+from contact.geometry.shape import Profile
 from contact.geometry.surfaces import compiled
 from contact.geometry.surfaces.frame import Frame, PlacedRail, PlacedWheel, heights
 from contact.geometry.surfaces.search import Lobe, Scene, combined, sample
