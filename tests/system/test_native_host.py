@@ -3,6 +3,7 @@
 import os
 import re
 import shutil
+import subprocess
 from copy import copy
 
 import pytest
@@ -12,7 +13,7 @@ from fmu_src.native import source
 from fmu_src.native.linking import FLAGS, HEADERS, WRAPPER, compiler, run
 from fmu_src.native.wheel_rail_contact import component
 from models.wheelset.ports import POINTS
-from reference.native import ROLES, kernel_library, kernel_objects
+from reference.native import ROLES, SANITIZED, kernel_library, kernel_objects, sanitized
 
 OTHERS = [name for name in ROLES if name != NAME]
 VALGRIND = ("valgrind", "--error-exitcode=9", "--leak-check=full", "-q")
@@ -115,6 +116,19 @@ def test_the_wrapper_has_no_undefined_behaviour(host, tmp_path):
     for command in COMMANDS:
         checked(command)
     checked("fuzz", 50_000)
+
+
+@pytest.mark.parametrize("name", ROLES)
+def test_sanitizers_find_nothing_in_the_sources(hosts, name, tmp_path):
+    """Wrong accesses, leaks and undefined behaviour, in the wrapper and in the kernels: every call, random and wrong ones."""
+    if subprocess.run([*SANITIZED, "-x", "c", "-", "-o", tmp_path / "a"], input=b"int main(void) {}").returncode:
+        pytest.skip("SANITIZERS FIND NOTHING: gcc or its sanitizers are not installed (apt-get install gcc)")
+    usual = hosts("linux64", name)
+    host = sanitized("linux64", tmp_path, usual.library.parents[2], name)
+    for command in COMMANDS:
+        host(command, 5)
+    host("fuzz", 20_000)
+    host.wrong_calls(tmp_path, 200)
 
 
 @pytest.mark.parametrize(("name", "command"), [("host", "fuzz"), ("host_fmi3", "random_calls")])
