@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact._jit import kernel
-from contact.geometry.records import LARGEST_ANGLE
 from contact.kernels.arrays import Search
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.search import axle
 from contact.kernels.geometry.settle import first_touch, locate
+from contact.kernels.records import LARGEST_ANGLE
 from contact.kernels.rows import Sep
 from models.wheelset import dynamics
 from models.wheelset.dynamics import N_STATE, Constant, Energy, Frame, Side, State
