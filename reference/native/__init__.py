@@ -11,12 +11,12 @@ import numpy as np
 
 from contact.kernels.records import MAX_PATCHES
 from contact.solver import N_ELEMENTS, N_STRIPS
-from fmu_src.catalogue import models
+from fmu_src.catalogue import models, vehicles
 from fmu_src.native import source
+from fmu_src.native.component import Component
 from fmu_src.native.linking import HEADERS, compiler, run
 from fmu_src.native.packaging import kernels
 from fmu_src.native.wheel_rail_contact import component
-from fmu_src.variables import Table
 from models.wheelset.ports import POINTS
 
 ROOT = Path(__file__).parents[2]
@@ -54,6 +54,22 @@ ROLES = {
         "COARSEST": {"resolution.substeps": 1},
     },
 }  # fmt: skip
+#: The same for FMUs that meet wrong calls only.
+ATTACKED = {
+    "EllipticContact": ROLES[NAME],
+    "Vehicle": {
+        "LOAD": "friction.coefficient", "VARIED": "speed", "REFUSED": "speed", "TAKEN": 15.0,
+        "RESULT": "distance", "SUM": "energy.dissipated", "LATE": "energy.residual",
+        "CHOICE": "method.normal", "OTHER_CHOICE": "method.tangential",
+        "COARSEST": {"resolution.n_strips": 4, "resolution.n_elements": 4},
+    },
+    "OpenVehicle": {
+        "LOAD": "friction.coefficient", "VARIED": "speed", "REFUSED": "speed", "TAKEN": 15.0,
+        "RESULT": "distance", "SUM": "distance", "LATE": "distance",
+        "CHOICE": "distance", "OTHER_CHOICE": "distance", "COARSEST": {"distance": 0},
+    },
+}  # fmt: skip
+SCENARIO = ROOT / "examples" / "scenarios" / "vehicle_300.toml"
 
 
 #: A compiler that ends a program at a wrong access to memory, a leak or undefined behaviour.
@@ -72,9 +88,11 @@ class Host:
         self.guid = fmpy.read_model_description(str(unzipped)).guid
         self.library = unzipped / "binaries" / platform / f"{name}.{library}"
         self.resources = resources_of(unzipped, own)
-        (model,) = (model for model in models(POINTS, accumulation=True) if model.table.name == name)
-        (folder / "model.h").write_text(source.header(model.module("native").component(**model.all_options), self.guid))
-        (folder / "roles.h").write_text(roles(model.table))
+        every = models(POINTS, accumulation=True) if name in ROLES else (*models(POINTS), *vehicles(SCENARIO))
+        (model,) = (model for model in every if model.table.name == name)
+        its = model.module("native").component(**model.all_options)
+        (folder / "model.h").write_text(source.header(its, self.guid))
+        (folder / "roles.h").write_text(roles(its))
         self.program = folder / f"host{program}"
         libraries = ["-ldl", "-lpthread", "-lm"] if own == "linux64" else []
         elements = MAX_PATCHES * N_STRIPS * N_ELEMENTS
@@ -135,12 +153,14 @@ def resources_of(unzipped: Path, platform: str) -> str:
     return uri if platform == "linux64" else uri.replace("file:///", "file:///Z:/")
 
 
-def roles(table: Table) -> str:
+def roles(its: Component) -> str:
     """Return the text of roles.h for an FMU."""
-    given = ROLES[table.name]
+    table = its.table
+    given = {**ROLES, **ATTACKED}[table.name]
     coarsest = given["COARSEST"]
     lines = [f"#define {role} {source.c_name(of)}" for role, of in given.items() if isinstance(of, str)]
     lines += [f'#define VARIED_NAME "{given["VARIED"]}"', f"#define TAKEN {given['TAKEN']}"]
+    lines += [f"#define HAS_EXCHANGE {int(its.exchange)}"]
     lines += [f"#define RESULT_IS_STATE {int(table.row[given['RESULT']] in table.states)}"]
     lines += [f"#define RESOLUTION {{{', '.join(map(source.c_name, coarsest))}}}"]
     lines += [f"#define COARSEST {{{', '.join(map(str, coarsest.values()))}}}"]
