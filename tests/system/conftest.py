@@ -13,11 +13,11 @@ from contact_case import NAME
 from fmu_instance import Instance
 from fmu_instance_fmi3 import Instance3
 from pair_case import NAME as PAIR
-from vehicle_case import SCENARIO
 
-from reference.native import Host
+from reference.native import SCENARIO, Host
 
 ROOT = Path(__file__).parents[2]
+VEHICLES = ("Vehicle", "OpenVehicle")
 
 
 @pytest.fixture(scope="session")
@@ -28,9 +28,14 @@ def fmus(once) -> Path:
 
 @pytest.fixture(scope="session")
 def native(once) -> Path:
-    """Return the file of the native WheelRailContact, in one folder with the others, also those of a vehicle."""
-    folder = once("native-fmus", lambda folder: _build(folder, "native", "--vehicle", SCENARIO))
-    return folder / "native" / "WheelRailContact.fmu"
+    """Return the file of the native WheelRailContact, in one folder with the others."""
+    return once("native-fmus", lambda folder: _build(folder, "native")) / "native" / "WheelRailContact.fmu"
+
+
+@pytest.fixture(scope="session")
+def native_vehicles(native, once) -> Path:
+    """Return the folder with the native Vehicle, OpenVehicle and coupled_vehicle.ssp. The kernels of the pair are kept."""
+    return once("vehicle-fmus", lambda folder: _build(folder, "native", "--vehicle", SCENARIO)) / "native"
 
 
 @pytest.fixture(scope="session")
@@ -95,13 +100,14 @@ def wine(once) -> None:
 
 
 @pytest.fixture(scope="session")
-def hosts(native, tmp_path_factory, request):
+def hosts(request, native, tmp_path_factory):
     """Return a function that gives the C host of a platform and an FMU, each compiled once. "win64" runs under Wine."""
 
     @cache
     def unzipped(name: str) -> Path:
         folder = tmp_path_factory.mktemp("unzipped") / "with blanks, ümläuts and 100 %"
-        return Path(fmpy.extract(str(native.with_name(f"{name}.fmu")), str(folder)))
+        place = request.getfixturevalue("native_vehicles") if name in VEHICLES else native.parent
+        return Path(fmpy.extract(str(place / f"{name}.fmu"), str(folder)))
 
     @cache
     def make(platform: str, name: str) -> Host:

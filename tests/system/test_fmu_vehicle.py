@@ -10,13 +10,13 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 from fmpy.ssp.ssd import read_ssd
 from pyssp_standard.ssp import SSP
-from vehicle_case import SCENARIO
 
 from examples.coupled_vehicle.system import VehicleSystem
 from models.life import scenario
 from models.vehicle.course import lay
 from models.vehicle.kernels.layout import Book
 from models.vehicle.simulation import ContactOptions, Simulation
+from reference.native import SCENARIO
 
 STEP, START, MANY = 2e-4, 30.0, 100
 FAST = ContactOptions(normal="analyn", tangential="fastrip", n_strips=20, n_elements=12)
@@ -24,9 +24,9 @@ COORDINATES = ("x", "y", "z", "roll", "pitch", "yaw")
 
 
 @pytest.fixture(scope="module")
-def folder(native) -> Path:
+def folder(native_vehicles) -> Path:
     """Return the folder of the FMUs and the system of the vehicle."""
-    return native.parent
+    return native_vehicles
 
 
 def one_kernel(options: ContactOptions = FAST, start: float = START) -> Simulation:
