@@ -195,6 +195,17 @@ class Vector(IntEnum):
     BEST = 23  # ln a of the best iterate; in the end strips the ends of their panel
     STEPS = 24  # first of DEPTH rows: steps of the last iterations
     CHANGES = 27  # first of DEPTH rows: changes of the residual
+    PAIRS = 30  # first of the rows of `Pair`
+
+
+class Pair(IntEnum):
+    """Rows of what `normal.many_strips` reads of every strip that displaces a point. They are overwritten."""
+
+    X = 0  # distance of the point along x from the strip's middle over the half length
+    LN_X = 1  # its logarithm
+    LOW = 2  # logarithms of the distances along y from the strip's sides over the half length
+    HIGH = 3
+    ROW = 4  # of the table, found from these
 
 
 #: Steps of the strip half space's iteration that are remembered.
@@ -224,7 +235,7 @@ class Body(IntEnum):
 
 
 #: Number of rows y, z and angle of a profile, of all rows of a trace line, and of vectors.
-N_PROFILE_ROWS, N_LINE_ROWS, N_VECTOR_ROWS = 3, 5, Vector.CHANGES + DEPTH
+N_PROFILE_ROWS, N_LINE_ROWS, N_VECTOR_ROWS = 3, 5, Vector.PAIRS + len(Pair)
 
 
 @overload(len)
