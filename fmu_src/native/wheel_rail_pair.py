@@ -1,6 +1,6 @@
 """Native WheelRailPair: the functions that C calls, on one array of all values and one of working memory.
 
-`contact.kernels.elastic_rail.solve_on_rail` does the work, as in Python. This module converts profiles, values and memory
+`contact.kernels.flexible.solve_flexible` does the work, as in Python. This module converts profiles, values and memory
 to its arguments.
 """
 
@@ -22,11 +22,20 @@ from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels import block, memory, quadrature
 from contact.kernels.block import ahead
 from contact.kernels.damage.deposit import arc_length
-from contact.kernels.elastic_rail import solve_on_rail
 from contact.kernels.enumerations import Height, NoAnswer
+from contact.kernels.flexible import solve_flexible
 from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes, turn
 from contact.kernels.geometry.settle import DEEPEST
-from contact.kernels.records import CASE, DAMAGE_PARAMETERS, GIVEN, MAX_PATCHES, SLOWEST, TOTAL
+from contact.kernels.records import (
+    CASE,
+    DAMAGE_PARAMETERS,
+    GIVEN,
+    LARGEST_ANGLE,
+    MAX_PATCHES,
+    SLOWEST,
+    TOTAL,
+    WHEEL_OFFSET,
+)
 from contact.kernels.rows import N_PROFILE_ROWS, Bin
 from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
@@ -70,6 +79,7 @@ class _Failure(IntEnum):
     GAUGE_POINT = auto()
     STEEP = auto()
     ENDLESS = auto()
+    TURNED = auto()
 
 
 _FAILURES: dict[int, str] = {
@@ -79,6 +89,7 @@ _FAILURES: dict[int, str] = {
     _Failure.GAUGE_POINT: "track.gauge_point: the rail reaches no deeper on its gauge side",
     _Failure.STEEP: "rail.inclination: the rail is steep at its top",
     _Failure.ENDLESS: "the accumulated damage has no finite value for these inputs",
+    _Failure.TURNED: f"offset: with the wheelset's roll and yaw the wheel is turned by more than {LARGEST_ANGLE:g} rad",
 }
 
 
@@ -239,12 +250,17 @@ def _differ(table: Table) -> Callable[..., Any]:
         creepage = 1e-3 * _steps(
             v[at.friction_coefficient], abs(v[at.force_z]), v[at.material_shear_modulus], v[at.patches_area]
         )[0]  # fmt: skip
-        if reference == at.pose_z or reference == at.irregularity_z:
+        if reference == at.pose_z or reference == at.irregularity_z or reference == at.offset_z:
             return 1e-8
         if at.pose_y <= reference <= at.pose_yaw or at.irregularity_y <= reference <= at.irregularity_roll:
             return 1e-7
-        if at.velocity_x <= reference <= at.irregularity_roll_rate:
-            lever = v[at.wheel_radius] if reference == at.velocity_spin else 1.0
+        if at.offset_x <= reference <= at.offset_yaw:
+            return 1e-7
+        if (
+            at.velocity_x <= reference <= at.irregularity_roll_rate
+            or at.offset_x_rate <= reference <= at.offset_yaw_rate
+        ):
+            lever = v[at.wheel_radius] if reference == at.velocity_spin or reference == at.offset_pitch_rate else 1.0
             return creepage * speed / lever
         share = 1e-4 if reference == at.load_normal_force else 1e-6
         return max(share * abs(v[reference]), 1e-12)
@@ -261,6 +277,8 @@ def _failure(code):
         return _Failure.NOT_SETTLED
     if code == NoAnswer.TOO_DEEP:
         return _Failure.TOO_DEEP
+    if code == NoAnswer.TURNED:
+        return _Failure.TURNED
     return 0
 
 
@@ -341,12 +359,14 @@ def entries(table: Table) -> dict[str, Callable[..., Any]]:
         bench = arrange(v, work, resources, (centre, plane, creep))
         read_surface(v, bench.case)
         given, _ = block.records(values, at.pose_y, 1, GIVEN)
+        offset, _ = block.records(values, at.offset_x, 1, WHEEL_OFFSET)
+        bench.offset[0] = offset[0]
         bench.ledger.settings[0].distance = v[at.velocity_x] * h
         piece = memory.memory_size(size(v))
         for k in range(MAX_PATCHES):
             forget_forged(bench.memory[1 + k * piece : 1 + (k + 1) * piece])
         mode = _HEIGHT[int(v[at.load_kind]) - 1]
-        failure = _failure(solve_on_rail(mode, max(v[at.load_normal_force], 0.0), given[0], bench))
+        failure = _failure(solve_flexible(mode, max(v[at.load_normal_force], 0.0), given[0], bench))
         if failure > 0:
             return failure
         if not math.isfinite(bench.ledger.bins.sum()):
