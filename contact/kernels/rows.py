@@ -25,6 +25,10 @@ class Strip(IntEnum):
     TO_Y = 13
     TO_PHI = 14
     TO_EXPONENT = 15
+    TIE = 16  # of mapped strip marching: with which a strip and the one before it are one shape (`tangential.ties`)
+    SHARE = 17  # of a strip in the shape of which another strip is a part
+    STIFFNESS = 18  # C11·a·dy [m²]
+    CENTRE = 19  # of the longitudinal stiffness of the strip's shape [m]
 
 
 class Field(IntEnum):
