@@ -2,6 +2,8 @@
 
 * ``error_model="numpy"``: no exception branches. A kernel prevents a division by zero, it does not catch it.
 * ``nogil=True``: a kernel touches no Python object, so threads of a host run in parallel.
+* ``_nrt=False``: arrays have no reference counts in kernels, which allocate nothing. They took a fifth of the time of a
+  contact. A kernel may return arrays in a tuple, but not an array of its own making.
 * No ``fastmath``: results must not depend on the instruction set. The native FMU is compared bit for bit.
 * Compiled kernels are kept on disk. The cache is keyed by the content of `contact/kernels`, and for a kernel elsewhere
   also by the content of its own folder. Modification times are ignored, so another checkout with the same kernels
@@ -39,7 +41,7 @@ _KERNELS = Path(__file__).parent / "kernels"
 _PREFIX = "wheelrail-contact-"
 #: Caches that were not used for this time [s] are removed. At most `_MOST` caches are kept.
 _STALE, _MOST = 30 * 86400.0, 8
-_OPTIONS = {"error_model": "numpy", "nogil": True}
+_OPTIONS = {"error_model": "numpy", "nogil": True, "_nrt": False}
 
 
 def _base() -> Path:
