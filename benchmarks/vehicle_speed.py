@@ -1,15 +1,17 @@
-"""Print how fast a vehicle of eight wheels runs on one core, and the share of its contacts (`make bench`).
+"""Print how fast a vehicle of eight wheels runs, and the share of its contacts (`make bench`).
 
-    python benchmarks/vehicle_speed.py [--seconds 2] [--fmu dist/native/Vehicle.fmu]
+    python benchmarks/vehicle_speed.py [--seconds 2] [--threads 2] [--fmu dist/native/Vehicle.fmu]
 
 The Manchester benchmark vehicle runs on straight track at 25 m/s and in a curve of 300 m at 15 m/s, with the alignment ERRI
 B176 low. With `--fmu` the one kernel and the native FMU run on the track of `examples/scenarios/vehicle_300.toml`. Times are
-processor times, so they depend little on other processes, but some: of cores that share caches.
+processor times, so they depend little on other processes, but some: of cores that share caches. Those of several threads are
+elapsed times, beside that of one thread measured in turn; they mean something only on cores that are free.
 """
 
 from __future__ import annotations
 
 import argparse
+import math
 import time
 from pathlib import Path
 
@@ -27,7 +29,7 @@ from models.vehicle.kernels.motion import ask
 from models.vehicle.kernels.wheels import press
 from models.vehicle.simulation import ContactOptions, Simulation
 
-STEP = 4.6e-4  # [s]
+STEP, SHORT = 4.6e-4, 20  # [s], and steps of a piece that is timed
 SCENARIO = Path(__file__).parents[1] / "examples" / "scenarios" / "vehicle_300.toml"
 ROUGH = Irregularities(spectrum="ERRI B176 low")
 CURVE = Curve(start=0.0, radius=300.0, length=1e4, transition=20.0, cant=0.1)
@@ -42,11 +44,32 @@ METHODS = {
 }
 
 
+def started(speed: float, track: Track, options: ContactOptions, seconds: float, threads: int = 1) -> Simulation:
+    """Return a vehicle that has run 50 m, into the curve, with `seconds` to go."""
+    rows = lay(track, 60.0 + speed * seconds, lambda s: speed, (1,), 30.0)
+    vehicle = Simulation(read("manchester"), rows, profile.s1002(), profile.rail_60e1(), 0.3, options, threads=threads)
+    vehicle.advance(STEP, round(50.0 / speed / STEP))
+    return vehicle
+
+
+def shared(threads: int, seconds: float) -> list[list[str]]:
+    """Return the rows of one thread and of several: simulated over elapsed time, the best of pieces of `SHORT` steps."""
+    rows = []
+    for where, (speed, track) in TRACKS.items():
+        best: dict[int, float] = {}
+        vehicles = {n: started(speed, track, ContactOptions(), seconds, n) for n in (1, threads)}
+        for _ in range(round(seconds / STEP / SHORT)):
+            for n, vehicle in vehicles.items():
+                start = time.perf_counter()
+                vehicle.advance(STEP, SHORT)
+                best[n] = min(best.get(n, math.inf), time.perf_counter() - start)
+        rows += [[where, str(n), f"{SHORT * STEP / took:.2f}"] for n, took in best.items()]
+    return rows
+
+
 def measured(speed: float, track: Track, options: ContactOptions, seconds: float) -> tuple[float, float]:
     """Return simulated time over processor time, and the share of the contacts in the processor time."""
-    rows = lay(track, 60.0 + speed * seconds, lambda s: speed, (1,), 30.0)
-    vehicle = Simulation(read("manchester"), rows, profile.s1002(), profile.rail_60e1(), 0.3, options)
-    vehicle.advance(STEP, round(50.0 / speed / STEP))  # into the curve
+    vehicle = started(speed, track, options, seconds)
     steps = round(seconds / STEP)
     start = time.process_time()
     vehicle.advance(STEP, steps)
@@ -98,6 +121,7 @@ def main() -> None:
     """Print the tables."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seconds", type=float, default=2.0)
+    parser.add_argument("--threads", type=int, default=0)
     parser.add_argument("--fmu", type=Path)
     arguments = parser.parse_args()
     seconds = arguments.seconds
@@ -108,6 +132,9 @@ def main() -> None:
             rows.append([name, where, f"{ratio:.2f}", f"{share:.0%}"])
     print(f"Eight wheels, one core, steps of {1e3 * STEP:g} ms\n")
     print(table(["contact methods", "track", "simulated over processor time", "share of the contacts"], rows))
+    if arguments.threads:
+        head = ["default methods", "threads", "simulated over elapsed time"]
+        print("\n" + table(head, shared(arguments.threads, seconds)))
     if arguments.fmu:
         head = ["curve of 300 m, 15 m/s, default methods", "simulated over processor time"]
         print("\n" + table(head, beside_the_fmu(arguments.fmu, seconds)))

@@ -46,8 +46,9 @@ def require_number(
         number = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):
         raise ContactError(f"{name} = {value!r} is not a number") from None
-    above = number > minimum if open_minimum else number >= minimum
-    if not math.isfinite(number) or not above or number > maximum:
+    # a comparison with NaN is a trap where floating-point traps are on
+    above = math.isfinite(number) and (number > minimum if open_minimum else number >= minimum)
+    if not above or number > maximum:
         left = "]" if open_minimum or math.isinf(minimum) else "["
         right = "[" if math.isinf(maximum) else "]"
         raise ContactError(f"{name} = {number:g} is outside the allowed range {left}{minimum:g}, {maximum:g}{right}")

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,9 +21,10 @@ from contact.geometry.records import Irregularity, Pose, Velocity, contact_angle
 from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair
 from contact.kernels.arrays import Bench, Ledger
-from contact.kernels.elastic_rail import solve_on_rail
 from contact.kernels.enumerations import Height, NoAnswer
+from contact.kernels.flexible import solve_flexible
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
+from contact.kernels.records import LARGEST_ANGLE
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solution import Status
@@ -31,7 +32,7 @@ from contact.solver import N_ELEMENTS, N_STRIPS, require_max_iterations, require
 
 Array = NDArray[np.float64]
 
-_RIGID = ElasticRail()
+_RIGID, _STRAIGHT = ElasticRail(), WheelOffset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -237,7 +238,7 @@ class WheelRailPair:
         self.bench.case[:] = cases(
             1, method, rolling, material, conformal=conformal, max_iterations=require_max_iterations(max_iterations)
         )
-        self._rail = _RIGID
+        self._rail, self._offset = _RIGID, _STRAIGHT
         self.bench.damage_parameters[:] = (damage or DamageParameters()).record(material, 1.0, 1.0)
 
     def forget(self) -> None:
@@ -297,21 +298,6 @@ class WheelRailPair:
         ContactError
             For input outside its range, if wheel and rail do not overlap laterally, or if no z gives the load.
         """
-        if offset is not None:
-            return self._solve_flexible(
-                offset,
-                pose,
-                velocity or Velocity(),
-                station=station,
-                rotation=rotation,
-                load=load,
-                penetration=penetration,
-                vertical=vertical,
-                irregularity=irregularity,
-                friction=friction,
-                distance=distance,
-                rail=rail,
-            )
         if vertical is None:
             mode, amount = self.pair.prescribed(load, penetration)
         elif load is None and penetration is None:
@@ -321,8 +307,14 @@ class WheelRailPair:
         self.bench.ledger.settings["distance"] = require_number("distance", distance, 0.0)
         set_surface(self.bench.case, as_friction(friction), (velocity or Velocity()).forward)
         self._set_rail(_RIGID if rail is None else rail)
-        given = self.pair.given(pose, velocity, irregularity, station=station, rotation=rotation)
-        code = solve_on_rail(mode, amount, given, self.bench)
+        self._set_offset(_STRAIGHT if offset is None else offset)
+        given = self.pair.given(pose, velocity, irregularity, station=station, rotation=rotation + self._offset.pitch)
+        code = solve_flexible(mode, amount, given, self.bench)
+        if code == NoAnswer.TURNED:
+            raise ContactError(
+                f"offset.roll = {self._offset.roll:g} and offset.yaw = {self._offset.yaw:g}: with the wheelset's roll and "
+                f"yaw the wheel is turned by more than {LARGEST_ANGLE:g} rad"
+            )
         if vertical is not None and code == NoAnswer.NOT_SETTLED:
             raise ContactError(
                 f"vertical = {vertical:g}: no z was found at which normal and friction forces carry it together"
@@ -348,16 +340,6 @@ class WheelRailPair:
             deflection=(float(self.bench.rail[0].dy), float(self.bench.rail[0].dz)),
         )
 
-    def _solve_flexible(self, offset: WheelOffset, pose: Pose, velocity: Velocity, **options: Any) -> PairSolution:
-        """Return the solution of a displaced wheel, with the moment about the centre of its wheelset."""
-        motion = self.pair.space.motion[0]
-        tape = float(motion.mirror * motion.tape)
-        moved_pose, moved_velocity, shift = offset.moved(pose, velocity, tape, self.pair.nominal_radius)
-        s = self.solve(moved_pose, moved_velocity, **options)
-        shift[2] = moved_pose.z - pose.z
-        moment = s.moment + np.cross(shift, s.force)
-        return replace(s, moment=moment, z=s.z - float(shift[2]))
-
     def _set_rail(self, rail: ElasticRail) -> None:
         if rail is not self._rail:
             if not isinstance(rail, ElasticRail):
@@ -365,6 +347,13 @@ class WheelRailPair:
             springs = self.bench.rail
             springs["ky"], springs["kz"], springs["preload_y"], springs["preload_z"] = rail.record()
             self._rail = rail
+
+    def _set_offset(self, offset: WheelOffset) -> None:
+        if offset is not self._offset:
+            if not isinstance(offset, WheelOffset):
+                raise ContactError(f"offset = {offset!r} is not a contact.geometry.flexible.WheelOffset")
+            self.bench.offset[0] = offset.record()
+            self._offset = offset
 
 
 def _contact(found: np.record) -> Contact:

@@ -6,13 +6,14 @@ import copy
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.absence import only_with_fields
 from contact.creepage import Creepage
+from contact.damage import Damage, evaluate
 from contact.kernels.arrays import Workspace
 from contact.kernels.enumerations import Status
 from contact.kernels.friction import of_case
@@ -22,9 +23,6 @@ from contact.material import Material
 from contact.notebook import beside, table
 from contact.pressure import pressure_at, sketch
 from contact.registry import methods
-
-if TYPE_CHECKING:
-    from contact.damage import Damage
 
 Array = NDArray[np.float64]
 Records = NDArray[np.void]
@@ -240,8 +238,6 @@ class Solution:
     @cached_property
     def damage(self) -> Damage:
         """Wear and fatigue indices with default parameters; call `contact.damage.evaluate` for other parameters."""
-        from contact.damage import evaluate
-
         return evaluate(self)
 
     def pressure(self, x: ArrayLike, y: ArrayLike) -> Array:

@@ -15,10 +15,7 @@ from contact.friction import LAWS, VELOCITIES
 from models.life import declared_set, scenario
 from models.life.spectra import SPECTRA
 from models.vehicle import declared as vehicle
-from models.wheelset.parameters import WheelsetParameters
 
-#: Classes whose keys are explained in another class: those that the first one does not explain itself.
-_ELSEWHERE = {"Vehicle": WheelsetParameters}
 #: Names of the code in docstrings → what they stand for.
 _LISTS = {"LAWS": LAWS, "VELOCITIES": VELOCITIES, "SPECTRA": SPECTRA}
 _NAMES = {float: "number", int: "integer", str: "text", bool: "true or false"}
@@ -109,11 +106,10 @@ def _table(places: list[str], kind: Any, title: str) -> str:
     heading = ", ".join(f"`[{place}]`" for place in dict.fromkeys(places) if place)
     lead = (inspect.getdoc(kind) or "").partition("\n\n")[0].replace("\n", " ")
     hints, known = get_type_hints(kind), explained(kind)
-    more = explained(_ELSEWHERE[kind.__name__]) if kind.__name__ in _ELSEWHERE else {}
     rows: dict[tuple[str, str], list[tuple[str, str]]] = {}
     for entry in fields(kind):
         if entry.init:
-            value, meaning = _type(hints[entry.name]), known.get(entry.name) or more.get(entry.name) or lead
+            value, meaning = _type(hints[entry.name]), known.get(entry.name) or lead
             meaning = "see its own table" if "table" in value and _is_type(meaning) else meaning
             rows.setdefault((value, meaning), []).append((f"`{entry.name}`", _default(entry)))
     lines = ["| key | value | default | meaning |", "| --- | --- | --- | --- |"]

@@ -11,7 +11,6 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
 from contact.geometry.surfaces import SurfacePair
@@ -90,13 +89,11 @@ def vehicles(path: Path, given: Mapping[Kind, Profile] | None = None) -> tuple[M
     Raises
     ------
     ContactError
-        As `models.life.scenario.read`, and if the scenario has no vehicle.
+        As `models.life.scenario.read`.
     """
     declared = scenario.read(path)
-    if declared.vehicle is None:
-        raise ContactError(f"{path}: the scenario has no vehicle")
     pair = next(model for model in models(POINTS, given) if model.name == "wheel_rail_pair")
-    beside = path.parent / str(declared.declared.vehicle)
+    beside = path.parent / declared.declared.vehicle
     vehicle = str(beside) if beside.is_file() else declared.declared.vehicle
     track = {TRACK: pack(declared)}
     return (

@@ -10,6 +10,7 @@ from typing import Annotated
 
 import typer
 
+from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.document import document
 from contact.cli.output import reported, stop
@@ -40,7 +41,7 @@ def fmu(
     ] = None,
     wheel: Annotated[str | None, typer.Option(help=f"Profile of the wheel: {PROFILE}.")] = None,
     rail: Annotated[str | None, typer.Option(help=f"Profile of the rail: {PROFILE}.")] = None,
-    reading: opt.Reading,
+    reading: arguments.Reading,
     accumulation: Annotated[
         bool, typer.Option("--accumulation", help="Give WheelRailPair the outputs of accumulated damage, 1500 numbers.")
     ] = False,

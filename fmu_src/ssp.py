@@ -22,7 +22,6 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import fmpy
 
-from contact.errors import ContactError
 from fmu_src import archive
 from fmu_src.description import number
 from fmu_src.tables import open_vehicle, wheel_rail_contact, wheel_rail_pair, wheelset
@@ -103,8 +102,6 @@ def vehicle_on_rails(given: Scenario, start: float) -> System:
     The FMUs have the scenario's profiles and track; its speed at the start and its friction are parameters.
     """
     declared = given.vehicle
-    if declared is None:
-        raise ContactError(f"{given.name}: the scenario has no vehicle")
     d, methods = given.declared, given.declared.methods
     track = lay(d.track, d.length, given.speed, (d.seed, *given.draw), d.recording.settling)
     options = ContactOptions(

@@ -1,7 +1,7 @@
 """Terminals of the FMUs for FMI 3.0: groups of variables that belong together, so that a tool connects them at once.
 
 A wheelset has one terminal for each side, a contact has one. Members that are connected have the same names. A pair has one
-terminal for its wheelset, one for its rail and one that shows its patches.
+terminal for its wheelset, one for its rail, one for the displacement of a flexible wheel and one that shows its patches.
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ _OF_PAIR = {
         ("pose", "velocity", "load", "wheelset", "force", "moment"),
     ),
     "rail": ("Motion of the rail under this wheel, and its deflection", ("irregularity", "rail")),
+    "offset": ("Displacement of this wheel against its wheelset, and its rate; may stay open", ("offset",)),
     "patches": ("All patches in track coordinates", ("patches", "patch", "pressure", "used_friction")),
 }
 

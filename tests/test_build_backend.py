@@ -31,7 +31,10 @@ def laid_out(tmp_path_factory):
         ("    from models.life import report", "    from contact_models.life import report"),
         ("import models", "import contact_models"),
         ('demo = "models.wheelset.demo:demo"', 'demo = "contact_models.wheelset.demo:demo"'),
-        ("`models.wheelset.ports`, models/life/run.py", "`contact_models.wheelset.ports`, contact_models/life/run.py"),
+        (
+            "`models.wheelset.ports`, models/life/wear.py",
+            "`contact_models.wheelset.ports`, contact_models/life/wear.py",
+        ),
         ("from fmu_src.catalogue import Model, models", "from contact_fmu.catalogue import Model, models"),
         ("for model in models(points): models.append(1)", "for model in models(points): models.append(1)"),
         ("Constants of the damage models. models.py", "Constants of the damage models. models.py"),

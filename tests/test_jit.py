@@ -1,6 +1,7 @@
 """The cache of compiled kernels depends on their content."""
 
 import json
+import math
 import os
 import shutil
 import subprocess
@@ -93,6 +94,29 @@ def test_a_kernel_that_a_kernel_calls_is_compiled_once_and_not_for_python():
     assert len(_times.signatures) == 1
 
 
+@_jit.kernel
+def _long(x, n):
+    for _ in range(10):
+        x = math.sin(n * x) + math.cos(x + n) * math.atan(x - n) + math.tanh(x * n) + math.log(1.0 + n * x * x)
+    return x
+
+
+@_jit.kernel
+def _calls_with_two(x):
+    return _long(x, 2) + _long(x + 1.0, 2)
+
+
+@njit(error_model="numpy")
+def _calls_with_three(x):
+    return _long(x, 3)
+
+
+def test_other_machine_code_does_not_call_what_a_kernel_keeps_for_itself():
+    """In `_calls_with_two` LLVM makes a version of `_long` with n = 2. Its name must not hide the one of any n."""
+    assert _calls_with_two(0.1) == pytest.approx(_long.py_func(0.1, 2) + _long.py_func(1.1, 2), rel=1e-9)
+    assert _calls_with_three(0.1) == pytest.approx(_long.py_func(0.1, 3), rel=1e-9)
+
+
 def _polynomial(x, coefficients):
     total = 0.0
     for i in range(coefficients.shape[0]):
@@ -101,7 +125,7 @@ def _polynomial(x, coefficients):
 
 
 def test_remembered_types_give_the_machine_code_of_numba():
-    dispatcher, of_numba = _jit.kernel(_polynomial), njit(**_jit._OPTIONS, no_cfunc_wrapper=True)(_polynomial)
+    dispatcher, of_numba = _jit.kernel(_polynomial), njit(**_jit._OPTIONS, **_jit._WHOLE)(_polynomial)
     arguments = (float64, float64[::1])
     code = []
     for one in (dispatcher, of_numba):

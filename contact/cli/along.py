@@ -12,6 +12,7 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
+from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.problem import STANDARD_LOAD
@@ -88,13 +89,13 @@ class Stations:
 @reported
 def along(
     *,
-    place: opt.Place,
+    place: arguments.Place,
     change: OutOfRound,
-    reading: opt.Reading,
+    reading: arguments.Reading,
     way: Stations,
     load: opt.Load = None,
     vertical: Vertical = None,
-    surface: opt.Surface,
+    surface: arguments.SlidingFriction,
     normal: opt.Normal = "halfspace",
     tangential: Rolling = None,
     as_json: opt.Json = False,
@@ -138,7 +139,7 @@ def along(
     )
 
 
-def _wheel(name: str, reading: opt.Reading) -> WheelSurface:
+def _wheel(name: str, reading: arguments.Reading) -> WheelSurface:
     """Return a wheel from a file of slices, or of revolution."""
     if Path(name).suffix == ".slcw":
         return WheelSurface.read(name)

@@ -13,13 +13,14 @@ from rich.console import Console
 from rich.markup import escape
 
 import contact
-from contact.cli import creep_table, extras, problem, report
+from contact.cli import arguments, creep_table, extras, problem, report
 from contact.cli import options as opt
 from contact.cli.along import along
 from contact.cli.compare import compare
 from contact.cli.document import flat
 from contact.cli.geometry import conicity, list_profiles
 from contact.cli.geometry import geometry as points
+from contact.cli.in_time import in_time
 from contact.cli.manchester import manchester
 from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.plugins import add_plugins
@@ -53,12 +54,12 @@ app = typer.Typer(
 def solve(
     context: typer.Context,
     *,
-    place: opt.Place,
-    reading: opt.Reading,
+    place: arguments.Place,
+    reading: arguments.Reading,
     side: opt.Sides = opt.Side.right,
-    amount: opt.Amount,
+    amount: arguments.Amount,
     curvatures: opt.Curvatures = None,
-    surface: opt.Surface,
+    surface: arguments.SlidingFriction,
     gauge_friction: opt.GaugeFriction = None,
     pressure_limit: opt.PressureLimit = math.inf,
     bodies: opt.Bodies = None,
@@ -77,10 +78,10 @@ def solve(
     ·   contact solve --curvatures 1.1 0.8 --fx 12e3
     """
     prepare(out)
-    options = {"friction": surface.law(gauge_friction), "material": opt.material(pressure_limit, bodies)}
+    options = {"friction": surface.law(gauge_friction), "material": arguments.material(pressure_limit, bodies)}
     options |= {"normal": normal, "tangential": tangential, **(PICTURE_RESOLUTION if out else {})}
-    options |= {"force": opt.force(fx, fy), "layer": opt.third_body(layer)}
-    opt.require_use(context)
+    options |= {"force": arguments.force(fx, fy), "layer": arguments.third_body(layer)}
+    arguments.require_use(context)
     if curvatures is not None:
         hertzian = problem.solve_hertzian(
             curvatures, amount.load, amount.penetration, amount.given, options | {"speed": place.speed}
@@ -99,11 +100,11 @@ def solve(
 @reported
 def patch(
     *,
-    place: opt.Place,
-    reading: opt.Reading,
+    place: arguments.Place,
+    reading: arguments.Reading,
     side: opt.Sides = opt.Side.both,
-    amount: opt.Amount,
-    surface: opt.Surface,
+    amount: arguments.Amount,
+    surface: arguments.SlidingFriction,
     gauge_friction: opt.GaugeFriction = None,
     pressure_limit: opt.PressureLimit = math.inf,
     normal: opt.Normal = DEFAULT_NORMAL,
@@ -118,7 +119,7 @@ def patch(
     """
     drawing()
     case = place.position(reading, side)
-    options = {"friction": surface.law(gauge_friction), "material": opt.material(pressure_limit)}
+    options = {"friction": surface.law(gauge_friction), "material": arguments.material(pressure_limit)}
     options |= {"normal": normal, "tangential": tangential, "conformal": conformal, **PICTURE_RESOLUTION}
     touches = problem.solve_position(case, amount.load, amount.penetration, amount.given, options)
     sides = {name: [t for t in touches if t.side == name] for name in case.sides}
@@ -144,7 +145,7 @@ def curve(
     creepage: opt.Creep = None,
     load: opt.Load = None,
     speed: opt.Speed = 20.0,
-    surface: opt.Surface,
+    surface: arguments.SlidingFriction,
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangentials = [DEFAULT_TANGENTIAL],  # noqa: B006 (typer copies it)
     as_json: opt.Json = False,
@@ -181,6 +182,7 @@ app.command()(statistics)
 app.command()(stress)
 app.command()(transient)
 app.command("rail")(elastic_rail)
+app.command()(in_time)
 app.command()(roller)
 app.command()(along)
 app.command("geometry")(points)

@@ -16,6 +16,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.problem import OF_A_POSITION, amount_of, find_patches, standard_load
 from contact.creepage import Creepage
@@ -87,8 +88,8 @@ def cases_of(given: Mapping[str, Any]) -> list[Case]:
         ]
     if given["side"] not in list(opt.Side):
         raise ContactError(f"side = {given['side']!r} is none of {', '.join(opt.Side)}")
-    place = opt.Place(**{entry.name: given[entry.name] for entry in fields(opt.Place)})
-    reading = opt.Reading(**{entry.name: given[entry.name] for entry in fields(opt.Reading)})
+    place = arguments.Place(**{entry.name: given[entry.name] for entry in fields(arguments.Place)})
+    reading = arguments.Reading(**{entry.name: given[entry.name] for entry in fields(arguments.Reading)})
     position = place.position(reading, opt.Side(given["side"]))
     pose = position.pose
     found = list(find_patches(position, load, penetration))

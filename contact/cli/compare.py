@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from contact.cli import cases
+from contact.cli import arguments, cases
 from contact.cli import options as opt
 from contact.cli.output import reported, require_endings
 from contact.cli.progress import progress_bar
@@ -49,10 +49,10 @@ def compare(
     context: typer.Context,
     file: File = None,
     *,
-    place: opt.Place,
-    reading: opt.Reading,
+    place: arguments.Place,
+    reading: arguments.Reading,
     side: opt.Sides = opt.Side.right,
-    amount: opt.Amount,
+    amount: arguments.Amount,
     friction: opt.Friction = 0.3,
     curvatures: opt.Curvatures = None,
     methods: Methods = None,
@@ -68,7 +68,7 @@ def compare(
     Examples:  contact compare --y 3e-3 --yaw 2e-3 --out page.html   ·   contact compare cases.toml --all --out table.csv
     """
     require_endings(out or [])
-    opt.require_use(context)
+    arguments.require_use(context)
     given = vars(place) | vars(reading) | vars(amount)
     given |= {"side": side.value, "friction": friction, "curvatures": curvatures}
     problems = cases.cases_of(given) if file is None else cases.read(file, given)

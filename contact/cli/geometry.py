@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, prepare, reported
 from contact.geometry import conicity as conicity_of
@@ -52,7 +53,7 @@ class Wheelset:
     back_to_back: opt.BackToBack = 1.360
     roll: opt.Rolls = False
 
-    def pair(self, reading: opt.Reading) -> dict[str, Any]:
+    def pair(self, reading: arguments.Reading) -> dict[str, Any]:
         """Return the arguments of `contact_points` and `conicity`."""
         return {
             "wheel": reading.load(self.wheel, "wheel"),
@@ -71,7 +72,7 @@ class Wheelset:
 def geometry(
     *,
     wheelset: Wheelset,
-    reading: opt.Reading,
+    reading: arguments.Reading,
     reach: opt.Reach = 0.01,
     step: opt.Step = 1e-4,
     as_json: opt.Json = False,
@@ -100,7 +101,7 @@ def geometry(
 def conicity(
     *,
     wheelset: Wheelset,
-    reading: opt.Reading,
+    reading: arguments.Reading,
     amplitude: opt.Amplitudes = None,
     curve_radius: opt.CurveRadius = None,
     as_json: opt.Json = False,

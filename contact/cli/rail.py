@@ -8,6 +8,7 @@ from typing import Any, cast
 from rich.console import Console
 from rich.table import Table
 
+from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.output import deliver, prepare, reported
 from contact.cli.problem import standard_load
@@ -23,11 +24,11 @@ from contact.study.table import number
 @reported
 def rail(
     *,
-    place: opt.Place,
-    reading: opt.Reading,
+    place: arguments.Place,
+    reading: arguments.Reading,
     side: opt.Sides = opt.Side.right,
     load: opt.Load = None,
-    surface: opt.Surface,
+    surface: arguments.SlidingFriction,
     springs: opt.Springs = (math.inf, math.inf),
     preload: opt.Preload = (0.0, 0.0),
     spin: opt.Spin = None,

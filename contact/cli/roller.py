@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any, cast
 
+from contact.cli import arguments, report
 from contact.cli import options as opt
-from contact.cli import report
 from contact.cli.document import flat
 from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.problem import Touch, standard_load
@@ -18,12 +18,12 @@ from contact.roller import RollerRig
 def roller(
     roller_radius: opt.RollerRadius,
     *,
-    place: opt.Place,
-    reading: opt.Reading,
+    place: arguments.Place,
+    reading: arguments.Reading,
     spin: opt.Spin = None,
     offset: opt.Offset = 0.0,
     load: opt.Load = None,
-    surface: opt.Surface,
+    surface: arguments.SlidingFriction,
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangential = DEFAULT_TANGENTIAL,
     as_json: opt.Json = False,

@@ -10,8 +10,8 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from contact.cli import arguments, problem
 from contact.cli import options as opt
-from contact.cli import problem
 from contact.cli.document import flat
 from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.problem import Touch
@@ -29,12 +29,12 @@ _DEPTHS = np.linspace(0.0, 1.5, 16)
 def stress(
     context: typer.Context,
     *,
-    place: opt.Place,
-    reading: opt.Reading,
+    place: arguments.Place,
+    reading: arguments.Reading,
     side: opt.Sides = opt.Side.right,
-    amount: opt.Amount,
+    amount: arguments.Amount,
     curvatures: opt.Curvatures = None,
-    surface: opt.Surface,
+    surface: arguments.SlidingFriction,
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangential = DEFAULT_TANGENTIAL,
     body: opt.Body = "rail",
@@ -53,7 +53,7 @@ def stress(
     require_number("slope", slope, 0.0, 3.0)
     line = None if endurance is None else Endurance(*endurance)
     options = {"friction": surface.law(), "normal": normal, "tangential": tangential}
-    opt.require_use(context)
+    arguments.require_use(context)
     if curvatures is not None:
         options["speed"] = place.speed
         touches = [problem.solve_hertzian(curvatures, amount.load, amount.penetration, amount.given, options)]

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError, require_number
-from contact.geometry.profile import Profile
 from contact.geometry.rigid import ContactPoints, contact_points
+from contact.geometry.shape import Profile
 
 Array = NDArray[np.float64]
 

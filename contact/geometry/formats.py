@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError
-from contact.geometry.profile import Kind
+from contact.geometry.shape import Kind
 
 Points = NDArray[np.float64]  # shape (n, 2): y, z
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from contact.geometry.profile import Kind
+from contact.geometry.shape import Kind
 
 Array = NDArray[np.float64]
 Points = NDArray[np.float64]  # shape (n, 2): y, z [m]

@@ -7,10 +7,8 @@ from dataclasses import dataclass
 
 from contact.creepage import Creepage
 from contact.errors import require_number
+from contact.kernels.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL
 from contact.separation import Separation
-
-#: Largest roll and yaw of a wheelset, and largest roll of a rail [rad], for which the search is designed.
-LARGEST_ANGLE, LARGEST_RAIL_ROLL = 0.1, 0.05
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError, require_number
-from contact.geometry.profile import Profile
+from contact.geometry.shape import Profile
 from contact.geometry.wheelset import Pair, Pose
 
 Array = NDArray[np.float64]

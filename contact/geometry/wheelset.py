@@ -28,8 +28,8 @@ from contact import workspace
 from contact.creepage import Creepage
 from contact.errors import ContactError, doubt, require_integer, require_number
 from contact.geometry.posed import Posed, Side
-from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Patch, Pose, Velocity
+from contact.geometry.shape import Profile
 from contact.kernels.arrays import Search
 from contact.kernels.geometry.prepare import facing, move, rail_origin, take_nodes
 from contact.kernels.geometry.settle import first_touch, settle
@@ -112,7 +112,7 @@ class Pair(Posed):
         super().__init__(side, nominal_radius)
         grid, n = _grid(samples)
         self.space: Search = workspace.search(_facing(wheel), _facing(rail), grid, n)
-        origin = _rail_origin(rail, require_number("gauge", gauge, 0.1, 3.0), gauge_point)
+        origin = place_of_rail(rail, require_number("gauge", gauge, 0.1, 3.0), gauge_point)
         motion = self.space.motion[0]
         motion.radius = self.nominal_radius
         motion.tape = 0.5 * require_number("flange_back", flange_back, 0.1, 3.0) + TAPE_FROM_FLANGE_BACK
@@ -268,7 +268,7 @@ def _facing(profile: Profile) -> Array:
     return curve
 
 
-def _rail_origin(rail: Profile, gauge: float, gauge_point: float) -> tuple[float, float]:
+def place_of_rail(rail: Profile, gauge: float, gauge_point: float) -> tuple[float, float]:
     """Return (y, z) [m] of the origin of the right rail's profile in track coordinates."""
     require_number("gauge_point", gauge_point, 0.0, open_minimum=True)
     y, z, deepest = rail_origin(_rows(rail), gauge, gauge_point)

@@ -134,6 +134,7 @@ class NoAnswer(IntEnum):
     NO_OVERLAP = -1  # the profiles do not lie above each other
     NOT_SETTLED = -2  # no height was found at which the wheel carries the load
     TOO_DEEP = -3  # the wheel lies far inside the rail
+    TURNED = -4  # wheelset and offset together turn the wheel beyond LARGEST_ANGLE
 
 
 class WearLaw(IntEnum):

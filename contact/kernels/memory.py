@@ -43,6 +43,7 @@ from contact.kernels.records import (
     RESULT,
     ROOT,
     TOTAL,
+    WHEEL_OFFSET,
 )
 from contact.kernels.rows import (
     N_LINE_ROWS,
@@ -236,8 +237,10 @@ def lay_bench(
     rail, end = records(block, end, 1, ELASTIC_RAIL)
     roots, end = records(block, end, 2, ROOT)
     moved, end = records(block, end, 1, GIVEN)
+    offset, end = records(block, end, 1, WHEEL_OFFSET)
+    displaced, end = records(block, end, 1, GIVEN)
     bench = Bench(
         search, own, case, patch_case, result, memory, parameters, damage_fields, damage, contacts, total, ledger,
-        rail, roots, moved,
+        rail, roots, moved, offset, displaced,
     )  # fmt: skip
     return bench, end

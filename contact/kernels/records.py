@@ -20,6 +20,9 @@ LARGEST_CREEPAGE = 1e6
 #: Least speed to which creepages of a pair refer [m/s]. A wheelset at standstill has creepages, and those without motion are 0.
 SLOWEST = 1e-3
 
+#: Largest roll and yaw of a wheelset, and largest roll of a rail [rad], for which the search is designed.
+LARGEST_ANGLE, LARGEST_RAIL_ROLL = 0.1, 0.05
+
 #: Record → member → meaning. `fmu_src.native.records` makes the C header from it.
 MEANING: dict[str, dict[str, str]] = {}
 
@@ -303,6 +306,25 @@ ELASTIC_RAIL = _record(
     dy              lateral deflection [m]
     dz              vertical deflection [m]
     balanced:int    0 where the force jumps and no deflection is in balance
+    """,
+)
+
+#: Displacement of a wheel against its wheelset, in track coordinates.
+WHEEL_OFFSET = _record(
+    "wheel_offset",
+    """
+    x               of the wheel's datum, on the axle at the tape circle [m]
+    y               [m]
+    z               [m]
+    roll            [rad]
+    pitch           [rad]; without effect on a body of revolution
+    yaw             [rad]
+    x_rate          [m/s]
+    y_rate          [m/s]
+    z_rate          [m/s]
+    roll_rate       [rad/s]
+    pitch_rate      [rad/s]
+    yaw_rate        [rad/s]
     """,
 )
 

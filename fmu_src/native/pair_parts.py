@@ -15,10 +15,19 @@ from contact import Status
 from contact.damage import DamageParameters
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels import block
-from contact.kernels.elastic_rail import solve_on_rail
 from contact.kernels.enumerations import Height, NoAnswer
+from contact.kernels.flexible import solve_flexible
 from contact.kernels.geometry.settle import DEEPEST
-from contact.kernels.records import CASE, DAMAGE_PARAMETERS, GIVEN, MAX_PATCHES, SLOWEST, TOTAL
+from contact.kernels.records import (
+    CASE,
+    DAMAGE_PARAMETERS,
+    GIVEN,
+    LARGEST_ANGLE,
+    MAX_PATCHES,
+    SLOWEST,
+    TOTAL,
+    WHEEL_OFFSET,
+)
 from fmu_src.differences import creepage_steps
 from fmu_src.native.memory import compiled, numbers_of
 from fmu_src.native.solver import choose, forget_forged, size_of
@@ -66,6 +75,7 @@ class Failure(IntEnum):
     NOT_SETTLED = auto()
     TOO_DEEP = auto()
     ENDLESS = auto()
+    TURNED = auto()
     GAUGE_POINT = auto()
     STEEP = auto()
     WHEEL = auto()
@@ -77,6 +87,7 @@ FAILURES: dict[int, str] = {
     Failure.NOT_SETTLED: "load.normal_force: no height was found at which the wheel carries this load on this rail",
     Failure.TOO_DEEP: f"pose.z: the wheel lies more than {DEEPEST:g} m inside its rail",
     Failure.ENDLESS: "the accumulated damage has no finite value for these inputs",
+    Failure.TURNED: f"offset: with the wheelset's roll and yaw the wheel is turned by more than {LARGEST_ANGLE:g} rad",
 }
 
 
@@ -136,10 +147,12 @@ def step_solver(table: Table) -> Callable[..., Any]:
         """Solve for `v`, which are `values` as an array. `piece` is the size of the memory of a patch."""
         read_surface(v, bench.case)
         given, _ = block.records(values, at.pose_y, 1, GIVEN)
+        offset, _ = block.records(values, at.offset_x, 1, WHEEL_OFFSET)
+        bench.offset[0] = offset[0]
         for k in range(MAX_PATCHES):
             forget_forged(bench.memory[1 + k * piece : 1 + (k + 1) * piece])
         mode = _HEIGHT[int(v[at.load_kind]) - 1]
-        return _failure(solve_on_rail(mode, max(v[at.load_normal_force], 0.0), given[0], bench))
+        return _failure(solve_flexible(mode, max(v[at.load_normal_force], 0.0), given[0], bench))
 
     return solve
 
@@ -153,6 +166,8 @@ def _failure(code):
         return Failure.NOT_SETTLED
     if code == NoAnswer.TOO_DEEP:
         return Failure.TOO_DEEP
+    if code == NoAnswer.TURNED:
+        return Failure.TURNED
     return 0
 
 
@@ -195,12 +210,17 @@ def differ(table: Table) -> Callable[..., Any]:
         creepage = 1e-3 * _steps(
             v[at.friction_coefficient], abs(v[at.force_z]), v[at.material_shear_modulus], v[at.patches_area]
         )[0]  # fmt: skip
-        if reference == at.pose_z or reference == at.irregularity_z:
+        if reference == at.pose_z or reference == at.irregularity_z or reference == at.offset_z:
             return 1e-8
         if at.pose_y <= reference <= at.pose_yaw or at.irregularity_y <= reference <= at.irregularity_roll:
             return 1e-7
-        if at.velocity_x <= reference <= at.irregularity_roll_rate:
-            lever = v[at.wheel_radius] if reference == at.velocity_spin else 1.0
+        if at.offset_x <= reference <= at.offset_yaw:
+            return 1e-7
+        if (
+            at.velocity_x <= reference <= at.irregularity_roll_rate
+            or at.offset_x_rate <= reference <= at.offset_yaw_rate
+        ):
+            lever = v[at.wheel_radius] if reference == at.velocity_spin or reference == at.offset_pitch_rate else 1.0
             return creepage * speed / lever
         share = 1e-4 if reference == at.load_normal_force else 1e-6
         return max(share * abs(v[reference]), 1e-12)

@@ -1,6 +1,6 @@
 """Native WheelRailPair: the functions that C calls, on one array of all values and one of working memory.
 
-`contact.kernels.elastic_rail.solve_on_rail` does the work, as in Python. This module converts profiles, values and memory
+`contact.kernels.flexible.solve_flexible` does the work, as in Python. This module converts profiles, values and memory
 to its arguments.
 """
 

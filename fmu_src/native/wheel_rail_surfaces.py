@@ -210,7 +210,7 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         v = carray(values, (n_values,))
         bench, _ = _lay(work, resources, size(v), (centre, plane, creep))
         motion = bench.search.motion[0]
-        motion.station, motion.rotation = v[at.pose_station], v[at.pose_rotation]
+        motion.station, motion.rotation = v[at.pose_station], v[at.pose_rotation] + v[at.offset_pitch]
         failure = solve(values, v, memory.memory_size(size(v)), bench)
         if failure > 0:
             return failure

@@ -13,6 +13,7 @@ from pythonfmu.enums import Fmi2Status
 from contact import Material, Status, workspace
 from contact.damage import WEAR_LAWS, DamageParameters
 from contact.elastic_rail import ElasticRail
+from contact.geometry.flexible import WheelOffset
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.wheelset import Pair
@@ -22,7 +23,7 @@ from fmu_src.python.friction import friction
 from fmu_src.python.slave import TableSlave
 from fmu_src.python.values import Rows, Values
 from fmu_src.tables.solver import DAMAGE_OUTPUTS
-from fmu_src.tables.wheel_rail_pair import ACCUMULATED, BINS, MOTION, PATCH, PATCHES, table
+from fmu_src.tables.wheel_rail_pair import ACCUMULATED, BINS, MOTION, OFFSET, PATCH, PATCHES, table
 from fmu_src.variables import Causality
 
 _MOTION = [name for name, *_ in MOTION]
@@ -59,6 +60,7 @@ class WheelRailPairSlave(TableSlave):
                 friction=friction(values),
                 distance=values["velocity.x"] * step_size,
                 rail=_rail(values),
+                offset=WheelOffset(*(values[name] for name, *_ in OFFSET)),
             )
             rows = {name: getattr(solution.damage, member) for name, member in DAMAGE_OUTPUTS.items()}
             power, worn = (values["velocity.x"] * x for x in (solution.power_per_metre, rows["damage.archard_volume"]))

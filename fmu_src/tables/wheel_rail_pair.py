@@ -8,9 +8,8 @@ from functools import cache
 
 from contact import friction
 from contact.accumulation import MAXIMA, SUMS
-from contact.geometry.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL
 from contact.geometry.wheelset import SAMPLES
-from contact.kernels.records import SLOWEST
+from contact.kernels.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL, SLOWEST
 from fmu_src.tables import solver
 from fmu_src.variables import Enumeration, Limits, Table, Variable, output, parameter, signal
 
@@ -67,10 +66,27 @@ MOTION = (
     ("irregularity.z_rate", "m/s", "Rate of irregularity.z"),
     ("irregularity.roll_rate", "rad/s", "Rate of irregularity.roll"),
 )
+_AGAINST = "of the wheel against its wheelset, as its axle and web bend"
+#: Inputs in the order of the record WHEEL_OFFSET: name, unit, description.
+OFFSET = (
+    ("offset.x", "m", f"Longitudinal displacement {_AGAINST}: of its datum, on the axle at the tape circle"),
+    ("offset.y", "m", f"Lateral displacement {_AGAINST}"),
+    ("offset.z", "m", f"Vertical displacement {_AGAINST}, positive down"),
+    ("offset.roll", "rad", f"Roll {_AGAINST}"),
+    ("offset.pitch", "rad", f"Pitch {_AGAINST}; without effect on a wheel of revolution"),
+    ("offset.yaw", "rad", f"Yaw {_AGAINST}"),
+    ("offset.x_rate", "m/s", "Rate of offset.x"),
+    ("offset.y_rate", "m/s", "Rate of offset.y"),
+    ("offset.z_rate", "m/s", "Rate of offset.z"),
+    ("offset.roll_rate", "rad/s", "Rate of offset.roll"),
+    ("offset.pitch_rate", "rad/s", "Rate of offset.pitch; adds to velocity.spin"),
+    ("offset.yaw_rate", "rad/s", "Rate of offset.yaw"),
+)
 _LIMITS: dict[str, Limits] = {
     "pose.roll": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE},
     "pose.yaw": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE},
     "irregularity.roll": {"minimum": -LARGEST_RAIL_ROLL, "maximum": LARGEST_RAIL_ROLL},
+    **{f"offset.{angle}": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE} for angle in ("roll", "pitch", "yaw")},
     "velocity.x": {"minimum": 0.0, "nominal": 10.0},
 }
 _RADIUS, _SPEED = 0.46, 20.0
@@ -233,6 +249,8 @@ def inputs() -> Iterable[Variable]:
         used={"load.kind": ("NormalForce", "VerticalForce")},
     )
     yield signal("friction.coefficient", "Coefficient of friction", start=0.3, minimum=0.0, maximum=friction.LARGEST)
+    for name, unit, description in OFFSET:
+        yield signal(name, description, unit=unit, start=0.0, **_LIMITS.get(name, {}))
 
 
 def outputs() -> Iterable[Variable]:

@@ -1,1 +1,1 @@
-"""Scenarios, runs of a wheelset with damage on its profiles, and wear over a mileage (readme.md)."""
+"""Scenarios, how far a run can be trusted, and wear over a mileage (readme.md)."""

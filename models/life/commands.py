@@ -15,9 +15,7 @@ from contact.cli.output import drawing, reported, require_extra, stop
 from contact.cli.progress import progress_bar
 from contact.errors import ContactError
 from models.life import checkpoint, declared_set, scenario
-from models.life.run import Run
 from models.life.scale import Workers
-from models.life.start import start
 from models.life.trust import Trust
 from models.life.wear import Life
 from models.vehicle.run import VehicleRun
@@ -35,23 +33,25 @@ def run(
     out: Out = None,
     fresh: Fresh = False,
     every: Annotated[float, typer.Option(help="Seconds between two checkpoints.")] = 15.0,
+    threads: Annotated[int, typer.Option(help="Threads that share the contacts, at most one for each wheel.")] = 1,
     as_json: opt.Json = False,
 ) -> None:
-    """Run a scenario: a vehicle or a wheelset over a track, with time series, damage of wheels and rails, and a report.
+    """Run a scenario: a vehicle over a track, with time series, damage of wheels and rails, and a report.
 
-    If the command is interrupted, call it again: it continues from the last checkpoint, with the same result bit for bit.
+    If the command is interrupted, call it again: it continues from the last checkpoint, with the same result bit for bit. The
+    result does not depend on the number of threads.
     """
     drawing()
     require_extra("xarray")
     folder = out or Path("out") / file.stem
-    started = start(scenario.read(file))
+    started = VehicleRun(scenario.read(file), threads)
     complete(started, folder / "checkpoint.npz", fresh, every)
     _finish(started, folder)
     if as_json:
         typer.echo(document({"scenario": started.scenario.name, **_results(folder, started.trust)}))
 
 
-def complete(started: Run | VehicleRun, path: Path, fresh: bool, every: float) -> None:
+def complete(started: VehicleRun, path: Path, fresh: bool, every: float) -> None:
     """Complete a run, from its checkpoint if there is one, with a progress bar.
 
     Checkpoints are written to `path` every `every` seconds. `fresh` ignores an existing checkpoint.
@@ -148,15 +148,12 @@ def _wear_on(life: Life, pool: Workers, bar: Callable[[float, str], None], go_on
     life.step(pool, lambda k, n: bar(done, f"{mileage:.0f} km, run {k} of {n}"), go_on=go_on)
 
 
-def _finish(finished: Run | VehicleRun, folder: Path) -> None:
+def _finish(finished: VehicleRun, folder: Path) -> None:
     """Write result and report to the folder, and delete the checkpoint."""
-    from models.life import report, result
-    from models.vehicle import report as of_vehicle
+    from models.life import result
+    from models.vehicle import report
 
-    def page() -> str:
-        return report.page_of(finished) if isinstance(finished, Run) else of_vehicle.page_of(finished)
-
-    _write(folder, lambda: result.dataset(finished), page)
+    _write(folder, lambda: result.dataset(finished), lambda: report.page_of(finished))
     (folder / "checkpoint.npz").unlink(missing_ok=True)
     _warn(finished.trust)
 

@@ -18,8 +18,8 @@ from models.life import scenario
 from models.life.declared import build, read_table
 from models.life.flange import Flange
 from models.life.scenario import Scenario
-from models.life.vehicle import GRAVITY
 
+_GRAVITY = 9.81  # [m/s²]
 #: A study in which the depth allows less than this share of the wished step stops.
 LEAST_SHARE = 0.01
 #: Which wheels wear alike → how many parts of (wheelset, side) tell them apart.
@@ -109,7 +109,7 @@ class Declaration:
     limits : dimensions of the flange at which a wheel is worn out, see `models.life.flange`
     reprofile : whether all wheels are then restored by the greatest cut that one of them needs; otherwise the run ends
     alike : which wheels wear alike, by their mean: "none"; "sides", the two of an axle, on a line with as many curves to
-        either side; "all", in a vehicle that is turned and whose axles change places. The quasi-static wheelset needs "all"
+        either side; "all", in a vehicle that is turned and whose axles change places.
     mileage_per_year : mileage of the vehicle in a year [m]; needed if scenarios have tonnes_per_year
     pressure_limit : limit of the pressure in scenarios that give none [Pa], default 5 k (full indentation); inf: elastic
     amplitudes : amplitudes of the equivalent conicity in the results [m]
@@ -182,7 +182,7 @@ class ScenarioSet:
     def passes(self, number: int, axle_load: float) -> float:
         """Return the axle passes over the rails of a scenario for each metre of mileage [1/m]. `axle_load` is in N."""
         tonnes, mileage = self.declared.scenarios[number].tonnes_per_year, self.declared.mileage_per_year
-        return tonnes / mileage * 1e3 * GRAVITY / axle_load if mileage else 0.0
+        return tonnes / mileage * 1e3 * _GRAVITY / axle_load if mileage else 0.0
 
     @property
     def weights(self) -> tuple[float, ...]:
@@ -217,11 +217,6 @@ def read(path: str | PathLike[str]) -> ScenarioSet:
         if share.weight > 0.0:
             _require_same(path.name, "wheel", (share, other), first)
         _require_same(path.name, "rail", (share, other), lines.setdefault(share.line, (share, other)))
-        if other.vehicle is None and (declared.alike != "all" or share.tonnes_per_year > 0.0):
-            raise ContactError(
-                f'{path.name}: {share.file} has no vehicle; its wheels wear alike (alike = "all") and its rails not at all '
-                "(tonnes_per_year = 0)"
-            )
     return found
 
 

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 from contact.accumulation import Histogram
 from models.life.scenario import Scenario
-from models.life.start import start
 from models.life.trust import Trust
+from models.vehicle.run import VehicleRun
 
 
 class Outcome(NamedTuple):
@@ -39,9 +39,9 @@ def outcome(scenario: Scenario) -> Outcome:
     Raises
     ------
     ContactError
-        As `Run.advance` and `VehicleRun.advance`.
+        As `VehicleRun.advance`.
     """
-    run = start(scenario)
+    run = VehicleRun(scenario)
     while not run.done:
         run.advance()
     wheels: dict[tuple[str, str], Histogram] = {}

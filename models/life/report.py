@@ -1,4 +1,4 @@
-"""The HTML page of a run: scenario, time series, and damage of the profiles."""
+"""Parts of the HTML pages of runs and wear studies: trust, damage of the profiles, declaration, pictures."""
 
 from __future__ import annotations
 
@@ -8,35 +8,17 @@ from functools import partial
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from contact import plot
 from contact.accumulation import Histogram
-from contact.study.page import document, faint, html_of, picture
+from contact.study.page import faint, html_of, picture
 from contact.study.table import Table, number
-from models.life.harvest import BODIES
-from models.life.run import BALANCE, Run
 from models.life.scenario import Scenario
 from models.life.trust import TRUST, Trust
-from models.wheelset.ports import INWARDS, SIDES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _WIDE, _NARROW = 9.0, 4.6  # [inch]
-
-
-def page_of(run: Run) -> str:
-    """Return the run as a self-contained HTML page."""
-    scenario, d = run.scenario, run.scenario.declared
-    about = [
-        f"{d.length:g} m; damage of the first {d.recording.settling:g} m is not counted. Wheel {scenario.wheel.name}, rail "
-        f"{scenario.rail.name}; {d.methods.normal} + {d.methods.tangential}; wheelset {d.wheelset.set!r}.",
-        "Forces act on the wheel, y is to the right. The damage is computed with a separate contact plane for each patch, "
-        "under the vertical loads of the coupled run. Only the track's alignment is irregular. Gauge, cross-level and "
-        "vertical irregularities, and the vehicle above the wheelset, are not modelled.",
-    ]
-    return document(scenario.name, about, _parts(run))
 
 
 def illustrated(draw: Callable[[], Figure], text: str) -> str:
@@ -54,22 +36,6 @@ def warned(trust: Trust) -> Iterator[str]:
     """Yield the warnings as paragraphs in bold."""
     for sentence in trust.warnings:
         yield f"<p><strong>{escape(sentence)}</strong></p>"
-
-
-def _parts(run: Run) -> Iterator[str]:
-    trust = run.trust
-    yield from warned(trust)
-    yield html_of(_summary(run))
-    yield html_of(trusted(trust))
-    for heading, panels in _panels(run.series).items():
-        yield f"<h2>{heading}</h2>"
-        yield illustrated(partial(plot.time_histories, run.series["distance"], panels, xlabel="distance [m]"), heading)
-    for body in BODIES:
-        yield from damage_of(body, {side: run.harvest.histograms[side, body] for side in SIDES})
-    yield "<h2>Energy</h2>"
-    yield html_of(_energy(run))
-    yield faint("; ".join(f"{name}: {what}" for name, what in BALANCE.items()) + ".")
-    yield from declaration(run.scenario, run.scenario.step, run.steps)
 
 
 def damage_of(body: str, histograms: dict[str, Histogram]) -> Iterator[str]:
@@ -90,53 +56,6 @@ def declaration(scenario: Scenario, step: float, steps: int) -> Iterator[str]:
     for entry in fields(scenario.declared):
         yield faint(f"{entry.name}: {told(getattr(scenario.declared, entry.name))}")
     yield faint(f"fingerprint {scenario.fingerprint}, step {1e3 * step:.4g} ms, {steps} steps")
-
-
-def _panels(s: dict[str, Any]) -> dict[str, dict[str, dict[str, Any]]]:
-    def both(name: str, factor: float) -> dict[str, Any]:
-        return {side: factor * s[f"{side}_{name}"] for side in SIDES}
-
-    return {
-        "Track": {
-            "speed [m/s]": {"speed": s["speed"]},
-            "curvature [1/km]": {"curvature": 1e3 * s["curvature"]},
-            "alignment [mm]": {"alignment": 1e3 * s["alignment"]},
-        },
-        "Motion": {
-            "y − alignment [mm]": {"wheelset": 1e3 * (s["lateral"] - s["alignment"])},
-            "yaw [mrad]": {"wheelset": 1e3 * s["yaw"]},
-            "contact angle [°]": {side: inwards * s[f"{side}_contact_angle"] for side, inwards in INWARDS.items()},
-        },
-        "Forces": {
-            "lateral [kN]": both("lateral_force", 1e-3),
-            "vertical [kN]": both("vertical_force", 1e-3),
-            "T-gamma [N]": both("T_gamma", 1.0),
-            "pressure [MPa]": both("max_pressure", 1e-6),
-        },
-    }
-
-
-def _summary(run: Run) -> Table:
-    s, wheels = run.series, [run.harvest.histograms[side, "wheel"] for side in SIDES]
-    rows = [("samples", str(s["distance"].size))]
-    if s["distance"].size:
-        ratio = max(_quotient(s[f"{side}_lateral_force"], s[f"{side}_vertical_force"]) for side in SIDES)
-        rows += [
-            ("lateral displacement, greatest", f"{1e3 * np.abs(s['lateral'] - s['alignment']).max():.3g} mm"),
-            ("lateral over vertical force, greatest", f"{ratio:.3g}"),
-            ("pressure, greatest", f"{1e-6 * max(s[f'{side}_max_pressure'].max() for side in SIDES):.4g} MPa"),
-            ("T-gamma, mean of a wheel", f"{np.mean([s[f'{side}_T_gamma'].mean() for side in SIDES]):.3g} N"),
-        ]
-    if all(h.distance > 0.0 for h in wheels):
-        deepest = max(h.per("metre")["wear"].max() for h in wheels)
-        rows.append(("wear of a wheel, deepest", f"{1e12 * deepest:.3g} µm per 1000 km"))
-    return Table("The run in numbers", [("", ""), ("", "")], rows)
-
-
-def _quotient(lateral: np.ndarray, vertical: np.ndarray) -> float:
-    """Return the largest |Y/Q| of the samples in which the wheel carries a load; 0 if there are none."""
-    loaded = vertical > 0.0
-    return float(np.abs(lateral[loaded] / vertical[loaded]).max(initial=0.0))
 
 
 def trusted(trust: Trust) -> Table:
@@ -175,15 +94,6 @@ def damaged(both: dict[str, Histogram]) -> Table:
             *(() if is_wheel else (("Burstow, greatest", "per 10⁶ axles"),)),
         ],
         rows,
-    )
-
-
-def _energy(run: Run) -> Table:
-    balance = run.balance
-    return Table(
-        "Energies of the whole run",
-        [("", ""), ("", "J")],
-        [(name, number(balance[name])) for name in BALANCE if name != "untrusted"],
     )
 
 

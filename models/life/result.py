@@ -1,4 +1,4 @@
-"""The result of a run as an xarray dataset: time series, damage of both wheels and rails, energies and provenance."""
+"""The result of a run as an xarray dataset: time series, damage of wheels and rails, energies and provenance."""
 
 from __future__ import annotations
 
@@ -9,17 +9,16 @@ from typing import Any
 
 from contact.accumulation import Histogram, from_xarray, to_xarray
 from contact.errors import ContactError
-from models.life.run import BALANCE, Run
-from models.vehicle.run import VehicleRun
+from models.vehicle.run import BALANCE, VehicleRun
 
 FORMAT = "wheelrail-contact run 1"
 
 
-def dataset(run: Run | VehicleRun) -> Any:
+def dataset(run: VehicleRun) -> Any:
     """Return the result as an `xarray.Dataset`: time series over `distance`, and histograms of damage.
 
-    The names of the histograms have prefixes like ``right_wheel_``, of a vehicle like ``wheelset_1_right_wheel_``. The
-    attributes contain the scenario, energies with the prefix ``balance_`` (`models.life.run.BALANCE`), and measures of trust
+    The names of the histograms have prefixes like ``wheelset_1_right_wheel_``. The attributes contain the scenario,
+    energies with the prefix ``balance_`` (`models.vehicle.run.BALANCE`), and measures of trust
     with the prefix ``trust_`` (`models.life.trust.TRUST`). The same scenario gives the same bytes at any time and on any
     machine.
     """
@@ -57,7 +56,7 @@ def histogram(stored: Any, *key: str) -> Histogram:
     stored : xarray.Dataset
         Dataset from `dataset`, or read from its file.
     *key : str
-        "right" or "left", and "wheel" or "rail"; before them the name of the wheelset, if the run is that of a vehicle.
+        Name of the wheelset, "right" or "left", and "wheel" or "rail".
 
     Raises
     ------

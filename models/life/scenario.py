@@ -19,18 +19,10 @@ from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solver import N_ELEMENTS, N_STRIPS, require_resolution
 from models.life.declared import build, read_table
-from models.life.track import Line, Speed, Track
-from models.life.vehicle import Vehicle
+from models.life.track import Speed, Track
 from models.vehicle.declared import VehicleDeclaration
 from models.vehicle.declared import read as read_vehicle
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import SIDES
-
-_CREEP_COEFFICIENT = (
-    12e6  # [N] a little above the longitudinal coefficient of the default wheel under 54.5 kN (docs/coupling.md)
-)
-_SHARE_OF_STABLE = 0.7
-_LONGEST_STEP = 1e-3  # [s]
+from models.vehicle.simulation import SIDES
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,7 +32,7 @@ class Profiles:
     Parameters
     ----------
     wheel, rail : name of a standard profile, or a file
-    left_rail : the left rail, mirrored to the right side, where it differs from the right one; it needs a vehicle
+    left_rail : the left rail, mirrored to the right side, where it differs from the right one
     inclination : of a rail of EN 13674-1, a number or "1/40"
     unit, side, zero, repair, smoothing, wavelength : for files, as for `contact.geometry.profile.read`
     """
@@ -104,7 +96,7 @@ class Recording:
     ----------
     settling : distance at the start without damage, over which the irregularities grow from zero [m]
     spacing : distance between two samples of damage and time series [m], 0.01 to 10
-    step : step of the coupled system [s], 1e-5 to 5e-3; default 0.7 of the stable step, at most 1 ms (docs/coupling.md)
+    step : step of the vehicle [s], 1e-5 to 5e-3; default 0.7 of the stable step, at most 0.5 ms (docs/vehicle.md, 5)
     bins : width of the bins of damage along the profiles [m], 1e-4 to 5e-3
     """
 
@@ -131,19 +123,18 @@ class Declaration:
     length : distance to run [m], longer than recording.settling
     speed : a number [m/s], 1 to 150, or a `Speed`
     seed : seed of the random irregularities, not negative
-    vehicle : file of a vehicle relative to the scenario's file, or one of the included ones, `manchester` and `wheelset`
-        (`models.vehicle`). Without it the run is that of the quasi-static wheelset of the table `wheelset`.
+    vehicle : file of a vehicle relative to the scenario's file, or one of the included ones: `manchester`, or `wheelset`, the
+        default (docs/vehicle.md)
     friction : coefficient of friction, 0.3 by default, or a table
-    track, wheelset, profiles, methods, damage, recording : separate tables
+    track, profiles, methods, damage, recording : separate tables
     """
 
     name: str
     length: float
     speed: float | Speed
     seed: int = 0
-    vehicle: str | None = None
+    vehicle: str = "wheelset"
     track: Track = field(default_factory=Track)
-    wheelset: Vehicle = field(default_factory=Vehicle)
     friction: float | Friction = 0.3
     profiles: Profiles = field(default_factory=Profiles)
     methods: Methods = field(default_factory=Methods)
@@ -155,37 +146,21 @@ class Declaration:
         require_number("seed", self.seed, 0)
         if isinstance(self.speed, float):
             require_number("speed", self.speed, 1.0, 150.0)
-        if self.vehicle is None:
-            for name in ("vertical", "cross_level", "gauge", "measured", "friction"):
-                if getattr(self.track, name) is not None:
-                    raise ContactError(
-                        f"track.{name} needs a vehicle; the quasi-static wheelset takes the alignment only"
-                    )
-            factor = as_friction(self.friction).gauge_factor
-            if factor != 1.0:
-                raise ContactError(
-                    f"friction.gauge_factor = {factor:g} needs a vehicle; the quasi-static wheelset has the same friction "
-                    "over the profile; allowed: 1"
-                )
-            if self.profiles.left_rail is not None:
-                raise ContactError(f"profiles.left_rail = {self.profiles.left_rail!r} needs a vehicle")
-        elif self.wheelset != Vehicle():
-            raise ContactError(f"wheelset and vehicle = {self.vehicle!r} exclude each other")
+        as_friction(self.friction)  # checks a number
 
 
 @dataclass(frozen=True)
 class Scenario:
-    """A declaration with its profiles, the input of `Run`.
+    """A declaration with its profiles and its vehicle, the input of a run.
 
     Attributes
     ----------
     declared : Declaration
     wheel, rail : Profile
         Unworn profiles of the right side. The left side is the mirror image.
+    vehicle : VehicleDeclaration
     draw : tuple of int
         Number of the realisation of the irregularities, in addition to the seed. In a wear run it is the mileage step.
-    vehicle : VehicleDeclaration, optional
-        None is the quasi-static wheelset of `models.wheelset`.
     every_wheel : tuple of Profile
         Profile of every wheel, in the order of `wheel_names`; empty if all are as `wheel`.
     both_rails : tuple of Profile
@@ -195,16 +170,15 @@ class Scenario:
     declared: Declaration
     wheel: Profile
     rail: Profile
+    vehicle: VehicleDeclaration
     draw: tuple[int, ...] = ()
-    vehicle: VehicleDeclaration | None = None
     every_wheel: tuple[Profile, ...] = ()
     both_rails: tuple[Profile, ...] = ()
 
     @property
     def wheel_names(self) -> tuple[tuple[str, str], ...]:
         """Wheelset and side of every wheel: axle by axle, the right one before the left one."""
-        axles = ("wheelset",) if self.vehicle is None else tuple(axle.name for axle in self.vehicle.wheelsets)
-        return tuple((axle, side) for axle in axles for side in SIDES)
+        return tuple((axle.name, side) for axle in self.vehicle.wheelsets for side in SIDES)
 
     @property
     def wheels(self) -> tuple[Profile, ...]:
@@ -228,7 +202,7 @@ class Scenario:
     @property
     def radius(self) -> float:
         """Nominal radius of the wheels [m]."""
-        return self.parameters.radius if self.vehicle is None else self.vehicle.radius
+        return self.vehicle.radius
 
     @property
     def fastest(self) -> float:
@@ -243,44 +217,16 @@ class Scenario:
         return min(given.values) if isinstance(given, Speed) else given
 
     @property
-    def parameters(self) -> WheelsetParameters:
-        """Parameters of the wheelset at the start."""
-        return self.declared.wheelset.parameters(self.wheel, self.rail, self.speed(0.0))
-
-    @property
     def friction(self) -> Friction:
         return as_friction(self.declared.friction)
 
-    @property
-    def step(self) -> float:
-        """Step of the coupled system [s]: the declared step, or a share of the stable step of the spin, I_s V/(f r²)."""
-        given = self.declared.recording.step
-        if given is not None:
-            return given
-        p = self.parameters
-        stable = p.spin_inertia * self.slowest / (_CREEP_COEFFICIENT * p.radius**2)
-        return min(_LONGEST_STEP, _SHARE_OF_STABLE * stable * min(1.0, (109.1e3 / p.axle_load) ** (2.0 / 3.0)))
-
-    def line(self) -> Line:
-        """Return the track with its irregularities."""
-        d = self.declared
-        return Line(d.track, (d.seed, *self.draw), d.recording.settling)
-
     def worn(self, wheels: tuple[Profile, ...], rails: tuple[Profile, ...], draw: int) -> Scenario:
-        """Return this scenario with other wheels and rails, and another realisation of the irregularities.
-
-        The quasi-static wheelset has the same wheel on both sides and the same rail: the first ones.
-        """
-        if self.vehicle is None:
-            return replace(self, wheel=wheels[0], rail=rails[0], draw=(draw,))
+        """Return this scenario with other wheels and rails, and another realisation of the irregularities."""
         return replace(self, every_wheel=wheels, both_rails=rails, draw=(draw,))
 
     def reprofiled(self, cut: float) -> Scenario:
         """Return this scenario with wheels whose nominal radius is smaller by `cut` [m]."""
-        if self.vehicle is not None:
-            return replace(self, vehicle=self.vehicle.reprofiled(cut))
-        wheelset = replace(self.declared.wheelset, radius=self.radius - cut)
-        return replace(self, declared=replace(self.declared, wheelset=wheelset))
+        return replace(self, vehicle=self.vehicle.reprofiled(cut))
 
     def limited(self, pressure: float) -> Scenario:
         """Return this scenario with a pressure limit [Pa], if it has none of its own."""
@@ -328,8 +274,6 @@ def from_table(table: dict[str, Any], path: Path) -> Scenario:
         rails = declared.profiles.load_rails(path.parent)
     except (ContactError, OSError) as error:
         raise ContactError(f"{path.name}.profiles: {error}") from None
-    if declared.vehicle is None:
-        return Scenario(declared, wheel, rail)
     beside = path.parent / declared.vehicle
     vehicle = read_vehicle(beside if beside.is_file() else declared.vehicle)
-    return Scenario(declared, wheel, rail, vehicle=vehicle, both_rails=rails)
+    return Scenario(declared, wheel, rail, vehicle, both_rails=rails)

@@ -5,13 +5,12 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError, require_number
-from models.life.spectra import CHANNELS, Irregularities, Realisation
+from models.life.spectra import CHANNELS, Irregularities
 
 Array = NDArray[np.float64]
 
@@ -166,36 +165,6 @@ def _measured(path: str, s: Array) -> list[Array]:
         value, slope = a + t * (ma + t * (second + t * third)), (ma + t * (2.0 * second + 3.0 * t * third)) / width
         found.append(np.stack((value, np.where(inside == s, slope, 0.0))))
     return found
-
-
-class Place(NamedTuple):
-    """The track at the position of the wheelset."""
-
-    curvature: float  # [1/m], positive to the right
-    cant: float  # angle [rad], positive if the left rail is higher
-    lateral: float  # lateral position of the centre line [m]
-    slope: float  # slope of the centre line [-]
-
-
-class Line:
-    """A track with a realisation of its irregularities. They grow from zero over the first `settling` metres."""
-
-    def __init__(self, track: Track, seed: tuple[int, ...], settling: float) -> None:
-        self._curves, self._settling = track.curves, settling
-        self._alignment: Realisation | None = track.alignment.realise(seed) if track.alignment else None
-
-    def at(self, s: float) -> Place:
-        """Return the track at the distance `s` [m]."""
-        curvature = cant = lateral = slope = 0.0
-        for curve in self._curves:
-            share = curve.share(s)
-            curvature += share / curve.radius
-            cant += share * math.asin(curve.cant / RAIL_DISTANCE)
-        if self._alignment is not None:
-            y, rise = self._alignment.at(s)
-            grown, growth = _grown(s, self._settling)
-            lateral, slope = grown * y, grown * rise + growth * y
-        return Place(curvature, cant, lateral, slope)
 
 
 def _grown(s: float, over: float) -> tuple[float, float]:

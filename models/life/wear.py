@@ -147,8 +147,8 @@ class Life:
         Raises
         ------
         ContactError
-            If a run fails, as `Run.advance`, if its energy does not close, if there is no wear, or if the steps become too
-            short (`Steps.length`). The profiles are then as before.
+            If a run fails, as `VehicleRun.advance`, if its energy does not close, if there is no wear, or if the steps become
+            too short (`Steps.length`). The profiles are then as before.
         """
         declared, number = self.plan.declared, len(self.rows) - 1
         found = workers.map(outcome, [self._present(k, number) for k in range(len(self.plan.scenarios))], watch)
@@ -244,7 +244,7 @@ class Life:
 
     def _conicity(self) -> Array:
         first, amplitudes = self.plan.first.reprofiled(self.turned_off), self.plan.declared.amplitudes
-        p = first.vehicle or first.parameters
+        p = first.vehicle
         options: dict[str, Any] = {
             "nominal_radius": p.radius, "gauge": p.gauge, "flange_back": p.flange_back, "gauge_point": p.gauge_point
         }  # fmt: skip

@@ -22,7 +22,6 @@ from models.wheelset.ports import INWARDS
 def page_of(run: VehicleRun) -> str:
     """Return the run as a self-contained HTML page."""
     scenario, d = run.scenario, run.scenario.declared
-    assert scenario.vehicle is not None
     about = [
         f"{scenario.vehicle.name} over {d.length:g} m; damage of the first {d.recording.settling:g} m is not counted. Wheel "
         f"{scenario.wheel.name}, rail {scenario.rail.name}; {d.methods.normal} + {d.methods.tangential}.",

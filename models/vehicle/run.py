@@ -71,6 +71,12 @@ _LONGEST_STEP, _SHORTEST_STEP = 5e-4, 5e-5  # [s]
 class VehicleRun:
     """A run of a scenario with a vehicle. `save` and `restore` are exact.
 
+    Parameters
+    ----------
+    scenario : Scenario
+    threads : int
+        Threads that share the contacts, at most one for each wheel. No bit of the result depends on it.
+
     Attributes
     ----------
     scenario : Scenario
@@ -88,10 +94,8 @@ class VehicleRun:
         If the step is too long for a stable integration.
     """
 
-    def __init__(self, scenario: Scenario) -> None:
+    def __init__(self, scenario: Scenario, threads: int = 1) -> None:
         d, vehicle = scenario.declared, scenario.vehicle
-        if vehicle is None:
-            raise ContactError(f"{scenario.name}: the scenario has no vehicle")
         self.scenario = scenario
         options = ContactOptions(
             normal=d.methods.normal,
@@ -117,7 +121,7 @@ class VehicleRun:
         ledgers = tuple(ledger(*self._pair(name, side), options.n_strips) for name in names for side in SIDES)
         track = lay(d.track, d.length, scenario.speed, (d.seed, *scenario.draw), d.recording.settling)
         ahead = max(axle.at for axle in vehicle.wheelsets) + 1.0  # all axles start before the irregularities
-        self.simulation = self._simulation(track, ledgers=ledgers, start=-ahead)
+        self.simulation = self._simulation(track, ledgers=ledgers, start=-ahead, threads=threads)
         self.step = d.recording.step or min(_LONGEST_STEP, 0.7 * self._stable(vehicle))
         factor = self._growth()
         while factor > _LARGEST_AMPLIFICATION and not d.recording.step and self.step > _SHORTEST_STEP:
@@ -135,7 +139,6 @@ class VehicleRun:
     def _simulation(self, track: Array, **options: Any) -> Simulation:
         """Return the vehicle with the profiles of the scenario on a track."""
         scenario = self.scenario
-        assert scenario.vehicle is not None
         rails = scenario.rails * len(scenario.vehicle.wheelsets)
         return Simulation(
             scenario.vehicle, track, scenario.wheels, rails, scenario.friction, self._options, **options

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact import workspace
-from contact._jit import compiled_for
 from contact.damage import DamageParameters
-from contact.errors import ContactError
+from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry.profile import Profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
@@ -22,6 +20,7 @@ from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.solver import N_ELEMENTS, N_STRIPS
 from models.vehicle.assembly import Assembly, assemble
 from models.vehicle.course import BEYOND, SPACING
+from models.vehicle.crew import Crew
 from models.vehicle.declared import VehicleDeclaration
 from models.vehicle.kernels import motion
 from models.vehicle.kernels.benches import Benches, gather
@@ -60,6 +59,13 @@ class Simulation:
         One for each wheel.
     start : float
         Place of the vehicle's reference at the start [m].
+    threads : int
+        Threads that share the contacts, at most as many as there are wheels. No bit of a result depends on it.
+
+    Raises
+    ------
+    ContactError
+        If there are more threads than wheels.
 
     Attributes
     ----------
@@ -80,7 +86,9 @@ class Simulation:
         *,
         ledgers: tuple[Ledger, ...] | None = None,
         start: float = 0.0,
+        threads: int = 1,
     ) -> None:
+        require_number("threads", threads, 1, 2 * len(vehicle.wheelsets))
         self.vehicle, self._options, self._friction = vehicle, options or ContactOptions(), friction
         made: Assembly = assemble(vehicle)
         self.names = made.names
@@ -112,7 +120,9 @@ class Simulation:
         for name, value in members.items():
             self.benches.cases[name] = value
         self._place(start)
-        self._advance: Any = None
+        self._crew = Crew(
+            self.model, self.state, self.benches, self.scratch, [pair.bench for pair in self._pairs[:threads]]
+        )
 
     def _pair(self, side: str, wheel: Profile, rail: Profile, ledger: Ledger) -> WheelRailPair:
         v, o = self.vehicle, self._options
@@ -177,9 +187,7 @@ class Simulation:
         ContactError
             If a wheel leaves its rail. The message has wheel and place.
         """
-        if self._advance is None:
-            self._advance = compiled_for(motion.advance, self.model, self.state, self.benches, self.scratch, h, steps)
-        code = self._advance(self.model, self.state, self.benches, self.scratch, float(h), int(steps))
+        code = self._crew.advance(float(h), int(steps))
         if code < 0:
             axle, side = divmod(-1 - code, 2)
             raise ContactError(

@@ -60,10 +60,6 @@ class Constant(IntEnum):
     AXLE_LOAD = 7
     SPEED = 8
     RADIUS = 9  # nominal rolling radius [m]
-    CURVATURE = 10  # of the track, positive to the right [1/m]
-    LATERAL_LOAD = 11  # external load on the wheelset [N]
-    ROLL_LOAD = 12  # [N m]
-    YAW_LOAD = 13
 
 
 class Energy(IntEnum):
@@ -94,9 +90,9 @@ def locus(frame, axle):
 
 
 @kernel
-def normal_loads(frames, forces, axle_load, roll_load, loads):
+def normal_loads(frames, forces, axle_load, loads):
     """Solve vertical and roll equilibrium (4, 5) for loads[side] [N]. A negative load is replaced by 0."""
-    vertical, roll = axle_load, roll_load
+    vertical, roll = axle_load, 0.0
     for side in range(2):
         sine, cosine = math.sin(frames[side, Frame.ANGLE]), math.cos(frames[side, Frame.ANGLE])
         vertical += forces[side, Force.FY] * sine
@@ -150,8 +146,8 @@ def creepages(frame, state, axle, z_rate, roll_rate, speed, out):
 def resultants(frames, forces, loads, axle, out):
     """Write the generalised forces of both contacts to `out` (2, 3).
 
-    out = (lateral [N], yaw [N m], spin [N m], longitudinal [N], roll [N m]). While both wheels carry load, the last is the
-    negative roll load (5).
+    out = (lateral [N], yaw [N m], spin [N m], longitudinal [N], roll [N m]). While both wheels carry load, the last is
+    zero (5).
     """
     out[:] = 0.0
     for side in range(2):
@@ -185,18 +181,10 @@ def _kicked(velocity, mass, force, damping, h):
 
 
 @kernel
-def along_track(Q, constants, lateral):
-    """Return the force of the contacts along the track's centre line [N], which moves with V: Q_x (1 - κ y) + κ Q_ψ (11)."""
-    return Q[3] * (1.0 - constants[Constant.CURVATURE] * lateral) + Q[1] * constants[Constant.CURVATURE]
-
-
-@kernel
 def kick(state, constants, Q, h, energy):
     """Advance the velocities by `h` [s] with constant positions and contact forces `Q`, and add the work to `energy`."""
     lateral, yaw = state[State.LATERAL], state[State.YAW]
-    load_y, load_psi = constants[Constant.LATERAL_LOAD], constants[Constant.YAW_LOAD]
-    spring_y = load_y - constants[Constant.LATERAL_STIFFNESS] * lateral
-    spring_psi = load_psi - constants[Constant.YAW_STIFFNESS] * yaw
+    spring_y, spring_psi = -constants[Constant.LATERAL_STIFFNESS] * lateral, -constants[Constant.YAW_STIFFNESS] * yaw
     c_y, c_psi = constants[Constant.LATERAL_DAMPING], constants[Constant.YAW_DAMPING]
     m, inertia, spin_inertia = (
         constants[Constant.MASS],
@@ -208,11 +196,11 @@ def kick(state, constants, Q, h, energy):
     w, mean_w = _kicked(state[State.YAW_RATE], inertia, Q[1] + spring_psi, c_psi, h)
     spin_gain = Q[2] * h / spin_inertia
     work = (Q[0] + spring_y) * mean_v * h + (Q[1] + spring_psi) * mean_w * h
-    carried = along_track(Q, constants, lateral) * constants[Constant.SPEED]
+    carried = Q[3] * constants[Constant.SPEED]
     energy[Energy.INTERFACE] -= (
         Q[0] * mean_v + Q[1] * mean_w + Q[2] * (state[State.SPIN] + 0.5 * spin_gain) + carried
     ) * h
-    energy[Energy.DRIVE] += (load_y * mean_v + load_psi * mean_w - carried) * h
+    energy[Energy.DRIVE] -= carried * h
     energy[Energy.DAMPER] += work - 0.5 * (m * v * v + inertia * w * w - before)
     state[State.LATERAL_VELOCITY], state[State.YAW_RATE] = v, w
     state[State.SPIN] += spin_gain

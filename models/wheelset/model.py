@@ -86,27 +86,6 @@ class WheelsetModel:
             require_number("irregularity.slope", slope),
         )
 
-    def set_running(
-        self,
-        speed: float,
-        *,
-        curvature: float = 0.0,
-        lateral_load: float = 0.0,
-        roll_load: float = 0.0,
-        yaw_load: float = 0.0,
-    ) -> None:
-        """Set speed [m/s], curvature of the track [1/m], positive to the right, and external loads on the wheelset.
-
-        The loads are a force to the right through the wheelset's centre [N] and moments about x and z [N m] (readme, Curves).
-        All values are held until they are set again. `save` does not include them.
-        """
-        c = self._wheelset.constants
-        c[dynamics.Constant.SPEED] = require_number("speed", speed, 0.0, open_minimum=True)
-        c[dynamics.Constant.CURVATURE] = require_number("curvature", curvature, -0.02, 0.02)
-        c[dynamics.Constant.LATERAL_LOAD] = require_number("lateral_load", lateral_load)
-        c[dynamics.Constant.ROLL_LOAD] = require_number("roll_load", roll_load)
-        c[dynamics.Constant.YAW_LOAD] = require_number("yaw_load", yaw_load)
-
     # motion
 
     def step(self, h: float) -> None:

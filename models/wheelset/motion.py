@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact._jit import kernel
-from contact.geometry.records import LARGEST_ANGLE
 from contact.kernels.arrays import Search
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.search import axle
 from contact.kernels.geometry.settle import first_touch, locate
+from contact.kernels.records import LARGEST_ANGLE
 from contact.kernels.rows import Sep
 from models.wheelset import dynamics
 from models.wheelset.dynamics import N_STATE, Constant, Energy, Frame, Side, State
@@ -239,7 +239,7 @@ def _settle(w: Wheelset, y: float, yaw: float) -> int:
 @kernel
 def balance(w: Wheelset) -> None:
     """Compute normal loads and generalised forces from the present frames and the held creep forces."""
-    dynamics.normal_loads(w.frames, w.forces, w.constants[Constant.AXLE_LOAD], w.constants[Constant.ROLL_LOAD], w.loads)
+    dynamics.normal_loads(w.frames, w.forces, w.constants[Constant.AXLE_LOAD], w.loads)
     dynamics.resultants(w.frames, w.forces, w.loads, w.axle, w.resultants)
 
 
@@ -251,24 +251,18 @@ def report(w: Wheelset) -> None:
         relative[i] = state[i]
     relative[State.LATERAL_VELOCITY] -= speed * w.irregularity[1]
     z_rate, roll_rate = dynamics.follow(w.frames, relative)
-    relative[State.YAW_RATE] += speed * w.constants[Constant.CURVATURE]
-    forward = speed * (1.0 - w.constants[Constant.CURVATURE] * state[State.LATERAL])
     for side in range(2):
         creepage = w.problems[side, _CREEPAGE:LOAD]
-        dynamics.creepages(w.frames[side], relative, w.axle, z_rate, roll_rate, forward, creepage)
+        dynamics.creepages(w.frames[side], relative, w.axle, z_rate, roll_rate, speed, creepage)
         w.problems[side, LOAD] = w.loads[side]
     change(w)
     Q, powers, constants = w.resultants, w.powers, w.constants
-    carried = dynamics.along_track(Q, constants, state[State.LATERAL]) * speed
+    carried = Q[3] * speed
     powers[Energy.INTERFACE] = constants[Constant.AXLE_LOAD] * z_rate - carried - Q[4] * roll_rate
     powers[Energy.INTERFACE] -= (
         Q[0] * state[State.LATERAL_VELOCITY] + Q[1] * state[State.YAW_RATE] + Q[2] * state[State.SPIN]
     )
     powers[Energy.DRIVE] = -carried - Q[4] * roll_rate
-    powers[Energy.DRIVE] += (
-        constants[Constant.LATERAL_LOAD] * state[State.LATERAL_VELOCITY]
-        + constants[Constant.YAW_LOAD] * state[State.YAW_RATE]
-    )
     powers[Energy.DAMPER] = constants[Constant.LATERAL_DAMPING] * state[State.LATERAL_VELOCITY] ** 2
     powers[Energy.DAMPER] += constants[Constant.YAW_DAMPING] * state[State.YAW_RATE] ** 2
 
@@ -279,11 +273,10 @@ def change(w: Wheelset) -> None:
     c, Q, state, rates = w.constants, w.resultants, w.state, w.rates
     y, yaw, v, yaw_rate = state[State.LATERAL], state[State.YAW], state[State.LATERAL_VELOCITY], state[State.YAW_RATE]
     rates[State.LATERAL], rates[State.YAW] = v, yaw_rate
-    force, moment = Q[0] + c[Constant.LATERAL_LOAD], Q[1] + c[Constant.YAW_LOAD]
-    rates[State.LATERAL_VELOCITY] = (force - c[Constant.LATERAL_STIFFNESS] * y - c[Constant.LATERAL_DAMPING] * v) / c[
+    rates[State.LATERAL_VELOCITY] = (Q[0] - c[Constant.LATERAL_STIFFNESS] * y - c[Constant.LATERAL_DAMPING] * v) / c[
         Constant.MASS
     ]
-    rates[State.YAW_RATE] = (moment - c[Constant.YAW_STIFFNESS] * yaw - c[Constant.YAW_DAMPING] * yaw_rate) / c[
+    rates[State.YAW_RATE] = (Q[1] - c[Constant.YAW_STIFFNESS] * yaw - c[Constant.YAW_DAMPING] * yaw_rate) / c[
         Constant.YAW_INERTIA
     ]
     rates[State.SPIN] = Q[2] / c[Constant.SPIN_INERTIA]

@@ -11,8 +11,9 @@ import numpy as np
 
 from contact.kernels.records import MAX_PATCHES
 from contact.solver import N_ELEMENTS, N_STRIPS
-from fmu_src.catalogue import models
+from fmu_src.catalogue import models, vehicles
 from fmu_src.native import source
+from fmu_src.native.component import Component
 from fmu_src.native.linking import HEADERS, compiler, run
 from fmu_src.native.packaging import kernels
 from fmu_src.native.wheel_rail_contact import component
@@ -53,27 +54,52 @@ ROLES = {
         "COARSEST": {"resolution.substeps": 1},
     },
 }  # fmt: skip
+#: The same for FMUs that meet wrong calls only.
+ATTACKED = {
+    "EllipticContact": ROLES[NAME],
+    "Vehicle": {
+        "LOAD": "friction.coefficient", "VARIED": "speed", "REFUSED": "speed", "TAKEN": 15.0,
+        "RESULT": "distance", "SUM": "energy.dissipated", "LATE": "energy.residual",
+        "CHOICE": "method.normal", "OTHER_CHOICE": "method.tangential",
+        "COARSEST": {"resolution.n_strips": 4, "resolution.n_elements": 4},
+    },
+    "OpenVehicle": {
+        "LOAD": "friction.coefficient", "VARIED": "speed", "REFUSED": "speed", "TAKEN": 15.0,
+        "RESULT": "distance", "SUM": "distance", "LATE": "distance",
+        "CHOICE": "distance", "OTHER_CHOICE": "distance", "COARSEST": {"distance": 0},
+    },
+}  # fmt: skip
+SCENARIO = ROOT / "examples" / "scenarios" / "vehicle_300.toml"
+
+
+#: A compiler that ends a program at a wrong access to memory, a leak or undefined behaviour.
+SANITIZED = ("gcc", "-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer")
 
 
 class Host:
-    """Compiled host for one platform and one version of FMI."""
+    """Compiled host for one platform and one version of FMI. `compile_by` is a command instead of the usual compiler."""
 
-    def __init__(self, platform: str, folder: Path, unzipped: Path, name: str = NAME) -> None:
+    def __init__(
+        self, platform: str, folder: Path, unzipped: Path, name: str = NAME, compile_by: Sequence[str] = ()
+    ) -> None:
         own, code = PLATFORMS[platform]
+        self.compiler = list(compile_by) or compiler(own)
         library, program = SUFFIX[own]
         self.guid = fmpy.read_model_description(str(unzipped)).guid
         self.library = unzipped / "binaries" / platform / f"{name}.{library}"
         self.resources = resources_of(unzipped, own)
-        (model,) = (model for model in models(POINTS, accumulation=True) if model.table.name == name)
-        (folder / "model.h").write_text(source.header(model.module("native").component(**model.all_options), self.guid))
-        (folder / "roles.h").write_text(roles(name))
+        every = models(POINTS, accumulation=True) if name in ROLES else (*models(POINTS), *vehicles(SCENARIO))
+        (model,) = (model for model in every if model.table.name == name)
+        its = model.module("native").component(**model.all_options)
+        (folder / "model.h").write_text(source.header(its, self.guid))
+        (folder / "roles.h").write_text(roles(its))
         self.program = folder / f"host{program}"
         libraries = ["-ldl", "-lpthread", "-lm"] if own == "linux64" else []
         elements = MAX_PATCHES * N_STRIPS * N_ELEMENTS
         flags = ["-std=gnu11", "-O1", f"-DELEMENTS={elements}", f"-I{folder}", f"-I{HEADERS}"]
         flags += ["-DCONTACT"] if name == NAME else []
         sources = [HOST / name for name in ("common.c", *code)]
-        run(*compiler(own), *flags, *sources, "-o", self.program, *libraries)
+        run(*self.compiler, *flags, *sources, "-o", self.program, *libraries)
         self.fmi2 = code is _FMI2
         self.prefix = [] if own == "linux64" else ["wine"]
         self.environment = os.environ | {"WINEPREFIX": str(folder.parent / "wine"), "WINEDEBUG": "-all"}
@@ -92,9 +118,7 @@ class Host:
         """Call every function of both versions of FMI wrongly, each time in a process of its own. Return what was done."""
         program = folder / "wrong"
         flags = ["-std=gnu11", "-O1", f"-I{self.program.parent}", f"-I{HEADERS}"]
-        run(
-            *compiler("linux64"), *flags, HOST / "common.c", HOST / "wrong.c", "-o", program, "-ldl", "-lpthread", "-lm"
-        )
+        run(*self.compiler, *flags, HOST / "common.c", HOST / "wrong.c", "-o", program, "-ldl", "-lpthread", "-lm")
         words = [program, self.library, self.guid, self.resources, unquote(urlsplit(self.resources).path), trials]
         done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=3000)
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
@@ -113,18 +137,31 @@ class Host:
         return rows[:, [names.index(name) - names.index("force.x") for name in outputs]]
 
 
+def sanitized(platform: str, folder: Path, unzipped: Path, name: str = NAME) -> Host:
+    """Return a host for Linux, and the FMU compiled from its sources, kernels included, both with sanitizers."""
+    host = Host(platform, folder, unzipped, name, SANITIZED)
+    host.library = folder / "sanitized.so"
+    flags = ("-std=c11", "-O1", "-ffp-contract=off", "-w", "-fPIC", "-shared", f"-I{unzipped / 'sources'}")
+    # the sources write all names with that of the FMU, those of FMI only if a host asks for it
+    run(*SANITIZED, *flags, *sorted((unzipped / "sources").glob("*.c")), "-o", host.library, "-lm")
+    return host
+
+
 def resources_of(unzipped: Path, platform: str) -> str:
     """Return the URI of the resources of an unzipped FMU. Wine shows the files of Linux as drive Z."""
     uri = (unzipped / "resources").resolve().as_uri()
     return uri if platform == "linux64" else uri.replace("file:///", "file:///Z:/")
 
 
-def roles(name: str) -> str:
+def roles(its: Component) -> str:
     """Return the text of roles.h for an FMU."""
-    given = ROLES[name]
+    table = its.table
+    given = {**ROLES, **ATTACKED}[table.name]
     coarsest = given["COARSEST"]
     lines = [f"#define {role} {source.c_name(of)}" for role, of in given.items() if isinstance(of, str)]
     lines += [f'#define VARIED_NAME "{given["VARIED"]}"', f"#define TAKEN {given['TAKEN']}"]
+    lines += [f"#define HAS_EXCHANGE {int(its.exchange)}"]
+    lines += [f"#define RESULT_IS_STATE {int(table.row[given['RESULT']] in table.states)}"]
     lines += [f"#define RESOLUTION {{{', '.join(map(source.c_name, coarsest))}}}"]
     lines += [f"#define COARSEST {{{', '.join(map(str, coarsest.values()))}}}"]
     return "\n".join(lines) + "\n"

@@ -7,7 +7,7 @@ import pytest
 
 from contact import ContactError
 from contact.geometry import profile
-from contact.geometry.wheelset import Pair, Pose, _rail_origin
+from contact.geometry.wheelset import Pair, Pose, place_of_rail
 from tests.geometry.heights import height
 
 # Half head width and its depth below the crown [mm], constants.md 14.
@@ -95,7 +95,7 @@ def test_wheels_have_the_tabulated_points_of_en_13715(name, y, z, tolerance):
 
 def test_rail_a_is_the_60e1_of_uic_519_inclined_1_to_20():
     drawn, turned = profile.named("rail A"), profile.named("60E1 UIC 519", inclination=0.05)
-    (y0, z0), (y1, z1) = (1e3 * np.array(_rail_origin(shape, 1.435, 0.014)) for shape in (drawn, turned))
+    (y0, z0), (y1, z1) = (1e3 * np.array(place_of_rail(shape, 1.435, 0.014)) for shape in (drawn, turned))
     y = np.linspace(-32.0, 39.0, 72)
     (z, slope), (other, _) = height(drawn, y), height(turned, y + y0 - y1)
     np.testing.assert_allclose((other + z1 - z - z0) / np.hypot(1.0, slope), 0.0, atol=2e-3)

@@ -91,3 +91,13 @@ def test_stresses_take_the_pressure_along_the_surface():
     assert load.p.sum() * 0.16e-6 == pytest.approx((s.p * along).sum(), rel=1e-9)
     middle = s.pressure(s.x, s.y)
     np.testing.assert_allclose(middle, s.p, rtol=1e-6, atol=1e-6 * s.max_pressure)
+
+
+def test_bad_input_is_refused():
+    y = np.linspace(-8e-3, 8e-3, 41)
+    gap = contact.halfspace.Gap(y, y, 0.5 * (y**2 + y[:, None] ** 2))
+    with pytest.raises(contact.ContactError, match="conformal: a gap on a grid has only the contact plane"):
+        contact.solve(gap, contact.Creepage(), load=1e4, **BOTH)
+    for name, value in (("tilt", 1e4), ("tilt", math.nan), ("rolling", 2e3)):
+        with pytest.raises(contact.ContactError, match=name):
+            contact.Separation(y, 0.5 * y**2, 1.0, **{name: value})

@@ -12,6 +12,11 @@ spectrum = "ERRI B176 high"
 settling = 0.5
 [profiles]
 wheel = "1/40"
+[methods]
+normal = "analyn"
+tangential = "fastrip"
+strips = 20
+elements = 12
 """
 CURVE = (
     STRAIGHT.replace("straight", "curve")

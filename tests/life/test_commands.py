@@ -7,15 +7,21 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from models.life import commands, report
-from models.life.run import Run
+from models.life import commands
 from models.life.trust import TRUST
+from models.vehicle import report
+from models.vehicle.run import VehicleRun
 
 SCENARIO = """
 name = "short & sharp"
 length = 3.0
 speed = 20.0
 friction = 0.4
+[methods]
+normal = "analyn"
+tangential = "fastrip"
+strips = 20
+elements = 12
 [track.alignment]
 spectrum = "ERRI B176 low"
 [recording]
@@ -38,31 +44,39 @@ def call(tmp_path):
 def test_interrupted_run_goes_on_to_the_same_files(call, tmp_path, monkeypatch):
     monkeypatch.setattr(report, "page_of", lambda run: repr(run.balance))  # pictures take long
     assert call("whole").exit_code == 0
-    advance = Run.advance
+    advance = VehicleRun.advance
 
     def interrupted(self):
-        if self.steps == 150:
+        if self.distance > 1.8:
             raise KeyboardInterrupt
         advance(self)
 
     with monkeypatch.context() as patch:
-        patch.setattr(Run, "advance", interrupted)
+        patch.setattr(VehicleRun, "advance", interrupted)
         broken = call("broken", "--every", "0")
     assert broken.exit_code == 130
     assert "the same command continues from" in broken.output
     assert not (tmp_path / "broken" / "result.nc").exists()
     resumed = call("broken")
-    assert "continues at 1.9 m" in resumed.output  # with --every 0 there is a checkpoint after each step
+    assert "continues at 2.0 m" in resumed.output  # with --every 0 there is a checkpoint after each sample
     for name in ("result.nc", "report.html"):
         assert (tmp_path / "broken" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
     assert sorted(path.name for path in (tmp_path / "broken").iterdir()) == ["report.html", "result.nc"]
+
+
+def test_the_files_do_not_depend_on_the_number_of_threads(call, tmp_path, monkeypatch):
+    monkeypatch.setattr(report, "page_of", lambda run: "")
+    for threads in ("1", "2"):
+        assert call(threads, "--threads", threads).exit_code == 0
+    assert (tmp_path / "1" / "result.nc").read_bytes() == (tmp_path / "2" / "result.nc").read_bytes()
+    assert "threads = 3 is outside the allowed range [1, 2]" in call("3", "--threads", "3").output
 
 
 def test_report_stands_by_itself(call, tmp_path):
     assert call("out").exit_code == 0
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     assert "<h1>short &amp; sharp</h1>" in page
-    assert page.count("<picture>") == 5
+    assert page.count("<picture>") == 6
     assert "http" not in page
     assert 'src="data:image/png;base64,' in page
 

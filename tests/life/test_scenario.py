@@ -1,6 +1,5 @@
 """Scenarios: valid and invalid files, and the resulting track."""
 
-import math
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +10,8 @@ from contact.errors import ContactError
 from contact.friction import Friction
 from contact.geometry import profile
 from models.life import scenario
-from models.life.harvest import Harvest
 from models.life.track import Curve, Track
+from models.vehicle.run import VehicleRun
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "scenarios"
 LEAST = 'name = "x"\nlength = 100.0\nspeed = 20.0\n'
@@ -47,18 +46,11 @@ def written(folder: Path, text: str) -> Path:
             LEAST + "[track.alignment]\nspectrum = 'ERRI B176 medium'",
             r"case.toml.track.alignment: spectrum = 'ERRI B176 medium' is unknown",
         ),
-        (
-            LEAST + "[wheelset]\nset = 'manchster'",
-            r"case.toml.wheelset: set = 'manchster' is unknown, did you mean 'manchester'",
-        ),
-        (LEAST + "[wheelset]\nmass = 0.0", r"case.toml.wheelset: mass = 0 is outside the allowed range \]0, inf\["),
+        (LEAST + "vehicle = 'manchster'", r"manchster"),
+        (LEAST + "[wheelset]\nmass = 0.0", r"case.toml.wheelset is unknown; allowed: name, length"),
         (LEAST + "[profiles]\nwheel = 'S1003'", r"case.toml.profiles: wheel = 'S1003' is no profile"),
         (LEAST + "[methods]\ntangential = 'polach'", r"case.toml.methods: tangential = 'polach' gives forces only"),
         (LEAST + "[methods]\npressure_limit = -1.0", r"case.toml.methods: .*pressure_limit = -1 is outside"),
-        (
-            LEAST + "[friction]\nstatic = 0.3\ngauge_factor = 0.5",
-            r"friction.gauge_factor = 0.5 needs a vehicle; .*allowed: 1",
-        ),
         (
             LEAST + "[damage]\nwear_law = 'reye'",
             r"case.toml.damage: wear_law = 'reye' is unknown; allowed: archard, usfd",
@@ -86,27 +78,28 @@ def test_missing_file_is_named(tmp_path):
 
 @pytest.mark.parametrize(
     "path",
-    [path for path in sorted(EXAMPLES.glob("*.toml")) if not path.stem.endswith("_set")],
+    [path for path in sorted(EXAMPLES.rglob("*.toml")) if not path.stem.startswith("set")],
     ids=lambda path: path.stem,
 )
 def test_examples_are_scenarios(path):
     found = scenario.read(path)
-    assert found.step <= 1e-3
-    assert found.parameters.speed == found.speed(0.0)
+    assert found.slowest <= found.speed(0.0) <= found.fastest
+    assert len(found.wheels) == 2 * len(found.vehicle.wheelsets)
 
 
 def test_least_scenario_takes_the_defaults_of_the_models(tmp_path):
     found = scenario.read(written(tmp_path, LEAST))
     assert found.friction == Friction(0.3)
     assert (found.wheel.name, found.rail.name) == ("S1002", "60E1")
-    assert found.parameters.mass == 1813.0
-    assert found.line().at(50.0) == (0.0, 0.0, 0.0, 0.0)
+    assert found.vehicle.name == "single wheelset"
+    assert found.wheel_names == (("wheelset", "right"), ("wheelset", "left"))
 
 
 def test_wear_law_of_a_scenario_is_that_of_its_histograms(tmp_path):
-    text = LEAST + "[damage]\nwear_law = 'usfd'\n[damage.usfd]\nsevere_branch = 'proportional'"
+    fast = "[methods]\nnormal = 'analyn'\ntangential = 'fastrip'\nstrips = 20\nelements = 12\n"
+    text = LEAST + fast + "[damage]\nwear_law = 'usfd'\n[damage.usfd]\nsevere_branch = 'proportional'"
     found = scenario.read(written(tmp_path, text))
-    parameters = {histogram.parameters for histogram in Harvest(found).histograms.values()}
+    parameters = {histogram.parameters for histogram in VehicleRun(found).histograms.values()}
     assert parameters == {DamageParameters(usfd=Usfd(severe_branch="proportional"), wear_law="usfd")}
 
 
@@ -120,37 +113,15 @@ def test_fingerprint_follows_input_profiles_and_draw(tmp_path):
     )
 
 
-def test_curve_has_transitions_circle_and_cant():
-    track = Track(curves=(Curve(start=10.0, radius=500.0, length=40.0, transition=20.0, cant=0.15, direction="left"),))
-    line = scenario.Line(track, (0,), 0.0)
+def test_curve_has_transitions_and_a_circle():
+    curve = Curve(start=10.0, radius=500.0, length=40.0, transition=20.0, cant=0.15, direction="left")
     for s, share in ((0.0, 0.0), (10.0, 0.0), (20.0, 0.5), (30.0, 1.0), (70.0, 1.0), (85.0, 0.25), (90.0, 0.0)):
-        place = line.at(s)
-        assert place.curvature == pytest.approx(-share / 500.0)
-        assert place.cant == pytest.approx(-share * math.asin(0.1))
+        assert curve.share(s) == pytest.approx(-share)
 
 
 def test_overlapping_curves_are_refused():
     with pytest.raises(ContactError, match="starts at 100 m overlaps the previous curve, which ends at 140 m"):
         Track(curves=tuple(Curve(start=start, radius=500.0, length=40.0) for start in (0.0, 100.0)))
-
-
-def test_balanced_cant_leaves_the_wheelset_alone():
-    """V² κ = g φ gives neither lateral nor roll load. At twice the speed the load pushes to the outside."""
-    found = scenario.Declaration(name="x", length=100.0, speed=20.0).wheelset
-    p = found.parameters(*scenario.Profiles().load(Path()), 20.0)
-    cant, curvature = 0.05, 0.05 * 9.81 / 20.0**2
-    assert found.loads(p, 20.0, curvature, cant)["lateral_load"] == pytest.approx(0.0, abs=1e-9)
-    fast = found.loads(p, 40.0, curvature, cant)
-    assert fast["lateral_load"] == pytest.approx(-3.0 * cant * p.axle_load)
-    assert fast["roll_load"] == pytest.approx(0.98 * fast["lateral_load"])
-
-
-def test_manchester_wheelset_has_the_published_primary_suspension(tmp_path):
-    """constants.md 13.4, with two axle boxes 2.0 m apart."""
-    p = scenario.read(written(tmp_path, LEAST + "[wheelset]\nset = 'manchester'\nmass = 1900.0")).parameters
-    assert p.lateral_stiffness == pytest.approx(7.768e6)
-    assert p.yaw_stiffness == pytest.approx(62.782e6)
-    assert p.mass == 1900.0
 
 
 def test_profiles_of_a_scenario_take_every_option_that_the_reader_asks_for(tmp_path):

@@ -5,13 +5,15 @@ import typer
 from typer.testing import CliRunner
 
 from contact.errors import ContactError
-from models.life import commands, declared_set, report, result
+from models.life import commands, declared_set, result, scenario
 from models.life.declared_set import Steps
-from models.life.run import Book, Run
 from models.life.scale import Workers
 from models.life.trust import Trust, worst
 from models.life.wear import Life
-from tests.life.short_run import completed, scenario
+from models.vehicle import report
+from models.vehicle.kernels.layout import Book
+from models.vehicle.kernels.wheels import count
+from models.vehicle.run import VehicleRun
 from tests.life.short_set import written
 
 GOOD = Trust(residual=0.001, impacts=0.0, lifted=0.0, untrusted=0.0, speed_ratio=0.5)
@@ -31,14 +33,17 @@ def test_the_worst_of_several_runs_keeps_the_largest_residual_and_adds_the_count
 
 
 @pytest.fixture(scope="module")
-def lossy() -> Run:
+def lossy(tmp_path_factory) -> VehicleRun:
     """A run whose books say that half of the energy is lost and a wheel has lifted."""
-    run = completed(Run(scenario(length=1.5)))
-    run._books[Book.DISSIPATED] *= 0.5
-    run._books[Book.LIFTED] = 1
+    run = VehicleRun(scenario.read(written(tmp_path_factory.mktemp("lossy")).parent / "straight.toml"))
+    while not run.done:
+        run.advance()
+    books = run.simulation.state.books
+    books[Book.RESIDUAL] = 0.5 * books[Book.DISSIPATED]
+    books[Book.LIFTED] = 1
     for row in run._rows[::2]:
-        row[list(run.series).index("right_vertical_force")] = 0.0
-        row[list(run.series).index("right_lateral_force")] = 0.0
+        for what in ("vertical_force", "lateral_force"):
+            row[list(run.columns).index(f"wheelset_right_{what}")] = 0.0
     return run
 
 
@@ -52,7 +57,7 @@ def test_result_and_report_say_that_the_energy_does_not_close(lossy):
 
 
 def test_a_wear_study_stops_where_the_energy_does_not_close_unless_told_to_go_on(tmp_path, monkeypatch):
-    monkeypatch.setattr(Run, "trust", BAD)
+    monkeypatch.setattr(VehicleRun, "trust", BAD)
     life = Life(declared_set.read(written(tmp_path)))
     with Workers() as pool:
         with pytest.raises(ContactError, match=r"step 1, straight: The balance of energy does not close: -49 %"):
@@ -74,22 +79,22 @@ def test_a_study_whose_steps_become_too_short_stops_with_the_reason():
 def test_ctrl_c_names_a_checkpoint_only_if_there_is_one(tmp_path, monkeypatch):
     app = typer.Typer(pretty_exceptions_enable=False)
     app.command()(commands.run)
-    (tmp_path / "case.toml").write_text('name = "x"\nlength = 40.0\nspeed = 20.0\n', encoding="utf-8")
+    case = written(tmp_path).parent / "straight.toml"
 
-    def interrupted(self: Run) -> None:
+    def interrupted(self: VehicleRun) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(Run, "advance", interrupted)
-    ended = CliRunner().invoke(app, [str(tmp_path / "case.toml"), "--out", str(tmp_path / "out")])
+    monkeypatch.setattr(VehicleRun, "advance", interrupted)
+    ended = CliRunner().invoke(app, [str(case), "--out", str(tmp_path / "out")])
     assert ended.exit_code == 130
     assert "there is no checkpoint yet" in ended.output
 
 
-def test_impacts_and_lifted_wheels_are_counted_when_they_begin():
-    run = Run(scenario())
-    problems = [run._model.problem(side) for side in ("right", "left")]
-    answers = [c.solve(problem, 20.0) for c, problem in zip(run._contacts, problems, strict=True)]
+def test_impacts_and_lifted_wheels_are_counted_when_they_begin(lossy):
+    simulation = lossy.simulation
+    books, wheels = simulation.state.books, simulation.wheels
+    before = books[Book.IMPACTS], books[Book.LIFTED]
     for load in (1e5, 1.2e5, 1.3e5, 0.0, 0.0, 1.2e5):
-        problems[0][-1] = load
-        run._book(problems, answers, 20.0, 0.0)
-    assert (run._books[Book.IMPACTS], run._books[Book.LIFTED]) == (2.0, 1.0)
+        wheels["normal"][0] = load
+        count(simulation.model, simulation.state, wheels, 2.0)
+    assert (books[Book.IMPACTS] - before[0], books[Book.LIFTED] - before[1]) == (2.0, 1.0)

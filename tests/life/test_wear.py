@@ -153,10 +153,6 @@ def test_limit_ends_the_wear(plan):
         ),
         (SET.replace("weight = 1.0", "weight = 0.0\ntonnes_per_year = 1e6"), "mileage_per_year is missing"),
         (SET.replace('"all"', '"both"'), "alike = 'both' is none of none, sides, all"),
-        (
-            SET.replace('alike = "all"\n', ""),
-            r"straight.toml has no vehicle; its wheels wear alike \(alike = \"all\"\)",
-        ),
         (SET.replace("distance", "distanse"), r"set.toml.steps.distanse is unknown, did you mean 'distance'"),
         (SET.replace("curve.toml", "none.toml"), r"none.toml'?: No such file"),
     ],
@@ -176,7 +172,7 @@ def test_scenarios_must_share_the_wheel(plan):
 
 
 def test_the_example_set_is_valid():
-    found = declared_set.read(EXAMPLES / "wear_set.toml")
+    found = declared_set.read(EXAMPLES / "vehicle_wear" / "set.toml")
     assert sum(found.weights) == pytest.approx(1.0)
     assert found.wheel.name == "S1002"
 

@@ -130,44 +130,6 @@ def test_track_irregularity_displaces_the_track_not_the_creepage():
         assert inclined.problem(side)[CREEPAGE] == pytest.approx(straight.problem(side)[CREEPAGE], abs=1e-6)
 
 
-def test_wheelset_on_the_rolling_line_of_a_curve_has_no_longitudinal_creepage():
-    """Redtenbacher: cones displaced by κ b0 r/λ to the outside roll through a curve without slip (readme, Curves)."""
-    conicity, lateral = 0.05, -7e-3
-    model = WheelsetModel(on_cones(conicity, lateral=lateral, **FREE))
-    _, half_base, radius, _ = model.frame("right")
-    straight = [model.problem(side)[CREEPAGE] for side in SIDES]
-    curvature = straight[0][0] / half_base
-    assert curvature == pytest.approx(
-        -lateral * conicity / (half_base * radius), rel=0.06
-    )  # circular rails shift the points
-    model.set_running(28.0, curvature=curvature)
-    model.step(1e-9)
-    for side, before in zip(SIDES, straight, strict=True):
-        after = model.problem(side)[CREEPAGE]
-        assert after[0] == pytest.approx(
-            0.0, abs=0.02 * curvature * half_base
-        )  # the half bases of the two sides differ by 2 y
-        assert after[1] == pytest.approx(before[1], abs=1e-9)
-        assert after[2] - before[2] == pytest.approx(curvature, rel=0.01)
-
-
-def test_power_balance_is_complete_in_a_curve():
-    """Readme (9, 10): forces times creepages equal the drive power. Only κ x of the contact points is neglected."""
-    model = WheelsetModel(WheelsetParameters(lateral=-5e-3, yaw=-2e-3, lateral_velocity=0.05, yaw_rate=0.1))
-    model.set_running(28.0, curvature=1.0 / 600.0, lateral_load=-5e3, roll_load=-4e3, yaw_load=800.0)
-    for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
-        model.set_forces(side, sign * 2e3, 3e3, 10.0, 7e-5)
-    model.step(1e-9)
-    seen = -28.0 * sum(
-        model.problem(side)[CREEPAGE] @ [s * 2e3, 3e3, 10.0] for side, s in zip(SIDES, (1, -1), strict=True)
-    )
-    _, _, _, interface, drive, _ = model.change()
-    neglected = 28.0 / 600.0 * sum(abs(model.frame(side)[0]) * 1e5 for side in SIDES)
-    assert interface == pytest.approx(seen, abs=neglected)
-    assert abs(seen) > 20.0 * neglected
-    assert drive != pytest.approx(interface, rel=0.01)
-
-
 def test_saved_state_continues_bit_for_bit():
     model = WheelsetModel(WheelsetParameters(lateral=5e-3))
     model.set_forces("right", 1e3, -2e3, 10.0, 8e-5)

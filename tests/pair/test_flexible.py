@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from contact import ContactError
+from contact.elastic_rail import ElasticRail
 from contact.geometry import profile
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Pair, Pose, Velocity
@@ -87,6 +88,24 @@ def test_bad_offsets_are_refused():
         WheelOffset(yaw=0.2)
     with pytest.raises(ContactError, match=r"offset.y_rate = nan is outside"):
         WheelOffset(y_rate=math.nan)
+
+
+def test_a_wheel_turned_too_far_with_its_wheelset_is_refused(pairs):
+    with pytest.raises(ContactError, match=r"offset.yaw = 0.06: with the wheelset's roll and yaw the wheel is turned"):
+        pairs["right"].solve(Pose(yaw=0.05), VELOCITY, load=7e4, offset=WheelOffset(yaw=0.06))
+    with pytest.raises(ContactError, match=r"offset = 0.1 is not a contact.geometry.flexible.WheelOffset"):
+        pairs["right"].solve(Pose(), VELOCITY, load=7e4, offset=0.1)
+
+
+def test_a_rail_on_springs_under_a_flexible_wheel(pairs):
+    """Both together: the deflection is that of the displaced wheelset."""
+    rail, offset = ElasticRail(8e6, 5e7), WheelOffset(y=2e-3, y_rate=0.03)
+    pairs["right"].forget()
+    found = pairs["right"].solve(Pose(y=4e-3), Velocity(V), vertical=7e4, rail=rail, offset=offset)
+    pairs["right"].forget()
+    rigid = pairs["right"].solve(Pose(y=6e-3), Velocity(V, 0.03), vertical=7e4, rail=rail)
+    assert found.deflection == rigid.deflection
+    np.testing.assert_array_equal(found.force, rigid.force)
 
 
 def test_the_command_line(pairs):

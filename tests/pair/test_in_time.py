@@ -1,5 +1,6 @@
 """Friction memory and contact damping over time steps, against their closed forms."""
 
+import json
 import math
 
 import numpy as np
@@ -10,8 +11,11 @@ from contact.contact_damping import ContactDamping
 from contact.friction import Friction
 from contact.friction_memory import FrictionMemory
 from contact.geometry import profile
+from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.in_time import over_time
 from contact.pair import WheelRailPair
+from tests.command_line import call
 
 LAW = Friction(static=0.35, law="exponential", kinetic=0.15, half_speed=0.5)
 
@@ -99,3 +103,94 @@ def test_a_new_patch_has_no_damping(pair):
 def test_bad_input_is_refused(call, message):
     with pytest.raises(ContactError, match=message):
         call()
+
+
+TIME = np.array([0.0, 1e-3, 3e-3, 4e-3])
+SPIN = -20.0 / 0.46 * np.array([1.002, 1.004, 1.006, 1.004])
+MOTION = {"time": TIME, "pose.y": [1e-3, 1e-3, 2e-3, 2e-3], "velocity.x": [20.0] * 4, "velocity.spin": SPIN}
+UNDER_LOAD = {**MOTION, "load.normal_force": [6e4, 6e4, 5e4, 7e4], "offset.yaw": [0.0, 1e-3, 1e-3, 0.0]}
+
+
+def test_a_motion_is_solved_row_by_row(pair):
+    pair.forget()
+    found = over_time(pair, UNDER_LOAD, friction=0.2)
+    pair.forget()
+    for k in range(4):
+        pose, velocity = Pose(y=MOTION["pose.y"][k]), Velocity(20.0, spin=SPIN[k])
+        offset, vertical = WheelOffset(yaw=UNDER_LOAD["offset.yaw"][k]), UNDER_LOAD["load.normal_force"][k]
+        s = pair.solve(pose, velocity, vertical=vertical, friction=0.2, offset=offset)
+        assert [found[name][k] for name in ("Fx", "Fy", "Fz")] == s.force.tolist()
+        assert (found["Q"][k], found["Y"][k], found["z"][k], found["status"][k]) == (s.Q, s.Y, s.z, s.status)
+        assert found["power"][k] == 20.0 * s.power_per_metre
+
+
+def test_friction_along_the_track_is_a_column(pair):
+    found = over_time(pair, UNDER_LOAD | {"friction.coefficient": [0.1, 0.2, 0.3, 0.4]})
+    np.testing.assert_array_equal(found["friction"], [0.1, 0.2, 0.3, 0.4])
+    one = over_time(pair, {name: column[2:3] for name, column in UNDER_LOAD.items()}, friction=0.3)
+    assert found["Fx"][2] == pytest.approx(one["Fx"][0], abs=1e-4 * 6e4)
+
+
+def test_the_memory_lets_friction_follow_the_sliding_of_the_rows_before(pair):
+    found = over_time(pair, UNDER_LOAD, memory=FrictionMemory(LAW, 1e-3))
+    memory = FrictionMemory(LAW, 1e-3)
+    assert found["friction"][0] == LAW.static
+    for k in range(3):
+        # what slides is the rolling circle, plus a little lateral creepage
+        s = pair.solve(
+            Pose(y=MOTION["pose.y"][k]),
+            Velocity(20.0, spin=SPIN[k]),
+            vertical=UNDER_LOAD["load.normal_force"][k],
+            friction=memory.friction,
+            offset=WheelOffset(yaw=UNDER_LOAD["offset.yaw"][k]),
+        )
+        creepage = s.contacts[0].creepage
+        memory.advance(20.0 * math.hypot(creepage.longitudinal, creepage.lateral), float(np.diff(TIME)[k]))
+        assert found["friction"][k + 1] == pytest.approx(memory.coefficient, rel=1e-9)
+    assert (np.diff(found["friction"]) < 0.0).all()
+
+
+def test_damping_is_added_from_the_second_row_on(pair):
+    plain, damped = (over_time(pair, UNDER_LOAD, damping=d) for d in (None, ContactDamping(2e-4)))
+    assert damped["Fz"][0] == pytest.approx(plain["Fz"][0], rel=1e-4)
+    rate = (plain["Q"][3] - plain["Q"][2]) / 1e-3
+    assert damped["Q"][3] - plain["Q"][3] == pytest.approx(2e-4 * rate, rel=0.02)  # N, nearly vertical, carries Q
+
+
+@pytest.mark.parametrize(
+    ("motion", "options", "message"),
+    [
+        ({"pose.y": [0.0]}, {}, "motion has no column 'time'"),
+        ({"time": [0.0], "pose.q": [0.0]}, {}, "motion has 'pose.q'; known are time, pose.y"),
+        ({"time": [0.0, 0.0]}, {}, "'time' is not a column of increasing numbers"),
+        ({"time": [0.0, 1.0], "pose.y": [0.0]}, {}, r"'pose.y' has shape \(1,\), 'time' has \(2,\)"),
+        ({"time": ["now"]}, {}, "not a number"),
+        ({"time": [0.5], "pose.yaw": [0.2]}, {}, r"at time 0.5 s: pose.yaw = 0.2 is outside"),
+        (
+            {"time": [0.0], "friction.coefficient": [0.3]},
+            {"memory": FrictionMemory(LAW, 1.0)},
+            "memory and friction.coefficient exclude each other",
+        ),
+    ],
+)
+def test_bad_motions_are_refused(pair, motion, options, message):
+    with pytest.raises(ContactError, match=message):
+        over_time(pair, motion, **options)
+
+
+def test_the_command_line(pair, tmp_path):
+    file = tmp_path / "motion.csv"
+    columns = {name: list(column) for name, column in UNDER_LOAD.items()}
+    file.write_text("\n".join(",".join(map(str, row)) for row in (columns, *zip(*columns.values(), strict=True))))
+    words = ("in-time", file, "--friction", 0.35, "--falling", "exponential", 0.15, 0.5)
+    words += ("--friction-memory", 1e-3, 0.0, "--damping", 1e-4, 0.0)
+    assert "friction" in call(*words).stdout
+    rows = json.loads(call(*words, "--json").stdout)["rows"]
+    pair.forget()
+    wanted = over_time(pair, UNDER_LOAD, memory=FrictionMemory(LAW, 1e-3), damping=ContactDamping(1e-4))
+    for name, column in wanted.items():
+        assert [row[name] for row in rows] == pytest.approx(column.tolist(), rel=1e-6, abs=1e-9), name
+    assert "side = 'both'" in call(*words, "--side", "both", code=2).stderr
+    file.write_text("time,pose.y\n0\n")
+    assert "line 2 has 1 values for 2 names" in call("in-time", file, code=2).stderr
+    assert "cannot be read" in call("in-time", tmp_path / "none.csv", code=2).stderr

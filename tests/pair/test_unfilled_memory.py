@@ -12,7 +12,7 @@ from examples.crossing.crossing import crossing
 #: Arrays that are filled once, with the profiles, methods and parameters.
 GIVEN = {
     *(f"search.{name}" for name in ("wheel", "rail", "motion", "grid", "case", "across.nodes", "across.weights")),
-    "case", "damage_parameters", "memory", "rail",
+    "case", "damage_parameters", "memory", "rail", "offset",
 }  # fmt: skip
 
 

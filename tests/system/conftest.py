@@ -15,9 +15,10 @@ from fmu_instance import Instance
 from fmu_instance_fmi3 import Instance3
 from pair_case import NAME as PAIR
 
-from reference.native import Host
+from reference.native import SCENARIO, Host
 
 ROOT = Path(__file__).parents[2]
+VEHICLES = ("Vehicle", "OpenVehicle")
 
 
 @pytest.fixture(scope="session")
@@ -40,6 +41,17 @@ def native(tmp_path_factory) -> Path:
         if not path.exists():
             _build("native", shared)
     return path
+
+
+@pytest.fixture(scope="session")
+def native_vehicles(native) -> Path:
+    """Return the folder with the native Vehicle, OpenVehicle and coupled_vehicle.ssp. The first process builds them."""
+    folder = native.parents[1] / "vehicle"
+    with (folder.parent / "vehicle.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not (folder / "native" / "coupled_vehicle.ssp").exists():
+            _build("native", folder, "--vehicle", SCENARIO)
+    return folder / "native"
 
 
 @pytest.fixture(scope="session")
@@ -91,13 +103,14 @@ def _opened(make):
 
 
 @pytest.fixture(scope="session")
-def hosts(native, tmp_path_factory):
+def hosts(request, native, tmp_path_factory):
     """Return a function that gives the C host of a platform and an FMU, each compiled once. "win64" runs under Wine."""
 
     @cache
     def unzipped(name: str) -> Path:
         folder = tmp_path_factory.mktemp("unzipped") / "with blanks, ümläuts and 100 %"
-        return Path(fmpy.extract(str(native.with_name(f"{name}.fmu")), str(folder)))
+        place = request.getfixturevalue("native_vehicles") if name in VEHICLES else native.parent
+        return Path(fmpy.extract(str(place / f"{name}.fmu"), str(folder)))
 
     @cache
     def make(platform: str, name: str) -> Host:
@@ -138,8 +151,17 @@ def _require_wine() -> None:
         pytest.skip("THE WINDOWS LIBRARY IS NOT TESTED: wine is not installed (apt-get install wine64)")
 
 
-def _build(packaging: str, folder: Path) -> None:
-    command = [sys.executable, ROOT / "build_fmu.py", "--packaging", packaging, "--accumulation", "--out", folder]
+def _build(packaging: str, folder: Path, *more: str | Path) -> None:
+    command = [
+        sys.executable,
+        ROOT / "build_fmu.py",
+        "--packaging",
+        packaging,
+        "--accumulation",
+        "--out",
+        folder,
+        *more,
+    ]
     subprocess.run(command, check=True, cwd=ROOT, timeout=1200)  # long, for the kernels of three FMUs on a busy machine
 
 

@@ -9,6 +9,7 @@ from fmpy.fmi1 import FMICallException
 import contact
 from contact.elastic_rail import ElasticRail
 from contact.geometry import profile
+from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
 from contact.pair import PairSolution, WheelRailPair
 from reference.random_cases import PARTNERS
@@ -33,7 +34,20 @@ MOTION = {
     "irregularity.y_rate": 0.02,
     "irregularity.z_rate": -0.01,
     "irregularity.roll_rate": 0.03,
+    "offset.x": 0.4e-3,
+    "offset.y": -0.6e-3,
+    "offset.z": 0.3e-3,
+    "offset.roll": -1.5e-3,
+    "offset.pitch": 0.01,
+    "offset.yaw": 2e-3,
+    "offset.x_rate": 0.02,
+    "offset.y_rate": 0.03,
+    "offset.z_rate": -0.01,
+    "offset.roll_rate": 0.02,
+    "offset.pitch_rate": -0.03,
+    "offset.yaw_rate": 0.01,
 }
+OFFSET = [name.split(".")[1] for name in MOTION if name.startswith("offset.")]
 
 
 _PATCH = ("n", "fx", "fy", "mx", "my", "mz", "x", "y", "z", "angle", "area", "pmax", "longitudinal", "lateral", "spin")
@@ -43,7 +57,8 @@ _PATCH += ("approach", "rail_y", "rail_z", "wheel_y", "wheel_z", "used_friction"
 def mirrored(values: dict[str, float]) -> dict[str, float]:
     """Return the mirrored values, for the other side."""
     even = ("pose.z", "velocity.x", "velocity.z", "velocity.spin", "irregularity.z", "irregularity.z_rate")
-    odd = {name for name in MOTION if name not in even}
+    of_offset = {f"offset.{name}{rate}" for name in ("x", "z", "pitch") for rate in ("", "_rate")}
+    odd = set(MOTION) - of_offset.union(even)
     return {name: -value if name in odd else value for name, value in values.items()}
 
 
@@ -64,6 +79,7 @@ def solved(values: dict[str, float], pair: WheelRailPair) -> PairSolution:
             values.get("rail.kz", 0.0) or math.inf,
             *part("rail", "preload_y", "preload_z"),
         ),
+        offset=WheelOffset(*part("offset", *OFFSET)),
     )
 
 
@@ -208,6 +224,9 @@ def random_case(seed: int) -> tuple[dict[str, float], WheelRailPair]:
             "rail.preload_y": rng.uniform(-5e3, 5e3),
             "rail.preload_z": rng.uniform(-2e4, 2e4),
         }
+    if rng.random() < 0.3:  # a flexible wheel
+        size = np.array((1e-3, 1e-3, 1e-4, 5e-3, 0.1, 5e-3, *6 * (0.05,)))
+        values |= {f"offset.{name}": x for name, x in zip(OFFSET, rng.uniform(-1, 1, 12) * size, strict=True)}
     pair = WheelRailPair(
         geometry,
         material=material,

@@ -8,7 +8,7 @@ import fmpy
 import numpy as np
 
 from fmu_src.native.linking import HEADERS, compiler, run
-from reference.native import HOST
+from reference.native import HOST, resources_of
 
 SOURCE = HOST / "script.c"
 _PLATFORMS = {"linux64": (".so", ["-ldl"], []), "win64": (".dll", [], ["wine"])}
@@ -28,8 +28,9 @@ class Script:
         """Run commands on an FMU in model exchange (0) or co-simulation (1) and return the printed numbers."""
         description = fmpy.read_model_description(str(unzipped))
         library = unzipped / "binaries" / self.platform / (description.coSimulation.modelIdentifier + self.suffix)
+        where = resources_of(unzipped, self.platform)
         done = subprocess.run(
-            [*before, *self.before, self.program, library, description.guid, str(kind)],
+            [*before, *self.before, self.program, library, description.guid, str(kind), where],
             input=commands,
             capture_output=True,
             text=True,

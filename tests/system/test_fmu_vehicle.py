@@ -1,7 +1,5 @@
 """The FMUs of vehicles: with contacts, and without them in coupled_vehicle.ssp. Both give the run of the one kernel."""
 
-import subprocess
-import sys
 import zipfile
 from pathlib import Path
 
@@ -18,24 +16,17 @@ from models.life import scenario
 from models.vehicle.course import lay
 from models.vehicle.kernels.layout import Book
 from models.vehicle.simulation import ContactOptions, Simulation
+from reference.native import SCENARIO
 
-ROOT = Path(__file__).parents[2]
-SCENARIO = ROOT / "examples" / "scenarios" / "vehicle_300.toml"
 STEP, START, MANY = 2e-4, 30.0, 100
 FAST = ContactOptions(normal="analyn", tangential="fastrip", n_strips=20, n_elements=12)
 COORDINATES = ("x", "y", "z", "roll", "pitch", "yaw")
 
 
 @pytest.fixture(scope="module")
-def folder(native, tmp_path_factory) -> Path:
-    """Return the folder of the FMUs and the system of the vehicle. The kernels of the pair are those of `native`."""
-    out = tmp_path_factory.mktemp("vehicle")
-    subprocess.run(
-        [sys.executable, "build_fmu.py", "--packaging", "native", "--vehicle", SCENARIO, "--out", out],
-        cwd=ROOT,
-        check=True,
-    )
-    return out / "native"
+def folder(native_vehicles) -> Path:
+    """Return the folder of the FMUs and the system of the vehicle."""
+    return native_vehicles
 
 
 def one_kernel(options: ContactOptions = FAST, start: float = START) -> Simulation:

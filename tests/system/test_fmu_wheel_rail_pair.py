@@ -16,9 +16,13 @@ from pair_case import MOTION, NAME, compare, expected, mirrored, solved
 from thesis_case import THESIS
 
 import contact
+from contact.contact_damping import ContactDamping
 from contact.elastic_rail import ElasticRail
+from contact.friction import Friction
+from contact.friction_memory import FrictionMemory
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.in_time import over_time
 from contact.pair import WheelRailPair
 
 ROOT = Path(__file__).parents[2]
@@ -78,6 +82,56 @@ def test_a_rail_on_springs_is_in_balance_and_starts_from_its_last_deflection(ope
     assert fmu["rail.deflection_y"] > 1e-4
 
 
+def test_friction_along_the_track_is_an_input(open_pair):
+    """The coefficient of every step is that of the place where the wheel is."""
+    fmu, pair = open_pair(), WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(1.0 / 40.0)))
+    spin = -20.0 / 0.46 * 1.005
+    fmu.update({"velocity.spin": spin, "load.kind": 3})
+    fmu.initialize()
+    used = []
+    for k in range(5):
+        along = 20.0 * 1e-3 * k
+        friction = 0.35 - 0.2 * math.exp(-(((along - 0.04) / 0.03) ** 2))  # a dirty place
+        fmu.update({"friction.coefficient": friction})
+        fmu.step(1e-3 * k, 1e-3)
+        wanted = pair.solve(Pose(), Velocity(20.0, spin=spin), vertical=80e3, friction=friction)
+        assert fmu["force.x"] == pytest.approx(wanted.force[0], abs=1e-9 * 80e3)
+        used.append(fmu["used_friction"] / friction)
+    np.testing.assert_allclose(used, 1.0, atol=2e-3)  # full slip follows the coefficient
+
+
+def test_a_host_adds_friction_memory_and_contact_damping(open_pair):
+    """From the outputs of the FMU, as docs/in_time.md says."""
+    n, step, damping = 6, 1e-3, 2e-4
+    law = Friction(static=0.35, law="exponential", kinetic=0.15, half_speed=0.5)
+    spin = -20.0 / 0.46 * (1.0 + 2e-3 * np.arange(n))
+    motion = {"velocity.x": np.full(n, 20.0), "velocity.spin": spin, "load.normal_force": 6e4 + 2e3 * np.arange(n)}
+    motion |= {"pose.y": 2e-4 * np.arange(n), "offset.yaw": 2e-4 * np.arange(n)}
+    wanted = over_time(
+        WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(1.0 / 40.0))),
+        motion | {"time": step * np.arange(n)},
+        memory=FrictionMemory(law, 1e-3),
+        damping=ContactDamping(damping, damping),
+    )
+    fmu, memory, before = open_pair(), FrictionMemory(law, 1e-3), None
+    fmu.update({"load.kind": 3})
+    fmu.initialize()
+    for k in range(n):
+        fmu.update(
+            {**{name: float(column[k]) for name, column in motion.items()}, "friction.coefficient": memory.coefficient}
+        )
+        fmu.step(step * k, step)
+        forces = np.array([fmu[f"patch[1].{name}"] for name in ("n", "fx", "fy")])
+        added = np.zeros(3) if before is None else damping * (forces - before) / step
+        c, s = math.cos(fmu["patch[1].angle"]), math.sin(fmu["patch[1].angle"])
+        turned = np.array([added[1], c * added[2] + s * added[0], s * added[2] - c * added[0]])
+        found = turned + np.array([fmu["force.x"], fmu["force.y"], fmu["force.z"]])
+        np.testing.assert_allclose(found, [wanted[name][k] for name in ("Fx", "Fy", "Fz")], atol=1e-6 * 6e4)
+        before = forces
+        memory.advance(20.0 * math.hypot(fmu["patch[1].longitudinal"], fmu["patch[1].lateral"]), step)
+    assert memory.coefficient < 0.3
+
+
 def test_energy_is_the_power_times_the_time(fmu):
     energy = worn = 0.0
     for k in range(5):
@@ -96,6 +150,9 @@ def test_energy_is_the_power_times_the_time(fmu):
         ("pose.yaw", 0.2, "pose.yaw = 0.2 is outside the allowed range [-0.1, 0.1]"),
         ("velocity.x", -1.0, "velocity.x = -1 is outside the allowed range [0, inf["),
         ("irregularity.roll_rate", math.inf, "irregularity.roll_rate = inf is outside"),
+        ("offset.yaw", 0.11, "offset.yaw = 0.11 is outside the allowed range [-0.1, 0.1]"),
+        ("offset.z_rate", math.nan, "offset.z_rate = nan is outside"),
+        ("offset.yaw", 0.098, "offset"),  # with the wheelset's yaw beyond 0.1
         ("load.normal_force", -1e4, "load.normal_force = -10000 is outside the allowed range [-1000, inf["),
         ("pose.y", 1.0, "pose.y"),
         ("load.normal_force", 1e12, "load"),

@@ -8,8 +8,10 @@ import os
 import re
 import subprocess
 import sys
+from contextlib import ExitStack
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import contact
@@ -21,7 +23,9 @@ from fmu_src.tables.wheel_rail_contact import table
 from fmu_src.tables.wheel_rail_pair import table as pair_table
 from models.wheelset import master
 from models.wheelset.components import direct
+from models.wheelset.fmu import FmuComponent
 from models.wheelset.parameters import WheelsetParameters
+from models.wheelset.ports import CONTACT_PORTS, MOTION, SIDES, WHEELSET_PORTS
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "hosts"
 PYTHON = os.environ.get("HOSTS_PYTHON", sys.executable)
@@ -82,11 +86,10 @@ def test_libcosim_chooses_a_method_by_its_number(native):
         assert found["status"] == [contact.Status.OK]
 
 
-def test_libcosim_reads_fmus_by_the_fmi_library(native):
-    """The FMI Library in C is the base of many tools. Its log says what it did."""
-    run("libcosimpy", "libcosim_contact.py", native)
-    assert "FMI Library" in LOG[-1]
-    assert "Successfully unloaded FMU binary" in LOG[-1]
+def test_the_fmi_library_alone_steps_the_contact(native):
+    """The FMI Library in C is the base of many tools. The wheel of libcosim exports its functions."""
+    assert run("libcosimpy", "fmilib_contact.py", native)["force.x"] == [pytest.approx(solved().Fx, rel=1e-12)]
+    assert "[FMILIB] Loading 'linux64' binary with 'default' platform types" in LOG[-1]
 
 
 #: An input of the pair, its value, and an output that follows it.
@@ -108,6 +111,7 @@ def pair_force() -> float:
     [
         ("casadi", "casadi_sensitivity.py", GIVEN, 1e-9),
         ("fmuloader", "fmuloader_contact.py", GIVEN, 1e-9),
+        ("libcosimpy", "fmilib_contact.py", GIVEN, 1e-9),
         # the steps after the first start from the last solution of the strips, so they agree to its tolerance
         ("pathsim_fmi", "pathsim_contact.py", GIVEN, 2e-4),
         ("libcosimpy", "libcosim_contact.py", (0, *GIVEN), 2e-4),
@@ -122,6 +126,39 @@ def test_the_pair_has_the_same_force_in_every_host(native, pair_force, host, scr
 def test_cofmupy_couples_two_contacts(native):
     """The third step starts from the second, which started from the first."""
     assert run("cofmupy", "cofmupy_contact.py", native)["force.x"] == [pytest.approx(solved().Fx, rel=1e-4)]
+
+
+STEP, STEPS = 2e-4, 60
+
+
+def test_casadi_integrates_the_coupled_wheelset(native):
+    """It integrates by Runge and Kutta. Our wheelset has the same motion with 1000 substeps: 3e-12 m were measured."""
+    lateral = run("casadi", "casadi_coupled.py", native.with_name("coupled.ssp"), STEP, STEPS)["lateral"]
+    p = WheelsetParameters(substeps=1000)
+    wheelset, contacts = direct(p)
+    ours = master.run(wheelset, contacts, speed=p.speed, step=STEP, duration=(STEPS + 1) * STEP)["lateral"][1:]
+    assert np.ptp(lateral) > 1e-5  # it moves
+    assert np.max(np.abs(lateral - ours)) < 2e-11
+
+
+def test_pathsim_steps_the_coupled_wheelset_as_our_own_master(native):
+    """Bit for bit. PathSim steps block by block: the wheelset with the last forces, then each contact with its new motion."""
+    lateral = run("pathsim_fmi", "pathsim_coupled.py", native.with_name("coupled.ssp"), STEP, STEPS)["lateral"]
+    p = WheelsetParameters()
+    start = {"speed": p.speed, "wheel.radius": p.radius}
+    ours = []
+    with ExitStack() as stack:
+        wheelset = stack.enter_context(FmuComponent(native.with_name("Wheelset.fmu"), WHEELSET_PORTS))
+        contacts = [stack.enter_context(FmuComponent(native, CONTACT_PORTS, start)) for _ in SIDES]
+        for k in range(STEPS):
+            for side, contact in zip(SIDES, contacts, strict=True):
+                wheelset.write(f"{side}.reaction", contact.read("reaction"))
+            wheelset.step(k * STEP, STEP)
+            for side, contact in zip(SIDES, contacts, strict=True):
+                contact.write("problem", wheelset.read(f"{side}.problem"))
+                contact.step(k * STEP, STEP)
+            ours.append(float(wheelset.read("motion")[MOTION.index("lateral")]))
+    assert lateral == ours
 
 
 def test_ecos_runs_the_coupled_wheelset(native):

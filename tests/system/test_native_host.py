@@ -3,6 +3,7 @@
 import os
 import re
 import shutil
+import subprocess
 from copy import copy
 
 import pytest
@@ -12,7 +13,7 @@ from fmu_src.native import source
 from fmu_src.native.linking import FLAGS, HEADERS, WRAPPER, compiler, run
 from fmu_src.native.wheel_rail_contact import component
 from models.wheelset.ports import POINTS
-from reference.native import ROLES, kernel_library, kernel_objects
+from reference.native import ATTACKED, ROLES, SANITIZED, kernel_library, kernel_objects, sanitized
 
 OTHERS = [name for name in ROLES if name != NAME]
 VALGRIND = ("valgrind", "--error-exitcode=9", "--leak-check=full", "-q")
@@ -68,6 +69,15 @@ def test_no_wrong_call_ends_the_host(hosts, name, tmp_path):
     assert int(taken) > 100  # so they have been tried
 
 
+@pytest.mark.parametrize("name", ATTACKED)
+def test_no_wrong_call_ends_the_host_of_an_fmu_of_another_view(hosts, name, tmp_path):
+    """The contact with curvatures; in `make soak` also the vehicles, with forged tracks, bodies and clocks in their states."""
+    if name != "EllipticContact" and "SOAK" not in os.environ:
+        pytest.skip(f"{name} MEETS NO WRONG CALLS: minutes, run by make soak")
+    trials = 2000 if "SOAK" in os.environ else 100
+    assert re.search(rf"[1-9]\d* of {trials} forged states taken", hosts("linux64", name).wrong_calls(tmp_path, trials))
+
+
 def test_any_function_in_any_order_does_what_its_state_allows(host):
     """This includes invalid state bytes and values of any size. In the end every call has been made in every state."""
     assert host("fuzz", 1_000_000).split()[0] == "0"
@@ -115,6 +125,23 @@ def test_the_wrapper_has_no_undefined_behaviour(host, tmp_path):
     for command in COMMANDS:
         checked(command)
     checked("fuzz", 50_000)
+
+
+@pytest.mark.parametrize("name", ROLES)
+def test_sanitizers_find_nothing_in_the_sources(hosts, name, tmp_path):
+    """Wrong accesses, leaks and undefined behaviour, in the wrapper and in the kernels: every call, random and wrong ones.
+
+    Wrong calls take minutes where an instance is large, and are left to `make soak`.
+    """
+    if subprocess.run([*SANITIZED, "-x", "c", "-", "-o", tmp_path / "a"], input=b"int main(void) {}").returncode:
+        pytest.skip("SANITIZERS FIND NOTHING: gcc or its sanitizers are not installed (apt-get install gcc)")
+    usual = hosts("linux64", name)
+    host = sanitized("linux64", tmp_path, usual.library.parents[2], name)
+    for command in COMMANDS:
+        host(command, 5)
+    host("fuzz", 20_000)
+    if name == "Wheelset" or "SOAK" in os.environ:
+        host.wrong_calls(tmp_path, 200)
 
 
 @pytest.mark.parametrize(("name", "command"), [("host", "fuzz"), ("host_fmi3", "random_calls")])

@@ -1,5 +1,6 @@
 """The sources of a native FMU: C that any compiler makes the same FMU of, also for other processors."""
 
+import os
 import shutil
 import subprocess
 import sys
@@ -9,21 +10,24 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+from script_host import Script
 
 from fmu_src.native.linking import FROM_C, HEADERS, compiler, link, run
 from reference.native import HOST
 
 FLAGS = ("-std=c11", "-O1", "-ffp-contract=off", "-Wall", "-Wno-unused-parameter", "-fno-sanitize=undefined")
-NAMES = ("EllipticContact", "WheelRailContact", "WheelRailPair", "Wheelset")
+VEHICLES = ("Vehicle", "OpenVehicle")
+NAMES = ("EllipticContact", "WheelRailContact", "WheelRailPair", "Wheelset", *VEHICLES)
 
 
 @pytest.fixture(scope="module")
-def unzipped(native, tmp_path_factory):
+def unzipped(request, native, tmp_path_factory):
     """Return a function that unzips an FMU once and returns its folder."""
 
     @cache
     def make(name: str) -> Path:
-        return Path(fmpy.extract(str(native.with_name(f"{name}.fmu")), str(tmp_path_factory.mktemp(name))))
+        place = request.getfixturevalue("native_vehicles") if name in VEHICLES else native.parent
+        return Path(fmpy.extract(str(place / f"{name}.fmu"), str(tmp_path_factory.mktemp(name))))
 
     return make
 
@@ -74,6 +78,8 @@ def _of_library(folder: Path) -> np.ndarray:
 @pytest.mark.parametrize("name", NAMES)
 def test_the_sources_give_the_numbers_of_the_library(unzipped, name):
     """Bit for bit: the same operations and the same C library."""
+    if name in VEHICLES and "SOAK" not in os.environ:
+        pytest.skip(f"THE SOURCES OF {name} ARE NOT COMPILED: minutes, run by make soak")
     folder = unzipped(name)
     expected = _of_library(folder)
     assert np.count_nonzero(expected) > 3
@@ -144,6 +150,18 @@ def test_fmi_3_lists_the_same_files(native_fmi3_folder, unzipped):
     )
     assert names == others
     assert all(path.exists() for path in _listed(native_fmi3_folder))
+
+
+@pytest.mark.skipif("SOAK" not in os.environ, reason="A VEHICLE UNDER WINDOWS IS NOT TESTED: minutes, run by make soak")
+@pytest.mark.skipif(not shutil.which("wine"), reason="wine is not installed (apt-get install wine64)")
+@pytest.mark.parametrize("name", VEHICLES)
+def test_a_vehicle_has_the_same_numbers_under_wine(unzipped, tmp_path, name):
+    """Ten steps in C, by the libraries for Linux and for Windows."""
+    folder = unzipped(name)
+    commands = "\n".join(["i", *(f"d {2e-4 * k!r} 2e-4" for k in range(10)), *(f"g {r}" for r in _outputs(folder))])
+    linux, windows = (Script(p, tmp_path)(folder, 1, commands) for p in ("linux64", "win64"))
+    assert np.count_nonzero(linux) > 50
+    assert np.max(np.abs(windows - linux) / np.maximum(np.abs(linux), 1e-9)) < 1e-6
 
 
 @pytest.mark.parametrize("platform", FROM_C)

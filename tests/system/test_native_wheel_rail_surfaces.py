@@ -315,8 +315,8 @@ def test_the_command_refuses_by_name(built, tmp_path, words, message):
 def test_a_rail_of_slices_is_read_with_its_place(built, tmp_path):
     path, slices = Path(shutil.copy(built[0], tmp_path)), tmp_path / "ramp.slcs"
     for name, height in (("low", 0.0), ("high", -0.5)):
-        (tmp_path / f"{name}.prr").write_text("".join(f"{y} {y**2 / 600.0 + height}\n" for y in range(-30, 31, 2)))
-    slices.write_text("0.0 1.0\n2\n0 0 0\n1\n0.0 'low.prr'\n400.0 'high.prr'\n")
+        (tmp_path / f"{name}.txt").write_text("".join(f"{y} {y**2 / 600.0 + height}\n" for y in range(-30, 31, 2)))
+    slices.write_text("0.0 1.0\n2\n0 0 0\n1\n0.0 'low.txt'\n400.0 'high.txt'\n")
     done = command(path, "--rail", slices, "--origin", 0.75, 1e-3)
     assert done.returncode == 0, done.stderr
     numbers = numbers_of((Path(fmpy.extract(str(path), str(tmp_path / "fmu"))) / "resources" / RAIL).read_bytes())

@@ -278,6 +278,19 @@ def test_states_derivatives_and_nominals_are_those_of_the_description(exchanged)
     assert [exchanged.variables[name].derivative.name for name in DERIVATIVES] == STATES
 
 
+def test_a_state_may_be_set_by_its_value_reference(exchanged):
+    """The standard has fmi2SetContinuousStates for it, but CasADi stays in event mode and uses fmi2SetReal."""
+    exchanged.update(IN_MOTION)
+    by_reference = exchanged.all("output")
+    exchanged.fmu.setContinuousStates(*numbers([0.0] * len(STATES)))
+    assert exchanged.all("output") != by_reference
+    exchanged.fmu.setContinuousStates(*numbers([*IN_MOTION.values(), 0.0, 0.0, 0.0]))
+    assert exchanged.all("output") == by_reference
+    exchanged.fmu.enterEventMode()
+    exchanged.update({"lateral": 0.0})
+    assert exchanged["lateral"] == 0.0
+
+
 def numbers(values):
     """Return a C array of doubles and its length."""
     return (ctypes.c_double * len(values))(*values), len(values)

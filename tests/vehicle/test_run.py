@@ -16,11 +16,12 @@ from models.life.scenario import Declaration, Methods, Profiles, Recording, Scen
 from models.life.scenario import read as read_scenario
 from models.life.spectra import Irregularities
 from models.life.track import Track
-from models.life.vehicle import Vehicle
 from models.life.wear import Life
 from models.vehicle import assess, report
 from models.vehicle.declared import read
+from models.vehicle.kernels.layout import Axis
 from models.vehicle.run import VehicleRun
+from models.vehicle.simulation import SIDES
 
 
 def scenario(**changes) -> Scenario:
@@ -34,7 +35,7 @@ def scenario(**changes) -> Scenario:
         "methods": Methods(normal="analyn", tangential="fastrip", strips=20, elements=12),
     }
     declared = Declaration(**(given | changes))
-    return Scenario(declared, *Profiles().load(Path()), vehicle=read(declared.vehicle))
+    return Scenario(declared, *Profiles().load(Path()), read(declared.vehicle))
 
 
 def completed(run: VehicleRun) -> VehicleRun:
@@ -63,6 +64,57 @@ def test_resumed_run_equals_the_uninterrupted_one_bit_for_bit(whole, tmp_path):
     for run, name in ((second, "a.nc"), (whole, "b.nc")):
         result.write(result.dataset(run), tmp_path / name)
     assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
+
+
+def test_another_seed_gives_another_run(whole):
+    other = completed(VehicleRun(scenario(seed=1)))
+    assert not np.array_equal(other.series["wheelset_lateral"], whole.series["wheelset_lateral"])
+
+
+def test_checkpoint_of_another_run_is_refused(whole, tmp_path):
+    path = tmp_path / "checkpoint.npz"
+    assert checkpoint.read(path, "x") is None
+    checkpoint.write(path, whole.scenario.fingerprint, whole.save())
+    with pytest.raises(ContactError, match="checkpoint of another run"):
+        checkpoint.read(path, scenario(seed=1).fingerprint)
+    path.write_bytes(path.read_bytes()[:1000])
+    with pytest.raises(ContactError, match="not a checkpoint"):
+        checkpoint.read(path, whole.scenario.fingerprint)
+
+
+def test_result_keeps_series_and_histograms(whole, tmp_path):
+    xarray = pytest.importorskip("xarray")
+    result.write(result.dataset(whole), tmp_path / "result.nc")
+    stored = xarray.load_dataset(tmp_path / "result.nc", engine="scipy")
+    assert set(whole.columns) <= set(stored.variables)
+    assert (stored["wheelset_right_T_gamma"].values == whole.series["wheelset_right_T_gamma"]).all()
+    assert stored["wheelset_lateral"].attrs["units"] == "m"
+    assert stored.attrs["balance_dissipated"] == whole.balance["dissipated"]
+    for key, histogram in whole.damage().items():
+        found = result.histogram(stored, *key)
+        assert (found["wear"] == histogram["wear"]).all()
+        assert found.profile.kind == key[-1]
+    with pytest.raises(ContactError, match="is not a wheelrail-contact run"):
+        result.histogram(xarray.Dataset(), "wheelset", "right", "wheel")
+
+
+def test_steel_that_flows_limits_the_pressure(whole):
+    limit = 0.9 * max(whole.series[f"wheelset_{side}_max_pressure"].max() for side in SIDES)
+    methods = dataclasses.replace(whole.scenario.declared.methods, pressure_limit=limit)
+    soft = completed(VehicleRun(scenario(methods=methods)))
+    assert max(soft.series[f"wheelset_{side}_max_pressure"].max() for side in SIDES) == pytest.approx(limit, rel=1e-6)
+    (material,) = soft.damage()["wheelset", "right", "wheel"].materials
+    assert material.pressure_limit == limit
+
+
+def test_leaving_the_rails_is_reported_with_the_position():
+    run = VehicleRun(scenario())
+    run.advance()
+    run.simulation.state.q[run.simulation.model.wheelsets[0], Axis.Y] = 0.2
+    with pytest.raises(
+        ContactError, match=r"short, 20 m/s: -?\d+\.\d\d m: the right wheel of wheelset has left its rail"
+    ):
+        run.advance()
 
 
 def test_histograms_hold_the_damage_of_all_wheels(whole):
@@ -175,19 +227,6 @@ def test_rails_may_differ_and_are_mirrored(tmp_path):
         assert kinds["right", "rail"] != kinds["left", "rail"]
     assert np.abs(moved[0]).max() > 1e-6
     assert moved[0] == pytest.approx(-moved[1], abs=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("changes", "said"),
-    [
-        ({"vehicle": None, "track": Track(gauge=Irregularities(spectrum="FRA 5"))}, r"track\.gauge needs a vehicle"),
-        ({"vehicle": None, "profiles": Profiles(left_rail="54E1")}, r"profiles\.left_rail = '54E1' needs a vehicle"),
-        ({"wheelset": Vehicle(mass=2000.0)}, r"wheelset and vehicle = 'wheelset' exclude each other"),
-    ],
-)
-def test_what_would_have_no_effect_is_refused(changes, said):
-    with pytest.raises(ContactError, match=said):
-        Declaration(**({"name": "x", "length": 60.0, "speed": 20.0, "vehicle": "wheelset"} | changes))
 
 
 def test_a_measured_series_lies_beside_its_scenario_and_is_part_of_the_fingerprint(tmp_path):

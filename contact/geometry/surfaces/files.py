@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError
-from contact.geometry.files import UNITS, _lines
+from contact.geometry.files import UNITS, lines_of
 from contact.geometry.formats import columns, simpack
 from contact.geometry.surfaces.surface import MOST_SLICES, RailSurface, WheelSurface
 
@@ -169,7 +169,7 @@ def _parsed(path: Path) -> _Slices:
 
 def _statements(path: Path) -> Iterator[tuple[int, str]]:
     """Yield number and text of the lines that are not empty, without comments."""
-    for number, line in enumerate(_lines(path), 1):
+    for number, line in enumerate(lines_of(path), 1):
         text = re.split(r'[!%"]', line, maxsplit=1)[0].strip()
         if text:
             yield number, text
@@ -216,7 +216,7 @@ def _take(stream: Iterator[float], count: int, what: str, path: Path) -> Sequenc
 
 def _points(path: Path, suffix: str, scale: float, mirrored: tuple[bool, bool]) -> Array:
     """Return the points of one slice [m]: of a rail from the gauge to the field side, of a wheel from field side to flange."""
-    lines = _lines(path)
+    lines = lines_of(path)
     if path.suffix.lower() in (_RAIL, _WHEEL):
         if path.suffix.lower() != suffix:
             raise ContactError(f"path = {str(path)!r} is not a file of a {'rail' if suffix == _RAIL else 'wheel'}")

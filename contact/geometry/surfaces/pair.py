@@ -14,13 +14,13 @@ from contact import workspace
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
 from contact.geometry.posed import MAX_PENETRATION, Posed, Side
-from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Pose, Velocity
+from contact.geometry.shape import Profile
 from contact.geometry.surfaces import compiled
 from contact.geometry.surfaces.frame import Frame, PlacedRail, PlacedWheel, heights
 from contact.geometry.surfaces.search import Lobe, Scene, combined, sample
 from contact.geometry.surfaces.surface import RailSurface, WheelSurface
-from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK, _rail_origin
+from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK, place_of_rail
 from contact.halfspace.gap import Division, Gap
 from contact.halfspace.norm import norm
 from contact.kernels.geometry.search import axle
@@ -145,7 +145,7 @@ class SurfacePair(Posed):
                 raise ContactError(
                     f"rail_origin = None: {rail!r} has no gauge; give the place of its origin (y, z) [m]"
                 )
-            rail_origin = _rail_origin(rail, require_number("gauge", gauge, 0.1, 3.0), gauge_point)
+            rail_origin = place_of_rail(rail, require_number("gauge", gauge, 0.1, 3.0), gauge_point)
         self.rail_origin = (
             require_number("rail_origin", rail_origin[0]),
             require_number("rail_origin", rail_origin[1]),

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError
-from contact.geometry.profile import Profile
+from contact.geometry.shape import Profile
 from contact.geometry.surfaces.sheet import Sheet
 from contact.geometry.surfaces.spline import approximated, slopes
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError, require_number
-from contact.geometry.profile import Profile
+from contact.geometry.shape import Profile
 from contact.geometry.surfaces.deviation import Deviation
 from contact.geometry.surfaces.sheet import Points, Sheet
 from contact.geometry.surfaces.slices import MOST_SLICES, SPACING, Slice, connect, positions

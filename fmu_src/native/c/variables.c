@@ -88,6 +88,7 @@ Status before_set(Instance *instance, const char *function, const Reference refs
     REQUIRE(instance, function, INSTANTIATED | CONFIGURATION | INITIALIZATION | RUNNING);
     if (instance->is.phase & (INSTANTIATED | INITIALIZATION)) roles |= PARAMETER | TOTAL;
     if (instance->is.phase & (EVENT | STEP_COMPLETE | STEP_FAILED)) roles |= TUNABLE;
+    if (instance->is.phase & (EVENT | CONTINUOUS)) roles |= STATE; /* beyond the standard; CasADi sets states so */
     if (instance->arrays && n > 0 && (kinds == COUNT) != (instance->is.phase == CONFIGURATION))
         return report(instance, LOG_ERROR, "%s: only structural parameters are set, and only in configuration mode", function);
     if (instance->is.phase == CONFIGURATION) roles = PARAMETER;
@@ -144,7 +145,7 @@ Status derivative(Instance *instance, const char *function, const Reference unkn
             if (!isfinite(*seed)) return report(instance, LOG_ERROR, "a seed of a directional derivative is not finite");
             seeds[knowns[k] + i] += *seed;
         }
-    memset(result, 0, n_result * sizeof *result);
+    if (n_result > 0) memset(result, 0, n_result * sizeof *result); /* else it may be NULL */
     for (size_t k = 0; k < n_unknowns; k++) lazy |= variables[unknowns[k]].lazy;
     displaced(instance, seeds, 0.0, false, values); /* the steps depend on the outputs at the present values */
     for (size_t i = 0; i < N_VALUES; i++)

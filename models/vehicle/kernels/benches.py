@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from contact._jit import kernel
+from contact._jit import inlined, kernel
 from contact.kernels.memory import Bench, Ledger, Search
 from contact.kernels.records import CASE, CONTACT, LEDGER, MAX_PATCHES, MOTION, TOTAL
 from contact.kernels.rows import N_LINE_ROWS, N_PROFILE_ROWS
@@ -91,7 +91,7 @@ def bins(benches: Benches, wheel: int) -> Array:
     return benches.pool[at : at + 2 * benches.rows * n].reshape(2, benches.rows, n)
 
 
-@kernel
+@inlined
 def _cut(pool, at, rows, columns):
     return pool[at : at + rows * columns].reshape((rows, columns))
 

@@ -48,19 +48,26 @@ def seat(model, state, s, motions, scratch):
 
 
 @kernel
+def press_wheel(benches, scratch, w):
+    """Solve the contact of wheel `w` for what `seat` has filled, and fill `scratch.wheels[w]`; return as `solve_pair`."""
+    bench, given, here = bench_of(benches, w), scratch.given[w], scratch.seats[w]
+    case = bench.case[0]
+    case.mu, case.kinetic, case.speed = here.friction, here.kinetic, given.vx
+    n = solve_pair(Height.GIVEN.value, 0.0, given, bench)
+    if n >= 0:
+        _report(bench, n, scratch.wheels[w])
+    return n
+
+
+@kernel
 def press(benches, scratch):
-    """Solve the contacts of all wheels for what `seat` has filled, and fill `scratch.wheels`.
+    """Solve the contacts of all wheels.
 
     Returns 0, or the number of the wheel from 1 on whose contact has no answer, negative.
     """
     for w in range(scratch.wheels.size):
-        bench, given, here = bench_of(benches, w), scratch.given[w], scratch.seats[w]
-        case = bench.case[0]
-        case.mu, case.kinetic, case.speed = here.friction, here.kinetic, given.vx
-        n = solve_pair(Height.GIVEN.value, 0.0, given, bench)
-        if n < 0:
+        if press_wheel(benches, scratch, w) < 0:
             return -1 - w
-        _report(bench, n, scratch.wheels[w])
     return 0
 
 

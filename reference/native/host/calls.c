@@ -93,7 +93,7 @@ static fmi2EventInfo info;
     X(GetBoolean(c, NULL, 0, &flag), ALL & ~INST, ALL & ~INST, SAME) \
     X(GetString(c, NULL, 0, &text), ALL & ~INST, ALL & ~INST, SAME) \
     X(SetReal(c, &load, 1, &newton), ALL & ~TERM, ALL & ~TERM, SAME) \
-    X(SetReal(c, &force, 1, &newton), 0, 0, SAME) \
+    X(SetReal(c, &force, 1, &newton), 0, RESULT_IS_STATE ? EVENT | CONT : 0, SAME) \
     X(SetInteger(c, &kind, 1, &first), INST | INIT, INST | INIT, SAME) \
     X(SetBoolean(c, NULL, 0, &flag), ALL & ~TERM, ALL & ~TERM, SAME) \
     X(SetString(c, NULL, 0, &text), ALL & ~TERM, ALL & ~TERM, SAME) \

@@ -257,7 +257,7 @@ static int systematic(void)
         int n = pointers_of(row);
         check(n > 0, names[version - 2][row], "does not return");
         for (int situation = 0; situation < N_SITUATIONS; situation++)
-            for (int is_cs = 0; is_cs < 2; is_cs++)
+            for (int is_cs = !HAS_EXCHANGE; is_cs < 2; is_cs++)
                 for (int k = 0; k < n; k++, done++) {
                     pid_t child = fork();
                     if (!child) {
@@ -279,7 +279,7 @@ static void random_trials(int n)
         unsigned own = draw(1u << 30);
         pid_t child = fork();
         if (!child) {
-            reach((int)draw(N_SITUATIONS), (int)draw(2));
+            reach((int)draw(N_SITUATIONS), HAS_EXCHANGE ? (int)draw(2) : 1);
             is_random = 1;
             for (unsigned k = 0; k < own % 997; k++) draw(2);
             for (int k = 0; k < 40; k++) {
@@ -310,7 +310,7 @@ static void forged_states(int n)
     static const double odd[] = {0.0, -1.0, 0.5, 3.0, 1e-300, 1e9, 1e18, 1e300, -1e300, NAN, INFINITY};
     version = 2;
     for (int i = 0; i < n; i++) {
-        int is_cs = (int)draw(2), own = (int)draw(1000);
+        int is_cs = HAS_EXCHANGE ? (int)draw(2) : 1, own = (int)draw(1000);
         pid_t child = fork();
         if (!child) {
             reach(INST, is_cs);

@@ -1,0 +1,64 @@
+"""Why the lateral deflection of a rail on springs differs from CONTACT's (set L): the reference of the creepage, and strips.
+
+    python benchmarks/rail_reference.py FOLDER
+
+Every pose is solved at CONTACT's own place of wheel and rail, so the table has the error before the springs give way to it.
+CONTACT takes the velocity of the wheel at its greatest depth under the reference point (wr_creep_cref in m_wr_rigslip.f90 of
+the open source), we take that of the wheel's point opposite the reference point. They differ where a patch has two lobes. The
+element-wise half space and the default methods are solved with both.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import contact
+import reference
+from benchmarks.patches_of_sets import BOTH, pair_of
+from benchmarks.tables import table
+from contact.geometry.wheelset import Irregularity, Pose, Velocity
+
+MU, RADIUS = 0.3, 0.46
+METHODS: tuple[dict[str, Any], ...] = ({**BOTH, "spacing": 0.2e-3}, {})
+
+
+def rows(folder: Path) -> Iterator[list[str]]:
+    """Yield deflection [mm], depth of the reference point [µm], and for each method and reference the errors."""
+    pair = pair_of(folder / "L_rail_deflection")
+    for row in reference.rows(folder / "L_rail_deflection" / "rail_deflection.csv"):
+        v = {name: float(text) for name, text in row.items() if name not in ("id", "mode") and text}
+        velocity = Velocity(2.0, spin=-2.0 / RADIUS * 1.0003)
+        pose = Pose(y=1e-3 * v["y_ws"], z=1e-3 * v["z_ws"], yaw=v["yaw"])
+        rail = Irregularity(y=1e-3 * v["dy_balance"], z=1e-3 * v["dz_balance"])
+        patch = pair.contacts(pose, velocity, irregularity=rail)[0]
+        gap = float(np.interp(0.0, patch.separation.y, patch.separation.g))
+        deeper = replace(
+            patch.creepage, longitudinal=patch.creepage.longitudinal - gap * math.cos(patch.angle) / RADIUS
+        )
+        errors = []
+        for options in METHODS:
+            for creepage in (patch.creepage, deeper):
+                s = contact.solve(patch.separation, creepage, load=v["N"], friction=MU, **options)
+                off = math.hypot(s.Fx + v["Fx"], s.Fy + v["Fs"]) / (MU * v["N"])
+                lateral = math.cos(patch.angle) * s.Fy + math.sin(patch.angle) * s.N
+                errors.append(f"{off:.4f}, {1e3 * abs(lateral + v['Fy_tr']) / v['KYRAIL']:.1f}")
+        yield [row["id"], f"{v['dy_balance']:.3f}", f"{1e6 * gap:.0f}", *errors]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path, help="folder of the reference sets")
+    head = ["pose", "lateral deflection [mm]", "gap at the reference [µm]"]
+    head += [f"{method}, {point}: [μN], [µm]" for method in ("half space", "strips") for point in ("ours", "CONTACT's")]
+    print(table(head, list(rows(parser.parse_args().folder))))
+
+
+if __name__ == "__main__":
+    main()

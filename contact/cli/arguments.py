@@ -1,0 +1,141 @@
+"""What the options of the commands give to the library: profiles, friction, positions, loads, materials, forces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import typer
+
+from contact.cli import options as opt
+from contact.cli.problem import OF_A_POSITION, Pose, Position
+from contact.creepage import Creepage
+from contact.errors import ContactError
+from contact.friction import ROOM_TEMPERATURE, Friction, as_friction
+from contact.geometry import profile
+from contact.halfspace.third_body import ThirdBody
+from contact.material import STEEL, Material
+
+
+@dataclass
+class Reading:
+    """How profiles are read: the arguments of `contact.geometry.profile.load`, with the prefix `profile`."""
+
+    inclination: opt.Inclination = None
+    profile_unit: opt.Unit = None
+    profile_side: opt.Drawn = None
+    profile_zero: opt.Zero = None
+    profile_repair: opt.Repair = False
+    profile_smoothing: opt.Smoothing = None
+    profile_wavelength: opt.Wavelength = None
+
+    def load(self, name: str, kind: profile.Kind) -> profile.Profile:
+        """Return the profile with this name or in this file."""
+        options = {
+            key.removeprefix("profile_"): value for key, value in vars(self).items() if key.startswith("profile_")
+        }
+        return profile.load(name, kind, inclination=self.inclination, **options)
+
+
+@dataclass
+class SlidingFriction:
+    """Friction, and how it falls with velocity and temperature."""
+
+    friction: opt.Friction = 0.3
+    falling: opt.Falling = None
+    slip_velocity: opt.SlipVelocity = "global"
+    hot: opt.Hot = None
+    temperature: opt.Background = ROOM_TEMPERATURE
+
+    def law(self, gauge: tuple[float, float, float] | None = None) -> Friction:
+        """Return the friction options as an argument of `contact.solve`."""
+        law, kinetic, half_speed = self.falling or ("coulomb", self.friction, 1.0)
+        factor, border, width = gauge or (1.0, 0.0, 1.0)
+        hot_factor, reference, over = self.hot or (1.0, self.temperature, 1.0)
+        return replace(
+            as_friction(self.friction),
+            kinetic=kinetic,
+            half_speed=half_speed,
+            law=law,
+            velocity=self.slip_velocity,
+            gauge_factor=factor,
+            border=border,
+            border_width=width,
+            hot_factor=hot_factor,
+            reference_temperature=reference,
+            temperature_range=over,
+            background_temperature=self.temperature,
+        )
+
+
+@dataclass
+class Place:
+    """A wheelset on its rails."""
+
+    wheel: opt.WheelName = "s1002"
+    rail: opt.RailName = "60e1"
+    radius: opt.Radius = 0.46
+    gauge: opt.Gauge = 1.435
+    back_to_back: opt.BackToBack = 1.360
+    y: opt.Y = 0.0
+    roll: opt.Roll = 0.0
+    yaw: opt.Yaw = 0.0
+    speed: opt.Speed = 20.0
+
+    def position(self, reading: Reading, side: opt.Side) -> Position:
+        """Return the wheelset with its profiles."""
+        return Position(
+            reading.load(self.wheel, "wheel"),
+            reading.load(self.rail, "rail"),
+            ("left", "right") if side is opt.Side.both else (side.value,),
+            Pose(y=self.y, roll=self.roll, yaw=self.yaw),
+            self.speed,
+            self.radius,
+            self.gauge,
+            self.back_to_back,
+        )
+
+
+@dataclass
+class Amount:
+    """Load and creepage."""
+
+    load: opt.Load = None
+    penetration: opt.Penetration = None
+    creepage: opt.Creep = None
+
+    @property
+    def given(self) -> Creepage | None:
+        """The creepage of the options, instead of that of the rolling wheelset."""
+        return None if self.creepage is None else Creepage(*self.creepage)
+
+
+def require_use(context: typer.Context) -> None:
+    """Refuse options of the running command that do not apply together with --curvatures.
+
+    Raises
+    ------
+    ContactError
+        If a wheel, a rail or their position is given together with --curvatures.
+    """
+    if context.params["curvatures"] is None:
+        return
+    options = [option for option in context.command.params if option.name in OF_A_POSITION]
+    sources = {option.opts[0]: context.get_parameter_source(str(option.name)) for option in options}
+    idle = [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
+    if idle:
+        raise ContactError(f"{', '.join(idle)}: --curvatures replaces wheel, rail and position")
+
+
+def material(pressure_limit: float, bodies: tuple[float, float, float, float] | None = None) -> Material:
+    """Return the material of rail and wheel, or STEEL, with a pressure limit [Pa]."""
+    return replace(STEEL if bodies is None else Material.from_pair(*bodies), pressure_limit=pressure_limit)
+
+
+def force(longitudinal: float | None, lateral: float | None) -> tuple[float | None, float | None] | None:
+    """Return the options --fx and --fy as an argument of `contact.solve`."""
+    return None if longitudinal is None and lateral is None else (longitudinal, lateral)
+
+
+def third_body(layer: tuple[float, float, float] | None) -> ThirdBody | None:
+    """Return the option --layer as an argument of `contact.solve`."""
+    return None if layer is None else ThirdBody(*layer)

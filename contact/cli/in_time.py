@@ -1,0 +1,134 @@
+"""The command `in-time`: a wheel on a rail for each row of a motion, with friction memory and contact damping."""
+
+from __future__ import annotations
+
+import csv
+import math
+from pathlib import Path
+from typing import Annotated, Any, cast
+
+import numpy as np
+import typer
+
+from contact.cli import arguments
+from contact.cli import options as opt
+from contact.cli.output import deliver, drawing, prepare, reported
+from contact.cli.problem import STANDARD_LOAD
+from contact.cli.report import show_curve
+from contact.contact_damping import ContactDamping
+from contact.elastic_rail import ElasticRail
+from contact.errors import ContactError
+from contact.friction_memory import FrictionMemory
+from contact.geometry.wheelset import Pair
+from contact.in_time import LOAD, over_time
+from contact.pair import WheelRailPair
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
+
+_SHOWN = 25  # lines of the printed table
+File = Annotated[
+    Path, typer.Argument(help="CSV file: a line of names, then a line per time", show_default=False, metavar="MOTION")
+]
+Memory = Annotated[
+    tuple[float, float] | None,
+    typer.Option(
+        "--friction-memory",
+        help="distance in m over which friction follows --falling, and least sliding velocity in m/s",
+        metavar="DISTANCE LEAST",
+        rich_help_panel=opt.LOADING,
+    ),
+]
+Damping = Annotated[
+    tuple[float, float] | None,
+    typer.Option(
+        help="contact damping of the normal and the tangential forces in s",
+        metavar="NORMAL TANGENTIAL",
+        rich_help_panel=opt.LOADING,
+    ),
+]
+
+
+@reported
+def in_time(
+    motion: File,
+    *,
+    place: arguments.Place,
+    reading: arguments.Reading,
+    side: opt.Sides = opt.Side.right,
+    load: opt.Load = None,
+    surface: arguments.SlidingFriction,
+    friction_memory: Memory = None,
+    damping: Damping = None,
+    springs: opt.Springs = (math.inf, math.inf),
+    preload: opt.Preload = (0.0, 0.0),
+    normal: opt.Normal = DEFAULT_NORMAL,
+    tangential: opt.Tangential = DEFAULT_TANGENTIAL,
+    as_json: opt.Json = False,
+    out: opt.Files = None,
+) -> None:
+    """Solve a wheel on a rail for each line of a file: time, and any inputs of the FMU WheelRailPair by their names.
+
+    Columns that the file does not have are those of the options; without pose.z the load is given.
+
+    Example:  contact in-time motion.csv --falling exponential 0.15 0.5 --friction-memory 0.1 0.02 --out forces.png
+    """
+    prepare(out)
+    if side is opt.Side.both:
+        raise ContactError("side = 'both': a motion is that of one wheel")
+    columns = _read(motion)
+    given = {"pose.y": place.y, "pose.roll": place.roll, "pose.yaw": place.yaw, "velocity.x": place.speed}
+    if "pose.z" not in columns:
+        given[LOAD] = STANDARD_LOAD if load is None else load
+    elif load is not None:
+        raise ContactError(f"load = {load:g} and the column 'pose.z' exclude each other")
+    n = len(next(iter(columns.values())))
+    law = surface.law()
+    pair = Pair(
+        reading.load(place.wheel, "wheel"),
+        reading.load(place.rail, "rail"),
+        side=cast(Any, side.value),
+        nominal_radius=place.radius,
+        gauge=place.gauge,
+        flange_back=place.back_to_back,
+    )
+    found = over_time(
+        WheelRailPair(pair, normal=normal, tangential=tangential),
+        {name: np.full(n, value) for name, value in given.items()} | columns,
+        friction=law,
+        memory=None if friction_memory is None else FrictionMemory(law, *friction_memory),
+        damping=None if damping is None else ContactDamping(*damping),
+        rail=ElasticRail(*springs, *preload),
+    )
+    rows = [dict(zip(found, row, strict=True)) for row in zip(*(x.tolist() for x in found.values()), strict=True)]
+    every = max(1, -(-n // _SHOWN))
+    time = found["time"].tolist()
+    shown = {f"{name} [kN]": (1e-3 * found[name][::every]).tolist() for name in ("Fx", "Q", "Y")}
+    shown |= {"friction": found["friction"][::every].tolist(), "status": found["status"][::every].tolist()}
+    curves = {name: 1e-3 * found[name] for name in ("Fx", "Q", "Y")}
+    deliver(
+        {"rows": rows},
+        show=lambda console: show_curve(time[::every], shown, "time [s]", "forces", console),
+        as_json=as_json,
+        out=out,
+        rows=lambda: rows,
+        figure=lambda: drawing().curve(time, curves, xlabel="time [s]", ylabel="force [kN]"),
+    )
+
+
+def _read(path: Path) -> dict[str, np.ndarray]:
+    """Return the columns of a CSV file by name."""
+    try:
+        lines = [line for line in csv.reader(path.read_text(encoding="utf-8-sig").splitlines()) if line]
+    except (OSError, ValueError) as error:  # ValueError: bytes that are not UTF-8
+        raise ContactError(f"{path} cannot be read: {error}") from None
+    if len(lines) < 2:
+        raise ContactError(f"{path} holds no motion: a line of names and a line for each time are needed")
+    names = [name.strip() for name in lines[0]]
+    for number, line in enumerate(lines[1:], 2):
+        if len(line) != len(names):
+            raise ContactError(f"{path}: line {number} has {len(line)} values for {len(names)} names")
+    if len(set(names)) < len(names):
+        raise ContactError(f"{path}: a name stands twice")
+    try:
+        return dict(zip(names, np.array(lines[1:], dtype=np.float64).T, strict=True))
+    except ValueError as error:
+        raise ContactError(f"{path}: {error}") from None

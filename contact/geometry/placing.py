@@ -1,0 +1,107 @@
+"""Put the points of a profile file into the right-side convention, and refuse what cannot be a wheel or a rail.
+
+A point less than a micrometre from the previous one is dropped, because the tangent between them would be noise.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from contact.errors import ContactError
+from contact.geometry import inspection
+from contact.geometry.formats import Content, Points
+from contact.geometry.shape import Kind
+
+NEAREST = 1e-6  # least distance of two points [m]
+NARROWEST, WIDEST = 0.03, 0.2  # range of the width of a wheel or a rail's head [m]
+
+
+def placed(points: Points, content: Content, kind: Kind, path: Path, zero: str | None) -> Points:
+    """Return the points [m] from the gauge or flange side to the field side, with z down, about the zero of this library."""
+    if not content.downwards:
+        points = _downwards(points, kind)
+    outwards = _is_outwards(points, kind) if content.outwards is None else content.outwards
+    points = points - [content.datum, 0.0]
+    points = points if outwards else points * [-1.0, 1.0]
+    points = _ordered(points)
+    if len(points) < 4:
+        raise ContactError(f"path = {str(path)!r} holds {len(points)} distinct points; at least 4 make a profile")
+    if (
+        zero is None
+        and kind == "wheel"
+        and path.suffix.lower() in (".whl", ".mpt")
+        and points[:, 0].min() > -0.5 * inspection.FLANGE_BACK
+    ):
+        zero = "flange_back"
+    if zero == "flange_back":
+        if kind == "rail":
+            raise ContactError(f"zero = 'flange_back': {path.name!r} holds a rail; allowed: 'file', 'shape'")
+        return points - [inspection.FLANGE_BACK, 0.0]
+    return points - _origin(points, kind, path) if zero == "shape" else points
+
+
+def require_plausible(points: Points, kind: Kind, path: Path) -> None:
+    """Raise a ContactError for a profile with an implausible width or with the flange on the wrong side."""
+    y, z = points.T
+    width = y.max() - y.min()
+    if not NARROWEST <= width <= WIDEST:
+        raise ContactError(
+            f"path = {str(path)!r}: the profile is {width:g} m wide, outside the range [{NARROWEST:g}, {WIDEST:g}] of wheels "
+            f"and rails; set unit to 'm' or 'mm'"
+        )
+    deepest = np.argmax(z)
+    if kind == "wheel" and inspection.has_flange(points) and y[deepest] > y.mean():
+        raise ContactError(
+            f"path = {str(path)!r}: the flange lies on the field side, at y = {y[deepest]:g} m; set side to the other side"
+        )
+
+
+def _origin(points: Points, kind: Kind, path: Path) -> Points:
+    """Return the place (y, z) in the points that should be the zero, from the shape."""
+    y, z = points.T
+    if kind == "rail":
+        top = z.min()
+        gauge = np.flatnonzero((z > top + 0.014) & (np.arange(z.size) < np.argmin(z)))
+        if not gauge.size:
+            raise ContactError(f"zero = 'shape': the gauge side of {path.name!r} does not reach 14 mm below the top")
+        return np.array([y[gauge[-1]] + inspection.CROWN_FROM_GAUGE, top])
+    if not inspection.has_flange(points) or y[np.argmax(z)] == y.max():
+        raise ContactError(f"zero = 'shape': the wheel in {path.name!r} has no flange to find the tape circle from")
+    tape = y[np.argmax(z)] + inspection.TIP_FROM_TAPE
+    outside = y > y[np.argmax(z)]
+    return np.array([tape, np.interp(tape, y[outside], z[outside])])
+
+
+def _downwards(points: Points, kind: Kind) -> Points:
+    """Return the points with z down. A rail is highest inside. A wheel is lowest at its flange, far below the median."""
+    z = points[:, 1]
+    if kind == "rail":
+        down = z[0] + z[-1] > 2.0 * np.median(z)
+    else:
+        down = z.max() - np.median(z) > np.median(z) - z[_tread(points)].min()
+    return points if down else points * [1.0, -1.0]
+
+
+def _tread(points: Points) -> slice:
+    """Return the slice without the outermost tenths, which contain chamfers and flange backs."""
+    n = len(points)
+    return slice(n // 10, n - n // 10)
+
+
+def _is_outwards(points: Points, kind: Kind) -> bool:
+    """Return whether y points to the field side. The flange's tip and the deeper side of a rail belong at low y."""
+    y, z = points[np.argsort(points[:, 0])].T
+    return bool(y[np.argmax(z)] < 0.5 * (y[0] + y[-1]) if kind == "wheel" else z[0] > z[-1])
+
+
+def _ordered(points: Points) -> Points:
+    """Return the points from the end with low y to the other, without points that nearly coincide with the previous one."""
+    if len(points) > 1 and points[0, 0] > points[-1, 0]:
+        points = points[::-1]
+    kept = [points[0]]
+    for point in points[1:]:
+        if np.hypot(*(point - kept[-1])) > NEAREST:
+            kept.append(point)
+    return np.array(kept)

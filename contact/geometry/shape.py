@@ -1,0 +1,93 @@
+"""The record of a profile: the outline of a wheel or a rail as points with their tangents.
+
+Convention (right wheel and right rail, seen from behind): y to the field side, z down, in metres. A wheel has its tape
+circle at y = 0, z = 0 and its flange at negative y. A rail has its gauge corner at negative y. The left side is the mirror
+image and uses the same record.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.errors import ContactError, require_number
+from contact.geometry.outline import spline_slopes
+
+Array = NDArray[np.float64]
+Kind = Literal["wheel", "rail"]
+
+
+@dataclass(frozen=True, eq=False)
+class Profile:
+    """Outline of a wheel or a rail as points with their tangent angles.
+
+    Parameters
+    ----------
+    kind : {"wheel", "rail"}
+    y, z : array_like, shape (n,), n >= 4
+        Points from the gauge or flange side to the field side [m]; y to the field side, z down.
+    angle : array_like, shape (n,), optional
+        Angle of the tangent, tan(angle) = dz/dy [rad]. Default: the tangents of a cubic spline over the chord length.
+    name : str
+        Name in plots and messages.
+
+    Raises
+    ------
+    ContactError
+        For wrong shapes, values that are not finite, fewer than four points, or coincident neighbours.
+    """
+
+    kind: Kind
+    y: Array
+    z: Array
+    angle: Array = field(default=None, repr=False)  # type: ignore[arg-type]
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        if self.kind not in ("wheel", "rail"):
+            raise ContactError(f"profile.kind = {self.kind!r} is neither 'wheel' nor 'rail'")
+        y, z = _points("y", self.y), _points("z", self.z)
+        if y.size != z.size or y.size < 4:
+            raise ContactError(
+                f"profile has {y.size} values of y and {z.size} of z; equally many, at least 4, are needed"
+            )
+        chord = np.hypot(np.diff(y), np.diff(z))
+        if not (chord > 0.0).all():
+            i = int(np.argmin(chord))
+            raise ContactError(f"profile points {i} and {i + 1} coincide at y = {y[i]:g} m")
+        angle = _spline_angles(y, z, chord) if self.angle is None else _points("angle", self.angle)
+        if angle.size != y.size:
+            raise ContactError(f"profile has {angle.size} angles for {y.size} points")
+        for name, array in (("y", y), ("z", z), ("angle", angle)):
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+
+    def rotated(self, roll: float) -> Profile:
+        """Return the profile rotated about the x axis through its origin by `roll` [rad], positive from y towards z."""
+        c, s = math.cos(require_number("roll", roll, -1.0, 1.0)), math.sin(roll)
+        return Profile(self.kind, c * self.y - s * self.z, s * self.y + c * self.z, self.angle + roll, self.name)
+
+    def __repr__(self) -> str:
+        name = f"{self.name!r}, " if self.name else ""
+        return f"Profile({self.kind!r}, {name}{self.y.size} points, y = {self.y[0]:g} … {self.y[-1]:g} m)"
+
+
+def _points(name: str, values: object) -> Array:
+    """Return a finite one-dimensional float64 copy."""
+    try:
+        array = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ContactError(f"profile.{name} is not an array of numbers") from None
+    if array.ndim != 1 or not np.isfinite(array).all():
+        raise ContactError(f"profile.{name} must be one-dimensional and finite; its shape is {array.shape}")
+    return array
+
+
+def _spline_angles(y: Array, z: Array, chord: Array) -> Array:
+    """Return tangent angles [rad] of the C² cubic spline (y, z) over the chord length. The end segments are parabolas."""
+    u = np.concatenate(([0.0], np.cumsum(chord)))
+    return np.unwrap(np.arctan2(spline_slopes(u, z), spline_slopes(u, y)))

@@ -1,0 +1,63 @@
+"""A wheel that is displaced and turned against its wheelset by the flexibility of axle and web (in_time.md).
+
+The datum Q of a wheel lies on the axle, at its tape circle. Without flexibility Q = C + t l, with the wheelset's centre C, the
+direction l of the axle and t = ± the distance of the tape circle. The flexible wheel has Q' = Q + d and the axle direction l'
+of the angles roll + δroll and yaw + δyaw. A wheel is a body of revolution, so it has the same contact as the wheel of a rigid
+wheelset with the centre C' = Q + d - t l' and these angles.
+"""
+
+import math
+
+from contact._jit import kernel
+from contact.kernels.elastic_rail import solve_on_rail
+from contact.kernels.enumerations import NoAnswer
+from contact.kernels.geometry.search import axle
+from contact.kernels.records import LARGEST_ANGLE
+
+
+@kernel
+def _turning(roll, yaw, roll_rate, yaw_rate):
+    """Return the rate of the direction of the axle [1/s], the derivative of `axle`."""
+    by_roll, by_yaw = math.sin(roll) * roll_rate, math.cos(roll) * yaw_rate
+    x = math.sin(yaw) * by_roll - math.cos(yaw) * by_yaw
+    y = -math.cos(yaw) * by_roll - math.sin(yaw) * by_yaw
+    return x, y, math.cos(roll) * roll_rate
+
+
+@kernel
+def _displace(given, offset, tape, displaced):
+    """Fill `displaced` with the motion of the rigid wheelset that has this wheel. Return C' - C [m]."""
+    displaced[0] = given
+    moved = displaced[0]
+    moved.roll, moved.yaw = given.roll + offset.roll, given.yaw + offset.yaw
+    moved.roll_rate, moved.yaw_rate = given.roll_rate + offset.roll_rate, given.yaw_rate + offset.yaw_rate
+    moved.spin = given.spin + offset.pitch_rate
+    ax, ay, az = axle(given.roll, given.yaw)
+    bx, by, bz = axle(moved.roll, moved.yaw)
+    dx, dy, dz = offset.x + tape * (ax - bx), offset.y + tape * (ay - by), offset.z + tape * (az - bz)
+    moved.y, moved.z = given.y + dy, given.z + dz
+    ax, ay, az = _turning(given.roll, given.yaw, given.roll_rate, given.yaw_rate)
+    bx, by, bz = _turning(moved.roll, moved.yaw, moved.roll_rate, moved.yaw_rate)
+    moved.vx = given.vx + offset.x_rate + tape * (ax - bx)
+    moved.vy = given.vy + offset.y_rate + tape * (ay - by)
+    moved.vz = given.vz + offset.z_rate + tape * (az - bz)
+    return dx, dy, dz
+
+
+@kernel
+def solve_flexible(mode, amount, given, bench):
+    """As `solve_on_rail`, for the wheel with the displacement `bench.offset` against its wheelset.
+
+    Moment and height are those of the wheelset. Without displacement the results are those of `solve_on_rail`, bit for bit.
+    """
+    motion, total = bench.search.motion[0], bench.total[0]
+    x, y, z = _displace(given, bench.offset[0], motion.mirror * motion.tape, bench.displaced)
+    moved = bench.displaced[0]
+    if abs(moved.roll) > LARGEST_ANGLE or abs(moved.yaw) > LARGEST_ANGLE:
+        return NoAnswer.TURNED.value
+    code = solve_on_rail(mode, amount, moved, bench)
+    total.Mx += y * total.Fz - z * total.Fy
+    total.My += z * total.Fx - x * total.Fz
+    total.Mz += x * total.Fy - y * total.Fx
+    total.z -= z
+    return code

@@ -1,0 +1,56 @@
+"""Threads that share the contacts of a vehicle."""
+
+import numpy as np
+import pytest
+
+from contact.errors import ContactError
+from contact.geometry import profile
+from models.life.spectra import Irregularities
+from models.life.track import Curve, Track
+from models.vehicle.course import lay
+from models.vehicle.declared import read
+from models.vehicle.kernels.layout import Axis
+from models.vehicle.simulation import Simulation
+from tests.vehicle.parts import FAST
+
+ROUGH = Track(
+    curves=(Curve(start=0.0, radius=300.0, length=1e3, transition=5.0),),
+    alignment=Irregularities(spectrum="ERRI B176 low"),
+)
+STEP = 4e-4
+
+
+def shared(threads: int, length: float = 60.0) -> Simulation:
+    rows = lay(ROUGH, length, lambda s: 15.0, (1,), 1.0)
+    return Simulation(read("manchester"), rows, profile.s1002(), profile.rail_60e1(), 0.3, FAST, threads=threads)
+
+
+def test_no_bit_of_a_run_depends_on_the_number_of_threads():
+    alone = shared(1)
+    alone.advance(STEP, 1000)
+    for threads in (2, 3, 8):
+        together = shared(threads)
+        for steps in (1, 0, 399, 600):  # a crew is called again and again
+            together.advance(STEP, steps)
+        for name, array in alone.state._asdict().items():
+            np.testing.assert_array_equal(getattr(together.state, name), array, err_msg=name)
+        np.testing.assert_array_equal(together.wheels, alone.wheels)
+        np.testing.assert_array_equal(together.benches.memories, alone.benches.memories)
+
+
+def test_a_wheel_that_leaves_its_rail_ends_a_crew_with_the_same_message():
+    said = []
+    for threads in (1, 2):
+        run = shared(threads)
+        run.advance(STEP, 10)
+        run.state.q[run.model.wheelsets[1], Axis.Y] = 0.2
+        with pytest.raises(ContactError, match="has left its rail") as error:
+            run.advance(STEP, 10)
+        said.append(str(error.value))
+    assert said[0] == said[1]
+
+
+@pytest.mark.parametrize("threads", [0, 9])
+def test_number_of_threads_has_a_range(threads):
+    with pytest.raises(ContactError, match=rf"threads = {threads} is outside the allowed range \[1, 8\]"):
+        shared(threads)
