@@ -217,13 +217,13 @@ _WHOLE = {"no_cfunc_wrapper": True, "pipeline_class": _compiler_into(_WholeLibra
 _LINKED = {"no_cfunc_wrapper": True, "no_cpython_wrapper": True, "pipeline_class": _compiler_into(_LinkedLibrary)}
 
 
-def _show_to_kernels(dispatcher: Any, function: Callable[..., Any]) -> None:
+def _show_to_kernels(dispatcher: Any, function: Callable[..., Any], options: Mapping[str, Any]) -> None:
     """Let kernels that call this one link its intermediate code; a literal argument counts as its type.
 
     numba would give each kernel machine code of its own, with all kernels that it calls in it, and a wrapper for calls from
     Python; and a version of its own to each literal. Together that is half of the time of compilation.
     """
-    linked = remembering(njit(**_OPTIONS, **_LINKED)(function))
+    linked = remembering(njit(**options, **_LINKED)(function))
 
     def get_call_template(arguments: tuple[Any, ...], named: Mapping[str, Any]) -> Any:
         plain = tuple(types.unliteral(argument) for argument in arguments)
@@ -232,18 +232,25 @@ def _show_to_kernels(dispatcher: Any, function: Callable[..., Any]) -> None:
     dispatcher.get_call_template, dispatcher.get_overload = get_call_template, linked.get_overload
 
 
-def uncached(function: Callable[..., Any]) -> Any:
-    """Compile `function` as a kernel, but keep it only in this process."""
-    dispatcher = njit(**_OPTIONS, **_WHOLE)(function)
+def _compiled(function: Callable[..., Any], options: Mapping[str, Any]) -> Any:
+    dispatcher = njit(**options, **_WHOLE)(function)
     if not config.DISABLE_JIT:
-        _show_to_kernels(dispatcher, function)
+        _show_to_kernels(dispatcher, function, options)
         remembering(dispatcher)
     return dispatcher
 
 
+def uncached(function: Callable[..., Any]) -> Any:
+    """Compile `function` as a kernel that may lay arrays over memory that it is given, for this process only.
+
+    numba refuses to return such arrays without reference counts. They have nothing to count, because nobody owns them.
+    """
+    return _compiled(function, {**_OPTIONS, "_nrt": True})
+
+
 def kernel(function: Callable[..., Any]) -> Any:
     """Compile `function` with the options above, once for each set of argument types."""
-    dispatcher = uncached(function)
+    dispatcher = _compiled(function, _OPTIONS)
     if not config.DISABLE_JIT:
         dispatcher._cache = _ContentCache(function)
     return dispatcher
