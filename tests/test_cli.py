@@ -432,6 +432,7 @@ def test_units_of_headings_are_not_swallowed_by_markup():
 def test_absurd_input_is_answered_with_a_warning_on_one_line():
     for words, wanted in (
         (("--y", -0.02), "contact: warning: pose.y = -0.02: a flange touches at about 0.007 m; the unit is m"),
+        (("--load", 80, "--side", "both"), "contact: warning: load = 80: a wheel carries 20 to 150 kN; the unit is N"),
         (("--friction", 30), "contact: warning: friction = 30: steel on steel has 0.05 to 0.6"),
         (("--creepage", -0.128, 0, 0), "contact: warning: creepage.longitudinal = -0.128: a rolling wheel has less"),
     ):

@@ -33,7 +33,7 @@ def reported(command: Command) -> Command:
     def wrapper(*args: Any, **kwargs: Any) -> None:
         try:
             with warnings.catch_warnings(), running(name, kwargs):
-                warnings.simplefilter("always", PlausibilityWarning)
+                warnings.simplefilter("default", PlausibilityWarning)  # once, though both wheels have the same load
                 warnings.showwarning = _say  # type: ignore[assignment]
                 command(*args, **kwargs)
         except ContactError as error:
