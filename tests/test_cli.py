@@ -371,6 +371,26 @@ def test_json_has_version_command_inputs_and_units():
     assert {name: answer["units"][name] for name in wanted} == wanted
 
 
+def test_json_has_the_values_in_effect_where_a_default_is_used():
+    def inputs(*words):
+        return json.loads(call("solve", *words, "--y", 3e-3, "--json").stdout)["inputs"]
+
+    assert (inputs()["load"], inputs()["inclination"]) == (80e3, 0.025)
+    assert inputs("--inclination", "1/20")["inclination"] == "1/20"
+    assert inputs("--penetration", 1e-4)["load"] is None
+    assert inputs("--rail", "EN 15302 rail A")["inclination"] is None  # it is drawn as it lies
+
+
+def test_the_kind_of_a_checked_file_has_the_name_of_the_other_options(tmp_path):
+    path = tmp_path / "wheel.txt"
+    wheel = profile.s1002()
+    path.write_text("\n".join(f"{1e3 * y:.6f} {1e3 * z:.6f}" for y, z in zip(wheel.y, wheel.z, strict=True)))
+    rest = ("check", path, "--profile-unit", "mm", "--profile-side", "right")
+    for name in ("--profile-kind", "--kind"):
+        assert "nothing found" in call(*rest, name, "wheel").stdout
+    assert "--profile-kind is missing: 'wheel.txt' does not say its kind" in call(*rest, code=2).stdout
+
+
 def test_every_number_of_a_solution_has_a_unit_or_is_a_count():
     answer = json.loads(call("solve", "--json").stdout)
     (patch,) = answer["patches"]

@@ -50,7 +50,7 @@ def in_options(text: str) -> str:
     """Return a message about a profile with the options of the command line in place of those of Python."""
     text = re.sub(r"\brepair=True", "--profile-repair", text)
     text = re.sub(r"\b(zero|smoothing|wavelength)='?([\w.+-]+)'?", r"--profile-\1 \2", text)
-    text = re.sub(r"\b(unit|side) = None: ", r"--profile-\1 is missing: ", text)
+    text = re.sub(r"\b(kind|unit|side) = None: ", r"--profile-\1 is missing: ", text)
     return re.sub(r"\bset (unit|side)\b", r"set --profile-\1", text)
 
 

@@ -128,10 +128,9 @@ def shape(points: Points, resolution: float = 0.0) -> list[Finding]:
         found.append(Finding(Fault.KINK, seen, "if they are not real, a smoothing rounds them", points[bent]))
     sigma, h = noise(points), float(np.median(chord))
     if _TANGENT_OF_NOISE * sigma > _ROUGH * h:
-        source = (
-            "numbers rounded to" if 0.2 * resolution <= sigma <= 0.6 * resolution else "noise under a resolution of"
-        )
-        rounding = f" ({source} {1e3 * resolution:g} mm)" if resolution else ""
+        rounded = 0.2 * resolution <= sigma <= 0.6 * resolution
+        source = "from rounding: the" if rounded else "from the measurement, not from rounding: the"
+        rounding = f" ({source} numbers are given to {1e3 * resolution:g} mm)" if resolution else ""
         seen = (
             f"points {_mm(h)} apart with a noise of {1e6 * sigma:.2g} µm{rounding} give tangents "
             f"{1e3 * _TANGENT_OF_NOISE * sigma / h:.0f} mrad off"
