@@ -40,9 +40,9 @@ test: $(READY)   ## run the tests
 check: $(READY)  ## run the quick tests (a minute once the kernels are compiled)
 	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow"
 
-soak: $(READY)   ## check memory over a million steps of every native FMU, and try wrong calls and damaged files (minutes)
-	SOAK=1 $(BIN)/python -m pytest tests/system/test_native_host.py tests/test_readers.py tests/test_damaged_files.py \
-		-k "leave_memory or wrong_call or damaged or random_calls or any_order"
+soak: $(READY)   ## check memory over a million steps of every native FMU, wrong calls, damaged files, vehicles under Wine (minutes)
+	SOAK=1 $(BIN)/python -m pytest tests/system/test_native_host.py tests/system/test_native_sources.py tests/test_readers.py \
+		tests/test_damaged_files.py -k "leave_memory or wrong_call or damaged or random_calls or any_order or sanitizers or ehicle"
 
 # Kernels are compiled with the check into a cache of their own, because the usual one does not know the option.
 KERNELS := tests/normal tests/tangential tests/pair tests/geometry tests/damage tests/test_properties.py tests/test_every_method.py tests/test_robustness.py

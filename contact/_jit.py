@@ -121,15 +121,29 @@ class _NoEnvironment:
 
 
 class _LinkedLibrary(JITCodeLibrary):
-    """Intermediate code for other kernels to link. Optimised and made machine code once, with them."""
+    """Intermediate code for other kernels to link. Optimised and made machine code once, with them.
 
-    def _optimize_final_module(self) -> None:
-        pass
+    It only remembers what it links itself. So the code of a kernel is copied once into each kernel for Python, not once more
+    for each kernel between them.
+    """
 
-    def _finalize_final_module(self) -> None:
+    _with_linked: Any = None
+
+    def finalize(self) -> None:
         self._finalize_dynamic_globals()
-        self._verify_declare_only_symbols()
         self._finalized = True
+
+    def alone(self) -> Any:
+        """Return the module without what it links."""
+        return super()._get_module_for_linking()
+
+    def _get_module_for_linking(self) -> Any:
+        """Return the module with all that it links, as numba's own libraries expect it."""
+        self._ensure_finalized()
+        if self._with_linked is None:
+            self._with_linked = self.alone().clone()
+            _link(self._with_linked, self)
+        return self._with_linked
 
     def get_pointer_to_function(self, name: str) -> int:
         return 0
@@ -139,6 +153,21 @@ class _LinkedLibrary(JITCodeLibrary):
         return _NoEnvironment()
 
 
+def _link(module: Any, library: JITCodeLibrary) -> None:
+    """Link into a module of `library` all that the library links, directly or not."""
+    pending, seen = list(library._linking_libraries), {library}
+    while pending:
+        one = pending.pop()
+        if one in seen:
+            continue
+        seen.add(one)
+        if isinstance(one, _LinkedLibrary):
+            module.link_in(one.alone(), preserve=True)
+            pending += one._linking_libraries
+        else:
+            module.link_in(one._get_module_for_linking(), preserve=True)
+
+
 class _WholeLibrary(JITCodeLibrary):
     """Machine code of a kernel for Python, optimised as a whole with all kernels that it calls.
 
@@ -146,6 +175,11 @@ class _WholeLibrary(JITCodeLibrary):
     take an eighth less time. The copies get names of their own: LLVM's loader has one table of names for all code of a
     process, local names included, and would take such a copy for the function that other machine code calls.
     """
+
+    def finalize(self) -> None:
+        _link(self._final_module, self)
+        self._linking_libraries.clear()
+        super().finalize()
 
     def _optimize_final_module(self) -> None:
         for function in self._final_module.functions:
@@ -198,13 +232,20 @@ def _show_to_kernels(dispatcher: Any, function: Callable[..., Any]) -> None:
     dispatcher.get_call_template, dispatcher.get_overload = get_call_template, linked.get_overload
 
 
-def kernel(function: Callable[..., Any]) -> Any:
-    """Compile `function` with the options above, once for each set of argument types."""
+def uncached(function: Callable[..., Any]) -> Any:
+    """Compile `function` as a kernel, but keep it only in this process."""
     dispatcher = njit(**_OPTIONS, **_WHOLE)(function)
     if not config.DISABLE_JIT:
         _show_to_kernels(dispatcher, function)
-        dispatcher._cache = _ContentCache(function)
         remembering(dispatcher)
+    return dispatcher
+
+
+def kernel(function: Callable[..., Any]) -> Any:
+    """Compile `function` with the options above, once for each set of argument types."""
+    dispatcher = uncached(function)
+    if not config.DISABLE_JIT:
+        dispatcher._cache = _ContentCache(function)
     return dispatcher
 
 

@@ -173,7 +173,9 @@ def _checked(name: str, values: ArrayLike | None, minimum: float, maximum: float
         array = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):
         raise ContactError(f"{name} is not an array of numbers") from None
-    bad = ~(np.isfinite(array) & (array >= minimum) & (array <= maximum))
+    finite = np.isfinite(array)
+    known = np.where(finite, array, minimum)  # a comparison with NaN is a trap where floating-point traps are on
+    bad = ~(finite & (known >= minimum) & (known <= maximum))
     if bad.any():
         where = np.unravel_index(int(np.argmax(bad)), array.shape)
         raise ContactError(

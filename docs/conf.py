@@ -76,7 +76,7 @@ def _append_generated(app: Sphinx, page: str, source: list[str]) -> None:
     if page in ("scenarios", "command_line"):
         source[0] += getattr(generated, page)()
     if page == "fmu":
-        command = [sys.executable, ROOT / "build_fmu.py", "--describe"]
+        command = [sys.executable, ROOT / "build_fmu.py", "--surfaces", "--describe"]
         source[0] += subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+import zlib
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from tempfile import NamedTemporaryFile
-from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+from zipfile import ZIP_DEFLATED, BadZipFile, ZipFile, ZipInfo
+
+from contact.errors import ContactError
 
 
 def write(path: Path, files: Iterable[tuple[str, bytes]]) -> Path:
@@ -34,6 +37,24 @@ def write(path: Path, files: Iterable[tuple[str, bytes]]) -> Path:
             Path(new.name).unlink(missing_ok=True)
         raise
     return path
+
+
+def exchange(fmu: Path, new: Mapping[str, bytes], kind: str) -> None:
+    """Replace files in an FMU. If this fails, the FMU is unchanged.
+
+    Raises
+    ------
+    ContactError
+        If it is no FMU, or lacks one of the files. The message says that it is not `kind`.
+    """
+    try:
+        with ZipFile(fmu) as content:
+            files = {name: content.read(name) for name in content.namelist()}
+    except (BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError) as error:
+        raise ContactError(f"{fmu} is not an FMU, or it is damaged: {error}") from None
+    if missing := new.keys() - files.keys():
+        raise ContactError(f"{fmu} has no {', '.join(sorted(missing))}: it is not {kind}")
+    write(fmu, {**files, **new}.items())
 
 
 def _mode(path: Path) -> int:

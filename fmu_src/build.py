@@ -11,7 +11,7 @@ from pathlib import Path
 
 from contact.errors import ContactError
 from fmu_src import place, profiles, ssp
-from fmu_src.catalogue import Model, models, vehicles
+from fmu_src.catalogue import Model, models, surfaces, vehicles
 from fmu_src.documentation import markdown
 from fmu_src.python import packaging as python
 from fmu_src.tables.vehicle import START
@@ -49,6 +49,11 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
         help="add libraries for 64-bit ARM to the native FMUs, for Linux and macOS (some minutes)",
     )
     parser.add_argument(
+        "--surfaces",
+        action="store_true",
+        help="add the native FMU WheelRailSurfaces: a pair whose wheel and rail may change along the way",
+    )
+    parser.add_argument(
         "--vehicle",
         type=Path,
         metavar="SCENARIO",
@@ -63,11 +68,12 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
     try:
         given = profiles.chosen(arguments)
         chosen = models(arguments.points, given, arguments.accumulation)
-        of_vehicle = vehicles(arguments.vehicle, given) if arguments.vehicle else ()
+        more: tuple[Model, ...] = (surfaces(given),) if arguments.surfaces else ()
+        more += vehicles(arguments.vehicle, given) if arguments.vehicle else ()
     except (ContactError, ImportError) as error:
         parser.error(str(error))
     if arguments.describe:
-        print("\n".join(markdown(model.table) for model in (*chosen, *of_vehicle)))
+        print("\n".join(markdown(model.table) for model in (*chosen, *more)))
         return
     if arguments.packaging != "native":
         for model in chosen:
@@ -75,7 +81,7 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
             print(_size(python.build(model, arguments.out / "python")))
         build_system(arguments.out / "python")
     if arguments.packaging != "python":
-        build_native((*chosen, *of_vehicle), arguments.out / "native", arm=arguments.arm)
+        build_native((*chosen, *more), arguments.out / "native", arm=arguments.arm)
         build_system(arguments.out / "native")
         if arguments.vehicle:
             system = ssp.vehicle_on_rails(scenario.read(arguments.vehicle), START)

@@ -13,7 +13,9 @@ from typing import Any
 
 from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
+from contact.geometry.surfaces import SurfacePair
 from fmu_src import profiles
+from fmu_src import surfaces as slices
 from fmu_src.tables.vehicle import TRACK
 from fmu_src.track import pack
 from fmu_src.variables import Table
@@ -71,6 +73,12 @@ def models(points: int, given: Mapping[Kind, Profile] | None = None, accumulatio
         ),
         Model("wheelset", {}),
     )
+
+
+def surfaces(given: Mapping[Kind, Profile] | None = None) -> Model:
+    """Return the native FMU of surfaces that change along the way, with the profiles of `models` all along."""
+    both: dict[Kind, Profile] = {"wheel": profile.s1002(), "rail": profile.rail_60e1(), **(given or {})}
+    return Model("wheel_rail_surfaces", {}, slices.of_pair(SurfacePair(both["wheel"], both["rail"])))
 
 
 def vehicles(path: Path, given: Mapping[Kind, Profile] | None = None) -> tuple[Model, ...]:

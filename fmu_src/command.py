@@ -45,6 +45,9 @@ def fmu(
     accumulation: Annotated[
         bool, typer.Option("--accumulation", help="Give WheelRailPair the outputs of accumulated damage, 1500 numbers.")
     ] = False,
+    surfaces: Annotated[
+        bool, typer.Option("--surfaces", help="Add the native FMU WheelRailSurfaces: crossings, flats, polygons.")
+    ] = False,
     vehicle: Annotated[
         Path | None,
         typer.Option(help="File of a scenario: adds its vehicle as the native FMUs Vehicle and OpenVehicle."),
@@ -79,7 +82,13 @@ def fmu(
     }
     repair = options.pop("profile_repair")
     words = [f"--{name.replace('_', '-')}={value}" for name, value in options.items() if value is not None]
-    switches = {"--accumulation": accumulation, "--arm": arm, "--describe": describe, "--profile-repair": repair}
+    switches = {
+        "--accumulation": accumulation,
+        "--surfaces": surfaces,
+        "--arm": arm,
+        "--describe": describe,
+        "--profile-repair": repair,
+    }
     words += [word for word, on in switches.items() if on]
     if not as_json:
         main(words, "contact fmu")

@@ -23,7 +23,7 @@ def png(name: str) -> bytes:
     picture[:] = _WHITE
     if name == "Wheelset":
         _wheelset(picture, x, y)
-    elif name == "WheelRailPair":
+    elif name in ("WheelRailPair", "WheelRailSurfaces"):
         _pair(picture, x, y)
     else:
         _contact(picture, x, y, elliptic=name == "EllipticContact")

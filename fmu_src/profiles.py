@@ -9,8 +9,6 @@ A resource (`fmu_src.resources`) has the rows y [m], z [m] and the angle of the 
 from __future__ import annotations
 
 import argparse
-import zipfile
-import zlib
 from pathlib import Path
 
 import numpy as np
@@ -87,14 +85,7 @@ def exchange(fmu: Path, profiles: dict[Kind, Profile]) -> None:
         If the file is not a WheelRailPair FMU.
     """
     new = {f"resources/{_RESOURCES[kind]}": pack(given) for kind, given in profiles.items()}
-    try:
-        with zipfile.ZipFile(fmu) as content:
-            files = [(name, content.read(name)) for name in content.namelist()]
-    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError) as error:
-        raise ContactError(f"{fmu} is not an FMU, or it is damaged: {error}") from None
-    if missing := new.keys() - {name for name, _ in files}:
-        raise ContactError(f"{fmu} has no {', '.join(sorted(missing))}: it is not a WheelRailPair FMU")
-    archive.write(fmu, [(name, new.get(name, old)) for name, old in files])
+    archive.exchange(fmu, new, "a WheelRailPair FMU")
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

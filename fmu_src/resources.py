@@ -15,20 +15,20 @@ from contact.errors import ContactError
 
 Array = NDArray[np.float64]
 
-#: Greatest number of points that an FMU reads (`native/c/resources.c`).
+#: Greatest number of points that an FMU reads, unless its component says otherwise (`native.component.Resource`).
 MOST_POINTS = 100_000
 
 
-def pack(magic: bytes, rows: Array) -> bytes:
-    """Return the resource with these rows.
+def pack(magic: bytes, rows: Array, most: int = MOST_POINTS) -> bytes:
+    """Return the resource with these rows of at most `most` points.
 
     Raises
     ------
     ContactError
         If there are more points than an FMU reads.
     """
-    if rows.shape[1] > MOST_POINTS:
-        raise ContactError(f"{rows.shape[1]} points: an FMU reads at most {MOST_POINTS}")
+    if rows.shape[1] > most:
+        raise ContactError(f"{rows.shape[1]} points: an FMU reads at most {most}")
     content = struct.pack("<q", rows.shape[1]) + rows.astype("<f8").tobytes()
     return magic + struct.pack("<Q", _checksum(content)) + content
 

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import argparse
-import zipfile
 from pathlib import Path
 
 from contact.errors import ContactError
@@ -36,15 +35,7 @@ def exchange(fmu: Path, given: Scenario) -> None:
     ContactError
         If the file is not the FMU of a vehicle.
     """
-    name = f"resources/{TRACK}"
-    try:
-        with zipfile.ZipFile(fmu) as content:
-            files = {each: content.read(each) for each in content.namelist()}
-    except zipfile.BadZipFile as error:
-        raise ContactError(f"{fmu} is not an FMU, or it is damaged: {error}") from None
-    if name not in files:
-        raise ContactError(f"{fmu} has no {name}: it is not the FMU of a vehicle")
-    archive.write(fmu, [*(files | {name: pack(given)}).items()])
+    archive.exchange(fmu, {f"resources/{TRACK}": pack(given)}, "the FMU of a vehicle")
 
 
 def main() -> None:

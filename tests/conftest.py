@@ -1,5 +1,9 @@
 """Shared fixtures and settings of the tests."""
 
+import os
+from collections.abc import Callable
+from pathlib import Path
+
 import pytest
 from hypothesis import settings
 
@@ -19,6 +23,30 @@ if settings.get_current_profile_name() == "default":
 def ellipse() -> contact.Separation:
     """Return an elliptic separation: wheel radius 0.5 m on a rail head of 0.25 m, A = 1 1/m, B = 2 1/m."""
     return contact.Separation.hertzian(1.0, 2.0)
+
+
+@pytest.fixture(scope="session")
+def once(tmp_path_factory) -> Callable[[str, Callable[[Path], object]], Path]:
+    """Return a function that makes a file or folder once for all workers.
+
+    `once(name, make)` calls `make(path)` in the first worker that needs it, while the others wait, and returns the path.
+    """
+    import fcntl  # not on Windows
+
+    shared = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        shared = shared.parent
+
+    def made(name: str, make: Callable[[Path], object]) -> Path:
+        path, mark = shared / name, shared / f"{name}.made"
+        with (shared / f"{name}.lock").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if not mark.exists():
+                make(path)
+                mark.touch()
+        return path
+
+    return made
 
 
 #: Folders in which every test is slow: whole FMUs, runs over a line, and the page with the compiled kernels.

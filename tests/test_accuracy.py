@@ -86,7 +86,7 @@ def test_kpec_is_contacts_kpec_patch_by_patch():
 
 @pytest.mark.parametrize(("normal", "force", "moment"), [
     ("analyn", (0.0140, 0.0556, 0.1375), 0.0128),  # bar .025 / .08
-    ("strip_halfspace", (0.0062, 0.0162, 0.0225), 0.0047),  # bar .012 / .03; .008
+    ("strip_halfspace", (0.0057, 0.0149, 0.0201), 0.0040),  # bar .012 / .03; .008
 ])  # fmt: skip
 def test_creep_forces_on_real_patches(normal, force, moment):
     errors = accuracy.errors_on_patches(normal, "fastrip_mapped")
@@ -97,7 +97,7 @@ def test_creep_forces_on_real_patches(normal, force, moment):
 def test_slopes_at_vanishing_creepage_on_real_patches():
     """Fx/ξ, Fy/η, Fy/φ, Mz/φ: bar 5, 5, 8, 12 %; aim 2, 2, 4, 6 %."""
     mean = np.abs(accuracy.errors_of_slopes("strip_halfspace", "fastrip_mapped")).mean(axis=0)
-    assert (mean <= SLACK * np.array([0.012, 0.017, 0.021, 0.022])).all(), mean
+    assert (mean <= SLACK * np.array([0.012, 0.019, 0.015, 0.021])).all(), mean
 
 
 def test_reference_is_the_one_described():
@@ -110,10 +110,10 @@ def test_reference_is_the_one_described():
 
 
 def test_default_answers_on_difficult_patches_and_where_analyn_fails_it_says_so():
-    # flange roots, worn profiles, neighbours: 18 patches of set O; over all 81 the default is .011 and .005 off
+    # flange roots, worn profiles, neighbours: 18 patches of set O; over all 81 the default is .009 and .005 off
     force, pressure, gap_error = accuracy.errors_of(reference.wheel_rail_patches())
-    assert force.mean() < 0.023
-    assert force.max() < 0.10
+    assert force.mean() < 0.017
+    assert force.max() < 0.05  # .097 when every patch had one equivalent ellipse
     assert np.abs(pressure).max() < 0.035
     assert gap_error.max() < 0.006
     force, pressure, gap_error = accuracy.errors_of(reference.wheel_rail_patches(), **contact.THESIS)

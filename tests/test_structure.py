@@ -11,11 +11,12 @@ FOLDERS = ("contact", "fmu_src", "models", "reference", "tests", "benchmarks", "
 #: Files that may import a private module of `contact` (leading underscore) → names that they may import.
 PRIVATE = {
     "fmu_src/place.py": {"contact._jit.cache_directory"},  # folder of compiled kernels
+    "models/vehicle/kernels/benches.py": {"contact._jit.inlined", "contact._jit.kernel"},
     **{
         f"models/vehicle/kernels/{name}.py": {"contact._jit.kernel"}
-        for name in ("benches", "elements", "frames", "motion", "wheels")
+        for name in ("crew", "elements", "frames", "motion", "wheels")
     },
-    **{f"models/vehicle/{name}.py": {"contact._jit.compiled_for"} for name in ("coupling", "simulation")},
+    **{f"models/vehicle/{name}.py": {"contact._jit.compiled_for"} for name in ("coupling", "crew")},
     "models/wheelset/dynamics.py": {"contact._jit.kernel"},
     "models/wheelset/motion.py": {"contact._jit.kernel"},
     "tests/test_jit.py": {"contact._jit"},  # the test of that module

@@ -16,8 +16,8 @@ from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.problem import load_or_standard
-from contact.errors import ContactError
-from contact.geometry.surfaces import Deviation, Flat, Polygon, RailSurface, SurfacePair, WheelSurface
+from contact.geometry.surfaces import Deviation, RailSurface, SurfacePair, WheelSurface
+from contact.geometry.surfaces.deviation import out_of_round
 from contact.geometry.wheelset import Pose, Velocity
 from contact.passage import Passage, passage, solver_for
 
@@ -73,12 +73,7 @@ class OutOfRound:
 
     def deviations(self, radius: float) -> list[Deviation]:
         """Return flat and polygon of the wheel."""
-        found: list[Deviation] = []
-        if self.flat is not None:
-            found.append(Flat(self.flat, radius, self.flat_depth))
-        elif self.flat_depth is not None:
-            raise ContactError(f"flat_depth = {self.flat_depth:g} needs --flat")
-        return found if self.polygon is None else [*found, Polygon(*self.polygon)]
+        return out_of_round(radius, self.flat, self.flat_depth, self.polygon)
 
 
 @dataclass

@@ -140,7 +140,7 @@ def curve(
     *,
     over: opt.Over = opt.Motion.longitudinal,
     largest: opt.Largest = None,
-    points: opt.Points = 21,
+    points: opt.Points = 41,
     curvatures: opt.Ellipse = (1.09, 0.83),
     creepage: opt.Creep = None,
     load: opt.Load = None,
@@ -160,6 +160,8 @@ def curve(
     start = Creepage() if creepage is None else Creepage(*creepage)
     values = np.linspace(0.0, require_number("max", end), points).tolist()
     options = {"friction": surface.law(), "normal": normal, "speed": speed}
+    carried = problem.STANDARD_LOAD if load is None else load
+    held = f"A = {curvatures[0]:g}, B = {curvatures[1]:g} 1/m, {1e-3 * carried:g} kN, friction {surface.friction:g}"
     rows = problem.sweep(over.value, values, start, curvatures, load, tangential, options)
     force, unit = ("Fx" if over is opt.Motion.longitudinal else "Fy"), ("1/m" if over is opt.Motion.spin else "-")
     axis, ordinate = f"{over} creepage [{unit}]", f"−{force}/N"
@@ -173,7 +175,9 @@ def curve(
         as_json=as_json,
         out=out,
         rows=lambda: rows,
-        figure=lambda: drawing().curve(values, curves, xlabel=axis, ylabel=f"{ordinate} [-]", limit=surface.friction),
+        figure=lambda: drawing().curve(
+            values, curves, xlabel=axis, ylabel=f"{ordinate} [-]", limit=surface.friction, title=f"{held}, {normal}"
+        ),
     )
 
 

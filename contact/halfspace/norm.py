@@ -36,6 +36,8 @@ _LIKELY = 0.7
 _STIFFNESS_TOLERANCE = 3e-2
 #: All rows.
 _ALL = slice(None)
+#: Divisor for a first direction, whose quotient is not used.
+_TINY = 1e-300
 #: Rows and columns that are added on each side of the contact found on the coarser grid.
 _MARGIN = 2
 
@@ -284,7 +286,8 @@ def _steer(residual, z, touching, before, direction, old):
             if touching[i, j]:
                 square += residual[i, j] * z[i, j]
                 back += old[i, j] * z[i, j]
-    beta = max((square - back) / before, 0.0) if before > 0.0 else 0.0
+    # LLVM divides before it chooses, so the divisor must not be 0: that would be a trap
+    beta = max((square - back) / max(before, _TINY), 0.0) if before > 0.0 else 0.0
     for i in range(z.shape[0]):
         for j in range(z.shape[1]):
             direction[i, j] = z[i, j] + beta * direction[i, j] if touching[i, j] else 0.0

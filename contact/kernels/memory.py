@@ -114,7 +114,7 @@ def lay_space(block: Array, end: int, size: Size, memory: Array) -> tuple[Space,
     """Return the scratch arrays of a workspace around `memory`, which has the size `memory_size`, and the new end."""
     capacity = MAX_PATCHES * size.n_strips if size.interacting else 1
     grid, end = matrix(block, end, len(Sample), size.n_samples)
-    vectors, end = matrix(block, end, N_VECTOR_ROWS, capacity)
+    vectors, end = matrix(block, end, N_VECTOR_ROWS, MAX_PATCHES * size.n_strips)
     logs, end = matrix(block, end, MAX_PATCHES * PROBES if size.interacting else 1, capacity + MAX_PATCHES)
     influence, end = matrix(block, end, capacity, capacity)
     lu, end = matrix(block, end, capacity, capacity)

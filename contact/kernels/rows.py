@@ -25,6 +25,10 @@ class Strip(IntEnum):
     TO_Y = 13
     TO_PHI = 14
     TO_EXPONENT = 15
+    TIE = 16  # of mapped strip marching: with which a strip and the one before it are one shape (`tangential.ties`)
+    SHARE = 17  # of a strip in the shape of which another strip is a part
+    STIFFNESS = 18  # C11·a·dy [m²]
+    CENTRE = 19  # of the longitudinal stiffness of the strip's shape [m]
 
 
 class Field(IntEnum):
@@ -195,6 +199,17 @@ class Vector(IntEnum):
     BEST = 23  # ln a of the best iterate; in the end strips the ends of their panel
     STEPS = 24  # first of DEPTH rows: steps of the last iterations
     CHANGES = 27  # first of DEPTH rows: changes of the residual
+    PAIRS = 30  # first of the rows of `Pair`
+
+
+class Pair(IntEnum):
+    """Rows of what `normal.many_strips` reads of every strip that displaces a point. They are overwritten."""
+
+    X = 0  # distance of the point along x from the strip's middle over the half length
+    LN_X = 1  # its logarithm
+    LOW = 2  # logarithms of the distances along y from the strip's sides over the half length
+    HIGH = 3
+    ROW = 4  # of the table, found from these
 
 
 #: Steps of the strip half space's iteration that are remembered.
@@ -224,7 +239,7 @@ class Body(IntEnum):
 
 
 #: Number of rows y, z and angle of a profile, of all rows of a trace line, and of vectors.
-N_PROFILE_ROWS, N_LINE_ROWS, N_VECTOR_ROWS = 3, 5, Vector.CHANGES + DEPTH
+N_PROFILE_ROWS, N_LINE_ROWS, N_VECTOR_ROWS = 3, 5, Vector.PAIRS + len(Pair)
 
 
 @overload(len)

@@ -24,6 +24,7 @@ def curve(
     xlabel: str = "creepage [-]",
     ylabel: str = "creep force over normal force [-]",
     limit: float | None = None,
+    title: str = "",
     ax: Axes | None = None,
 ) -> FigureBase:
     """Draw creep curves.
@@ -38,6 +39,8 @@ def curve(
         Labels of the axes.
     limit : float, optional
         Friction limit, drawn as a dashed line on each side of zero that has curves.
+    title : str
+        What all curves have in common, above them.
     ax : matplotlib Axes, optional
         Axes to draw on; default those of a new figure.
 
@@ -65,6 +68,7 @@ def curve(
                 ax.axhline(side * limit, color=FAINT, lw=0.9, ls="--", zorder=0)
         ax.axhline(0.0, color=FAINT, lw=0.6, zorder=0)
         ax.set(xlabel=xlabel, ylabel=ylabel)
+        ax.set_title(title, loc="left", fontsize=8.0)
         ax.margins(x=0.0)
         if len(curves) <= INSIDE:
             ax.legend()

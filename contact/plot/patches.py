@@ -140,7 +140,7 @@ def _pressure(ax: Axes, solution: Solution, title: str, scale: Scale) -> ScalarM
     numbers = "no contact"
     if solution.p.size:
         numbers = (
-            f"N = {solution.N * 1e-3:.3g} kN,  $p_0$ = {solution.max_pressure * 1e-6:.4g} MPa\n"
+            f"N = {solution.N * 1e-3:.3g} kN,  $p_0$ = {solution.max_pressure * 1e-6:.0f} MPa\n"
             f"area {solution.area * 1e6:.3g} mm²,  {slip_share(solution)}"
         )
     heading(ax, title, numbers)

@@ -17,9 +17,7 @@ from contact.errors import ContactError
 from contact.kernels.pipeline import press_case
 from contact.kernels.records import RESULT
 from contact.kernels.rows import Strip
-from contact.kernels.tangential.ellipses import equivalent_ellipse
-from contact.kernels.tangential.fastrip_mapped import roll_patch
-from contact.kernels.tangential.mapping import elastic_centre
+from contact.kernels.tangential.fastrip_mapped import roll_patch, set_shapes
 from contact.registry import lookup
 from contact.study import creep_table
 from contact.study.ellipse import ellipse
@@ -100,8 +98,7 @@ class OneEllipse:
         own = workspace.allocate(normal, lookup("tangential", "fastrip"), material.poisson_ratio, size, fields=False)
         self.result = np.zeros(1, RESULT)[0]
         self.n = press_case(own.families.normal, s.samples, case[0], own, self.result)
-        a, b = equivalent_ellipse(own.strips, 0, self.n)
-        self.centres = elastic_centre(own.strips, 0, self.n, own.tables.kalker, math.log(a / b))
+        self.spin = set_shapes(0, self.n, own)
         self.case, self.own, self.strips, self.area = case[0], own, own.strips.copy(), float(self.result.area)
 
     def forces(self, creepage: Array, exponent: float) -> Array:
@@ -111,7 +108,7 @@ class OneEllipse:
         strips[Strip.VX : Strip.PHI + 1, : self.n] = creepage[:, None]
         strips[Strip.TO_EXPONENT, : self.n] = exponent
         result.Fx = result.Fy = result.Mz = result.power = result.slip_area = 0.0
-        roll_patch(0, self.n, self.case, self.centres, self.own, result)
+        roll_patch(0, self.n, self.case, self.spin, self.own, result)
         return np.array([result.Fx, result.Fy, result.Mz, result.slip_area]) / (
             self.limit,
             self.limit,

@@ -96,7 +96,8 @@ function section(canvas, solver, wheel, rail) {
     g.lineWidth = 2.5;
     g.beginPath(); g.moveTo(y, z); g.lineTo(y + length * Math.sin(angle), z - length * Math.cos(angle)); g.stroke();
     g.beginPath(); g.arc(y, z, 4, 0, 7); g.fill();
-    g.fillText(`${k + 1}: ${(load / 1e3).toFixed(1)} kN at ${(angle * 180 / Math.PI).toFixed(1)}°`, 8, 16 + 15 * k);
+    const inwards = solver.get("patch[].y", k) > 0 ? -angle : angle;  // positive: the rail pushes the wheel to the track's centre
+    g.fillText(`${k + 1}: ${(load / 1e3).toFixed(1)} kN at ${(inwards * 180 / Math.PI).toFixed(1)}°`, 8, 16 + 15 * k);
   }
   bar(g, 8, height - 10, scale * 0.01, "10 mm");
 }

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import types
 from numpy.typing import NDArray
 
 from fmu_src.native.memory import PREFIX, Doubles
+from fmu_src.resources import MOST_POINTS
 from fmu_src.variables import Table
 
 #: Functions that C calls → types of the result and of the arguments. See `Component.entries`.
@@ -24,6 +25,18 @@ SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "model_difference": (types.float64, (Doubles, types.int64)),
     "model_field": (types.int64, (Doubles, Doubles, types.int64)),
 }
+
+
+class Resource(NamedTuple):
+    """A file in resources/ that an instance reads (`fmu_src.resources`).
+
+    It has the 8 bytes with which it begins, its number of rows, and the most points that a row may have.
+    """
+
+    name: str
+    magic: bytes
+    rows: int
+    most: int = MOST_POINTS
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,10 +68,8 @@ class Component:
         `failures`). At a cold start the warm start is all zeros.
     data : callable
         Returns constant arrays that the kernels read.
-    resources : tuple of (str, bytes, int)
-        Files in resources/ that an instance reads, the 8 bytes with which each begins, and its number of rows
-        (`fmu_src.resources`). The kernels get the content of all files in sequence. For each file: the number of points n, then
-        n values of each row.
+    resources : tuple of Resource
+        The kernels get the content of all files in sequence. For each file: the number of points n, then n values of each row.
     lazy : tuple of str
         Rows that are computed only when a host reads them.
     totals : mapping
@@ -82,7 +93,7 @@ class Component:
     table: Table
     entries: Callable[[], Mapping[str, Callable[..., Any]]]
     data: Callable[[], tuple[NDArray[np.float64], ...]]
-    resources: tuple[tuple[str, bytes, int], ...] = ()
+    resources: tuple[Resource, ...] = ()
     lazy: tuple[str, ...] = ()
     totals: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     accumulated: tuple[str, ...] = ()

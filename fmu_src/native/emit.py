@@ -105,10 +105,10 @@ def emit(components: Mapping[Path, Component]) -> None:
     with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as pool:
         parts = []
         for folder, (entries, data, with_resources, prefix) in made.items():
-            text = str(linked(entries, data, with_resources, prefix))
+            code = linked(entries, data, with_resources, prefix).as_bitcode()
             names, in_c = tuple(_symbol(entry, prefix) for entry in entries), sources(folder, prefix)
-            parts += [pool.submit(_write_kernels, text, names, suffix, folder) for suffix in CPUS]
-            parts.append(pool.submit(_write_sources, text, names, in_c[1]))
+            parts += [pool.submit(_write_kernels, code, names, suffix, folder) for suffix in CPUS]
+            parts.append(pool.submit(_write_sources, code, names, in_c[1]))
             parts.append(pool.submit(_write_data, data_as_ir(data, prefix), folder, in_c[0]))
         for part in parts:
             part.result()
@@ -138,10 +138,10 @@ def _symbol(entry: str, prefix: str) -> str:
     return prefix + entry.removeprefix(PREFIX)
 
 
-def _write_sources(text: str, entries: Sequence[str], path: Path) -> None:
-    """Write the kernels of a component as C. `text` is their IR."""
+def _write_sources(code: bytes, entries: Sequence[str], path: Path) -> None:
+    """Write the kernels of a component as C. `code` is their bitcode."""
     _llvm_for_all()
-    path.write_text(as_c(str(_optimised(text, entries, "any", PLAIN, vectors=False))))
+    path.write_text(as_c(str(_optimised(code, entries, "any", PLAIN, vectors=False))))
 
 
 def _write_data(text: str, folder: Path, in_c: Path) -> None:
@@ -152,10 +152,10 @@ def _write_data(text: str, folder: Path, in_c: Path) -> None:
         _write(llvm.parse_assembly(text), platform, "", objects(folder, platform)[0])
 
 
-def _write_kernels(text: str, entries: Sequence[str], suffix: str, folder: Path) -> None:
-    """Write the objects of a component's kernels for one processor and all platforms. `text` is their IR."""
+def _write_kernels(code: bytes, entries: Sequence[str], suffix: str, folder: Path) -> None:
+    """Write the objects of a component's kernels for one processor and all platforms. `code` is their bitcode."""
     _llvm_for_all()
-    optimised = _optimised(text, entries, suffix, CPUS[suffix])
+    optimised = _optimised(code, entries, suffix, CPUS[suffix])
     for platform in TRIPLES:
         path = objects(folder, platform)[1 + list(CPUS).index(suffix)]
         _write(optimised.clone(), platform, CPUS[suffix], path)
@@ -288,8 +288,8 @@ def _without_origin(text: str) -> str:
     )
 
 
-def _optimised(text: str, entries: Iterable[str], suffix: str, cpu: str, *, vectors: bool = True) -> Any:
-    """Return the module optimised for a processor.
+def _optimised(code: bytes, entries: Iterable[str], suffix: str, cpu: str, *, vectors: bool = True) -> Any:
+    """Return the module with this bitcode optimised for a processor.
 
     `suffix` is added to the names of the entries, and to those of another component's entries that this one calls.
     """
@@ -297,7 +297,7 @@ def _optimised(text: str, entries: Iterable[str], suffix: str, cpu: str, *, vect
 
     from fmu_src.native.component import SIGNATURES
 
-    module = llvm.parse_assembly(text)
+    module = llvm.parse_bitcode(code)
     for function in module.functions:
         if function.name in entries or (function.is_declaration and function.name in SIGNATURES):
             function.name = f"{function.name}_{suffix}"

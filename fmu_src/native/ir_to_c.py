@@ -12,7 +12,7 @@ import struct
 from collections.abc import Iterator, Sequence
 
 from fmu_src.native.ir_function import Function
-from fmu_src.native.ir_text import GLOBAL, identifier, number, unknown
+from fmu_src.native.ir_text import GLOBAL, identifier, number, split, type_in_c, unknown
 
 # Memory is read and written by memcpy, because the IR does not say which types a pointer may alias.
 _ACCESS = """static inline {type} load_{name}(const char *p) {{ {type} v; memcpy(&v, p, sizeof v); return v; }}
@@ -32,6 +32,8 @@ _HEADER = "\n".join(
 _CONSTANT = re.compile(
     rf'({GLOBAL}) = (.*?)\b(?:constant|global) \[(\d+) x (\w+)\](?: (?:c"(.*?)"|\[(.*)\]|(zeroinitializer)))?(?:, align \d+)?$'
 )
+#: An entry of kernels for any processor that is defined elsewhere. The C library's functions have their headers.
+_LINKED = re.compile(r"declare(?:\s+(?:noundef|dso_local|local_unnamed_addr))*\s+(\w+)\s+(@\w+_any)\((.*?)\)")
 #: Type of the elements of a constant → its form for `struct`.
 _PACKED = {"double": "d", "i64": "q", "i32": "i", "i8": "b", "i1": "?"}
 
@@ -47,8 +49,17 @@ def as_c(ir: str) -> str:
     lines = ir.splitlines()
     functions = [Function(body) for body in _bodies(lines)]
     constants = [_constant(line) for line in lines if line.startswith("@")]
-    heads = [f"{function.head};" for function in functions]
+    heads = [*_linked(lines), *(f"{function.head};" for function in functions)]
     return "\n".join((_HEADER, *constants, *heads, *(function.code() for function in functions))) + "\n"
+
+
+def _linked(lines: Sequence[str]) -> Iterator[str]:
+    """Yield the C declarations of entries of other kernels that are linked with these, as a vehicle calls a pair's."""
+    for line in lines:
+        if found := _LINKED.match(line):
+            result, name, given = found.groups()
+            kinds = (type_in_c(argument.split()[0]) for argument in split(given))
+            yield f"{type_in_c(result)} {identifier(name)}({', '.join(kinds)});"
 
 
 def _constant(line: str) -> str:

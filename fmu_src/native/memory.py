@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from numba import njit, types
+from numba import types
 from numba.core.errors import TypingError
 from numba.extending import intrinsic
+
+from contact._jit import uncached
 
 Doubles = types.CPointer(types.float64)
 #: With this the names of a component's entries begin.
 PREFIX = "model"
 
-#: The compile options of `contact._jit` without its cache, since the builder compiles these functions only once.
-compiled = njit(error_model="numpy")
+#: The builder compiles these functions only once, so they are not kept.
+compiled = uncached
 
 
 def _start_of(dtype):

@@ -9,7 +9,7 @@ from typing import Any
 from numba import carray
 
 from contact.kernels.records import GIVEN
-from fmu_src.native.component import Component
+from fmu_src.native.component import Component, Resource
 from fmu_src.native.memory import compiled, numbers_of
 from fmu_src.native.vehicle_parts import ENDED, LOST, arrays, has_ended, is_finite, layout_of, track_after, write_motion
 from fmu_src.tables.open_vehicle import table
@@ -31,7 +31,7 @@ def component(vehicle: str) -> Component:
         table=interface,
         entries=lambda: _entries(interface, made, read(vehicle).radius),
         data=lambda: constants,
-        resources=((TRACK, MAGIC, ROWS),),
+        resources=(Resource(TRACK, MAGIC, ROWS),),
         failures={_ENDED: ENDED, _LOST: f"{LOST}: the step is too long, or forces do not belong to the motion"},
         prefix="open_vehicle",
         exchange=False,

@@ -71,6 +71,7 @@ _SOURCES: dict[Path, set[str]] = {
             "lint",
             "place",
             "profiles",
+            "surfaces",
             "resources",
             "ssp",
             "terminals",

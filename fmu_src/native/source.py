@@ -109,8 +109,8 @@ def body(component: Component) -> str:
         for given in (True, False)
     )
     files = ", ".join(
-        f"{{{_string(name)}, {_string(magic.rstrip(bytes(1)).decode())}, {rows}}}"
-        for name, magic, rows in component.resources
+        f"{{{_string(file.name)}, {_string(file.magic.rstrip(bytes(1)).decode())}, {file.rows}, {file.most}}}"
+        for file in component.resources
     )
     return f"""/* Generated from the variable table of {table.name}. */
 #include <math.h>

@@ -20,7 +20,7 @@ from contact.kernels.geometry.prepare import rail_origin, turn
 from contact.kernels.records import GIVEN
 from contact.kernels.rows import N_PROFILE_ROWS
 from fmu_src.native import wheel_rail_pair as pair
-from fmu_src.native.component import SIGNATURES, Component
+from fmu_src.native.component import SIGNATURES, Component, Resource
 from fmu_src.native.memory import Doubles, compiled, numbers_of
 from fmu_src.native.vehicle_parts import ENDED, LOST, arrays, has_ended, is_finite, layout_of, track_after, write_motion
 from fmu_src.tables import wheel_rail_pair as pair_table
@@ -52,7 +52,7 @@ def component(vehicle: str, inclination: float) -> Component:
         table=interface,
         entries=lambda: _entries(interface, of_pair.table, made, ended),
         data=lambda: (*constants, np.array([scalar.first for scalar in of_pair.table.scalars], float)),
-        resources=(*of_pair.resources, (TRACK, MAGIC, ROWS)),
+        resources=(*of_pair.resources, Resource(TRACK, MAGIC, ROWS)),
         warnings=of_pair.warnings,
         failures={**of_pair.failures, ended: ENDED, ended + 1: f"{LOST}: resolution.step is too long"},
         prefix="vehicle",

@@ -123,7 +123,8 @@ PATCH = (
 )
 
 
-_OF_ACCUMULATION = frozenset((*ACCUMULATED, *(f"accumulation.{name}" for name in ("wear_law", "first", "width"))))
+#: Rows of the damage that accumulates.
+OF_ACCUMULATION = frozenset((*ACCUMULATED, *(f"accumulation.{name}" for name in ("wear_law", "first", "width"))))
 
 
 @cache
@@ -139,9 +140,9 @@ def table(inclination: float = 1.0 / 40.0, accumulation: bool = False) -> Table:
         "the greatest of all patches. Damage accumulates in bins over the arc length of both profiles. Forces act on the "
         "wheel. Track frame: x forward, y to the right, z down. As co-simulation has no feedthrough, the outputs after a step "
         "belong to the inputs before it: one communication step late.",
-        [*parameters(inclination), *_inputs(), *_outputs()],
+        [*parameters(inclination), *inputs(), *outputs()],
         step_size=1e-3,
-        hidden=frozenset() if accumulation else _OF_ACCUMULATION,
+        hidden=frozenset() if accumulation else OF_ACCUMULATION,
     )
 
 
@@ -232,7 +233,8 @@ def parameters(inclination: float) -> Iterable[Variable]:
         )
 
 
-def _inputs() -> Iterable[Variable]:
+def inputs() -> Iterable[Variable]:
+    """Yield the inputs, which the FMU `WheelRailSurfaces` has too, as the outputs."""
     for name, unit, description in MOTION:
         used = {"load.kind": ("Position",)} if name == "pose.z" else {}
         yield signal(name, description, unit=unit, start=_STARTS.get(name, 0.0), used=used, **_LIMITS.get(name, {}))
@@ -251,7 +253,8 @@ def _inputs() -> Iterable[Variable]:
         yield signal(name, description, unit=unit, start=0.0, **_LIMITS.get(name, {}))
 
 
-def _outputs() -> Iterable[Variable]:
+def outputs() -> Iterable[Variable]:
+    """Yield the outputs. Those that accumulate come last."""
     for axis in "xyz":
         yield output(f"force.{axis}", f"Force on the wheel, track coordinates, {axis}", unit="N", nominal=1e4)
     for axis in "xyz":

@@ -102,7 +102,7 @@ class Host:
         run(*self.compiler, *flags, *sources, "-o", self.program, *libraries)
         self.fmi2 = code is _FMI2
         self.prefix = [] if own == "linux64" else ["wine"]
-        self.environment = os.environ | {"WINEPREFIX": str(folder.parent / "wine"), "WINEDEBUG": "-all"}
+        self.environment = os.environ | {"WINEDEBUG": "-all"}
 
     def __call__(self, command: str, *arguments: object, stdin: str | None = None, before: tuple[str, ...] = ()) -> str:
         """Run a command of the host and return its output. The first argument is a number."""

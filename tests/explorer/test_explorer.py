@@ -23,12 +23,11 @@ ROOT = Path(__file__).parents[2]
 METHODS = contact.methods().batched
 
 
-@pytest.fixture(scope="module")
-def page(tmp_path_factory) -> Path:
+@pytest.fixture(scope="session")
+def page(once) -> Path:
     """Return the page that `python -m explorer` writes."""
-    path = tmp_path_factory.mktemp("explorer") / "explorer.html"
-    subprocess.run([sys.executable, "-m", "explorer", "--out", str(path)], check=True, cwd=ROOT)
-    return path
+    command = [sys.executable, "-m", "explorer", "--out"]
+    return once("explorer.html", lambda path: subprocess.run([*command, str(path)], check=True, cwd=ROOT))
 
 
 def _states(count: int) -> list[dict]:

@@ -9,7 +9,7 @@ import pytest
 
 import contact
 from fmu_src import lint
-from fmu_src.catalogue import models
+from fmu_src.catalogue import models, surfaces
 from fmu_src.description import model_description
 from fmu_src.documentation import markdown
 from fmu_src.native.packaging import INTERFACES as NATIVE
@@ -17,7 +17,7 @@ from fmu_src.python.slave import INTERFACES
 from fmu_src.tables import solver, wheel_rail_contact
 from fmu_src.variables import Causality, Kind
 
-TABLES = [model.table for points in (41, 4) for model in models(points)]
+TABLES = [*(model.table for points in (41, 4) for model in models(points)), surfaces().table]
 
 
 @pytest.fixture(params=TABLES, ids=[f"{t.name}-{len(t.scalars)}" for t in TABLES])

@@ -5,13 +5,13 @@ from xml.etree import ElementTree
 
 import pytest
 
-from fmu_src.catalogue import models
+from fmu_src.catalogue import models, surfaces
 from fmu_src.description_fmi3 import model_description, value_references
 from fmu_src.documentation import markdown
 from fmu_src.native.packaging import INTERFACES_3
 from fmu_src.variables import Causality, Table, output, parameter, signal
 
-TABLES = [model.table for model in models(41)]
+TABLES = [*(model.table for model in models(41)), surfaces().table]
 
 
 @pytest.fixture(params=TABLES, ids=[table.name for table in TABLES])

@@ -55,6 +55,18 @@ def test_operations_on_floats(operation, tmp_path):
     assert all(_same(one(a, b), other(a, b)) for a, b in product(NUMBERS, NUMBERS))
 
 
+def test_entries_of_linked_kernels_are_declared():
+    """A vehicle calls those of the pair. C refuses a call without a declaration."""
+    ir = (
+        "declare i64 @model_size_any(ptr, ptr) local_unnamed_addr #1\ndeclare double @exp(double)\n"
+        "define i64 @f(ptr %a) {\n  %r = call i64 @model_size_any(ptr %a, ptr %a)\n  ret i64 %r\n}\n"
+    )
+    code = as_c(ir)
+    assert "int64_t model_size_any(char *, char *);" in code
+    assert "exp(" not in code
+    assert code.index("model_size_any(char") < code.index("model_size_any(v_")
+
+
 def test_comparisons_of_floats_with_nan(tmp_path):
     """Each predicate sets a bit of the result."""
     predicates = [first + order for first in "ou" for order in ORDERS] + ["ord", "uno"]

@@ -6,10 +6,10 @@ from xml.etree import ElementTree
 import fmpy
 import pytest
 
-from fmu_src.catalogue import models
+from fmu_src.catalogue import models, surfaces
 from fmu_src.terminals import of_table, terminals
 
-TABLES = {model.table.name: model.table for model in models(41, accumulation=True)}
+TABLES = {model.table.name: model.table for model in (*models(41, accumulation=True), surfaces())}
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"
 
 

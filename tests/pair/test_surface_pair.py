@@ -248,6 +248,8 @@ def test_a_wave_of_the_rail_is_followed_at_any_station():
     [
         (lambda p: p.solve(Pose(y=0.5), load=1e4), "does not lie above its rail"),
         (lambda p: p.solve(Pose(z=0.1)), "inside its rail"),
+        (lambda p: p.solve(Pose(), irregularity=Irregularity(z=-1e300), load=1e4), "does not lie above its rail"),
+        (lambda p: p.solve(Pose(), irregularity=Irregularity(y=1e300), load=1e4), "does not lie above its rail"),
         (lambda p: p.solve(Pose(), station=math.nan), "station = nan"),
         (lambda p: p.solve(Pose(), rotation=math.inf), "rotation = inf"),
         (lambda p: p.solve(Pose(), load=1e9), "no z was found"),

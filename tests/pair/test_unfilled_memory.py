@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from contact.geometry import profile
+from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair
+from examples.crossing.crossing import crossing
 
 #: Arrays that are filled once, with the profiles, methods and parameters.
 GIVEN = {
@@ -50,4 +52,23 @@ def test_what_the_memory_held_does_not_matter(methods):
                 fill(pair.bench.search.motion[name], rng)
             pair.forget()
             found.append(numbers(pair.solve(pose, Velocity(20.0, spin=-43.4), load=load)))
+        np.testing.assert_array_equal(*found)
+
+
+def test_what_the_memory_of_surfaces_held_does_not_matter():
+    """The last motion must only be known as none: its radius is 0."""
+    pair = WheelRailPair(SurfacePair(profile.s1002(), crossing(), rail_origin=(0.75, 0.0)), normal="analyn")
+    left = ("own.rule", "own.tables", "ledger", "search.wheel.", "search.rail.")
+    own = {n: a for n, a in arrays(pair.bench) if n not in GIVEN and not n.startswith(left) and a.size}
+    assert {"search.coarse", "search.boxes", "search.h", "total"} <= set(own)
+    rng = np.random.default_rng(3)
+    for station in (0.1, 0.158, 0.162, 0.3):
+        found = []
+        for _ in range(2):
+            for array in own.values():
+                fill(array, rng)
+            fill(pair.bench.search.motion[1:], rng)
+            pair.bench.search.motion[1].radius = 0.0
+            pair.forget()
+            found.append(numbers(pair.solve(Pose(y=1e-3), Velocity(20.0, spin=-43.4), station=station, load=8e4)))
         np.testing.assert_array_equal(*found)

@@ -1,6 +1,5 @@
 """FMUs as a user gets them: built by the command and driven by fmpy."""
 
-import fcntl
 import os
 import shutil
 import subprocess
@@ -22,36 +21,21 @@ VEHICLES = ("Vehicle", "OpenVehicle")
 
 
 @pytest.fixture(scope="session")
-def fmus(tmp_path_factory) -> Path:
+def fmus(once) -> Path:
     """Return the folder with the FMUs that `python build_fmu.py --packaging python` builds."""
-    folder = tmp_path_factory.mktemp("fmus")
-    _build("python", folder)
-    return folder / "python"
+    return once("fmus", lambda folder: _build(folder, "python")) / "python"
 
 
 @pytest.fixture(scope="session")
-def native(tmp_path_factory) -> Path:
-    """Return the file of the native WheelRailContact, in one folder with the others. The first process builds all of them."""
-    shared = tmp_path_factory.getbasetemp()
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        shared = shared.parent
-    path = shared / "native" / "WheelRailContact.fmu"
-    with (shared / "native.lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if not path.exists():
-            _build("native", shared)
-    return path
+def native(once) -> Path:
+    """Return the file of the native WheelRailContact, in one folder with the others."""
+    return once("native-fmus", lambda folder: _build(folder, "native")) / "native" / "WheelRailContact.fmu"
 
 
 @pytest.fixture(scope="session")
-def native_vehicles(native) -> Path:
-    """Return the folder with the native Vehicle, OpenVehicle and coupled_vehicle.ssp. The first process builds them."""
-    folder = native.parents[1] / "vehicle"
-    with (folder.parent / "vehicle.lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if not (folder / "native" / "coupled_vehicle.ssp").exists():
-            _build("native", folder, "--vehicle", SCENARIO)
-    return folder / "native"
+def native_vehicles(native, once) -> Path:
+    """Return the folder with the native Vehicle, OpenVehicle and coupled_vehicle.ssp. The kernels of the pair are kept."""
+    return once("vehicle-fmus", lambda folder: _build(folder, "native", "--vehicle", SCENARIO)) / "native"
 
 
 @pytest.fixture(scope="session")
@@ -103,6 +87,19 @@ def _opened(make):
 
 
 @pytest.fixture(scope="session")
+def wine(once) -> None:
+    """Let Wine use one folder of its own in all workers. To fill it takes half a minute and 700 MB."""
+    if not shutil.which("wine"):
+        pytest.skip("THE WINDOWS LIBRARY IS NOT TESTED: wine is not installed (apt-get install wine64)")
+
+    def fill(folder: Path) -> None:
+        own = os.environ | {"WINEPREFIX": str(folder), "WINEDEBUG": "-all"}
+        subprocess.run(["wineboot", "--init"], check=True, env=own, capture_output=True, timeout=600)
+
+    os.environ["WINEPREFIX"] = str(once("wine", fill))
+
+
+@pytest.fixture(scope="session")
 def hosts(request, native, tmp_path_factory):
     """Return a function that gives the C host of a platform and an FMU, each compiled once. "win64" runs under Wine."""
 
@@ -115,7 +112,7 @@ def hosts(request, native, tmp_path_factory):
     @cache
     def make(platform: str, name: str) -> Host:
         if platform == "win64":
-            _require_wine()
+            request.getfixturevalue("wine")
         return Host(platform, tmp_path_factory.mktemp(platform), unzipped(name), name)
 
     return make
@@ -140,29 +137,14 @@ def host_fmi3(native_fmi3_folder, tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
-def windows_fmi3(native_fmi3_folder, tmp_path_factory):
+def windows_fmi3(native_fmi3_folder, tmp_path_factory, wine):
     """Return the C host for FMI 3.0 on Windows, under Wine."""
-    _require_wine()
     return Host("x86_64-windows", tmp_path_factory.mktemp("windows"), native_fmi3_folder)
 
 
-def _require_wine() -> None:
-    if not shutil.which("wine"):
-        pytest.skip("THE WINDOWS LIBRARY IS NOT TESTED: wine is not installed (apt-get install wine64)")
-
-
-def _build(packaging: str, folder: Path, *more: str | Path) -> None:
-    command = [
-        sys.executable,
-        ROOT / "build_fmu.py",
-        "--packaging",
-        packaging,
-        "--accumulation",
-        "--out",
-        folder,
-        *more,
-    ]
-    subprocess.run(command, check=True, cwd=ROOT, timeout=1200)  # long, for the kernels of three FMUs on a busy machine
+def _build(folder: Path, packaging: str, *options: str | Path) -> None:
+    command = [sys.executable, ROOT / "build_fmu.py", "--packaging", packaging, "--accumulation", "--out", folder]
+    subprocess.run([*command, *options], check=True, cwd=ROOT, timeout=1200)  # long, for a busy machine
 
 
 @pytest.fixture(scope="session", params=["python", "native"])
@@ -172,36 +154,32 @@ def pair_file(request) -> Path:
     return folder / f"{PAIR}.fmu"
 
 
-@pytest.fixture
-def open_pair(pair_file, tmp_path):
-    """Return a function that instantiates WheelRailPair, each time from a new folder. All instances are freed at the end."""
+def _pairs(file: Path, folder: Path):
+    """Yield a function that instantiates a WheelRailPair, each time from a new folder. All instances are freed at the end."""
     instances = []
 
-    def open_pair(kind: str = "CoSimulation", path: Path = pair_file) -> Instance:
+    def open_one(kind: str = "CoSimulation", path: Path = file) -> Instance:
         # pythonfmu 0.7.0 crashes at a path that must be encoded in a URI
-        odd = "with blanks, ümläuts and 100 %" if pair_file.parent.name == "native" else "plain"
-        folder = tmp_path / f"{odd}{len(instances)}" / PAIR
-        instances.append(Instance(Path(fmpy.extract(str(path), str(folder))), kind=kind))
+        odd = "with blanks, ümläuts and 100 %" if file.parent.name == "native" else "plain"
+        unzipped = fmpy.extract(str(path), str(folder / f"{odd}{len(instances)}" / PAIR))
+        instances.append(Instance(Path(unzipped), kind=kind))
         return instances[-1]
 
-    yield open_pair
+    yield open_one
     for instance in instances:
         instance.fmu.freeInstance()
+
+
+@pytest.fixture
+def open_pair(pair_file, tmp_path):
+    """Return a function that instantiates WheelRailPair in each packaging."""
+    yield from _pairs(pair_file, tmp_path)
 
 
 @pytest.fixture
 def native_pair(native, tmp_path):
     """Return a function that instantiates the native WheelRailPair."""
-    instances = []
-
-    def native_pair(kind: str = "CoSimulation", path: Path | None = None) -> Instance:
-        path = path or native.with_name(f"{PAIR}.fmu")
-        instances.append(Instance(Path(fmpy.extract(str(path), str(tmp_path / str(len(instances))))), kind=kind))
-        return instances[-1]
-
-    yield native_pair
-    for instance in instances:
-        instance.fmu.freeInstance()
+    yield from _pairs(native.with_name(f"{PAIR}.fmu"), tmp_path)
 
 
 @pytest.fixture

@@ -21,7 +21,7 @@ class Script:
         self.platform = platform
         self.suffix, libraries, self.before = _PLATFORMS[platform]
         self.program = folder / f"{platform}.exe"
-        self.environment = os.environ | {"WINEPREFIX": str(folder.parent / "wine"), "WINEDEBUG": "-all"}
+        self.environment = os.environ | {"WINEDEBUG": "-all"}
         run(*compiler(platform), "-std=gnu11", "-O1", f"-I{HEADERS}", SOURCE, "-o", self.program, *libraries)
 
     def __call__(self, unzipped: Path, kind: int, commands: str, before: tuple[str, ...] = ()) -> np.ndarray:

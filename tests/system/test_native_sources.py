@@ -153,7 +153,7 @@ def test_fmi_3_lists_the_same_files(native_fmi3_folder, unzipped):
 
 
 @pytest.mark.skipif("SOAK" not in os.environ, reason="A VEHICLE UNDER WINDOWS IS NOT TESTED: minutes, run by make soak")
-@pytest.mark.skipif(not shutil.which("wine"), reason="wine is not installed (apt-get install wine64)")
+@pytest.mark.usefixtures("wine")
 @pytest.mark.parametrize("name", VEHICLES)
 def test_a_vehicle_has_the_same_numbers_under_wine(unzipped, tmp_path, name):
     """Ten steps in C, by the libraries for Linux and for Windows."""

@@ -381,9 +381,8 @@ def test_directional_derivatives_are_central_differences(exchanged, lateral):
 
 
 @pytest.mark.parametrize("kind", [0, 1])
+@pytest.mark.usefixtures("wine")
 def test_the_windows_library_gives_the_same_numbers_under_wine(folder, tmp_path, kind):
-    if not shutil.which("wine"):
-        pytest.skip("THE WINDOWS LIBRARY IS NOT TESTED: wine is not installed (apt-get install wine64)")
     linux, windows = (Script(p, tmp_path)(folder, kind, commands(kind)) for p in ("linux64", "win64"))
     assert linux.size == (3 * len(NUMBERS) if kind else 3 * len(STATES))
     assert windows == pytest.approx(linux, rel=1e-10, abs=1e-12)

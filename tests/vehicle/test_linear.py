@@ -81,6 +81,12 @@ def test_growth_changes_sign_at_the_critical_speed_and_motion_agrees():
         assert (sizes[-1] > sizes[1]) == grows
 
 
+def test_noise_of_slow_motions_is_no_instability(monkeypatch):
+    """A soft wheelset has motions that neither grow nor decay; the sign of their growth is that of round-off."""
+    monkeypatch.setattr(linear, "growth", lambda speed, amplitude: 0.005 if speed < 30.0 else 1.0)
+    assert linear.critical_speed(lambda speed: speed, tolerance=0.1) == pytest.approx(30.0, abs=0.1)
+
+
 def test_a_step_above_stability_multiplies_small_motions():
     sim = simulation("wheelset", speed=10.0)
     assert linear.amplification(sim, 1e-4) < 1.001

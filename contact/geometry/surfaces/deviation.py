@@ -132,3 +132,31 @@ class Flat:
             np.where(within, -depth * (1.0 + np.cos(k * turned)), 0.0),
             np.where(within, depth * k * np.sin(k * turned), 0.0),
         )
+
+
+def out_of_round(
+    radius: float,
+    flat: float | None = None,
+    flat_depth: float | None = None,
+    polygon: tuple[float, float] | None = None,
+) -> list[Deviation]:
+    """Return flat and polygon of a wheel, as a command names them.
+
+    Parameters
+    ----------
+    radius : float
+        Nominal radius of the wheel [m].
+    flat, flat_depth : float, optional
+        Length of a haversine flat and its depth [m].
+    polygon : (float, float), optional
+        Order, and amplitude [m].
+
+    Raises
+    ------
+    ContactError
+        As `Flat` and `Polygon`, and for a depth without a flat.
+    """
+    if flat is None and flat_depth is not None:
+        raise ContactError(f"flat_depth = {flat_depth:g} needs --flat")
+    found: list[Deviation] = [] if flat is None else [Flat(flat, radius, flat_depth)]
+    return found if polygon is None else [*found, Polygon(require_integer("order", polygon[0], 1, 500), polygon[1])]

@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 ROWS = COLUMNS = 60
 SAMPLES = 41  # of a separation
 _MIRROR = np.diag([1.0, -1.0, 1.0])
-_FARTHEST = 0.3  # [m] from the axle
+REACHES = 1e-2, 0.3  # [m] least and largest reach from the axle
 _MOST_STEPS, _LOAD_TOLERANCE = 40, 1e-5
 
 
@@ -157,7 +157,7 @@ class SurfacePair(Posed):
         self.tape = 0.5 * require_number("flange_back", flange_back, 0.1, 3.0) + TAPE_FROM_FLANGE_BACK
         self.combine_distance = require_number("combine_distance", combine_distance, 0.0)
         self.combine_angle = require_number("combine_angle", combine_angle, 0.0)
-        self.reach = require_number("reach", reach, 1e-2, _FARTHEST)
+        self.reach = require_number("reach", reach, *REACHES)
         self.tilted = bool(tilted)
         both = spacing if spacing is None or isinstance(spacing, tuple) else (spacing, spacing)
         if both is not None:
@@ -191,9 +191,9 @@ class SurfacePair(Posed):
             low, high = max(float(np.nanmin(y)) for y in ends), min(float(np.nanmax(y)) for y in ends)
             if high > low:
                 scene = Scene(wheel, rail, (-reach, reach, low, high))
-            if scene is None or not scene.reaches_out or reach >= _FARTHEST:
+            if scene is None or not scene.reaches_out or reach >= REACHES[1]:
                 break
-            reach = min(2.0 * reach, _FARTHEST)
+            reach = min(2.0 * reach, REACHES[1])
         if scene is None or not scene.overlaps:
             raise self._apart(pose)
         return scene

@@ -27,6 +27,7 @@ from contact.kernels.rows import Box, Cell, Over
 
 FARTHEST = 0.3  # [m] before and behind the axle
 _COARSE = 4e-3  # [m] step of the coarse grid along x
+_BETWEEN = 0.5e-3  # [m] by which the gap may fall from one of its columns to the next; a slope of 1:8
 _SLACK = 80e-6  # [m] by which heights on the coarse grid may miss a lobe
 _DEPTH = 130e-6  # [m] depth for which rough grids are laid at first; one of usual loads
 _BESIDE = 3e-3  # [m] beyond a grid, in which paths may reach into it at another x
@@ -89,7 +90,7 @@ def _lateral_range(reach: float, space: SurfaceSearch) -> tuple[float, float]:
     first, end, value, slope = section(space.wheel, -motion.rotation, (0, _ALL), 2, nodes)
     place(of_wheel(-motion.rotation, motion, frame), (first, end), 2, (value, slope), nodes)
     low, high = extent(nodes, first, end)
-    rail_low, rail_high = AWAY * 1e3, -AWAY * 1e3
+    rail_low, rail_high = math.inf, -math.inf
     for k in range(5):
         u = motion.station + reach * (0.5 * k - 1.0)
         first, end, value, slope = section(space.rail, u, (0, _ALL), 2, nodes)
@@ -101,13 +102,10 @@ def _lateral_range(reach: float, space: SurfaceSearch) -> tuple[float, float]:
 
 @kernel
 def fill_grid(box: Array, cells: Array, n_x: int, space: SurfaceSearch) -> float:
-    """Fill the layers of a grid at `box`, of which the first `n_x` columns count. Return the least gap [m].
-
-    Of the coarse grid only the gap is filled.
-    """
+    """Fill the layers of a grid at `box`, of which the first `n_x` columns count. Return the least gap [m]."""
     frame = track_frame(box[Box.Y])
     n_y = cells.shape[1]
-    rows = 0.0, box[Box.DY], n_y, cells.shape[0] > 2
+    rows = 0.0, box[Box.DY], n_y, True
     reach = box[Box.X], box[Box.X] + box[Box.DX] * (n_x - 1)
     limits = limits_of(reach, (0.0, box[Box.DY] * (n_y - 1)), frame, space)
     least, to = AWAY, space.column
@@ -125,13 +123,39 @@ def fill_grid(box: Array, cells: Array, n_x: int, space: SurfaceSearch) -> float
         for i in range(n_y):
             cells[Cell.GAP, i, k] = to[Over.GAP, i]
             least = min(least, to[Over.GAP, i])
-            if cells.shape[0] > 2:
-                cells[Cell.RAIL, i, k] = to[Over.RAIL, i]
-                cells[Cell.SLOPE_X, i, k] = to[Over.RAIL_SLOPE_X, i]
-                cells[Cell.SLOPE_Y, i, k] = to[Over.RAIL_SLOPE_S, i]
-                cells[Cell.X, i, k] = to[Over.WHEEL_X, i]
+            cells[Cell.RAIL, i, k] = to[Over.RAIL, i]
+            cells[Cell.SLOPE_X, i, k] = to[Over.RAIL_SLOPE_X, i]
+            cells[Cell.SLOPE_Y, i, k] = to[Over.RAIL_SLOPE_S, i]
+            cells[Cell.X, i, k] = to[Over.WHEEL_X, i]
     box[Box.LEAST] = least
     return least
+
+
+@kernel
+def _fill_coarse(box: Array, gap: Array, n_x: int, space: SurfaceSearch) -> None:
+    """Fill the gap of the coarse grid at `box`, of which the first `n_x` columns, an odd number, count.
+
+    Every other column is searched only if the bodies are close in a column beside it. Otherwise it gets the lesser gap.
+    """
+    frame, n_y, to = track_frame(box[Box.Y]), gap.shape[0], space.column
+    rows = 0.0, box[Box.DY], n_y, False
+    reach = box[Box.X], box[Box.X] + box[Box.DX] * (n_x - 1)
+    limits = limits_of(reach, (0.0, box[Box.DY] * (n_y - 1)), frame, space)
+    surfaces, least = (space.wheel, space.rail), AWAY
+    for odd in range(2):
+        for k in range(odd, n_x, 2):
+            beside = AWAY
+            if odd == 1:
+                for i in range(n_y):
+                    gap[i, k] = min(gap[i, k - 1], gap[i, k + 1])
+                    beside = min(beside, gap[i, k])
+                if beside > least + _BETWEEN:
+                    continue
+            column(box[Box.X] + k * box[Box.DX], rows, limits, frame, surfaces, space.motion[0], space.section, to)
+            for i in range(n_y):
+                gap[i, k] = to[Over.GAP, i]
+                least = min(least, gap[i, k])
+    box[Box.LEAST] = least
 
 
 @kernel
@@ -178,7 +202,7 @@ def scan(space: SurfaceSearch) -> bool:
         if low < high:
             box[Box.X], box[Box.DX] = -reach, 2.0 * reach / (n_x - 1)
             box[Box.Y], box[Box.DY] = low, (high - low) / (n_y - 1)
-            fill_grid(box, coarse, n_x, space)
+            _fill_coarse(box, coarse[0], n_x, space)
         box[Box.COLUMNS] = n_x
         found = low < high and box[Box.LEAST] < AWAY
         if not found or reach >= FARTHEST:

@@ -18,7 +18,7 @@ Rows = tuple[float, float, int, bool]
 Placing = tuple[float, float, float, float, float, float, float, float, float]
 
 AWAY = 1.0  # [m] height where a body is absent, far beyond every gap
-_STEPS, _NEAR = 3, 1e-9  # Newton's iteration for v: steps, and [m] before the last one; a segment is nearly straight
+_STEPS, _NEAR = 3, 1e-7  # Newton's iteration for v: steps, and [m] before the last one; a segment is nearly straight
 _FULL = 2.0 * math.pi
 
 
@@ -180,8 +180,8 @@ def place(placing: Placing, run: tuple[int, int], rows: int, rise: tuple[float, 
 
 @kernel
 def extent(nodes: Array, first: int, end: int) -> tuple[float, float]:
-    """Return the least and the largest s [m] of a section; an empty one has AWAY and -AWAY."""
-    low, high = AWAY, -AWAY
+    """Return the least and the largest s [m] of a section; an empty one has infinity and its negative."""
+    low, high = math.inf, -math.inf
     for j in range(first, end):
         low, high = min(low, nodes[Section.S, j]), max(high, nodes[Section.S, j])
     return low, high

@@ -33,6 +33,8 @@ def begin(space: SurfaceSearch) -> tuple[bool, float]:
     """Search the surfaces at the pose. Return whether they lie above each other, and z [m] at first touch."""
     motion, last, notes = space.motion[0], space.motion[1], space.boxes[0]
     motion.z = 0.0
+    if not abs(motion.rail_z) < AWAY:  # heights that far away count as absent, or overflow
+        return False, 0.0
     if not _same_place(motion, last) or notes[Box.ROUGH] != notes[Box.FIRST]:
         last.radius = 0.0
         if not regions.scan(space):

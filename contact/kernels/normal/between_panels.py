@@ -7,8 +7,9 @@ that lie nearly at Chebyshev's nodes. The polynomial through them serves the oth
 import math
 
 from contact._jit import kernel
-from contact.kernels.normal.influence import anywhere, at_centre, in_row, logarithm, row_at
-from contact.kernels.rows import Vector
+from contact.kernels.normal.influence import anywhere, at_centre
+from contact.kernels.normal.many_strips import displacement, fill_ln_X
+from contact.kernels.rows import Pair, Vector
 
 #: Number of strips of a panel at which the displacement by other panels is calculated.
 PROBES = 6
@@ -95,29 +96,28 @@ def assemble_others(n_panels, own, unit):
 
 
 @kernel
-def add_others(p, n_panels, own):
+def add_others(p, n_panels, own, skewed):
     """Add to Vector.U the displacement at the ends of panel p's strips by the other panels, the mean of both ends.
 
-    The rows Q1, Q2 and R of the vectors hold ln a, 1/a and p0·a/(pi E*).
+    The rows Q1, Q2 and R of the vectors hold ln a, 1/a and p0·a/(pi E*). Both ends differ if strips are `skewed`.
     """
     vectors, logs, spread, plane = own.space.vectors, own.space.logs, own.rule.spread, own.tables.plane
     n, U = spread.shape[1], vectors[Vector.U, p * spread.shape[1] : (p + 1) * spread.shape[1]]
     logs_a, inverses = vectors[Vector.Q1], vectors[Vector.Q2]
     forces, loci = vectors[Vector.R], vectors[Vector.XC]
+    pairs = vectors[Vector.PAIRS : Vector.PAIRS + len(Pair)]
     for m in range(PROBES):
         strip = p * n + int(own.rule.probes[m])
         a, x, at, u = vectors[Vector.A, strip], loci[strip], logs[p * PROBES + m], 0.0
         for q in range(n_panels):
-            for j in range(q * n, q * n + n if q != p else 0):
-                shift, left, right = loci[j] - x, at[j + q] - logs_a[j], at[j + q + 1] - logs_a[j]
-                X = abs(a + shift) * inverses[j]
-                place, share, ln_X = row_at(X, logarithm(X))
-                one = abs(in_row(plane, place, share, right - ln_X) - in_row(plane, place, share, left - ln_X))
-                if shift != 0.0:
-                    X = abs(a - shift) * inverses[j]
-                    place, share, ln_X = row_at(X, logarithm(X))
-                    other = in_row(plane, place, share, right - ln_X) - in_row(plane, place, share, left - ln_X)
-                    one = 0.5 * (one + abs(other))
-                u += forces[j] * one
+            for end in range(0 if q == p else 2 if skewed else 1):
+                side = a if end == 0 else -a
+                for j in range(n):
+                    k = q * n + j
+                    pairs[Pair.X, j] = abs(side + loci[k] - x) * inverses[k]
+                    pairs[Pair.LOW, j], pairs[Pair.HIGH, j] = at[k + q] - logs_a[k], at[k + q + 1] - logs_a[k]
+                fill_ln_X(n, pairs)
+                by_panel = displacement(plane, forces[q * n : q * n + n], pairs, -1)
+                u += 0.5 * by_panel if skewed else by_panel
         for i in range(n):
             U[i] += spread[m, i] * u

@@ -11,31 +11,40 @@ import math
 
 from contact._jit import kernel
 from contact.kernels import cubic
-from contact.kernels.normal.between_panels import IN_LINE
-from contact.kernels.normal.influence import anywhere, at_centre
-from contact.kernels.rows import Strip
+from contact.kernels.normal.many_strips import displacement, fill_ln_X, take_logarithms
+from contact.kernels.rows import Pair, Strip, Vector
 
 #: Number of strips at which the gap is evaluated.
 CHECKED = 8
 
 
 @kernel
-def _displacement(at, locus, n, strips, tables):
-    """Return the displacement at y = at, x = locus times pi E* [N/m]."""
-    total = 0.0
+def _summarise(n, strips, vectors):
+    """Fill ln a, 1/a and p0·a of the strips: the rows Q1, Q2 and R of the vectors."""
     for j in range(n):
-        a, half = strips[Strip.A, j], 0.5 * strips[Strip.DY, j]
-        if strips[Strip.P0, j] <= 0.0 or a <= 0.0:
-            continue
-        away = abs(strips[Strip.Y, j] - at)
-        near = math.log(max(abs(away - half), 1e-12 * half) / a)
-        far, X = math.log((away + half) / a), abs(strips[Strip.XC, j] - locus) / a
-        if X > IN_LINE:
-            low, high = anywhere(tables.plane, X, near), anywhere(tables.plane, X, far)
-        else:
-            low, high = at_centre(tables.centre, near), at_centre(tables.centre, far)
-        total += strips[Strip.P0, j] * a * (high + low if away < half else high - low)
-    return total
+        a, p0 = strips[Strip.A, j], strips[Strip.P0, j]
+        loaded = p0 > 0.0 and a > 0.0
+        vectors[Vector.Q1, j] = math.log(a) if loaded else 0.0
+        vectors[Vector.Q2, j] = 1.0 / a if loaded else 0.0
+        vectors[Vector.R, j] = p0 * a if loaded else 0.0
+
+
+@kernel
+def _displacement(at, locus, strip, n, strips, vectors, plane):
+    """Return the displacement at y = at, x = locus times pi E* [N/m]. The point lies in `strip`; -1 if in none."""
+    pairs = vectors[Vector.PAIRS : Vector.PAIRS + len(Pair)]
+    lows, highs = pairs[Pair.LOW], pairs[Pair.HIGH]
+    for j in range(n):
+        away, half = abs(strips[Strip.Y, j] - at), 0.5 * strips[Strip.DY, j]
+        lows[j], highs[j] = max(abs(away - half), 1e-12 * half), away + half
+        pairs[Pair.X, j] = abs(strips[Strip.XC, j] - locus) * vectors[Vector.Q2, j]
+    take_logarithms(n, lows)
+    take_logarithms(n, highs)
+    for j in range(n):
+        lows[j] -= vectors[Vector.Q1, j]
+        highs[j] -= vectors[Vector.Q1, j]
+    fill_ln_X(n, pairs)
+    return displacement(plane, vectors[Vector.R, :n], pairs, strip)
 
 
 @kernel
@@ -60,11 +69,13 @@ def gap_error(sep, n, case, own, result):
 
     Gaps are evaluated at the middles of `CHECKED` of n strips, overlaps also where a lobe may have been missed.
     """
-    y, g, size, strips = sep.y, sep.g, sep.y.size, own.strips
+    y, g, size = sep.y, sep.g, sep.y.size
+    strips, vectors, plane = own.strips, own.space.vectors, own.tables.plane
     delta = result.approach - result.touch
     if not delta > 0.0 or n == 0:
         return 0.0
     per_modulus = (1.0 - case.nu) / (math.pi * case.G)
+    _summarise(n, strips, vectors)
     largest, k = 0.0, 0
     count = min(CHECKED, n)
     for strip in range(count):
@@ -74,10 +85,13 @@ def gap_error(sep, n, case, own, result):
         h = y[k + 1] - y[k]
         m0, m1 = cubic.slope_at(y, g, size, k), cubic.slope_at(y, g, size, k + 1)
         gap = cubic.value(h, g[k], m0, g[k + 1], m1, (at - y[k]) / h) - result.touch
-        left = abs(gap + per_modulus * _displacement(at, strips[Strip.XC, i], n, strips, own.tables) - delta) / delta
+        left = (
+            abs(gap + per_modulus * _displacement(at, strips[Strip.XC, i], i, n, strips, vectors, plane) - delta)
+            / delta
+        )
         largest = max(largest, min(left, 1.0))
     missed = _deepest_outside(sep, n, delta, strips, result)
     if missed >= 0:
-        used = per_modulus * _displacement(y[missed], sep.x_c[missed], n, strips, own.tables)
+        used = per_modulus * _displacement(y[missed], sep.x_c[missed], -1, n, strips, vectors, plane)
         largest = max(largest, min((delta - (g[missed] - result.touch) - used) / delta, 1.0))
     return largest

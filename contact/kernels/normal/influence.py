@@ -21,17 +21,17 @@ _N_CENTRE = 401
 _CENTRE_STEP = (_LN_T_MAX - _LN_T_MIN) / (_N_CENTRE - 1)
 _PER_CENTRE_STEP = 1.0 / _CENTRE_STEP
 
-_X_MAX, _N_X = 4.0, 201
-_X_STEP = _X_MAX / (_N_X - 1)
-_PER_X_STEP = 1.0 / _X_STEP
+X_MAX, N_X = 4.0, 201
+_X_STEP = X_MAX / (N_X - 1)
+PER_X_STEP = 1.0 / _X_STEP
 #: Below the 150th value of ln t, t = 1.1e-3, U is nearly proportional to t.
-_LN_T_HIGH, _T_STEP = math.log(1e2), 0.03
-_N_PROPORTIONAL, _N_T = 150, 534
-_LN_T_LOW, _PER_T_STEP = _LN_T_HIGH - (_N_T - 1) * _T_STEP, 1.0 / _T_STEP
+_LN_T_HIGH, T_STEP = math.log(1e2), 0.03
+_N_PROPORTIONAL, N_T = 150, 534
+LN_T_LOW, PER_T_STEP = _LN_T_HIGH - (N_T - 1) * T_STEP, 1.0 / T_STEP
 
 #: Shapes of the two tables. The second has two more rows. Beyond X = 4, U is linear in 1/X² at fixed t/X. These rows hold its
 #: values at 1/X² = 0 and 1 over ln(t/X).
-CENTRE, PLANE = (_N_CENTRE, 2), (_N_X + 2, _N_T)
+CENTRE, PLANE = (_N_CENTRE, 2), (N_X + 2, N_T)
 
 #: Strips of one panel lie at fixed cosines, so their influence depends only on ln(a/half width of the panel). Range and step of
 #: the table of this influence, which has one more row at either end.
@@ -95,15 +95,15 @@ def fill(centre, plane):
                 at = math.exp(before + 0.5 * _CENTRE_STEP * (1.0 + _GAUSS_X[k]))
                 value += 0.5 * _CENTRE_STEP * _GAUSS_W[k] * at * centre_slope(at)
         centre[i, 0], centre[i, 1] = value, t * centre_slope(t) * _CENTRE_STEP
-    for i in range(_N_X):
-        for k in range(_N_PROPORTIONAL, _N_T):
-            plane[i, k] = quadrature(i * _X_STEP, math.exp(_LN_T_LOW + k * _T_STEP))
+    for i in range(N_X):
+        for k in range(_N_PROPORTIONAL, N_T):
+            plane[i, k] = quadrature(i * _X_STEP, math.exp(LN_T_LOW + k * T_STEP))
         for k in range(_N_PROPORTIONAL):
-            plane[i, k] = plane[i, _N_PROPORTIONAL] * math.exp((k - _N_PROPORTIONAL) * _T_STEP)
-    for k in range(_N_T):
-        t = math.exp(_LN_T_LOW + k * _T_STEP)
-        plane[_N_X, k] = 0.5 * math.pi * math.asinh(t)
-        plane[_N_X + 1, k] = plane[_N_X, k] + math.pi / 16.0 * t * (2.0 + t * t) / (1.0 + t * t) ** 1.5
+            plane[i, k] = plane[i, _N_PROPORTIONAL] * math.exp((k - _N_PROPORTIONAL) * T_STEP)
+    for k in range(N_T):
+        t = math.exp(LN_T_LOW + k * T_STEP)
+        plane[N_X, k] = 0.5 * math.pi * math.asinh(t)
+        plane[N_X + 1, k] = plane[N_X, k] + math.pi / 16.0 * t * (2.0 + t * t) / (1.0 + t * t) ** 1.5
 
 
 @kernel
@@ -153,17 +153,17 @@ def column(columns, j, ln_a, scale, out):
 @kernel
 def row_at(X, ln_X):
     """Return the row of the plane's table for X >= 0, the share of the next row, and the origin of its ln t (for `in_row`)."""
-    if not X < _X_MAX:
-        return _N_X, 1.0 / (X * X), ln_X
-    u = X * _PER_X_STEP
-    i = min(int(u), _N_X - 2)
+    if not X < X_MAX:
+        return N_X, 1.0 / (X * X), ln_X
+    u = X * PER_X_STEP
+    i = min(int(u), N_X - 2)
     return i, u - i, 0.0
 
 
 @kernel
 def logarithm(X):
     """Return ln X where `row_at` needs it, else 0."""
-    return math.log(X) if X >= _X_MAX else 0.0
+    return math.log(X) if X >= X_MAX else 0.0
 
 
 @kernel
@@ -172,10 +172,10 @@ def in_row(plane, i, u, log_t):
 
     The interpolation is bilinear. Beyond the table's range of t, U is logarithmic.
     """
-    v = (log_t - _LN_T_LOW) * _PER_T_STEP
+    v = (log_t - LN_T_LOW) * PER_T_STEP
     v = v if v > 0.0 else 0.0  # written so that NaN does not become an index
-    extra = 0.5 * math.pi * _T_STEP * max(v - (_N_T - 1.0), 0.0)
-    v = min(v, _N_T - 1.000001)
+    extra = 0.5 * math.pi * T_STEP * max(v - (N_T - 1.0), 0.0)
+    v = min(v, N_T - 1.000001)
     k = int(v)
     v -= k
     low = plane[i, k] + v * (plane[i, k + 1] - plane[i, k])

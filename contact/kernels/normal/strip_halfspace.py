@@ -212,7 +212,7 @@ def strip_halfspace(sep, case, own, result):
     if n_panels == 0:
         n_panels = start_panels(n_strips, n, strips, result, panels, rule.cosines, vectors)
 
-    converged, descending, searched, best = False, False, False, math.inf
+    converged, exact, descending, searched, best = False, False, False, False, math.inf
     delta = result.approach - g_least  # ANALYN's, until the first pressures are known
     iteration, known, error, load, last_error = 0, 0, math.inf, 0.0, math.inf
     for iteration in range(case.max_iterations):
@@ -262,10 +262,8 @@ def strip_halfspace(sep, case, own, result):
             for p in range(n_panels):
                 descend(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors)
         left = 0.0 if cut else mix(n, n_panels, panels, vectors, load, known, space.lu)
-        if descending:
-            settled = left < LEFT and error < CLOSE * load and moved < CLOSE
-        else:
-            settled = not cut and error < TOLERANCE * load and moved < 2.0 * TOLERANCE
+        exact = not cut and error < TOLERANCE * load and moved < 2.0 * TOLERANCE
+        settled = exact or (descending and left < LEFT and error < CLOSE * load and moved < CLOSE)
         ghosts = False
         if settled or not (searched or cut):
             searched = True
@@ -287,12 +285,12 @@ def strip_halfspace(sep, case, own, result):
             known, best = 0, math.inf
 
     result.iterations = iteration + 1
-    if converged and descending:
+    if converged and not exact:
         advance(n, n_panels, panels, vectors)
     elif not converged and n_panels > 0 and best * load < error:
         _take_best(n, n_panels, panels, vectors)
         error, load = best, 1.0
-    if descending or not converged:  # lengths, ends or panels have changed since the pressures were found
+    if not (converged and exact):  # lengths, ends or panels have changed since the pressures were found
         lay_panels(sep, g_least, skew, panels, n_panels, own)
         distances(panels, n_panels, own)
         half_lengths(vectors, n, n_panels, delta)

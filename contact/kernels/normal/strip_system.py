@@ -6,7 +6,8 @@ from contact._jit import kernel
 from contact.kernels.normal.between_panels import IN_LINE, add_others, assemble_others
 from contact.kernels.normal.elimination import eliminate
 from contact.kernels.normal.influence import at_centre, column, in_row, logarithm, row_at
-from contact.kernels.rows import Vector
+from contact.kernels.normal.many_strips import displacement, fill_ln_X
+from contact.kernels.rows import Pair, Vector
 
 
 @kernel
@@ -56,58 +57,33 @@ def assemble(panels, n_panels, own, skewed, unit):
 
 
 @kernel
-def _add_panel(first, n, logs, ln_unit, vectors, plane):
+def _add_panel(first, n, logs, ln_unit, skewed, vectors, plane):
     """Add to Vector.U the displacement at the ends of a panel's strips by the panel itself.
 
     `first` is the panel's first strip. `logs` + `ln_unit` are ln|Y_k - y_i|. The end strips are left out: their lengths
-    follow from their neighbours.
-    """
-    last = first + n
-    logs_a, inverses = vectors[Vector.Q1, first:last], vectors[Vector.Q2, first:last]
-    forces = vectors[Vector.R, first:last]
-    for k in range(1, n - 1):
-        i = first + k
-        if vectors[Vector.P, i] == 0.0:
-            continue
-        a, ln_a, at = vectors[Vector.A, i], vectors[Vector.Q1, i], logs[k]
-        u = 0.0
-        for m in range(n):
-            place, share, start = row_at(a * inverses[m], ln_a - logs_a[m])
-            start += logs_a[m] - ln_unit
-            low, high = in_row(plane, place, share, at[m] - start), in_row(plane, place, share, at[m + 1] - start)
-            u += forces[m] * (low + high if m == k else abs(high - low))
-        vectors[Vector.U, i] += u
-
-
-@kernel
-def _add_skewed_panel(first, n, logs, ln_unit, vectors, plane):
-    """Add to Vector.U what `_add_panel` adds, under yaw.
-
-    The mean of both ends is taken for strips that lie off each other's centre.
+    follow from their neighbours. If strips are `skewed`, the mean of both ends is taken.
     """
     last = first + n
     logs_a, inverses = vectors[Vector.Q1, first:last], vectors[Vector.Q2, first:last]
     forces, loci = vectors[Vector.R, first:last], vectors[Vector.XC, first:last]
+    pairs = vectors[Vector.PAIRS : Vector.PAIRS + len(Pair)]
     for k in range(1, n - 1):
         i = first + k
         if vectors[Vector.P, i] == 0.0:
             continue
-        a, x, at = vectors[Vector.A, i], vectors[Vector.XC, i], logs[k]
-        u = 0.0
-        for m in range(n):
-            shift, ln_a = loci[m] - x, logs_a[m] - ln_unit
-            left, right = at[m] - ln_a, at[m + 1] - ln_a
-            X = abs(a + shift) * inverses[m]
-            place, share, start = row_at(X, logarithm(X))
-            low, high = in_row(plane, place, share, left - start), in_row(plane, place, share, right - start)
-            one = low + high if m == k else abs(high - low)
-            if shift != 0.0:
-                X = abs(a - shift) * inverses[m]
-                place, share, start = row_at(X, logarithm(X))
-                low, high = in_row(plane, place, share, left - start), in_row(plane, place, share, right - start)
-                one = 0.5 * (one + abs(high - low))
-            u += forces[m] * one
-        vectors[Vector.U, i] += u
+        a, ln_a, x, at, u = vectors[Vector.A, i], vectors[Vector.Q1, i], vectors[Vector.XC, i], logs[k], 0.0
+        for end in range(2 if skewed else 1):
+            for m in range(n):
+                shift = ln_unit - logs_a[m]
+                pairs[Pair.X, m], pairs[Pair.LN_X, m] = a * inverses[m], ln_a - logs_a[m]
+                pairs[Pair.LOW, m], pairs[Pair.HIGH, m] = at[m] + shift, at[m + 1] + shift
+            if skewed:
+                side = a if end == 0 else -a
+                for m in range(n):
+                    pairs[Pair.X, m] = abs(side + loci[m] - x) * inverses[m]
+                fill_ln_X(n, pairs)
+            u += displacement(plane, forces, pairs, k)
+        vectors[Vector.U, i] += 0.5 * u if skewed else u
 
 
 @kernel
@@ -122,12 +98,9 @@ def edge_displacements(panels, n_panels, own, skewed, unit):
         vectors[Vector.U, j] = 0.0
     for p in range(n_panels):
         ln_half = math.log(0.5 * (panels[2 * p + 1] - panels[2 * p]))
-        if skewed:
-            _add_skewed_panel(p * n, n, cosine_logs, ln_half, vectors, plane)
-        else:
-            _add_panel(p * n, n, cosine_logs, ln_half, vectors, plane)
+        _add_panel(p * n, n, cosine_logs, ln_half, skewed, vectors, plane)
         if n_panels > 1:
-            add_others(p, n_panels, own)
+            add_others(p, n_panels, own, skewed)
 
 
 @kernel

@@ -79,14 +79,15 @@ def equivalent_ellipse(strips, first, last):
 
 @kernel
 def mean_ellipse(strips, first, last):
-    """Return the semi-axes [m] of the ellipse with the area of the patch and its mean length.
+    """Return the semi-axes [m] of the ellipse with the area and the mean length of the shape that is shared (`ties`).
 
     The mean length follows from ∫a² dy/∫a dy, which is 8a/(3π) on an ellipse.
     """
     area, square = 0.0, 0.0
     for i in range(first, last):
-        area += strips[Strip.A, i] * strips[Strip.DY, i]
-        square += strips[Strip.A, i] ** 2 * strips[Strip.DY, i]
+        share = strips[Strip.SHARE, i] * strips[Strip.A, i] * strips[Strip.DY, i]
+        area += share
+        square += share * strips[Strip.A, i]
     a = 0.375 * math.pi * square / area
     return a, 2.0 * area / (math.pi * a)
 

@@ -17,6 +17,8 @@ import math
 
 from contact._jit import kernel
 
+_TINY = 1e-300  # for a friction limit of 0
+
 
 @kernel
 def linear(creepage, G, c, coefficients):
@@ -30,7 +32,8 @@ def linear(creepage, G, c, coefficients):
 @kernel
 def capped(force, limit):
     """Return the factor that keeps a linear `force` below `limit`, and the share of slip."""
-    return (1.0, 0.0) if force <= limit else (limit / force, 1.0)
+    # LLVM divides before it chooses, so the divisor must not be 0: that would be a trap
+    return limit / max(force, limit, _TINY), 0.0 if force <= limit else 1.0
 
 
 @kernel

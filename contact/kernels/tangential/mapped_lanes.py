@@ -51,16 +51,17 @@ class _Input(Row):
     C23 = Lane.SUM_X
     ROOT_ASPECT = Lane.SUM_Y
     FITTED = Lane.SUM_M
+    CENTRE = Lane.POWER
 
 
 @kernel
-def set_block(strips, block, last, case, table, centres, lanes):
+def set_block(strips, block, last, case, table, spin_of_patch, lanes):
     """Fill `lanes` for the strips from `block` on: steps 1 and 2 of mapped_strip.md 3.
 
-    All rows are zero for a strip that carries no load.
+    `spin_of_patch` is that of `set_aspects`. All rows are zero for a strip that carries no load.
     """
     G = case.G
-    y_c, y_spin, rho33 = centres
+    offset, rho33 = spin_of_patch
     least = NO_FRICTION * G
     for l in range(LANES):
         i = min(block + l, last - 1)
@@ -76,6 +77,7 @@ def set_block(strips, block, last, case, table, centres, lanes):
         lanes[_Input.ROOT_ASPECT + l] = math.exp(0.5 * log_aspect)
         lanes[_Input.FITTED + l] = min(max(log_aspect, -_LOG_ASPECT_FIT), _LOG_ASPECT_FIT)
         lanes[Lane.N + l] = strips[Strip.TO_EXPONENT, i]
+        lanes[_Input.CENTRE + l] = strips[Strip.CENTRE, i]
     edges = 0
     for l in range(lanes.size // N_LANE_ROWS):
         bound, a, y, xc = lanes[Lane.BOUND + l], lanes[_Input.HALF + l], lanes[_Input.AT + l], lanes[_Input.XC + l]
@@ -86,6 +88,7 @@ def set_block(strips, block, last, case, table, centres, lanes):
             lanes[_Input.FITTED + l],
         )
         c11, c22, c23 = lanes[_Input.C11 + l], lanes[_Input.C22 + l], lanes[_Input.C23 + l]
+        y_c = lanes[_Input.CENTRE + l]
         live = 1.0 if bound > 0.0 else 0.0
         r = c22 / c11
         rho23 = 0.75 * math.pi * c23 / (c22 * lanes[_Input.ROOT_ASPECT + l])
@@ -108,7 +111,7 @@ def set_block(strips, block, last, case, table, centres, lanes):
         stretch = small_exp(0.47 * h) / (1.0 + 2.0 * n_map)
         spin = psi * small_exp((0.19 - 0.07 * fitted) * h)
         shift = (1.0 - rho23) * w
-        X = stretch * (translation + (1.0 + (rho33 - 1.0) * w) * rotation - w * k11 * phi * (y_spin - y_c))
+        X = stretch * (translation + (1.0 + (rho33 - 1.0) * w) * rotation - w * k11 * phi * offset)
         Y = stretch * lateral * (1.0 - shift)
         P = spin + (1.0 + 2.0 * n_map) * stretch * lateral * shift
         used = 0.25 * X * X + (0.5 * Y + P) * (0.5 * Y + P)

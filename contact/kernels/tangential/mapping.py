@@ -5,6 +5,7 @@ import math
 from contact._jit import kernel
 from contact.kernels import kalker
 from contact.kernels.rows import Strip
+from contact.kernels.tangential.ties import end_of_shape, share_shape
 
 #: Share of a strip's own ln(a/b), from the curvatures, against that of the equivalent ellipse (theory.md 4.4).
 OWN_ASPECT = 0.6
@@ -66,21 +67,50 @@ def slid_at(s, direction, r, pole, rigid, from_edge):
 
 
 @kernel
-def elastic_centre(strips, first, last, table, log_equivalent):
-    """Blend the aspect ratios in place. Return the centres of longitudinal stiffness and of spin [m], and the C33 factor.
+def set_aspects(strips, first, last, table):
+    """Blend the aspect ratios of a patch in place, and set the stiffness of its strips (mapped_strip.md 3, step 0).
 
-    The weights are C11·a·dy and C11·a²·dy. On an ellipse both centres are its own (mapped_strip.md 3, step 0).
+    Return the distance of the centre of spin from that of longitudinal stiffness [m], and the C33 factor, of the patch. The
+    weights are C11·a²·dy and C11·a·dy. On an ellipse both centres are its own.
     """
     stiffness, moment, stiffness2, moment2, spin = 0.0, 0.0, 0.0, 0.0, 0.0
-    for i in range(first, last):
-        a, y = strips[Strip.A, i], strips[Strip.Y, i]
-        log_aspect = OWN_ASPECT * strips[Strip.ASPECT, i] + (1.0 - OWN_ASPECT) * log_equivalent
-        strips[Strip.ASPECT, i] = log_aspect
-        c11, _, _, c33 = kalker.coefficients(table, log_aspect)
-        weight = c11 * a * strips[Strip.DY, i]
-        stiffness += weight
-        moment += weight * y
-        stiffness2 += weight * a
-        moment2 += weight * a * y
-        spin += weight * 4.0 * c33 * math.exp(log_aspect) / c11
-    return moment / stiffness, moment2 / stiffness2, spin / stiffness
+    i = first
+    while i < last:
+        share_shape(strips, first, last, i)
+        longest, area = 0.0, 0.0  # of the equivalent ellipse of the shape
+        for j in range(first, last):
+            a, share = strips[Strip.A, j], strips[Strip.SHARE, j]
+            longest = max(longest, share * a)
+            area += 2.0 * share * a * strips[Strip.DY, j]
+        log_equivalent = math.log(math.pi * longest * longest / area) if area > 0.0 else 0.0
+        end = end_of_shape(strips, last, i)
+        for j in range(i, end):
+            a, y = strips[Strip.A, j], strips[Strip.Y, j]
+            log_aspect = OWN_ASPECT * strips[Strip.ASPECT, j] + (1.0 - OWN_ASPECT) * log_equivalent
+            c11, _, _, c33 = kalker.coefficients(table, log_aspect)
+            weight = c11 * a * strips[Strip.DY, j]
+            strips[Strip.ASPECT, j], strips[Strip.STIFFNESS, j] = log_aspect, weight
+            stiffness += weight
+            moment += weight * y
+            stiffness2 += weight * a
+            moment2 += weight * a * y
+            spin += weight * 4.0 * c33 * math.exp(log_aspect) / c11
+        i = end
+    return (moment2 / stiffness2 - moment / stiffness, spin / stiffness) if stiffness > 0.0 else (0.0, 1.0)
+
+
+@kernel
+def set_centres(strips, first, last):
+    """Set the centre of longitudinal stiffness of the shape of every strip (mapped_strip.md 3, step 0)."""
+    i = first
+    while i < last:
+        share_shape(strips, first, last, i)
+        stiffness, moment = 0.0, 0.0
+        for j in range(first, last):
+            weight = strips[Strip.SHARE, j] * strips[Strip.STIFFNESS, j]
+            stiffness += weight
+            moment += weight * strips[Strip.Y, j]
+        end = end_of_shape(strips, last, i)
+        for j in range(i, end):
+            strips[Strip.CENTRE, j] = moment / stiffness if stiffness > 0.0 else 0.0
+        i = end

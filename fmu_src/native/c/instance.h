@@ -80,11 +80,11 @@ typedef struct {
 
 extern const Continuous states[N_STATES];
 
-/* A file in resources/ that an instance reads, the bytes with which it begins, and its number of rows. */
+/* A file in resources/ that an instance reads, the bytes with which it begins, its number of rows and most points of a row. */
 typedef struct {
     const char *name;
     char magic[9];
-    int rows;
+    int rows, most;
 } Resource;
 
 extern const Resource resources[N_RESOURCES];

@@ -65,8 +65,6 @@ static FILE *open_to_read(const char *path)
 #endif
 }
 
-enum { MOST_POINTS = 100000 };
-
 /* Append the content of a file to the instance's resources, which hold `size` numbers. Return the new size, or 0 if the file is
  * not a valid resource. */
 static size_t append(Instance *instance, FILE *file, const Resource *resource, size_t size)
@@ -80,7 +78,7 @@ static size_t append(Instance *instance, FILE *file, const Resource *resource, s
     double *grown, *points;
     uint64_t checksum;
     if (fread(&head, 1, sizeof head, file) != sizeof head || memcmp(head.magic, resource->magic, 8)) return 0;
-    if (head.n < 4 || head.n > MOST_POINTS) return 0;
+    if (head.n < 4 || head.n > resource->most) return 0;
     length = 1 + (size_t)resource->rows * (size_t)head.n;
     grown = realloc(instance->resources, (size + length) * sizeof(double));
     if (!grown) return 0;

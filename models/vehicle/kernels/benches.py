@@ -150,4 +150,6 @@ def bench_of(benches, w):
         t.rail,
         t.roots,
         t.moved,
+        t.offset,
+        t.displaced,
     )

@@ -1,0 +1,228 @@
+"""What the native WheelRailPair and WheelRailSurfaces share: from the rows of their tables to a bench, and back."""
+
+from __future__ import annotations
+
+from collections import namedtuple
+from collections.abc import Callable
+from enum import IntEnum, auto
+from typing import Any
+
+import numpy as np
+from numba import carray
+
+import contact
+from contact import Status
+from contact.damage import DamageParameters
+from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
+from contact.kernels import block
+from contact.kernels.enumerations import Height, NoAnswer
+from contact.kernels.flexible import solve_flexible
+from contact.kernels.geometry.settle import DEEPEST
+from contact.kernels.records import (
+    CASE,
+    DAMAGE_PARAMETERS,
+    GIVEN,
+    LARGEST_ANGLE,
+    MAX_PATCHES,
+    SLOWEST,
+    TOTAL,
+    WHEEL_OFFSET,
+)
+from fmu_src.differences import creepage_steps
+from fmu_src.native.memory import compiled, numbers_of
+from fmu_src.native.solver import choose, forget_forged, size_of
+from fmu_src.native.wires import MATERIAL, case_reader, reader, writer
+from fmu_src.tables.solver import DAMAGE_OUTPUTS
+from fmu_src.tables.wheel_rail_pair import LOAD_KIND, PATCH, PATCHES, SIDE
+from fmu_src.variables import Table, identifier
+
+_HEIGHTS = {"NormalForce": Height.LOAD, "Position": Height.GIVEN, "VerticalForce": Height.VERTICAL}
+#: Values of `Height`, by the number of an item of LOAD_KIND, less 1.
+_HEIGHT = np.array([int(_HEIGHTS[name]) for name, _ in LOAD_KIND.items])
+_RIGHT = SIDE.number("Right")
+_DAMAGE_PARAMETERS = np.array([DamageParameters().record(contact.STEEL, 1.0, 1.0)], DAMAGE_PARAMETERS)
+_N_PATCH_ROWS = len(PATCH)  # the first members of CONTACT, in this order
+#: Outputs ← members of TOTAL.
+_OUTPUTS = {
+    "wheelset.z": "z",
+    "pressure.max": "pmax",
+    "patches.count": "n_patches",
+    "patches.area": "area",
+    "status": "status",
+    "gap_error": "gap_error",
+    "wheel.Q": "Q",
+    "wheel.Y": "Y",
+    "wheel.Y_over_Q": "Y_over_Q",
+    "used_friction": "used_friction",
+    **DAMAGE_OUTPUTS,
+}
+_steps = compiled(creepage_steps)
+
+#: Outputs that are integrated over time: see `Component.totals`.
+TOTALS = {
+    "total.energy": ("power.friction",),
+    "total.worn_volume": ("damage.archard_volume", "velocity.x"),
+    "total.distance": ("velocity.x",),
+    "total.T_gamma": ("damage.T_gamma", "velocity.x"),
+}
+WARNINGS: dict[int, str] = {s: f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)}
+
+
+class Failure(IntEnum):
+    """Reasons to discard a step. Their numbers follow those of the statuses."""
+
+    NO_OVERLAP = max(Status) + 1
+    NOT_SETTLED = auto()
+    TOO_DEEP = auto()
+    ENDLESS = auto()
+    TURNED = auto()
+    GAUGE_POINT = auto()
+    STEEP = auto()
+    WHEEL = auto()
+    RAIL = auto()
+
+
+FAILURES: dict[int, str] = {
+    Failure.NO_OVERLAP: "pose.y: the profiles of wheel and rail do not overlap",
+    Failure.NOT_SETTLED: "load.normal_force: no height was found at which the wheel carries this load on this rail",
+    Failure.TOO_DEEP: f"pose.z: the wheel lies more than {DEEPEST:g} m inside its rail",
+    Failure.ENDLESS: "the accumulated damage has no finite value for these inputs",
+    Failure.TURNED: f"offset: with the wheelset's roll and yaw the wheel is turned by more than {LARGEST_ANGLE:g} rad",
+}
+
+
+def references(table: Table) -> Any:
+    """Return a named tuple of the value references of the table's rows."""
+    return namedtuple("References", [identifier(name) for name in table.span])(
+        *(span.start for span in table.span.values())
+    )
+
+
+def sizer(table: Table) -> Callable[..., Any]:
+    """Return a compiled function that returns the sizes of the workspace for the parameters."""
+    at = references(table)
+
+    @compiled
+    def size(v):
+        n_strips, n_elements = int(v[at.resolution_n_strips]), int(v[at.resolution_n_elements])
+        return size_of(int(v[at.method_normal]), n_strips, n_elements, int(v[at.resolution_n_samples]))
+
+    return size
+
+
+def parameter_setter(table: Table) -> Callable[..., Any]:
+    """Return a compiled function that copies the parameters to the bench."""
+    at = references(table)
+    read_material = reader(table, CASE, {**MATERIAL, "patches.surface": "conformal"})
+
+    @compiled
+    def set_parameters(v, origin_y, origin_z, bench):
+        motion = bench.search.motion[0]
+        motion.radius = v[at.wheel_radius]
+        motion.tape = 0.5 * v[at.wheel_flange_back] + TAPE_FROM_FLANGE_BACK
+        motion.combine_distance = v[at.patches_combine_distance]
+        motion.most_patches = int(v[at.patches_max])
+        motion.mirror = 1.0 if v[at.side] == _RIGHT else -1.0
+        motion.origin_y, motion.origin_z = origin_y, origin_z
+        read_material(v, bench.case)
+        choose(int(v[at.method_normal]), int(v[at.method_tangential]), bench.case[0])
+        bench.search.case[0].G, bench.search.case[0].nu = bench.case[0].G, bench.case[0].nu
+        bench.damage_parameters[0] = _DAMAGE_PARAMETERS[0]
+        parameters = bench.damage_parameters[0]
+        parameters.hardness, parameters.shear_yield = v[at.material_hardness], v[at.material_shear_yield]
+        rail = bench.rail[0]
+        rail.ky, rail.kz = v[at.rail_ky], v[at.rail_kz]
+        rail.preload_y, rail.preload_z = v[at.rail_preload_y], v[at.rail_preload_z]
+
+    return set_parameters
+
+
+def step_solver(table: Table) -> Callable[..., Any]:
+    """Return a compiled function that solves the pair for the inputs, and returns 0 or the number of a failure."""
+    at = references(table)
+    read_surface = case_reader(table, {"velocity.x": "speed"})
+
+    @compiled
+    def solve(values, v, piece, bench):
+        """Solve for `v`, which are `values` as an array. `piece` is the size of the memory of a patch."""
+        read_surface(v, bench.case)
+        given, _ = block.records(values, at.pose_y, 1, GIVEN)
+        offset, _ = block.records(values, at.offset_x, 1, WHEEL_OFFSET)
+        bench.offset[0] = offset[0]
+        for k in range(MAX_PATCHES):
+            forget_forged(bench.memory[1 + k * piece : 1 + (k + 1) * piece])
+        mode = _HEIGHT[int(v[at.load_kind]) - 1]
+        return _failure(solve_flexible(mode, max(v[at.load_normal_force], 0.0), given[0], bench))
+
+    return solve
+
+
+@compiled
+def _failure(code):
+    """Return the number of the failure for a value of `NoAnswer`, 0 for none."""
+    if code == NoAnswer.NO_OVERLAP:
+        return Failure.NO_OVERLAP
+    if code == NoAnswer.NOT_SETTLED:
+        return Failure.NOT_SETTLED
+    if code == NoAnswer.TOO_DEEP:
+        return Failure.TOO_DEEP
+    if code == NoAnswer.TURNED:
+        return Failure.TURNED
+    return 0
+
+
+def reporter(table: Table) -> Callable[..., Any]:
+    """Return a compiled function that copies the results to the outputs."""
+    at = references(table)
+    write = writer(table, TOTAL, _OUTPUTS)
+
+    @compiled
+    def report(v, bench):
+        total = bench.total[0]
+        write(v, bench.total)
+        for i, component in enumerate((total.Fx, total.Fy, total.Fz, total.Mx, total.My, total.Mz)):
+            v[at.force_x + i] = component
+        for k in range(PATCHES):
+            numbers = carray(numbers_of(bench.contacts[k : k + 1]), (_N_PATCH_ROWS,))
+            for row in range(_N_PATCH_ROWS):
+                v[at.patch_n + PATCHES * row + k] = numbers[row]
+        v[at.slip_ratio] = total.slip_area / total.area if total.area > 0.0 else 0.0
+        v[at.power_friction] = v[at.velocity_x] * total.power
+        v[at.rail_deflection_y], v[at.rail_deflection_z] = bench.rail[0].dy, bench.rail[0].dz
+
+    return report
+
+
+def differ(table: Table) -> Callable[..., Any]:
+    """Return a compiled function that returns the step of a variable for difference quotients."""
+    at = references(table)
+
+    @compiled
+    def difference(v, reference):
+        """Return a step so small that elements hardly ever change from stick to slip within it.
+
+        For velocities it corresponds to a millionth of the creepage at saturation. For positions it is 0.1 µm, for angles
+        1e-7 rad. For heights it is 0.01 µm, since the penetration is small. Under a load the height is found to 1e-9 of the
+        load. Both sides of a difference are solved from a cold start, so that the tolerance of interacting strips, 1e-4, gives
+        the same error on both sides.
+        """
+        speed = max(v[at.velocity_x], SLOWEST)
+        creepage = 1e-3 * _steps(
+            v[at.friction_coefficient], abs(v[at.force_z]), v[at.material_shear_modulus], v[at.patches_area]
+        )[0]  # fmt: skip
+        if reference == at.pose_z or reference == at.irregularity_z or reference == at.offset_z:
+            return 1e-8
+        if at.pose_y <= reference <= at.pose_yaw or at.irregularity_y <= reference <= at.irregularity_roll:
+            return 1e-7
+        if at.offset_x <= reference <= at.offset_yaw:
+            return 1e-7
+        if (
+            at.velocity_x <= reference <= at.irregularity_roll_rate
+            or at.offset_x_rate <= reference <= at.offset_yaw_rate
+        ):
+            lever = v[at.wheel_radius] if reference == at.velocity_spin or reference == at.offset_pitch_rate else 1.0
+            return creepage * speed / lever
+        share = 1e-4 if reference == at.load_normal_force else 1e-6
+        return max(share * abs(v[reference]), 1e-12)
+
+    return difference

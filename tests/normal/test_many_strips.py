@@ -1,0 +1,42 @@
+"""Displacement of a point by many strips at once, against the lookups strip by strip."""
+
+import numpy as np
+import pytest
+
+from contact import workspace
+from contact.kernels.normal.influence import anywhere
+from contact.kernels.normal.many_strips import displacement, fill_ln_X, take_logarithms
+from contact.kernels.rows import Pair
+
+PLANE = workspace.strip_tables()[1]
+
+
+@pytest.mark.parametrize("own", [-1, 3])
+def test_many_strips_equal_the_lookups_of_each(own):
+    rng = np.random.default_rng(1)
+    n = 21
+    pairs = np.empty((len(Pair), n + 4))
+    X = np.append(10 ** rng.uniform(-3, 2, n - 3), [0.0, 3.999, 4.0])  # X = 4 is the border of the table
+    low = rng.uniform(-13, 7, n)  # ln t from below the table to beyond it
+    high = low + 10 ** rng.uniform(-2, 0.5, n)
+    forces = rng.uniform(0.0, 1.0, n)
+    expected = 0.0
+    for j in range(n):
+        near, far = anywhere(PLANE, X[j], low[j]), anywhere(PLANE, X[j], high[j])
+        expected += forces[j] * (far + near if j == own else far - near)
+    pairs[Pair.X, :n], pairs[Pair.LOW, :n], pairs[Pair.HIGH, :n] = X, low, high
+    fill_ln_X(n, pairs)
+    assert displacement(PLANE, forces, pairs, own) == pytest.approx(expected, rel=1e-12)
+
+
+def test_a_distance_that_is_no_number_reads_inside_the_table():
+    pairs = np.full((len(Pair), 4), np.nan)
+    assert not np.isfinite(displacement(PLANE, np.ones(4), pairs, -1))
+
+
+def test_logarithms():
+    rng = np.random.default_rng(2)
+    x = np.append(10 ** rng.uniform(-300, 300, 200), [1.0, 0.5, np.sqrt(0.5), np.sqrt(2.0)])
+    found = x.copy()
+    take_logarithms(x.size, found)
+    np.testing.assert_allclose(found, np.log(x), rtol=1e-12, atol=1e-10)
