@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from contact.creepage import Creepage
 from contact.errors import ContactError, doubt, require_number, require_pair
 from contact.friction import Friction, as_friction
-from contact.geometry.records import Patch
 from contact.given_force import solve_for_force, wanted_force
 from contact.halfspace import linear
 from contact.halfspace.bent import Surface
@@ -119,8 +118,8 @@ def solve(
         For input outside its range. With `throw`, also for the status OUT_OF_RANGE or NOT_CONVERGED.
     """
     if not isinstance(separation, Separation | Gap):
-        if isinstance(separation, Patch):
-            raise ContactError("separation is a Patch; use patch.separation")
+        if isinstance(getattr(separation, "separation", None), Separation | Gap):
+            raise ContactError(f"separation is a {type(separation).__name__}; use patch.separation")
         raise ContactError(f"separation = {separation!r} is not a contact.Separation")
     if not isinstance(creepage, Creepage):
         raise ContactError(f"creepage = {creepage!r} is not a contact.Creepage")
