@@ -146,7 +146,7 @@ def test_no_contact_draws_nothing_and_says_so(tmp_path):
         (("solve", "--curvatures", "1", "1", "--out", "nowhere/at/all.png"), "all.png cannot be written"),
         (("solve", "--curvatures", "1", "1", "--out", "picture.nonsense"), "picture.nonsense cannot be written"),
         (("curve", "--out", "nowhere/at/all.csv"), "all.csv cannot be written"),
-        (("curve", "--max", "inf"), "max = inf is outside the allowed range"),
+        (("curve", "--max", "inf"), "max = inf is not finite"),
         (("curve", "--tangential", "magic"), "tangential = 'magic'"),
         (("patch", "--yaw", "3"), "pose.yaw = 3"),
     ],
