@@ -49,6 +49,8 @@ def require_number(
     # a comparison with NaN is a trap where floating-point traps are on
     above = math.isfinite(number) and (number > minimum if open_minimum else number >= minimum)
     if not above or number > maximum:
+        if minimum == -math.inf and maximum == math.inf:
+            raise ContactError(f"{name} = {number:g} is not finite")
         left = "]" if open_minimum or math.isinf(minimum) else "["
         right = "[" if math.isinf(maximum) else "]"
         raise ContactError(f"{name} = {number:g} is outside the allowed range {left}{minimum:g}, {maximum:g}{right}")
@@ -64,13 +66,16 @@ def require_pair(name: str, value: object) -> tuple[float, float]:
     return first, second
 
 
-def doubt(name: str, value: float, limit: float, hint: str, level: int = 3) -> None:
-    """Warn of a value that is allowed but larger than `limit` in magnitude. `hint` says what is usual, or the unit.
+def doubt(name: str, value: float, limit: float, hint: str, level: int = 3, *, least: float = 0.0) -> bool:
+    """Warn of a value that is allowed, but larger than `limit` or, other than zero, smaller than `least` in magnitude.
 
-    The default `level` of the stack is the caller of the function that doubts.
+    `hint` says what is usual, or the unit. The default `level` of the stack is the caller of the function that doubts.
+    Return whether it warned.
     """
-    if abs(value) > limit:
+    doubtful = abs(value) > limit or 0.0 < abs(value) < least
+    if doubtful:
         warnings.warn(f"{name} = {value:g}: {hint}", PlausibilityWarning, stacklevel=level)
+    return doubtful
 
 
 def require_integer(name: str, value: object, minimum: float = -math.inf, maximum: float = math.inf) -> int:

@@ -297,6 +297,11 @@ class WheelRailPair:
         ------
         ContactError
             For input outside its range, if wheel and rail do not overlap laterally, or if no z gives the load.
+
+        Warns
+        -----
+        PlausibilityWarning
+            Once, for a pose, a spin of the axle or a load that no wheelset has, as from a wrong unit or sign.
         """
         if vertical is None:
             mode, amount = self.pair.prescribed(load, penetration)
@@ -320,6 +325,10 @@ class WheelRailPair:
                 f"vertical = {vertical:g}: no z was found at which normal and friction forces carry it together"
             )
         self.pair.require_found(code, pose, load)
+        if vertical is None:
+            self.pair.doubt(pose, velocity, load)
+        else:
+            self.pair.doubt(pose, velocity, vertical, "vertical")
         total = self.bench.total[0]
         return PairSolution(
             force=np.array([total.Fx, total.Fy, total.Fz]),

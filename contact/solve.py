@@ -118,6 +118,8 @@ def solve(
         For input outside its range. With `throw`, also for the status OUT_OF_RANGE or NOT_CONVERGED.
     """
     if not isinstance(separation, Separation | Gap):
+        if isinstance(getattr(separation, "separation", None), Separation | Gap):
+            raise ContactError(f"separation is a {type(separation).__name__}; use patch.separation")
         raise ContactError(f"separation = {separation!r} is not a contact.Separation")
     if not isinstance(creepage, Creepage):
         raise ContactError(f"creepage = {creepage!r} is not a contact.Creepage")

@@ -146,7 +146,7 @@ def test_no_contact_draws_nothing_and_says_so(tmp_path):
         (("solve", "--curvatures", "1", "1", "--out", "nowhere/at/all.png"), "all.png cannot be written"),
         (("solve", "--curvatures", "1", "1", "--out", "picture.nonsense"), "picture.nonsense cannot be written"),
         (("curve", "--out", "nowhere/at/all.csv"), "all.csv cannot be written"),
-        (("curve", "--max", "inf"), "max = inf is outside the allowed range"),
+        (("curve", "--max", "inf"), "max = inf is not finite"),
         (("curve", "--tangential", "magic"), "tangential = 'magic'"),
         (("patch", "--yaw", "3"), "pose.yaw = 3"),
     ],
@@ -371,6 +371,26 @@ def test_json_has_version_command_inputs_and_units():
     assert {name: answer["units"][name] for name in wanted} == wanted
 
 
+def test_json_has_the_values_in_effect_where_a_default_is_used():
+    def inputs(*words):
+        return json.loads(call("solve", *words, "--y", 3e-3, "--json").stdout)["inputs"]
+
+    assert (inputs()["load"], inputs()["inclination"]) == (80e3, 0.025)
+    assert inputs("--inclination", "1/20")["inclination"] == "1/20"
+    assert inputs("--penetration", 1e-4)["load"] is None
+    assert inputs("--rail", "EN 15302 rail A")["inclination"] is None  # it is drawn as it lies
+
+
+def test_the_kind_of_a_checked_file_has_the_name_of_the_other_options(tmp_path):
+    path = tmp_path / "wheel.txt"
+    wheel = profile.s1002()
+    path.write_text("\n".join(f"{1e3 * y:.6f} {1e3 * z:.6f}" for y, z in zip(wheel.y, wheel.z, strict=True)))
+    rest = ("check", path, "--profile-unit", "mm", "--profile-side", "right")
+    for name in ("--profile-kind", "--kind"):
+        assert "nothing found" in call(*rest, name, "wheel").stdout
+    assert "--profile-kind is missing: 'wheel.txt' does not say its kind" in call(*rest, code=2).stdout
+
+
 def test_every_number_of_a_solution_has_a_unit_or_is_a_count():
     answer = json.loads(call("solve", "--json").stdout)
     (patch,) = answer["patches"]
@@ -432,6 +452,7 @@ def test_units_of_headings_are_not_swallowed_by_markup():
 def test_absurd_input_is_answered_with_a_warning_on_one_line():
     for words, wanted in (
         (("--y", -0.02), "contact: warning: pose.y = -0.02: a flange touches at about 0.007 m; the unit is m"),
+        (("--load", 80, "--side", "both"), "contact: warning: load = 80: a wheel carries 20 to 150 kN; the unit is N"),
         (("--friction", 30), "contact: warning: friction = 30: steel on steel has 0.05 to 0.6"),
         (("--creepage", -0.128, 0, 0), "contact: warning: creepage.longitudinal = -0.128: a rolling wheel has less"),
     ):

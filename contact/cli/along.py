@@ -15,7 +15,7 @@ from rich.table import Table
 from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, prepare, reported
-from contact.cli.problem import STANDARD_LOAD
+from contact.cli.problem import load_or_standard
 from contact.geometry.surfaces import Deviation, RailSurface, SurfacePair, WheelSurface
 from contact.geometry.surfaces.deviation import out_of_round
 from contact.geometry.wheelset import Pose, Velocity
@@ -125,7 +125,7 @@ def along(
         Pose(y=place.y, roll=place.roll, yaw=place.yaw),
         Velocity(place.speed),
         rotation=way.turned,
-        load=STANDARD_LOAD if load is None and vertical is None else load,
+        load=load_or_standard(load) if vertical is None else load,
         vertical=vertical,
         friction=surface.law(),
     )

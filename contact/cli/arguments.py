@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import typer
 
 from contact.cli import options as opt
+from contact.cli.document import in_effect
 from contact.cli.problem import OF_A_POSITION, Pose, Position
 from contact.creepage import Creepage
 from contact.errors import ContactError
@@ -33,7 +34,10 @@ class Reading:
         options = {
             key.removeprefix("profile_"): value for key, value in vars(self).items() if key.startswith("profile_")
         }
-        return profile.load(name, kind, inclination=self.inclination, **options)
+        found = profile.load(name, kind, inclination=self.inclination, **options)
+        if kind == "rail":
+            in_effect(inclination=profile.default_inclination(name))
+        return found
 
 
 @dataclass

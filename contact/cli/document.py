@@ -46,17 +46,25 @@ _NAMES = {
 UNITS = {name: unit for unit, names in _NAMES.items() for name in names.split()}
 
 
-_RUNNING: ContextVar[tuple[str, Mapping[str, Any]]] = ContextVar("_RUNNING", default=("", {}))
+_RUNNING: ContextVar[tuple[str, dict[str, Any]]] = ContextVar("_RUNNING", default=("", {}))
 
 
 @contextmanager
 def running(command: str, inputs: Mapping[str, Any]) -> Iterator[None]:
     """Context manager in which `document` has the name and the inputs of a command."""
-    token = _RUNNING.set((command, inputs))
+    token = _RUNNING.set((command, dict(inputs)))
     try:
         yield
     finally:
         _RUNNING.reset(token)
+
+
+def in_effect(**values: Any) -> None:
+    """Tell the values that the running command uses for inputs that were not given, so that its JSON has them."""
+    inputs = _RUNNING.get()[1]
+    for name, value in values.items():
+        if name in inputs and inputs[name] is None:
+            inputs[name] = value
 
 
 def document(content: Mapping[str, Any]) -> str:

@@ -13,7 +13,7 @@ import typer
 from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, prepare, reported
-from contact.cli.problem import STANDARD_LOAD
+from contact.cli.problem import load_or_standard
 from contact.cli.report import show_curve
 from contact.contact_damping import ContactDamping
 from contact.elastic_rail import ElasticRail
@@ -77,7 +77,7 @@ def in_time(
     columns = _read(motion)
     given = {"pose.y": place.y, "pose.roll": place.roll, "pose.yaw": place.yaw, "velocity.x": place.speed}
     if "pose.z" not in columns:
-        given[LOAD] = STANDARD_LOAD if load is None else load
+        given[LOAD] = load_or_standard(load)
     elif load is not None:
         raise ContactError(f"load = {load:g} and the column 'pose.z' exclude each other")
     n = len(next(iter(columns.values())))

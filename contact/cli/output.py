@@ -33,7 +33,7 @@ def reported(command: Command) -> Command:
     def wrapper(*args: Any, **kwargs: Any) -> None:
         try:
             with warnings.catch_warnings(), running(name, kwargs):
-                warnings.simplefilter("always", PlausibilityWarning)
+                warnings.simplefilter("default", PlausibilityWarning)  # once, though both wheels have the same load
                 warnings.showwarning = _say  # type: ignore[assignment]
                 command(*args, **kwargs)
         except ContactError as error:
@@ -50,7 +50,7 @@ def in_options(text: str) -> str:
     """Return a message about a profile with the options of the command line in place of those of Python."""
     text = re.sub(r"\brepair=True", "--profile-repair", text)
     text = re.sub(r"\b(zero|smoothing|wavelength)='?([\w.+-]+)'?", r"--profile-\1 \2", text)
-    text = re.sub(r"\b(unit|side) = None: ", r"--profile-\1 is missing: ", text)
+    text = re.sub(r"\b(kind|unit|side) = None: ", r"--profile-\1 is missing: ", text)
     return re.sub(r"\bset (unit|side)\b", r"set --profile-\1", text)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
+from contact.cli.document import in_effect
 from contact.creepage import Creepage
 from contact.errors import ContactError
 from contact.geometry import wheelset
@@ -138,4 +139,11 @@ def standard_load(load: float | None, penetration: float | None) -> float | None
     """Return the load [N]: `STANDARD_LOAD` if neither load nor penetration is given."""
     if load is not None and penetration is not None:
         raise ContactError(f"load = {load:g} and penetration = {penetration:g} exclude each other")
-    return STANDARD_LOAD if load is None and penetration is None else load
+    return load_or_standard(load) if penetration is None else load
+
+
+def load_or_standard(load: float | None) -> float:
+    """Return the load [N], `STANDARD_LOAD` if it is None, and tell the JSON of the command."""
+    load = STANDARD_LOAD if load is None else load
+    in_effect(load=load)
+    return load

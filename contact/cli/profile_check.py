@@ -16,7 +16,10 @@ from contact.geometry import profile
 
 Given = Annotated[list[Path], typer.Argument(help="profile files or folders", show_default=False)]
 Kind = Annotated[
-    str | None, typer.Option(help="wheel or rail, for files that do not say it", rich_help_panel=opt.PROFILES)
+    str | None,
+    typer.Option(
+        "--profile-kind", "--kind", help="wheel or rail, for files that do not say it", rich_help_panel=opt.PROFILES
+    ),
 ]
 
 

@@ -46,7 +46,7 @@ DAMAGE: Sequence[tuple[str, str, Callable[[Damage], float]]] = (
     ("T-gamma with spin", "N", lambda d: d.T_gamma_spin),
     ("dissipation", "N", lambda d: d.dissipation),
     ("Pearce-Sherratt", "mm²/km", lambda d: 1e9 * d.pearce_sherratt),
-    ("USFD", "mm/km", lambda d: 1e6 * d.usfd),
+    ("USFD volume per patch area", "mm³/km/mm²", lambda d: 1e6 * d.usfd),
     ("Burstow", "1e-6/axle", lambda d: 1e6 * d.burstow),
     ("surface fatigue index", "-", lambda d: d.fatigue_index),
 )

@@ -7,7 +7,7 @@ from typing import Any
 from contact.cli import options as opt
 from contact.cli import report
 from contact.cli.output import deliver, drawing, prepare, reported
-from contact.cli.problem import STANDARD_LOAD
+from contact.cli.problem import load_or_standard
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
 from contact.halfspace import Transient
@@ -42,7 +42,7 @@ def transient(
         raise ContactError(
             f"distance = {distance:g} needs {count:.3g} steps of {length:g} m; at most {_MOST} are allowed"
         )
-    N = STANDARD_LOAD if load is None else load
+    N = load_or_standard(load)
     patch = Transient(Separation.hertzian(*curvatures), load=N, friction=friction, spacing=spacing)
     solutions = [] if shift is None else [(0.0, patch.shift(*shift))]
     motion = Creepage() if creepage is None else Creepage(*creepage)

@@ -121,8 +121,9 @@ def read(
     ------
     ContactError
         If the file is missing, cannot be read, holds no profile or contradicts `kind`; for missing or unknown arguments; for
-        a profile narrower than 30 mm or wider than 200 mm, as from a wrong unit; for a wheel with its flange on the field
-        side; for rows that are not in order, and several scans, without `repair`; for files above 20 MB.
+        a profile narrower than 30 mm or wider than 200 mm, as from a wrong unit; for the shape of the other kind, a wheel
+        with a flange as "rail" or a rail's head as "wheel"; for a wheel with its flange on the field side; for rows that are
+        not in order, and several scans, without `repair`; for files above 20 MB.
 
     Warns
     -----

@@ -19,6 +19,9 @@ TIP_FROM_TAPE = 0.055  # distance of the flange's tip from the tape circle [m] (
 FLANGE = 0.015  # a flange's tip lies at least this far below the median of a wheel's points [m]
 CROWN_FROM_GAUGE = 0.036  # half the width of a rail's head [m], from its gauge face
 
+_TIP_SHARE = 0.3  # share of the width up to which an extreme point is a flange's tip, and from which a rail's crown
+_TIP_RISE, _HEAD_DROP = 3e-3, 8e-3  # least height [m] of a flange's tip over its back, of a rail's crown over both ends
+
 _JUMP = 0.4  # of the extent: a step this long starts another scan
 _LOOPS = 4.0  # length of the path over the extent beyond which rows are not in order; S1002 has 1.5
 _MOST_SCANS = 10
@@ -125,10 +128,9 @@ def shape(points: Points, resolution: float = 0.0) -> list[Finding]:
         found.append(Finding(Fault.KINK, seen, "if they are not real, a smoothing rounds them", points[bent]))
     sigma, h = noise(points), float(np.median(chord))
     if _TANGENT_OF_NOISE * sigma > _ROUGH * h:
-        source = (
-            "numbers rounded to" if 0.2 * resolution <= sigma <= 0.6 * resolution else "noise under a resolution of"
-        )
-        rounding = f" ({source} {1e3 * resolution:g} mm)" if resolution else ""
+        rounded = 0.2 * resolution <= sigma <= 0.6 * resolution
+        source = "from rounding: the" if rounded else "from the measurement, not from rounding: the"
+        rounding = f" ({source} numbers are given to {1e3 * resolution:g} mm)" if resolution else ""
         seen = (
             f"points {_mm(h)} apart with a noise of {1e6 * sigma:.2g} µm{rounding} give tangents "
             f"{1e3 * _TANGENT_OF_NOISE * sigma / h:.0f} mrad off"
@@ -168,6 +170,25 @@ def place(points: Points, kind: Kind) -> list[Finding]:
 def has_flange(points: Points) -> bool:
     """Return whether the lowest point of a wheel, with z down, is a flange's tip."""
     return bool(points[:, 1].max() > np.median(points[:, 1]) + FLANGE)
+
+
+def apparent_kind(points: Points) -> Kind | None:
+    """Return what points in order look like, whichever way they lie; None if they could be either.
+
+    A wheel has its lowest or highest point, the tip of the flange, near one end. A rail has it, the crown, in the middle,
+    and both sides fall off.
+    """
+    y, z = points.T
+    for height in (z, -z):
+        top = int(np.argmax(height))
+        left, right = (height[top] - part.min() for part in (height[: top + 1], height[top:]))
+        share = (y[top] - y.min()) / np.ptp(y)
+        near_an_end = min(share, 1.0 - share) < _TIP_SHARE
+        if near_an_end and min(left, right) > _TIP_RISE and height[top] > np.median(height) + FLANGE:
+            return "wheel"
+        if not near_an_end and min(left, right) > _HEAD_DROP:
+            return "rail"
+    return None
 
 
 def scans(points: Points) -> list[Points]:

@@ -85,6 +85,11 @@ def named(
     return _profile("wheel", _WHEELS_15302[known], known)
 
 
+def has_inclination(name: str) -> bool:
+    """Return whether the standard profile with this name is a rail that can be inclined."""
+    return _known(name, None) in standard.RAILS
+
+
 def s1002(flange_height: float = STANDARD_HEIGHT, flange_thickness: float = STANDARD_THICKNESS) -> Profile:
     """Return wheel S1002 (EN 13715, UIC 510-2) from the flange's inner side to y = 60 mm.
 

@@ -43,13 +43,19 @@ def placed(points: Points, content: Content, kind: Kind, path: Path, zero: str |
 
 
 def require_plausible(points: Points, kind: Kind, path: Path) -> None:
-    """Raise a ContactError for a profile with an implausible width or with the flange on the wrong side."""
+    """Raise a ContactError for an implausible width, the shape of the other kind, or a flange on the wrong side."""
     y, z = points.T
     width = y.max() - y.min()
     if not NARROWEST <= width <= WIDEST:
         raise ContactError(
             f"path = {str(path)!r}: the profile is {width:g} m wide, outside the range [{NARROWEST:g}, {WIDEST:g}] of wheels "
             f"and rails; set unit to 'm' or 'mm'"
+        )
+    shape = inspection.apparent_kind(points)
+    if shape not in (None, kind):
+        seen = "a wheel: a flange near one end" if shape == "wheel" else "a rail: a crown in the middle"
+        raise ContactError(
+            f"path = {str(path)!r}: the points have the shape of {seen}; kind = {kind!r} must be {shape!r}"
         )
     deepest = np.argmax(z)
     if kind == "wheel" and inspection.has_flange(points) and y[deepest] > y.mean():

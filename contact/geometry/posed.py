@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, Literal
 
 import numpy as np
 
-from contact.errors import ContactError, require_number
+from contact.errors import ContactError, doubt, require_number
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.geometry.settle import DEEPEST
@@ -15,6 +16,8 @@ from contact.kernels.records import GIVEN
 Side = Literal["right", "left"]
 
 MAX_PENETRATION = 2e-3  # [m] that of a wheel under 10 MN; a larger value has a wrong unit
+LIGHTEST = 1e3  # [N] a smaller wheel load has a wrong unit, or is that of a model
+LARGEST_SLIP = 0.55  # of a wheel that is driven or braked; `contact.driven` searches up to 0.5
 _ROLLING, _IDEAL = Velocity(), Irregularity()
 
 
@@ -35,6 +38,7 @@ class Posed:
         self.side: Side = side
         self._mirror = 1.0 if side == "right" else -1.0
         self.nominal_radius = require_number("nominal_radius", nominal_radius, 0.05, 2.0)
+        self._doubted = False
 
     def given(
         self,
@@ -68,6 +72,29 @@ class Posed:
         motion = self.space.motion[0]
         motion.station, motion.rotation = require_number("station", station), require_number("rotation", rotation)
         return given
+
+    def doubt(self, pose: Pose, velocity: Velocity | None, load: float | None, name: str = "load") -> None:
+        """Warn of a motion and a load [N] that no wheelset has. Call it in the function that the user calls.
+
+        It warns at one call only, because a run in time may have a small load in many steps.
+        """
+        if self._doubted:
+            return
+        turned = "a wheelset has less than 0.03 rad; the unit is rad"
+        found = [
+            doubt("pose.y", pose.y, 0.015, "a flange touches at about 0.007 m; the unit is m", 4),
+            doubt("pose.roll", pose.roll, 0.05, turned, 4),
+            doubt("pose.yaw", pose.yaw, 0.05, turned, 4),
+        ]
+        if load is not None:
+            found.append(doubt(name, load, math.inf, "a wheel carries 20 to 150 kN; the unit is N", 4, least=LIGHTEST))
+        if velocity is not None and velocity.spin is not None and velocity.forward > 0.0:
+            slip = 1.0 + velocity.spin * self.nominal_radius / velocity.forward
+            hint = "a rolling wheel has less than 0.02; spin is negative when rolling forward, about -forward/radius"
+            found.append(
+                doubt(f"velocity.spin = {velocity.spin:g}: longitudinal creepage", slip, LARGEST_SLIP, hint, 4)
+            )
+        self._doubted = any(found)
 
     @staticmethod
     def prescribed(load: float | None, penetration: float | None) -> tuple[int, float]:

@@ -6,15 +6,22 @@ from pathlib import Path
 from typing import Any
 
 from contact.errors import ContactError
+from contact.geometry import library
 from contact.geometry.files import SIDES, UNITS, ZEROS, Inspection, check, read, read_folder
 from contact.geometry.library import ALIASES, cone, is_standard, named, names, rail_60e1, rail_arc, s1002
 from contact.geometry.outline import SPACING
 from contact.geometry.shape import Kind, Profile
 
 __all__ = [
-    "ALIASES", "SIDES", "SPACING", "UNITS", "ZEROS", "Inspection", "Kind", "Profile", "check", "cone", "is_standard", "load",
-    "named", "names", "rail_60e1", "rail_arc", "read", "read_folder", "s1002",
+    "ALIASES", "SIDES", "SPACING", "UNITS", "ZEROS", "Inspection", "Kind", "Profile", "check", "cone", "default_inclination",
+    "is_standard", "load", "named", "names", "rail_60e1", "rail_arc", "read", "read_folder", "s1002",
 ]  # fmt: skip
+
+
+def default_inclination(name: str) -> float | None:
+    """Return the inclination that `load` gives the rail with this name; None if the profile has its own."""
+    known = not Path(name).is_file() and is_standard(name)
+    return library.STANDARD_INCLINATION if known and library.has_inclination(name) else None
 
 
 def load(name: str, kind: Kind, *, inclination: float | str | None = None, **options: Any) -> Profile:

@@ -38,8 +38,8 @@ def smoothed(y: Array, z: Array, tolerance: float) -> tuple[Array, Array, Array]
     require_number("smoothing", tolerance, 0.0, 1e-3)
     try:
         from scipy.interpolate import splev, splprep
-    except ImportError as missing:
-        raise ImportError("smoothing needs scipy: pip install 'wheelrail-contact[profiles]'") from missing
+    except ImportError:
+        raise ImportError("smoothing needs scipy: pip install 'wheelrail-contact[profiles]'") from None
     u = _chords(y, z)
     try:
         spline, _ = splprep([y, z], u=u, s=y.size * tolerance**2, k=3)
@@ -79,8 +79,8 @@ def filtered(y: Array, z: Array, wavelength: float) -> tuple[Array, Array, Array
         raise ContactError(f"wavelength = {wavelength:g}: {y.size} points are too few to smooth; at least 5 are needed")
     try:
         from scipy.interpolate import make_smoothing_spline
-    except ImportError as missing:
-        raise ImportError("smoothing needs scipy: pip install 'wheelrail-contact[profiles]'") from missing
+    except ImportError:
+        raise ImportError("smoothing needs scipy: pip install 'wheelrail-contact[profiles]'") from None
     s = _chords(y, z)
     # In units of the wavelength, because the solver of scipy looks at absolute numbers.
     u, weights = s / wavelength, np.gradient(s) / wavelength

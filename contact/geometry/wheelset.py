@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact import workspace
 from contact.creepage import Creepage
-from contact.errors import ContactError, doubt, require_integer, require_number
+from contact.errors import ContactError, require_integer, require_number
 from contact.geometry.posed import Posed, Side
 from contact.geometry.records import Irregularity, Patch, Pose, Velocity
 from contact.geometry.shape import Profile
@@ -196,7 +196,7 @@ class Pair(Posed):
         low, high = sorted((self._mirror * (rail[0] - wheel[-1]), self._mirror * (rail[-1] - wheel[0])))
         return ContactError(
             f"pose.y = {pose.y:g}: the {self.side} wheel and rail profiles do not overlap; "
-            f"they do within about ]{low:g}, {high:g}["
+            f"they do within about ]{low:g}, {high:g}[ m{'; is it in mm?' if abs(pose.y) >= 1.0 else ''}"
         )
 
 
@@ -243,13 +243,15 @@ def contacts(
     ContactError
         For input outside its range, for profiles that do not overlap laterally or lie far inside each other, or if no z
         gives the load.
+
+    Warns
+    -----
+    PlausibilityWarning
+        For a pose, a spin of the axle or a load that no wheelset has, as from a wrong unit or sign.
     """
-    found = Pair(wheel, rail, **options).contacts(
-        pose, velocity, load=load, penetration=penetration, irregularity=irregularity
-    )
-    doubt("pose.y", pose.y, 0.015, "a flange touches at about 0.007 m; the unit is m")
-    for name in ("roll", "yaw"):
-        doubt(f"pose.{name}", getattr(pose, name), 0.05, "a wheelset has less than 0.03 rad; the unit is rad")
+    pair = Pair(wheel, rail, **options)
+    found = pair.contacts(pose, velocity, load=load, penetration=penetration, irregularity=irregularity)
+    pair.doubt(pose, velocity, load)
     return found
 
 

@@ -174,15 +174,32 @@ def _sources(model: Model, cache: Path) -> list[Path]:
 def compile_kernels(chosen: Sequence[Model], cache: Path, say: Callable[[str], None]) -> None:
     """Compile the kernels that are not in the cache, in one process, where the models share most of the work."""
     words: list[str | Path] = []
+    awaited: dict[str, list[Path]] = {}
     every = chain.from_iterable((model, *model.linked) for model in chosen)
     for folder, model in {_kept(model, cache): model for model in every}.items():
         parts = chain(_sources(model, cache), *(objects(folder, platform) for platform in TRIPLES))
         if not all(path.exists() for path in parts):
             folder.mkdir(parents=True, exist_ok=True)
             words += [model.name, json.dumps(dict(model.options)), folder]
+            awaited |= {f"{model.table.name} for {platform}": objects(folder, platform) for platform in TRIPLES}
     if words:
         say(f"compiling the kernels of {len(words) // 3} FMUs for 3 systems, some minutes the first time")
-        run(sys.executable, "-m", "fmu_src.native.emit", *words, waiting=lambda: say("still compiling the kernels"))
+        tell = _teller(awaited, say)
+        run(sys.executable, "-m", "fmu_src.native.emit", *words, waiting=tell)
+        tell()
+
+
+def _teller(awaited: dict[str, list[Path]], say: Callable[[str], None]) -> Callable[[], None]:
+    """Return a function that says once of each name that all its files are there, and how many of how many are done."""
+    left = {name: paths for name, paths in awaited.items() if not all(path.exists() for path in paths)}
+    total = len(left)
+
+    def tell() -> None:
+        for name in [name for name, paths in left.items() if all(path.exists() for path in paths)]:
+            del left[name]
+            say(f"kernels of {name}: compiled, {total - len(left)} of {total}")
+
+    return tell
 
 
 def _kept(model: Model, cache: Path) -> Path:

@@ -2,6 +2,8 @@
 
 pythonfmu 0.7.0 turns an exception in a callback into fmi2Fatal, and the fifth one crashes the host (measured). Therefore no
 exception leaves a callback: a doStep that fails returns Discard with a message, and any other refused call is logged.
+
+pythonfmu gives messages to the host's logger only with `loggingOn` (measured). A refusal is therefore also written to stderr.
 """
 
 from __future__ import annotations
@@ -109,6 +111,7 @@ class TableSlave(Fmi2Slave):
             )
         self.table = table
         self.guid = guid
+        self._said = ""
         self.phase = Phase.INSTANTIATED
         self.time, self.stop_time = 0.0, math.inf
         self.values = Values(table, [s.first for s in table.scalars])
@@ -142,6 +145,14 @@ class TableSlave(Fmi2Slave):
         self._greatest = np.minimum([s.maximum for s in scalars], sys.float_info.max)
         self._choices = [(row.name, row.twin_of) for row in table.twins if row.is_given]
         self._mirrors = [(row.name, row.twin_of) for row in table.twins if not row.is_given]
+
+    def log(self, msg: str, status: Fmi2Status = Fmi2Status.ok, *rest: Any, **options: Any) -> None:
+        """Log a message. A refusal is also written to stderr, unless it is the one written last."""
+        super().log(msg, status, *rest, **options)
+        if status >= Fmi2Status.discard and msg != self._said and sys.stderr is not None:
+            sys.stderr.write(f"{self.table.name}: {msg}\n")
+            sys.stderr.flush()
+            self._said = msg
 
     # ---------------------------------------------------------------- implemented by a model
 

@@ -15,6 +15,7 @@ TRUST = {
     "lifted": ("1", "times that a wheel lost contact with its rail"),
     "untrusted": ("1", "contacts without a trustworthy solution"),
     "speed_ratio": ("1", "greatest speed over the linear critical speed on straight track"),
+    "unfinished": ("1", "curves of the track that the run does not reach the end of"),
 }
 
 
@@ -27,6 +28,7 @@ class Trust:
     lifted: float
     untrusted: float
     speed_ratio: float
+    unfinished: float
 
     @property
     def closes(self) -> bool:
@@ -52,6 +54,11 @@ class Trust:
             said.append(
                 f"The speed is {self.speed_ratio:.3g} times the linear critical speed: on straight track small motions grow."
             )
+        if self.unfinished:
+            said.append(
+                f"The run ends before the end of {self.unfinished:.0f} of its curves: the length of the scenario is shorter "
+                "than its track."
+            )
         return tuple(said)
 
     def as_dict(self) -> dict[str, float]:
@@ -60,11 +67,12 @@ class Trust:
 
 
 def worst(runs: list[Trust]) -> Trust:
-    """Return the measures of several runs together: the largest ratios and the sums of the counts."""
+    """Return the measures of several runs together: the sums of what happened, and the largest of the others."""
     return Trust(
         residual=max((run.residual for run in runs), key=abs),
         impacts=sum(run.impacts for run in runs),
         lifted=sum(run.lifted for run in runs),
         untrusted=sum(run.untrusted for run in runs),
         speed_ratio=max(run.speed_ratio for run in runs),
+        unfinished=max(run.unfinished for run in runs),
     )

@@ -268,7 +268,7 @@ class VehicleRun:
     @property
     def trust(self) -> Trust:
         """How far the run can be trusted."""
-        books = self.simulation.state.books
+        books, declared = self.simulation.state.books, self.scenario.declared
         dissipated = float(books[Book.DISSIPATED])
         return Trust(
             residual=float(books[Book.RESIDUAL]) / dissipated if dissipated > 0.0 else 0.0,
@@ -276,6 +276,7 @@ class VehicleRun:
             lifted=float(books[Book.LIFTED]),
             untrusted=float(books[Book.UNTRUSTED]),
             speed_ratio=self.scenario.fastest / self.critical_speed,
+            unfinished=float(sum(curve.end > declared.length for curve in declared.track.curves)),
         )
 
     @cached_property

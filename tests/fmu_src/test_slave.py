@@ -104,6 +104,15 @@ def test_a_bad_input_discards_the_step_and_keeps_the_outputs(slave, reference, v
     assert slave.do_step(0.0, 0.1) is True
 
 
+def test_a_refusal_is_seen_on_stderr_once_since_pythonfmu_logs_only_if_asked_to(slave, capsys):
+    slave.set_real([Y], [-1.0])
+    for _ in range(3):
+        slave.do_step(0.0, 0.1)
+    assert capsys.readouterr().err == "Quotient: y = -1 is outside the allowed range [0, inf[\n"
+    slave.log("something of no weight", Fmi2Status.warning)
+    assert capsys.readouterr().err == ""
+
+
 @pytest.mark.parametrize(
     ("time", "step", "name"),
     [(0.0, 0.0, "Size"), (0.0, -1.0, "Size"), (0.0, math.nan, "Size"), (0.0, 10.1, "end of"), (0.1, 0.1, "Point")],

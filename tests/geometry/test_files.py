@@ -147,6 +147,25 @@ def test_a_flange_on_the_field_side_is_detected_and_corrected_by_the_option(tmp_
     same(profile.read(path, kind="wheel", unit="m", side="left"), WHEEL)
 
 
+@pytest.mark.parametrize("side", ["right", "left"])
+@pytest.mark.parametrize("up", [1.0, -1.0])
+@pytest.mark.parametrize("name", profile.names())
+def test_a_wheel_is_no_rail_and_a_rail_no_wheel(tmp_path, name, up, side):
+    path, drawn = tmp_path / "drawn.txt", profile.named(name)
+    path.write_text(table(drawn.y if side == "right" else -drawn.y, up * drawn.z))
+    other = "rail" if drawn.kind == "wheel" else "wheel"
+    with pytest.raises(ContactError, match=f"shape of a {drawn.kind}: .*kind = '{other}' must be '{drawn.kind}'"):
+        profile.read(path, kind=other, unit="m", side=side)
+    assert profile.read(path, kind=drawn.kind, unit="m", side=side).kind == drawn.kind
+
+
+def test_shapes_that_could_be_either_are_taken_as_given(tmp_path):
+    path = tmp_path / "part.txt"
+    for drawn, part in ((RAIL, RAIL.y < 0.01), (WHEEL, WHEEL.y > -0.05)):  # the gauge side; a scan from the tip on
+        path.write_text(table(drawn.y[part], drawn.z[part]))
+        assert profile.read(path, kind=drawn.kind, unit="m", side="right").kind == drawn.kind
+
+
 @pytest.mark.parametrize("separator", [" ", ";", "; ", "\t", ", "])
 def test_decimal_commas_are_recognised(tmp_path, separator):
     path = tmp_path / "wheel.txt"

@@ -16,15 +16,30 @@ from models.vehicle.kernels.wheels import count
 from models.vehicle.run import VehicleRun
 from tests.life.short_set import written
 
-GOOD = Trust(residual=0.001, impacts=0.0, lifted=0.0, untrusted=0.0, speed_ratio=0.5)
-BAD = Trust(residual=-0.49, impacts=3.0, lifted=2.0, untrusted=7.0, speed_ratio=1.2)
+GOOD = Trust(residual=0.001, impacts=0.0, lifted=0.0, untrusted=0.0, speed_ratio=0.5, unfinished=0.0)
+BAD = Trust(residual=-0.49, impacts=3.0, lifted=2.0, untrusted=7.0, speed_ratio=1.2, unfinished=1.0)
 
 
 def test_a_good_run_has_no_warning_and_a_bad_one_names_every_fault():
     assert GOOD.warnings == ()
     said = " ".join(BAD.warnings)
-    for text in ("-49 %", "7 contacts", "2 times", "3 times", "1.2 times the linear critical speed"):
+    for text in (
+        "-49 %",
+        "7 contacts",
+        "2 times",
+        "3 times",
+        "1.2 times the linear critical speed",
+        "end of 1 of its curves",
+    ):
         assert text in said
+
+
+def test_a_run_that_is_shorter_than_its_curve_says_so(tmp_path):
+    folder = written(tmp_path).parent
+    straight, curve = (VehicleRun(scenario.read(folder / f"{name}.toml")) for name in ("straight", "curve"))
+    assert (straight.trust.unfinished, curve.trust.unfinished) == (0.0, 1.0)
+    (said,) = (text for text in curve.trust.warnings if "curves" in text)
+    assert said in report.page_of(curve)
 
 
 def test_the_worst_of_several_runs_keeps_the_largest_residual_and_adds_the_counts():

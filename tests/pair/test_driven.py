@@ -74,7 +74,7 @@ def test_a_lifted_wheel_has_no_force(pair):
     [
         ({}, "exactly one of force and torque"),
         ({"force": 1.0, "torque": 1.0}, "exactly one of force and torque"),
-        ({"force": float("nan")}, "force = nan is outside"),
+        ({"force": float("nan")}, "force = nan is not finite"),
         ({"torque": "much"}, "torque = 'much' is not a number"),
     ],
 )

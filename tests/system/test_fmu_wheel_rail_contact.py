@@ -188,22 +188,22 @@ def test_a_patch_beyond_the_separation_is_reported_once(fmu):
 
 
 @pytest.mark.parametrize(
-    ("name", "value", "allowed"),
+    ("name", "value", "fault"),
     [
-        ("geometry.g[7]", math.nan, "]-inf, inf["),
-        ("geometry.A[1]", -1.0, "[0, inf["),
-        ("creepage.spin", math.inf, "[-1e+06, 1e+06]"),
-        ("load.normal_force", -1001.0, "[-1000, inf["),
-        ("friction.coefficient", math.nan, "[0, 1e+06]"),
-        ("speed", -1.0, "[0, inf["),
+        ("geometry.g[7]", math.nan, "not finite"),
+        ("geometry.A[1]", -1.0, "outside the allowed range [0, inf["),
+        ("creepage.spin", math.inf, "outside the allowed range [-1e+06, 1e+06]"),
+        ("load.normal_force", -1001.0, "outside the allowed range [-1000, inf["),
+        ("friction.coefficient", math.nan, "outside the allowed range [0, 1e+06]"),
+        ("speed", -1.0, "outside the allowed range [0, inf["),
     ],
 )
-def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(fmu, name, value, allowed):
+def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(fmu, name, value, fault):
     fmu.step()
     before, good = fmu.all("output"), fmu[name]
     fmu.update({name: value})
     for _ in range(7):  # the fifth exception in a pythonfmu callback would crash the host
-        assert discarded(fmu, 1e-3) == f"{name} = {value:g} is outside the allowed range {allowed}"
+        assert discarded(fmu, 1e-3) == f"{name} = {value:g} is {fault}"
     assert fmu.all("output") == before
     fmu.update({name: good})
     fmu.step(1e-3)

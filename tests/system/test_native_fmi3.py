@@ -164,7 +164,7 @@ def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(fmu):
         (
             "geometry.g",
             [*[0.0] * 6, math.nan, *[0.0] * 34],
-            "geometry.g[7] = nan is outside the allowed range ]-inf, inf[",
+            "geometry.g[7] = nan is not finite",
         ),
         ("speed", -1.0, "speed = -1 is outside the allowed range [0, inf["),
     ):

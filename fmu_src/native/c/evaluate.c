@@ -46,6 +46,8 @@ Status check_ranges(const Instance *instance, const double *values, size_t n)
     for (size_t i = 0; i < n; i++) {
         const Variable *v = &variables[i];
         if (v->role == OUTPUT || is_allowed(i, values)) continue;
+        if (isinf(v->minimum) && isinf(v->maximum))
+            return report(instance, LOG_DISCARD, "%s = %g is not finite", v->name, values[i]);
         return report(instance, LOG_DISCARD, "%s = %g is outside the allowed range %s%g, %g%s", v->name, values[i],
                       v->open_minimum || isinf(v->minimum) ? "]" : "[", v->minimum, v->maximum,
                       isinf(v->maximum) ? "[" : "]");
