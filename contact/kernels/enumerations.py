@@ -91,7 +91,17 @@ class SlipVelocity(IntEnum):
 
 
 class Status(IntEnum):
-    """How a solution came about; the numbers are those of the FMU's `status`."""
+    """How a solution came about; the numbers are those of the FMU's `status`. Printed, it is its name.
+
+    Attributes
+    ----------
+    OK : 1, solved
+    NO_CONTACT : 2, the bodies do not touch: all forces are zero
+    SATURATED : 3, solved; the whole patch slips
+    OUT_OF_RANGE : 4, the patch reaches the end of the separation: data are missing
+    NOT_CONVERGED : 5, the iteration stopped at its cap; the last iterate is returned
+    UNREACHABLE : 6, no creepage makes the given force
+    """
 
     OK = 1
     NO_CONTACT = 2
@@ -99,6 +109,9 @@ class Status(IntEnum):
     OUT_OF_RANGE = 4  # the patch reaches the end of the separation: data are missing
     NOT_CONVERGED = 5
     UNREACHABLE = 6  # a given tangential force that no creepage makes; the FMUs take creepages
+
+    def __str__(self) -> str:
+        return self.name
 
     @property
     def message(self) -> str:
