@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import contact
-from contact.cli import cases, options
+from contact.cli import arguments, cases, options
 from contact.geometry import profile
 from contact.geometry.surfaces import RailSurface, WheelSurface
 from models.life import declared_set, scenario, track
@@ -173,7 +173,7 @@ def test_a_damaged_slice_in_a_file_and_in_a_folder(tmp_path):
 def test_a_damaged_file_of_cases(tmp_path, name):
     path = tmp_path / name
     path.write_text(CASES[name])
-    given = vars(options.Place()) | vars(options.Reading()) | vars(options.Amount())
+    given = vars(arguments.Place()) | vars(arguments.Reading()) | vars(arguments.Amount())
     given |= {"side": options.Side.right, "friction": 0.3, "curvatures": None}
     survived(path, lambda: cases.read(path, given), 20)
 

@@ -11,6 +11,7 @@ FOLDERS = ("contact", "fmu_src", "models", "reference", "tests", "benchmarks", "
 #: Files that may import a private module of `contact` (leading underscore) → names that they may import.
 PRIVATE = {
     "fmu_src/place.py": {"contact._jit.cache_directory"},  # folder of compiled kernels
+    "fmu_src/native/memory.py": {"contact._jit.uncached"},
     "models/vehicle/kernels/benches.py": {"contact._jit.inlined", "contact._jit.kernel"},
     **{
         f"models/vehicle/kernels/{name}.py": {"contact._jit.kernel"}

@@ -55,7 +55,10 @@ def solve_flexible(mode, amount, given, bench):
     moved = bench.displaced[0]
     if abs(moved.roll) > LARGEST_ANGLE or abs(moved.yaw) > LARGEST_ANGLE:
         return NoAnswer.TURNED.value
+    station = motion.station
+    motion.station = station + x
     code = solve_on_rail(mode, amount, moved, bench)
+    motion.station = station
     total.Mx += y * total.Fz - z * total.Fy
     total.My += z * total.Fx - x * total.Fz
     total.Mz += x * total.Fy - y * total.Fx

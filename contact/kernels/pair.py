@@ -14,7 +14,8 @@ from contact.kernels.pipeline import solve_case
 from contact.kernels.records import LARGEST_CREEPAGE, MAX_PATCHES
 from contact.kernels.rows import Sep, Strip
 
-#: Heights that are tried for a vertical force, of which the residual should be and may be, and the furthest height [m].
+#: Heights that are tried for a vertical force, of which the residual should be and may be (as under a load), and the
+#: furthest height [m].
 _MAX_HEIGHTS, _TOLERANCE, _ACCEPTABLE, _FURTHEST = 40, 1e-9, 1e-3, 1.0
 #: The same residuals on surfaces that change along the way. On the edge of a fresh flat the force is not smooth in z.
 _ROUGHER, _ACCEPTABLE_ROUGH = 1e-7, 1e-2
@@ -246,6 +247,8 @@ def _solve_at(mode, amount, given, z, enters, bench):
             total.gap_error = max(total.gap_error, contact.gap_error)
             if enters and bench.ledger.bins.shape[2] > 0 and bench.ledger.settings[0].distance > 0.0:
                 enter(patch, n_strips, damage, bench)
+    if motion.missed > _ACCEPTABLE:
+        total.status = Status.NOT_CONVERGED.value
     total.z, total.n_patches = motion.z, n
     _compare_forces(total)
     _mirror(motion.mirror, n, bench.contacts, total)

@@ -152,6 +152,7 @@ MOTION = _record(
     reach           distance before and behind the axle in which surfaces are searched [m]
     tilted:int      1 where frames follow the normal of a surface in all directions, 0 where they turn about x
     changing:int    1 in a search over surfaces: the wheel is no body of revolution
+    missed          share of the load by which the last search under a load missed it
     """,
 )
 

@@ -5,7 +5,7 @@ import pytest
 
 from contact import workspace
 from contact.kernels.normal.influence import anywhere
-from contact.kernels.normal.many_strips import displacement, fill_ln_X, take_logarithms
+from contact.kernels.normal.many_strips import displacement, fill_ln_X
 from contact.kernels.rows import Pair
 
 PLANE = workspace.strip_tables()[1]
@@ -32,11 +32,3 @@ def test_many_strips_equal_the_lookups_of_each(own):
 def test_a_distance_that_is_no_number_reads_inside_the_table():
     pairs = np.full((len(Pair), 4), np.nan)
     assert not np.isfinite(displacement(PLANE, np.ones(4), pairs, -1))
-
-
-def test_logarithms():
-    rng = np.random.default_rng(2)
-    x = np.append(10 ** rng.uniform(-300, 300, 200), [1.0, 0.5, np.sqrt(0.5), np.sqrt(2.0)])
-    found = x.copy()
-    take_logarithms(x.size, found)
-    np.testing.assert_allclose(found, np.log(x), rtol=1e-12, atol=1e-10)

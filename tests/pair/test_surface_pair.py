@@ -7,6 +7,7 @@ import pytest
 
 from contact import STEEL, ContactError, Status
 from contact.geometry import profile
+from contact.geometry.flexible import WheelOffset
 from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, Wave, WheelSurface
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
 from contact.pair import WheelRailPair
@@ -266,3 +267,28 @@ def test_wrong_arguments_are_refused_by_name():
         WheelRailSurfaces(Pair(WHEEL, RAIL))
     with pytest.raises(ContactError, match="only one may be given"):
         WheelRailSurfaces(SurfacePair(WHEEL, RAIL)).solve(Pose(), vertical=1.0, load=1.0)
+
+
+def test_a_load_that_is_missed_is_not_called_solved():
+    """Where the force jumps with the height, no height has the load. There the patches carry .6 % more."""
+    pair = WheelRailPair(
+        SurfacePair(WHEEL, crossing.crossing(), rail_origin=(0.75, 0.0)), normal="analyn", tangential="fastrip"
+    )
+    status = {}
+    for station in (0.18, 0.19):
+        found = pair.solve(Pose(), FREE, station=station, load=8e4)
+        carried = sum(c.N * math.cos(c.angle) for c in found.contacts)
+        status[found.status is Status.NOT_CONVERGED] = abs(carried / 8e4 - 1.0)
+    assert status[False] < 1e-6
+    assert status[True] > 1e-3
+
+
+def test_an_axle_that_is_displaced_forwards_stands_further_along_the_rail():
+    pair = WheelRailPair(
+        SurfacePair(WHEEL, crossing.crossing(), rail_origin=(0.75, 0.0)), normal="analyn", tangential="fastrip"
+    )
+    further = pair.solve(Pose(), FREE, station=0.23, load=8e4)
+    displaced = pair.solve(Pose(), FREE, station=0.18, load=8e4, offset=WheelOffset(x=0.05))
+    np.testing.assert_allclose(displaced.force, further.force, rtol=1e-9)
+    turned = np.cross((0.05, 0.0, 0.0), further.force)
+    np.testing.assert_allclose(displaced.moment, further.moment + turned, rtol=1e-9, atol=1e-6)

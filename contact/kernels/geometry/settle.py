@@ -122,11 +122,13 @@ def settle(mode: int, amount: float, space: Search) -> int:
     """Set motion.z as `mode` says, describe the patches there and return their number.
 
     Under a load, F^(2/3) is nearly linear in the penetration (Hertz). Its root is bracketed and found by the Illinois
-    variant of regula falsi, usually at the fifth force. If that is slow, bisection is used.
+    variant of regula falsi, usually at the fifth force. If that is slow, bisection is used. On surfaces the force may jump
+    with the height; then `motion.missed` tells by how much it misses the load.
     """
+    motion = space.motion[0]
+    motion.missed = 0.0
     if mode == Height.GIVEN:
         return locate(space)
-    motion = space.motion[0]
     above, z0, nodes = begin(space, motion.z)
     if not above:
         return NoAnswer.NO_OVERLAP.value
@@ -143,6 +145,7 @@ def settle(mode: int, amount: float, space: Search) -> int:
         n = describe(space, z0 + p, nodes)
         force = carried(n, space)
         if abs(force - amount) <= tolerance * amount or high - low <= 1e-15:
+            motion.missed = abs(force - amount) / amount
             return n
         f = max(force, 0.0) ** (2.0 / 3.0) - target
         if f > 0.0:

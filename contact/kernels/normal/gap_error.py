@@ -11,7 +11,7 @@ import math
 
 from contact._jit import kernel
 from contact.kernels import cubic
-from contact.kernels.normal.many_strips import displacement, fill_ln_X, take_logarithms
+from contact.kernels.normal.many_strips import displacement, fill_ln_X
 from contact.kernels.rows import Pair, Strip, Vector
 
 #: Number of strips at which the gap is evaluated.
@@ -36,13 +36,9 @@ def _displacement(at, locus, strip, n, strips, vectors, plane):
     lows, highs = pairs[Pair.LOW], pairs[Pair.HIGH]
     for j in range(n):
         away, half = abs(strips[Strip.Y, j] - at), 0.5 * strips[Strip.DY, j]
-        lows[j], highs[j] = max(abs(away - half), 1e-12 * half), away + half
+        lows[j] = math.log(max(abs(away - half), 1e-12 * half)) - vectors[Vector.Q1, j]
+        highs[j] = math.log(away + half) - vectors[Vector.Q1, j]
         pairs[Pair.X, j] = abs(strips[Strip.XC, j] - locus) * vectors[Vector.Q2, j]
-    take_logarithms(n, lows)
-    take_logarithms(n, highs)
-    for j in range(n):
-        lows[j] -= vectors[Vector.Q1, j]
-        highs[j] -= vectors[Vector.Q1, j]
     fill_ln_X(n, pairs)
     return displacement(plane, vectors[Vector.R, :n], pairs, strip)
 

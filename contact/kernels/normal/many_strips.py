@@ -6,28 +6,9 @@ the table; a second one reads the table. This takes half the time of `in_row` st
 
 import math
 
-import numpy as np
-
 from contact._jit import kernel
 from contact.kernels.normal.influence import LN_T_LOW, N_T, N_X, PER_T_STEP, PER_X_STEP, T_STEP, X_MAX
 from contact.kernels.rows import Pair
-
-
-@kernel
-def take_logarithms(n, x):
-    """Replace the first `n` numbers of `x` > 0 by their logarithms, to 1e-9.
-
-    The exponent of a float64 gives the power of two, and the series of 2 atanh the mantissa in [√½, √2].
-    """
-    bits = x.view(np.int64)
-    for m in range(n):
-        half_way = bits[m] - 0x3FE6A09E667F3BCD  # exponent and mantissa of √½
-        power = half_way >> 52
-        bits[m] -= power << 52
-        s = (x[m] - 1.0) / (x[m] + 1.0)
-        q = s * s
-        series = 1.0 + q * (1.0 / 3.0 + q * (0.2 + q * (1.0 / 7.0 + q * (1.0 / 9.0 + q * (1.0 / 11.0)))))
-        x[m] = power * math.log(2.0) + 2.0 * s * series
 
 
 @kernel

@@ -90,16 +90,25 @@ def _set_changes(strips, first, last, i, back, case, tables):
 
 
 @kernel
+def _is_read(i, first, last):
+    """Return whether the table is read for strip i: every other one from both ends, so that mirror images agree."""
+    k = min(i - first, last - 1 - i)
+    return k % 2 == 0 or 2 * (k + 1) == last - first  # the two in the middle
+
+
+@kernel
 def set_effective(strips, first, last, case, tables):
     """Set the effective creepages and the map exponent of every strip of one patch, as changes.
 
     The table takes .9 µs. Where shapes change it is read for every other strip. A strip between two others gets a mean of
     theirs, in which the one that it is tied to more closely has the greater weight.
     """
-    for i in range(first, last, 2):
-        _set_changes(strips, first, last, i, 2, case, tables)
-    if (last - first) % 2 == 0:
-        _set_changes(strips, first, last, last - 1, 1, case, tables)
-    for i in range(first + 1, last - 1, 2):
-        before, after = 1.0 - strips[Strip.TIE, i], 1.0 - strips[Strip.TIE, i + 1]
-        _mix(strips, i, i - 1, i + 1, before / (before + after) if before + after > 0.0 else 0.0)
+    before = first
+    for i in range(first, last):
+        if _is_read(i, first, last):
+            _set_changes(strips, first, last, i, max(i - before, 1), case, tables)
+            before = i
+    for i in range(first + 1, last - 1):
+        if not _is_read(i, first, last):
+            low, high = 1.0 - strips[Strip.TIE, i], 1.0 - strips[Strip.TIE, i + 1]
+            _mix(strips, i, i - 1, i + 1, low / (low + high) if low + high > 0.0 else 0.0)
