@@ -1,0 +1,167 @@
+"""Command line: errors, help, plug-ins and missing packages."""
+
+import json
+import subprocess
+import sys
+from importlib.metadata import EntryPoint
+
+import pytest
+
+import contact
+import contact.stress
+
+typer = pytest.importorskip("typer")
+
+from typer.testing import CliRunner  # noqa: E402
+
+from contact.cli import app as cli  # noqa: E402
+from contact.cli.plugins import GROUP, add_plugins  # noqa: E402
+from tests.command_line import call  # noqa: E402
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("solve", "--load", "-1"), "load = -1 is outside the allowed range [0, inf["),
+        (("solve", "--friction", "nan"), "friction = nan"),
+        (("solve", "--curvatures", "0", "1"), "A = 0 is outside the allowed range ]0, inf["),
+        (
+            ("solve", "--curvatures", "1", "1", "--wheel", "s1002", "--y", "0"),
+            "--wheel, --y: --curvatures replaces wheel, rail and position",
+        ),
+        (
+            ("compare", "--curvatures", "1", "1", "--profile-smoothing", "2e-6"),
+            "--profile-smoothing: --curvatures replaces",
+        ),
+        (("solve", "--normal", "magic"), "normal = 'magic' is not a registered method"),
+        (("solve", "--wheel", "round"), "wheel = 'round' is no profile of the standards; they are S1002, 1/40"),
+        (("solve", "--wheel", "S1003"), "wheel = 'S1003' is no profile of the standards, did you mean 'S1002'"),
+        (("solve", "--wheel", "missing.prw"), "missing.prw' is missing: there is no such file"),
+        (("solve", "--rail", "rail A", "--inclination", "0.05"), "EN 15302 rail A has no inclination"),
+        (
+            ("solve", "--rail", "some.prr", "--inclination", "0.05"),
+            "the rail in the file 'some.prr' is taken as it lies",
+        ),
+        (("conicity", "--amplitude", "3"), "amplitudes = 3 is outside the allowed range [0.0001, 0.02]"),
+        (("conicity", "--left-radius", "0.4"), "has the same sign"),
+        (("geometry", "--gauge", "1435"), "gauge = 1435 is outside"),
+        (("solve", "--load", "1", "--penetration", "1e-5"), "exclude each other"),
+        (("solve", "--y", "1.0"), "pose.y = 1"),
+        (("solve", "--penetration", "-1e-5"), "penetration = -1e-05"),
+        (("solve", "--curvatures", "1", "1", "--out", "nowhere/at/all.png"), "all.png cannot be written"),
+        (("solve", "--curvatures", "1", "1", "--out", "picture.nonsense"), "picture.nonsense cannot be written"),
+        (("curve", "--out", "nowhere/at/all.csv"), "all.csv cannot be written"),
+        (("curve", "--max", "inf"), "max = inf is not finite"),
+        (("curve", "--tangential", "magic"), "tangential = 'magic'"),
+        (("patch", "--yaw", "3"), "pose.yaw = 3"),
+    ],
+)
+def test_bad_input_ends_with_a_message_on_stderr_and_code_2(words, message):
+    result = call(*words, code=2)
+    assert message in result.stderr
+    assert "Traceback" not in result.output
+
+
+def test_unknown_commands_and_options_end_with_code_2():
+    assert "No such command" in call("solv", code=2).output
+    assert "No such option" in call("solve", "--lode", "1", code=2).output
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        *(("--help",), ("solve", "--help"), ("patch", "-h"), ("curve", "-h"), ("methods", "-h")),
+        *(("geometry", "-h"), ("conicity", "-h"), ("profiles", "-h")),
+    ],
+)
+def test_help_explains_every_option(words):
+    output = call(*words).output
+    assert "Usage: " in output
+    assert all("--creepage" in output for _ in range(words[0] in ("solve", "patch", "curve")))
+
+
+def test_version_is_that_of_the_package():
+    assert call("--version").output.strip() == contact.__version__
+
+
+def test_plug_in_becomes_a_command(tmp_path, monkeypatch):
+    (tmp_path / "a_plug_in.py").write_text("def greet(name: str = 'nobody'):\n    print('hello', name)\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    app = typer.Typer()
+    app.command("other")(lambda: None)
+    assert add_plugins(app, [EntryPoint("greet", "a_plug_in:greet", GROUP)]) == []
+    result = CliRunner().invoke(app, ["greet", "--name", "rail"])
+    assert result.output == "hello rail\n"
+
+
+def test_a_broken_plug_in_is_named_and_does_not_stop_other_commands():
+    app = typer.Typer()
+    app.command("one")(lambda: None)
+    app.command("two")(lambda: None)
+    problems = add_plugins(app, [EntryPoint("broken", "no_such_module:f", GROUP), EntryPoint("bare", "json:no", GROUP)])
+    assert [("bare" in line or "broken" in line) for line in problems] == [True, True]
+    assert "no_such_module" in " ".join(problems)
+    assert CliRunner().invoke(app, ["one"]).exit_code == 0
+
+
+def test_own_commands_do_not_load_plug_ins(monkeypatch):
+    loaded = []
+    monkeypatch.setattr(cli, "add_plugins", lambda app: loaded.append(app) or [])
+    monkeypatch.setattr(cli, "app", FakeApp(cli.app))
+    cli.run(["solve", "--y", "0"])
+    assert loaded == []
+    cli.run(["--help"])
+    cli.run(["demo"])
+    assert len(loaded) == 2
+
+
+class FakeApp:
+    """The commands of an app, without running them."""
+
+    def __init__(self, app):
+        self.registered_commands = app.registered_commands
+
+    def __call__(self, args, prog_name):
+        assert prog_name == "contact"
+
+
+def test_missing_dependency_is_named_and_ends_with_code_1():
+    code = (
+        "import sys; sys.modules['typer'] = None; sys.argv = ['contact', 'methods']; import contact.cli as c; c.main()"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert done.stderr == "contact: typer is missing; pip install wheelrail-contact installs it\n"
+    assert "Traceback" not in done.stderr
+
+
+def test_missing_matplotlib_ends_a_plot_with_code_1(monkeypatch, tmp_path):
+    for name in [name for name in sys.modules if name.startswith("contact.plot")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.delattr(contact, "plot", raising=False)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    result = call("solve", "--curvatures", 1, 1, "--out", tmp_path / "no.png", code=1)
+    assert "wheelrail-contact[plot]" in result.stderr
+
+
+def test_json_has_version_command_inputs_and_units():
+    words = ("--curvatures", 1.1, 0.8, "--creepage", 1e-3, 0.0, 0.1, "--load", 60e3, "--json")
+    answer = json.loads(call("solve", *words).stdout)
+    assert (answer["version"], answer["command"]) == (contact.__version__, "solve")
+    given = {
+        "load": 60e3,
+        "curvatures": [1.1, 0.8],
+        "creepage": [1e-3, 0.0, 0.1],
+        "pressure_limit": None,
+        "side": "right",
+    }
+    assert {name: answer["inputs"][name] for name in given} == given
+    wanted = {
+        "load": "N",
+        "curvatures": "1/m",
+        "creepage": "1, 1, 1/m",
+        "max_pressure": "Pa",
+        "Mz": "N m",
+        "area": "m²",
+    }
+    assert {name: answer["units"][name] for name in wanted} == wanted

@@ -1,0 +1,92 @@
+"""Command line: what is printed and written, as tables, JSON, CSV and pictures."""
+
+import csv
+import json
+
+import pytest
+
+import contact
+import contact.stress
+
+typer = pytest.importorskip("typer")
+
+
+from tests.command_line import call  # noqa: E402
+
+
+def test_table_shows_the_solution_in_the_engineers_units():
+    output = call("solve", "--curvatures", 1.1, 0.8, "--creepage", 1e-3, 0, 0).output
+    s = contact.solve(contact.Separation.hertzian(1.1, 0.8), contact.Creepage(1e-3, 0.0, 0.0), load=80e3)
+    line = next(row for row in output.splitlines() if "peak pressure" in row)
+    assert f"{s.max_pressure * 1e-6:.1f}" in line
+    assert "MPa" in line
+    for word in ("normal force", "T-gamma", "Burstow", "Archard", "status"):
+        assert word in output
+
+
+def test_json_has_the_values_in_effect_where_a_default_is_used():
+    def inputs(*words):
+        return json.loads(call("solve", *words, "--y", 3e-3, "--json").stdout)["inputs"]
+
+    assert (inputs()["load"], inputs()["inclination"]) == (80e3, 0.025)
+    assert inputs("--inclination", "1/20")["inclination"] == "1/20"
+    assert inputs("--penetration", 1e-4)["load"] is None
+    assert inputs("--rail", "EN 15302 rail A")["inclination"] is None  # it is drawn as it lies
+
+
+def test_every_number_of_a_solution_has_a_unit_or_is_a_count():
+    answer = json.loads(call("solve", "--json").stdout)
+    (patch,) = answer["patches"]
+    names = {name for name, value in (patch | patch["damage"]).items() if not isinstance(value, str | dict)}
+    assert names - set(answer["units"]) == {"n_patches"}
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("patch", "--out", "{}/patch.json"),
+        ("curve", "--points", 2),
+        ("geometry", "--max", 1e-3, "--step", 1e-3),
+        ("conicity", "--amplitude", 1e-3),
+        ("profiles",),
+        ("methods",),
+        ("compare", "--curvatures", 1, 1, "--no-reference"),
+    ],
+)
+def test_every_command_has_json(words, tmp_path):
+    answer = json.loads(call(*(str(word).format(tmp_path) for word in words), "--json").stdout)
+    assert (answer["version"], answer["command"]) == (contact.__version__, words[0])
+    assert {"inputs", "units"} < set(answer)
+
+
+def test_results_are_written_as_json_and_csv_with_any_command(tmp_path):
+    paths = [tmp_path / name for name in ("a.json", "a.csv")]
+    shown = json.loads(call("solve", "--json", "--out", paths[0], "--out", paths[1]).stdout)
+    assert json.loads(paths[0].read_text(encoding="utf-8")) == shown
+    (row,) = csv.DictReader(paths[1].open(encoding="utf-8"))
+    assert float(row["damage.T_gamma"]) == shown["patches"][0]["damage"]["T_gamma"]
+    assert float(row["position.1"]) == shown["patches"][0]["position"][1]
+
+
+def test_units_of_headings_are_not_swallowed_by_markup():
+    assert "spin creepage [1/m]" in call("curve", "--over", "spin", "--points", 2).stdout
+    assert "amplitude [mm]" in call("conicity", "--amplitude", 1e-3).stdout
+
+
+def test_absurd_input_is_answered_with_a_warning_on_one_line():
+    for words, wanted in (
+        (("--y", -0.02), "contact: warning: pose.y = -0.02: a flange touches at about 0.007 m; the unit is m"),
+        (("--load", 80, "--side", "both"), "contact: warning: load = 80: a wheel carries 20 to 150 kN; the unit is N"),
+        (("--friction", 30), "contact: warning: friction = 30: steel on steel has 0.05 to 0.6"),
+        (("--creepage", -0.128, 0, 0), "contact: warning: creepage.longitudinal = -0.128: a rolling wheel has less"),
+    ):
+        result = call("solve", *words)
+        assert wanted in result.stderr
+        assert result.stderr.count("\n") == 1, "and nothing else"
+    assert call("solve").stderr == ""
+
+
+def test_a_file_that_cannot_be_written_is_refused_before_the_computation(tmp_path, monkeypatch):
+    monkeypatch.setattr("contact.cli.problem.solve_position", None)
+    assert "there is no folder" in call("solve", "--out", tmp_path / "no/a.csv", code=2).stderr
+    assert "a file ends in one of" in call("solve", "--out", tmp_path / "a.docx", code=2).stderr
