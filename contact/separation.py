@@ -145,5 +145,5 @@ def _column(name: str, values: ArrayLike, n: int | None) -> NDArray[np.float64]:
         raise ContactError(f"{name} has shape {array.shape}; {wanted} is needed")
     if not np.isfinite(array).all():
         i = int(np.argmin(np.isfinite(array)))
-        raise ContactError(f"{name}[{i}] = {array[i]} is outside the allowed range ]-inf, inf[")
+        raise ContactError(f"{name}[{i}] = {array[i]} is not finite")
     return array

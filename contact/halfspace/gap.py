@@ -49,7 +49,7 @@ class Gap:
             raise ContactError(f"h has shape {self.h.shape}; {wanted} is needed")
         if not np.isfinite(self.h).all():
             i, j = (int(k) for k in np.argwhere(~np.isfinite(self.h))[0])
-            raise ContactError(f"h[{i}, {j}] = {self.h[i, j]} is outside the allowed range ]-inf, inf[")
+            raise ContactError(f"h[{i}, {j}] = {self.h[i, j]} is not finite")
 
     def __repr__(self) -> str:
         return f"Gap({self.y.size} × {self.x.size} elements of {self.dx:g} × {self.dy:g} m, least {self.h.min():g} m)"

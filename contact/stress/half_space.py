@@ -182,11 +182,10 @@ def _points(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> tuple[Array, Array, Arr
     except (TypeError, ValueError):
         raise ContactError("x, y and z are not numbers or arrays that broadcast") from None
     for name, values in zip("xyz", arrays, strict=True):
-        lowest = 0.0 if name == "z" else -np.inf
-        bad = ~(np.isfinite(values) & (values >= lowest))
+        bad = ~(np.isfinite(values) & (values >= (0.0 if name == "z" else -np.inf)))
         if bad.any():
-            left = "[0" if name == "z" else "]-inf"
-            raise ContactError(f"{name} = {values[bad].ravel()[0]:g} is outside the allowed range {left}, inf[")
+            fault = "outside the allowed range [0, inf[" if name == "z" else "not finite"
+            raise ContactError(f"{name} = {values[bad].ravel()[0]:g} is {fault}")
     return points[0], points[1], points[2]
 
 

@@ -58,7 +58,7 @@ class SurfaceLoad:
                 raise ContactError(f"{name} has shape {field.shape}; {shape} is needed")
             if not np.isfinite(field).all():
                 i, j = (int(k) for k in np.argwhere(~np.isfinite(field))[0])
-                raise ContactError(f"{name}[{i}, {j}] = {field[i, j]} is outside the allowed range ]-inf, inf[")
+                raise ContactError(f"{name}[{i}, {j}] = {field[i, j]} is not finite")
             put(self, name, field)
 
     @property

@@ -139,7 +139,7 @@ def settle(mode: int, amount: float, space: Search) -> int:
         return describe(space, z0 + amount, nodes)
     target, tolerance = amount ** (2.0 / 3.0), _ROUGHER if motion.changing else _TOLERANCE
     low, high, f_low, f_high = 0.0, math.inf, -target, 0.0
-    p = 1e-4 * (amount / 1e5) ** (2.0 / 3.0)
+    p = min(1e-4 * (amount / 1e5) ** (2.0 / 3.0), DEEPEST)
     side = 0
     for iteration in range(_MAX_ITERATIONS):
         n = describe(space, z0 + p, nodes)

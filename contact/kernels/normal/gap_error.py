@@ -16,17 +16,17 @@ from contact.kernels.rows import Pair, Strip, Vector
 
 #: Number of strips at which the gap is evaluated.
 CHECKED = 8
+#: Half length [m] in place of 0, of which logarithm and reciprocal are traps.
+_LEAST = 1e-12
 
 
 @kernel
 def _summarise(n, strips, vectors):
     """Fill ln a, 1/a and p0·a of the strips: the rows Q1, Q2 and R of the vectors."""
     for j in range(n):
-        a, p0 = strips[Strip.A, j], strips[Strip.P0, j]
-        loaded = p0 > 0.0 and a > 0.0
-        vectors[Vector.Q1, j] = math.log(a) if loaded else 0.0
-        vectors[Vector.Q2, j] = 1.0 / a if loaded else 0.0
-        vectors[Vector.R, j] = p0 * a if loaded else 0.0
+        a = max(strips[Strip.A, j], _LEAST)
+        vectors[Vector.Q1, j], vectors[Vector.Q2, j] = math.log(a), 1.0 / a
+        vectors[Vector.R, j] = max(strips[Strip.P0, j], 0.0) * a
 
 
 @kernel
