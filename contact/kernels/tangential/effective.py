@@ -111,4 +111,4 @@ def set_effective(strips, first, last, case, tables):
     for i in range(first + 1, last - 1):
         if not _is_read(i, first, last):
             low, high = 1.0 - strips[Strip.TIE, i], 1.0 - strips[Strip.TIE, i + 1]
-            _mix(strips, i, i - 1, i + 1, low / (low + high) if low + high > 0.0 else 0.0)
+            _mix(strips, i, i - 1, i + 1, low / max(low + high, 1e-300))  # 0 / 0 would be a trap

@@ -112,5 +112,5 @@ def set_centres(strips, first, last):
             moment += weight * strips[Strip.Y, j]
         end = end_of_shape(strips, last, i)
         for j in range(i, end):
-            strips[Strip.CENTRE, j] = moment / stiffness if stiffness > 0.0 else 0.0
+            strips[Strip.CENTRE, j] = moment / max(stiffness, 1e-300)
         i = end

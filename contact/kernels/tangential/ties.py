@@ -20,6 +20,8 @@ from contact.kernels.rows import Strip
 
 #: c, and the share d of L that a must fall below.
 _RATE, _DENT = 5.0, 0.95
+#: Half length [m] in place of 0, of which the reciprocal is a trap.
+_LEAST = 1e-12
 
 
 @kernel
@@ -46,7 +48,7 @@ def tie_strips(strips, first, last):
             level = square + steepest * (strips[Strip.Y, j] - y) if j < end else 0.0
             strips[Strip.TIE, j] = 0.0
             if level > 0.0:
-                dent = 1.0 / strips[Strip.A, j] - 1.0 / (_DENT * math.sqrt(level))
+                dent = 1.0 / max(strips[Strip.A, j], _LEAST) - 1.0 / (_DENT * math.sqrt(level))
                 strips[Strip.TIE, j] = _RATE * max(dent, 0.0) * strips[Strip.DY, j]
         k = end
         y, square = _corner(strips, first, last, k)
