@@ -17,7 +17,7 @@ def fill_ln_X(n, pairs):
     for m in range(n):
         pairs[Pair.LN_X, m] = 0.0
         if pairs[Pair.X, m] >= X_MAX:
-            pairs[Pair.LN_X, m] = math.log(max(pairs[Pair.X, m], X_MAX))  # compilers may take it in any case: no ln 0
+            pairs[Pair.LN_X, m] = math.log(pairs[Pair.X, m] + 1e-300)  # as in `displacement`
 
 
 @kernel
@@ -40,8 +40,7 @@ def displacement(plane, forces, pairs, own):
         beyond = max(high - (N_T - 1.0), 0.0) + sign * max(low - (N_T - 1.0), 0.0)  # there U is logarithmic
         low = min(low if low > 0.0 else 0.0, N_T - 1.000001)  # written so that NaN does not become an index
         high = min(high if high > 0.0 else 0.0, N_T - 1.000001)
-        wide = max(X, X_MAX)  # not 0, whose division would be a trap
-        far = 1.0 / (wide * wide)
+        far = 1.0 / (X * X + 1e-300)  # taken for X = 0 too, where compilers evaluate both ways of a choice
         along[m] = at - row if near else far
         logs[m] = 0.5 * math.pi * T_STEP * beyond
         lows[m], highs[m], rows[m] = low, high, row if near else float(N_X)
