@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
@@ -12,6 +11,7 @@ import numpy as np
 import contact
 import reference
 from benchmarks.patches_of_sets import BOTH
+from benchmarks.timing import least
 from contact.contact_damping import ContactDamping
 from contact.elastic_rail import ElasticRail
 from contact.friction import Friction
@@ -30,16 +30,6 @@ MU = 0.3
 #: CONTACT's times [ms] for the patch of `elements`: its default solver, and GDsteady by the ratio of another comparison.
 DEFAULT = 2100.0
 GDSTEADY = DEFAULT * 0.46 / 3.9
-
-
-def least(task: Callable[[], Any], runs: int = 3) -> float:
-    """Return the least process time [ms]."""
-    times = []
-    for _ in range(runs):
-        start = time.process_time()
-        task()
-        times.append(time.process_time() - start)
-    return 1e3 * min(times)
 
 
 def _patch() -> tuple[Gap, contact.Separation, contact.Creepage]:
@@ -69,17 +59,17 @@ def elements() -> Iterator[Row]:
     }
     for name, (motion, options) in given.items():
         task = partial(contact.solve, gap, motion, load=80e3, friction=MU, throw=False, **options, **BOTH)
-        yield _row(name, least(task))
+        yield _row(name, least(task, 3))
     for name, conformal in (("plane, from a separation", False), ("bent surface", True)):
         options = {"conformal": conformal, "spacing": 0.2e-3}
         task = partial(contact.solve, separation, creepage, load=80e3, friction=MU, throw=False, **options, **BOTH)
-        yield _row(name, least(task))
+        yield _row(name, least(task, 3))
     rolling = contact.Transient(gap, load=80e3, friction=MU)
     rolling.shift(-6e-6)
     yield _row("a step of transient rolling", least(partial(rolling.roll, creepage, distance=gap.dx), 10))
     load, z = SurfaceLoad.of(steady), np.linspace(0.0, 10e-3, 16)
-    yield _row("stresses at 16 depths", least(partial(below, load, z, margin=0.0)))
-    yield _row("largest von Mises stress, its place and depth", least(partial(largest, load)))
+    yield _row("stresses at 16 depths", least(partial(below, load, z, margin=0.0), 3))
+    yield _row("largest von Mises stress, its place and depth", least(partial(largest, load), 3))
 
 
 def _row(name: str, took: float) -> Row:
@@ -121,4 +111,4 @@ def _series(solver: WheelRailPair, poses: list[Pose], options: dict[str, Any]) -
 
 def _each(task: Callable[[], Any], n: int) -> str:
     """Return the time [ms] of one of the `n` solutions of a task."""
-    return f"{least(task) / n:.2f}"
+    return f"{least(task, 3) / n:.2f}"

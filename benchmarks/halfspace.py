@@ -10,8 +10,6 @@ from __future__ import annotations
 
 import argparse
 import math
-import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +18,7 @@ import numpy as np
 import contact
 import reference
 from benchmarks.tables import table
+from benchmarks.timing import least
 from contact.halfspace import Tangential, norm, tang
 from contact.study.ellipse import ellipse
 
@@ -55,16 +54,6 @@ def resultants(x: np.ndarray, y: np.ndarray, p: np.ndarray, found: Tangential, c
     """Return Fx and Fy over mu N, Mz over mu N c."""
     moment = (x * found.qy).sum() - (y[:, None] * found.qx).sum()
     return np.array([found.qx.sum(), found.qy.sum(), moment / c]) / (MU * p.sum())
-
-
-def least(task: Callable[[], Any], runs: int = 9) -> float:
-    """Return the least process time [ms]."""
-    times = []
-    for _ in range(runs):
-        start = time.process_time()
-        task()
-        times.append(time.process_time() - start)
-    return 1e3 * min(times)
 
 
 def on_ellipses(offset: float) -> tuple[np.ndarray, int, int]:
@@ -114,7 +103,7 @@ def on_patches(h: float) -> tuple[dict[str, np.ndarray], list[list[str]]]:
             errors["force"].append(math.hypot(e[0], e[1]))
             errors["moment"].append(abs(e[2]))
             times.append(least(rolling, 3))
-        figures = (least(normal), float(np.mean(times)), max(times))
+        figures = (least(normal, 9), float(np.mean(times)), max(times))
         rows.append([case["name"], f"{y.size} × {x.size}", str(int((p > 0).sum())), *(f"{t:.1f}" for t in figures)])
     return {name: np.abs(values) for name, values in errors.items()}, rows
 

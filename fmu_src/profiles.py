@@ -9,7 +9,9 @@ A resource (`fmu_src.resources`) has the rows y [m], z [m] and the angle of the 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -125,11 +127,12 @@ def chosen(arguments: argparse.Namespace) -> dict[Kind, Profile]:
     }
 
 
-def main() -> None:
-    """Replace the profiles that the command line names."""
-    parser = argparse.ArgumentParser(description="Replace the profiles in a finished WheelRailPair FMU.")
-    parser.add_argument("fmu", type=Path)
-    add_options(parser)
+def replace(
+    parser: argparse.ArgumentParser,
+    chosen: Callable[[argparse.Namespace], Any],
+    exchange: Callable[[Path, Any], Any],
+) -> None:
+    """Run a command that replaces what lies in an FMU: `chosen` reads it from the command line, `exchange` writes it."""
     arguments = parser.parse_args()
     try:
         new = chosen(arguments)
@@ -139,6 +142,14 @@ def main() -> None:
         exchange(arguments.fmu, new)
     except (ContactError, ImportError, OSError) as error:
         parser.error(str(error))
+
+
+def main() -> None:
+    """Replace the profiles that the command line names."""
+    parser = argparse.ArgumentParser(description="Replace the profiles in a finished WheelRailPair FMU.")
+    parser.add_argument("fmu", type=Path)
+    add_options(parser)
+    replace(parser, chosen, exchange)
 
 
 if __name__ == "__main__":

@@ -112,15 +112,7 @@ def main() -> None:
     parser.add_argument(
         "--origin", type=float, nargs=2, metavar=("Y", "Z"), help="place of the origin of a rail of slices in m"
     )
-    arguments = parser.parse_args()
-    try:
-        new = chosen(arguments)
-        if not new:
-            parser.print_help()
-            parser.exit(2, "nothing to do: give --wheel, --rail or both\n")
-        exchange(arguments.fmu, new)
-    except (ContactError, ImportError, OSError) as error:
-        parser.error(str(error))
+    profiles.replace(parser, chosen, exchange)
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import fmpy
+import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Model, FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
@@ -90,3 +91,30 @@ def discarded(fmu: Instance, time: float | None = None, h: float = 1e-3) -> str:
     refused(lambda: fmu.step(time, h), DISCARD)
     assert [status for status, _ in fmu.log] == [DISCARD]
     return fmu.log[0][1]
+
+
+def answered_extremes(fmu: Instance, trials: int, chosen: Callable[[np.random.Generator], dict]) -> int:
+    """Step from inputs of 1e-300 to 1e300, a few at a time, beside the `chosen` ones. Outputs are finite or discarded.
+
+    Return how many steps were answered.
+    """
+    rng = np.random.default_rng(3)
+    inputs = [name for name, v in fmu.variables.items() if v.causality == "input"]
+    answered = 0
+    for _ in range(trials):
+        fmu.fmu.reset()
+        fmu.update(chosen(rng))
+        try:
+            for name in rng.choice(inputs, rng.integers(1, 5)):
+                fmu.update(
+                    {name: 10.0 ** rng.choice([-300.0, -9.0, -2.0, 0.0, 6.0, 9.0, 300.0]) * rng.uniform(-1.0, 1.0)}
+                )
+            fmu.initialize()
+            fmu.step()
+        except FMICallException as error:
+            if error.status != DISCARD:
+                raise
+            continue
+        answered += 1
+        assert np.isfinite(list(fmu.all("output").values())).all()
+    return answered

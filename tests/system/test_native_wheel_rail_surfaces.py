@@ -9,7 +9,7 @@ import fmpy
 import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
-from fmu_instance import DISCARD, Instance
+from fmu_instance import DISCARD, Instance, answered_extremes
 from fmu_instance_fmi3 import Instance3
 from pair_case import METHODS, R0, expected, scale
 
@@ -257,26 +257,12 @@ def test_a_damaged_surface_is_refused_when_instantiated(built, tmp_path, damage)
 
 
 def test_extreme_inputs_give_finite_outputs_or_none(open_fmu):
-    fmu = open_fmu(surfaces.of_pair(CASES["crossing"][0]()))
-    fmu.initialize()
-    rng = np.random.default_rng(3)
-    inputs = [name for name, v in fmu.variables.items() if v.causality == "input"]
-    done = 0
-    for _ in range(100):
-        fmu.fmu.reset()
-        fmu.update({"method.normal": 1, "load.kind": int(rng.integers(1, 3)), "pose.station": rng.uniform(0.0, 0.5)})
-        try:
-            for name in rng.choice(inputs, rng.integers(1, 5)):
-                fmu.update({name: 10.0 ** rng.choice([-300.0, -9.0, -2.0, 0.0, 6.0, 300.0]) * rng.uniform(-1.0, 1.0)})
-            fmu.initialize()
-            fmu.step()
-        except FMICallException as error:
-            if error.status != DISCARD:
-                raise
-            continue
-        done += 1
-        assert np.isfinite(list(fmu.all("output").values())).all()
-    assert done > 10
+    fmu = open_fmu(surfaces.of_pair(CASES["crossing"][0]())).initialize()
+
+    def chosen(rng):
+        return {"method.normal": 1, "load.kind": int(rng.integers(1, 3)), "pose.station": rng.uniform(0.0, 0.5)}
+
+    assert answered_extremes(fmu, 100, chosen) > 10
 
 
 def command(path: Path, *words: object) -> subprocess.CompletedProcess:

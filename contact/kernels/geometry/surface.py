@@ -4,7 +4,7 @@ import math
 
 from contact._jit import kernel
 from contact.kernels.arrays import SurfaceSearch
-from contact.kernels.geometry import regions
+from contact.kernels.geometry import grids, regions
 from contact.kernels.geometry.curve import Array, Record
 from contact.kernels.geometry.frame import slip
 from contact.kernels.geometry.parabolas import fit_rows
@@ -64,7 +64,7 @@ def _sample(
     h, at, to = space.h, space.x, space.column
     n_y, n_x = h.shape
     dy = (y[1] - y[0]) / (n_y - 1)
-    first, dx = regions.aligned(x[0] + frame[0], x[1] + frame[0], n_x, space.motion[0].station, space.rail)
+    first, dx = grids.aligned(x[0] + frame[0], x[1] + frame[0], n_x, space.motion[0].station, space.rail)
     first -= frame[0]
     surfaces, rows = (space.wheel, space.rail), (y[0], dy, n_y, True)
     for k in range(n_x):
@@ -119,7 +119,7 @@ def _describe(z: float, lobe: Record, neighbours: tuple[float, float], k: int, s
     pitch = math.atan2(lobe.slant, math.sqrt(lobe.sine**2 + lobe.cosine**2)) if motion.tilted else 0.0
     along, across = _ROOM_X * (lobe.x_high - lobe.x_low), _ROOM_Y * (lobe.high - lobe.low)
     origin = about_x(x, y, 0.0, 0.0)
-    limits = regions.limits_of(
+    limits = grids.limits_of(
         (lobe.x_low - x - along, lobe.x_high - x + along),
         (lobe.low - y - across, lobe.high - y + across),
         origin,
