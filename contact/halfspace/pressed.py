@@ -15,10 +15,11 @@ from contact.creepage import Creepage
 from contact.friction import Friction
 from contact.halfspace.bent import Bent, Surface
 from contact.halfspace.curved import BentCoupling
+from contact.halfspace.driven import Driven
 from contact.halfspace.heat import heat_up
 from contact.halfspace.norm import Normal
 from contact.halfspace.solution import GridSolution, assemble
-from contact.halfspace.tang import Tangential, tang
+from contact.halfspace.tang import OFFSET, Tangential, prepare, tang
 from contact.halfspace.third_body import Sheared, ThirdBody, solve_layer
 from contact.halfspace.unlike import Coupling
 from contact.kernels.friction import of_bodies
@@ -34,6 +35,9 @@ _MAX_FALLS, _FALL_SHARE, _FALL_TOLERANCE = 60, 0.5, 1e-3
 #: Alternation of normal and tangential problem for unlike bodies: largest number of turns, and change of the pressure over
 #: its maximum at the end.
 _MAX_TURNS, _TURN_TOLERANCE = 40, 1e-6
+
+#: Tolerance of the traction and, over friction times load, of the force, when both are found together.
+_FORCE_TOLERANCE = 1e-6
 
 
 class PressedRecord(NamedTuple):
@@ -81,7 +85,7 @@ class Pressed:
         self.material, self.friction, self.speed, self.progress = material, friction, speed, progress
         self._again, self._layer, self.load = again, layer, load
         self._sheared: Sheared | None = None
-        self._last: Tangential | None = None
+        self._traction: tuple[Array, Array] | None = None
 
     def roll(self, creepage: Creepage) -> GridSolution:
         """Return the solution for a creepage, by TANG. It starts from pressure and traction of the last call."""
@@ -113,21 +117,60 @@ class Pressed:
             surface=self.surface,
         )
 
+    def creepage_for(self, force: tuple[float | None, float | None], start: Creepage) -> Creepage:
+        """Return the creepage under the given forces [N], and let the next call of `roll` start from its traction.
+
+        It is exact for like bodies, a plane, no plastic layer and a coefficient of friction that does not depend on slip.
+        Otherwise it is an estimate. It is `start` if none is found. Where a force is None, the creepage of `start` is kept.
+        """
+        unknown = [k for k in (0, 1) if force[k] is not None]
+        bound = self._coefficient(start) * self._factor() * self.p
+        area = float((self.x[1] - self.x[0]) * (self.y[1] - self.y[0]))
+        wanted = np.array([f for f in force if f is not None]) / area
+        if self.surface is not None or math.sqrt(float(wanted @ wanted)) >= float(bound.sum()):
+            return start
+        known = [0.0 if k in unknown else v for k, v in enumerate((start.longitudinal, start.lateral))]
+        rows = Bent.plane(Creepage(known[0], known[1], start.spin), self.y)
+        added = np.sum([c.slip(self.p, bound, bound) for c in self._couplings()], axis=0) if self._couplings() else None
+        layer = 0.0 if self._layer is None else self._layer.flexibility
+        ground = self.p, self.x, self.y, rows, bound, self.material
+        rolling, w, window = prepare(*ground, OFFSET, added, layer, _FORCE_TOLERANCE, self.progress)
+        found = Driven(rolling, w, unknown, wanted).solve(np.zeros(len(unknown)))
+        if found is None:
+            return start
+        for k, value in zip(unknown, found[0], strict=True):
+            known[k] = float(value)
+        traction = np.zeros((2, *self.p.shape))
+        traction[:, *window] = found[1]
+        self._traction = traction[0], traction[1]
+        return Creepage(known[0], known[1], start.spin)
+
+    def _coefficient(self, creepage: Creepage) -> float:
+        """Return the coefficient of friction at a creepage; the static one if it depends on the slip of each place."""
+        if self.friction.velocity != "global" and self.friction.law != "coulomb":
+            return self.friction.static
+        return float(self.friction.coefficient(self.speed * math.hypot(creepage.longitudinal, creepage.lateral)))
+
+    def _factor(self) -> Array:
+        """Return the factor on the coefficient of friction of each row, shape (ny, 1) or (1, 1)."""
+        friction = self.friction
+        y = self.y if self.surface is None else self.surface.across(self.y)
+        return friction.factor(y)[:, None] if friction.gauge_factor != 1.0 else np.ones((1, 1))
+
     def _tangential(self, creepage: Creepage, rows: Bent, added: Array | None) -> tuple[Tangential, float]:
         """Return the tangential solution on the present pressure, and the coefficient of friction."""
-        start = None if self._last is None else (self._last.qx, self._last.qy)
         if self._layer is None:
-            self._last, coefficient = _roll(self, creepage, rows, start, added)
+            found, coefficient = _roll(self, creepage, rows, self._traction, added)
         else:
-            coefficient = self._shear(self._layer, creepage, rows, start, added)
-        return self._last, coefficient  # type: ignore[return-value]
+            found, coefficient = self._shear(self._layer, creepage, rows, self._traction, added)
+        self._traction = found.qx, found.qy
+        return found, coefficient
 
     def _shear(
         self, layer: ThirdBody, creepage: Creepage, rows: Bent, start: tuple[Array, Array] | None, added: Array | None
-    ) -> float:
-        """Solve with a third body; keep the solution and its state, and return the coefficient of friction."""
-        mu = float(self.friction.coefficient(self.speed * math.hypot(creepage.longitudinal, creepage.lateral)))
-        factor = self.friction.factor(rows.y)[:, None] if self.friction.gauge_factor != 1.0 else 1.0
+    ) -> tuple[Tangential, float]:
+        """Return the solution with a third body and the coefficient of friction. Keep the state of the layer."""
+        mu, factor = self._coefficient(creepage), self._factor()
         touching = np.where(self.p > 0.0, self.p, 1.0)
 
         def solve(bound: Array) -> Tangential:
@@ -148,8 +191,8 @@ class Pressed:
             return found
 
         steps = float(self.x[1] - self.x[0]), float(self.y[1] - self.y[0])
-        self._last, self._sheared = solve_layer(layer, mu * factor * self.p, steps, solve)
-        return mu
+        found, self._sheared = solve_layer(layer, mu * factor * self.p, steps, solve)
+        return found, mu
 
     def _alternate(self, creepage: Creepage, rows: Bent) -> tuple[Tangential, float, bool]:
         """Solve both problems of unlike bodies or on a bent surface in turn until neither changes (Panagiotopoulos).
@@ -159,8 +202,8 @@ class Pressed:
         couplings = self._couplings()
         last, share = math.inf, 1.0
         qx = qy = np.zeros(self.p.shape)
-        if self._last is not None:
-            qx, qy = self._last.qx, self._last.qy
+        if self._traction is not None:
+            qx, qy = self._traction
         for _ in range(_MAX_TURNS):
             before = qx, qy
             added = np.sum([c.slip(self.p, qx, qy) for c in couplings], axis=0)
