@@ -9,18 +9,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact.halfspace import zones
-from contact.halfspace.influence import Influence
+from contact.halfspace.influence import Influence, Transfer
 from contact.halfspace.krylov import gmres, size
 
 Array = NDArray[np.float64]
-#: Transfer functions xx, yy, xy; real for even influence numbers.
-Transfer = tuple[NDArray[Any], NDArray[Any], NDArray[Any]]
 
 #: Limits: Newton steps, and GMRES steps in each of them.
 MAX_NEWTON, MAX_KRYLOV = 25, 80
@@ -72,11 +70,9 @@ class Newton:
         self._scale = size(bound)
 
     def times(self, transfer: Transfer, q: Array) -> Array:
-        """Return the product of the transfer functions (xx, yy, xy) with a field of shape (2, ny, nx)."""
+        """Return the product of the transfer functions (xx, yy, xy) with a field of shape (2, ny, nx), and count it."""
         self.products += 1
-        x, y = self.influence.forward(q)
-        xx, yy, xy = transfer
-        return self.influence.back(np.stack((xx * x + xy * y, xy * x + yy * y)))
+        return self.influence.times(transfer, q)
 
     def slip(self, q: Array, w: Array) -> Array:
         """Return the slip over V for the traction `q` and the rigid slip `w`."""
