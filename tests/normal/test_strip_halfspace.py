@@ -173,9 +173,9 @@ def test_a_pressure_peak_narrower_than_a_strip_does_not_jump():
     assert min(peaks) > 0.89 * 1.5e9  # 24 to 40 strips give 1479 to 1512 MPa at y = 6.67 mm
 
 
-@pytest.mark.parametrize(("kind", "most"), [("noisy", 11), ("nearly flat", 4), ("near-conformal", 0)])
+@pytest.mark.parametrize(("kind", "most"), [("noisy", 4), ("nearly flat", 1), ("near-conformal", 0)])
 def test_rough_and_flat_gaps_converge(kind, most):
-    """Of 500 cases each 16, 12 and 3 did not, because strips at their least length went round in circles."""
+    """Of 500 cases each 16, 12 and 3 did not: strips at their least length, and mixing, went round in circles."""
     rng, solver, missed = np.random.default_rng(7), contact.Solver(tangential="linear_saturated"), 0
     for _ in range(500):
         separation = KINDS[kind](rng)

@@ -55,6 +55,8 @@ LEFT, CLOSE = 4e-4, 4e-3
 ACCEPTABLE = 1e-3
 #: Iteration from which on the ends are fixed. At the corner of a punch and on rough gaps their rule has no steady solution.
 FREEZE = 12
+#: Iteration from which on the residuals are the steps, without mixing, which may go round in circles on rough gaps.
+PLAIN = 22
 #: Iteration from which on the ends keep between the places from which they moved outwards and inwards.
 BRACKET = 6
 #: Iterations in which a warm start has to come to rest. Then the iteration starts again from ANALYN's solution.
@@ -256,10 +258,11 @@ def strip_halfspace(sep, case, own, result):
         by_jacobian = descending
         descending = rule.descent.shape[1] == n and age < FREEZE and not cut
         descending = descending and _can_descend(n, n_panels, vectors)
-        if n_panels < before or error > 2.0 * last_error * load or age == FREEZE or descending != by_jacobian:
+        anew = n_panels < before or age == FREEZE
+        if anew or error > 2.0 * last_error * load or descending != by_jacobian or age >= PLAIN:
             known = 0
         last_error = error / load
-        if n_panels < before or age == FREEZE:
+        if anew:
             best = math.inf
         if age >= FREEZE and not cut and last_error < best:
             best = last_error
