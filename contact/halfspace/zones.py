@@ -21,15 +21,15 @@ def linearise(q, s, bound, rho, zone, step, stiffness):
     total = 0.0
     for i in range(bound.shape[0]):
         for j in range(bound.shape[1]):
-            g = bound[i, j] + 1e-300  # compilers divide by it and by z outside the contact too
+            g = bound[i, j]
             zone[i, j], stiffness[i, j] = OUTSIDE, 0.0
             for k in range(2):
                 tangent[k, i, j], correction[k, i, j], rhs[k, i, j] = 0.0, 0.0, 0.0
-            if bound[i, j] <= 0.0:
+            if g <= 0.0:
                 continue
             qx, qy, sx, sy = q[0, i, j], q[1, i, j], s[0, i, j], s[1, i, j]
             zx, zy = qx - sx / rho, qy - sy / rho
-            z = math.sqrt(zx * zx + zy * zy) + 1e-300
+            z = math.sqrt(zx * zx + zy * zy)
             if z <= g:
                 zone[i, j] = STICK
                 rhs[0, i, j], rhs[1, i, j] = -sx, -sy
@@ -87,10 +87,10 @@ def admit(q, zone, bound):
     for i in range(bound.shape[0]):
         for j in range(bound.shape[1]):
             if zone[i, j] == SLIP:
-                size = math.sqrt(q[0, i, j] ** 2 + q[1, i, j] ** 2)
-                if size > 0.0:
-                    q[0, i, j] *= bound[i, j] / size
-                    q[1, i, j] *= bound[i, j] / size
+                # compilers divide before the condition, where q may be zero; the bound over 1e-290 Pa is still a number
+                size = math.sqrt(q[0, i, j] ** 2 + q[1, i, j] ** 2) + 1e-290
+                q[0, i, j] *= bound[i, j] / size
+                q[1, i, j] *= bound[i, j] / size
 
 
 @kernel
