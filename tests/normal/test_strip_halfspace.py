@@ -10,7 +10,9 @@ import contact
 from contact import workspace
 from contact.geometry import profile, wheelset
 from contact.kernels.normal import influence
+from contact.kernels.normal.panels import half_lengths
 from contact.kernels.normal.start import MEM_LN_A
+from contact.kernels.rows import Vector
 from reference.random_cases import KINDS
 from tests.separations import two_lobes
 
@@ -256,3 +258,13 @@ def test_a_patch_cut_off_by_the_end_of_the_data_is_out_of_range(B):
     assert cut_off.status is contact.Status.OUT_OF_RANGE
     inside = contact.solve(contact.Separation(y, 0.2 * y**2, 1.1), contact.Creepage(), load=8e4, throw=False)
     assert inside.status is contact.Status.OK
+
+
+def test_the_end_strips_of_every_panel_lose_the_flag_of_an_earlier_call():
+    """It was read at the ends of the second of two panels, where another contact had left it."""
+    n, two = 6, 2
+    vectors = np.ones((len(Vector), two * n))  # all flags are set, all half lengths are 1 m
+    vectors[Vector.LN_A], vectors[Vector.GAP] = math.log(5e-3), 0.0
+    half_lengths(vectors, n, two, 1e-4)
+    assert not vectors[Vector.FLOORED].any()
+    assert np.all(vectors[Vector.A] <= 5e-3 * (1.0 + 1e-12))
