@@ -152,7 +152,8 @@ def _features(features: ArrayLike | None, curves: Sequence[Curve]) -> Array:
         raise ContactError("features is not an array of numbers") from None
     if marks.ndim != 2 or marks.shape[0] != len(curves) or marks.shape[1] < 2:
         raise ContactError(f"features has shape {marks.shape}; ({len(curves)}, at least 2) is needed")
-    marks[~(marks >= 0.0)] = np.nan
+    marks = np.where(np.isfinite(marks), marks, -1.0)  # NaN is not compared, which would be a floating-point trap
+    marks[marks < 0.0] = np.nan
     for i, row in enumerate(marks):
         present = np.flatnonzero(np.isfinite(row))
         if present.size < 2 or present[-1] - present[0] + 1 != present.size:
