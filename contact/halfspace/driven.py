@@ -23,6 +23,8 @@ Array = NDArray[np.float64]
 
 #: Smallest determinant of the Schur complement over that of a sticking contact; below it the force is nearly saturated.
 _REGULAR = 1e-6
+#: A larger creepage [-] is no answer: the wheel slides as fast as it rolls.
+_LARGEST = 1.0
 
 
 class Driven:
@@ -55,7 +57,8 @@ class Driven:
             residual = rolling.linearise(q, rolling.slip(q, self.w + self._spread(u)))
             if residual <= rolling.tolerance and np.abs(self.wanted - self._sums(q)).max() <= rolling.tolerance * limit:
                 return u, q
-            if not math.isfinite(residual) or not self._border(first):
+            lost = not math.isfinite(residual) or np.abs(u).max() > _LARGEST
+            if lost or not self._border(first):
                 return None
             first = first or float(np.abs(np.linalg.det(self._inverse)))
             rest = self._weight * (self.wanted - self._sums(q + rolling.correction))
