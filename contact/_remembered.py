@@ -4,8 +4,8 @@ For each operation numba tries the overloads of its operator in turn until one a
 again when it lowers the operation. For the default methods these are 23 600 searches for 340 different answers, a quarter of
 the time of compilation. Here an answer is remembered with the operator and the types. The compiled code is the same.
 
-Meanwhile numba's garbage is collected more seldom, the variables of a statement are listed with fewer calls, and the errors of
-overloads that do not fit, which nobody reads, get no colours.
+Meanwhile numba's garbage is collected more seldom, the variables of a statement are listed with fewer calls, arrays are not
+searched for others that they wrap, and the errors of overloads that do not fit, which nobody reads, get no colours.
 """
 
 from __future__ import annotations
@@ -18,11 +18,13 @@ from types import SimpleNamespace
 from typing import Any
 
 from numba.core import errors, ir
+from numba.core.base import BaseContext
 from numba.core.types import functions
 from numba.core.typing import typeof
 
 _SELDOM = (100_000, 50, 100)
 _search: Callable[..., Any] = functions.BaseFunction.get_call_type
+_look_up: Callable[..., Any] = BaseContext.get_function
 _answers: dict[tuple[Any, ...], tuple[Any, Any]] = {}
 
 
@@ -69,6 +71,15 @@ def _list_variables(self: ir.Inst, value: Any) -> list[ir.Var]:
     return found
 
 
+def _get_function(self: Any, fn: Any, sig: Any, _firstcall: bool = True) -> Any:
+    """Return what an operation compiles to, as numba's method does.
+
+    At each use of an array numba asks whether the array wraps another one, `__array__`. It does not; then numba would
+    look through all its registries for news.
+    """
+    return _look_up(self, fn, sig, _firstcall and fn != "__array__")
+
+
 def _same(text: str) -> str:
     return text
 
@@ -77,6 +88,7 @@ _PLAIN = SimpleNamespace(errmsg=_same, filename=_same, code=_same, indicate=_sam
 #: Object, attribute and what it is while a kernel is compiled.
 _MEANWHILE: tuple[tuple[Any, str, Any], ...] = (
     (functions.BaseFunction, "get_call_type", _get_call_type),
+    (BaseContext, "get_function", _get_function),
     (ir.Inst, "_rec_list_vars", _list_variables),
     (errors, "termcolor", lambda: _PLAIN),
     (functions, "_termcolor", _PLAIN),

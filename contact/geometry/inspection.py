@@ -144,8 +144,9 @@ def place(points: Points, kind: Kind) -> list[Finding]:
     y, z = points.T
     found = []
     if kind == "rail":
-        if abs(z[0] - z[-1]) > _DEEPER and z[0] < z[-1]:
-            seen = f"the field side reaches {_mm(z[-1] - z[0])} deeper than the gauge side"
+        deeper = z[-1] - z[: np.argmin(z) + 1].max()
+        if deeper > _DEEPER:
+            seen = f"the field side reaches {_mm(deeper)} deeper than the gauge side"
             found.append(Finding(Fault.SIDE, seen, "if the file shows the other side, set side", points[[0, -1]]))
         return found
     tip = int(np.argmax(z)) if has_flange(points) else 0
@@ -175,8 +176,9 @@ def has_flange(points: Points) -> bool:
 def apparent_kind(points: Points) -> Kind | None:
     """Return what points in order look like, whichever way they lie; None if they could be either.
 
-    A wheel has its lowest or highest point, the tip of the flange, near one end. A rail has it, the crown, in the middle,
-    and both sides fall off.
+    A wheel has its lowest or highest point, the tip of the flange, near one end, and its tread does not come back towards
+    it. A rail has its crown in the middle, and both sides fall off. The groove of a grooved rail lies near one end like a
+    flange, but beyond it the head comes back: its field side falls off.
     """
     y, z = points.T
     for height in (z, -z):
@@ -185,7 +187,8 @@ def apparent_kind(points: Points) -> Kind | None:
         share = (y[top] - y.min()) / np.ptp(y)
         near_an_end = min(share, 1.0 - share) < _TIP_SHARE
         if near_an_end and min(left, right) > _TIP_RISE and height[top] > np.median(height) + FLANGE:
-            return "wheel"
+            beyond = height[top:] if share < 0.5 else height[top::-1]
+            return "rail" if beyond[-1] - beyond.min() > _HEAD_DROP else "wheel"
         if not near_an_end and min(left, right) > _HEAD_DROP:
             return "rail"
     return None

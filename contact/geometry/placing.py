@@ -22,7 +22,7 @@ def placed(points: Points, content: Content, kind: Kind, path: Path, zero: str |
     """Return the points [m] from the gauge or flange side to the field side, with z down, about the zero of this library."""
     if not content.downwards:
         points = _downwards(points, kind)
-    outwards = _is_outwards(points, kind) if content.outwards is None else content.outwards
+    outwards = _is_outwards(points) if content.outwards is None else content.outwards
     points = points - [content.datum, 0.0]
     points = points if outwards else points * [-1.0, 1.0]
     points = _ordered(points)
@@ -81,10 +81,10 @@ def _origin(points: Points, kind: Kind, path: Path) -> Points:
 
 
 def _downwards(points: Points, kind: Kind) -> Points:
-    """Return the points with z down. A rail is highest inside. A wheel is lowest at its flange, far below the median."""
+    """Return the points with z down. Most of a rail is its head, near the top. A wheel's flange is far below the median."""
     z = points[:, 1]
     if kind == "rail":
-        down = z[0] + z[-1] > 2.0 * np.median(z)
+        down = z.mean() > np.median(z)
     else:
         down = z.max() - np.median(z) > np.median(z) - z[_tread(points)].min()
     return points if down else points * [1.0, -1.0]
@@ -96,10 +96,10 @@ def _tread(points: Points) -> slice:
     return slice(n // 10, n - n // 10)
 
 
-def _is_outwards(points: Points, kind: Kind) -> bool:
-    """Return whether y points to the field side. The flange's tip and the deeper side of a rail belong at low y."""
-    y, z = points[np.argsort(points[:, 0])].T
-    return bool(y[np.argmax(z)] < 0.5 * (y[0] + y[-1]) if kind == "wheel" else z[0] > z[-1])
+def _is_outwards(points: Points) -> bool:
+    """Return whether y points to the field side: the flange's tip, or a rail's deeper side or groove, belongs at low y."""
+    y, z = points.T
+    return bool(y[np.argmax(z)] < 0.5 * (y.min() + y.max()))
 
 
 def _ordered(points: Points) -> Points:

@@ -17,7 +17,7 @@ import re
 import struct
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -102,16 +102,23 @@ def emit(components: Mapping[Path, Component]) -> None:
     # This comes before machine code is switched off, since components may call kernels to make their data.
     made = {folder: (own.entries(), own.data(), bool(own.resources), own.prefix) for folder, own in components.items()}
     make_no_machine_code()
-    with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as pool:
-        parts = []
+    with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as pool, ThreadPoolExecutor(len(made)) as chains:
+
+        def finish(code: bytes, names: tuple[str, ...], data: str, folder: Path, in_c: list[Path]) -> None:
+            of_data = pool.submit(_write_data, data, folder, in_c[0])
+            plain = pool.submit(_plain, code).result()
+            parts = [pool.submit(_write_kernels, plain, names, suffix, folder) for suffix in CPUS]
+            for part in (of_data, *parts, pool.submit(_write_sources, plain, names, in_c[1])):
+                part.result()
+
+        finished = []
         for folder, (entries, data, with_resources, prefix) in made.items():
             code = linked(entries, data, with_resources, prefix).as_bitcode()
-            names, in_c = tuple(_symbol(entry, prefix) for entry in entries), sources(folder, prefix)
-            parts += [pool.submit(_write_kernels, code, names, suffix, folder) for suffix in CPUS]
-            parts.append(pool.submit(_write_sources, code, names, in_c[1]))
-            parts.append(pool.submit(_write_data, data_as_ir(data, prefix), folder, in_c[0]))
-        for part in parts:
-            part.result()
+            names = tuple(_symbol(entry, prefix) for entry in entries)
+            text, in_c = data_as_ir(data, prefix), sources(folder, prefix)
+            finished.append(chains.submit(finish, code, names, text, folder, in_c))
+        for chain in finished:
+            chain.result()
 
 
 def make_no_machine_code() -> None:
@@ -138,10 +145,15 @@ def _symbol(entry: str, prefix: str) -> str:
     return prefix + entry.removeprefix(PREFIX)
 
 
-def _write_sources(code: bytes, entries: Sequence[str], path: Path) -> None:
-    """Write the kernels of a component as C. `code` is their bitcode."""
+def _plain(code: bytes) -> bytes:
+    """Return the kernels of a component optimised for all processors, without vectors, as bitcode. `code` is their bitcode."""
     _llvm_for_all()
-    path.write_text(as_c(str(_optimised(code, entries, "any", PLAIN, vectors=False))))
+    return _optimised(code, PLAIN, vectors=False).as_bitcode()
+
+
+def _write_sources(plain: bytes, entries: Sequence[str], path: Path) -> None:
+    """Write the kernels of a component as C."""
+    path.write_text(as_c(str(_named(_llvm_for_all().parse_bitcode(plain), entries, "any"))))
 
 
 def _write_data(text: str, folder: Path, in_c: Path) -> None:
@@ -152,10 +164,10 @@ def _write_data(text: str, folder: Path, in_c: Path) -> None:
         _write(llvm.parse_assembly(text), platform, "", objects(folder, platform)[0])
 
 
-def _write_kernels(code: bytes, entries: Sequence[str], suffix: str, folder: Path) -> None:
-    """Write the objects of a component's kernels for one processor and all platforms. `code` is their bitcode."""
+def _write_kernels(plain: bytes, entries: Sequence[str], suffix: str, folder: Path) -> None:
+    """Write the objects of a component's kernels for one processor and all platforms."""
     _llvm_for_all()
-    optimised = _optimised(code, entries, suffix, CPUS[suffix])
+    optimised = _named(_optimised(plain, CPUS[suffix]), entries, suffix)
     for platform in TRIPLES:
         path = objects(folder, platform)[1 + list(CPUS).index(suffix)]
         _write(optimised.clone(), platform, CPUS[suffix], path)
@@ -288,26 +300,34 @@ def _without_origin(text: str) -> str:
     )
 
 
-def _optimised(code: bytes, entries: Iterable[str], suffix: str, cpu: str, *, vectors: bool = True) -> Any:
-    """Return the module with this bitcode optimised for a processor.
-
-    `suffix` is added to the names of the entries, and to those of another component's entries that this one calls.
-    """
+def _optimised(code: bytes, cpu: str, *, vectors: bool = True) -> Any:
+    """Return the module with this bitcode optimised for a processor."""
     from llvmlite import binding as llvm
 
-    from fmu_src.native.component import SIGNATURES
-
     module = llvm.parse_bitcode(code)
-    for function in module.functions:
-        if function.name in entries or (function.is_declaration and function.name in SIGNATURES):
-            function.name = f"{function.name}_{suffix}"
     machine = _direct(module, next(iter(TRIPLES)), cpu)
     options = llvm.create_pipeline_tuning_options(speed_level=3 if vectors else 2)
-    if not vectors:  # the compiler of the C code chooses vectors and unrolls
+    if not vectors:  # these come for each processor; the compiler of the C code chooses its own
         options.loop_vectorization = options.slp_vectorization = False
         options.loop_interleaving = options.loop_unrolling = False
     builder = llvm.create_pass_builder(machine, options)
     builder.getModulePassManager().run(module, builder)
+    return module
+
+
+def _named(module: Any, entries: Iterable[str], suffix: str) -> Any:
+    """Return the module with `suffix` at the names of its entries, and of another component's entries that it calls.
+
+    Raises
+    ------
+    RuntimeError
+        If it needs a symbol that is not in ALLOWED.
+    """
+    from fmu_src.native.component import SIGNATURES
+
+    for function in module.functions:
+        if function.name in entries or (function.is_declaration and function.name in SIGNATURES):
+            function.name = f"{function.name}_{suffix}"
     refuse_the_rest(module)
     return module
 

@@ -30,6 +30,7 @@ _PACKAGES = ("contact_fmu", "fmu" + "_src")
 _SCRIPT = '''\
 """Slave of the FMU {name}. The code is in the package wheelrail-contact {version}, installed in the host's Python."""
 
+import sys
 from importlib.util import find_spec
 
 try:
@@ -49,6 +50,8 @@ except ImportError as error:
         def __init__(self, **kwargs):
             super().__init__(**kwargs)
             self.log(reason, Fmi2Status.error)
+            if sys.stderr is not None:  # without loggingOn nothing reaches the host's logger
+                print(reason, file=sys.stderr, flush=True)
 
         def do_step(self, current_time, step_size):
             self.log(reason, Fmi2Status.discard)

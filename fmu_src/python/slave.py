@@ -3,7 +3,8 @@
 pythonfmu 0.7.0 turns an exception in a callback into fmi2Fatal, and the fifth one crashes the host (measured). Therefore no
 exception leaves a callback: a doStep that fails returns Discard with a message, and any other refused call is logged.
 
-pythonfmu gives messages to the host's logger only with `loggingOn` (measured). A refusal is therefore also written to stderr.
+Without `loggingOn` pythonfmu gives the host's logger nothing, not even the exception with which an instantiation, an
+initialisation, a set function or a step ends (measured). A refusal is therefore also written to stderr.
 """
 
 from __future__ import annotations
@@ -58,6 +59,12 @@ class Phase(StrEnum):
     LOST = "after a state that is not one of this FMU"
 
 
+def _write_to_stderr(text: str) -> None:
+    if sys.stderr is not None:  # a host without a console has none
+        sys.stderr.write(text + "\n")
+        sys.stderr.flush()
+
+
 def guarded(method: Callable[..., Any]) -> Callable[..., Any]:
     """Wrap a callback so that it logs an exception and returns False, which means Discard in `do_step`."""
 
@@ -105,10 +112,12 @@ class TableSlave(Fmi2Slave):
             # pythonfmu adds this entry for every instance and never removes it. The script is already imported.
             sys.path.remove(self.resources)
         if guid != model_description(table, INTERFACES)[0]:
-            raise RuntimeError(
+            reason = (
                 f"this FMU {table.name} was built with another version of wheelrail-contact than the installed "
                 f"{__version__}: install that version, or build the FMU anew"
             )
+            _write_to_stderr(reason)
+            raise RuntimeError(reason)
         self.table = table
         self.guid = guid
         self._said = ""
@@ -149,9 +158,8 @@ class TableSlave(Fmi2Slave):
     def log(self, msg: str, status: Fmi2Status = Fmi2Status.ok, *rest: Any, **options: Any) -> None:
         """Log a message. A refusal is also written to stderr, unless it is the one written last."""
         super().log(msg, status, *rest, **options)
-        if status >= Fmi2Status.discard and msg != self._said and sys.stderr is not None:
-            sys.stderr.write(f"{self.table.name}: {msg}\n")
-            sys.stderr.flush()
+        if status >= Fmi2Status.discard and msg != self._said:
+            _write_to_stderr(f"{self.table.name}: {msg}")
             self._said = msg
 
     # ---------------------------------------------------------------- implemented by a model

@@ -159,6 +159,34 @@ def test_a_wheel_is_no_rail_and_a_rail_no_wheel(tmp_path, name, up, side):
     assert profile.read(path, kind=drawn.kind, unit="m", side=side).kind == drawn.kind
 
 
+def grooved(depth, lip, below):
+    """Return y, z [m] of a rail like 60R1 in round numbers: a head 56 mm wide, `below` its field corner, a groove, a lip."""
+    corners = 1e-3 * np.array([
+        *((28.0, below), (28.0, 11.0), (25.0, 4.0), (18.0, 1.3), (0.0, 0.0), (-18.0, 1.3), (-25.0, 4.0), (-28.0, 11.0)),
+        *((-31.0, depth - 9.0), (-40.0, depth - 1.0), (-47.0, depth), (-54.0, depth - 2.0), (-60.0, depth - 10.0)),
+        *((-65.0, 12.0), (-68.0, 7.0), (-65.0 - lip, 6.0)),
+    ])[::-1]  # fmt: skip
+    along = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(corners, axis=0).T))))
+    s = np.arange(0.0, along[-1], 0.5e-3)
+    return np.interp(s, along, corners[:, 0]), np.interp(s, along, corners[:, 1])
+
+
+@pytest.mark.parametrize("side", ["right", "left"])
+@pytest.mark.parametrize("up", [1.0, -1.0])
+@pytest.mark.parametrize(
+    ("depth", "lip", "below"), [(47.0, 20.0, 30.0), (47.0, 8.0, 14.0), (26.0, 20.0, 14.0), (36.0, 20.0, 30.0)]
+)
+def test_a_grooved_rail_is_no_wheel(tmp_path, depth, lip, below, up, side):
+    y, z = grooved(depth, lip, below)
+    path = tmp_path / "grooved.txt"
+    path.write_text(table(y if side == "right" else -y, up * z))
+    with pytest.raises(ContactError, match=r"shape of a rail: .*kind = 'wheel' must be 'rail'"):
+        profile.read(path, kind="wheel", unit="m", side=side)
+    read = profile.read(path, kind="rail", unit="m", side=side)
+    np.testing.assert_allclose(read.y, y, atol=1e-6)
+    np.testing.assert_allclose(read.z, z, atol=1e-6)
+
+
 def test_shapes_that_could_be_either_are_taken_as_given(tmp_path):
     path = tmp_path / "part.txt"
     for drawn, part in ((RAIL, RAIL.y < 0.01), (WHEEL, WHEEL.y > -0.05)):  # the gauge side; a scan from the tip on
