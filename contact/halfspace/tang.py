@@ -4,9 +4,9 @@
 
 is a variational inequality. Its operator, C(x) - C(x + dx), is positive definite but not symmetric. The solution is
 therefore unique, but Gauss-Seidel sweeps diverge. Here a semi-smooth Newton iteration with active sets of stick and slip
-solves it, in 5 to 10 steps from q = 0. Each step is a linear system, solved by GMRES with the products by FFT. The
+solves it, in 8 to 12 steps from q = 0. Each step is a linear system, solved by GMRES with the products by FFT. The
 preconditioner uses two facts: C by itself is symmetric, and in the stick zone a sum from the leading edge inverts the
-difference. About 10 GMRES steps are needed on any grid. If Newton's iteration stalls, transient rolling over increasing
+difference. About 5 GMRES steps are needed on any grid. If Newton's iteration stalls, transient rolling over increasing
 distances L leads to the steady state,
 
     s = w + [C q(x) - C q(x + dx)]/dx + C (q - q_before)/L.
