@@ -17,7 +17,7 @@ def numbers(name: str, values: ArrayLike, minimum: float = -math.inf, *, open_mi
     """Return `values` as a float64 array. Every element is checked as by `contact.errors.require_number`."""
     try:
         array = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ContactError(f"{name} = {values!r} is not a number or an array of numbers") from None
     if array.ndim == 0:
         require_number(name, array, minimum, open_minimum=open_minimum)

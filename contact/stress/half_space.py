@@ -212,7 +212,7 @@ def _points(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> tuple[Array, Array, Arr
     try:
         arrays = [np.asarray(v, dtype=np.float64) for v in (x, y, z)]
         points = np.broadcast_arrays(*arrays)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ContactError("x, y and z are not numbers or arrays that broadcast") from None
     for name, values in zip("xyz", arrays, strict=True):
         bad = ~(np.isfinite(values) & (values >= (0.0 if name == "z" else -np.inf)))

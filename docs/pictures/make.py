@@ -59,12 +59,12 @@ def draw_explorer(chromium: str) -> None:
 
     with sync_playwright() as driver:
         browser = driver.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
-        page = browser.new_page(viewport={"width": 1200, "height": 1212}, color_scheme="light")
+        page = browser.new_page(viewport={"width": 1200, "height": 1184}, color_scheme="light")
         page.goto(f"{PAGE.as_uri()}#{STATE}")
         page.wait_for_function("lines.slip && last")
         page.screenshot(path=EXPLORER)
         browser.close()
-    Image.open(EXPLORER).convert("RGB").resize((900, 909), Image.Resampling.LANCZOS).save(EXPLORER, optimize=True)
+    Image.open(EXPLORER).convert("RGB").resize((900, 888), Image.Resampling.LANCZOS).save(EXPLORER, optimize=True)
 
 
 if __name__ == "__main__":

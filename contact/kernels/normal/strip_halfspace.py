@@ -21,7 +21,7 @@ from contact.kernels.cubic import locate
 from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.normal.analyn import analyn
 from contact.kernels.normal.between_panels import distances
-from contact.kernels.normal.brackets import keep_between, note_sides
+from contact.kernels.normal.brackets import damp_turns, keep_between, note_sides
 from contact.kernels.normal.descent import descend, has_one_run
 from contact.kernels.normal.mixing import advance, mix
 from contact.kernels.normal.panels import (
@@ -61,8 +61,6 @@ PLAIN = 22
 BRACKET = 6
 #: Iterations in which a warm start has to come to rest. Then the iteration starts again from ANALYN's solution.
 WARM = 8
-#: An end that reverses and moves further than this, over the width, moves half the way.
-TURN = 0.02
 #: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's solution is.
 USABLE = 0.02
 
@@ -155,18 +153,6 @@ def _take_best(n, n_panels, panels, vectors):
         for i in range(first, last + 1):
             vectors[Vector.LN_A, i] = vectors[Vector.BEST, min(max(i, first + 1), last - 1)]
         vectors[Vector.ACTIVE, first : last + 1] = 1.0
-
-
-@kernel
-def _damp_turns(n, n_panels, panels, vectors):
-    """Halve the moves of ends that reverse."""
-    for p in range(n_panels):
-        least = TURN * (panels[2 * p + 1] - panels[2 * p])
-        for side in range(2):
-            end = p * n + side * (n - 1)
-            move = vectors[Vector.R, end]
-            if vectors[Vector.STEP, end] * move < 0.0 and abs(move) > least:
-                vectors[Vector.R, end] = 0.5 * move
 
 
 @kernel
@@ -269,7 +255,7 @@ def strip_halfspace(sep, case, own, result):
             _keep_best(n, n_panels, panels, vectors)
         if descending:
             if known > 0:
-                _damp_turns(n, n_panels, panels, vectors)
+                damp_turns(n, n_panels, panels, vectors)
             for p in range(n_panels):
                 descend(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors)
         left = 0.0 if cut else mix(n, n_panels, panels, vectors, load, known, space.lu)
