@@ -13,6 +13,7 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from enum import Enum, auto
 from functools import wraps
 from types import SimpleNamespace
 from typing import Any
@@ -41,32 +42,44 @@ def _get_call_type(self: Any, context: Any, args: tuple[Any, ...], kws: Any) -> 
     return signature
 
 
-#: How variables lie in a value of a type: it is one, it lists them, it has parts, or none.
-_IS, _LISTS, _PARTS, _VALUES, _NONE = range(5)
-_KINDS: dict[type, int] = {ir.Var: _IS}
+class _Holds(Enum):
+    """How a value in numba's intermediate code holds variables."""
+
+    ITSELF = auto()
+    LISTS = auto()
+    PARTS = auto()
+    VALUES = auto()
+    NOTHING = auto()
 
 
-def _kind_of(type_: type) -> int:
-    """Return how variables lie in a value of a type in numba's intermediate code."""
-    if type_ not in _KINDS:
-        kinds = ((ir.Var, _IS), (ir.Inst, _LISTS), ((list, tuple), _PARTS), (dict, _VALUES), (object, _NONE))
-        _KINDS[type_] = next(kind for base, kind in kinds if issubclass(type_, base))
-    return _KINDS[type_]
+_BASES: tuple[tuple[type, _Holds], ...] = (
+    (ir.Var, _Holds.ITSELF), (ir.Inst, _Holds.LISTS), (list, _Holds.PARTS), (tuple, _Holds.PARTS), (dict, _Holds.VALUES),
+)  # fmt: skip
+_ways: dict[type, _Holds] = {}
+_ITSELF, _LISTS, _NOTHING = _Holds.ITSELF, _Holds.LISTS, _Holds.NOTHING
+
+
+def _way_of(value: Any) -> _Holds:
+    """Return how a value holds variables, by its type."""
+    kind = type(value)
+    if kind not in _ways:
+        _ways[kind] = next((way for base, way in _BASES if issubclass(kind, base)), _Holds.NOTHING)
+    return _ways[kind]
 
 
 def _list_variables(self: ir.Inst, value: Any) -> list[ir.Var]:
     """Return the variables in a part of an instruction, as numba's method does."""
-    kind = _kind_of(type(value))
-    if kind == _IS:
+    way = _way_of(value)
+    if way is _ITSELF:
         return [value]
-    if kind == _LISTS:
+    if way is _LISTS:
         return value.list_vars()
     found: list[ir.Var] = []
-    for part in value.values() if kind == _VALUES else value if kind == _PARTS else ():
-        kind = _KINDS.get(type(part), _PARTS)
-        if kind == _IS:
+    for part in value.values() if way is _Holds.VALUES else value if way is _Holds.PARTS else ():
+        way = _way_of(part)
+        if way is _ITSELF:
             found.append(part)
-        elif kind != _NONE:
+        elif way is not _NOTHING:
             found += _list_variables(self, part)
     return found
 
