@@ -260,11 +260,11 @@ def test_a_patch_cut_off_by_the_end_of_the_data_is_out_of_range(B):
     assert inside.status is contact.Status.OK
 
 
-def test_the_end_strips_of_every_panel_lose_the_flag_of_an_earlier_call():
+def test_the_end_strips_of_every_panel_lose_the_least_length_of_an_earlier_call():
     """It was read at the ends of the second of two panels, where another contact had left it."""
     n, two = 6, 2
-    vectors = np.ones((len(Vector), two * n))  # all flags are set, all half lengths are 1 m
+    vectors = np.ones((len(Vector), two * n))  # all half lengths and their bounds are 1 m
     vectors[Vector.LN_A], vectors[Vector.GAP] = math.log(5e-3), 0.0
     half_lengths(vectors, n, two, 1e-4)
-    assert not vectors[Vector.FLOORED].any()
+    assert not vectors[Vector.FLOOR, [0, n - 1, n, two * n - 1]].any()
     assert np.all(vectors[Vector.A] <= 5e-3 * (1.0 + 1e-12))
