@@ -18,11 +18,10 @@ import numpy as np
 
 import contact
 import reference
-from benchmarks import bent_surface, feature_times, roller_polygon
+from benchmarks import bent_surface, feature_times, rail_reference, roller_polygon
 from benchmarks.patches_of_sets import BOTH, pair_of, parabolas
 from benchmarks.tables import summary, table
 from contact.driven import drive
-from contact.elastic_rail import ElasticRail
 from contact.geometry.wheelset import Pose, Velocity
 from contact.halfspace import Gap
 from contact.pair import WheelRailPair
@@ -129,12 +128,7 @@ def deflections(folder: Path) -> Iterator[Row]:
         if row["patch"] != "1":
             continue
         v = {name: float(text) for name, text in row.items() if name not in ("id", "mode") and text}
-        springs = ElasticRail(1e3 * v["KYRAIL"], 1e3 * v["KZRAIL"], v["FYRAIL"], v["FZRAIL"])
-        height = row["mode"] == "z"
-        pose = Pose(y=1e-3 * v["y_ws"], z=1e-3 * v["value"] if height else 0.0, yaw=v["yaw"])
-        solver.forget()
-        velocity = Velocity(2.0, spin=-2.0 / 0.46 * 1.0003)
-        s = solver.solve(pose, velocity, vertical=None if height else v["value"], rail=springs)
+        s = rail_reference.on_springs(solver, row)
         true = -np.array([v["Fx_tr"], v["Fy_tr"], v["Fz_tr"]])
         forces.append(np.linalg.norm(s.force - true) / np.linalg.norm(true))
         balance = np.array([v["dy_balance"], v["dz_balance"]])

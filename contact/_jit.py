@@ -185,7 +185,9 @@ class _WholeLibrary(JITCodeLibrary):
         for function in self._final_module.functions:
             if function.linkage == Linkage.linkonce_odr and function.name.startswith("_ZN"):
                 function.linkage, function.name = Linkage.internal, function.name + ".own"
-        super()._optimize_final_module()
+        # numba would optimise twice, to remove reference counts in between. Kernels have none.
+        passes, builder = self._codegen._module_pass_manager()
+        passes.run(self._final_module, builder)
 
 
 def _compiler_into(library: type[JITCodeLibrary]) -> type[CompilerBase]:

@@ -4,8 +4,8 @@ For each operation numba tries the overloads of its operator in turn until one a
 again when it lowers the operation. For the default methods these are 23 600 searches for 340 different answers, a quarter of
 the time of compilation. Here an answer is remembered with the operator and the types. The compiled code is the same.
 
-Meanwhile numba's garbage is collected more seldom, the variables of a statement are listed with fewer calls, and the errors of
-overloads that do not fit, which nobody reads, get no colours.
+Meanwhile numba's garbage is collected more seldom, the variables of a statement are listed with fewer calls, arrays are not
+searched for others that they wrap, and the errors of overloads that do not fit, which nobody reads, get no colours.
 """
 
 from __future__ import annotations
@@ -14,14 +14,17 @@ import gc
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import wraps
-from types import NoneType, SimpleNamespace
+from types import SimpleNamespace
 from typing import Any
 
 from numba.core import errors, ir
-from numba.core.types.functions import BaseFunction
+from numba.core.base import BaseContext
+from numba.core.types import functions
+from numba.core.typing import typeof
 
 _SELDOM = (100_000, 50, 100)
-_search: Callable[..., Any] = BaseFunction.get_call_type
+_search: Callable[..., Any] = functions.BaseFunction.get_call_type
+_look_up: Callable[..., Any] = BaseContext.get_function
 _answers: dict[tuple[Any, ...], tuple[Any, Any]] = {}
 
 
@@ -38,25 +41,43 @@ def _get_call_type(self: Any, context: Any, args: tuple[Any, ...], kws: Any) -> 
     return signature
 
 
-#: Types in numba's intermediate code that contain no variable.
-_WITHOUT_VARIABLES = frozenset({NoneType, bool, float, int, str, ir.Loc})
+#: How variables lie in a value of a type: it is one, it lists them, it has parts, or none.
+_IS, _LISTS, _PARTS, _VALUES, _NONE = range(5)
+_KINDS: dict[type, int] = {ir.Var: _IS}
+
+
+def _kind_of(type_: type) -> int:
+    """Return how variables lie in a value of a type in numba's intermediate code."""
+    if type_ not in _KINDS:
+        kinds = ((ir.Var, _IS), (ir.Inst, _LISTS), ((list, tuple), _PARTS), (dict, _VALUES), (object, _NONE))
+        _KINDS[type_] = next(kind for base, kind in kinds if issubclass(type_, base))
+    return _KINDS[type_]
 
 
 def _list_variables(self: ir.Inst, value: Any) -> list[ir.Var]:
     """Return the variables in a part of an instruction, as numba's method does."""
-    if isinstance(value, ir.Var):
+    kind = _kind_of(type(value))
+    if kind == _IS:
         return [value]
-    if isinstance(value, ir.Inst):
+    if kind == _LISTS:
         return value.list_vars()
     found: list[ir.Var] = []
-    if isinstance(value, list | tuple | dict):
-        for part in value.values() if isinstance(value, dict) else value:
-            kind = type(part)
-            if kind is ir.Var:
-                found.append(part)
-            elif kind not in _WITHOUT_VARIABLES:
-                found += _list_variables(self, part)
+    for part in value.values() if kind == _VALUES else value if kind == _PARTS else ():
+        kind = _KINDS.get(type(part), _PARTS)
+        if kind == _IS:
+            found.append(part)
+        elif kind != _NONE:
+            found += _list_variables(self, part)
     return found
+
+
+def _get_function(self: Any, fn: Any, sig: Any, _firstcall: bool = True) -> Any:
+    """Return what an operation compiles to, as numba's method does.
+
+    At each use of an array numba asks whether the array wraps another one, `__array__`. It does not; then numba would
+    look through all its registries for news.
+    """
+    return _look_up(self, fn, sig, _firstcall and fn != "__array__")
 
 
 def _same(text: str) -> str:
@@ -66,15 +87,19 @@ def _same(text: str) -> str:
 _PLAIN = SimpleNamespace(errmsg=_same, filename=_same, code=_same, indicate=_same, highlight=_same, reset=_same)
 #: Object, attribute and what it is while a kernel is compiled.
 _MEANWHILE: tuple[tuple[Any, str, Any], ...] = (
-    (BaseFunction, "get_call_type", _get_call_type),
+    (functions.BaseFunction, "get_call_type", _get_call_type),
+    (BaseContext, "get_function", _get_function),
     (ir.Inst, "_rec_list_vars", _list_variables),
     (errors, "termcolor", lambda: _PLAIN),
+    (functions, "_termcolor", _PLAIN),
+    (ir, "_termcolor", _PLAIN),
+    (typeof, "_termcolor", _PLAIN),
 )
 
 
 @contextmanager
 def _remembering() -> Iterator[None]:
-    if BaseFunction.get_call_type is _get_call_type:  # a kernel that another one calls
+    if functions.BaseFunction.get_call_type is _get_call_type:  # a kernel that another one calls
         yield
         return
     threshold, before = gc.get_threshold(), [getattr(owner, name) for owner, name, _ in _MEANWHILE]

@@ -32,8 +32,9 @@ class ElasticRail:
 
     def __post_init__(self) -> None:
         for name in ("ky", "kz"):
-            if getattr(self, name) != math.inf:
-                require_number(f"rail.{name}", getattr(self, name), 0.0, open_minimum=True)
+            k = getattr(self, name)
+            if not (isinstance(k, float) and math.isinf(k) and k > 0.0):  # NaN compared with a number would be a trap
+                require_number(f"rail.{name}", k, 0.0, open_minimum=True)
         for name in ("preload_y", "preload_z"):
             require_number(f"rail.{name}", getattr(self, name))
 

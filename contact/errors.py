@@ -44,6 +44,8 @@ def require_number(
         if isinstance(value, str | bytes):  # float() would accept "80e3", which the caller forgot to convert
             raise TypeError
         number = float(value)  # type: ignore[arg-type]
+    except OverflowError:  # Python may refuse to print it
+        raise ContactError(f"{name} is an integer beyond the range of floats") from None
     except (TypeError, ValueError):
         raise ContactError(f"{name} = {value!r} is not a number") from None
     # a comparison with NaN is a trap where floating-point traps are on

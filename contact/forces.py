@@ -171,7 +171,7 @@ def _checked(name: str, values: ArrayLike | None, minimum: float, maximum: float
     """Return `values` as a float64 array. Raise a ContactError for the first value outside [minimum, maximum]."""
     try:
         array = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ContactError(f"{name} is not an array of numbers") from None
     finite = np.isfinite(array)
     known = np.where(finite, array, minimum)  # a comparison with NaN is a trap where floating-point traps are on

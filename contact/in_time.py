@@ -128,7 +128,7 @@ def _columns(motion: Mapping[str, ArrayLike]) -> dict[str, Array]:
         raise ContactError("motion has no column 'time'")
     try:
         columns = {name: np.array(column, dtype=np.float64) for name, column in motion.items()}
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ContactError("motion holds something that is not a number") from None
     time = columns["time"]
     if time.ndim != 1 or time.size < 1 or not np.isfinite(time).all() or not (np.diff(time) > 0.0).all():

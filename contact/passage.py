@@ -117,7 +117,7 @@ def passage(
     """
     try:
         along = np.array(stations, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ContactError("stations is not an array of numbers") from None
     if along.ndim != 1 or not 1 <= along.size <= MOST_STATIONS or not np.isfinite(along).all():
         raise ContactError(f"stations has shape {along.shape}; 1 to {MOST_STATIONS} finite positions are needed")

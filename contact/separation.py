@@ -136,7 +136,7 @@ def _column(name: str, values: ArrayLike, n: int | None) -> NDArray[np.float64]:
     """Return a float64 copy of `values` with length `n`. A scalar is repeated. All values must be finite."""
     try:
         array = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ContactError(f"{name} is not an array of numbers") from None
     if array.ndim == 0 and n is not None:
         array = np.full(n, float(array))

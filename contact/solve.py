@@ -18,6 +18,7 @@ from contact.given_force import solve_for_force, wanted_force
 from contact.halfspace import linear
 from contact.halfspace.bent import Surface
 from contact.halfspace.gap import Division, Gap
+from contact.halfspace.pressed import Pressed
 from contact.halfspace.solve import press_gap, press_solution
 from contact.halfspace.third_body import ThirdBody
 from contact.kalker import constant_table
@@ -153,9 +154,9 @@ def solve(
         )
     if method.elementwise and not rolling.elementwise:
         raise ContactError(f"tangential = {tangential!r} does not work with normal = {normal!r}; allowed: halfspace")
-    evaluate: Callable[[Creepage], Solution]
+    solver: Callable[[Creepage], Solution] | Pressed
     if method.elementwise:
-        evaluate = press_gap(
+        solver = press_gap(
             separation,
             division,
             load=load,
@@ -166,7 +167,7 @@ def solve(
             conformal=conformal,
             layer=layer,
             progress=progress,
-        ).roll
+        )
     elif not isinstance(separation, Separation):
         raise ContactError(f"normal = {normal!r} needs a contact.Separation; separation = {separation!r} is on a grid")
     else:
@@ -176,11 +177,13 @@ def solve(
         )
         if wanted is None and not (rolling.calibrated or rolling.elementwise):  # the solution stays lazy
             return problem.solve(creepage, rolling.name, throw=throw)
-        evaluate = _rolling(problem, creepage, rolling, division, layer, progress)
+        solver = _rolling(problem, creepage, rolling, division, layer, progress)
+    evaluate = solver.roll if isinstance(solver, Pressed) else solver
     if wanted is None:
         solution = evaluate(creepage)
     else:
-        solution = solve_for_force(wanted, creepage, evaluate, rolling.saturates)
+        near = solver.creepage_for(wanted, creepage) if isinstance(solver, Pressed) else creepage
+        solution = solve_for_force(wanted, near, evaluate, rolling.saturates)
     if throw:
         require_trustworthy(solution.status, separation.y, load, approach)
     return solution
@@ -272,14 +275,14 @@ def _rolling(
     division: Division,
     layer: ThirdBody | None,
     progress: Callable[[int, float], None] | None,
-) -> Callable[[Creepage], Solution]:
-    """Return the function from creepage to solution. What does not depend on the creepage is solved now."""
+) -> Callable[[Creepage], Solution] | Pressed:
+    """Return the function from creepage to solution, or the pressed elements that roll. The normal problem is solved now."""
     if method.elementwise:
         first = problem._replace(conformal=False).solve(creepage, DEFAULT_TANGENTIAL)
         if first.N <= 0.0:
             return lambda creepage: replace(first, tangential=method.name, creepage=creepage)
         surface = Surface.of(problem.separation) if problem.conformal else None
-        return press_solution(first, surface, problem.load, problem.friction, division, layer, progress).roll
+        return press_solution(first, surface, problem.load, problem.friction, division, layer, progress)
     if not method.calibrated:
         return lambda creepage: problem.solve(creepage, method.name)
     first = problem.solve(creepage, method.kernel)

@@ -9,6 +9,7 @@ import contact
 import reference
 from contact.friction import Friction
 from contact.given_force import LARGEST
+from contact.halfspace import pressed
 from contact.rising_root import rising_root
 
 LOAD, MU = 8e4, 0.3
@@ -54,6 +55,22 @@ def test_carters_creepage_has_his_inverse(share):
     ratio = found.creepage.longitudinal / full.creepage.longitudinal
     assert ratio == pytest.approx((1.0 - math.sqrt(1.0 - share)) / 0.5, rel=1e-4)
     assert s.Fx == 0.0
+
+
+@pytest.mark.parametrize("share", [0.1, 0.9, 0.99])
+@pytest.mark.parametrize("unknown", [(1, 1), (1, 0), (0, 1)])
+def test_creepages_of_the_half_space_come_with_the_traction(monkeypatch, share, unknown):
+    """One Newton iteration finds traction and creepages, so TANG is called once, with the force of its answer."""
+    calls, tang = [], pressed.tang
+    monkeypatch.setattr(pressed, "tang", lambda *a, **kw: calls.append(1) or tang(*a, **kw))
+    given = share * MU * LOAD / math.hypot(*unknown)
+    force = tuple(sign * given if k else None for sign, k in zip((-1.0, 1.0), unknown, strict=True))
+    start = contact.Creepage(0.0 if unknown[0] else 2e-5, 0.0 if unknown[1] else -3e-5, 0.05)
+    found = contact.solve(SEPARATION, start, load=LOAD, force=force, **BOTH)
+    assert found.status is contact.Status.OK
+    assert len(calls) == 1
+    for wanted, own in zip(force, (found.Fx, found.Fy), strict=True):
+        assert wanted is None or own == pytest.approx(wanted, abs=2e-6 * MU * LOAD)
 
 
 def test_the_creepages_are_contacts():

@@ -2,6 +2,7 @@
 
 import os
 import zipfile
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -21,6 +22,11 @@ def refused(read, path, copies: list[bytes], *arguments) -> None:
         path.write_bytes(copy)
         with pytest.raises(contact.ContactError):
             read(path, *arguments)
+
+
+@dataclass(frozen=True)
+class Plain:
+    length: float
 
 
 @pytest.fixture
@@ -47,6 +53,34 @@ def test_a_damaged_histogram_is_refused(histogram, tmp_path):
         assert files.to_xarray(found).attrs["checksum"] == files.to_xarray(histogram).attrs["checksum"]
     with pytest.raises(FileNotFoundError):
         files.load(tmp_path / "nothing.nc")
+
+
+def test_a_checkpoint_that_lists_fewer_arrays_is_refused(tmp_path):
+    """An archive whose list of files has lost an entry is still an archive."""
+    path = tmp_path / "run.npz"
+    checkpoint.write(path, "mine", {"rows": np.arange(30.0), "wheel": np.ones((4, 5))})
+    with zipfile.ZipFile(path) as whole:
+        kept = {name: whole.read(name) for name in whole.namelist() if name != "rows.npy"}
+    with zipfile.ZipFile(path, "w") as less:
+        for name, content in kept.items():
+            less.writestr(name, content)
+    with pytest.raises(contact.ContactError, match="arrays are missing"):
+        checkpoint.read(path, "mine")
+
+
+def test_integers_beyond_floats_are_refused(tmp_path):
+    """float() raises OverflowError, which is no ValueError. TOML, JSON and Python have such integers."""
+    large = 10**400
+    path = tmp_path / "cases.json"
+    path.write_text(f'[{{"load": {large}}}]')
+    for wrong in (
+        lambda: contact.Creepage(large),
+        lambda: contact.Separation([0.0, large, 1.0], 0.0, 1.0),
+        lambda: cases.read(path, {}),
+        lambda: declared.build(Plain, {"length": large}, "wheel"),
+    ):
+        with pytest.raises(contact.ContactError):
+            wrong()
 
 
 def test_a_damaged_checkpoint_is_refused(tmp_path):

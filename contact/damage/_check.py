@@ -17,12 +17,14 @@ def numbers(name: str, values: ArrayLike, minimum: float = -math.inf, *, open_mi
     """Return `values` as a float64 array. Every element is checked as by `contact.errors.require_number`."""
     try:
         array = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ContactError(f"{name} = {values!r} is not a number or an array of numbers") from None
     if array.ndim == 0:
         require_number(name, array, minimum, open_minimum=open_minimum)
         return array
-    good = np.isfinite(array) & (array > minimum if open_minimum else array >= minimum)
+    finite = np.isfinite(array)
+    known = np.where(finite, array, 0.0)  # NaN is not compared, which would be a floating-point trap
+    good = finite & (known > minimum if open_minimum else known >= minimum)
     if not good.all():
         index = np.unravel_index(np.argmin(good), array.shape)
         where = ", ".join(map(str, index))

@@ -40,7 +40,6 @@ def shakedown_limit(utilisation: ArrayLike) -> float | Array:
         For values outside their range.
     """
     mu = numbers("utilisation", utilisation, 0.0)
-    with np.errstate(divide="ignore"):
-        surface = np.where(mu > LINE[-1, 0], 1.0 / mu, np.inf)
+    surface = np.divide(1.0, mu, out=np.full_like(mu, np.inf), where=mu > LINE[-1, 0])
     limit = np.minimum(np.interp(mu, *LINE.T), surface)
     return limit if limit.ndim else float(limit)

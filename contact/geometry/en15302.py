@@ -54,8 +54,9 @@ class Conicity:
         """
         require_number("base", base, 0.0, open_minimum=True)
         require_number("radius", radius, 0.0, open_minimum=True)
-        with np.errstate(divide="ignore"):
-            return 2.0 * np.pi * np.sqrt(0.5 * base * radius / np.maximum(self.conicity, 0.0))
+        square = np.full_like(self.conicity, np.inf)
+        np.divide(0.5 * base * radius, self.conicity, out=square, where=self.conicity > 0.0)
+        return 2.0 * np.pi * np.sqrt(square)
 
 
 def conicity(
@@ -122,7 +123,7 @@ def equivalent_conicity(points: ContactPoints, amplitudes: ArrayLike) -> Conicit
 def _amplitudes(given: ArrayLike) -> Array:
     try:
         wanted = np.atleast_1d(np.array(given, dtype=np.float64))
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ContactError(f"amplitudes = {given!r} is not an array of numbers") from None
     if wanted.ndim != 1 or not wanted.size:
         raise ContactError(f"amplitudes of shape {wanted.shape}: at least one is needed")

@@ -112,7 +112,7 @@ def contact_points(
     """
     try:
         shifts = np.atleast_1d(np.array(np.arange(-100, 101) * 1e-4 if y is None else y, dtype=np.float64))
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ContactError(f"y = {y!r} is not an array of numbers") from None
     if shifts.ndim != 1 or not shifts.size or not np.isfinite(shifts).all():
         raise ContactError(f"y of shape {shifts.shape}: at least one finite displacement [m] is needed")

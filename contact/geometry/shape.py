@@ -80,7 +80,7 @@ def _points(name: str, values: object) -> Array:
     """Return a finite one-dimensional float64 copy."""
     try:
         array = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ContactError(f"profile.{name} is not an array of numbers") from None
     if array.ndim != 1 or not np.isfinite(array).all():
         raise ContactError(f"profile.{name} must be one-dimensional and finite; its shape is {array.shape}")

@@ -43,7 +43,7 @@ def smoothed(y: Array, z: Array, tolerance: float) -> tuple[Array, Array, Array]
     u = _chords(y, z)
     try:
         spline, _ = splprep([y, z], u=u, s=y.size * tolerance**2, k=3)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise ContactError(f"smoothing = {tolerance:g}: no spline was found through these points: {error}") from None
     (y, z), (dy, dz) = splev(u, spline), splev(u, spline, der=1)
     return y, z, np.unwrap(np.arctan2(dz, dy))

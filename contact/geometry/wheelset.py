@@ -289,7 +289,7 @@ def _grid(samples: int | ArrayLike) -> tuple[Array, int]:
         return np.empty(0), int(samples)
     try:
         grid = np.array(samples, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ContactError(f"samples = {samples!r} is neither an integer nor an array of positions [m]") from None
     if grid.ndim != 1 or grid.size < 5 or not np.isfinite(grid).all() or not (np.diff(grid) > 0.0).all():
         raise ContactError(f"samples of shape {grid.shape}: at least 5 finite, increasing positions [m] are needed")

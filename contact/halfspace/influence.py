@@ -13,13 +13,17 @@ from __future__ import annotations
 
 import functools
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from contact._jit import kernel
 from contact.material import Material
 
 Array = NDArray[np.float64]
+#: Transfer functions xx, yy, xy; real for even influence numbers.
+Transfer = tuple[NDArray[Any], NDArray[Any], NDArray[Any]]
 
 
 def integrals(X: ArrayLike, Y: ArrayLike, dx: ArrayLike, dy: ArrayLike) -> tuple[Array, Array, Array]:
@@ -112,6 +116,12 @@ class Influence:
         rows = np.fft.ifft(transform, axis=-2)[..., :ny, :]
         return np.fft.irfft(rows, self._padded[1], axis=-1)[..., :nx]
 
+    def times(self, transfer: Transfer, q: Array) -> Array:
+        """Return the product of the transfer functions with a field of two components, shape (2, ny, nx)."""
+        transform = self.forward(q)
+        _multiply(*transfer, transform)
+        return self.back(transform)
+
     def normal(self, p: Array) -> Array:
         """Return the normal displacement [m], shape (ny, nx), from the pressure `p` [Pa]."""
         return self.back(self.zz * self.forward(p))
@@ -119,3 +129,13 @@ class Influence:
     def normal_inverse(self, u: Array) -> Array:
         """Return the pressure [Pa] of the periodic half space that has the displacement `u` [m], as a preconditioner."""
         return self.back(self._inverse * self.forward(u))
+
+
+@kernel
+def _multiply(xx, yy, xy, field):
+    """Multiply the two components of `field` in place by the symmetric matrix of each wave number."""
+    for i in range(xx.shape[0]):
+        for j in range(xx.shape[1]):
+            x, y = field[0, i, j], field[1, i, j]
+            field[0, i, j] = xx[i, j] * x + xy[i, j] * y
+            field[1, i, j] = xy[i, j] * x + yy[i, j] * y

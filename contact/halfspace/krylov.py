@@ -38,14 +38,16 @@ def gmres(
     start = size(rhs)
     if start == 0.0:
         return np.zeros_like(rhs), 0
-    basis = np.empty((most + 1, rhs.size))
+    basis, solved = np.empty((most + 1, rhs.size)), np.empty((most, rhs.size))
     basis[0] = rhs.ravel() / start
     hessenberg, rotations = np.zeros((most + 1, most)), np.zeros((2, most))
     residual = np.zeros(most + 1)
     residual[0] = start
     steps = most
     for j in range(most):
-        v = apply(precondition(basis[j].reshape(rhs.shape))).ravel()
+        ready = precondition(basis[j].reshape(rhs.shape))
+        solved[j] = ready.ravel()
+        v = apply(ready).ravel()
         known = basis[: j + 1]
         for _ in range(2):  # the second pass keeps the basis orthogonal to round-off
             parts = np.einsum("ij,j->i", known, v)
@@ -68,4 +70,4 @@ def gmres(
     for i in range(steps - 1, -1, -1):
         if hessenberg[i, i] != 0.0:
             weights[i] = (residual[i] - float(hessenberg[i, i + 1 : steps] @ weights[i + 1 :])) / hessenberg[i, i]
-    return precondition(np.einsum("i,ij->j", weights, basis[:steps]).reshape(rhs.shape)), steps
+    return np.einsum("i,ij->j", weights, solved[:steps]).reshape(rhs.shape), steps

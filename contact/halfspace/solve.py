@@ -24,8 +24,6 @@ Array = NDArray[np.float64]
 
 #: Elements on which the approach under a load is estimated, and the largest number of steps of that estimate.
 _COARSE, _MAX_STEPS = Division(20, 20), 40
-#: Tolerance of the normal problem of unlike bodies when it is solved again.
-_FINE = 1e-7
 #: The grid covers the overlap at this multiple of the estimated approach, which is that of a plane half space.
 _ROOM, _ROOM_BENT = 1.02, 1.1
 
@@ -58,11 +56,11 @@ def press_gap(
     status = status_of(flat, found.p, y, found.converged)
     record = PressedRecord(found.approach, found.stiffness, found.iterations, status, "halfspace")
 
-    def again(opening: Array, p: Array, borne: float) -> Normal:
+    def again(opening: Array, p: Array, borne: float, tolerance: float) -> Normal:
         assert grid is not None
         h = grid.h + opening
         rest = None if load is None else load - borne
-        to: dict[str, Any] = {"load": rest, "approach": approach, "tolerance": _FINE}
+        to: dict[str, Any] = {"load": rest, "approach": approach, "tolerance": tolerance}
         new = norm(h, grid.dx, grid.dy, material, start=cosine * p, tilt=tilt, **to)
         return replace(new, p=new.p / cosine)
 

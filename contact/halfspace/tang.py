@@ -4,9 +4,9 @@
 
 is a variational inequality. Its operator, C(x) - C(x + dx), is positive definite but not symmetric. The solution is
 therefore unique, but Gauss-Seidel sweeps diverge. Here a semi-smooth Newton iteration with active sets of stick and slip
-solves it, in 5 to 10 steps from q = 0. Each step is a linear system, solved by GMRES with the products by FFT. The
+solves it, in 8 to 12 steps from q = 0. Each step is a linear system, solved by GMRES with the products by FFT. The
 preconditioner uses two facts: C by itself is symmetric, and in the stick zone a sum from the leading edge inverts the
-difference. About 10 GMRES steps are needed on any grid. If Newton's iteration stalls, transient rolling over increasing
+difference. About 5 GMRES steps are needed on any grid. If Newton's iteration stalls, transient rolling over increasing
 distances L leads to the steady state,
 
     s = w + [C q(x) - C q(x + dx)]/dx + C (q - q_before)/L.
@@ -31,6 +31,7 @@ from contact.halfspace.newton import Newton, Operator
 from contact.material import Material
 
 Array = NDArray[np.float64]
+Window = tuple[slice, slice]
 
 #: Position of the rigid slip ahead of the element's centre, over dx. The value is that of CONTACT.
 OFFSET = 1.0 / 6.0
@@ -49,7 +50,7 @@ class Tangential:
     stick : True in the adhesion area
     iterations : number of Newton steps
     products : number of products with the half space's matrix, a measure of the work
-    residual : residual of q = projection of q - s/rho, over mu p (Euclidean norms)
+    residual : residual of q = projection of q - s/rho, over q (Euclidean norms)
     converged : False if the iteration stopped at its limit
     """
 
@@ -118,15 +119,9 @@ def tang(
         if touching.any():
             rigid[:, touching] = rigid_slip(x, rows, 0.0)[:, touching]
         return Tangential(whole[0], whole[1], rigid[0], rigid[1], np.zeros(p.shape, dtype=bool), 0, 0, 0.0, True)
-    across, along = (np.flatnonzero(touching.any(axis=axis)) for axis in (1, 0))
-    window = slice(across[0], across[-1] + 1), slice(along[0], along[-1] + 1)
-    dx, dy = float(x[1] - x[0]), float(y[1] - y[0])
-    w = np.ascontiguousarray(rigid_slip(x, rows, offset * dx)[:, *window])
-    if added is not None:
-        w += added[:, *window]
-    rolling = _Rolling(np.ascontiguousarray(bound[window]), w, (dx, dy), material, layer, tolerance, progress)
+    rolling, w, window = prepare(p, x, y, rows, bound, material, offset, added, layer, tolerance, progress)
     q = np.zeros_like(w) if start is None else np.stack([field[window] for field in start])
-    q, residual = rolling.steady(q)
+    q, residual = rolling.steady(q, w)
     s = rolling.slip(q, w)
     zones.settle(q, s, rolling.zone, rolling.bound)
     for k, field in enumerate((*q, *s, rolling.zone)):
@@ -137,6 +132,29 @@ def tang(
     )
 
 
+def prepare(
+    p: Array,
+    x: Array,
+    y: Array,
+    rows: Bent,
+    bound: Array,
+    material: Material,
+    offset: float,
+    added: Array | None,
+    layer: float,
+    tolerance: float,
+    progress: Callable[[int, float], None] | None,
+) -> tuple[Rolling, Array, Window]:
+    """Return the problem on the smallest grid that contains the contact, its rigid slip and the place of that grid."""
+    across, along = (np.flatnonzero((p > 0.0).any(axis=axis)) for axis in (1, 0))
+    window = slice(across[0], across[-1] + 1), slice(along[0], along[-1] + 1)
+    steps = float(x[1] - x[0]), float(y[1] - y[0])
+    w = np.ascontiguousarray(rigid_slip(x, rows, offset * steps[0])[:, *window])
+    if added is not None:
+        w += added[:, *window]
+    return Rolling(np.ascontiguousarray(bound[window]), steps, material, layer, tolerance, progress), w, window
+
+
 def rigid_slip(x: Array, rows: Bent, ahead: float) -> Array:
     """Return the rigid slip over V, shape (2, ny, nx)."""
     w = np.empty((2, rows.y.size, x.size))
@@ -145,20 +163,19 @@ def rigid_slip(x: Array, rows: Bent, ahead: float) -> Array:
     return w
 
 
-class _Rolling(Newton):
-    """One problem of steady rolling on the smallest grid that contains the contact."""
+class Rolling(Newton):
+    """One problem of steady rolling. `bound` is the largest traction of each element [Pa]."""
 
     def __init__(
         self,
         bound: Array,
-        w: Array,
         steps: tuple[float, float],
         material: Material,
         layer: float,
         tolerance: float,
         progress: Callable[[int, float], None] | None,
     ) -> None:
-        self.w, self.dx = w, steps[0]
+        self.dx = steps[0]
         super().__init__(bound, Influence(bound.shape, *steps, material, layer), tolerance, progress)
         self._own = tangential(np.array([0.0, self.dx]), np.zeros(2), *steps, material)[0] + np.array([layer, 0.0])
         self._fade(0.0)
@@ -171,9 +188,9 @@ class _Rolling(Newton):
         own, share = float(here * (1.0 / dx + per_metre) - next_ / dx), 1.0 / (1.0 + dx * per_metre)
         self.operator = Operator((h.xx * difference, h.yy * difference, h.xy * difference), own, share * dx, share)
 
-    def steady(self, q: Array) -> tuple[Array, float]:
-        """Return traction and residual of steady rolling. `q` is the start."""
-        traction, residual = self.solve(q, self.w)
+    def steady(self, q: Array, w: Array) -> tuple[Array, float]:
+        """Return traction and residual of steady rolling with the rigid slip `w` over V. `q` is the start."""
+        traction, residual = self.solve(q, w)
         if residual <= self.tolerance:
             return traction, residual
         h = self.influence
@@ -181,7 +198,7 @@ class _Rolling(Newton):
         for _ in range(MAX_DISTANCES):
             self._fade(1.0 / length)
             before = self.times((h.xx / length, h.yy / length, h.xy / length), q)
-            q, _ = self.solve(q, self.w - before)
+            q, _ = self.solve(q, w - before)
             self._fade(0.0)
             length *= 1.5
-        return self.solve(q, self.w)
+        return self.solve(q, w)

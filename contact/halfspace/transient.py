@@ -28,8 +28,8 @@ from contact.halfspace import influence as half_space
 from contact.halfspace import zones
 from contact.halfspace.bent import Bent
 from contact.halfspace.gap import Division, Gap
-from contact.halfspace.influence import Influence, fast_length
-from contact.halfspace.newton import Newton, Operator, Transfer
+from contact.halfspace.influence import Influence, Transfer, fast_length
+from contact.halfspace.newton import Newton, Operator
 from contact.halfspace.norm import Normal, norm
 from contact.halfspace.solution import GridSolution, assemble
 from contact.halfspace.solve import grid_of, status_of
@@ -165,7 +165,7 @@ class Transient:
     @property
     def displacement(self) -> tuple[Array, Array]:
         """Elastic displacement of the wheel's surface against the rail's along x and y [m], on the fields of `grid`."""
-        ux, uy = self._times(self._transfer(0.0), self._traction)
+        ux, uy = self._influence.times(self._transfer(0.0), self._traction)
         return ux, uy
 
     @property
@@ -176,11 +176,6 @@ class Transient:
     @cached_property
     def _influence(self) -> Influence:
         return Influence(self._grid.h.shape, self._grid.dx, self._grid.dy, self.material)
-
-    def _times(self, transfer: Transfer, q: Array) -> Array:
-        x, y = self._influence.forward(q)
-        xx, yy, xy = transfer
-        return self._influence.back(np.stack((xx * x + xy * y, xy * x + yy * y)))
 
     def _transfer(self, ahead: float) -> Transfer:
         """Return the transfer functions of the displacement at x + `ahead` [m]."""
@@ -238,12 +233,14 @@ class Transient:
 
     def _before(self, p: Array, distance: float) -> tuple[Array, Array]:
         """Return the displacement of each particle before the step [m], and its share of the rigid slip [-]."""
-        before = self._times(self._transfer(distance), self._traction)
+        before = self._influence.times(self._transfer(distance), self._traction)
         reach = np.ones(p.shape)
         dx = self._grid.dx
         if distance <= dx * (1.0 + 1e-9):
             return before, reach
-        here = self._times(self._transfer(dx), self._traction)  # at x + dx, so column j has the displacement of j + 1
+        here = self._influence.times(
+            self._transfer(dx), self._traction
+        )  # at x + dx, so column j has the displacement of j + 1
         for i, row in enumerate(p):
             touching = np.flatnonzero(row > 0.0)
             if touching.size:
@@ -265,7 +262,9 @@ class Transient:
         newton.operator = Operator((h.xx * per_metre, h.yy * per_metre, h.xy * per_metre), own, 1.0 / per_metre, 0.0)
         q, residual = newton.solve(self._traction, w)
         if residual > _TOLERANCE:
-            rest = self._times(newton.operator.transfer, self._traction)  # w = -rest is where the last traction stays
+            rest = self._influence.times(
+                newton.operator.transfer, self._traction
+            )  # w = -rest is where the last traction stays
             q = self._traction
             for part in range(1, _PARTS + 1):
                 q, residual = newton.solve(q, -rest + (w + rest) * (part / _PARTS))

@@ -87,10 +87,10 @@ def admit(q, zone, bound):
     for i in range(bound.shape[0]):
         for j in range(bound.shape[1]):
             if zone[i, j] == SLIP:
-                size = math.sqrt(q[0, i, j] ** 2 + q[1, i, j] ** 2)
-                if size > 0.0:
-                    q[0, i, j] *= bound[i, j] / size
-                    q[1, i, j] *= bound[i, j] / size
+                # compilers divide before the condition, where q may be zero; the bound over 1e-290 Pa is still a number
+                size = math.sqrt(q[0, i, j] ** 2 + q[1, i, j] ** 2) + 1e-290
+                q[0, i, j] *= bound[i, j] / size
+                q[1, i, j] *= bound[i, j] / size
 
 
 @kernel

@@ -26,7 +26,7 @@ from contact.kernels.kalker import N_TABLE
 from contact.kernels.normal.between_panels import PROBES
 from contact.kernels.normal.descent import FEWEST, MOST, N_LAYERS
 from contact.kernels.normal.influence import MOST_TABULATED, N_COLUMNS
-from contact.kernels.normal.strip_halfspace import MEM_LN_A
+from contact.kernels.normal.start import MEM_LN_A
 from contact.kernels.records import (
     CASE,
     CONTACT,

@@ -286,7 +286,7 @@ def _solve_vertical(force, given, bench):
         else:
             low = z
         slope = 1.5 * (f + force) / deepest if iteration == 0 else (f - f_before) / (z - z_before)
-        new = z - f / slope if slope > 0.0 else math.inf
+        new = z - f / max(slope, 1e-300) if slope > 0.0 else math.inf  # compilers divide before the condition
         if not low < new < high:
             new = 0.5 * (low + high) if high < math.inf else z + 0.5 * deepest
         if new == z or abs(new) > _FURTHEST:

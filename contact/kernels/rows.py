@@ -188,7 +188,7 @@ class Vector(IntEnum):
     STEP = 12
     ACTIVE = 13
     INDEX = 14
-    FLOORED = 15  # the half length stands at its lower bound
+    FLOOR = 15  # lower bound of the half length
     U = 16  # displacement at the strip's ends
     REACH = 17  # displacement by the strip's load at unit distance
     SPREAD = 18  # mean square of its points' distances from its middle
@@ -199,7 +199,9 @@ class Vector(IntEnum):
     BEST = 23  # ln a of the best iterate; in the end strips the ends of their panel
     STEPS = 24  # first of DEPTH rows: steps of the last iterations
     CHANGES = 27  # first of DEPTH rows: changes of the residual
-    PAIRS = 30  # first of the rows of `Pair`
+    INSIDE = 30  # in the end strips: the place from which the end last moved outwards
+    OUTSIDE = 31  # the place from which it last moved inwards
+    PAIRS = 32  # first of the rows of `Pair`
 
 
 class Pair(IntEnum):

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from contact.errors import ContactError
 
-_FINGERPRINT = "fingerprint"
+#: Names of two entries beside the arrays. A damaged archive may list fewer arrays than it holds.
+_FINGERPRINT, _NAMES = "fingerprint", "names of arrays"
 #: What reading a damaged archive raises.
 _DAMAGED = (
     *(OSError, ValueError, KeyError, EOFError, NotImplementedError, RuntimeError, SyntaxError, MemoryError),
@@ -30,6 +31,7 @@ def write(path: Path, fingerprint: str, arrays: Mapping[str, NDArray]) -> None:
     beside = path.with_name(f"{path.name}.{os.getpid()}.part")
     stored: dict[str, Any] = {
         _FINGERPRINT: np.array(fingerprint),
+        _NAMES: np.array(sorted(arrays), dtype=str),
         **arrays,
     }  # Any, because savez has a bool keyword too
     with open(beside, "wb") as file:
@@ -55,6 +57,8 @@ def read(path: Path, fingerprint: str, fresh: bool = False) -> dict[str, NDArray
         with np.load(path, allow_pickle=False) as stored:
             arrays = {name: stored[name] for name in stored.files}
         found = str(arrays.pop(_FINGERPRINT))
+        if sorted(arrays.keys() - {_NAMES}) != arrays.pop(_NAMES).tolist():
+            raise ValueError("arrays are missing")
     except _DAMAGED as error:
         raise ContactError(f"{path} is not a checkpoint: {error}; --fresh ignores it") from None
     if found != fingerprint:

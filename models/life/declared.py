@@ -76,7 +76,10 @@ def _convert(hint: Any, value: object, where: str) -> Any:
             item = get_args(option)[0]
             return tuple(_convert(item, entry, f"{where}[{k}]") for k, entry in enumerate(value))
         if option is float and isinstance(value, int | float) and not isinstance(value, bool):
-            return float(value)
+            try:
+                return float(value)
+            except OverflowError:
+                raise ContactError(f"{where} is an integer beyond the range of floats") from None
         if option in (int, str, bool) and type(value) is option:
             return value
     raise ContactError(f"{where} = {value!r} is not {' or '.join(_named(o) for o in options if o is not type(None))}")

@@ -127,3 +127,18 @@ def test_documentation_has_a_line_for_every_row(table):
         pattern = re.compile(rf"\| `{name}(\[[\d.,]+\])?` \|")
         assert sum(bool(pattern.match(line)) for line in lines) == 1, row.name
     assert all(line.replace(r"\|", "").count("|") == 7 for line in lines if line.startswith("|"))
+
+
+def test_the_script_for_simulink_connects_the_inputs_in_their_order_with_their_starts():
+    """No MATLAB is at hand, so what the script says of the FMU is compared with the description."""
+    script = (Path(__file__).parents[2] / "examples" / "hosts" / "simulink_contact.m").read_text()
+    (small,) = (table for table in TABLES[: len(models(41))] if table.name == "EllipticContact")
+    inputs = [row for row in small.shown if row.causality is Causality.INPUT]
+    names, starts = (
+        re.findall(r"'([^']*)'", re.search(rf"{word} = \{{(.*)\}}", script)[1]) for word in ("names", "starts")
+    )
+    assert len(names) == len(inputs)
+    assert all(name in row.name for name, row in zip(names, inputs, strict=True))
+    assert [float(start) for start in starts] == pytest.approx([row.start for row in inputs])
+    outputs = [row.name for row in small.shown if row.causality is Causality.OUTPUT]
+    assert outputs[0] == "force.x"

@@ -44,7 +44,7 @@ def test_a_file_of_slices_gives_positions_features_and_points(crossing):
     assert rail.sheet.u == pytest.approx([0.010, 0.030, 0.050])
     assert rail.name == "nose"
     before, after = rail.curves(np.array([0.010])), rail.curves(np.array([0.030]))
-    assert np.nanmin(before[0]) == pytest.approx(0.0, abs=1e-4)
+    assert before[0][np.isfinite(before[0])].min() == pytest.approx(0.0, abs=1e-4)
     assert after[0, 0, [0, -1]] == pytest.approx([-0.03, 0.03])
     assert after[1, 0] == pytest.approx(1e-3 * (1e3 * after[0, 0]) ** 2 * 1e-3 - 1e-4, abs=2e-7)
 

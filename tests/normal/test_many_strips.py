@@ -29,6 +29,7 @@ def test_many_strips_equal_the_lookups_of_each(own):
     assert displacement(PLANE, forces, pairs, own) == pytest.approx(expected, rel=1e-12)
 
 
+@pytest.mark.nan
 def test_a_distance_that_is_no_number_reads_inside_the_table():
     pairs = np.full((len(Pair), 4), np.nan)
     assert not np.isfinite(displacement(PLANE, np.ones(4), pairs, -1))

@@ -197,6 +197,19 @@ def test_bad_points_are_refused(change, message):
         at(**arguments)
 
 
+@pytest.mark.parametrize("criterion", ["von_mises", "tresca", "shear_xz"])
+@pytest.mark.parametrize("creepage", [(0.0, 0.0, 0.0), (-2e-3, 1e-3, 0.1), (-8e-3, 0.0, 0.0)])
+@pytest.mark.parametrize("aspect", [0.1, 1.0, 8.0])
+def test_the_largest_value_is_that_of_a_dense_search(criterion, creepage, aspect):
+    """No element has a larger value at any of 60 depths, within 1e-4."""
+    solution = contact.solve(contact.Separation.hertzian(1.1, 1.1 * aspect), contact.Creepage(*creepage), load=8e4)
+    load = SurfaceLoad.of(solution, 24)
+    found = largest(load, criterion)
+    dense = below(load, np.linspace(0.0, 1.6 * load.radius, 60), margin=0.0).peak(criterion)
+    assert dense.value * (1.0 - 1e-9) <= found.value * (1.0 + 1e-4)
+    assert at(load, found.x, found.y, found.z).peak(criterion).value == pytest.approx(found.value, rel=1e-9)
+
+
 def test_bad_loads_are_refused():
     separation = contact.Separation.hertzian(1.1, 0.8)
     with pytest.raises(contact.ContactError, match="does not increase in equal steps"):

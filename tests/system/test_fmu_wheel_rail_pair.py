@@ -70,12 +70,14 @@ def test_a_rail_on_springs_is_in_balance_and_starts_from_its_last_deflection(ope
     fmu.update(springs)
     fmu.initialize()
     rail = ElasticRail(8e6, 5e7, 500.0)
+    pair.solve(Pose(), Velocity(20.0, spin=-20.0 / 0.46), vertical=6e4, rail=rail)  # as the FMU when it is initialised
     for k, y in enumerate((5e-3, 6e-3, 6.5e-3)):
         fmu.update({"pose.y": y})
         fmu.step(1e-3 * k, 1e-3)
         wanted = pair.solve(Pose(y=y), Velocity(20.0, spin=-20.0 / 0.46), vertical=6e4, rail=rail)
-        # the search ends at 2e-5 of the vertical force, and may start elsewhere
-        assert fmu["rail.deflection_y"] == pytest.approx(wanted.deflection[0], abs=3e-7)
+        # both stop at 2e-5 of the vertical force, from the deflections before, which become the same
+        apart = 2.0 * 2e-5 * 6e4 / 8e6 if k < 2 else 1e-9
+        assert fmu["rail.deflection_y"] == pytest.approx(wanted.deflection[0], abs=apart)
         assert fmu["rail.deflection_z"] == pytest.approx(6e4 / 5e7, rel=1e-4)
         assert fmu["force.y"] == pytest.approx(wanted.force[1], abs=2.4)
         assert 8e6 * fmu["rail.deflection_y"] == pytest.approx(500.0 - fmu["force.y"], abs=2.0)

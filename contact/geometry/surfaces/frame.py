@@ -191,9 +191,9 @@ def _crossings(s: Array, n: Array, y: Array, sign: float) -> Array:
     Of several crossings the one with the least sign·n counts; NaN if there is none.
     """
     k, m = s.shape
-    low, high = np.fmin(s[:, :-1], s[:, 1:]), np.fmax(s[:, :-1], s[:, 1:])
     whole = np.isfinite(s[:, :-1] + s[:, 1:])
-    first, end = np.searchsorted(y, low), np.searchsorted(y, high, side="right")
+    begin, stop = np.where(whole, s[:, :-1], 0.0), np.where(whole, s[:, 1:], 0.0)
+    first, end = np.searchsorted(y, np.minimum(begin, stop)), np.searchsorted(y, np.maximum(begin, stop), side="right")
     count = np.where(whole, end - first, 0)
     segment = np.repeat(np.arange(k * (m - 1)), count.ravel())
     column, j = np.divmod(segment, m - 1)

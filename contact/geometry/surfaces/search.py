@@ -88,14 +88,15 @@ class Scene:
     @property
     def reaches_out(self) -> bool:
         """Whether the gap still falls towards the front or the back of the box, so that contact may lie beyond."""
-        least = np.nanmin(np.where(np.isfinite(self.gap), self.gap, np.inf), axis=0)
+        least = self.gap.min(axis=0)
         return bool(least[0] < least[2] or least[-1] < least[-3])
 
     def _heights(self, x: Array, y: Array) -> tuple[Array, Heights]:
-        """Return the vertical gap [m] on a grid of the track plane, NaN where a body is absent, and the rail."""
+        """Return the vertical gap [m] on a grid of the track plane, infinite where a body is absent, and the rail."""
         rail = heights(self.rail, self._frame, x, y - self._middle, deepest=False)
         wheel = heights(self.wheel, self._frame, x, y - self._middle, deepest=True)
-        return rail.z - wheel.z, rail
+        gap = rail.z - wheel.z
+        return np.where(np.isfinite(gap), gap, np.inf), rail
 
     def _fine(self, box: tuple[float, float, float, float]) -> tuple[Array, Array, Array, Heights]:
         """Return x, y, gap and rail on a fine grid over a box. They do not depend on z, so grids are kept."""
@@ -107,7 +108,7 @@ class Scene:
     def touch(self) -> float:
         """Return z [m] at which the rigid wheel just touches."""
         least = math.inf
-        bound = float(np.nanmin(self.gap)) + _SLACK
+        bound = float(self.gap.min()) + _SLACK
         for rows, columns in _regions(self.gap < bound):
             k = int(np.argmin(self.gap[rows, columns]))
             x, y, reach = float(self.x[columns[k]]), float(self.y[rows[k]]), (2.0 * _COARSE_X, 2.0 * _COARSE_Y)
@@ -117,7 +118,7 @@ class Scene:
                 gap = self._heights(fine_x, fine_y)[0]
                 if not np.isfinite(gap).any():
                     break
-                i, j = np.unravel_index(int(np.nanargmin(gap)), gap.shape)
+                i, j = np.unravel_index(int(np.argmin(gap)), gap.shape)
                 least = min(least, float(gap[i, j]))
                 x, y, reach = float(fine_x[j]), float(fine_y[i]), (reach[0] / 5.0, reach[1] / 5.0)
         return least

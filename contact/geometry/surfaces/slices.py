@@ -31,7 +31,7 @@ class Curve:
         else:
             try:
                 array = np.array(points, dtype=np.float64)
-            except (TypeError, ValueError):
+            except (TypeError, ValueError, OverflowError):
                 raise ContactError(f"{name} is neither a Profile nor an array of points (y, z)") from None
             if array.ndim != 2 or array.shape[1] != 2 or array.shape[0] < 4 or not np.isfinite(array).all():
                 raise ContactError(f"{name} has shape {array.shape}; at least 4 finite points (n, 2) are needed")
@@ -83,7 +83,7 @@ def positions(name: str, values: ArrayLike) -> Array:
     """Return strictly increasing positions of slices as an array."""
     try:
         u = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ContactError(f"{name} is not an array of numbers") from None
     if u.ndim != 1 or not 1 <= u.size <= MOST_SLICES or not np.isfinite(u).all():
         raise ContactError(f"{name} has shape {u.shape}; 1 to {MOST_SLICES} finite positions are needed")
@@ -148,11 +148,12 @@ def _features(features: ArrayLike | None, curves: Sequence[Curve]) -> Array:
         return np.stack((np.zeros_like(lengths), lengths), axis=1)
     try:
         marks = np.array(features, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ContactError("features is not an array of numbers") from None
     if marks.ndim != 2 or marks.shape[0] != len(curves) or marks.shape[1] < 2:
         raise ContactError(f"features has shape {marks.shape}; ({len(curves)}, at least 2) is needed")
-    marks[~(marks >= 0.0)] = np.nan
+    marks = np.where(np.isfinite(marks), marks, -1.0)  # NaN is not compared, which would be a floating-point trap
+    marks[marks < 0.0] = np.nan
     for i, row in enumerate(marks):
         present = np.flatnonzero(np.isfinite(row))
         if present.size < 2 or present[-1] - present[0] + 1 != present.size:

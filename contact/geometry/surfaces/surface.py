@@ -204,7 +204,7 @@ class WheelSurface(_Surface):
         """
         try:
             across, out = np.array(y, dtype=np.float64), np.array(dr, dtype=np.float64)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise ContactError("y or dr is not an array of numbers") from None
         n = np.size(np.asarray(theta))
         if across.ndim != 1 or out.shape != (n, across.size):

@@ -11,9 +11,7 @@ from contact._jit import kernel
 from contact.kernels.arrays import SurfaceSearch
 from contact.kernels.geometry.curve import Array, Record
 from contact.kernels.geometry.grids import aligned, fill_coarse, fill_grid, lateral_range
-from contact.kernels.geometry.section import (
-    AWAY,
-)
+from contact.kernels.geometry.section import AWAY
 from contact.kernels.records import MAX_LOBES
 from contact.kernels.rows import Box, Cell
 

@@ -46,10 +46,12 @@ def _outside(y, a2, b2):
 def _add_gutter(y, n, point, delta, h):
     """Add the displacement of the first ellipse to the gap h."""
     a2, b2 = delta / (point.one_alpha * point.A), delta / (point.one_beta * point.B)
-    at_edge = (delta - point.B * b2) / _outside(math.sqrt(b2), a2, b2)
+    b = math.sqrt(b2)
+    at_edge = (delta - point.B * b2) / _outside(b, a2, b2)
     for i in range(n):
         away = abs(y[i] - point.y)
-        h[i] += delta - point.B * away * away if away * away <= b2 else at_edge * _outside(away, a2, b2)
+        outside = at_edge * _outside(max(away, b), a2, b2)  # compilers take the root inside too
+        h[i] += delta - point.B * away * away if away * away <= b2 else outside
 
 
 @kernel

@@ -74,16 +74,16 @@ def half_lengths(vectors, n, n_panels, delta):
             square = (delta - vectors[Vector.GAP, i]) / vectors[Vector.CURVATURE, i]
             if 0.0 < square < vectors[Vector.A, i] ** 2:
                 vectors[Vector.A, i], vectors[Vector.LN_A, i] = math.sqrt(square), 0.5 * math.log(square)
-            vectors[Vector.FLOORED, i] = 0.0
-        vectors[Vector.FLOORED, first] = vectors[Vector.FLOORED, first + n - 1] = 0.0
+            vectors[Vector.FLOOR, i] = 0.0
+        vectors[Vector.FLOOR, first] = vectors[Vector.FLOOR, first + n - 1] = 0.0
         vectors[Vector.A, first] = END_LENGTH * vectors[Vector.A, first + 1]
         vectors[Vector.A, first + n - 1] = END_LENGTH * vectors[Vector.A, first + n - 2]
         for i in range(first + 1, first + n - 1):
             if vectors[Vector.ACTIVE, i] != 0.0:
                 floor = 0.3 * max(vectors[Vector.A, i - 1], vectors[Vector.A, i + 1])
+                vectors[Vector.FLOOR, i] = floor
                 if vectors[Vector.A, i] <= floor:
                     vectors[Vector.A, i], vectors[Vector.LN_A, i] = floor, math.log(floor)
-                    vectors[Vector.FLOORED, i] = 1.0
 
 
 @kernel

@@ -6,9 +6,12 @@ after Knothe and Le The 1984). Hertz's ellipse satisfies both exactly for every 
 between moving ends, with one panel of strips for every patch of the start solution. All panels interact. No second
 derivative of the profile is used.
 
-Half lengths and ends are mixed together. Ends follow their rule for a dozen iterations and are then fixed, and the
-active set ends the patch inside them (nearly flat and rough gaps: 12 → 1.2 % not converged). The best iterate since
-then is kept, which halves the rest. A panel steps by the Jacobian of the ellipse with its a/b (`descent`).
+Half lengths and ends are mixed together. Ends follow their rule for a dozen iterations, the last of them within brackets
+(`brackets`), and are then fixed. The active set ends the patch inside them. The best iterate since then is kept. A panel
+steps by the Jacobian of the ellipse with its a/b (`descent`).
+
+A later call starts from the last solution, but only where a few iterations bring it to rest (`start`). Otherwise the answer
+would depend on the start.
 """
 
 import math
@@ -18,6 +21,7 @@ from contact.kernels.cubic import locate
 from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.normal.analyn import analyn
 from contact.kernels.normal.between_panels import distances
+from contact.kernels.normal.brackets import damp_turns, keep_between, note_sides
 from contact.kernels.normal.descent import descend, has_one_run
 from contact.kernels.normal.mixing import advance, mix
 from contact.kernels.normal.panels import (
@@ -32,6 +36,7 @@ from contact.kernels.normal.panels import (
     remove_unloaded,
     start_panels,
 )
+from contact.kernels.normal.start import forget, recall, remember
 from contact.kernels.normal.strip_system import (
     assemble,
     edge_displacements,
@@ -50,8 +55,12 @@ LEFT, CLOSE = 4e-4, 4e-3
 ACCEPTABLE = 1e-3
 #: Iteration from which on the ends are fixed. At the corner of a punch and on rough gaps their rule has no steady solution.
 FREEZE = 12
-#: An end that reverses and moves further than this, over the width, moves half the way.
-TURN = 0.02
+#: Iteration from which on the residuals are the steps, without mixing, which may go round in circles on rough gaps.
+PLAIN = 22
+#: Iteration from which on the ends keep between the places from which they moved outwards and inwards.
+BRACKET = 6
+#: Iterations in which a warm start has to come to rest. Then the iteration starts again from ANALYN's solution.
+WARM = 8
 #: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's solution is.
 USABLE = 0.02
 
@@ -59,9 +68,6 @@ USABLE = 0.02
 SLIGHT = 0.045
 #: Distance of a patch from the end of the data, over its width, below which the data cut it off.
 AT_END = 0.01
-
-# memory[...]: start of a later call: number of panels, their ends, the outer ends of ANALYN's patches, then ln a
-MEM_PANELS, MEM_ENDS, MEM_START, MEM_LN_A = 0, 1, 1 + 2 * MAX_PATCHES, 3 + 2 * MAX_PATCHES
 
 
 @kernel
@@ -150,18 +156,6 @@ def _take_best(n, n_panels, panels, vectors):
 
 
 @kernel
-def _damp_turns(n, n_panels, panels, vectors):
-    """Halve the moves of ends that reverse."""
-    for p in range(n_panels):
-        least = TURN * (panels[2 * p + 1] - panels[2 * p])
-        for side in range(2):
-            end = p * n + side * (n - 1)
-            move = vectors[Vector.R, end]
-            if vectors[Vector.STEP, end] * move < 0.0 and abs(move) > least:
-                vectors[Vector.R, end] = 0.5 * move
-
-
-@kernel
 def _can_descend(n, n_panels, vectors):
     """Return whether every panel has its loaded strips side by side."""
     runs = 0
@@ -174,15 +168,16 @@ def _can_descend(n, n_panels, vectors):
 def strip_halfspace(sep, case, own, result):
     """Solve the normal problem. Results are those of `analyn`, which gives the start and the local aspect ratios.
 
-    If `space.memory` is filled, it is the start instead of ANALYN's patch. It is left filled for the next call. With
-    the status NOT_CONVERGED the result is the best iterate if its changes were small, and ANALYN's solution otherwise.
+    If `space.memory` is filled, it is the start instead of ANALYN's patch. It is left filled for the next call if the
+    ends came to rest. With the status NOT_CONVERGED the result is the best iterate if its changes were small, and
+    ANALYN's solution otherwise.
     """
     y = sep.y
     rule, space, strips = own.rule, own.space, own.strips
     memory, vectors = space.memory, space.vectors
     n_strips = analyn(sep, case, rule.across, space.grid, strips, result)
     if n_strips == 0:
-        memory[MEM_PANELS] = 0.0
+        forget(memory)
         return 0
     n = rule.across.nodes.size
     size = y.size
@@ -191,31 +186,26 @@ def strip_halfspace(sep, case, own, result):
     by_load = case.load_kind != LoadKind.APPROACH
     g_least = result.touch
     amount = case.amount if by_load else case.amount - g_least
-    panels = memory[MEM_ENDS : MEM_ENDS + 2 * MAX_PATCHES]
     start_low, start_high = result.edges[0], result.edges[2 * int(strips[Strip.PATCH, n_strips - 1]) + 1]
     skew = _skew(n_strips, strips)
     skewed = skew > 0.0
-    n_panels = int(memory[MEM_PANELS])
-    if n_panels > 0:
-        vectors[Vector.ACTIVE, : n_panels * n] = 1.0
-        for i in range(n_panels * n):
-            vectors[Vector.LN_A, i] = memory[MEM_LN_A + i]
-        # the panels move with ANALYN's patch; a mean shift that is not small against the patch is ignored
-        shift = 0.5 * (start_low + start_high - memory[MEM_START] - memory[MEM_START + 1])
-        shift = shift if abs(shift) < 0.02 * (start_high - start_low) else 0.0
-        for p in range(n_panels):
-            panels[2 * p] += shift
-            panels[2 * p + 1] += shift
-            panels[2 * p], panels[2 * p + 1] = max(panels[2 * p], y[0]), min(panels[2 * p + 1], y[size - 1])
-            if not panels[2 * p] < panels[2 * p + 1]:
-                n_panels = 0  # the memory belongs to another position
-    if n_panels == 0:
+    panels, n_panels = recall(sep, n, start_low, start_high, own)
+    warm = n_panels > 0
+    if not warm:
         n_panels = start_panels(n_strips, n, strips, result, panels, rule.cosines, vectors)
+    # a warm start that finds no rest leaves the cold one at least as many iterations, or takes all
+    patience = WARM if case.max_iterations >= 2 * WARM else case.max_iterations
 
     converged, exact, descending, searched, best = False, False, False, False, math.inf
     delta = result.approach - g_least  # ANALYN's, until the first pressures are known
-    iteration, known, error, load, last_error = 0, 0, math.inf, 0.0, math.inf
+    iteration, begun, known, error, load, last_error = 0, 0, 0, math.inf, 0.0, math.inf
     for iteration in range(case.max_iterations):
+        if warm and iteration == patience:
+            n_panels = start_panels(n_strips, n, strips, result, panels, rule.cosines, vectors)
+            delta = result.approach - g_least
+            warm, begun, descending, searched = False, iteration, False, False
+            known, best, last_error = 0, math.inf, math.inf
+        age = iteration - begun
         total = n * n_panels
         lay_panels(sep, g_least, skew, panels, n_panels, own)
         distances(panels, n_panels, own)
@@ -224,7 +214,10 @@ def strip_halfspace(sep, case, own, result):
         delta = solve_active(n, n_panels, space, by_load, amount)
         error, load = math.inf, 0.0
         if not abs(delta) < math.inf:
-            break
+            if not warm:
+                break
+            patience = iteration + 1
+            continue
         # strip ends: stretch each strip by the ratio of the overlap at its ends to that of a parabola
         edge_displacements(panels, n_panels, own, skewed, unit)
         error, load = 0.0, 0.0
@@ -235,30 +228,34 @@ def strip_halfspace(sep, case, own, result):
             if weight > 0.0 and 0 < i % n < n - 1:  # the ends of a panel follow their own rule
                 overlap = delta - vectors[Vector.GAP, i] - vectors[Vector.U, i]
                 ratio = overlap / (vectors[Vector.CURVATURE, i] * vectors[Vector.A, i] ** 2)
-                r = 0.5 * math.log(min(max(ratio, 0.2), 5.0))
-                if vectors[Vector.FLOORED, i] != 0.0:
-                    r = max(r, 0.0)
-                vectors[Vector.R, i] = r
-                error += weight * abs(r)
+                least = (vectors[Vector.FLOOR, i] / vectors[Vector.A, i]) ** 2
+                vectors[Vector.R, i] = 0.5 * math.log(min(max(ratio, 0.2, least), 5.0))
+                error += weight * abs(vectors[Vector.R, i])
         before = n_panels
         n_panels = remove_unloaded(n, n_panels, panels, vectors)
         if n_panels == 0:
-            break
-        moved, cut = end_moves(y, n, n_panels, panels, rule.cosines, vectors, iteration >= FREEZE)
+            if not warm:
+                break
+            patience = iteration + 1
+            continue
+        moved, cut = end_moves(y, n, n_panels, panels, rule.cosines, vectors, age >= FREEZE)
+        if not cut:
+            note_sides(n, n_panels, panels, vectors, known == 0 or n_panels < before)
         by_jacobian = descending
-        descending = rule.descent.shape[1] == n and iteration < FREEZE and not cut
+        descending = rule.descent.shape[1] == n and age < FREEZE and not cut
         descending = descending and _can_descend(n, n_panels, vectors)
-        if n_panels < before or error > 2.0 * last_error * load or iteration == FREEZE or descending != by_jacobian:
+        anew = n_panels < before or age == FREEZE
+        if anew or error > 2.0 * last_error * load or descending != by_jacobian or age >= PLAIN:
             known = 0
         last_error = error / load
-        if n_panels < before or iteration == FREEZE:
+        if anew:
             best = math.inf
-        if iteration >= FREEZE and not cut and last_error < best:
+        if age >= FREEZE and not cut and last_error < best:
             best = last_error
             _keep_best(n, n_panels, panels, vectors)
         if descending:
             if known > 0:
-                _damp_turns(n, n_panels, panels, vectors)
+                damp_turns(n, n_panels, panels, vectors)
             for p in range(n_panels):
                 descend(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors)
         left = 0.0 if cut else mix(n, n_panels, panels, vectors, load, known, space.lu)
@@ -278,6 +275,8 @@ def strip_halfspace(sep, case, own, result):
             cut_idle(n, n_panels, panels, rule.cosines, vectors)
             known = 0
         else:
+            if BRACKET <= age < FREEZE and not settled:
+                keep_between(n, n_panels, panels, vectors)
             advance(n, n_panels, panels, vectors)
             known += 1
         n_panels, joined = join_panels(n, n_panels, panels, rule.cosines, vectors)
@@ -304,11 +303,9 @@ def strip_halfspace(sep, case, own, result):
         # `strips` and `result` still hold ANALYN's solution, and its status if the data end within the patch
         if result.status != Status.OUT_OF_RANGE:
             result.status = Status.NOT_CONVERGED
-        memory[MEM_PANELS] = 0.0
+        forget(memory)
         return n_strips
-    memory[MEM_PANELS], memory[MEM_START], memory[MEM_START + 1] = n_panels, start_low, start_high
-    for i in range(n_panels * n):
-        memory[MEM_LN_A + i] = vectors[Vector.LN_A, i]
+    remember(n_panels if iteration - begun < FREEZE else 0, n, start_low, start_high, own)
     count = _write(sep, n_panels, panels, own, result)
     N = 0.0
     for i in range(count):

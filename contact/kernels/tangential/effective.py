@@ -44,10 +44,10 @@ def _changes(strips, first, last, case, centre, tables):
         vx += weight * (strips[Strip.VX, i] - strips[Strip.PHI, i] * strips[Strip.Y, i])
         vy += weight * (strips[Strip.VY, i] + strips[Strip.PHI, i] * strips[Strip.XC, i])
         phi += weight * strips[Strip.PHI, i]
-    x, vx, vy, phi = x / weights, vx / weights, vy / weights, phi / weights
     limit *= 0.5 * math.pi * case.mu
     if not limit > NO_FRICTION * G * a * b or (vx == 0.0 and vy == 0.0 and phi == 0.0):
         return 0.0, 0.0, 0.0, 0.0
+    x, vx, vy, phi = x / weights, vx / weights, vy / weights, phi / weights
     log_aspect, c = math.log(a / b), math.sqrt(a * b)
     coefficients = kalker.coefficients(tables.kalker, log_aspect)
     unit_x, unit_y, unit_z, weight = units(G, c, limit, log_aspect, coefficients)

@@ -81,15 +81,15 @@ def equivalent_ellipse(strips, first, last):
 def mean_ellipse(strips, first, last):
     """Return the semi-axes [m] of the ellipse with the area and the mean length of the shape that is shared (`ties`).
 
-    The mean length follows from ∫a² dy/∫a dy, which is 8a/(3π) on an ellipse.
+    Both are 0 without an area. The mean length follows from ∫a² dy/∫a dy, which is 8a/(3π) on an ellipse.
     """
     area, square = 0.0, 0.0
     for i in range(first, last):
         share = strips[Strip.SHARE, i] * strips[Strip.A, i] * strips[Strip.DY, i]
         area += share
         square += share * strips[Strip.A, i]
-    a = 0.375 * math.pi * square / area
-    return a, 2.0 * area / (math.pi * a)
+    a = 0.375 * math.pi * square / max(area, 1e-300)
+    return a, 2.0 * area / (math.pi * max(a, 1e-300))
 
 
 @kernel

@@ -52,7 +52,8 @@ def stick_zone(xi, eta, psi, nu):
         return 1.0, 0.0, 0.0, 0.0
     if D <= 0.0:
         return 0.0, 0.0, psi, 0.0
-    return e, xi / D, eta / D + psi, eta / D
+    positive = D + 1e-300  # compilers divide before the condition
+    return e, xi / positive, eta / positive + psi, eta / positive
 
 
 @kernel

@@ -1,0 +1,108 @@
+"""Creepages that answer a given tangential force, found together with the traction in one Newton iteration.
+
+The rigid slip has one uniform field for each unknown creepage, and each has its force,
+
+    s = w + w_x xi + w_y eta + operator·q,    sum of q dx dy = F.
+
+The Newton step is that of TANG, bordered by these columns and rows. The preconditioner of TANG also serves the bordered
+system, by its Schur complement. Such an iteration takes little more time than that for given creepages.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.halfspace.krylov import gmres
+from contact.halfspace.newton import INEXACT, MAX_KRYLOV, MAX_NEWTON
+from contact.halfspace.tang import Rolling
+
+Array = NDArray[np.float64]
+
+#: Smallest determinant of the Schur complement over that of a sticking contact; below it the force is nearly saturated.
+_REGULAR = 1e-6
+
+
+class Driven:
+    """One problem of steady rolling under given forces.
+
+    Parameters
+    ----------
+    rolling : Rolling
+    w : ndarray, shape (2, ny, nx)
+        Rigid slip over V without the unknown creepages.
+    unknown : list of int
+        Directions of the unknown creepages, 0 longitudinal and 1 lateral.
+    wanted : ndarray, shape (len(unknown),)
+        Sum of the traction over the elements in these directions [Pa].
+    """
+
+    def __init__(self, rolling: Rolling, w: Array, unknown: list[int], wanted: Array) -> None:
+        self.rolling, self.w, self.unknown, self.wanted = rolling, w, unknown, wanted
+        #: A row of forces counts like the slip of this traction of every element.
+        self._weight = rolling.operator.own / math.sqrt(w[0].size)
+        self._columns = np.zeros((len(unknown), *w.shape))
+        self._solved = self._columns
+        self._inverse: Array = np.zeros((len(unknown), len(unknown)))
+
+    def solve(self, u: Array) -> tuple[Array, Array] | None:
+        """Return creepages and traction, from the creepages `u` and no traction. None if the iteration fails."""
+        rolling, q = self.rolling, np.zeros_like(self.w)
+        limit, first = float(rolling.bound.sum()), 0.0
+        for _ in range(MAX_NEWTON):
+            residual = rolling.linearise(q, rolling.slip(q, self.w + self._spread(u)))
+            if residual <= rolling.tolerance and np.abs(self.wanted - self._sums(q)).max() <= rolling.tolerance * limit:
+                return u, q
+            if not math.isfinite(residual) or not self._border(first):
+                return None
+            first = first or float(np.abs(np.linalg.det(self._inverse)))
+            rest = self._weight * (self.wanted - self._sums(q + rolling.correction))
+            rhs = np.concatenate((rolling.right_hand_side().ravel(), rest))
+            change, _ = gmres(self._apply, self._precondition, rhs, INEXACT, MAX_KRYLOV)
+            field, more = self._parts(change)
+            q, u = rolling.moved(q, field), u + more
+        return None
+
+    def _spread(self, u: Array) -> Array:
+        """Return the rigid slip of the creepages `u`."""
+        w = np.zeros_like(self.w)
+        w[self.unknown] += u[:, None, None]
+        return w
+
+    def _sums(self, q: Array) -> Array:
+        return q[self.unknown].sum(axis=(1, 2))
+
+    def _parts(self, v: Array) -> tuple[Array, Array]:
+        """Return the traction and the creepages in a vector."""
+        n = self.w.size
+        return v[:n].reshape(self.w.shape), v[n:]
+
+    def _border(self, first: float) -> bool:
+        """Set the columns of the step and what they cost; return False if the force is nearly saturated."""
+        for k, direction in enumerate(self.unknown):
+            self._columns[k] = 0.0
+            self._columns[k, direction] = 1.0
+            self.rolling.restricted(self._columns[k])
+        self._solved = np.stack([self.rolling.precondition(column) for column in self._columns])
+        schur = -self._weight * np.stack([self._sums(field) for field in self._solved], axis=1)
+        size = float(np.abs(np.linalg.det(schur)))
+        if not size > 0.0 or 0.0 < size * first < _REGULAR:
+            return False
+        self._inverse = np.asarray(np.linalg.inv(schur))
+        return True
+
+    def _apply(self, v: Array) -> Array:
+        """Return the product of the bordered matrix with a change of traction and creepages."""
+        field, u = self._parts(v)
+        moved = self.rolling.apply(field) + np.einsum("k,kcij->cij", u, self._columns)
+        return np.concatenate((moved.ravel(), self._weight * self._sums(field)))
+
+    def _precondition(self, v: Array) -> Array:
+        """Return an approximate solution of the bordered step."""
+        field, rest = self._parts(v)
+        change = self.rolling.precondition(field)
+        u = self._inverse @ (rest - self._weight * self._sums(change))
+        change -= np.einsum("k,kcij->cij", u, self._solved)
+        return np.concatenate((change.ravel(), u))

@@ -1,0 +1,47 @@
+"""Start of the strip half space from the last call: the panels and half lengths that it left in `own.space.memory`."""
+
+from contact._jit import kernel
+from contact.kernels.records import MAX_PATCHES
+from contact.kernels.rows import Vector
+
+# memory[...]: number of panels, their ends, the outer ends of ANALYN's patches, then ln a
+MEM_PANELS, MEM_ENDS, MEM_START, MEM_LN_A = 0, 1, 1 + 2 * MAX_PATCHES, 3 + 2 * MAX_PATCHES
+#: Shift of ANALYN's patch over its width from which on the panels do not move with it.
+_FURTHEST = 0.02
+
+
+@kernel
+def forget(memory):
+    """Let the next call start from ANALYN's solution."""
+    memory[MEM_PANELS] = 0.0
+
+
+@kernel
+def recall(sep, n, low, high, own):
+    """Fill half lengths and active set from the memory. Return the ends of the panels, a view of it, and their number.
+
+    The number is 0 if the memory is empty or belongs to another position. `low` and `high` are the outer ends of ANALYN's
+    patches; the panels move with them.
+    """
+    y, memory, vectors = sep.y, own.space.memory, own.space.vectors
+    panels = memory[MEM_ENDS : MEM_ENDS + 2 * MAX_PATCHES]
+    n_panels = int(memory[MEM_PANELS])
+    shift = 0.5 * (low + high - memory[MEM_START] - memory[MEM_START + 1]) if n_panels > 0 else 0.0
+    shift = shift if abs(shift) < _FURTHEST * (high - low) else 0.0
+    for p in range(n_panels):
+        panels[2 * p] = max(panels[2 * p] + shift, y[0])
+        panels[2 * p + 1] = min(panels[2 * p + 1] + shift, y[y.size - 1])
+        if not panels[2 * p] < panels[2 * p + 1]:
+            return panels, 0
+    for i in range(n_panels * n):
+        vectors[Vector.LN_A, i], vectors[Vector.ACTIVE, i] = memory[MEM_LN_A + i], 1.0
+    return panels, n_panels
+
+
+@kernel
+def remember(n_panels, n, low, high, own):
+    """Keep half lengths of the panels, whose ends are in the memory already, for the next call. 0 panels empty the memory."""
+    memory, vectors = own.space.memory, own.space.vectors
+    memory[MEM_PANELS], memory[MEM_START], memory[MEM_START + 1] = n_panels, low, high
+    for i in range(n_panels * n):
+        memory[MEM_LN_A + i] = vectors[Vector.LN_A, i]
