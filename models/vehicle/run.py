@@ -66,7 +66,7 @@ BALANCE = {
 #: Largest factor by which a small motion may grow in a step: more than any motion of a vehicle grows.
 _LARGEST_AMPLIFICATION = 1.02
 _LONGEST_STEP, _SHORTEST_STEP = 5e-4, 5e-5  # [s]
-#: Longest step with flats and polygons [s]: the peak of an impact is then within 1.5 % of that of half the step.
+#: Longest step with flats and polygons [s]: the peak of an impact is then within 1.7 % of that of half the step.
 _LONGEST_UNEVEN = 1e-4
 
 
@@ -126,8 +126,7 @@ class VehicleRun:
             ledger(histograms[name, side, "wheel"], histograms[name, side, "rail"], options.n_strips)
             for name, side in scenario.wheel_names
         )
-        without = {scenario.wheel_names[number] for number in uneven}
-        self.histograms = {key: each for key, each in histograms.items() if key[:2] not in without}
+        self.histograms = {key: each for key, each in histograms.items() if key[:2] not in self.without_damage}
         track = lay(d.track, d.length, scenario.speed, (d.seed, *scenario.draw), d.recording.settling)
         ahead = max(axle.at for axle in vehicle.wheelsets) + 1.0  # all axles start before the irregularities
         self.simulation = self._simulation(track, ledgers=ledgers, uneven=uneven, start=-ahead, threads=threads)
@@ -295,6 +294,11 @@ class VehicleRun:
         """Mean static load of an axle [N]."""
         model = self.simulation.model
         return 2.0 * float(model.bodies["load"][model.wheelsets].mean())
+
+    @property
+    def without_damage(self) -> tuple[tuple[str, str], ...]:
+        """Wheelset and side of the wheels that are not round. They and the rails under them have no histograms."""
+        return tuple(self.scenario.wheel_names[number] for number in self._uneven)
 
     def damage(self) -> dict[tuple[str, str, str], Histogram]:
         """Return `histograms`, filled with the damage so far."""

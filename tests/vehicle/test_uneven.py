@@ -11,6 +11,7 @@ from contact.geometry import profile
 from contact.geometry.surfaces import Flat, WheelSurface
 from models.life import declared_set, result
 from models.life.scenario import read as read_scenario
+from models.vehicle import report
 from models.vehicle.declared import read
 from models.vehicle.kernels.layout import Book
 from models.vehicle.run import VehicleRun
@@ -117,6 +118,8 @@ def test_scenario_with_a_flat_runs_resumes_and_leaves_out_the_damage_of_its_whee
     assert result.dataset(resumed).identical(result.dataset(whole))
     assert set(whole.damage()) == {("wheelset", "left", "wheel"), ("wheelset", "left", "rail")}
     assert whole.trust.impacts > 0.0
+    assert result.dataset(whole).attrs["without_damage"] == '[["wheelset", "right"]]'
+    assert "Without damage, as they are not round: wheelset right." in report.page_of(whole)
 
 
 @pytest.mark.parametrize(
