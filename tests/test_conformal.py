@@ -83,7 +83,7 @@ def test_wear_numbers_count_creep_forces_without_the_pressure(options):
     sol = contact.solve(bent(0.1), CREEPAGE, load=8e4, conformal=True, **options)
     # on the half space the traction bears its part of the load
     borne = -0.1 * (sol.Fy - sol.pressure_y) if options else 0.0
-    assert pytest.approx(8e4, rel=1e-7) == sol.N
+    assert pytest.approx(8e4, rel=2e-6) == sol.N  # the turns between pressure and traction end at 1e-6
     assert sol.pressure_y == pytest.approx(0.1 * (8e4 - borne), rel=1e-6)
     expected = abs(sol.Fx * CREEPAGE.longitudinal) + abs((sol.Fy - sol.pressure_y) * CREEPAGE.lateral)
     assert sol.damage.T_gamma == pytest.approx(expected, rel=1e-12)

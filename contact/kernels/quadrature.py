@@ -61,7 +61,8 @@ def fill_panel(edges, logs):
 def fill_elements(rows):
     """Fill the rows of `Element` for as many elements as `rows` holds."""
     n = rows.shape[1]
-    before, half_angle = 1.0, 0.0  # tangent of half the angle; atanh(cos) is minus its logarithm
+    # tangent of half the angle; atanh(cos) is minus its logarithm. The first is not used, but compilers divide by it.
+    before, half_angle = 1.0, 1.0
     for k in range(n):
         end = (k + 1) * math.pi / n
         (s, sine), (end_s, end_sine) = on_circle(2 * k + 1, 2 * n), on_circle(k + 1, n)

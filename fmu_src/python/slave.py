@@ -26,6 +26,7 @@ from pythonfmu.fmi2slave import Fmi2Slave
 from contact import __version__, compiling
 from contact.errors import ContactError, require_number
 from fmu_src.description import LOG_CATEGORIES, model_description
+from fmu_src.python.ending import release_once
 from fmu_src.python.values import Rows, Values
 from fmu_src.variables import Causality, Kind, Table
 
@@ -111,6 +112,7 @@ class TableSlave(Fmi2Slave):
         if self.resources in sys.path:
             # pythonfmu adds this entry for every instance and never removes it. The script is already imported.
             sys.path.remove(self.resources)
+        release_once(self.resources)
         if guid != model_description(table, INTERFACES)[0]:
             reason = (
                 f"this FMU {table.name} was built with another version of wheelrail-contact than the installed "

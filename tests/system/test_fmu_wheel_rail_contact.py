@@ -1,6 +1,8 @@
 """The FMU `WheelRailContact` through the C interface of FMI."""
 
 import math
+import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -343,6 +345,29 @@ def test_an_fmu_of_another_version_is_refused_with_a_reason(fmus, tmp_path, capf
         Instance(tmp_path / "old", log=log)
     assert "built with another version of wheelrail-contact" in log[0][1]
     assert "built with another version of wheelrail-contact" in capfd.readouterr().err  # for hosts without loggingOn
+
+
+def test_a_process_ends_without_touching_freed_memory(fmus, tmp_path):
+    """pythonfmu's library wrote into a freed block at the end, and now and then glibc ended the process with an error."""
+    if not shutil.which("valgrind"):
+        pytest.skip("THE END OF A PROCESS IS NOT CHECKED: valgrind is not installed (apt-get install valgrind)")
+    code = (
+        "import sys, fmpy\n"
+        "folder = fmpy.extract(sys.argv[1], unzipdir=sys.argv[2])\n"
+        "fmpy.instantiate_fmu(folder, fmpy.read_model_description(folder), 'CoSimulation')\n"
+        "print('instantiated')\n"
+    )
+    log, folder = tmp_path / "log", tmp_path / "fmu"
+    done = subprocess.run(
+        ["valgrind", f"--log-file={log}", sys.executable, "-c", code, fmus / f"{NAME}.fmu", folder],
+        check=False,
+        capture_output=True,
+        text=True,
+        timeout=600,
+        env=os.environ | {"PYTHONMALLOC": "malloc"},
+    )
+    assert (done.returncode, done.stdout.strip()) == (0, "instantiated"), done.stderr[-2000:]
+    assert "finalizePythonInterpreter" not in log.read_text()
 
 
 def test_runs_in_libcosim(fmus):
