@@ -17,7 +17,7 @@ PRIVATE = {
         f"models/vehicle/kernels/{name}.py": {"contact._jit.kernel"}
         for name in ("crew", "elements", "frames", "motion", "wheels")
     },
-    **{f"models/vehicle/{name}.py": {"contact._jit.compiled_for"} for name in ("coupling", "crew")},
+    **{f"models/vehicle/{name}.py": {"contact._jit.compiled_for"} for name in ("coupling", "crew", "uneven")},
     "models/wheelset/dynamics.py": {"contact._jit.kernel"},
     "models/wheelset/motion.py": {"contact._jit.kernel"},
     "tests/test_jit.py": {"contact._jit"},  # the test of that module
