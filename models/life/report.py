@@ -39,8 +39,8 @@ def warned(trust: Trust) -> Iterator[str]:
 
 
 def damage_of(body: str, histograms: dict[str, Histogram]) -> Iterator[str]:
-    """Yield the damage of all wheels or all rails: a table and the wear over the profile. Nothing if one has not rolled."""
-    if not all(h.distance > 0.0 for h in histograms.values()):
+    """Yield the damage of wheels or rails: a table and the wear over the profile. Nothing if there is none."""
+    if not histograms or not all(h.distance > 0.0 for h in histograms.values()):
         return
     yield f"<h2>Damage of the {body}s</h2>"
     yield html_of(damaged(histograms))

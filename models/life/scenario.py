@@ -15,11 +15,13 @@ from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
+from contact.geometry.surfaces import WheelSurface
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solver import N_ELEMENTS, N_STRIPS, require_resolution
 from models.life.declared import build, read_table
 from models.life.track import Speed, Track
+from models.life.uneven import Wheels
 from models.vehicle.declared import VehicleDeclaration
 from models.vehicle.declared import read as read_vehicle
 from models.vehicle.simulation import SIDES
@@ -96,7 +98,8 @@ class Recording:
     ----------
     settling : distance at the start without damage, over which the irregularities grow from zero [m]
     spacing : distance between two samples of damage and time series [m], 0.01 to 10
-    step : step of the vehicle [s], 1e-5 to 5e-3; default 0.7 of the stable step, at most 0.5 ms (docs/vehicle.md, 5)
+    step : step of the vehicle [s], 1e-5 to 5e-3; default 0.7 of the stable step, at most 0.5 ms, with uneven wheels 0.1 ms
+        (docs/vehicle.md, 5)
     bins : width of the bins of damage along the profiles [m], 1e-4 to 5e-3
     """
 
@@ -126,7 +129,7 @@ class Declaration:
     vehicle : file of a vehicle relative to the scenario's file, or one of the included ones: `manchester`, or `wheelset`, the
         default (docs/vehicle.md)
     friction : coefficient of friction, 0.3 by default, or a table
-    track, profiles, methods, damage, recording : separate tables
+    track, profiles, wheels, methods, damage, recording : separate tables
     """
 
     name: str
@@ -137,6 +140,7 @@ class Declaration:
     track: Track = field(default_factory=Track)
     friction: float | Friction = 0.3
     profiles: Profiles = field(default_factory=Profiles)
+    wheels: Wheels = field(default_factory=Wheels)
     methods: Methods = field(default_factory=Methods)
     damage: DamageParameters = field(default_factory=DamageParameters)
     recording: Recording = field(default_factory=Recording)
@@ -184,6 +188,11 @@ class Scenario:
     def wheels(self) -> tuple[Profile, ...]:
         """Profile of every wheel, in the order of `wheel_names`."""
         return self.every_wheel or (self.wheel,) * len(self.wheel_names)
+
+    @property
+    def uneven(self) -> dict[int, WheelSurface]:
+        """Number of a wheel in `wheels` → its surface, for wheels with flats and polygons."""
+        return self.declared.wheels.surfaces(self.wheel_names, self.wheels, self.radius)
 
     @property
     def rails(self) -> tuple[Profile, ...]:
@@ -276,4 +285,5 @@ def from_table(table: dict[str, Any], path: Path) -> Scenario:
         raise ContactError(f"{path.name}.profiles: {error}") from None
     beside = path.parent / declared.vehicle
     vehicle = read_vehicle(beside if beside.is_file() else declared.vehicle)
+    declared.wheels.require_axles([axle.name for axle in vehicle.wheelsets], f"{path.name}.wheels")
     return Scenario(declared, wheel, rail, vehicle, both_rails=rails)

@@ -46,6 +46,10 @@ def _parts(run: VehicleRun) -> Iterator[str]:
             draw = partial(plot.time_histories, run.series["distance"], panels, xlabel="distance [m]")
             yield illustrated(draw, heading)
     yield html_of(trusted(trust))
+    if run.without_damage:
+        yield faint(
+            f"Without damage, as they are not round: {', '.join(' '.join(name) for name in run.without_damage)}."
+        )
     histograms = run.damage()
     for body in BODIES:
         yield from damage_of(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +14,7 @@ from contact.damage import DamageParameters
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry.profile import Profile
+from contact.geometry.surfaces import SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.kernels.memory import Ledger
 from contact.material import STEEL, Material
@@ -25,6 +28,7 @@ from models.vehicle.declared import VehicleDeclaration
 from models.vehicle.kernels import motion
 from models.vehicle.kernels.benches import Benches, gather
 from models.vehicle.kernels.layout import Book, Model, Row, Scratch, State, Sum, scratch
+from models.vehicle.uneven import Uneven
 
 Array = NDArray[np.float64]
 
@@ -56,11 +60,15 @@ class Simulation:
     friction : float or Friction
     options : ContactOptions, optional
     ledgers : sequence of Ledger, optional
-        One for each wheel.
+        One for each wheel. Those of uneven wheels stay empty.
+    uneven : mapping of int to WheelSurface, optional
+        Number of a wheel, in the order of `wheels`, and its surface where it is no body of revolution. Its profile in
+        `wheels` gives the height at the start.
     start : float
         Place of the vehicle's reference at the start [m].
     threads : int
-        Threads that share the contacts, at most as many as there are wheels. No bit of a result depends on it.
+        Threads that share the contacts, at most as many as there are wheels. No bit of a result depends on it. With uneven
+        wheels there is one.
 
     Raises
     ------
@@ -73,6 +81,8 @@ class Simulation:
         Names of the bodies.
     model, state, scratch, benches
         Arrays of the kernels.
+    rotations : ndarray
+        Angle by which each wheelset has turned [rad], -pi to pi; it decreases when rolling forward. 0 without uneven wheels.
     """
 
     def __init__(
@@ -85,6 +95,7 @@ class Simulation:
         options: ContactOptions | None = None,
         *,
         ledgers: tuple[Ledger, ...] | None = None,
+        uneven: Mapping[int, WheelSurface] | None = None,
         start: float = 0.0,
         threads: int = 1,
     ) -> None:
@@ -120,21 +131,38 @@ class Simulation:
         for name, value in members.items():
             self.benches.cases[name] = value
         self._place(start)
-        self._crew = Crew(
-            self.model, self.state, self.benches, self.scratch, [pair.bench for pair in self._pairs[:threads]]
-        )
+        self.rotations = np.zeros(axles)
+        arrays = self.model, self.state, self.benches, self.scratch
+        self._stepper: Crew | Uneven
+        self._uneven_memories: dict[str, Array] = {}
+        if uneven:
+            pairs = {k: self._uneven_pair(SIDES[k % 2], wheel, rails[k]) for k, wheel in uneven.items()}
+            for k, pair in pairs.items():
+                self._uneven_memories[f"uneven.{k}"] = pair.bench.memory
+                for name, value in members.items():
+                    pair.bench.case[name] = value
+            self._stepper = Uneven(*arrays, pairs, self.rotations)
+        else:
+            self._stepper = Crew(*arrays, [pair.bench for pair in self._pairs[:threads]])
 
     def _pair(self, side: str, wheel: Profile, rail: Profile, ledger: Ledger) -> WheelRailPair:
-        v, o = self.vehicle, self._options
-        pair = Pair(
-            wheel,
-            rail,
-            side=side,  # type: ignore[arg-type]
-            nominal_radius=v.radius,
-            gauge=v.gauge,
-            gauge_point=v.gauge_point,
-            flange_back=v.flange_back,
-        )
+        return self._solver(Pair(wheel, rail, **self._sizes(side)), ledger)
+
+    def _uneven_pair(self, side: str, wheel: WheelSurface, rail: Profile) -> WheelRailPair:
+        return self._solver(SurfacePair(wheel, rail, **self._sizes(side), tilted=True))
+
+    def _sizes(self, side: str) -> dict[str, Any]:
+        v = self.vehicle
+        return {
+            "side": side,
+            "nominal_radius": v.radius,
+            "gauge": v.gauge,
+            "gauge_point": v.gauge_point,
+            "flange_back": v.flange_back,
+        }
+
+    def _solver(self, pair: Pair | SurfacePair, ledger: Ledger | None = None) -> WheelRailPair:
+        o = self._options
         return WheelRailPair(
             pair,
             material=o.material,
@@ -179,6 +207,18 @@ class Simulation:
         """What every wheel did at the last step, records WHEEL: axle by axle, the right one before the left one."""
         return self.scratch.wheels
 
+    @property
+    def kept(self) -> dict[str, Array]:
+        """All that carries over from one step to the next, by name; not copied."""
+        return {
+            **{f"state.{name}": array for name, array in self.state._asdict().items()},
+            "forces": self.scratch.forces,
+            "memories": self.benches.memories,
+            "pool": self.benches.pool,
+            "rotations": self.rotations,
+            **self._uneven_memories,
+        }
+
     def advance(self, h: float, steps: int = 1) -> None:
         """Advance by `steps` steps of `h` [s].
 
@@ -187,7 +227,7 @@ class Simulation:
         ContactError
             If a wheel leaves its rail. The message has wheel and place.
         """
-        code = self._crew.advance(float(h), int(steps))
+        code = self._stepper.advance(float(h), int(steps))
         if code < 0:
             axle, side = divmod(-1 - code, 2)
             raise ContactError(

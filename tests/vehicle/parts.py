@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from contact.geometry import profile
 from contact.geometry.profile import Profile
+from contact.geometry.surfaces import WheelSurface
 from models.life.track import Track
 from models.vehicle.course import lay
 from models.vehicle.declared import VehicleDeclaration, read
@@ -24,8 +27,9 @@ def simulation(
     seed: int = 1,
     settling: float = 0.0,
     options: ContactOptions = FAST,
+    uneven: Mapping[int, WheelSurface] | None = None,
 ) -> Simulation:
     """Return a vehicle at the start of a track, straight and ideal unless another one is given."""
     declared = read(vehicle) if isinstance(vehicle, str) else vehicle
     rows = lay(track or Track(), length, lambda s: speed, (seed,), settling)
-    return Simulation(declared, rows, wheel or profile.s1002(), profile.rail_60e1(), friction, options)
+    return Simulation(declared, rows, wheel or profile.s1002(), profile.rail_60e1(), friction, options, uneven=uneven)

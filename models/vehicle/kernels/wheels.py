@@ -48,15 +48,20 @@ def seat(model, state, s, motions, scratch):
 
 
 @kernel
-def press_wheel(benches, scratch, w):
-    """Solve the contact of wheel `w` for what `seat` has filled, and fill `scratch.wheels[w]`; return as `solve_pair`."""
-    bench, given, here = bench_of(benches, w), scratch.given[w], scratch.seats[w]
+def press_one(bench, given, here, wheel):
+    """Solve the contact of one wheel for what `seat` has filled, and fill `wheel`; return as `solve_pair`."""
     case = bench.case[0]
     case.mu, case.kinetic, case.speed = here.friction, here.kinetic, given.vx
     n = solve_pair(Height.GIVEN.value, 0.0, given, bench)
     if n >= 0:
-        _report(bench, n, scratch.wheels[w])
+        _report(bench, n, wheel)
     return n
+
+
+@kernel
+def press_wheel(benches, scratch, w):
+    """Solve the contact of wheel `w`; see `press_one`."""
+    return press_one(bench_of(benches, w), scratch.given[w], scratch.seats[w], scratch.wheels[w])
 
 
 @kernel
