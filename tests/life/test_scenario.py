@@ -47,7 +47,10 @@ def written(folder: Path, text: str) -> Path:
             r"case.toml.track.alignment: spectrum = 'ERRI B176 medium' is unknown",
         ),
         (LEAST + "vehicle = 'manchster'", r"manchster"),
-        (LEAST + "[wheelset]\nmass = 0.0", r"case.toml.wheelset is unknown, did you mean .wheels.\?; allowed: name, length"),
+        (
+            LEAST + "[wheelset]\nmass = 0.0",
+            r"case.toml.wheelset is unknown, did you mean .wheels.\?; allowed: name, length",
+        ),
         (LEAST + "[profiles]\nwheel = 'S1003'", r"case.toml.profiles: wheel = 'S1003' is no profile"),
         (LEAST + "[methods]\ntangential = 'polach'", r"case.toml.methods: tangential = 'polach' gives forces only"),
         (LEAST + "[methods]\npressure_limit = -1.0", r"case.toml.methods: .*pressure_limit = -1 is outside"),
