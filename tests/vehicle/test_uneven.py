@@ -9,6 +9,7 @@ import pytest
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, WheelSurface
+from fmu_src import catalogue
 from models.life import declared_set, result
 from models.life.scenario import read as read_scenario
 from models.vehicle import report
@@ -146,3 +147,10 @@ def test_a_set_of_wear_refuses_uneven_wheels(tmp_path):
     path.write_text('name = "s"\nmileage = 1e6\n[[scenarios]]\nfile = "flat.toml"\nweight = 1.0\n')
     with pytest.raises(ContactError, match=r"set.toml: flat.toml has wheels with flats or polygons"):
         declared_set.read(path)
+
+
+def test_a_vehicle_fmu_refuses_uneven_wheels(tmp_path):
+    path = tmp_path / "flat.toml"
+    path.write_text(SCENARIO + FLAT)
+    with pytest.raises(ContactError, match=r"flat.toml.wheels: the FMUs of a vehicle take no flats and polygons"):
+        catalogue.vehicles(path)
