@@ -27,17 +27,25 @@ from models.vehicle.crew import Crew
 from models.vehicle.declared import VehicleDeclaration
 from models.vehicle.kernels import motion
 from models.vehicle.kernels.benches import Benches, gather
+from models.vehicle.kernels.between import held
 from models.vehicle.kernels.layout import Book, Model, Row, Scratch, State, Sum, scratch
 from models.vehicle.uneven import Uneven
 
 Array = NDArray[np.float64]
 
 SIDES = ("right", "left")
+#: Largest pace that is allowed: so many steps are a period of a rail on the spring of its contact.
+LONGEST_PACE = 5
 
 
 @dataclass(frozen=True, kw_only=True)
 class ContactOptions:
-    """Contact methods of all wheels, as for `contact.pair.WheelRailPair`."""
+    """Contact methods of all wheels, as for `contact.pair.WheelRailPair`, and how often they are used.
+
+    With `pace` above 1 a contact is solved at every `pace`-th step at most, and in between its forces change to first order
+    (docs/vehicle.md, 6). Forces that were not met to `tolerance` times the static load, and contacts that have moved far, are
+    solved at every step.
+    """
 
     normal: str = DEFAULT_NORMAL
     tangential: str = DEFAULT_TANGENTIAL
@@ -45,6 +53,8 @@ class ContactOptions:
     n_elements: int = N_ELEMENTS
     material: Material = STEEL
     damage: DamageParameters | None = None
+    pace: int = 1
+    tolerance: float = 1e-3
 
 
 class Simulation:
@@ -101,6 +111,8 @@ class Simulation:
     ) -> None:
         require_number("threads", threads, 1, 2 * len(vehicle.wheelsets))
         self.vehicle, self._options, self._friction = vehicle, options or ContactOptions(), friction
+        require_number("pace", self._options.pace, 1, LONGEST_PACE)
+        require_number("tolerance", self._options.tolerance, 0.0, 1.0)
         made: Assembly = assemble(vehicle)
         self.names = made.names
         n_wheels = 2 * made.wheelsets.size
@@ -127,7 +139,8 @@ class Simulation:
             self._pair(SIDES[k % 2], wheel, rail, ledgers[k] if ledgers else workspace.closed_ledger())
             for k, (wheel, rail) in enumerate(zip(wheels, rails, strict=True))
         ]
-        self.benches: Benches = gather(self._pairs)
+        loads = np.repeat(made.bodies["load"][made.wheelsets], 2)
+        self.benches: Benches = gather(self._pairs, held(loads, self._options.pace, self._options.tolerance))
         for name, value in members.items():
             self.benches.cases[name] = value
         self._place(start)
@@ -210,10 +223,16 @@ class Simulation:
     @property
     def kept(self) -> dict[str, Array]:
         """All that carries over from one step to the next, by name; not copied."""
+        last = self.benches.held
         return {
             **{f"state.{name}": array for name, array in self.state._asdict().items()},
             "forces": self.scratch.forces,
             "memories": self.benches.memories,
+            "contacts": self.benches.contacts.view(np.float64),
+            "totals": self.benches.totals.view(np.float64),
+            "wheels": self.scratch.wheels.view(np.float64),
+            "asked": last.asked.view(np.float64),
+            **{name: getattr(last, name) for name in ("answers", "drifts", "ages", "paces", "solutions")},
             "pool": self.benches.pool,
             "rotations": self.rotations,
             **self._uneven_memories,

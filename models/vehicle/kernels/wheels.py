@@ -9,12 +9,9 @@ from contact.kernels.enumerations import Height, Status
 from contact.kernels.geometry.search import axle
 from contact.kernels.pair import solve_pair
 from models.vehicle.kernels.benches import bench_of
+from models.vehicle.kernels.between import expect, learn, put
 from models.vehicle.kernels.frames import linear, place_on, smooth
-from models.vehicle.kernels.layout import TO_LEFT, Axis, Book, Frame, Row, Sum
-
-#: Share of load times approach that a contact stores: exact for an elliptic one.
-ELASTIC = 0.4
-
+from models.vehicle.kernels.layout import ELASTIC, TO_LEFT, Axis, Book, Frame, Row, Sum
 
 @kernel
 def seat(model, state, s, motions, scratch):
@@ -65,13 +62,39 @@ def press_wheel(benches, scratch, w):
 
 
 @kernel
+def follow_wheel(benches, scratch, w):
+    """Fill what wheel `w` does: by a step from the last solution where that is near enough, else by `press_wheel`."""
+    own, wheel = benches.held, scratch.wheels[w]
+    if own.pace <= 1:
+        return press_wheel(benches, scratch, w)
+    near, given = False, scratch.given[w]
+    if own.ages[w] > 0:
+        expected = own.expected[w]
+        for i in range(expected.size):
+            expected[i] = own.answers[w, i] + own.ages[w] * own.drifts[w, i]
+        n = int(wheel.patches)
+        near = expect(own.asked[w], given, scratch.seats[w], bench_of(benches, w), n, expected)
+        if near and own.ages[w] < own.paces[w] and benches.settings[w].distance == 0.0:
+            put(expected, wheel)
+            own.ages[w] += 1
+            return n
+    before = wheel.patches
+    n = press_wheel(benches, scratch, w)
+    if n >= 0:
+        learn(own, w, wheel, near and wheel.patches == before)
+        own.asked[w] = given
+        own.ages[w] = 1
+    return n
+
+
+@kernel
 def press(benches, scratch):
-    """Solve the contacts of all wheels.
+    """Find what all wheels do, each by `follow_wheel`.
 
     Returns 0, or the number of the wheel from 1 on whose contact has no answer, negative.
     """
     for w in range(scratch.wheels.size):
-        if press_wheel(benches, scratch, w) < 0:
+        if follow_wheel(benches, scratch, w) < 0:
             return -1 - w
     return 0
 
