@@ -34,17 +34,17 @@ from models.vehicle.uneven import Uneven
 Array = NDArray[np.float64]
 
 SIDES = ("right", "left")
-#: Largest pace that is allowed: so many steps are a period of a rail on the spring of its contact.
-LONGEST_PACE = 5
+#: Largest pace that is allowed, and that of scenarios.
+LONGEST_PACE, PACE = 5, 4
 
 
 @dataclass(frozen=True, kw_only=True)
 class ContactOptions:
     """Contact methods of all wheels, as for `contact.pair.WheelRailPair`, and how often they are used.
 
-    With `pace` above 1 a contact is solved at every `pace`-th step at most, and in between its forces change to first order
-    (docs/vehicle.md, 6). Forces that were not met to `tolerance` times the static load, and contacts that have moved far, are
-    solved at every step.
+    With `pace` above 1 no more than `pace` steps lie between two solutions of a contact, and in between its forces change to
+    first order (docs/vehicle.md, 8). A contact whose forces were not met to `tolerance` times the static load, or that has
+    moved far, is solved at every step. Wheels that are not round always are.
     """
 
     normal: str = DEFAULT_NORMAL

@@ -1,4 +1,4 @@
-"""Forces of a wheel between two solutions of its contact: a step of first order from the last one (docs/vehicle.md, 5).
+"""Forces of a wheel between two solutions of its contact: a step of first order from the last one (docs/vehicle.md, 8).
 
 Most steps change a contact by little. Its solution costs a hundred times as much as that change to first order: the normal
 force follows the approach with Hertz's power, and creep forces follow the creepages with Kalker's stiffness on the part that
@@ -25,6 +25,7 @@ from models.vehicle.kernels.layout import ELASTIC
 Array = NDArray[np.float64]
 
 #: Changes since the last solution from which on a contact is solved: of the approach, over it, and along the surface [m].
+#: Who moves further may meet another part of the rail.
 _DEEPER, _ASIDE = 0.1, 5e-5
 #: Share of the tolerance below which one more step may pass.
 _EASY = 0.3

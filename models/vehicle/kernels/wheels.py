@@ -13,6 +13,7 @@ from models.vehicle.kernels.between import expect, learn, put
 from models.vehicle.kernels.frames import linear, place_on, smooth
 from models.vehicle.kernels.layout import ELASTIC, TO_LEFT, Axis, Book, Frame, Row, Sum
 
+
 @kernel
 def seat(model, state, s, motions, scratch):
     """Fill what each contact is asked: motion of axle and rail, and friction (`scratch.given`, `scratch.seats`).
@@ -63,25 +64,27 @@ def press_wheel(benches, scratch, w):
 
 @kernel
 def follow_wheel(benches, scratch, w):
-    """Fill what wheel `w` does: by a step from the last solution where that is near enough, else by `press_wheel`."""
-    own, wheel = benches.held, scratch.wheels[w]
+    """Fill what wheel `w` does: from the last solution of its contact if that is near enough, else by `press_wheel`.
+
+    Returns as `press_wheel`.
+    """
+    own, given, wheel = benches.held, scratch.given[w], scratch.wheels[w]
     if own.pace <= 1:
         return press_wheel(benches, scratch, w)
-    near, given = False, scratch.given[w]
+    near, n_before = False, int(wheel.patches)
     if own.ages[w] > 0:
         expected = own.expected[w]
         for i in range(expected.size):
             expected[i] = own.answers[w, i] + own.ages[w] * own.drifts[w, i]
-        n = int(wheel.patches)
-        near = expect(own.asked[w], given, scratch.seats[w], bench_of(benches, w), n, expected)
+        near = expect(own.asked[w], given, scratch.seats[w], bench_of(benches, w), n_before, expected)
+        # damage is counted from a solution
         if near and own.ages[w] < own.paces[w] and benches.settings[w].distance == 0.0:
             put(expected, wheel)
             own.ages[w] += 1
-            return n
-    before = wheel.patches
+            return n_before
     n = press_wheel(benches, scratch, w)
     if n >= 0:
-        learn(own, w, wheel, near and wheel.patches == before)
+        learn(own, w, wheel, near and n == n_before)
         own.asked[w] = given
         own.ages[w] = 1
     return n
