@@ -29,7 +29,7 @@ from models.vehicle.declared import read
 from models.vehicle.kernels.motion import ask, move
 from models.vehicle.simulation import PACE, ContactOptions, Simulation
 
-STEP, SHORT = 4.6e-4, 20  # [s], and steps of a piece that is timed
+STEP, SHORT = 4.6e-4, 200  # [s], and steps of a piece that is timed
 SCENARIO = Path(__file__).parents[1] / "examples" / "scenarios" / "vehicle_300.toml"
 ROUGH = Irregularities(spectrum="ERRI B176 low")
 CURVE = Curve(start=0.0, radius=300.0, length=1e4, transition=20.0, cant=0.1)

@@ -54,7 +54,7 @@ class ContactOptions:
     material: Material = STEEL
     damage: DamageParameters | None = None
     pace: int = 1
-    tolerance: float = 1e-3
+    tolerance: float = 7e-4
 
 
 class Simulation:
@@ -232,7 +232,7 @@ class Simulation:
             "totals": self.benches.totals.view(np.float64),
             "wheels": self.scratch.wheels.view(np.float64),
             "asked": last.asked.view(np.float64),
-            **{name: getattr(last, name) for name in ("answers", "drifts", "ages", "paces", "solutions")},
+            **{name: getattr(last, name) for name in ("answers", "drifts", "ages", "paces", "noises", "solutions")},
             "pool": self.benches.pool,
             "rotations": self.rotations,
             **self._uneven_memories,

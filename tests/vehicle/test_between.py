@@ -54,7 +54,7 @@ def both() -> list[tuple[Simulation, np.ndarray]]:
 def test_forces_agree_with_those_of_a_solution_at_every_step(both):
     (_, exact), (_, paced) = both
     off = (paced - exact)[1000:]  # the first second is the start from nominal heights
-    assert np.sqrt((off**2).mean(axis=(0, 2))).max() < 1e-3 * LOAD
+    assert np.sqrt((off**2).mean(axis=(0, 2))).max() < 1.5e-3 * LOAD
     assert np.abs(off).max() < 0.04 * LOAD  # where the contact runs over a kink of ANALYN's load
     assert np.abs(off.mean(axis=0)).max() < 2e-5 * LOAD
 

@@ -29,6 +29,8 @@ Array = NDArray[np.float64]
 _DEEPER, _ASIDE = 0.1, 5e-5
 #: Share of the tolerance below which one more step may pass.
 _EASY = 0.3
+#: Weight of the newest in the usual miss after one step, and the largest that counts, over the tolerance.
+_NEWEST, _LOUDEST = 0.01, 2.0
 #: Share of the difference found at a solution that the next drift takes up.
 _TAKEN = 0.5
 
@@ -57,6 +59,7 @@ class Held(NamedTuple):
     expected: Array
     ages: NDArray[np.int64]  # steps since the last solution; 0 where there is none
     paces: NDArray[np.int64]  # steps from the last solution to the next
+    noises: Array  # usual miss of a force after one step [N]
     loads: Array  # static load [N]
     solutions: NDArray[np.int64]  # their number so far
     pace: int  # the largest of `paces`; 1: every step is a solution
@@ -68,7 +71,9 @@ def held(loads: Array, pace: int, tolerance: float) -> Held:
     n = loads.size
     answers, drifts, expected = (np.zeros((n, len(Load))) for _ in range(3))
     ages, paces, solutions = (np.zeros(n, np.int64) for _ in range(3))
-    return Held(np.zeros(n, GIVEN), answers, drifts, expected, ages, paces, loads, solutions, pace, tolerance)
+    return Held(
+        np.zeros(n, GIVEN), answers, drifts, expected, ages, paces, np.zeros(n), loads, solutions, pace, tolerance
+    )
 
 
 @kernel
@@ -198,7 +203,9 @@ def learn(own, w, wheel, near):
     for i in range(drift.size):
         drift[i] += _TAKEN * (answer[i] - expected[i]) / own.ages[w]
     allowed = own.tolerance * own.loads[w]
-    if missed > allowed:
+    if own.ages[w] == 1:  # no pace is better than that
+        own.noises[w] += _NEWEST * (min(missed, _LOUDEST * allowed) - own.noises[w])
+    if missed > allowed + 2.0 * own.noises[w]:
         own.paces[w] = 1
-    elif missed < _EASY * allowed:
+    elif missed < _EASY * allowed + own.noises[w]:
         own.paces[w] = min(own.paces[w] + 1, own.pace)
