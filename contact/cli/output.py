@@ -50,7 +50,9 @@ def in_options(text: str) -> str:
     """Return a message about a profile with the options of the command line in place of those of Python."""
     text = re.sub(r"\brepair=True", "--profile-repair", text)
     text = re.sub(r"\b(zero|smoothing|wavelength)='?([\w.+-]+)'?", r"--profile-\1 \2", text)
-    text = re.sub(r"\b(kind|unit|side) = None: ", r"--profile-\1 is missing: ", text)
+    if found := re.search(r"\b(?:(?:kind|unit|side) = None(?:, )?)+: ", text):
+        missing = [f"--profile-{name}" for name in re.findall(r"(\w+) = None", found[0])]
+        text = text.replace(found[0], f"{', '.join(missing)} {'are' if len(missing) > 1 else 'is'} missing: ")
     return re.sub(r"\bset (unit|side)\b", r"set --profile-\1", text)
 
 
