@@ -13,7 +13,7 @@ import typer
 from rich.console import Console
 
 from contact.cli.document import document, running
-from contact.cli.extras import EXTRAS, missing
+from contact.cli.extras import EXTRAS, absent_modules
 from contact.cli.groups import expanded
 from contact.errors import ContactError, PlausibilityWarning
 from contact.study.files import PICTURES, csv_of, require_ending, write
@@ -75,9 +75,9 @@ def drawing() -> Any:
 
 def require_extra(extra: str) -> None:
     """Exit with a message if an extra is not installed."""
-    if extra in missing():
-        module, use = EXTRAS[extra]
-        stop(f"{module} is missing ({use}): pip install 'wheelrail-contact[{extra}]'", 1)
+    if absent := absent_modules(extra):
+        names = f"{' and '.join(absent)} {'is' if len(absent) == 1 else 'are'} missing"
+        stop(f"{names} ({EXTRAS[extra][1]}): pip install 'wheelrail-contact[{extra}]'", 1)
 
 
 def deliver(
