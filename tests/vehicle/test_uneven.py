@@ -145,12 +145,14 @@ def test_a_set_of_wear_refuses_uneven_wheels(tmp_path):
     (tmp_path / "flat.toml").write_text(SCENARIO + FLAT)
     path = tmp_path / "set.toml"
     path.write_text('name = "s"\nmileage = 1e6\n[[scenarios]]\nfile = "flat.toml"\nweight = 1.0\n')
-    with pytest.raises(ContactError, match=r"set.toml: flat.toml has wheels with flats or polygons"):
+    with pytest.raises(ContactError, match=r"set.toml: flat.toml.wheels: a study of wear takes no flats"):
         declared_set.read(path)
 
 
 def test_a_vehicle_fmu_refuses_uneven_wheels(tmp_path):
     path = tmp_path / "flat.toml"
     path.write_text(SCENARIO + FLAT)
-    with pytest.raises(ContactError, match=r"flat.toml.wheels: the FMUs of a vehicle take no flats and polygons"):
+    with pytest.raises(
+        ContactError, match=r"flat.toml.wheels: the FMUs of a vehicle take no flats, polygons and slices"
+    ):
         catalogue.vehicles(path)
