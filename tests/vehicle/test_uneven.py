@@ -6,17 +6,23 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from contact.accumulation import Histogram
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, WheelSurface
+from contact.workspace import closed_ledger
 from fmu_src import catalogue
 from models.life import declared_set, result
 from models.life.scenario import read as read_scenario
+from models.life.track import Track
 from models.vehicle import report
+from models.vehicle.course import lay
 from models.vehicle.declared import read
 from models.vehicle.kernels.layout import Book
+from models.vehicle.ledgers import ledger
 from models.vehicle.run import VehicleRun
-from tests.vehicle.parts import simulation
+from models.vehicle.simulation import Simulation
+from tests.vehicle.parts import FAST, simulation
 
 RADIUS, SPEED = 0.46, 20.0  # [m], [m/s]
 TURN = 2.0 * math.pi * RADIUS / SPEED  # [s]
@@ -156,3 +162,13 @@ def test_a_vehicle_fmu_refuses_uneven_wheels(tmp_path):
         ContactError, match=r"flat.toml.wheels: the FMUs of a vehicle take no flats, polygons and slices"
     ):
         catalogue.vehicles(path)
+
+
+def test_vehicles_refuse_ledgers_of_some_wheels_only():
+    rail, wheel = profile.rail_60e1(), profile.s1002()
+    both = Histogram(wheel, width=5e-4, radius=RADIUS), Histogram(rail, width=5e-4)
+    one = ledger(*both, FAST.n_strips)
+    track = lay(Track(), 10.0, lambda s: SPEED, (1,), 0.0)
+    for ledgers, without in (((one, closed_ledger()), 1), ((closed_ledger(), one), 0)):
+        with pytest.raises(ContactError, match=rf"pairs \[{without}\] of 2 have no ledger; all or none have one"):
+            Simulation(elastic(), track, wheel, rail, 0.3, FAST, ledgers=ledgers)
