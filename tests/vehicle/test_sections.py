@@ -80,6 +80,23 @@ def test_energy_is_kept_over_a_dip():
     assert kept < 0.5
 
 
+def test_every_wheelset_of_a_vehicle_meets_the_dip_where_it_is():
+    vehicle = elastic("manchester")
+    places = sorted((axle.at for axle in vehicle.wheelsets), reverse=True)
+    sections = [RailSection(surface=dip(), side=side, at=places[0] + 0.3) for side in ("right", "left")]
+    run = simulation(vehicle, speed=20.0, length=30.0, sections=sections)
+    loads = np.empty((1050, 8))
+    for row in loads:
+        run.advance(2e-4)
+        row[:] = run.wheels["normal"]
+    first, second = loads[:, 0].argmax(), loads[:, 2].argmax()
+    assert (second - first) * 2e-4 * 20.0 == pytest.approx(places[0] - places[1], abs=0.02)
+    assert loads[second, 2] == pytest.approx(loads[first, 0], rel=0.1)
+    assert loads[:, [0, 2]].max(axis=0) == pytest.approx(loads[:, [1, 3]].max(axis=0), rel=1e-3)
+    assert np.ptp(loads[:, 4:]) < 0.1 * loads[0, 4]  # the rear bogie is not there yet
+    assert abs(run.state.books[Book.RESIDUAL]) < 1.0
+
+
 def test_a_dip_under_one_wheel_rolls_the_wheelset():
     _, rows = over(dip(), 500, sides=("left",))
     right, left = rows[:, 1:3].T
