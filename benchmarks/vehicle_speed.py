@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import math
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import fmpy
@@ -25,11 +26,10 @@ from models.life.spectra import Irregularities
 from models.life.track import Curve, Track
 from models.vehicle.course import lay
 from models.vehicle.declared import read
-from models.vehicle.kernels.motion import ask
-from models.vehicle.kernels.wheels import press
-from models.vehicle.simulation import ContactOptions, Simulation
+from models.vehicle.kernels.motion import ask, move
+from models.vehicle.simulation import PACE, ContactOptions, Simulation
 
-STEP, SHORT = 4.6e-4, 20  # [s], and steps of a piece that is timed
+STEP, SHORT = 4.6e-4, 200  # [s], and steps of a piece that is timed
 SCENARIO = Path(__file__).parents[1] / "examples" / "scenarios" / "vehicle_300.toml"
 ROUGH = Irregularities(spectrum="ERRI B176 low")
 CURVE = Curve(start=0.0, radius=300.0, length=1e4, transition=20.0, cant=0.1)
@@ -42,6 +42,7 @@ METHODS = {
     "`analyn` + `fastrip`, 30 × 20": ContactOptions(normal="analyn", tangential="fastrip", n_strips=30, n_elements=20),
     "`analyn` + `table`": ContactOptions(normal="analyn", tangential="table"),
 }
+PACES = (PACE, 1)
 
 
 def started(speed: float, track: Track, options: ContactOptions, seconds: float, threads: int = 1) -> Simulation:
@@ -57,7 +58,7 @@ def shared(threads: int, seconds: float) -> list[list[str]]:
     rows = []
     for where, (speed, track) in TRACKS.items():
         best: dict[int, float] = {}
-        vehicles = {n: started(speed, track, ContactOptions(), seconds, n) for n in (1, threads)}
+        vehicles = {n: started(speed, track, ContactOptions(pace=PACE), seconds, n) for n in (1, threads)}
         for _ in range(round(seconds / STEP / SHORT)):
             for n, vehicle in vehicles.items():
                 start = time.perf_counter()
@@ -67,22 +68,27 @@ def shared(threads: int, seconds: float) -> list[list[str]]:
     return rows
 
 
-def measured(speed: float, track: Track, options: ContactOptions, seconds: float) -> tuple[float, float]:
-    """Return simulated time over processor time, and the share of the contacts in the processor time."""
+def measured(speed: float, track: Track, options: ContactOptions, seconds: float) -> tuple[float, float, float]:
+    """Return simulated time over processor time, the share of the contacts in the processor time, and that of the steps at
+    which a contact is solved.
+    """
     vehicle = started(speed, track, options, seconds)
     steps = round(seconds / STEP)
+    before = vehicle.benches.held.solutions.copy()
     start = time.process_time()
     vehicle.advance(STEP, steps)
     spent = (time.process_time() - start) / steps
+    solved = float((vehicle.benches.held.solutions - before).mean()) / steps if options.pace > 1 else 1.0
+    arguments = vehicle.model, vehicle.state, vehicle.benches.motions, vehicle.scratch
     calls = 500
-    ask(vehicle.model, vehicle.state, vehicle.benches.motions, vehicle.scratch, speed)
-    arguments = vehicle.benches, vehicle.scratch
-    press(*arguments)
+    ask(*arguments, speed)
+    move(*arguments, 1e-12, speed)
     start = time.process_time()
-    for _ in range(calls):  # the call from Python costs a few per cent of it
-        press(*arguments)
-    in_contacts = (time.process_time() - start) / calls
-    return STEP / spent, in_contacts / spent
+    for _ in range(calls):  # all but the contacts, with the calls from Python
+        ask(*arguments, speed)
+        move(*arguments, 1e-12, speed)
+    besides = (time.process_time() - start) / calls
+    return STEP / spent, 1.0 - besides / spent, solved
 
 
 def beside_the_fmu(path: Path, seconds: float) -> list[list[str]]:
@@ -128,13 +134,15 @@ def main() -> None:
     rows = []
     for name, options in METHODS.items():
         for where, (speed, track) in TRACKS.items():
-            ratio, share = measured(speed, track, options, seconds)
-            rows.append([name, where, f"{ratio:.2f}", f"{share:.0%}"])
+            for pace in PACES:
+                ratio, share, solved = measured(speed, track, replace(options, pace=pace), seconds)
+                rows.append([name, where, str(pace), f"{ratio:.2f}", f"{share:.0%}", f"{solved:.0%}"])
     print(f"Eight wheels, one core, steps of {1e3 * STEP:g} ms\n")
-    print(table(["contact methods", "track", "simulated over processor time", "share of the contacts"], rows))
+    head = ["contact methods", "track", "pace", "simulated over processor time", "share of the contacts", "solved"]
+    print(table(head, rows))
     if arguments.threads:
         head = ["default methods", "threads", "simulated over elapsed time"]
-        print("\n" + table(head, shared(arguments.threads, seconds)))
+        print(f"\nPace {PACE}\n\n" + table(head, shared(arguments.threads, seconds)))
     if arguments.fmu:
         head = ["curve of 300 m, 15 m/s, default methods", "simulated over processor time"]
         print("\n" + table(head, beside_the_fmu(arguments.fmu, seconds)))

@@ -15,7 +15,7 @@ PRIVATE = {
     "models/vehicle/kernels/benches.py": {"contact._jit.inlined", "contact._jit.kernel"},
     **{
         f"models/vehicle/kernels/{name}.py": {"contact._jit.kernel"}
-        for name in ("crew", "elements", "frames", "motion", "wheels")
+        for name in ("between", "crew", "elements", "frames", "motion", "wheels")
     },
     **{f"models/vehicle/{name}.py": {"contact._jit.compiled_for"} for name in ("coupling", "crew", "uneven")},
     "models/wheelset/dynamics.py": {"contact._jit.kernel"},

@@ -29,8 +29,7 @@ from fmu_src.track import MAGIC, ROWS
 from fmu_src.variables import Causality, Table, identifier
 from models.vehicle.assembly import Assembly
 from models.vehicle.kernels import motion
-from models.vehicle.kernels.layout import Book
-from models.vehicle.kernels.wheels import ELASTIC
+from models.vehicle.kernels.layout import ELASTIC, Book
 
 
 def _entry_of_pair(name: str) -> Any:

@@ -26,7 +26,7 @@ from models.life.uneven import Wheels
 from models.vehicle.declared import VehicleDeclaration
 from models.vehicle.declared import read as read_vehicle
 from models.vehicle.sections import RailSection
-from models.vehicle.simulation import SIDES
+from models.vehicle.simulation import LONGEST_PACE, PACE, SIDES
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,13 +71,22 @@ class Profiles:
 
 @dataclass(frozen=True, kw_only=True)
 class Methods:
-    """Contact methods, their resolution, and the pressure limit of the material [Pa] (`contact.Material`)."""
+    """Contact methods.
+
+    Parameters
+    ----------
+    normal, tangential : methods
+    strips, elements : their resolution
+    pressure_limit : of the material [Pa] (`contact.Material`)
+    pace : steps of the vehicle from one solution of a contact to the next, at most (docs/vehicle.md, 8); 1: every step is one
+    """
 
     normal: str = DEFAULT_NORMAL
     tangential: str = DEFAULT_TANGENTIAL
     strips: int = N_STRIPS
     elements: int = N_ELEMENTS
     pressure_limit: float | None = None
+    pace: int = PACE
 
     def __post_init__(self) -> None:
         _ = self.material
@@ -85,6 +94,7 @@ class Methods:
         if not lookup("tangential", self.tangential, batched=True).fields:
             raise ContactError(f"tangential = {self.tangential!r} gives forces only; damage needs traction and slip")
         require_resolution(self.strips, self.elements)
+        require_number("pace", self.pace, 1, LONGEST_PACE)
 
     @property
     def material(self) -> Material:

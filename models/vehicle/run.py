@@ -107,6 +107,7 @@ class VehicleRun:
             n_elements=d.methods.elements,
             material=d.methods.material,
             damage=d.damage,
+            pace=d.methods.pace,
         )
         self._options = options
         uneven = self._uneven = scenario.uneven

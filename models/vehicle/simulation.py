@@ -27,6 +27,7 @@ from models.vehicle.crew import Crew
 from models.vehicle.declared import VehicleDeclaration
 from models.vehicle.kernels import motion
 from models.vehicle.kernels.benches import Benches, gather
+from models.vehicle.kernels.between import held
 from models.vehicle.kernels.layout import Book, Model, Row, Scratch, State, Sum, scratch
 from models.vehicle.sections import RailSection, require_apart
 from models.vehicle.uneven import Stretch, Uneven
@@ -34,11 +35,18 @@ from models.vehicle.uneven import Stretch, Uneven
 Array = NDArray[np.float64]
 
 SIDES = ("right", "left")
+#: Largest pace that is allowed, and that of scenarios.
+LONGEST_PACE, PACE = 5, 4
 
 
 @dataclass(frozen=True, kw_only=True)
 class ContactOptions:
-    """Contact methods of all wheels, as for `contact.pair.WheelRailPair`."""
+    """Contact methods of all wheels, as for `contact.pair.WheelRailPair`, and how often they are used.
+
+    With `pace` above 1 no more than `pace` steps lie between two solutions of a contact, and in between its forces change to
+    first order (docs/vehicle.md, 8). A contact whose forces were not met to `tolerance` times the static load, or that has
+    moved far, is solved at every step. Wheels that are not round always are.
+    """
 
     normal: str = DEFAULT_NORMAL
     tangential: str = DEFAULT_TANGENTIAL
@@ -46,6 +54,8 @@ class ContactOptions:
     n_elements: int = N_ELEMENTS
     material: Material = STEEL
     damage: DamageParameters | None = None
+    pace: int = 1
+    tolerance: float = 7e-4
 
 
 class Simulation:
@@ -106,6 +116,8 @@ class Simulation:
     ) -> None:
         require_number("threads", threads, 1, 2 * len(vehicle.wheelsets))
         self.vehicle, self._options, self._friction = vehicle, options or ContactOptions(), friction
+        require_number("pace", self._options.pace, 1, LONGEST_PACE)
+        require_number("tolerance", self._options.tolerance, 0.0, 1.0)
         made: Assembly = assemble(vehicle)
         self.names = made.names
         n_wheels = 2 * made.wheelsets.size
@@ -132,7 +144,8 @@ class Simulation:
             self._pair(SIDES[k % 2], wheel, rail, ledgers[k] if ledgers else workspace.closed_ledger())
             for k, (wheel, rail) in enumerate(zip(wheels, rails, strict=True))
         ]
-        self.benches: Benches = gather(self._pairs)
+        loads = np.repeat(made.bodies["load"][made.wheelsets], 2)
+        self.benches: Benches = gather(self._pairs, held(loads, self._options.pace, self._options.tolerance))
         for name, value in members.items():
             self.benches.cases[name] = value
         self._place(start)
@@ -246,10 +259,16 @@ class Simulation:
     @property
     def kept(self) -> dict[str, Array]:
         """All that carries over from one step to the next, by name; not copied."""
+        last = self.benches.held
         return {
             **{f"state.{name}": array for name, array in self.state._asdict().items()},
             "forces": self.scratch.forces,
             "memories": self.benches.memories,
+            "contacts": self.benches.contacts.view(np.float64),
+            "totals": self.benches.totals.view(np.float64),
+            "wheels": self.scratch.wheels.view(np.float64),
+            "asked": last.asked.view(np.float64),
+            **{name: getattr(last, name) for name in ("answers", "drifts", "ages", "paces", "noises", "solutions")},
             "pool": self.benches.pool,
             "rotations": self.rotations,
             **self._uneven_memories,

@@ -108,5 +108,5 @@ class Uneven:
             given = here.pair.bench, scratch.given[w], scratch.seats[w], scratch.wheels[w]
             one = compiled_for(wheels.press_one, *given)
             return lambda: int(one(*given))
-        any_wheel = compiled_for(wheels.press_wheel, benches, scratch, w)
+        any_wheel = compiled_for(wheels.follow_wheel, benches, scratch, w)
         return lambda: int(any_wheel(benches, scratch, w))

@@ -19,6 +19,7 @@ from contact.kernels.memory import Bench, Ledger, Search
 from contact.kernels.records import CASE, CONTACT, LEDGER, MAX_PATCHES, MOTION, TOTAL
 from contact.kernels.rows import N_LINE_ROWS, N_PROFILE_ROWS
 from contact.pair import WheelRailPair
+from models.vehicle.kernels.between import Held
 
 Array = NDArray[np.float64]
 
@@ -54,10 +55,11 @@ class Benches(NamedTuple):
     scratch: Array  # trace line, placed rail and both in the plane of a patch
     sizes: NDArray[np.int64]  # shape (wheels, len(Size))
     rows: int  # of the bins of a ledger
+    held: Held
 
 
-def gather(pairs: Sequence[WheelRailPair]) -> Benches:
-    """Return the benches of pairs that differ in profiles, sides and ledgers alone.
+def gather(pairs: Sequence[WheelRailPair], last: Held) -> Benches:
+    """Return the benches of pairs that differ in profiles, sides and ledgers alone. `last` holds nothing.
 
     Raises
     ------
@@ -87,7 +89,7 @@ def gather(pairs: Sequence[WheelRailPair]) -> Benches:
     made = Benches(
         first, np.zeros(n, CASE), np.zeros(n, MOTION), np.zeros(n, LEDGER), np.zeros((n, MAX_PATCHES), CONTACT),
         np.zeros(n, TOTAL), np.zeros((n, first.memory.size)), np.concatenate(pool),
-        np.zeros(2 * (N_LINE_ROWS + N_PROFILE_ROWS) * most), sizes, first.ledger.bins.shape[1],
+        np.zeros(2 * (N_LINE_ROWS + N_PROFILE_ROWS) * most), sizes, first.ledger.bins.shape[1], last,
     )  # fmt: skip
     for k, pair in enumerate(pairs):
         made.cases[k], made.motions[k] = pair.bench.case[0], pair.bench.search.motion[0]

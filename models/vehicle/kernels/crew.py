@@ -22,7 +22,7 @@ from contact._jit import kernel
 from models.vehicle.kernels.frames import speed_at
 from models.vehicle.kernels.layout import Book
 from models.vehicle.kernels.motion import ask, move
-from models.vehicle.kernels.wheels import press_wheel
+from models.vehicle.kernels.wheels import follow_wheel
 
 
 class Line(IntEnum):
@@ -87,7 +87,7 @@ def _work(benches, scratch, counters, codes):
     n = scratch.wheels.size
     w = _add(counters, Line.NEXT.value, 1)
     while w < n:
-        codes[w] = press_wheel(benches, scratch, w)
+        codes[w] = follow_wheel(benches, scratch, w)
         _add(counters, Line.SOLVED.value, 1)
         w = _add(counters, Line.NEXT.value, 1)
 

@@ -71,6 +71,10 @@ class Row(IntEnum):
 TO_LEFT = Row.LEFT_Y - Row.RIGHT_Y
 
 
+#: Share of load times approach that a contact stores: exact for an elliptic one.
+ELASTIC = 0.4
+
+
 class Kind(IntEnum):
     """Kinds of force elements."""
 

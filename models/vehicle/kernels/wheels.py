@@ -9,11 +9,9 @@ from contact.kernels.enumerations import Height, Status
 from contact.kernels.geometry.search import axle
 from contact.kernels.pair import solve_pair
 from models.vehicle.kernels.benches import bench_of
+from models.vehicle.kernels.between import expect, learn, put
 from models.vehicle.kernels.frames import linear, place_on, smooth
-from models.vehicle.kernels.layout import TO_LEFT, Axis, Book, Frame, Row, Sum
-
-#: Share of load times approach that a contact stores: exact for an elliptic one.
-ELASTIC = 0.4
+from models.vehicle.kernels.layout import ELASTIC, TO_LEFT, Axis, Book, Frame, Row, Sum
 
 
 @kernel
@@ -65,13 +63,41 @@ def press_wheel(benches, scratch, w):
 
 
 @kernel
+def follow_wheel(benches, scratch, w):
+    """Fill what wheel `w` does: from the last solution of its contact if that is near enough, else by `press_wheel`.
+
+    Returns as `press_wheel`.
+    """
+    own, given, wheel = benches.held, scratch.given[w], scratch.wheels[w]
+    if own.pace <= 1:
+        return press_wheel(benches, scratch, w)
+    near, n_before = False, int(wheel.patches)
+    if own.ages[w] > 0:
+        expected = own.expected[w]
+        for i in range(expected.size):
+            expected[i] = own.answers[w, i] + own.ages[w] * own.drifts[w, i]
+        near = expect(own.asked[w], given, scratch.seats[w], bench_of(benches, w), n_before, expected)
+        # damage is counted from a solution
+        if near and own.ages[w] < own.paces[w] and benches.settings[w].distance == 0.0:
+            put(expected, wheel)
+            own.ages[w] += 1
+            return n_before
+    n = press_wheel(benches, scratch, w)
+    if n >= 0:
+        learn(own, w, wheel, near and n == n_before)
+        own.asked[w] = given
+        own.ages[w] = 1
+    return n
+
+
+@kernel
 def press(benches, scratch):
-    """Solve the contacts of all wheels.
+    """Find what all wheels do, each by `follow_wheel`.
 
     Returns 0, or the number of the wheel from 1 on whose contact has no answer, negative.
     """
     for w in range(scratch.wheels.size):
-        if press_wheel(benches, scratch, w) < 0:
+        if follow_wheel(benches, scratch, w) < 0:
             return -1 - w
     return 0
 

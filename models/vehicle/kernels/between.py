@@ -1,0 +1,211 @@
+"""Forces of a wheel between two solutions of its contact: a step of first order from the last one (docs/vehicle.md, 8).
+
+Most steps change a contact by little. Its solution costs a hundred times as much as that change to first order: the normal
+force follows the approach with Hertz's power, and creep forces follow the creepages with Kalker's stiffness on the part that
+sticks. What this leaves out is measured at every solution: its difference from what was expected. The next steps continue it
+as a linear drift, and its size says how many steps may pass until the next solution. A contact that has moved far is solved
+at once.
+"""
+
+from __future__ import annotations
+
+import math
+from enum import IntEnum
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact._jit import kernel
+from contact.kernels import kalker
+from contact.kernels.geometry.search import axle
+from contact.kernels.records import GIVEN
+from models.vehicle.kernels.layout import ELASTIC
+
+Array = NDArray[np.float64]
+
+#: Changes since the last solution from which on a contact is solved: of the approach, over it, and along the surface [m].
+#: Who moves further may meet another part of the rail.
+_DEEPER, _ASIDE = 0.1, 5e-5
+#: Share of the tolerance below which one more step may pass.
+_EASY = 0.3
+#: Weight of the newest in the usual miss after one step, and the largest that counts, over the tolerance.
+_NEWEST, _LOUDEST = 0.01, 2.0
+#: Share of the difference found at a solution that the next drift takes up.
+_TAKEN = 0.5
+
+
+class Load(IntEnum):
+    """What is followed between solutions: members of WHEEL."""
+
+    X = 0
+    Y = 1
+    Z = 2
+    MX = 3
+    MY = 4
+    MZ = 5
+    NORMAL = 6
+    DISSIPATION = 7
+    ELASTIC = 8
+    T_GAMMA = 9
+
+
+class Held(NamedTuple):
+    """What is kept of the last solution of every wheel, besides its contacts."""
+
+    asked: Any  # GIVEN, one each
+    answers: Array  # shape (wheels, len(Load))
+    drifts: Array  # per step
+    expected: Array
+    ages: NDArray[np.int64]  # steps since the last solution; 0 where there is none
+    paces: NDArray[np.int64]  # steps from the last solution to the next
+    noises: Array  # usual miss of a force after one step [N]
+    loads: Array  # static load [N]
+    solutions: NDArray[np.int64]  # their number so far
+    pace: int  # the largest of `paces`; 1: every step is a solution
+    tolerance: float  # of a force, over the static load
+
+
+def held(loads: Array, pace: int, tolerance: float) -> Held:
+    """Return arrays of wheels with static loads [N] that hold nothing."""
+    n = loads.size
+    answers, drifts, expected = (np.zeros((n, len(Load))) for _ in range(3))
+    ages, paces, solutions = (np.zeros(n, np.int64) for _ in range(3))
+    return Held(
+        np.zeros(n, GIVEN), answers, drifts, expected, ages, paces, np.zeros(n), loads, solutions, pace, tolerance
+    )
+
+
+@kernel
+def take(wheel, row):
+    """Copy the loads of a wheel to a row."""
+    row[Load.X], row[Load.Y], row[Load.Z] = wheel.longitudinal, wheel.lateral, wheel.vertical
+    row[Load.MX], row[Load.MY], row[Load.MZ] = wheel.moment_x, wheel.moment_y, wheel.moment_z
+    row[Load.NORMAL], row[Load.DISSIPATION] = wheel.normal, wheel.dissipation
+    row[Load.ELASTIC], row[Load.T_GAMMA] = wheel.elastic, wheel.T_gamma
+
+
+@kernel
+def put(row, wheel):
+    """Copy the loads of a row to a wheel."""
+    wheel.longitudinal, wheel.lateral, wheel.vertical = row[Load.X], row[Load.Y], row[Load.Z]
+    wheel.moment_x, wheel.moment_y, wheel.moment_z = row[Load.MX], row[Load.MY], row[Load.MZ]
+    wheel.normal, wheel.dissipation = row[Load.NORMAL], row[Load.DISSIPATION]
+    wheel.elastic, wheel.T_gamma = row[Load.ELASTIC], row[Load.T_GAMMA]
+
+
+@kernel
+def _slip(given, x, y, z):
+    """Return the velocity of a wheel's point over the rail. (x, y, z) is the point from the wheelset's centre [m]."""
+    lx, ly, lz = axle(given.roll, given.yaw)
+    wx, wy, wz = given.roll_rate + given.spin * lx, given.spin * ly, given.yaw_rate + given.spin * lz
+    turn = given.rail_roll_rate
+    return (
+        given.vx + wy * z - wz * y,
+        given.vy + wz * x - (wx - turn) * z - given.rail_vy,
+        given.vz + (wx - turn) * y - wy * x - given.rail_vz,
+    )
+
+
+@kernel
+def _creep_forces(contact, stiffness, bound, stick, more, ratio):
+    """Return the creep forces after creepages have changed by `more`, and the normal force in the `ratio`.
+
+    `stiffness` is dF/d(creepage) without slip [N], `bound` friction times normal force [N], `stick` the share of the area.
+    In the theory of Vermeulen and Johnson (1964) the slope of the force is the stiffness times that share, spin or not, and
+    across the force it is that of a force which turns with its creepage.
+    """
+    force = math.sqrt(contact.Fx**2 + contact.Fy**2)
+    stick = min(stick, max(1.0 - force / bound, 0.0) ** (2.0 / 3.0))
+    turning = math.sqrt(contact.longitudinal**2 + contact.lateral**2)
+    turning += abs(contact.spin) * math.sqrt(contact.area / math.pi)
+    along, across = stick * stiffness, stiffness
+    if force > 0.0:
+        across = min(max(along, force / max(turning, 1e-300)), stiffness)
+    nx, ny = (contact.Fx / force, contact.Fy / force) if force > 0.0 else (1.0, 0.0)
+    grown = force * ratio ** (1.0 - stick / 3.0) - along * (more[0] * nx + more[1] * ny)
+    aside = -across * (more[1] * nx - more[0] * ny)
+    size = math.sqrt(grown * grown + aside * aside)
+    scale = min(1.0, ratio * max(bound, force) / size) if size > 0.0 else 0.0
+    return scale * (grown * nx - aside * ny), scale * (grown * ny + aside * nx)
+
+
+@kernel
+def expect(asked, now, seat, bench, n, row):
+    """Add to `row` what `n` contacts do more at `now` than at the last solution. Return whether they have hardly moved.
+
+    `asked` is what the last solution was for.
+    """
+    shear = bench.case[0].G * bench.case[0].slope
+    c11, c22, _, _ = kalker.coefficients(bench.own.tables.kalker, 0.0)
+    dy, dz, droll, dyaw = now.y - asked.y, now.z - asked.z, now.roll - asked.roll, now.yaw - asked.yaw
+    lx, ly, lz = axle(now.roll, now.yaw)
+    near, total = n > 0, bench.total[0]
+    stick = 1.0 - total.slip_area / total.area if total.area > 0.0 else 1.0
+    for k in range(n):
+        contact = bench.contacts[k]
+        if contact.N <= 0.0 or contact.approach <= 0.0:
+            near = False
+            continue
+        c, s = math.cos(contact.angle), math.sin(contact.angle)
+        x, y = contact.x, contact.y - asked.y
+        z = contact.z - asked.z + bench.search.motion[0].radius
+        across = dy - droll * z + dyaw * x - (now.rail_y - asked.rail_y)
+        down = dz + droll * y - (now.rail_z - asked.rail_z)
+        deeper, aside = c * down - s * across, c * across + s * down
+        near = near and abs(deeper) < _DEEPER * contact.approach and abs(aside) < _ASIDE
+        ratio = max(1.0 + deeper / contact.approach, 0.0) ** 1.5
+        before_x, before_y, before_z = _slip(asked, x, y, z)
+        now_x, now_y, now_z = _slip(now, x, y, z)
+        more_x = (now_x - before_x) / now.vx
+        more_y = (c * (now_y - before_y) + s * (now_z - before_z)) / now.vx
+        bound, ab = seat.friction * contact.N, contact.area / math.pi
+        Fx, Fy = contact.Fx, contact.Fy
+        if bound > 0.0 and ratio > 0.0:
+            Fx, Fy = _creep_forces(contact, 0.5 * (c11 + c22) * shear * ab, bound, stick, (more_x, more_y), ratio)
+        x_force, along, normal = Fx - contact.Fx, Fy - contact.Fy, contact.N * (ratio - 1.0)
+        # the pressure has no moment about the axle
+        turning = lx * (y * -c - z * s) + ly * (x * c) + lz * (x * s)
+        y_force, z_force = along * c + normal * s, along * s - normal * c
+        row[Load.X] += x_force
+        row[Load.Y] += y_force
+        row[Load.Z] -= z_force
+        row[Load.MX] += y * z_force - z * y_force - normal * turning * lx
+        row[Load.MY] += z * x_force - x * z_force - normal * turning * ly
+        row[Load.MZ] += x * y_force - y * x_force - normal * turning * lz
+        row[Load.NORMAL] += normal
+        creep_x, creep_y = contact.longitudinal + more_x, contact.lateral + more_y
+        row[Load.DISSIPATION] += contact.Fx * contact.longitudinal + contact.Fy * contact.lateral
+        row[Load.DISSIPATION] -= Fx * creep_x + Fy * creep_y
+        row[Load.ELASTIC] += ELASTIC * (contact.N * ratio * (contact.approach + deeper) - contact.N * contact.approach)
+        row[Load.T_GAMMA] += abs(Fx * creep_x) + abs(Fy * creep_y)
+        row[Load.T_GAMMA] -= abs(contact.Fx * contact.longitudinal) + abs(contact.Fy * contact.lateral)
+    return near
+
+
+@kernel
+def learn(own, w, wheel, near):
+    """Take the solution of wheel `w` up: compare it with what was expected, and set drift and pace until the next one.
+
+    `near` says whether anything was expected.
+    """
+    answer, drift, expected = own.answers[w], own.drifts[w], own.expected[w]
+    take(wheel, answer)
+    own.solutions[w] += 1
+    if not near:
+        drift[:] = 0.0
+        own.paces[w] = 1
+        return
+    missed = max(
+        abs(answer[Load.X] - expected[Load.X]),
+        max(abs(answer[Load.Y] - expected[Load.Y]), abs(answer[Load.Z] - expected[Load.Z])),
+    )
+    for i in range(drift.size):
+        drift[i] += _TAKEN * (answer[i] - expected[i]) / own.ages[w]
+    allowed = own.tolerance * own.loads[w]
+    if own.ages[w] == 1:  # no pace is better than that
+        own.noises[w] += _NEWEST * (min(missed, _LOUDEST * allowed) - own.noises[w])
+    if missed > allowed + 2.0 * own.noises[w]:
+        own.paces[w] = 1
+    elif missed < _EASY * allowed + own.noises[w]:
+        own.paces[w] = min(own.paces[w] + 1, own.pace)

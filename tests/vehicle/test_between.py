@@ -1,0 +1,158 @@
+"""Contacts between their solutions: agreement with a solution at every step, balance of energy, symmetry, threads."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from contact.errors import ContactError
+from contact.geometry import profile
+from models.life.scenario import Methods
+from models.life.spectra import Irregularities
+from models.life.track import Curve, Track
+from models.vehicle import linear
+from models.vehicle.course import lay
+from models.vehicle.declared import read
+from models.vehicle.kernels.layout import Axis, Book
+from models.vehicle.simulation import PACE, Simulation
+from tests.vehicle.parts import FAST, simulation
+
+PACED = dataclasses.replace(FAST, pace=PACE)
+STEP = 4e-4
+LOAD = 54546.0  # static, of a wheel of the benchmark vehicle [N]
+
+
+def curve(direction: str = "right", **irregular: Irregularities) -> Track:
+    circle = Curve(start=12.0, radius=300.0, length=20.0, transition=15.0, cant=0.1, direction=direction)
+    return Track(curves=(circle,), **irregular)
+
+
+def forces(sim: Simulation, steps: int) -> np.ndarray:
+    """Return longitudinal, lateral and normal force of every wheel at every step, shape (steps, 3, wheels)."""
+    found = []
+    for _ in range(steps):
+        sim.advance(STEP)
+        found.append([sim.wheels[name].copy() for name in ("longitudinal", "lateral", "normal")])
+    return np.array(found)
+
+
+def residual(sim: Simulation) -> float:
+    return float(sim.state.books[Book.RESIDUAL] / sim.state.books[Book.DISSIPATED])
+
+
+@pytest.fixture(scope="module")
+def both() -> list[tuple[Simulation, np.ndarray]]:
+    """The benchmark vehicle over an irregular curve of 300 m: solved at every step, and paced."""
+    track = curve(alignment=Irregularities(spectrum="ERRI B176 low"))
+    found = []
+    for options in (FAST, PACED):
+        sim = simulation("manchester", track, speed=15.0, length=60.0, settling=5.0, options=options)
+        found.append((sim, forces(sim, 8000)))
+    return found
+
+
+def test_forces_agree_with_those_of_a_solution_at_every_step(both):
+    (_, exact), (_, paced) = both
+    off = (paced - exact)[1000:]  # the first second is the start from nominal heights
+    assert np.sqrt((off**2).mean(axis=(0, 2))).max() < 1.5e-3 * LOAD
+    assert np.abs(off).max() < 0.04 * LOAD  # where the contact runs over a kink of ANALYN's load
+    assert np.abs(off.mean(axis=0)).max() < 2e-5 * LOAD
+
+
+def test_most_steps_need_no_solution(both):
+    (exact, _), (paced, _) = both
+    assert paced.benches.held.solutions.mean() < 0.35 * 8000
+    assert not exact.benches.held.solutions.any()  # nothing is held
+
+
+def test_balance_and_dissipation_stay_the_same(both):
+    (exact, _), (paced, _) = both
+    assert residual(paced) == pytest.approx(residual(exact), abs=2e-4)
+    assert paced.state.books[Book.DISSIPATED] == pytest.approx(exact.state.books[Book.DISSIPATED], rel=1e-4)
+
+
+def test_left_curve_is_the_mirror_image_of_the_right_one():
+    signs = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+    right, left = (
+        simulation("manchester", curve(direction), speed=15.0, length=40.0, options=PACED)
+        for direction in ("right", "left")
+    )
+    for sim in (right, left):
+        sim.advance(STEP, 5000)
+    np.testing.assert_allclose(right.state.q, signs * left.state.q, atol=1e-11)
+    np.testing.assert_allclose(right.wheels["vertical"][0::2], left.wheels["vertical"][1::2], rtol=1e-7)
+
+
+def test_impacts_of_a_hunting_wheelset_are_solved_and_close():
+    track = Track(alignment=Irregularities(spectrum="ERRI B176 low", scale=3.0))
+    exact, paced = (
+        simulation("wheelset", track, speed=50.0, length=150.0, options=options) for options in (FAST, PACED)
+    )
+    for sim in (exact, paced):
+        sim.advance(1e-4, 20000)
+    assert paced.state.books[Book.IMPACTS] == pytest.approx(exact.state.books[Book.IMPACTS], abs=2)
+    assert paced.state.books[Book.IMPACTS] > 5
+    assert abs(residual(paced)) < 5e-3
+    assert (paced.benches.held.solutions > 10000).all()
+
+
+def test_a_wheel_in_the_air_is_solved_at_every_step():
+    sim = simulation("wheelset", options=PACED)
+    sim.advance(1e-4, 100)
+    before = sim.benches.held.solutions.copy()
+    sim.state.q[1, Axis.Z] -= 2e-3  # pressed down by its load, it is back after 8 ms
+    sim.advance(1e-4, 50)
+    assert not sim.wheels["normal"].any()
+    assert (sim.benches.held.solutions - before == 50).all()
+
+
+def test_no_bit_depends_on_the_number_of_threads():
+    track = curve(alignment=Irregularities(spectrum="ERRI B176 low"))
+    rows = lay(track, 60.0, lambda s: 15.0, (1,), 1.0)
+    runs = [
+        Simulation(read("manchester"), rows, profile.s1002(), profile.rail_60e1(), 0.3, PACED, threads=n)
+        for n in (1, 3)
+    ]
+    for run in runs:
+        for steps in (1, 399, 600):
+            run.advance(STEP, steps)
+    for name, array in runs[0].kept.items():
+        np.testing.assert_array_equal(array, runs[1].kept[name], err_msg=name)
+    assert (runs[0].benches.held.solutions < 600).all()
+
+
+def test_a_restored_run_goes_on_between_two_solutions():
+    first = simulation("wheelset", Track(alignment=Irregularities(spectrum="ERRI B176 low")), options=PACED)
+    first.advance(STEP, 498)
+    while not (first.benches.held.ages == 2).all():
+        first.advance(STEP)
+    saved = {name: array.copy() for name, array in first.kept.items()}
+    ends = []
+    for _ in range(2):
+        for name, array in first.kept.items():
+            array[:] = saved[name]
+        first.advance(STEP, 50)
+        ends.append({name: array.copy() for name, array in first.kept.items()})
+    for name, array in ends[0].items():
+        np.testing.assert_array_equal(array, ends[1][name], err_msg=name)
+    fresh = simulation("wheelset", Track(alignment=Irregularities(spectrum="ERRI B176 low")), options=PACED)
+    for name, array in fresh.kept.items():
+        array[:] = saved[name]
+    fresh.advance(STEP, 50)
+    for name, array in ends[0].items():
+        np.testing.assert_array_equal(array, fresh.kept[name], err_msg=name)
+
+
+def test_linear_analysis_solves_every_displaced_state():
+    exact, paced = (
+        linear.state_matrix(simulation("wheelset", options=options), step=STEP) for options in (FAST, PACED)
+    )
+    np.testing.assert_array_equal(paced, exact)
+
+
+@pytest.mark.parametrize("pace", [0, 6])
+def test_pace_has_a_range(pace):
+    with pytest.raises(ContactError, match=rf"pace = {pace} is outside the allowed range \[1, 5\]"):
+        simulation("wheelset", options=dataclasses.replace(FAST, pace=pace))
+    with pytest.raises(ContactError, match=rf"pace = {pace} is outside"):
+        Methods(pace=pace)
