@@ -30,7 +30,7 @@ from contact.geometry.surfaces.frame import Frame, PlacedWheel, heights
 from contact.geometry.wheelset import Pose, Velocity
 from contact.pair import WheelRailPair
 from contact.study.errors import mean_p95_max
-from contact.surface_pair import WheelRailSurfaces
+from contact.surface_pair import HalfspacePair
 from reference import STEEL
 
 Row = dict[str, str]
@@ -106,7 +106,7 @@ def pair_of(folder: Path, sweep: str, elements: int, spacing: float | None = Non
     return pair, Velocity(2.0, spin=wheel.spin)
 
 
-def errors(row: list[Row], solver: WheelRailPair | WheelRailSurfaces, velocity: Velocity) -> dict[str, float]:
+def errors(row: list[Row], solver: WheelRailPair | HalfspacePair, velocity: Velocity) -> dict[str, float]:
     """Return the errors of one pose, and the computing time [s]."""
     first = row[0]
     pose = Pose(y=1e-3 * float(first["y_ws"]), z=1e-3 * float(first["z_wm"]), yaw=float(first["yaw"]))
@@ -195,7 +195,7 @@ def main() -> None:
             continue
         elementwise = chosen.normal == "halfspace"
         methods = {"normal": chosen.normal, "tangential": chosen.tangential}
-        solver = WheelRailSurfaces(pair) if elementwise else WheelRailPair(pair, material=STEEL, **methods)
+        solver = HalfspacePair(pair) if elementwise else WheelRailPair(pair, material=STEEL, **methods)
         found = []
         for pose in poses(files, sweep):
             found.append(errors(pose, solver, velocity))

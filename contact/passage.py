@@ -15,7 +15,7 @@ from contact.geometry.records import Pose, Velocity
 from contact.geometry.surfaces import SurfacePair
 from contact.pair import Contact, PairSolution, WheelRailPair
 from contact.registry import DEFAULT_TANGENTIAL
-from contact.surface_pair import SurfaceContact, SurfaceSolution, WheelRailSurfaces
+from contact.surface_pair import HalfspacePair, SurfaceContact, SurfaceSolution
 
 Array = NDArray[np.float64]
 
@@ -72,17 +72,17 @@ class Passage:
 
 def solver_for(
     pair: SurfacePair, normal: str = "halfspace", tangential: str | None = None
-) -> WheelRailPair | WheelRailSurfaces:
+) -> WheelRailPair | HalfspacePair:
     """Return the element-wise reference for "halfspace", else a solver on strips, with `fastrip_mapped` by default."""
     if normal == "halfspace":
         if tangential not in (None, "halfspace"):
             raise ContactError(f"tangential = {tangential!r} is on strips; normal = 'halfspace' is not")
-        return WheelRailSurfaces(pair)
+        return HalfspacePair(pair)
     return WheelRailPair(pair, material=pair.material, normal=normal, tangential=tangential or DEFAULT_TANGENTIAL)
 
 
 def passage(
-    solver: WheelRailPair | WheelRailSurfaces,
+    solver: WheelRailPair | HalfspacePair,
     stations: ArrayLike | Sequence[float],
     pose: Pose | None = None,
     velocity: Velocity | None = None,
@@ -97,7 +97,7 @@ def passage(
 
     Parameters
     ----------
-    solver : WheelRailPair or WheelRailSurfaces
+    solver : WheelRailPair or HalfspacePair
         The first solves on strips and is fast, the second is the reference.
     stations : array_like, shape (n,)
         Positions of the axle along the rail [m], in any order.

@@ -1,6 +1,7 @@
-"""`WheelRailSurfaces`: one wheel on one rail that change along the way, by the element-wise half space.
+"""`HalfspacePair`: one wheel on one rail that change along the way, by the element-wise half space.
 
-It is the reference for `contact.pair.WheelRailPair`, which solves the same surfaces on strips."""
+It is the reference for `contact.pair.WheelRailPair`, which solves the same surfaces on strips, as the FMU
+`WheelRailSurfaces` does."""
 
 from __future__ import annotations
 
@@ -138,7 +139,7 @@ class SurfaceSolution:
         return sum(contact.solution.power_per_metre for contact in self.contacts)
 
 
-class WheelRailSurfaces:
+class HalfspacePair:
     """One wheel rolling on one rail that may both change along the way.
 
     Parameters

@@ -54,8 +54,15 @@ def command_line() -> str:
 
 
 def explained(kind: Any) -> dict[str, str]:
-    """Return key → meaning from the section Parameters of a class's docstring, as Markdown in one line."""
-    text = inspect.getdoc(kind) or ""
+    """Return key → meaning from the sections Parameters of a class and of its bases, as Markdown in one line."""
+    found: dict[str, str] = {}
+    for each in reversed(kind.__mro__):
+        found |= _explained(each.__doc__ or "")
+    return found
+
+
+def _explained(docstring: str) -> dict[str, str]:
+    text = inspect.cleandoc(docstring)
     _, _, section = text.partition("Parameters\n----------\n")
     section = re.split(r"\n\n?[A-Z][a-z]+\n-{4,}\n", section)[0]
     found: dict[str, str] = {}

@@ -11,7 +11,6 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
 from contact.geometry.surfaces import SurfacePair
@@ -90,11 +89,10 @@ def vehicles(path: Path, given: Mapping[Kind, Profile] | None = None) -> tuple[M
     Raises
     ------
     ContactError
-        As `models.life.scenario.read`, and for wheels with flats or polygons.
+        As `models.life.scenario.read`, and for flats, polygons and slices.
     """
     declared = scenario.read(path)
-    if declared.uneven:
-        raise ContactError(f"{path.name}.wheels: the FMUs of a vehicle take no flats and polygons")
+    declared.require_profiles(path.name, "the FMUs of a vehicle take")
     pair = next(model for model in models(POINTS, given) if model.name == "wheel_rail_pair")
     beside = path.parent / declared.declared.vehicle
     vehicle = str(beside) if beside.is_file() else declared.declared.vehicle

@@ -45,7 +45,9 @@ def main() -> None:
     parser.add_argument("scenario", type=Path, help="TOML file with the table [track]")
     arguments = parser.parse_args()
     try:
-        exchange(arguments.fmu, scenario.read(arguments.scenario))
+        given = scenario.read(arguments.scenario)
+        given.require_profiles(arguments.scenario.name, "the FMUs of a vehicle take")
+        exchange(arguments.fmu, given)
     except (ContactError, ImportError, OSError) as error:
         parser.error(str(error))
 

@@ -39,6 +39,12 @@ def test_every_key_of_a_scenario_is_explained(keys, kind):
         assert len(meaning) > 5, entry.name
 
 
+def test_keys_of_a_base_are_explained_by_it(keys):
+    for table in ("wheels.slices", "rails.slices"):
+        own = keys.partition(f"### `[[{table}]]`")[2].partition("###")[0]
+        assert "path relative to the scenario's file" in own
+
+
 def test_no_key_is_without_a_meaning_or_explained_by_its_type(keys):
     for row in rows(keys):
         meaning = row[3].strip(" |")

@@ -211,10 +211,7 @@ def read(path: str | PathLike[str]) -> ScenarioSet:
         scenario.read(path.parent / share.file).limited(declared.pressure_limit) for share in declared.scenarios
     )
     for share, one in zip(declared.scenarios, scenarios, strict=True):
-        if one.uneven:
-            raise ContactError(
-                f"{path.name}: {share.file} has wheels with flats or polygons, which have no damage; leave out its table wheels"
-            )
+        one.require_profiles(f"{path.name}: {share.file}", "a study of wear takes")
     found = ScenarioSet(declared, scenarios)
     lines: dict[str, tuple[Share, Scenario]] = {}
     first = (declared.scenarios[found.first_number], found.first)

@@ -38,6 +38,7 @@ def dataset(run: VehicleRun) -> Any:
         "fingerprint": scenario.fingerprint,
         "step": run.step,
         "without_damage": json.dumps(run.without_damage),
+        "sections_without_damage": json.dumps(run.sections_without_damage),
         **{f"balance_{name}": value for name, value in run.balance.items()},
         **{f"trust_{name}": value for name, value in run.trust.as_dict().items()},
         "warnings": " ".join(run.trust.warnings),

@@ -20,10 +20,12 @@ from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solver import N_ELEMENTS, N_STRIPS, require_resolution
 from models.life.declared import build, read_table
+from models.life.slices import Rails
 from models.life.track import Speed, Track
 from models.life.uneven import Wheels
 from models.vehicle.declared import VehicleDeclaration
 from models.vehicle.declared import read as read_vehicle
+from models.vehicle.sections import RailSection
 from models.vehicle.simulation import LONGEST_PACE, PACE, SIDES
 
 
@@ -108,8 +110,8 @@ class Recording:
     ----------
     settling : distance at the start without damage, over which the irregularities grow from zero [m]
     spacing : distance between two samples of damage and time series [m], 0.01 to 10
-    step : step of the vehicle [s], 1e-5 to 5e-3; default 0.7 of the stable step, at most 0.5 ms, with uneven wheels 0.1 ms
-        (docs/vehicle.md, 5)
+    step : step of the vehicle [s], 1e-5 to 5e-3; default 0.7 of the stable step, at most 0.5 ms, with uneven wheels or
+        slices 0.1 ms (docs/vehicle.md, 5)
     bins : width of the bins of damage along the profiles [m], 1e-4 to 5e-3
     """
 
@@ -139,7 +141,7 @@ class Declaration:
     vehicle : file of a vehicle relative to the scenario's file, or one of the included ones: `manchester`, or `wheelset`, the
         default (docs/vehicle.md)
     friction : coefficient of friction, 0.3 by default, or a table
-    track, profiles, wheels, methods, damage, recording : separate tables
+    track, profiles, wheels, rails, methods, damage, recording : separate tables
     """
 
     name: str
@@ -151,6 +153,7 @@ class Declaration:
     friction: float | Friction = 0.3
     profiles: Profiles = field(default_factory=Profiles)
     wheels: Wheels = field(default_factory=Wheels)
+    rails: Rails = field(default_factory=Rails)
     methods: Methods = field(default_factory=Methods)
     damage: DamageParameters = field(default_factory=DamageParameters)
     recording: Recording = field(default_factory=Recording)
@@ -179,6 +182,10 @@ class Scenario:
         Profile of every wheel, in the order of `wheel_names`; empty if all are as `wheel`.
     both_rails : tuple of Profile
         Profiles of the right and the left rail; empty if both are as `rail`. Left profiles are mirrored to the right side.
+    measured_wheels : tuple of WheelSurface
+        Those of the declaration's `wheels.slices`.
+    sections : tuple of RailSection
+        Parts of the rails that are given by slices.
     """
 
     declared: Declaration
@@ -188,6 +195,8 @@ class Scenario:
     draw: tuple[int, ...] = ()
     every_wheel: tuple[Profile, ...] = ()
     both_rails: tuple[Profile, ...] = ()
+    measured_wheels: tuple[WheelSurface, ...] = ()
+    sections: tuple[RailSection, ...] = ()
 
     @property
     def wheel_names(self) -> tuple[tuple[str, str], ...]:
@@ -201,8 +210,20 @@ class Scenario:
 
     @property
     def uneven(self) -> dict[int, WheelSurface]:
-        """Number of a wheel in `wheels` → its surface, for wheels with flats and polygons."""
-        return self.declared.wheels.surfaces(self.wheel_names, self.wheels, self.radius)
+        """Number of a wheel in `wheels` → its surface, for wheels with flats and polygons and measured ones."""
+        return self.declared.wheels.surfaces(self.wheel_names, self.wheels, self.radius, self.measured_wheels)
+
+    def require_profiles(self, where: str, what: str) -> None:
+        """Check that wheels and rails are profiles, for what cannot have surfaces.
+
+        Raises
+        ------
+        ContactError
+            If they are not. The message begins with `where`, the name of the file, and says that `what` takes profiles only.
+        """
+        for table, surfaces in (("wheels", self.uneven), ("rails", self.sections)):
+            if surfaces:
+                raise ContactError(f"{where}.{table}: {what} no flats, polygons and slices; leave out this table")
 
     @property
     def rails(self) -> tuple[Profile, ...]:
@@ -265,6 +286,8 @@ class Scenario:
         for shape in (self.wheel, self.rail, *self.every_wheel, *self.both_rails):
             for row in (shape.y, shape.z, shape.angle):
                 digest.update(row.tobytes())
+        for surface in (*self.measured_wheels, *(section.surface for section in self.sections)):
+            digest.update(surface.curves(surface.sheet.u).tobytes())
         return digest.hexdigest()[:32]
 
 
@@ -296,4 +319,12 @@ def from_table(table: dict[str, Any], path: Path) -> Scenario:
     beside = path.parent / declared.vehicle
     vehicle = read_vehicle(beside if beside.is_file() else declared.vehicle)
     declared.wheels.require_axles([axle.name for axle in vehicle.wheelsets], f"{path.name}.wheels")
-    return Scenario(declared, wheel, rail, vehicle, both_rails=rails)
+    return Scenario(
+        declared,
+        wheel,
+        rail,
+        vehicle,
+        both_rails=rails,
+        measured_wheels=declared.wheels.load(path.parent, f"{path.name}.wheels"),
+        sections=declared.rails.load(path.parent, f"{path.name}.rails"),
+    )

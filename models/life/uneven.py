@@ -1,20 +1,16 @@
-"""Wheels with flats and polygons, as a scenario declares them."""
+"""Wheels with flats and polygons, and measured ones, as a scenario declares them."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from contact.errors import ContactError
 from contact.geometry.profile import Profile
 from contact.geometry.surfaces import Flat, Polygon, WheelSurface
 from contact.geometry.surfaces.deviation import Deviation
-from models.vehicle.simulation import SIDES
-
-
-def _require_side(side: str | None) -> None:
-    if side is not None and side not in SIDES:
-        raise ContactError(f"side = {side!r} is none of {', '.join(map(repr, SIDES))}")
+from models.life.slices import WheelSlices, require_side
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,7 +35,7 @@ class FlatWheel:
     angle: float = 0.0
 
     def __post_init__(self) -> None:
-        _require_side(self.side)
+        require_side(self.side)
         self.deviation(0.460)  # checks the numbers
 
     def deviation(self, radius: float) -> Deviation:
@@ -67,7 +63,7 @@ class PolygonWheel:
     phase: float = 0.0
 
     def __post_init__(self) -> None:
-        _require_side(self.side)
+        require_side(self.side)
         self.deviation(0.460)
 
     def deviation(self, radius: float) -> Deviation:
@@ -83,10 +79,12 @@ class Wheels:
     ----------
     flat : flats, a table each; a wheel may have several
     polygon : polygons, a table each; they add to flats of the same wheel
+    slices : measured wheels, a table each; flats and polygons of the same wheel add to them
     """
 
     flat: tuple[FlatWheel, ...] = ()
     polygon: tuple[PolygonWheel, ...] = ()
+    slices: tuple[WheelSlices, ...] = ()
 
     def require_axles(self, axles: Sequence[str], where: str) -> None:
         """Check that all wheelsets are those of the vehicle.
@@ -96,7 +94,11 @@ class Wheels:
         ContactError
             If one is not. The message has the place in the file, which begins with `where`, and the names of the vehicle.
         """
-        kinds: dict[str, tuple[FlatWheel | PolygonWheel, ...]] = {"flat": self.flat, "polygon": self.polygon}
+        kinds: dict[str, tuple[FlatWheel | PolygonWheel | WheelSlices, ...]] = {
+            "flat": self.flat,
+            "polygon": self.polygon,
+            "slices": self.slices,
+        }
         for kind, entries in kinds.items():
             for k, entry in enumerate(entries):
                 if entry.axle not in axles:
@@ -105,8 +107,31 @@ class Wheels:
                         f"{where}.{kind}[{k}].axle = {entry.axle!r} is no wheelset; the vehicle has {names}"
                     )
 
+    def load(self, folder: Path, where: str) -> tuple[WheelSurface, ...]:
+        """Return the wheels of `slices`. `where` is the place of the table in messages.
+
+        Raises
+        ------
+        ContactError
+            If a file is wrong, or if a wheel is given twice.
+        """
+        found = []
+        for k, each in enumerate(self.slices):
+            for other in self.slices[:k]:
+                if each.axle == other.axle and (each.side == other.side or None in (each.side, other.side)):
+                    raise ContactError(f"{where}.slices[{k}]: a wheel of {each.axle!r} is given twice")
+            try:
+                found.append(each.load(folder))
+            except (ContactError, OSError) as error:
+                raise ContactError(f"{where}.slices[{k}]: {error}") from None
+        return tuple(found)
+
     def surfaces(
-        self, names: Sequence[tuple[str, str]], profiles: Sequence[Profile], radius: float
+        self,
+        names: Sequence[tuple[str, str]],
+        profiles: Sequence[Profile],
+        radius: float,
+        measured: Sequence[WheelSurface],
     ) -> dict[int, WheelSurface]:
         """Return number of a wheel → its surface, for those that are not round.
 
@@ -118,11 +143,16 @@ class Wheels:
             Profile of every wheel.
         radius : float
             Nominal radius [m].
+        measured : sequence of WheelSurface
+            Those of `load`.
         """
         entries: tuple[FlatWheel | PolygonWheel, ...] = (*self.flat, *self.polygon)
         found: dict[int, WheelSurface] = {}
         for number, ((axle, side), shape) in enumerate(zip(names, profiles, strict=True)):
+            for entry, surface in zip(self.slices, measured, strict=True):
+                if entry.axle == axle and entry.side in (None, side):
+                    found[number] = surface
             own = [entry.deviation(radius) for entry in entries if entry.axle == axle and entry.side in (None, side)]
             if own:
-                found[number] = WheelSurface.constant(shape, *own)
+                found[number] = (found.get(number) or WheelSurface.constant(shape)).with_deviations(*own)
         return found

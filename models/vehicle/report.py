@@ -50,6 +50,9 @@ def _parts(run: VehicleRun) -> Iterator[str]:
         yield faint(
             f"Without damage, as they are not round: {', '.join(' '.join(name) for name in run.without_damage)}."
         )
+    if run.sections_without_damage:
+        parts = (f"{side} rail, {begin:.2f} to {end:.2f} m" for side, begin, end in run.sections_without_damage)
+        yield faint(f"Without damage, as the rail is given by slices: {'; '.join(parts)}.")
     histograms = run.damage()
     for body in BODIES:
         yield from damage_of(

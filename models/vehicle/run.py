@@ -66,7 +66,7 @@ BALANCE = {
 #: Largest factor by which a small motion may grow in a step: more than any motion of a vehicle grows.
 _LARGEST_AMPLIFICATION = 1.02
 _LONGEST_STEP, _SHORTEST_STEP = 5e-4, 5e-5  # [s]
-#: Longest step with flats and polygons [s]: the peak of an impact is then within 1.7 % of that of half the step.
+#: Longest step with flats, polygons and slices [s]: the peak of an impact is then within 1.7 % of that of half the step.
 _LONGEST_UNEVEN = 1e-4
 
 
@@ -130,8 +130,11 @@ class VehicleRun:
         self.histograms = {key: each for key, each in histograms.items() if key[:2] not in self.without_damage}
         track = lay(d.track, d.length, scenario.speed, (d.seed, *scenario.draw), d.recording.settling)
         ahead = max(axle.at for axle in vehicle.wheelsets) + 1.0  # all axles start before the irregularities
-        self.simulation = self._simulation(track, ledgers=ledgers, uneven=uneven, start=-ahead, threads=threads)
-        self.step = d.recording.step or min(_LONGEST_UNEVEN if uneven else _LONGEST_STEP, 0.7 * self._stable(vehicle))
+        surfaces: dict[str, Any] = {"uneven": uneven, "sections": scenario.sections}
+        self.simulation = self._simulation(track, ledgers=ledgers, start=-ahead, threads=threads, **surfaces)
+        self.step = d.recording.step or min(
+            _LONGEST_UNEVEN if any(surfaces.values()) else _LONGEST_STEP, 0.7 * self._stable(vehicle)
+        )
         factor = self._growth()
         while factor > _LARGEST_AMPLIFICATION and not d.recording.step and self.step > _SHORTEST_STEP:
             self.step *= 0.7  # worn profiles have larger patches, which are stiffer
@@ -212,7 +215,8 @@ class VehicleRun:
             raise ContactError(f"{self.scenario.name}, {speed:g} m/s: {error}") from None
         if counts:
             self._distance += many * h * speed
-            self._counted += many * h * speed * float(simulation.wheels["dissipation"].sum())
+            on_profiles = ~simulation.on_surfaces
+            self._counted += many * h * speed * float(simulation.wheels["dissipation"][on_profiles].sum())
         self._sample(many * h)
 
     def _sample(self, elapsed: float) -> None:
@@ -300,6 +304,11 @@ class VehicleRun:
     def without_damage(self) -> tuple[tuple[str, str], ...]:
         """Wheelset and side of the wheels that are not round. They and the rails under them have no histograms."""
         return tuple(self.scenario.wheel_names[number] for number in self._uneven)
+
+    @property
+    def sections_without_damage(self) -> tuple[tuple[str, float, float], ...]:
+        """Side, begin and end [m] of the parts of the rails that are given by slices, on which no damage is counted."""
+        return tuple((each.side, each.begin, each.end) for each in self.scenario.sections)
 
     def damage(self) -> dict[tuple[str, str, str], Histogram]:
         """Return `histograms`, filled with the damage so far."""

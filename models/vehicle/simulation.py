@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -29,7 +29,8 @@ from models.vehicle.kernels import motion
 from models.vehicle.kernels.benches import Benches, gather
 from models.vehicle.kernels.between import held
 from models.vehicle.kernels.layout import Book, Model, Row, Scratch, State, Sum, scratch
-from models.vehicle.uneven import Uneven
+from models.vehicle.sections import RailSection, require_apart
+from models.vehicle.uneven import Stretch, Uneven
 
 Array = NDArray[np.float64]
 
@@ -74,16 +75,18 @@ class Simulation:
     uneven : mapping of int to WheelSurface, optional
         Number of a wheel, in the order of `wheels`, and its surface where it is no body of revolution. Its profile in
         `wheels` gives the height at the start.
+    sections : sequence of RailSection
+        Parts of the rails that are given by slices.
     start : float
         Place of the vehicle's reference at the start [m].
     threads : int
         Threads that share the contacts, at most as many as there are wheels. No bit of a result depends on it. With uneven
-        wheels there is one.
+        wheels or sections there is one.
 
     Raises
     ------
     ContactError
-        If there are more threads than wheels.
+        If there are more threads than wheels, or if a section overlaps another one or does not continue the rail.
 
     Attributes
     ----------
@@ -92,7 +95,8 @@ class Simulation:
     model, state, scratch, benches
         Arrays of the kernels.
     rotations : ndarray
-        Angle by which each wheelset has turned [rad], -pi to pi; it decreases when rolling forward. 0 without uneven wheels.
+        Angle by which each wheelset has turned [rad], -pi to pi; it decreases when rolling forward. 0 without uneven wheels
+        and sections.
     """
 
     def __init__(
@@ -106,6 +110,7 @@ class Simulation:
         *,
         ledgers: tuple[Ledger, ...] | None = None,
         uneven: Mapping[int, WheelSurface] | None = None,
+        sections: Sequence[RailSection] = (),
         start: float = 0.0,
         threads: int = 1,
     ) -> None:
@@ -148,21 +153,45 @@ class Simulation:
         arrays = self.model, self.state, self.benches, self.scratch
         self._stepper: Crew | Uneven
         self._uneven_memories: dict[str, Array] = {}
-        if uneven:
-            pairs = {k: self._uneven_pair(SIDES[k % 2], wheel, rails[k]) for k, wheel in uneven.items()}
-            for k, pair in pairs.items():
-                self._uneven_memories[f"uneven.{k}"] = pair.bench.memory
-                for name, value in members.items():
-                    pair.bench.case[name] = value
-            self._stepper = Uneven(*arrays, pairs, self.rotations)
+        if uneven or sections:
+            stretches = self._stretches(wheels, rails, uneven or {}, sections)
+            for k, own in stretches.items():
+                for number, stretch in enumerate(own):
+                    self._uneven_memories[f"uneven.{k}.{number}"] = stretch.pair.bench.memory
+                    for name, value in members.items():
+                        stretch.pair.bench.case[name] = value
+            self._stepper = Uneven(*arrays, stretches, self.rotations)
         else:
             self._stepper = Crew(*arrays, [pair.bench for pair in self._pairs[:threads]])
 
     def _pair(self, side: str, wheel: Profile, rail: Profile, ledger: Ledger) -> WheelRailPair:
         return self._solver(Pair(wheel, rail, **self._sizes(side)), ledger)
 
-    def _uneven_pair(self, side: str, wheel: WheelSurface, rail: Profile) -> WheelRailPair:
-        return self._solver(SurfacePair(wheel, rail, **self._sizes(side), tilted=True))
+    def _stretches(
+        self,
+        wheels: Sequence[Profile],
+        rails: Sequence[Profile],
+        uneven: Mapping[int, WheelSurface],
+        sections: Sequence[RailSection],
+    ) -> dict[int, list[Stretch]]:
+        """Return number of a wheel → where it is solved on surfaces: on the sections of its rail, and if uneven everywhere."""
+        require_apart(sections)
+        found: dict[int, list[Stretch]] = {}
+        for k, (wheel, rail) in enumerate(zip(wheels, rails, strict=True)):
+            sizes = self._sizes(SIDES[k % 2])
+            own = []
+            for section in sections:
+                if section.side == sizes["side"]:
+                    if k < len(SIDES):
+                        section.require_continued(wheel, rail, sizes)
+                    surfaces = section.pair(uneven.get(k, wheel), rail, sizes)
+                    own.append(Stretch(self._solver(surfaces), surfaces, section.begin, section.end, section.at))
+            if k in uneven:
+                surfaces = SurfacePair(uneven[k], rail, **sizes, tilted=True)
+                own.append(Stretch(self._solver(surfaces), surfaces))
+            if own:
+                found[k] = own
+        return found
 
     def _sizes(self, side: str) -> dict[str, Any]:
         v = self.vehicle
@@ -219,6 +248,13 @@ class Simulation:
     def wheels(self) -> NDArray:
         """What every wheel did at the last step, records WHEEL: axle by axle, the right one before the left one."""
         return self.scratch.wheels
+
+    @property
+    def on_surfaces(self) -> NDArray[np.bool_]:
+        """Whether the contact of each wheel was on surfaces at the last step, where no damage is counted."""
+        if isinstance(self._stepper, Uneven):
+            return self._stepper.on_surfaces
+        return np.zeros(self.scratch.wheels.size, np.bool_)
 
     @property
     def kept(self) -> dict[str, Array]:

@@ -1,4 +1,4 @@
-"""Wheels that are no bodies of revolution: their contacts are solved one by one, at the angle of their wheelset.
+"""Wheels that are no bodies of revolution, and rails given by slices: contacts on surfaces, one by one.
 
 Benches of surfaces have other arrays than those of profiles, so `kernels.motion.advance` cannot hold both. Python steps:
 it asks, lets every wheel answer by the kernel for its bench, and moves. Each of these is compiled.
@@ -7,13 +7,14 @@ it asks, lets every wheel answer by the kernel for its bench, and moves. Each of
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact._jit import compiled_for
+from contact.geometry.surfaces import SurfacePair
 from contact.pair import WheelRailPair
 from models.vehicle.kernels import motion, wheels
 from models.vehicle.kernels.benches import Benches
@@ -23,17 +24,32 @@ from models.vehicle.kernels.layout import Axis, Book, Model, Scratch, State
 Array = NDArray[np.float64]
 
 
+class Stretch(NamedTuple):
+    """A part of the way on which a wheel is solved on surfaces."""
+
+    pair: WheelRailPair
+    surfaces: SurfacePair  # of the pair
+    begin: float = -math.inf  # places of the axle [m]
+    end: float = math.inf
+    origin: float = 0.0  # place at which the station of the slices is 0 [m]
+
+
 class Uneven:
-    """Advances a vehicle of which some wheels are surfaces.
+    """Advances a vehicle of which some wheels, or the rails at some places, are surfaces.
 
     Parameters
     ----------
     model, state, benches, scratch
         Arrays of the kernels.
-    pairs : mapping of int to WheelRailPair
-        Number of a wheel and its pair of surfaces. All others use `benches`.
+    stretches : mapping of int to sequence of Stretch
+        Number of a wheel and its stretches; the first one that holds its place counts. Outside of them it uses `benches`.
     rotations : ndarray
         Angle by which each wheelset has turned [rad]; it is advanced.
+
+    Attributes
+    ----------
+    on_surfaces : ndarray of bool, shape (wheels,)
+        Whether the contact of each wheel was on surfaces at the last step.
     """
 
     def __init__(
@@ -42,13 +58,14 @@ class Uneven:
         state: State,
         benches: Benches,
         scratch: Scratch,
-        pairs: Mapping[int, WheelRailPair],
+        stretches: Mapping[int, Sequence[Stretch]],
         rotations: Array,
     ) -> None:
         self._arrays = model, state, benches, scratch
-        self._benches = {w: pair.bench for w, pair in pairs.items()}
+        self._stretches = [tuple(stretches.get(w, ())) for w in range(scratch.wheels.size)]
         self._rotations = rotations
-        self._solve: list[Callable[[], int]] | None = None
+        self.on_surfaces = np.zeros(scratch.wheels.size, np.bool_)
+        self._solvers: dict[tuple[int, Stretch | None], Callable[[], int]] = {}
         self._ask: Any = None
         self._move: Any = None
 
@@ -56,33 +73,39 @@ class Uneven:
         """Advance by `steps` steps of `h` [s]; return 0 or the code of `kernels.wheels.press`."""
         model, state, benches, scratch = self._arrays
         moving = model, state, benches.motions, scratch
-        if self._solve is None:
-            self._solve = [self._solver(w) for w in range(scratch.wheels.size)]
+        if self._ask is None:
             self._ask = compiled_for(motion.ask, *moving, h)
             self._move = compiled_for(motion.move, *moving, h, h)
         for _ in range(steps):
             speed = float(speed_at(model.track, model.spacing, state.books[Book.DISTANCE]))
             self._ask(*moving, speed)
-            self._turn()
-            for w, solve in enumerate(self._solve):
-                if solve() < 0:
+            for w in range(scratch.wheels.size):
+                if self._solve(w) < 0:
                     return -1 - w
             self._move(*moving, h, speed)
             turned = self._rotations + h * state.u[model.wheelsets, Axis.PITCH]
             self._rotations[:] = np.remainder(turned + math.pi, 2.0 * math.pi) - math.pi
         return 0
 
-    def _turn(self) -> None:
-        """Tell every surface where it is."""
-        for w, bench in self._benches.items():
-            bench.search.motion["rotation"] = self._rotations[w // 2]
+    def _solve(self, w: int) -> int:
+        """Solve the contact of wheel `w` where it is; return as `kernels.wheels.press_one`."""
+        model, state, _, _ = self._arrays
+        place = float(state.books[Book.DISTANCE]) + float(model.bodies["place"][model.wheelsets[w // 2]])
+        here = next((each for each in self._stretches[w] if each.begin <= place < each.end), None)
+        self.on_surfaces[w] = here is not None
+        if here is not None:
+            moved = here.pair.bench.search.motion
+            moved["station"], moved["rotation"] = place - here.origin, self._rotations[w // 2]
+            here.surfaces.follow(place - here.origin)
+        if (w, here) not in self._solvers:
+            self._solvers[w, here] = self._solver(w, here)
+        return self._solvers[w, here]()
 
-    def _solver(self, w: int) -> Callable[[], int]:
-        """Return what solves the contact of wheel `w`."""
+    def _solver(self, w: int, here: Stretch | None) -> Callable[[], int]:
+        """Return what solves the contact of wheel `w` on a stretch, or on profiles."""
         _, _, benches, scratch = self._arrays
-        if w in self._benches:
-            bench = self._benches[w]
-            given = bench, scratch.given[w], scratch.seats[w], scratch.wheels[w]
+        if here is not None:
+            given = here.pair.bench, scratch.given[w], scratch.seats[w], scratch.wheels[w]
             one = compiled_for(wheels.press_one, *given)
             return lambda: int(one(*given))
         any_wheel = compiled_for(wheels.follow_wheel, benches, scratch, w)

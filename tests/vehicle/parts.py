@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from contact.geometry import profile
 from contact.geometry.profile import Profile
@@ -10,6 +10,7 @@ from contact.geometry.surfaces import WheelSurface
 from models.life.track import Track
 from models.vehicle.course import lay
 from models.vehicle.declared import VehicleDeclaration, read
+from models.vehicle.sections import RailSection
 from models.vehicle.simulation import ContactOptions, Simulation
 
 #: Methods that are compiled and solved fast.
@@ -28,8 +29,10 @@ def simulation(
     settling: float = 0.0,
     options: ContactOptions = FAST,
     uneven: Mapping[int, WheelSurface] | None = None,
+    sections: Sequence[RailSection] = (),
 ) -> Simulation:
     """Return a vehicle at the start of a track, straight and ideal unless another one is given."""
     declared = read(vehicle) if isinstance(vehicle, str) else vehicle
     rows = lay(track or Track(), length, lambda s: speed, (seed,), settling)
-    return Simulation(declared, rows, wheel or profile.s1002(), profile.rail_60e1(), friction, options, uneven=uneven)
+    both = wheel or profile.s1002(), profile.rail_60e1()
+    return Simulation(declared, rows, *both, friction, options, uneven=uneven, sections=sections)

@@ -6,17 +6,23 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from contact.accumulation import Histogram
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, WheelSurface
+from contact.workspace import closed_ledger
 from fmu_src import catalogue
 from models.life import declared_set, result
 from models.life.scenario import read as read_scenario
+from models.life.track import Track
 from models.vehicle import report
+from models.vehicle.course import lay
 from models.vehicle.declared import read
 from models.vehicle.kernels.layout import Book
+from models.vehicle.ledgers import ledger
 from models.vehicle.run import VehicleRun
-from tests.vehicle.parts import simulation
+from models.vehicle.simulation import Simulation
+from tests.vehicle.parts import FAST, simulation
 
 RADIUS, SPEED = 0.46, 20.0  # [m], [m/s]
 TURN = 2.0 * math.pi * RADIUS / SPEED  # [s]
@@ -145,12 +151,24 @@ def test_a_set_of_wear_refuses_uneven_wheels(tmp_path):
     (tmp_path / "flat.toml").write_text(SCENARIO + FLAT)
     path = tmp_path / "set.toml"
     path.write_text('name = "s"\nmileage = 1e6\n[[scenarios]]\nfile = "flat.toml"\nweight = 1.0\n')
-    with pytest.raises(ContactError, match=r"set.toml: flat.toml has wheels with flats or polygons"):
+    with pytest.raises(ContactError, match=r"set.toml: flat.toml.wheels: a study of wear takes no flats"):
         declared_set.read(path)
 
 
 def test_a_vehicle_fmu_refuses_uneven_wheels(tmp_path):
     path = tmp_path / "flat.toml"
     path.write_text(SCENARIO + FLAT)
-    with pytest.raises(ContactError, match=r"flat.toml.wheels: the FMUs of a vehicle take no flats and polygons"):
+    with pytest.raises(
+        ContactError, match=r"flat.toml.wheels: the FMUs of a vehicle take no flats, polygons and slices"
+    ):
         catalogue.vehicles(path)
+
+
+def test_vehicles_refuse_ledgers_of_some_wheels_only():
+    rail, wheel = profile.rail_60e1(), profile.s1002()
+    both = Histogram(wheel, width=5e-4, radius=RADIUS), Histogram(rail, width=5e-4)
+    one = ledger(*both, FAST.n_strips)
+    track = lay(Track(), 10.0, lambda s: SPEED, (1,), 0.0)
+    for ledgers, without in (((one, closed_ledger()), 1), ((closed_ledger(), one), 0)):
+        with pytest.raises(ContactError, match=rf"pairs \[{without}\] of 2 have no ledger; all or none have one"):
+            Simulation(elastic(), track, wheel, rail, 0.3, FAST, ledgers=ledgers)

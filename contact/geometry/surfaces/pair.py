@@ -204,8 +204,12 @@ class SurfacePair(Posed):
     def given(self, *args: Any, station: float = 0.0, **options: Any) -> np.record:
         """Return the motion as a record. Parameters as for `Posed.given`."""
         made = super().given(*args, station=station, **options)
-        compiled.follow(self._made[1], self.rail, station)
+        self.follow(station)
         return made
+
+    def follow(self, station: float) -> None:
+        """Fill the table of the rail's deviations around `station` [m], for a kernel that is called without `given`."""
+        compiled.follow(self._made[1], self.rail, station)
 
     def touch(self, pose: Pose, *, station: float = 0.0, rotation: float = 0.0) -> float:
         """Return z [m] at which the rigid wheel just touches the rail. Parameters as for `contacts`."""

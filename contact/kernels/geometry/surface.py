@@ -47,6 +47,12 @@ def begin(space: SurfaceSearch) -> tuple[bool, float]:
 
 
 @kernel
+def renew(space: SurfaceSearch) -> None:
+    """Forget the grids that were laid or refined for other heights."""
+    begin(space)
+
+
+@kernel
 def _lay_for(z: float, space: SurfaceSearch) -> None:
     """Lay grids over the regions of overlap at the height z, unless those that are there serve."""
     notes = space.boxes[0]

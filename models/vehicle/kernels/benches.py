@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact._jit import inlined, kernel
+from contact.errors import ContactError
 from contact.kernels.memory import Bench, Ledger, Search
 from contact.kernels.records import CASE, CONTACT, LEDGER, MAX_PATCHES, MOTION, TOTAL
 from contact.kernels.rows import N_LINE_ROWS, N_PROFILE_ROWS
@@ -58,7 +59,16 @@ class Benches(NamedTuple):
 
 
 def gather(pairs: Sequence[WheelRailPair], last: Held) -> Benches:
-    """Return the benches of pairs that differ in profiles, sides and ledgers alone. `last` holds nothing."""
+    """Return the benches of pairs that differ in profiles, sides and ledgers alone. `last` holds nothing.
+
+    Raises
+    ------
+    ContactError
+        If only some of the pairs have a ledger. All write into the scratch memory of the first one's.
+    """
+    without = [k for k, pair in enumerate(pairs) if pair.bench.ledger.bins.shape[2] == 0]
+    if 0 < len(without) < len(pairs):
+        raise ContactError(f"pairs {without} of {len(pairs)} have no ledger; all or none have one")
     n, first = len(pairs), pairs[0].bench
     sizes = np.zeros((n, len(Size)), np.int64)
     pool: list[Array] = []
