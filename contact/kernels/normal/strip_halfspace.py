@@ -264,7 +264,7 @@ def strip_halfspace(sep, case, own, result):
         left = 0.0 if cut else mix(n, n_panels, panels, vectors, load, known, space.lu)
         exact = not cut and error < TOLERANCE * load and moved < 2.0 * TOLERANCE
         settled = exact or (descending and left < LEFT and error < CLOSE * load and moved < CLOSE)
-        ghosts = False
+        ghosts, held = False, n_panels
         if settled or not (searched or cut):
             searched = True
             least = GHOST if settled else EARLY_GHOST
@@ -274,6 +274,8 @@ def strip_halfspace(sep, case, own, result):
                 break
         if ghosts:
             known, best = 0, math.inf
+            if n_panels > held:  # the other panels need not wait for the new one
+                advance(n, held, panels, vectors)
         elif cut:
             cut_idle(n, n_panels, panels, rule.cosines, vectors)
             known = 0
