@@ -14,9 +14,12 @@ from fmu_src.native.libm import compile_libm
 
 _BEAT = 15.0  # between two signs of life of a long command [s]
 WRAPPER = Path(__file__).parent / "c"
+#: What every library for Windows has. It needs the Universal C Runtime, which is part of Windows since version 10.
+_OF_WINDOWS = Path(__file__).parent / "c_windows" / "library.c"
+_RUNTIME = ("convert", "heap", "math", "private", "runtime", "stdio", "string")
 HEADERS = Path(fmpy.__file__).parent / "c-code"  # headers of the FMI project (2-clause BSD licence)
 #: -ffp-contract=off: fused operations would make the results differ between processors.
-FLAGS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-Wall", "-Wextra", "-shared", "-s")
+FLAGS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-Wall", "-Wextra", "-fPIC")
 #: Platform → target of zig, and the end of a library's name.
 _TARGETS = {
     "linux64": ("x86_64-linux-gnu.2.17", ".so"),
@@ -34,21 +37,23 @@ def link(platform: str, name: str, sources: Sequence[Path], objects: Sequence[Pa
     target, ending = _TARGETS[platform]
     library = folder / platform / (name + ending)
     library.parent.mkdir(exist_ok=True)
-    libm = compile_libm(compiler(platform), library.parent, run) if platform in OWN_LIBM else []
+    made = compile_libm(compiler(platform), library.parent, run) if platform in OWN_LIBM else []
     include = [f"-I{path}" for path in (*sorted({path.parent for path in sources}), HEADERS)]
-    run(
-        *compiler(platform), *FLAGS, "-Wno-unused-parameter", *include,
-        *(path for path in sources if path.suffix == ".c"), *objects, *libm,
-        "-o", library, *_of_system(target, library.name),
-    )  # fmt: skip
+    own = [_OF_WINDOWS] if "windows" in target else []
+    for path in (*(path for path in sources if path.suffix == ".c"), *own):
+        made.append(library.parent / f"{path.stem}.o")
+        run(*compiler(platform), *FLAGS, "-Wno-unused-parameter", *include, "-c", path, "-o", made[-1])
+    run(*compiler(platform), "-shared", "-s", *made, *objects, "-o", library, *_of_system(target, library.name))
     return library
 
 
 def _of_system(target: str, name: str) -> list[str]:
     """Return the linker options of a system. A macOS library stores its own path, which must not be that of the build."""
     if "linux" in target:
-        return ["-fPIC", "-Wl,-z,defs", "-lm"]
-    return ["-fPIC", f"-Wl,-install_name,@rpath/{name}"] if "macos" in target else []
+        return ["-Wl,-z,defs", "-lm"]
+    if "windows" in target:  # without zig's start-up code for Windows, which takes a minute to build
+        return ["-nostdlib", "-lkernel32", *(f"-lapi-ms-win-crt-{part}-l1-1-0" for part in _RUNTIME)]
+    return [f"-Wl,-install_name,@rpath/{name}"]
 
 
 def compiler(platform: str) -> list[str]:
