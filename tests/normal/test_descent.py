@@ -9,7 +9,7 @@ from contact import workspace
 from contact.kernels.normal import influence
 from contact.kernels.normal.descent import FEWEST, MOST, N_LAYERS, descend, has_one_run
 from contact.kernels.normal.elimination import eliminate
-from contact.kernels.normal.panels import _is_overlapped, _summarise
+from contact.kernels.normal.panels import _is_overlapped, _summarise, have_idle_quarter
 from contact.kernels.rows import N_VECTOR_ROWS, Vector
 
 
@@ -38,7 +38,8 @@ def test_too_few_and_too_many_strips_have_no_jacobians(n):
 
 @pytest.mark.parametrize("move", [0.01, 0.2])
 @pytest.mark.parametrize("first", [0, 16])
-def test_mirrored_residuals_have_mirrored_steps(move, first):
+@pytest.mark.parametrize("frozen", [False, True])
+def test_mirrored_residuals_have_mirrored_steps(move, first, frozen):
     """Of a panel that begins at strip `first`; the other panel, which is longer, stays as it is."""
     n = 16
     own = slice(first, first + n)
@@ -52,13 +53,38 @@ def test_mirrored_residuals_have_mirrored_steps(move, first):
         vectors[Vector.A, own], vectors[Vector.R, own] = 1.5, residuals[::side]
         if side < 0:  # the entries of the end strips are displacements along y
             vectors[Vector.R, [first, first + n - 1]] *= -1
-        descend(first, n, 1.0, workspace.rule(n, 10, True).descent, vectors)
+        descend(first, n, 1.0, workspace.rule(n, 10, True).descent, vectors, frozen)
         assert (np.delete(vectors[Vector.R], own) == 3.0).all()
         steps.append(vectors[Vector.R, own].copy())
     steps[1][[0, -1]] *= -1
     np.testing.assert_allclose(steps[0], steps[1][::-1], rtol=1e-12, atol=1e-15)
-    if move > 0.1:  # a large move follows the rule of the ends
+    if move > 0.1 or frozen:  # a large move follows the rule of the ends
         assert steps[0][0] == pytest.approx(-move)
+    if frozen:
+        assert steps[0][-1] == pytest.approx(0.001)
+
+
+@pytest.mark.parametrize(
+    ("idle", "quarter"),
+    [
+        ([0, 0, 0], False),
+        ([2, 0, 0], False),
+        ([3, 0, 0], True),
+        ([0, 3, 0], True),
+        ([2, 2, 0], False),
+        ([0, 0, 2], False),
+        ([0, 0, 3], True),
+        ([0, 0, 8], False),
+    ],
+)
+@pytest.mark.parametrize("side", [1, -1])
+def test_idle_quarters_are_found_at_either_end_of_loaded_panels(idle, quarter, side):
+    """Of two panels of eight strips: idle strips at both ends of the first one, and at the beginning of the second one."""
+    pressures = np.ones(16)
+    pressures[: idle[0]] = pressures[8 - idle[1] : 8] = pressures[8 : 8 + idle[2]] = 0.0
+    vectors = np.zeros((N_VECTOR_ROWS, 16))
+    vectors[Vector.P] = pressures[::side]
+    assert have_idle_quarter(8, 2, vectors) == quarter
 
 
 @pytest.mark.parametrize(("pressures", "one"), [([0, 1, 1, 0], True), ([1, 0, 1, 1], False), ([1, 1, 1, 1], True)])

@@ -189,11 +189,11 @@ def _prescribe(low, high, t, moves, held, out):
 
 
 @kernel
-def descend(first, n, width, descent, vectors):
+def descend(first, n, width, descent, vectors, frozen):
     """Replace the residuals Vector.R of the panel from strip `first` on by steps of half lengths and ends.
 
     The steps are the residuals times the inverse Jacobian of the Hertz contact with the panel's a/b. The entries of the
-    end strips are the moves of the ends. Ends with large moves follow their own rule.
+    end strips are the moves of the ends. Ends with large moves, and all if they are `frozen`, follow their own rule.
     """
     r, out = vectors[Vector.Q1, first : first + n], vectors[Vector.R, first : first + n]
     last = n - 1
@@ -207,7 +207,7 @@ def descend(first, n, width, descent, vectors):
     m = int(u)
     t = u - m
     move_low, move_high = -r[0] / width, r[last] / width
-    hold_low, hold_high = abs(move_low) > _HOLD, abs(move_high) > _HOLD
+    hold_low, hold_high = frozen or abs(move_low) > _HOLD, frozen or abs(move_high) > _HOLD
     r[0], r[last] = 0.0 if hold_low else move_low, 0.0 if hold_high else move_high
     low, high = descent[m], descent[m + 1]
     for i in range(n):

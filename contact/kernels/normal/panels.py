@@ -133,46 +133,59 @@ def start_panels(n_strips, panel_strips, strips, result, panels, cosines, vector
 
 
 @kernel
+def _idle(vectors, n, first, step):
+    """Return the number of idle strips at one end of a panel, at most n - 1."""
+    idle = 0
+    while idle < n - 1 and vectors[Vector.P, first + idle * step] <= 0.0:
+        idle += 1
+    return idle
+
+
+@kernel
+def have_idle_quarter(n, n_panels, vectors):
+    """Return whether a quarter of a loaded panel is idle at one of its ends, so that it must be cut off."""
+    for p in range(n_panels):
+        first, last = p * n, p * n + n - 1
+        idle = _idle(vectors, n, first, 1)
+        if vectors[Vector.P, first + idle] > 0.0 and 4 * max(idle, _idle(vectors, n, last, -1)) > n:
+            return True
+    return False
+
+
+@kernel
 def _end_move(vectors, n, first, step, cosines, frozen):
-    """Return the outward move of one end of a panel over its half width, and the number of idle strips there.
+    """Return the outward move of one end of a panel over its half width.
 
     `first` is the strip at this end, `step` the step to its neighbour. On the exact half width the squared ratio q of
     the second and third pressures has a known value. If the second pressure is high, the panel is too narrow. A
     `frozen` end keeps its place, and idle strips with it, unless the pressure rises towards it.
     """
-    idle = 0
-    while idle < n - 1 and vectors[Vector.P, first + idle * step] <= 0.0:
-        idle += 1
+    idle = _idle(vectors, n, first, step)
     if idle >= 2:
-        return 0.0 if frozen else -0.9 * (1.0 + cosines[idle]), idle
+        return 0.0 if frozen else -0.9 * (1.0 + cosines[idle])
     if vectors[Vector.P, first + 2 * step] <= 0.0:
-        return 0.0, idle
+        return 0.0
     q = (vectors[Vector.P, first + step] / vectors[Vector.P, first + 2 * step]) ** 2
     if frozen and q < _PUNCH:
-        return 0.0, idle
+        return 0.0
     wanted = min(max((q - END_VALUE) / END_SLOPE, _END_RANGE[0]), _END_RANGE[1])
-    return END_STEP * wanted * (1.0 + cosines[1]), idle
+    return END_STEP * wanted * (1.0 + cosines[1])
 
 
 @kernel
 def end_moves(y, n, n_panels, panels, cosines, vectors, frozen):
-    """Fill Vector.R of the end strips with the moves of all panels' ends. Return the largest move over the width and a flag.
-
-    The flag says whether a quarter of a panel is idle, so that it must be cut off.
-    """
-    largest, cut = 0.0, False
+    """Fill Vector.R of the end strips with the moves of all panels' ends. Return the largest move over the width."""
+    largest = 0.0
     for p in range(n_panels):
         first, last = p * n, p * n + n - 1
         low, high = panels[2 * p], panels[2 * p + 1]
         half = 0.5 * (high - low)
-        move, idle = _end_move(vectors, n, first, 1, cosines, frozen)
+        move = _end_move(vectors, n, first, 1, cosines, frozen)
         vectors[Vector.R, first] = max(low - half * move, y[0]) - low
-        cut = cut or (4 * idle > n and not frozen)
-        move, idle = _end_move(vectors, n, last, -1, cosines, frozen)
+        move = _end_move(vectors, n, last, -1, cosines, frozen)
         vectors[Vector.R, last] = min(high + half * move, y[y.size - 1]) - high
-        cut = cut or (4 * idle > n and not frozen)
         largest = max(largest, max(abs(vectors[Vector.R, first]), abs(vectors[Vector.R, last])) / (high - low))
-    return largest, cut
+    return largest
 
 
 @kernel

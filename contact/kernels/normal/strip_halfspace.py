@@ -32,6 +32,7 @@ from contact.kernels.normal.panels import (
     end_moves,
     extend_to_ghosts,
     half_lengths,
+    have_idle_quarter,
     join_panels,
     lay_panels,
     remove_unloaded,
@@ -215,13 +216,15 @@ def _solve(sep, case, own, result):
             patience = iteration + 1
             continue
         # strip ends: stretch each strip by the ratio of the overlap at its ends to that of a parabola
-        edge_displacements(panels, n_panels, own, skewed, unit)
-        error, load = 0.0, 0.0
+        cut = age < FREEZE and have_idle_quarter(n, n_panels, vectors)
+        if not cut:  # otherwise the next iteration has other strips, and only the pressures count
+            edge_displacements(panels, n_panels, own, skewed, unit)
+        error, load = math.inf if cut else 0.0, 0.0
         for i in range(total):
             vectors[Vector.R, i] = 0.0
             weight = vectors[Vector.P, i] * vectors[Vector.A, i] * vectors[Vector.HALF, i]
             load += weight
-            if weight > 0.0 and 0 < i % n < n - 1:  # the ends of a panel follow their own rule
+            if weight > 0.0 and 0 < i % n < n - 1 and not cut:  # the ends of a panel follow their own rule
                 overlap = delta - vectors[Vector.GAP, i] - vectors[Vector.U, i]
                 ratio = overlap / (vectors[Vector.CURVATURE, i] * vectors[Vector.A, i] ** 2)
                 least = (vectors[Vector.FLOOR, i] / vectors[Vector.A, i]) ** 2
@@ -234,11 +237,11 @@ def _solve(sep, case, own, result):
                 break
             patience = iteration + 1
             continue
-        moved, cut = end_moves(y, n, n_panels, panels, rule.cosines, vectors, age >= FREEZE)
+        moved = end_moves(y, n, n_panels, panels, rule.cosines, vectors, age >= FREEZE)
         if not cut:
             note_sides(n, n_panels, panels, vectors, known == 0 or n_panels < before)
         by_jacobian = descending
-        descending = rule.descent.shape[1] == n and age < FREEZE and not cut
+        descending = rule.descent.shape[1] == n and age < PLAIN and not cut
         descending = descending and _can_descend(n, n_panels, vectors)
         anew = n_panels < before or age == FREEZE
         if anew or error > 2.0 * last_error * load or descending != by_jacobian or age >= PLAIN:
@@ -253,11 +256,11 @@ def _solve(sep, case, own, result):
             if known > 0:
                 damp_turns(n, n_panels, panels, vectors)
             for p in range(n_panels):
-                descend(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors)
+                descend(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors, age >= FREEZE)
         left = 0.0 if cut else mix(n, n_panels, panels, vectors, load, known, space.lu)
         exact = not cut and error < TOLERANCE * load and moved < 2.0 * TOLERANCE
         settled = exact or (descending and left < LEFT and error < CLOSE * load and moved < CLOSE)
-        ghosts = False
+        ghosts, held = False, n_panels
         if settled or not (searched or cut):
             searched = True
             least = GHOST if settled else EARLY_GHOST
@@ -267,6 +270,8 @@ def _solve(sep, case, own, result):
                 break
         if ghosts:
             known, best = 0, math.inf
+            if n_panels > held:  # the other panels need not wait for the new one
+                advance(n, held, panels, vectors)
         elif cut:
             cut_idle(n, n_panels, panels, rule.cosines, vectors)
             known = 0
