@@ -18,7 +18,6 @@ Also in the libraries for Windows and macOS (linked by zig):
 zig.txt                 compiler-rt: memory and mathematical functions (MIT)
 
 Also in the library for Windows:
-mingw-w64.txt           start-up code (Zope Public License 2.1, parts in the public domain)
 musl.txt                exp, log and pow, by Arm; mathematical functions that zig has translated (MIT)
 """
 
@@ -35,7 +34,6 @@ def licences(headers: Path) -> Iterator[tuple[str, str]]:
     yield "fmi.txt", interface[: interface.index("*/")].rstrip() + "\n"
     for name, path in (
         ("zig", "LICENSE"),
-        ("mingw-w64", "lib/libc/mingw/COPYING"),
         ("musl", "lib/libc/musl/COPYRIGHT"),
     ):
         yield f"{name}.txt", (ZIG / path).read_text()

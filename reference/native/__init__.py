@@ -12,7 +12,7 @@ import numpy as np
 from contact.kernels.records import MAX_PATCHES
 from contact.solver import N_ELEMENTS, N_STRIPS
 from fmu_src.catalogue import models, vehicles
-from fmu_src.native import source
+from fmu_src.native import source, windows
 from fmu_src.native.component import Component
 from fmu_src.native.linking import HEADERS, compiler, run
 from fmu_src.native.packaging import kernels
@@ -69,6 +69,22 @@ ATTACKED = {
         "CHOICE": "distance", "OTHER_CHOICE": "distance", "COARSEST": {"distance": 0},
     },
 }  # fmt: skip
+#: Library of Windows → its functions that the hosts need.
+WINDOWS = {
+    "KERNEL32": ("CreateThread", "GetProcAddress", "LoadLibraryA", "WaitForSingleObject"),
+    "api-ms-win-crt-convert-l1-1-0": ("atoi",),
+    "api-ms-win-crt-heap-l1-1-0": ("calloc", "free"),
+    "api-ms-win-crt-private-l1-1-0": ("strchr", "strstr"),
+    "api-ms-win-crt-runtime-l1-1-0": (
+        *("__p___argc", "__p___argv", "_configure_narrow_argv", "_initialize_narrow_environment", "exit"),
+    ),
+    "api-ms-win-crt-stdio-l1-1-0": (
+        *("__acrt_iob_func", "__stdio_common_vfprintf", "__stdio_common_vfscanf", "__stdio_common_vsprintf"),
+        *("putchar", "puts"),
+    ),
+    "api-ms-win-crt-string-l1-1-0": ("strcmp", "strncmp"),
+    "api-ms-win-crt-time-l1-1-0": ("_timespec64_get",),
+}
 SCENARIO = ROOT / "examples" / "scenarios" / "vehicle_300.toml"
 
 
@@ -94,12 +110,11 @@ class Host:
         (folder / "model.h").write_text(source.header(its, self.guid))
         (folder / "roles.h").write_text(roles(its))
         self.program = folder / f"host{program}"
-        libraries = ["-ldl", "-lpthread", "-lm"] if own == "linux64" else []
         elements = MAX_PATCHES * N_STRIPS * N_ELEMENTS
         flags = ["-std=gnu11", "-O1", f"-DELEMENTS={elements}", f"-I{folder}", f"-I{HEADERS}"]
         flags += ["-DCONTACT"] if name == NAME else []
         sources = [HOST / name for name in ("common.c", *code)]
-        run(*self.compiler, *flags, *sources, "-o", self.program, *libraries)
+        compile_program([*self.compiler, *flags], own, sources, self.program)
         self.fmi2 = code is _FMI2
         self.prefix = [] if own == "linux64" else ["wine"]
         self.environment = os.environ | {"WINEDEBUG": "-all"}
@@ -135,6 +150,15 @@ class Host:
             lines.append(f"{len(case)} {' '.join(words)}")
         rows = np.loadtxt(self("cases", stdin="\n".join(lines)).splitlines(), ndmin=2)
         return rows[:, [names.index(name) - names.index("force.x") for name in outputs]]
+
+
+def compile_program(compiler: Sequence[str], platform: str, sources: Sequence[Path], program: Path) -> None:
+    """Compile a host for a platform of the builder: "linux64" or "win64"."""
+    if platform == "win64":
+        made = windows.parts(compiler, [*sources, HOST / "windows.c", windows.RUNTIME], program.parent, run, WINDOWS)
+        run(*compiler, *windows.ALONE, "-Wl,--subsystem,console,--entry,mainCRTStartup", *made, "-o", program)
+    else:
+        run(*compiler, *sources, "-o", program, "-ldl", "-lpthread", "-lm")
 
 
 def sanitized(platform: str, folder: Path, unzipped: Path, name: str = NAME) -> Host:
