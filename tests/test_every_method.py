@@ -58,7 +58,7 @@ def test_opposite_creepages_give_opposite_forces(kind, normal, tangential):
 def test_the_mirror_image_has_the_mirrored_forces(kind, normal, tangential):
     s, load = KINDS[kind]
     mirrored = contact.Separation(-s.y[::-1], s.g[::-1], s.A[::-1], s.x_c[::-1])
-    tolerance = 2e-3 if NORMAL[normal].interacting else 1e-5
+    tolerance = 1e-9 if NORMAL[normal].interacting else 1e-5
     for xi, eta, phi in CREEPAGES:
         one = solve(kind, normal, tangential, (xi, eta, phi))
         other = contact.solve(

@@ -55,10 +55,12 @@ class Tables(NamedTuple):
 class Space(NamedTuple):
     """Scratch arrays of the normal and the tangential methods.
 
-    `memory` is the start for the next call. `case` is a copy that a kernel may change.
+    `memory` is the start for the next call. `case` is a copy that a kernel may change. `turned` is the separation in the
+    orientation in which interacting strips are solved.
     """
 
     grid: Array
+    turned: Array
     vectors: Array
     logs: Array
     matrix: Array

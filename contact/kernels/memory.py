@@ -114,6 +114,7 @@ def lay_space(block: Array, end: int, size: Size, memory: Array) -> tuple[Space,
     """Return the scratch arrays of a workspace around `memory`, which has the size `memory_size`, and the new end."""
     capacity = MAX_PATCHES * size.n_strips if size.interacting else 1
     grid, end = matrix(block, end, len(Sample), size.n_samples)
+    turned, end = matrix(block, end, len(Sep), size.n_samples if size.interacting else 1)
     vectors, end = matrix(block, end, N_VECTOR_ROWS, MAX_PATCHES * size.n_strips)
     logs, end = matrix(block, end, MAX_PATCHES * PROBES if size.interacting else 1, capacity + MAX_PATCHES)
     influence, end = matrix(block, end, capacity, capacity)
@@ -121,7 +122,7 @@ def lay_space(block: Array, end: int, size: Size, memory: Array) -> tuple[Space,
     lanes, end = vector(block, next_line(end), N_LANE_ROWS * LANES)
     trace, end = matrix(block, end, size.n_elements, TRACE_WIDTH)
     case, end = records(block, end, 1, CASE)
-    return Space(grid, vectors, logs, influence, lu, memory, lanes, trace, case), end
+    return Space(grid, turned, vectors, logs, influence, lu, memory, lanes, trace, case), end
 
 
 @register_jitable

@@ -185,6 +185,7 @@ def _space_of_patch(space, memory):
     """Return the scratch arrays with the memory of one patch."""
     return Space(
         space.grid,
+        space.turned,
         space.vectors,
         space.logs,
         space.matrix,

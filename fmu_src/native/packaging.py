@@ -19,7 +19,7 @@ from fmu_src.description_fmi3 import build_description
 from fmu_src.description_fmi3 import model_description as description_fmi3
 from fmu_src.documentation import markdown, page
 from fmu_src.icon import png
-from fmu_src.native import source, windows
+from fmu_src.native import source
 from fmu_src.native.emit import TRIPLES, objects, sources
 from fmu_src.native.licences import licences
 from fmu_src.native.linking import FROM_C, HEADERS, WRAPPER, link, run
@@ -81,7 +81,6 @@ _SOURCES: dict[Path, set[str]] = {
             "licences",
             "libm",
             "linking",
-            "windows",
             "records",
         ),
     },
@@ -118,7 +117,7 @@ def build(model: Model, folder: Path, cache: Path, say: Callable[[str], None], *
     interfaces, interfaces_3 = ({kind: each[kind] for kind in kinds} for each in (INTERFACES, INTERFACES_3))
     objects_of = kernels(model, cache, say)
     in_c = [path for part in (model, *model.linked) for path in _sources(part, cache)]
-    parts = (*chain.from_iterable(objects_of.values()), *in_c, *sorted(WRAPPER.iterdir()), windows.RUNTIME)
+    parts = (*chain.from_iterable(objects_of.values()), *in_c, *sorted(WRAPPER.iterdir()))
     code = b"".join(path.read_bytes() for path in parts)
     listed = [path.name for path in (*sorted(WRAPPER.glob("*.c")), *in_c)] + ["model.c"]
     guid, xml = model_description(table, interfaces, code + description_fmi3(table, interfaces_3, "").encode(), listed)

@@ -12,9 +12,9 @@ import numpy as np
 from contact.kernels.records import MAX_PATCHES
 from contact.solver import N_ELEMENTS, N_STRIPS
 from fmu_src.catalogue import models, vehicles
-from fmu_src.native import source, windows
+from fmu_src.native import source
 from fmu_src.native.component import Component
-from fmu_src.native.linking import HEADERS, compiler, run
+from fmu_src.native.linking import HEADERS, OF_WINDOWS, WITHOUT_MINGW, compiler, run
 from fmu_src.native.packaging import kernels
 from fmu_src.native.wheel_rail_contact import component
 from models.wheelset.ports import POINTS
@@ -69,22 +69,6 @@ ATTACKED = {
         "CHOICE": "distance", "OTHER_CHOICE": "distance", "COARSEST": {"distance": 0},
     },
 }  # fmt: skip
-#: Library of Windows → its functions that the hosts need.
-WINDOWS = {
-    "KERNEL32": ("CreateThread", "GetProcAddress", "LoadLibraryA", "WaitForSingleObject"),
-    "api-ms-win-crt-convert-l1-1-0": ("atoi",),
-    "api-ms-win-crt-heap-l1-1-0": ("calloc", "free"),
-    "api-ms-win-crt-private-l1-1-0": ("strchr", "strstr"),
-    "api-ms-win-crt-runtime-l1-1-0": (
-        *("__p___argc", "__p___argv", "_configure_narrow_argv", "_initialize_narrow_environment", "exit"),
-    ),
-    "api-ms-win-crt-stdio-l1-1-0": (
-        *("__acrt_iob_func", "__stdio_common_vfprintf", "__stdio_common_vfscanf", "__stdio_common_vsprintf"),
-        *("putchar", "puts"),
-    ),
-    "api-ms-win-crt-string-l1-1-0": ("strcmp", "strncmp"),
-    "api-ms-win-crt-time-l1-1-0": ("_timespec64_get",),
-}
 SCENARIO = ROOT / "examples" / "scenarios" / "vehicle_300.toml"
 
 
@@ -152,13 +136,19 @@ class Host:
         return rows[:, [names.index(name) - names.index("force.x") for name in outputs]]
 
 
-def compile_program(compiler: Sequence[str], platform: str, sources: Sequence[Path], program: Path) -> None:
-    """Compile a host for a platform of the builder: "linux64" or "win64"."""
-    if platform == "win64":
-        made = windows.parts(compiler, [*sources, HOST / "windows.c", windows.RUNTIME], program.parent, run, WINDOWS)
-        run(*compiler, *windows.ALONE, "-Wl,--subsystem,console,--entry,mainCRTStartup", *made, "-o", program)
-    else:
-        run(*compiler, *sources, "-o", program, "-ldl", "-lpthread", "-lm")
+def compile_program(command: Sequence[str], platform: str, sources: Sequence[Path], program: Path) -> None:
+    """Compile a host for a platform of the builder: "linux64" or "win64". `command` is the compiler with its options.
+
+    Windows hosts are linked like the FMU's libraries, without mingw's start-up code, which takes zig a minute to build.
+    """
+    if platform != "win64":
+        run(*command, *sources, "-o", program, "-ldl", "-lpthread", "-lm")
+        return
+    made = []
+    for path in (*sources, HOST / "windows.c", OF_WINDOWS):
+        made.append(program.parent / f"{path.stem}.o")
+        run(*command, "-c", path, "-o", made[-1])
+    run(*command, *made, "-o", program, *WITHOUT_MINGW, "-lapi-ms-win-crt-time-l1-1-0", "-Wl,--entry,mainCRTStartup")
 
 
 def sanitized(platform: str, folder: Path, unzipped: Path, name: str = NAME) -> Host:

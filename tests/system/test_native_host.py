@@ -118,16 +118,8 @@ def test_the_wrapper_has_no_undefined_behaviour(host, tmp_path):
     checked = copy(host)
     checked.library = tmp_path / "checked.so"
     run(
-        *(
-            *compiler("linux64"),
-            *FLAGS,
-            "-shared",
-            "-fPIC",
-            "-fsanitize=undefined",
-            "-fsanitize-trap=undefined",
-            f"-I{tmp_path}",
-        ),
-        *(f"-I{WRAPPER}", f"-I{HEADERS}", *WRAPPER.glob("*.c"), tmp_path / "model.c"),
+        *(*compiler("linux64"), *FLAGS, "-shared", "-fsanitize=undefined", "-fsanitize-trap=undefined"),
+        *(f"-I{tmp_path}", f"-I{WRAPPER}", f"-I{HEADERS}", *WRAPPER.glob("*.c"), tmp_path / "model.c"),
         *(*kernel_objects(), "-o", checked.library, "-lm"),
     )
     for command in COMMANDS:

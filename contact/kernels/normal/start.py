@@ -4,8 +4,8 @@ from contact._jit import kernel
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Vector
 
-# memory[...]: number of panels, their ends, the outer ends of ANALYN's patches, then ln a
-MEM_PANELS, MEM_ENDS, MEM_START, MEM_LN_A = 0, 1, 1 + 2 * MAX_PATCHES, 3 + 2 * MAX_PATCHES
+# memory[...]: number of panels, whether all is mirrored, the panels' ends, the outer ends of ANALYN's patches, then ln a
+MEM_PANELS, MEM_IMAGE, MEM_ENDS, MEM_START, MEM_LN_A = 0, 1, 2, 2 + 2 * MAX_PATCHES, 4 + 2 * MAX_PATCHES
 #: Shift of ANALYN's patch over its width from which on the panels do not move with it.
 _FURTHEST = 0.02
 
@@ -14,6 +14,14 @@ _FURTHEST = 0.02
 def forget(memory):
     """Let the next call start from ANALYN's solution."""
     memory[MEM_PANELS] = 0.0
+
+
+@kernel
+def face(image, memory):
+    """Forget what was found in the other orientation."""
+    if memory[MEM_PANELS] > 0.0 and image != (memory[MEM_IMAGE] > 0.0):
+        forget(memory)
+    memory[MEM_IMAGE] = 1.0 if image else 0.0
 
 
 @kernel

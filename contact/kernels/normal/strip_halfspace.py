@@ -24,6 +24,7 @@ from contact.kernels.normal.between_panels import distances
 from contact.kernels.normal.brackets import damp_turns, keep_between, note_sides
 from contact.kernels.normal.descent import descend, has_one_run
 from contact.kernels.normal.mixing import advance, mix
+from contact.kernels.normal.orientation import is_image, turn_back, turn_samples
 from contact.kernels.normal.panels import (
     EARLY_GHOST,
     GHOST,
@@ -36,7 +37,7 @@ from contact.kernels.normal.panels import (
     remove_unloaded,
     start_panels,
 )
-from contact.kernels.normal.start import forget, recall, remember
+from contact.kernels.normal.start import face, forget, recall, remember
 from contact.kernels.normal.strip_system import (
     assemble,
     edge_displacements,
@@ -165,13 +166,8 @@ def _can_descend(n, n_panels, vectors):
 
 
 @kernel
-def strip_halfspace(sep, case, own, result):
-    """Solve the normal problem. Results are those of `analyn`, which gives the start and the local aspect ratios.
-
-    If `space.memory` is filled, it is the start instead of ANALYN's patch. It is left filled for the next call if the
-    ends came to rest. With the status NOT_CONVERGED the result is the best iterate if its changes were small, and
-    ANALYN's solution otherwise.
-    """
+def _solve(sep, case, own, result):
+    """Solve the normal problem in the given orientation."""
     y = sep.y
     rule, space, strips = own.rule, own.space, own.strips
     memory, vectors = space.memory, space.vectors
@@ -327,3 +323,19 @@ def strip_halfspace(sep, case, own, result):
     result.N = N
     result.approach = delta + g_least
     return count
+
+
+@kernel
+def strip_halfspace(sep, case, own, result):
+    """Solve the normal problem. Results are those of `analyn`, which gives the start and the local aspect ratios.
+
+    If `space.memory` is filled, it is the start instead of ANALYN's patch. It is left filled for the next call if the
+    ends came to rest. With the status NOT_CONVERGED the result is the best iterate if its changes were small, and
+    ANALYN's solution otherwise. Mirror images have mirrored answers (`orientation`).
+    """
+    image, space = is_image(sep.g), own.space
+    face(image, space.memory)
+    n = _solve(turn_samples(sep, image, space.turned), case, own, result)
+    if image:
+        turn_back(n, own.strips, result.edges)
+    return n
