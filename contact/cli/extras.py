@@ -4,20 +4,25 @@ from __future__ import annotations
 
 from importlib.util import find_spec
 
-#: Extra → a module that it installs, and what needs it.
+#: Extra → the modules that it installs, and what needs them.
 EXTRAS = {
-    "plot": ("matplotlib", "pictures: patch, demo, run, wear, --out"),
-    "xarray": ("xarray", "result files: run, wear"),
-    "profiles": ("scipy", "smoothing of measured profiles"),
-    "scale": ("dask", "wear on several processes"),
-    "fmu": ("pythonfmu", "fmu, demo without --python"),
-    "native": ("ziglang", "fmu for hosts without Python"),
+    "plot": (("matplotlib",), "pictures: patch, demo, run, wear, --out"),
+    "xarray": (("xarray", "scipy"), "result files: run, wear"),
+    "profiles": (("scipy",), "smoothing of measured profiles"),
+    "scale": (("dask", "distributed"), "wear on several processes"),
+    "fmu": (("pythonfmu", "fmpy"), "fmu, demo without --python"),
+    "native": (("ziglang", "pythonfmu", "fmpy"), "fmu for hosts without Python"),
 }
 
 
 def missing() -> dict[str, str]:
     """Return extra → what needs it, for every extra that is not installed."""
-    return {extra: use for extra, (module, use) in EXTRAS.items() if _absent(module)}
+    return {extra: use for extra, (_, use) in EXTRAS.items() if absent_modules(extra)}
+
+
+def absent_modules(extra: str) -> list[str]:
+    """Return the modules of an extra that are not installed."""
+    return [module for module in EXTRAS[extra][0] if _absent(module)]
 
 
 def note() -> str:

@@ -13,7 +13,7 @@ import typer
 from rich.console import Console
 
 from contact.cli.document import document, running
-from contact.cli.extras import EXTRAS, missing
+from contact.cli.extras import EXTRAS, absent_modules
 from contact.cli.groups import expanded
 from contact.errors import ContactError, PlausibilityWarning
 from contact.study.files import PICTURES, csv_of, require_ending, write
@@ -50,7 +50,9 @@ def in_options(text: str) -> str:
     """Return a message about a profile with the options of the command line in place of those of Python."""
     text = re.sub(r"\brepair=True", "--profile-repair", text)
     text = re.sub(r"\b(zero|smoothing|wavelength)='?([\w.+-]+)'?", r"--profile-\1 \2", text)
-    text = re.sub(r"\b(kind|unit|side) = None: ", r"--profile-\1 is missing: ", text)
+    if found := re.search(r"\b(?:(?:kind|unit|side) = None(?:, )?)+: ", text):
+        missing = [f"--profile-{name}" for name in re.findall(r"(\w+) = None", found[0])]
+        text = text.replace(found[0], f"{', '.join(missing)} {'are' if len(missing) > 1 else 'is'} missing: ")
     return re.sub(r"\bset (unit|side)\b", r"set --profile-\1", text)
 
 
@@ -73,9 +75,9 @@ def drawing() -> Any:
 
 def require_extra(extra: str) -> None:
     """Exit with a message if an extra is not installed."""
-    if extra in missing():
-        module, use = EXTRAS[extra]
-        stop(f"{module} is missing ({use}): pip install 'wheelrail-contact[{extra}]'", 1)
+    if absent := absent_modules(extra):
+        names = f"{' and '.join(absent)} {'is' if len(absent) == 1 else 'are'} missing"
+        stop(f"{names} ({EXTRAS[extra][1]}): pip install 'wheelrail-contact[{extra}]'", 1)
 
 
 def deliver(

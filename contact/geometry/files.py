@@ -40,7 +40,7 @@ Unit = Literal["m", "mm"]
 Side = Literal["right", "left"]
 Zero = Literal["file", "flange_back", "shape"]
 UNITS: dict[str, float] = {"m": 1.0, "mm": 1e-3}
-SIDES, ZEROS = ("right", "left"), ("file", "flange_back", "shape")
+KINDS, SIDES, ZEROS = ("wheel", "rail"), ("right", "left"), ("file", "flange_back", "shape")
 LARGEST_FILE, MOST_POINTS = 20e6, 100_000  # bytes, points
 _FARTHEST = 1e6  # of a point from the origin [m]; products of larger numbers overflow
 
@@ -191,7 +191,7 @@ def inspect(
         ("unit", unit, UNITS),
         ("side", side, SIDES),
         ("zero", zero, ZEROS),
-        ("kind", kind, ("wheel", "rail")),
+        ("kind", kind, KINDS),
     ):
         if value is not None and value not in allowed:
             raise ContactError(f"{name} = {value!r} is none of {', '.join(map(repr, allowed))}")
@@ -202,14 +202,13 @@ def inspect(
         raise ContactError(f"kind = {kind!r}, but {path.name!r} is a file of a {known.kind}")
     lines = lines_of(path)
     kind = known.kind or kind
-    if kind is None:
-        raise ContactError(f"kind = None: {path.name!r} does not say its kind; give 'wheel' or 'rail'")
-    if not known.complete:
-        for name, value, allowed in (("unit", unit, UNITS), ("side", side, SIDES)):
-            if value is None:
-                raise ContactError(
-                    f"{name} = None: {path.name!r} does not say its {name}; give one of {', '.join(map(repr, allowed))}"
-                )
+    needed = (("kind", kind, KINDS), *(() if known.complete else (("unit", unit, UNITS), ("side", side, SIDES))))
+    unknown = {name: allowed for name, value, allowed in needed if value is None}
+    if kind is None or unknown:
+        raise ContactError(
+            f"{', '.join(f'{name} = None' for name in unknown)}: {path.name!r} does not say its {', '.join(unknown)}; give "
+            + ", ".join(f"{name} {' or '.join(map(repr, allowed))}" for name, allowed in unknown.items())
+        )
     content = known.read(
         lines, path, side or ("" if known.read in (formats.miniprof, formats.miniprof_sections) else "right")
     )

@@ -225,8 +225,10 @@ def spikes(points: Points) -> NDArray[np.bool_]:
     if len(points) < 9:
         return np.zeros(len(points), dtype=bool)
     around = np.median(sliding_window_view(np.pad(np.abs(d), 6, mode="edge"), 13), axis=1)
-    before, after = np.roll(d, 1), np.roll(d, -1)
-    opposite = (before * d < -0.2 * d * d) & (after * d < -0.2 * d * d)
+    # beside a spike taller than the spacing, the chord of a neighbour is steep: it stands off by the spacing at most
+    spacing = np.pad(0.5 * np.hypot(*(points[2:] - points[:-2]).T), 1)
+    bent = 0.2 * np.minimum(np.abs(d), spacing)
+    opposite = (-np.roll(d, 1) * np.sign(d) > bent) & (-np.roll(d, -1) * np.sign(d) > bent)
     return (np.abs(d) > np.maximum(_SPIKE, _OVER_NEIGHBOURS * around)) & opposite
 
 
@@ -239,9 +241,10 @@ def kinks(points: Points) -> NDArray[np.intp]:
     wild = spikes(points) | backward(points) | np.roll(backward(points), -1)
     free = ~(wild[:-2] | wild[1:-1] | wild[2:])
     steep = _steep(points)
+    flank = steep & (np.roll(steep, 1) | np.roll(steep, -1))  # one steep step between flat ones is a jump, no flank
     along = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))))
     inner = np.minimum(along, along[-1] - along)[1:-1] > _CHAMFER
-    found = (turn > np.maximum(_KINK, _KINK_OVER * around)) & free & inner & ~steep[1:] & ~steep[:-1]
+    found = (turn > np.maximum(_KINK, _KINK_OVER * around)) & free & inner & ~flank[1:] & ~flank[:-1]
     return np.flatnonzero(found) + 1
 
 

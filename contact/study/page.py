@@ -30,7 +30,7 @@ h3 { font-size: 1rem; margin: 1rem 0 0; }
 img { max-width: 100%; height: auto; }
 @media (max-width: 700px) { body { padding: .75rem; }
   th, td { padding: .3rem .45rem; } td:first-child span { display: block; }
-  th, td:first-child { white-space: normal; overflow-wrap: anywhere; } td:first-child { min-width: 5rem; max-width: 45vw; } }
+  th, td:first-child { white-space: normal; overflow-wrap: break-word; } td:first-child { min-width: 5rem; max-width: 45vw; } }
 """
 
 

@@ -169,9 +169,6 @@ def _write(folder: Path, dataset: Callable[[], Any], page: Callable[[], str]) ->
     from models.life.result import write
 
     folder.mkdir(parents=True, exist_ok=True)
-    try:
-        write(dataset(), folder / "result.nc")
-    except ImportError as missing:
-        stop(f"{missing}; pip install 'wheelrail-contact[xarray]'", 1)
+    write(dataset(), folder / "result.nc")
     (folder / "report.html").write_text(page(), encoding="utf-8")
     typer.echo(f"wrote {folder / 'result.nc'}, {folder / 'report.html'}", err=True)

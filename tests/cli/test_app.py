@@ -15,6 +15,7 @@ typer = pytest.importorskip("typer")
 from typer.testing import CliRunner  # noqa: E402
 
 from contact.cli import app as cli  # noqa: E402
+from contact.cli import extras, output  # noqa: E402
 from contact.cli.plugins import GROUP, add_plugins  # noqa: E402
 from tests.command_line import call  # noqa: E402
 
@@ -143,6 +144,17 @@ def test_missing_matplotlib_ends_a_plot_with_code_1(monkeypatch, tmp_path):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     result = call("solve", "--curvatures", 1, 1, "--out", tmp_path / "no.png", code=1)
     assert "wheelrail-contact[plot]" in result.stderr
+
+
+def test_every_module_of_an_extra_is_asked_for_before_a_run(monkeypatch, capsys):
+    """xarray alone was enough to start a run, which failed after its last step because scipy writes its file."""
+    found = extras.find_spec
+    monkeypatch.setattr(extras, "find_spec", lambda name: None if name == "scipy" else found(name))
+    with pytest.raises(typer.Exit):
+        output.require_extra("xarray")
+    assert (
+        "scipy is missing (result files: run, wear): pip install 'wheelrail-contact[xarray]'" in capsys.readouterr().err
+    )
 
 
 def test_json_has_version_command_inputs_and_units():

@@ -108,9 +108,8 @@ def test_check_names_faults_and_draws_them(tmp_path):
     assert answer["files"][0]["findings"][0]["fault"] == "spikes"
     assert "; --profile-repair drops them" in call(*words).stdout, "the option of this command line"
     assert "; --profile-repair drops them" in call("solve", "--wheel", path, *words[4:]).stderr
-    assert (
-        "contact: --profile-unit is missing: 'wheel.txt' does not say" in call("solve", "--wheel", path, code=2).stderr
-    )
+    without = call("solve", "--wheel", path, code=2).stderr
+    assert "contact: --profile-unit, --profile-side are missing: 'wheel.txt' does not say its unit, side" in without
     assert "nothing found" in call(*words, "--profile-repair").stdout
     result = call("check", tmp_path, tmp_path / "no.whl", *words[2:], code=2)
     assert "no.whl' is missing" in result.stdout

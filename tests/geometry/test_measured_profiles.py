@@ -84,6 +84,29 @@ def test_spikes_and_back_steps_are_named_and_dropped_on_request(tmp_path):
         assert distance(profile.read(path, repair=True, **COLUMNS)) < 1e-6
 
 
+@pytest.mark.parametrize("height", [-5e-3, -2e-3, -1e-3, 1e-3, 2e-3, 5e-3])
+def test_spikes_taller_than_the_spacing_are_named_and_dropped_on_request(tmp_path, height):
+    """Those of 1 to 4 mm were passed over: beside them the neighbours stand off by the spacing only."""
+    z = WHEEL.z.copy()
+    z[400] += height
+    path = wheel_file(tmp_path / "wheel.txt", WHEEL.y, z)
+    found = {finding.fault.value: finding for finding in profile.check(path, **COLUMNS).findings}
+    np.testing.assert_allclose(found["spikes"].at[:, 0], WHEEL.y[[400]], atol=1e-7)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert distance(profile.read(path, repair=True, **COLUMNS)) < 1e-6
+
+
+@pytest.mark.parametrize("height", [5e-5, 1e-3, 3e-3])
+def test_steps_up_and_down_in_the_tread_are_named(tmp_path, height):
+    """Those above .5 mm were taken for a flank, which no wheel and rail touch."""
+    z = WHEEL.z.copy()
+    z[400:404] -= height
+    found = profile.check(wheel_file(tmp_path / "wheel.txt", WHEEL.y, z), **COLUMNS).findings
+    assert [finding.fault.value for finding in found] == ["kinks"]
+    assert abs(found[0].at[0, 0] - WHEEL.y[400]) < 4e-4
+
+
 def test_a_gap_is_named(tmp_path):
     there = (WHEEL.y < -0.005) | (WHEEL.y > 0.003)
     with pytest.warns(ProfileWarning, match=r"gap: no points over 8\.48 mm from y = -5\.23 mm on"):
