@@ -1,14 +1,20 @@
 """Shared fixtures and settings of the tests."""
 
 import os
+import subprocess
+import sys
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
+from threading import Thread
 
 import pytest
 from hypothesis import settings
 
 import contact
+from tests.builds import BUILDS, ROOT
 
+_IS_WORKER = "PYTEST_XDIST_WORKER" in os.environ
 # Helpers whose assertions get the detailed messages of tests.
 pytest.register_assert_rewrite("tests.command_line", "tests.post_conditions")
 
@@ -26,27 +32,48 @@ def ellipse() -> contact.Separation:
 
 
 @pytest.fixture(scope="session")
-def once(tmp_path_factory) -> Callable[[str, Callable[[Path], object]], Path]:
-    """Return a function that makes a file or folder once for all workers.
+def once(tmp_path_factory) -> Callable[[str], Path]:
+    """Return a function that builds one of `BUILDS` once for all workers and returns its path.
 
-    `once(name, make)` calls `make(path)` in the first worker that needs it, while the others wait, and returns the path.
+    `once(name)` builds in the first worker that needs it, while the others wait. It builds in a process of its own, with the
+    environment that the session begins with.
     """
     import fcntl  # not on Windows
 
-    shared = tmp_path_factory.getbasetemp()
-    if "PYTEST_XDIST_WORKER" in os.environ:
+    shared, environment = tmp_path_factory.getbasetemp(), dict(os.environ)
+    if _IS_WORKER:
         shared = shared.parent
 
-    def made(name: str, make: Callable[[Path], object]) -> Path:
-        path, mark = shared / name, shared / f"{name}.made"
+    def built(name: str) -> Path:
+        path, mark = shared / name, shared / f"{name}.built"
+        command = [sys.executable, "-m", "tests.builds", name, path]
         with (shared / f"{name}.lock").open("w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             if not mark.exists():
-                make(path)
+                done = subprocess.run(
+                    command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+                )
+                if done.returncode:
+                    raise RuntimeError(f"{name} could not be built:\n{done.stdout}")
                 mark.touch()
         return path
 
-    return made
+    return built
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _building(request, once) -> None:
+    """Build what the session's tests need beside them: a worker that waits for a build leaves its processor idle."""
+    used = {name for item in request.session.items for name in item.fixturenames}
+
+    def build() -> None:
+        for name in BUILDS:
+            if name in used:
+                with suppress(RuntimeError):  # the fixture raises it again
+                    once(name)
+
+    if _IS_WORKER:
+        Thread(target=build, daemon=True).start()
 
 
 #: Folders in which every test is slow: whole FMUs, runs over a line, and the page with the compiled kernels.
@@ -57,10 +84,15 @@ SLOW = {"system", "life", "vehicle", "explorer"}
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark slow folders, and sort the tests.
 
-    Those of native FMUs run first, so that one worker builds these while the other compiles. Quick tests run last, so that
-    at the end no worker waits for a long test of another one.
+    Slow tests that need no build run first, while the builds go on, then the others in the order of the builds. Quick tests run
+    last, so that at the end no worker waits for a long test of another one.
     """
+    order = {name: number for number, name in enumerate(BUILDS, 1)}
     for item in items:
         if item.path.parent.name in SLOW:
             item.add_marker("slow")
-    items.sort(key=lambda item: ("native" not in getattr(item, "fixturenames", ()), "slow" not in item.keywords))
+
+    def place(item: pytest.Item) -> tuple[bool, int]:
+        return "slow" not in item.keywords, max(order.get(name, 0) for name in ("", *getattr(item, "fixturenames", ())))
+
+    items.sort(key=place)

@@ -15,8 +15,10 @@ from fmu_src.native.libm import compile_libm
 _BEAT = 15.0  # between two signs of life of a long command [s]
 WRAPPER = Path(__file__).parent / "c"
 #: What every library for Windows has. It needs the Universal C Runtime, which is part of Windows since version 10.
-_OF_WINDOWS = Path(__file__).parent / "c_windows" / "library.c"
+OF_WINDOWS = Path(__file__).parent / "c_windows" / "library.c"
 _RUNTIME = ("convert", "heap", "math", "private", "runtime", "stdio", "string")
+#: Linker options: the libraries of Windows and not zig's start-up code for it, which takes a minute to build.
+WITHOUT_MINGW = ("-nostdlib", "-lkernel32", *(f"-lapi-ms-win-crt-{part}-l1-1-0" for part in _RUNTIME))
 HEADERS = Path(fmpy.__file__).parent / "c-code"  # headers of the FMI project (2-clause BSD licence)
 #: -ffp-contract=off: fused operations would make the results differ between processors.
 FLAGS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-Wall", "-Wextra", "-fPIC")
@@ -39,7 +41,7 @@ def link(platform: str, name: str, sources: Sequence[Path], objects: Sequence[Pa
     library.parent.mkdir(exist_ok=True)
     made = compile_libm(compiler(platform), library.parent, run) if platform in OWN_LIBM else []
     include = [f"-I{path}" for path in (*sorted({path.parent for path in sources}), HEADERS)]
-    own = [_OF_WINDOWS] if "windows" in target else []
+    own = [OF_WINDOWS] if "windows" in target else []
     for path in (*(path for path in sources if path.suffix == ".c"), *own):
         made.append(library.parent / f"{path.stem}.o")
         run(*compiler(platform), *FLAGS, "-Wno-unused-parameter", *include, "-c", path, "-o", made[-1])
@@ -51,8 +53,8 @@ def _of_system(target: str, name: str) -> list[str]:
     """Return the linker options of a system. A macOS library stores its own path, which must not be that of the build."""
     if "linux" in target:
         return ["-Wl,-z,defs", "-lm"]
-    if "windows" in target:  # without zig's start-up code for Windows, which takes a minute to build
-        return ["-nostdlib", "-lkernel32", *(f"-lapi-ms-win-crt-{part}-l1-1-0" for part in _RUNTIME)]
+    if "windows" in target:
+        return [*WITHOUT_MINGW]
     return [f"-Wl,-install_name,@rpath/{name}"]
 
 

@@ -14,7 +14,7 @@ from contact.solver import N_ELEMENTS, N_STRIPS
 from fmu_src.catalogue import models, vehicles
 from fmu_src.native import source
 from fmu_src.native.component import Component
-from fmu_src.native.linking import HEADERS, compiler, run
+from fmu_src.native.linking import HEADERS, OF_WINDOWS, WITHOUT_MINGW, compiler, run
 from fmu_src.native.packaging import kernels
 from fmu_src.native.wheel_rail_contact import component
 from models.wheelset.ports import POINTS
@@ -94,12 +94,11 @@ class Host:
         (folder / "model.h").write_text(source.header(its, self.guid))
         (folder / "roles.h").write_text(roles(its))
         self.program = folder / f"host{program}"
-        libraries = ["-ldl", "-lpthread", "-lm"] if own == "linux64" else []
         elements = MAX_PATCHES * N_STRIPS * N_ELEMENTS
         flags = ["-std=gnu11", "-O1", f"-DELEMENTS={elements}", f"-I{folder}", f"-I{HEADERS}"]
         flags += ["-DCONTACT"] if name == NAME else []
         sources = [HOST / name for name in ("common.c", *code)]
-        run(*self.compiler, *flags, *sources, "-o", self.program, *libraries)
+        compile_program([*self.compiler, *flags], own, sources, self.program)
         self.fmi2 = code is _FMI2
         self.prefix = [] if own == "linux64" else ["wine"]
         self.environment = os.environ | {"WINEDEBUG": "-all"}
@@ -135,6 +134,21 @@ class Host:
             lines.append(f"{len(case)} {' '.join(words)}")
         rows = np.loadtxt(self("cases", stdin="\n".join(lines)).splitlines(), ndmin=2)
         return rows[:, [names.index(name) - names.index("force.x") for name in outputs]]
+
+
+def compile_program(command: Sequence[str], platform: str, sources: Sequence[Path], program: Path) -> None:
+    """Compile a host for a platform of the builder: "linux64" or "win64". `command` is the compiler with its options.
+
+    Windows hosts are linked like the FMU's libraries, without mingw's start-up code, which takes zig a minute to build.
+    """
+    if platform != "win64":
+        run(*command, *sources, "-o", program, "-ldl", "-lpthread", "-lm")
+        return
+    made = []
+    for path in (*sources, HOST / "windows.c", OF_WINDOWS):
+        made.append(program.parent / f"{path.stem}.o")
+        run(*command, "-c", path, "-o", made[-1])
+    run(*command, *made, "-o", program, *WITHOUT_MINGW, "-lapi-ms-win-crt-time-l1-1-0", "-Wl,--entry,mainCRTStartup")
 
 
 def sanitized(platform: str, folder: Path, unzipped: Path, name: str = NAME) -> Host:

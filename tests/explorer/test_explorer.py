@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -26,8 +25,7 @@ METHODS = contact.methods().batched
 @pytest.fixture(scope="session")
 def page(once) -> Path:
     """Return the page that `python -m explorer` writes."""
-    command = [sys.executable, "-m", "explorer", "--out"]
-    return once("explorer.html", lambda path: subprocess.run([*command, str(path)], check=True, cwd=ROOT))
+    return once("page") / "explorer.html"
 
 
 def _states(count: int) -> list[dict]:

@@ -2,8 +2,6 @@
 
 import os
 import shutil
-import subprocess
-import sys
 from functools import cache
 from pathlib import Path
 
@@ -14,7 +12,7 @@ from fmu_instance import Instance
 from fmu_instance_fmi3 import Instance3
 from pair_case import NAME as PAIR
 
-from reference.native import SCENARIO, Host
+from reference.native import Host
 
 ROOT = Path(__file__).parents[2]
 VEHICLES = ("Vehicle", "OpenVehicle")
@@ -23,19 +21,26 @@ VEHICLES = ("Vehicle", "OpenVehicle")
 @pytest.fixture(scope="session")
 def fmus(once) -> Path:
     """Return the folder with the FMUs that `python build_fmu.py --packaging python` builds."""
-    return once("fmus", lambda folder: _build(folder, "python")) / "python"
+    return once("fmus") / "python"
 
 
 @pytest.fixture(scope="session")
 def native(once) -> Path:
     """Return the file of the native WheelRailContact, in one folder with the others."""
-    return once("native-fmus", lambda folder: _build(folder, "native")) / "native" / "WheelRailContact.fmu"
+    return once("native") / "native" / "WheelRailContact.fmu"
 
 
 @pytest.fixture(scope="session")
 def native_vehicles(native, once) -> Path:
-    """Return the folder with the native Vehicle, OpenVehicle and coupled_vehicle.ssp. The kernels of the pair are kept."""
-    return once("vehicle-fmus", lambda folder: _build(folder, "native", "--vehicle", SCENARIO)) / "native"
+    """Return the folder with the native Vehicle, OpenVehicle and coupled_vehicle.ssp."""
+    return once("native_vehicles") / "native"
+
+
+@pytest.fixture(scope="session")
+def native_surfaces(native, once) -> list[Path]:
+    """Return the files of WheelRailSurfaces of FMI 2.0 and 3.0, with profiles that are constant."""
+    folder = once("native_surfaces")
+    return [folder / "WheelRailSurfaces.fmu", folder / "fmi3" / "WheelRailSurfaces.fmu"]
 
 
 @pytest.fixture(scope="session")
@@ -88,15 +93,10 @@ def _opened(make):
 
 @pytest.fixture(scope="session")
 def wine(once) -> None:
-    """Let Wine use one folder of its own in all workers. To fill it takes half a minute and 700 MB."""
+    """Let Wine use one folder of its own in all workers."""
     if not shutil.which("wine"):
         pytest.skip("THE WINDOWS LIBRARY IS NOT TESTED: wine is not installed (apt-get install wine64)")
-
-    def fill(folder: Path) -> None:
-        own = os.environ | {"WINEPREFIX": str(folder), "WINEDEBUG": "-all"}
-        subprocess.run(["wineboot", "--init"], check=True, env=own, capture_output=True, timeout=600)
-
-    os.environ["WINEPREFIX"] = str(once("wine", fill))
+    os.environ["WINEPREFIX"] = str(once("wine"))
 
 
 @pytest.fixture(scope="session")
@@ -140,11 +140,6 @@ def host_fmi3(native_fmi3_folder, tmp_path_factory):
 def windows_fmi3(native_fmi3_folder, tmp_path_factory, wine):
     """Return the C host for FMI 3.0 on Windows, under Wine."""
     return Host("x86_64-windows", tmp_path_factory.mktemp("windows"), native_fmi3_folder)
-
-
-def _build(folder: Path, packaging: str, *options: str | Path) -> None:
-    command = [sys.executable, ROOT / "build_fmu.py", "--packaging", packaging, "--accumulation", "--out", folder]
-    subprocess.run([*command, *options], check=True, cwd=ROOT, timeout=1200)  # long, for a busy machine
 
 
 @pytest.fixture(scope="session", params=["python", "native"])

@@ -7,11 +7,11 @@ from pathlib import Path
 import fmpy
 import numpy as np
 
-from fmu_src.native.linking import HEADERS, compiler, run
-from reference.native import HOST, resources_of
+from fmu_src.native.linking import HEADERS, compiler
+from reference.native import HOST, compile_program, resources_of
 
 SOURCE = HOST / "script.c"
-_PLATFORMS = {"linux64": (".so", ["-ldl"], []), "win64": (".dll", [], ["wine"])}
+_PLATFORMS = {"linux64": (".so", []), "win64": (".dll", ["wine"])}
 
 
 class Script:
@@ -19,10 +19,11 @@ class Script:
 
     def __init__(self, platform: str, folder: Path) -> None:
         self.platform = platform
-        self.suffix, libraries, self.before = _PLATFORMS[platform]
+        self.suffix, self.before = _PLATFORMS[platform]
         self.program = folder / f"{platform}.exe"
         self.environment = os.environ | {"WINEDEBUG": "-all"}
-        run(*compiler(platform), "-std=gnu11", "-O1", f"-I{HEADERS}", SOURCE, "-o", self.program, *libraries)
+        flags = ["-std=gnu11", "-O1", f"-I{HEADERS}"]
+        compile_program([*compiler(platform), *flags], platform, [SOURCE], self.program)
 
     def __call__(self, unzipped: Path, kind: int, commands: str, before: tuple[str, ...] = ()) -> np.ndarray:
         """Run commands on an FMU in model exchange (0) or co-simulation (1) and return the printed numbers."""

@@ -19,9 +19,7 @@ from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, W
 from contact.geometry.wheelset import Irregularity, Pose, Velocity
 from contact.pair import WheelRailPair
 from examples.crossing.crossing import crossing
-from fmu_src import place, profiles, resources, surfaces
-from fmu_src.catalogue import surfaces as model
-from fmu_src.native import packaging
+from fmu_src import profiles, resources, surfaces
 from fmu_src.tables.wheel_rail_surfaces import HEAD, RAIL, WHEEL
 
 ROOT = Path(__file__).parents[2]
@@ -58,19 +56,13 @@ CASES = {
 }  # fmt: skip
 
 
-@pytest.fixture(scope="module")
-def built(tmp_path_factory) -> list[Path]:
-    """Return the files of FMI 2.0 and 3.0, with profiles that are constant."""
-    return packaging.build(model(), tmp_path_factory.mktemp("surfaces"), place.objects(), print)
-
-
 @pytest.fixture
-def open_fmu(built, tmp_path):
+def open_fmu(native_surfaces, tmp_path):
     """Return a function that instantiates the FMU with other resources. All instances are freed at the end."""
     instances = []
 
     def open_fmu(new: dict[str, bytes], version: int = 2, kind: str = "CoSimulation"):
-        path = Path(shutil.copy(built[version - 2], tmp_path))
+        path = Path(shutil.copy(native_surfaces[version - 2], tmp_path))
         surfaces.exchange(path, new)
         folder = Path(fmpy.extract(str(path), str(tmp_path / f"with blanks, ümläuts {len(instances)}")))
         instances.append(Instance(folder, kind=kind) if version == 2 else Instance3(folder, kind=kind))
@@ -231,8 +223,8 @@ def test_a_surface_that_is_no_surface_is_refused_by_name(open_fmu, fault):
 
 
 @pytest.mark.parametrize("damage", ["a bit", "truncated", "too large", "another kind", "not finite", "no file"])
-def test_a_damaged_surface_is_refused_when_instantiated(built, tmp_path, damage):
-    folder = Path(fmpy.extract(str(built[0]), str(tmp_path / "fmu")))
+def test_a_damaged_surface_is_refused_when_instantiated(native_surfaces, tmp_path, damage):
+    folder = Path(fmpy.extract(str(native_surfaces[0]), str(tmp_path / "fmu")))
     path = folder / "resources" / WHEEL
     content = bytearray(path.read_bytes())
     if damage == "a bit":
@@ -270,8 +262,8 @@ def command(path: Path, *words: object) -> subprocess.CompletedProcess:
     return subprocess.run([str(word) for word in words], cwd=ROOT, capture_output=True, text=True)
 
 
-def test_the_command_replaces_surfaces_in_a_finished_fmu(built, tmp_path):
-    path = Path(shutil.copy(built[0], tmp_path))
+def test_the_command_replaces_surfaces_in_a_finished_fmu(native_surfaces, tmp_path):
+    path = Path(shutil.copy(native_surfaces[0], tmp_path))
     done = command(path, "--wheel", "S1002", "--flat", 0.06, "--flat-depth", 5e-4, "--rail", "54E4")
     assert done.returncode == 0, done.stderr
     flat = WheelSurface.constant(profile.named("S1002"), Flat(0.06, depth=5e-4))
@@ -290,16 +282,16 @@ def test_the_command_replaces_surfaces_in_a_finished_fmu(built, tmp_path):
         ((), "nothing to do"),
     ],
 )
-def test_the_command_refuses_by_name(built, tmp_path, words, message):
-    path = Path(shutil.copy(built[0], tmp_path))
+def test_the_command_refuses_by_name(native_surfaces, tmp_path, words, message):
+    path = Path(shutil.copy(native_surfaces[0], tmp_path))
     done = command(path, *words)
     assert done.returncode == 2
     assert message in done.stderr
-    assert path.read_bytes() == built[0].read_bytes()
+    assert path.read_bytes() == native_surfaces[0].read_bytes()
 
 
-def test_a_rail_of_slices_is_read_with_its_place(built, tmp_path):
-    path, slices = Path(shutil.copy(built[0], tmp_path)), tmp_path / "ramp.slcs"
+def test_a_rail_of_slices_is_read_with_its_place(native_surfaces, tmp_path):
+    path, slices = Path(shutil.copy(native_surfaces[0], tmp_path)), tmp_path / "ramp.slcs"
     for name, height in (("low", 0.0), ("high", -0.5)):
         (tmp_path / f"{name}.txt").write_text("".join(f"{y} {y**2 / 600.0 + height}\n" for y in range(-30, 31, 2)))
     slices.write_text("0.0 1.0\n2\n0 0 0\n1\n0.0 'low.txt'\n400.0 'high.txt'\n")
@@ -327,8 +319,8 @@ def test_what_the_fmu_cannot_hold_is_refused(make, message):
         surfaces.pack(make(np.linspace(-0.07, 0.07, 101)))
 
 
-def test_other_fmus_take_no_surfaces_and_this_one_no_profiles(built, native):
+def test_other_fmus_take_no_surfaces_and_this_one_no_profiles(native_surfaces, native):
     with pytest.raises(ContactError, match="it is not a WheelRailSurfaces FMU"):
         surfaces.exchange(native, surfaces.of_pair(SurfacePair(S1002, UIC60)))
     with pytest.raises(ContactError, match="it is not a WheelRailPair FMU"):
-        profiles.exchange(built[0], {"wheel": S1002})
+        profiles.exchange(native_surfaces[0], {"wheel": S1002})

@@ -1,0 +1,68 @@
+"""What tests share and takes long to build. ``python -m tests.builds NAME PATH`` builds one; the fixture `once` calls that."""
+
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+
+
+def _fmus(path: Path, packaging: str, *options: str | Path) -> None:
+    """Build the FMUs into a folder, as a user does."""
+    command = [sys.executable, "build_fmu.py", "--packaging", packaging, "--accumulation", *options, "--out", path]
+    subprocess.run(command, check=True)
+
+
+def _native(path: Path) -> None:
+    """Build the native FMUs. One process compiles the kernels of all that tests need, because they share most of the work."""
+    from fmu_src import place
+    from fmu_src.catalogue import models, surfaces, vehicles
+    from fmu_src.native import packaging
+    from models.wheelset.ports import POINTS
+    from reference.native import SCENARIO
+
+    packaging.compile_kernels((*models(POINTS), *vehicles(SCENARIO), surfaces()), place.objects(), print)
+    _fmus(path, "native")
+
+
+def _vehicles(path: Path) -> None:
+    from reference.native import SCENARIO
+
+    _fmus(path, "native", "--vehicle", SCENARIO)
+
+
+def _surfaces(path: Path) -> None:
+    from fmu_src import place
+    from fmu_src.catalogue import surfaces
+    from fmu_src.native import packaging
+
+    packaging.build(surfaces(), path, place.objects(), print)
+
+
+def _page(path: Path) -> None:
+    subprocess.run([sys.executable, "-m", "explorer", "--out", path / "explorer.html"], check=True)
+
+
+def _wine(path: Path) -> None:
+    """Let Wine fill its folder: half a minute and 700 MB."""
+    if shutil.which("wine"):
+        own = os.environ | {"WINEPREFIX": str(path), "WINEDEBUG": "-all"}
+        subprocess.run(["wineboot", "--init"], check=True, env=own, capture_output=True, timeout=600)
+
+
+#: Name of a fixture → how to build what it returns, in the order in which they are built.
+BUILDS: dict[str, Callable[[Path], None]] = {
+    "native": _native,
+    "fmus": lambda path: _fmus(path, "python"),
+    "wine": _wine,
+    "native_vehicles": _vehicles,
+    "native_surfaces": _surfaces,
+    "page": _page,
+}
+
+
+if __name__ == "__main__":
+    BUILDS[sys.argv[1]](Path(sys.argv[2]))
