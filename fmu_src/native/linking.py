@@ -17,8 +17,8 @@ WRAPPER = Path(__file__).parent / "c"
 #: What every library for Windows has. It needs the Universal C Runtime, which is part of Windows since version 10.
 OF_WINDOWS = Path(__file__).parent / "c_windows" / "library.c"
 _RUNTIME = ("convert", "heap", "math", "private", "runtime", "stdio", "string")
-#: Linker options: the libraries of Windows and not zig's start-up code for it, which takes a minute to build.
-WITHOUT_MINGW = ("-nostdlib", "-lkernel32", *(f"-lapi-ms-win-crt-{part}-l1-1-0" for part in _RUNTIME))
+#: Linker options: the libraries of Windows and not zig's start-up code for it, which takes a minute to build; no time stamp.
+WITHOUT_MINGW = ("-nostdlib", "-Wl,-Brepro", "-lkernel32", *(f"-lapi-ms-win-crt-{part}-l1-1-0" for part in _RUNTIME))
 HEADERS = Path(fmpy.__file__).parent / "c-code"  # headers of the FMI project (2-clause BSD licence)
 #: -ffp-contract=off: fused operations would make the results differ between processors.
 FLAGS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-Wall", "-Wextra", "-fPIC")
@@ -45,7 +45,9 @@ def link(platform: str, name: str, sources: Sequence[Path], objects: Sequence[Pa
     for path in (*(path for path in sources if path.suffix == ".c"), *own):
         made.append(library.parent / f"{path.stem}.o")
         run(*compiler(platform), *FLAGS, "-Wno-unused-parameter", *include, "-c", path, "-o", made[-1])
-    run(*compiler(platform), "-shared", "-s", *made, *objects, "-o", library, *_of_system(target, library.name))
+    # names without a folder, because a macOS library has a trace of them
+    names, options = [path.name for path in made], _of_system(target, library.name)
+    run(*compiler(platform), "-shared", "-s", *names, *objects, "-o", library, *options, cwd=library.parent)
     return library
 
 
@@ -63,10 +65,10 @@ def compiler(platform: str) -> list[str]:
     return [sys.executable, "-m", "ziglang", "cc", "-target", _TARGETS[platform][0], "-fno-sanitize=undefined"]
 
 
-def run(*command: str | Path, waiting: Callable[[], None] | None = None) -> None:
-    """Run a command. If it fails, raise an error with its output. Every 15 s that it lasts, `waiting` is called."""
+def run(*command: str | Path, waiting: Callable[[], None] | None = None, cwd: Path | None = None) -> None:
+    """Run a command in a folder. If it fails, raise an error with its output. Every 15 s that it lasts, `waiting` is called."""
     words = list(map(str, command))
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=cwd) as process:
         said = None
         while said is None:
             try:
