@@ -261,6 +261,7 @@ def _solve_vertical(force, given, bench):
     """As `solve_pair` for Height.VERTICAL: find the height by a bracketed secant over the whole solution.
 
     It begins at the height at which the normal forces carry the load. The force grows with the power 3/2 of the depth there.
+    Where it jumps over the load, the nearest height found is the answer, with the status NOT_CONVERGED.
     """
     n = _solve_at(Height.LOAD, force, given, given.z, False, bench)
     if n <= 0 or force <= 0.0:
@@ -293,9 +294,13 @@ def _solve_vertical(force, given, bench):
         if new == z or abs(new) > _FURTHEST:
             break
         z_before, f_before, z = z, f, new
-    if best > acceptable * force:
+    missed = best > acceptable * force
+    if missed and not (changing and high < math.inf):
         return NoAnswer.NOT_SETTLED.value
-    return _solve_at(Height.GIVEN, 0.0, given, z_best, True, bench)
+    n = _solve_at(Height.GIVEN, 0.0, given, z_best, True, bench)
+    if missed:  # on a surface the force may jump with the height, as under a load (`settle`)
+        total.status = Status.NOT_CONVERGED.value
+    return n
 
 
 @kernel
