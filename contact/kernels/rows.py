@@ -201,7 +201,8 @@ class Vector(IntEnum):
     CHANGES = 27  # first of DEPTH rows: changes of the residual
     INSIDE = 30  # in the end strips: the place from which the end last moved outwards
     OUTSIDE = 31  # the place from which it last moved inwards
-    PAIRS = 32  # first of the rows of `Pair`
+    END = 32  # in the end strips: the pressure, which may be tension; then the share of the rule for a peak at the end
+    PAIRS = 33  # first of the rows of `Pair`
 
 
 class Pair(IntEnum):

@@ -171,8 +171,22 @@ def test_a_pressure_peak_narrower_than_a_strip_does_not_jump():
         sol = contact.solve(separation, NO_CREEP, load=8e4, normal="strip_halfspace")
         assert sol.converged
         peaks.append(sol.max_pressure)
-    assert np.abs(np.diff(np.log(peaks))).max() < 0.07
-    assert min(peaks) > 0.89 * 1.5e9  # 24 to 40 strips give 1479 to 1512 MPa at y = 6.67 mm
+    assert np.abs(np.diff(np.log(peaks))).max() < 0.005
+    assert min(peaks) > 0.93 * 1.5e9  # 24 to 48 strips give 1439 to 1527 MPa at y = 6.67 mm
+
+
+@pytest.mark.parametrize("at", [6.65e-3, 6.70e-3, 6.72e-3, 6.75e-3, 6.80e-3])
+def test_the_largest_pressure_over_the_load_is_smooth_in_the_flange_root(at):
+    """The second differences were up to .021 at 95 % of the loads: an end beside a pressure peak did not come to rest."""
+    pair = wheelset.Pair(
+        profile.s1002(), profile.rail_60e1(inclination=1 / 40), combine_distance=1.0, combine_angle=math.pi
+    )
+    separation = pair.contacts(wheelset.Pose(y=at), load=8e4)[0].separation
+    solver = contact.Solver(tangential="linear_saturated")
+    peaks = [solver.forces(separation, NO_CREEP, load=N).max_pressure for N in np.geomspace(1e3, 250e3, 700)]
+    noise = np.abs(np.diff(np.log(peaks), 2))
+    assert np.percentile(noise, 95) < 0.001
+    assert noise.max() < 0.01
 
 
 @pytest.mark.parametrize(("kind", "most"), [("noisy", 4), ("nearly flat", 1), ("near-conformal", 0)])

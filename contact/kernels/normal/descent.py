@@ -21,6 +21,8 @@ FEWEST, MOST = 8, 64
 _DIFFERENCE, _END_DIFFERENCE = 0.01, 0.05
 #: From this move on, over the width, an end moves by the rule of the ends and not by the Jacobian.
 _HOLD = 0.03
+#: From this share of the rule for a peak at the end on, an end does so too.
+_LOCAL = 0.5
 #: Half length of an end strip over that of its neighbour.
 END_LENGTH = 0.447
 #: Share of the move that the rule of the ends asks for; (p1/p2)² at the exact half width and its slope
@@ -193,7 +195,8 @@ def descend(first, n, width, descent, vectors, frozen):
     """Replace the residuals Vector.R of the panel from strip `first` on by steps of half lengths and ends.
 
     The steps are the residuals times the inverse Jacobian of the Hertz contact with the panel's a/b. The entries of the
-    end strips are the moves of the ends. Ends with large moves, and all if they are `frozen`, follow their own rule.
+    end strips are the moves of the ends. Ends with large moves or a pressure peak beside them, and all if they are `frozen`,
+    follow their own rule.
     """
     r, out = vectors[Vector.Q1, first : first + n], vectors[Vector.R, first : first + n]
     last = n - 1
@@ -208,6 +211,8 @@ def descend(first, n, width, descent, vectors, frozen):
     t = u - m
     move_low, move_high = -r[0] / width, r[last] / width
     hold_low, hold_high = frozen or abs(move_low) > _HOLD, frozen or abs(move_high) > _HOLD
+    hold_low = hold_low or vectors[Vector.END, first] > _LOCAL
+    hold_high = hold_high or vectors[Vector.END, first + last] > _LOCAL
     r[0], r[last] = 0.0 if hold_low else move_low, 0.0 if hold_high else move_high
     low, high = descent[m], descent[m + 1]
     for i in range(n):

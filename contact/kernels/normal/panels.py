@@ -13,6 +13,11 @@ from contact.kernels.rows import Sample, Strip, Vector
 _END_RANGE = (-3.0, 20.0)  # of one move outwards before the factor END_STEP, in widths of the end strip
 #: Squared ratio of pressures from which on a frozen end still moves outwards: they rise towards the corner of a punch.
 _PUNCH = 1.0
+#: Third over fourth pressure up to which the peak lies away from the end, and from which on it lies at the end.
+_AWAY, _NEAR = 0.8, 1.1
+#: First over second pressure at the exact half width, its change over a width of the end strip, the curvature of this relation,
+#: and the largest excess that counts in it (strip_halfspace.md 2, step 4).
+_FIRST_VALUE, _FIRST_SLOPE, _BEND_OUTWARDS, _BEND_INWARDS, _MOST = 0.36, 0.625, 0.55, 0.3, 1.6
 #: A panel narrower than this, over the widest, is removed.
 NO_PANEL = 1e-5
 #: Overlap outside the panels, over the approach, that counts as missed contact: early, and at convergence.
@@ -153,22 +158,46 @@ def have_idle_quarter(n, n_panels, vectors):
 
 
 @kernel
+def _from_first_two(p0, p1):
+    """Return how far an end should move outwards by its first two pressures, in widths of the end strip.
+
+    The zero is that of an ellipse, the size is fitted to ellipses and flange roots. `p0` may be a tension.
+    """
+    if not p1 > 0.0:
+        return _END_RANGE[0]
+    u = p0 / p1 - _FIRST_VALUE
+    bend = _BEND_OUTWARDS * min(u, _MOST) if u > 0.0 else _BEND_INWARDS * u
+    return u / (_FIRST_SLOPE * (1.0 - bend))
+
+
+@kernel
 def _end_move(vectors, n, first, step, cosines, frozen):
     """Return the outward move of one end of a panel over its half width.
 
     `first` is the strip at this end, `step` the step to its neighbour. On the exact half width the squared ratio q of
-    the second and third pressures has a known value. If the second pressure is high, the panel is too narrow. A
-    `frozen` end keeps its place, and idle strips with it, unless the pressure rises towards it.
+    the second and third pressures has a known value. If the second pressure is high, the panel is too narrow. Where the
+    third pressure is not much below the fourth or above it, the peak lies at this end, and q depends on its shape. There the
+    ratio of the first two pressures counts instead. Its share replaces the first pressure in Vector.END. A `frozen` end
+    keeps its place, and idle strips with it, unless the pressure rises towards it.
     """
+    p0, p1, p2 = vectors[Vector.END, first], vectors[Vector.P, first + step], vectors[Vector.P, first + 2 * step]
+    vectors[Vector.END, first] = 0.0
     idle = _idle(vectors, n, first, step)
     if idle >= 2:
         return 0.0 if frozen else -0.9 * (1.0 + cosines[idle])
-    if vectors[Vector.P, first + 2 * step] <= 0.0:
+    if p2 <= 0.0:
         return 0.0
-    q = (vectors[Vector.P, first + step] / vectors[Vector.P, first + 2 * step]) ** 2
-    if frozen and q < _PUNCH:
+    q = (p1 / p2) ** 2
+    if frozen and (q < _PUNCH or p0 < p1):
         return 0.0
-    wanted = min(max((q - END_VALUE) / END_SLOPE, _END_RANGE[0]), _END_RANGE[1])
+    wanted = (q - END_VALUE) / END_SLOPE
+    p3 = vectors[Vector.P, first + 3 * step] if n > 3 else math.inf
+    share = min(max((p2 / p3 - _AWAY) / (_NEAR - _AWAY), 0.0), 1.0) if p3 > 0.0 else 1.0
+    if share > 0.0:
+        share *= share * (3.0 - 2.0 * share)
+        wanted = (1.0 - share) * wanted + share * _from_first_two(p0, p1)
+        vectors[Vector.END, first] = share
+    wanted = min(max(wanted, _END_RANGE[0]), _END_RANGE[1])
     return END_STEP * wanted * (1.0 + cosines[1])
 
 

@@ -56,11 +56,11 @@ LEFT, CLOSE = 4e-4, 4e-3
 #: Load-weighted mean change of ln a that counts as converged at the limit of iterations.
 ACCEPTABLE = 1e-3
 #: Iteration from which on the ends are fixed. At the corner of a punch and on rough gaps their rule has no steady solution.
-FREEZE = 12
+FREEZE = 16
 #: Iteration from which on the residuals are the steps, without mixing, which may go round in circles on rough gaps.
 PLAIN = 22
 #: Iteration from which on the ends keep between the places from which they moved outwards and inwards.
-BRACKET = 6
+BRACKET = 12
 #: Iterations in which a warm start has to come to rest. Then the iteration starts again from ANALYN's solution.
 WARM = 8
 #: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's solution is.

@@ -180,6 +180,7 @@ def solve_active(n, n_panels, space, by_load, amount):
         if m == 0:
             break
     for i in range(total):  # end strips that are kept in the set for smoothness carry no tension
+        vectors[Vector.END, i] = vectors[Vector.P, i]
         if vectors[Vector.P, i] < 0.0:
             vectors[Vector.P, i] = 0.0
     return delta
