@@ -9,7 +9,7 @@ from contact import workspace
 from contact.kernels.normal import influence
 from contact.kernels.normal.descent import FEWEST, MOST, N_LAYERS, descend, has_one_run
 from contact.kernels.normal.elimination import eliminate
-from contact.kernels.normal.panels import _is_overlapped, _summarise, have_idle_quarter
+from contact.kernels.normal.panels import _is_overlapped, _summarise, have_idle_part
 from contact.kernels.rows import N_VECTOR_ROWS, Vector
 
 
@@ -65,7 +65,7 @@ def test_mirrored_residuals_have_mirrored_steps(move, first, frozen):
 
 
 @pytest.mark.parametrize(
-    ("idle", "quarter"),
+    ("idle", "part"),
     [
         ([0, 0, 0], False),
         ([2, 0, 0], False),
@@ -74,17 +74,17 @@ def test_mirrored_residuals_have_mirrored_steps(move, first, frozen):
         ([2, 2, 0], False),
         ([0, 0, 2], False),
         ([0, 0, 3], True),
-        ([0, 0, 8], False),
+        ([0, 0, 20], False),
     ],
 )
 @pytest.mark.parametrize("side", [1, -1])
-def test_idle_quarters_are_found_at_either_end_of_loaded_panels(idle, quarter, side):
-    """Of two panels of eight strips: idle strips at both ends of the first one, and at the beginning of the second one."""
-    pressures = np.ones(16)
-    pressures[: idle[0]] = pressures[8 - idle[1] : 8] = pressures[8 : 8 + idle[2]] = 0.0
-    vectors = np.zeros((N_VECTOR_ROWS, 16))
+def test_idle_sevenths_are_found_at_either_end_of_loaded_panels(idle, part, side):
+    """Of two panels of 20 strips: idle strips at both ends of the first one, and at the beginning of the second one."""
+    pressures = np.ones(40)
+    pressures[: idle[0]] = pressures[20 - idle[1] : 20] = pressures[20 : 20 + idle[2]] = 0.0
+    vectors = np.zeros((N_VECTOR_ROWS, 40))
     vectors[Vector.P] = pressures[::side]
-    assert have_idle_quarter(8, 2, vectors) == quarter
+    assert have_idle_part(20, 2, vectors) == part
 
 
 @pytest.mark.parametrize(("pressures", "one"), [([0, 1, 1, 0], True), ([1, 0, 1, 1], False), ([1, 1, 1, 1], True)])

@@ -147,12 +147,12 @@ def _idle(vectors, n, first, step):
 
 
 @kernel
-def have_idle_quarter(n, n_panels, vectors):
-    """Return whether a quarter of a loaded panel is idle at one of its ends, so that it must be cut off."""
+def have_idle_part(n, n_panels, vectors):
+    """Return whether a seventh of a loaded panel is idle at one of its ends, so that it must be cut off."""
     for p in range(n_panels):
         first, last = p * n, p * n + n - 1
         idle = _idle(vectors, n, first, 1)
-        if vectors[Vector.P, first + idle] > 0.0 and 4 * max(idle, _idle(vectors, n, last, -1)) > n:
+        if vectors[Vector.P, first + idle] > 0.0 and 7 * max(idle, _idle(vectors, n, last, -1)) > n:
             return True
     return False
 
@@ -184,7 +184,7 @@ def _end_move(vectors, n, first, step, cosines, frozen):
     vectors[Vector.END, first] = 0.0
     idle = _idle(vectors, n, first, step)
     if idle >= 2:
-        return 0.0 if frozen else -0.9 * (1.0 + cosines[idle])
+        return 0.0 if frozen else -(1.0 + cosines[idle])
     if p2 <= 0.0:
         return 0.0
     q = (p1 / p2) ** 2

@@ -32,7 +32,7 @@ from contact.kernels.normal.panels import (
     end_moves,
     extend_to_ghosts,
     half_lengths,
-    have_idle_quarter,
+    have_idle_part,
     join_panels,
     lay_panels,
     remove_unloaded,
@@ -216,7 +216,7 @@ def _solve(sep, case, own, result):
             patience = iteration + 1
             continue
         # strip ends: stretch each strip by the ratio of the overlap at its ends to that of a parabola
-        cut = age < FREEZE and have_idle_quarter(n, n_panels, vectors)
+        cut = age < FREEZE and have_idle_part(n, n_panels, vectors)
         if not cut:  # otherwise the next iteration has other strips, and only the pressures count
             edge_displacements(panels, n_panels, own, skewed, unit)
         error, load = math.inf if cut else 0.0, 0.0
