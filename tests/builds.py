@@ -17,7 +17,10 @@ def _fmus(path: Path, packaging: str, *options: str | Path) -> None:
 
 
 def _native(path: Path) -> None:
-    """Build the native FMUs. One process compiles the kernels of all that tests need, because they share most of the work."""
+    """Build the native FMUs, and beside their folder one of those of vehicles.
+
+    One process compiles the kernels of all that tests need, because they share most of the work.
+    """
     from fmu_src import place
     from fmu_src.catalogue import models, surfaces, vehicles
     from fmu_src.native import packaging
@@ -25,13 +28,12 @@ def _native(path: Path) -> None:
     from reference.native import SCENARIO
 
     packaging.compile_kernels((*models(POINTS), *vehicles(SCENARIO), surfaces()), place.objects(), print)
-    _fmus(path, "native")
-
-
-def _vehicles(path: Path) -> None:
-    from reference.native import SCENARIO
-
     _fmus(path, "native", "--vehicle", SCENARIO)
+    native = path / "native"
+    for one in [one for one in native.rglob("*") if one.stem.lower().endswith("vehicle")]:
+        apart = path / "vehicles" / one.relative_to(native)
+        apart.parent.mkdir(parents=True, exist_ok=True)
+        one.rename(apart)
 
 
 def _surfaces(path: Path) -> None:
@@ -58,7 +60,6 @@ BUILDS: dict[str, Callable[[Path], None]] = {
     "native": _native,
     "fmus": lambda path: _fmus(path, "python"),
     "wine": _wine,
-    "native_vehicles": _vehicles,
     "native_surfaces": _surfaces,
     "page": _page,
 }

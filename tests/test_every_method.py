@@ -11,7 +11,7 @@ import pytest
 import contact
 from reference import random_cases
 from tests.post_conditions import assert_post_conditions
-from tests.separations import KINDS
+from tests.separations import KINDS, of_kind
 
 NORMAL, TANGENTIAL = contact.methods().batched
 PAIRS = random_cases.method_pairs()
@@ -24,7 +24,7 @@ CREEPAGES = [(1e-3, 0.0, 0.0), (-5e-4, 2e-3, 0.4), (0.0, 0.0, -0.9), (3e-2, -2e-
 
 
 def solve(kind, normal, tangential="fastrip", creepage=(0.0, 0.0, 0.0), **given):
-    separation, load = KINDS[kind]
+    separation, load = of_kind(kind)
     given = given or {"load": load}
     return contact.solve(separation, contact.Creepage(*creepage), normal=normal, tangential=tangential, **given)
 
@@ -32,7 +32,7 @@ def solve(kind, normal, tangential="fastrip", creepage=(0.0, 0.0, 0.0), **given)
 @pytest.mark.parametrize(("normal", "tangential"), [*PAIRS, *CALIBRATED])
 @pytest.mark.parametrize("kind", KINDS)
 def test_post_conditions(kind, normal, tangential):
-    load = KINDS[kind][1]
+    load = of_kind(kind)[1]
     for creepage in CREEPAGES:
         sol = solve(kind, normal, tangential, creepage)
         assert_post_conditions(sol)
@@ -56,7 +56,7 @@ def test_opposite_creepages_give_opposite_forces(kind, normal, tangential):
 @pytest.mark.parametrize(("normal", "tangential"), PAIRS)
 @pytest.mark.parametrize("kind", ["a/b = 5", "tread", "two patches", "yawed"])
 def test_the_mirror_image_has_the_mirrored_forces(kind, normal, tangential):
-    s, load = KINDS[kind]
+    s, load = of_kind(kind)
     mirrored = contact.Separation(-s.y[::-1], s.g[::-1], s.A[::-1], s.x_c[::-1])
     tolerance = 1e-9 if NORMAL[normal].interacting else 1e-5
     for xi, eta, phi in CREEPAGES:
@@ -72,7 +72,7 @@ def test_the_mirror_image_has_the_mirrored_forces(kind, normal, tangential):
 @pytest.mark.parametrize("normal", NORMAL)
 @pytest.mark.parametrize("kind", KINDS)
 def test_load_rises_with_the_approach(kind, normal):
-    separation, _ = KINDS[kind]
+    separation, _ = of_kind(kind)
     full = solve(kind, normal).approach
     touch = solve(kind, normal, load=0.0).approach
     approaches = touch + (full - touch) * np.geomspace(0.01, 1.0, 40)

@@ -6,7 +6,7 @@ import pytest
 import contact
 from contact.halfspace import Gap
 from tests.post_conditions import assert_post_conditions
-from tests.separations import KINDS, two_lobes
+from tests.separations import KINDS, of_kind, two_lobes
 
 BOTH = {"normal": "halfspace", "tangential": "halfspace"}
 CREEPAGES = [(1e-3, 0.0, 0.0), (-5e-4, 2e-3, 0.4), (0.0, 0.0, -0.9), (3e-2, -2e-2, 0.0)]
@@ -14,7 +14,7 @@ CREEPAGES = [(1e-3, 0.0, 0.0), (-5e-4, 2e-3, 0.4), (0.0, 0.0, -0.9), (3e-2, -2e-
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_post_conditions(kind):
-    separation, load = KINDS[kind]
+    separation, load = of_kind(kind)
     for creepage in CREEPAGES:
         sol = contact.solve(separation, contact.Creepage(*creepage), load=load, **BOTH)
         assert_post_conditions(sol)
@@ -28,7 +28,7 @@ def test_post_conditions(kind):
 
 @pytest.mark.parametrize("normal", list(contact.methods().batched.normal))
 def test_traction_on_the_pressure_of_any_method(normal):
-    separation, load = KINDS["tread"]
+    separation, load = of_kind("tread")
     first = contact.solve(separation, contact.Creepage(1e-3, 5e-4, 0.3), load=load, normal=normal)
     sol = contact.solve(separation, contact.Creepage(1e-3, 5e-4, 0.3), load=load, normal=normal, tangential="halfspace")
     assert_post_conditions(sol)
@@ -39,7 +39,7 @@ def test_traction_on_the_pressure_of_any_method(normal):
 
 
 def test_approach_and_load_agree():
-    separation, load = KINDS["tread"]
+    separation, load = of_kind("tread")
     creepage = contact.Creepage(1e-3, 0.0, 0.1)
     one = contact.solve(separation, creepage, load=load, spacing=0.4e-3, **BOTH)
     other = contact.solve(separation, creepage, approach=one.approach, spacing=0.4e-3, **BOTH)

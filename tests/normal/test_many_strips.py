@@ -8,11 +8,14 @@ from contact.kernels.normal.influence import anywhere
 from contact.kernels.normal.many_strips import displacement, fill_ln_X
 from contact.kernels.rows import Pair
 
-PLANE = workspace.strip_tables()[1]
+
+@pytest.fixture(scope="module")
+def plane():
+    return workspace.strip_tables()[1]
 
 
 @pytest.mark.parametrize("own", [-1, 3])
-def test_many_strips_equal_the_lookups_of_each(own):
+def test_many_strips_equal_the_lookups_of_each(plane, own):
     rng = np.random.default_rng(1)
     n = 21
     pairs = np.empty((len(Pair), n + 4))
@@ -22,14 +25,14 @@ def test_many_strips_equal_the_lookups_of_each(own):
     forces = rng.uniform(0.0, 1.0, n)
     expected = 0.0
     for j in range(n):
-        near, far = anywhere(PLANE, X[j], low[j]), anywhere(PLANE, X[j], high[j])
+        near, far = anywhere(plane, X[j], low[j]), anywhere(plane, X[j], high[j])
         expected += forces[j] * (far + near if j == own else far - near)
     pairs[Pair.X, :n], pairs[Pair.LOW, :n], pairs[Pair.HIGH, :n] = X, low, high
     fill_ln_X(n, pairs)
-    assert displacement(PLANE, forces, pairs, own) == pytest.approx(expected, rel=1e-12)
+    assert displacement(plane, forces, pairs, own) == pytest.approx(expected, rel=1e-12)
 
 
 @pytest.mark.nan
-def test_a_distance_that_is_no_number_reads_inside_the_table():
+def test_a_distance_that_is_no_number_reads_inside_the_table(plane):
     pairs = np.full((len(Pair), 4), np.nan)
-    assert not np.isfinite(displacement(PLANE, np.ones(4), pairs, -1))
+    assert not np.isfinite(displacement(plane, np.ones(4), pairs, -1))

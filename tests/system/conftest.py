@@ -31,9 +31,9 @@ def native(once) -> Path:
 
 
 @pytest.fixture(scope="session")
-def native_vehicles(native, once) -> Path:
+def native_vehicles(native) -> Path:
     """Return the folder with the native Vehicle, OpenVehicle and coupled_vehicle.ssp."""
-    return once("native_vehicles") / "native"
+    return native.parents[1] / "vehicles"
 
 
 @pytest.fixture(scope="session")

@@ -92,6 +92,7 @@ def test_no_output_moves_with_a_variable_on_which_it_does_not_depend(request, na
         row.name: row for row in table.shown if row.initial == "calculated" and not row.name.startswith("accumulated")
     }
     of = {s.name: s.row.name for s in table.scalars if s.row.name in rows and s.row.name != "creep_stiffness"}
+    allowed = {output: {row.name for row in table.knowns(rows[output])} for output in rows}
     wrong = set()
     for case in CASES[name]:
         start = outputs(fmu, case, list(of))
@@ -103,7 +104,7 @@ def test_no_output_moves_with_a_variable_on_which_it_does_not_depend(request, na
             for values in list(changed(table, row.name, fmu)):
                 moved = outputs(fmu, {**case, **values}, list(of)) or start
                 for output in {of[n] for n in of if moved[n] != start[n]}:
-                    if row not in table.knowns(rows[output]):
+                    if row.name not in allowed[output]:
                         wrong.add((output, row.name))
     fmu.free()
     assert not wrong, "\n".join(f"{output} moves with {of}" for output, of in sorted(wrong))
