@@ -6,7 +6,7 @@ after Knothe and Le The 1984). Hertz's ellipse satisfies both exactly for every 
 between moving ends, with one panel of strips for every patch of the start solution. All panels interact. No second
 derivative of the profile is used.
 
-Half lengths and ends are mixed together. Ends follow their rule for a dozen iterations, the last of them within brackets
+Half lengths and ends are mixed together. Ends follow their rule for 16 iterations, the last of them within brackets
 (`brackets`), and are then fixed. The active set ends the patch inside them. The best iterate since then is kept. A panel
 steps by the Jacobian of the ellipse with its a/b (`descent`).
 
