@@ -47,13 +47,14 @@ def main() -> None:
     warnings.simplefilter("ignore", NumbaWarning)  # unoptimised code cannot be cached
     from explorer import patch
     from fmu_src.native import emit, solver
+    from fmu_src.native.component import SIGNATURES
     from fmu_src.tables.wheel_rail_pair import table
 
     folder = Path(sys.argv[1])
     entries, data = patch.entries(table()), solver.data()
     emit.make_no_machine_code()
-    text = str(emit.linked(entries, data, with_resources=True))
-    (folder / "kernels.o").write_bytes(_object(text, tuple(entries)))
+    text = str(emit.linked(entries, data))
+    (folder / "kernels.o").write_bytes(_object(text, tuple(SIGNATURES)))
     (folder / "data.o").write_bytes(_object(emit.data_as_ir(data), ()))
 
 

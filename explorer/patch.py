@@ -35,9 +35,9 @@ def entries(table: Table) -> dict[str, Callable[..., Any]]:
     kind, elements = table.span["load.kind"].start, table.span["resolution.n_elements"].start
     energy = DamageField.ENERGY_INDEX
 
-    def model_field(values, work, k, resources, published, centre, plane, creep):
+    def model_field(values, work, k, given):
         v = carray(values, (n_values,))
-        bench = arrange(v, work, resources, (centre, plane, creep))
+        bench = arrange(v, work, given)
         own, n = bench.own, solve_patch(k, v[kind] != _BY_HEIGHT, bench)
         m = int(v[elements])
         by_strip = carray(ahead(values, n_values), (len(STRIPS), n))

@@ -27,6 +27,13 @@ SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
 }
 
 
+class Given(NamedTuple):
+    """What every entry gets last: pointers to the content of the `resources`, and to the arrays of `data`."""
+
+    resources: Any
+    data: Any
+
+
 class Resource(NamedTuple):
     """A file in resources/ that an instance reads (`fmu_src.resources`).
 
@@ -49,20 +56,20 @@ class Component:
         Variable table. The continuous states are the rows that have a derivative among the other rows.
     entries : callable
         Returns Python functions by the names in `SIGNATURES`, which numba compiles. The first argument is the array of all
-        values, indexed by value reference. Most functions also take the working memory. The `resources`, if there are any, and
-        the arrays of `data` follow. Working memory begins with the warm start.
+        values, indexed by value reference. Most functions also take the working memory, which begins with the warm start. The
+        last argument is `Given`.
 
-        * ``model_memory(values)`` returns the size of the warm start in numbers, ``model_size(values)`` that of all working
-          memory. Both depend only on the parameters in `values`.
-        * ``model_prepare(values, work)`` fills what depends only on the parameters.
-        * ``model_start(values, work)`` computes the continuous states and the outputs of co-simulation at the start, from the
-          parameters. A model without states does not need it.
-        * ``model_outputs(values, work, h)`` advances by h [s] from the warm start, then computes the outputs. With h = 0 it
-          computes them only from the inputs and states in `values`.
-        * ``model_lazy(values, work)`` computes the rows `lazy`.
-        * ``model_difference(values, reference)`` returns a suitable step of one variable for difference quotients.
-        * ``model_field(values, work, k)`` writes field number `k` of the last ``model_outputs`` into `work` and returns where
-          it begins. A model without fields does not need it.
+        * ``model_memory(values, given)`` returns the size of the warm start in numbers, ``model_size(values, given)`` that of
+          all working memory. Both depend only on the parameters in `values`.
+        * ``model_prepare(values, work, given)`` fills what depends only on the parameters.
+        * ``model_start(values, work, given)`` computes the continuous states and the outputs of co-simulation at the start,
+          from the parameters. A model without states does not need it.
+        * ``model_outputs(values, work, h, given)`` advances by h [s] from the warm start, then computes the outputs. With
+          h = 0 it computes them only from the inputs and states in `values`.
+        * ``model_lazy(values, work, given)`` computes the rows `lazy`. A model without such rows does not need it.
+        * ``model_difference(values, reference, given)`` returns a suitable step of one variable for difference quotients.
+        * ``model_field(values, work, k, given)`` writes field number `k` of the last ``model_outputs`` into `work` and returns
+          where it begins. A model without fields does not need it.
 
         The functions that return neither a size, a step nor a position return 0 or the number of a message (`warnings`,
         `failures`). At a cold start the warm start is all zeros.

@@ -99,8 +99,10 @@ def emit(components: Mapping[Path, Component]) -> None:
     RuntimeError
         If the kernels need a symbol that is not in ALLOWED.
     """
+    from fmu_src.native.component import SIGNATURES
+
     # This comes before machine code is switched off, since components may call kernels to make their data.
-    made = {folder: (own.entries(), own.data(), bool(own.resources), own.prefix) for folder, own in components.items()}
+    made = {folder: (own.entries(), own.data(), own.prefix) for folder, own in components.items()}
     make_no_machine_code()
     with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as pool, ThreadPoolExecutor(len(made)) as chains:
 
@@ -112,9 +114,9 @@ def emit(components: Mapping[Path, Component]) -> None:
                 part.result()
 
         finished = []
-        for folder, (entries, data, with_resources, prefix) in made.items():
-            code = linked(entries, data, with_resources, prefix).as_bitcode()
-            names = tuple(_symbol(entry, prefix) for entry in entries)
+        for folder, (entries, data, prefix) in made.items():
+            code = linked(entries, data, prefix).as_bitcode()
+            names = tuple(_symbol(entry, prefix) for entry in SIGNATURES)
             text, in_c = data_as_ir(data, prefix), sources(folder, prefix)
             finished.append(chains.submit(finish, code, names, text, folder, in_c))
         for chain in finished:
@@ -207,22 +209,31 @@ def data_as_ir(data: Sequence[Any], prefix: str = PREFIX) -> str:
     return "\n".join(lines)
 
 
-def linked(
-    entries: Mapping[str, Callable[..., Any]], data: Sequence[Any], with_resources: bool, prefix: str = PREFIX
-) -> Any:
+def _nothing(values: Any, work: Any, given: Any) -> int:
+    return 0
+
+
+def _no_field(values: Any, work: Any, k: Any, given: Any) -> int:
+    return 0
+
+
+#: What stands for entries that a component does not need.
+_UNNEEDED: dict[str, Callable[..., Any]] = {"model_start": _nothing, "model_lazy": _nothing, "model_field": _no_field}
+
+
+def linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any], prefix: str = PREFIX) -> Any:
     """Return one module of all entries, in which only these are visible from outside."""
     from llvmlite import binding as llvm
-    from numba import cfunc
+    from numba import cfunc, types
 
-    from fmu_src.native.component import SIGNATURES
+    from fmu_src.native.component import SIGNATURES, Given
     from fmu_src.native.memory import Doubles
 
-    parts, glue = [], _Glue(data, with_resources, prefix)
-    visible = {_symbol(entry, prefix) for entry in entries}
+    parts, glue, entries = [], _Glue(data, prefix), {**_UNNEEDED, **entries}
+    visible = {_symbol(entry, prefix) for entry in SIGNATURES}
+    given = types.NamedTuple((Doubles, types.UniTuple(Doubles, len(data))), Given)
     for name, (result, arguments) in SIGNATURES.items():
-        pointers = len(data) + with_resources
-        signature = result(*arguments, *(Doubles for _ in range(pointers)))
-        compiled = cfunc(signature, error_model="numpy")(entries[name])
+        compiled = cfunc(result(*arguments, given), error_model="numpy")(entries[name])
         text = re.sub(r"^target .*$", "", _without_origin(compiled.inspect_llvm()), flags=re.MULTILINE)
         glue.add(_symbol(name, prefix), result, arguments, compiled.native_name.removeprefix("cfunc."))
         parts.append(llvm.parse_assembly(text))
@@ -256,8 +267,8 @@ def _readable(name: str) -> str:
 class _Glue:
     """IR of functions with C calling conventions that call numba's functions and pass them the constant data."""
 
-    def __init__(self, data: Sequence[Any], with_resources: bool, prefix: str) -> None:
-        self.data, self.with_resources, self.prefix = data, with_resources, prefix
+    def __init__(self, data: Sequence[Any], prefix: str) -> None:
+        self.data, self.prefix = data, prefix
         # The kernels' arrays belong to the caller and have no reference count, so these two functions do nothing. ALLOWED
         # proves that nothing else of numba's runtime is needed.
         self.lines = ["define void @NRT_incref(ptr %0) { ret void }", "define void @NRT_decref(ptr %0) { ret void }"]
@@ -266,14 +277,13 @@ class _Glue:
 
     def add(self, name: str, result: Any, arguments: Sequence[Any], body: str) -> None:
         """Add a function `name` that calls numba's `body`, i32 body(result*, exception**, arguments…), which never fails."""
-        arguments_of_c = [*(f"{_TYPES[str(a)]} %a{i}" for i, a in enumerate(arguments)), "ptr %resources"]
-        names = arguments_of_c if self.with_resources else arguments_of_c[:-1]
+        names = [*(f"{_TYPES[str(a)]} %a{i}" for i, a in enumerate(arguments)), "ptr %resources"]
         constants = [f"ptr @{self.prefix}_data{i}" for i in range(len(self.data))]
         kind = _TYPES[str(result)]
         types = ", ".join(["ptr", "ptr", *(n.split()[0] for n in names), *("ptr" for _ in constants)])
         self.lines += [
             f'declare i32 @"{body}"({types})',
-            f"define {kind} @{name}({', '.join(arguments_of_c)}) {{",
+            f"define {kind} @{name}({', '.join(names)}) {{",
             f"  %result = alloca {kind}",
             "  %exception = alloca ptr",
             f"  store {kind} zeroinitializer, ptr %result",

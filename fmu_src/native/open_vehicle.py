@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import namedtuple
 from collections.abc import Callable
 from typing import Any
 
@@ -12,10 +11,11 @@ from contact.kernels.records import GIVEN
 from fmu_src.native.component import Component, Resource
 from fmu_src.native.memory import compiled, numbers_of
 from fmu_src.native.vehicle_parts import ENDED, LOST, arrays, has_ended, is_finite, layout_of, track_after, write_motion
+from fmu_src.native.wires import references
 from fmu_src.tables.open_vehicle import table
 from fmu_src.tables.vehicle import TRACK
 from fmu_src.track import MAGIC, ROWS
-from fmu_src.variables import Table, identifier
+from fmu_src.variables import Table
 from models.vehicle.assembly import Assembly
 from models.vehicle.declared import read
 from models.vehicle.kernels import motion
@@ -39,19 +39,16 @@ def component(vehicle: str) -> Component:
 
 
 def _entries(table: Table, made: Assembly, radius: float) -> dict[str, Callable[..., Any]]:
-    """Return `Component.entries`. The data arguments are those of `vehicle_parts.arrays`."""
-    at = namedtuple("References", [identifier(name) for name in table.span])(
-        *(span.start for span in table.span.values())
-    )
-    layout = layout_of(made)
+    """Return `Component.entries`. The data are those of `vehicle_parts.arrays`."""
+    at, layout = references(table), layout_of(made)
     arrange, fill, kept = layout.arrange, layout.fill, layout.kept
     n_values, n_axles = len(table.scalars), made.wheelsets.size
     n_wheels, n_given = 2 * n_axles, GIVEN.itemsize // 8
 
     @compiled
-    def parts_of(work, resources, constants):
-        track, n_track = track_after(resources, 0)
-        return arrange(work, kept, track, n_track, constants)
+    def parts_of(work, given):
+        track, n_track = track_after(given.resources, 0)
+        return arrange(work, kept, track, n_track, given.data)
 
     @compiled
     def take_forces(v, parts):
@@ -73,24 +70,21 @@ def _entries(table: Table, made: Assembly, radius: float) -> dict[str, Callable[
             v[at.wheel_friction_coefficient + w] = parts.scratch.seats[w].friction
         write_motion(v, at.distance, at.body_x, parts)
 
-    def model_memory(values, resources, bodies, links, elements, table, wheelsets, rail):
+    def model_memory(values, given):
         return kept
 
-    def model_size(values, resources, bodies, links, elements, table, wheelsets, rail):
-        return parts_of(values, resources, (bodies, links, elements, table, wheelsets, rail))[1]
+    def model_size(values, given):
+        return parts_of(values, given)[1]
 
-    def model_prepare(values, work, resources, bodies, links, elements, table, wheelsets, rail):
+    def model_prepare(values, work, given):
         v = carray(values, (n_values,))
-        parts = parts_of(work, resources, (bodies, links, elements, table, wheelsets, rail))[0]
-        fill(parts, links, radius, v[at.rail_origin_y], v[at.rail_origin_z])
+        parts = parts_of(work, given)[0]
+        fill(parts, given.data, radius, v[at.rail_origin_y], v[at.rail_origin_z])
         return 0
 
-    def model_start(values, work, resources, bodies, links, elements, table, wheelsets, rail):
-        return 0
-
-    def model_outputs(values, work, h, resources, bodies, links, elements, table, wheelsets, rail):
+    def model_outputs(values, work, h, given):
         v = carray(values, (n_values,))
-        parts = parts_of(work, resources, (bodies, links, elements, table, wheelsets, rail))[0]
+        parts = parts_of(work, given)[0]
         model, state, scratch, motions, speed = parts.model, parts.state, parts.scratch, parts.motions, v[at.speed]
         model.surface[0], model.surface[1] = v[at.friction_coefficient], v[at.friction_coefficient]
         if parts.begun[0] == 0.0:
@@ -108,16 +102,8 @@ def _entries(table: Table, made: Assembly, radius: float) -> dict[str, Callable[
         report(v, parts)
         return 0
 
-    def model_lazy(values, work, resources, bodies, links, elements, table, wheelsets, rail):
-        return 0
-
-    def model_difference(values, reference, resources, bodies, links, elements, table, wheelsets, rail):
+    def model_difference(values, reference, given):
         return 1e-6
 
-    def model_field(values, work, k, resources, bodies, links, elements, table, wheelsets, rail):
-        return 0
-
-    called_by_c = (
-        model_memory, model_size, model_prepare, model_start, model_outputs, model_lazy, model_difference, model_field
-    )  # fmt: skip
+    called_by_c = (model_memory, model_size, model_prepare, model_outputs, model_difference)
     return {function.__name__: function for function in called_by_c}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import namedtuple
 from collections.abc import Callable
 from enum import IntEnum, auto
 from typing import Any
@@ -31,10 +30,10 @@ from contact.kernels.records import (
 from fmu_src.differences import creepage_steps
 from fmu_src.native.memory import compiled, numbers_of
 from fmu_src.native.solver import choose, forget_forged, size_of
-from fmu_src.native.wires import MATERIAL, case_reader, reader, writer
+from fmu_src.native.wires import MATERIAL, case_reader, reader, references, writer
 from fmu_src.tables.solver import DAMAGE_OUTPUTS
 from fmu_src.tables.wheel_rail_pair import LOAD_KIND, PATCH, PATCHES, SIDE
-from fmu_src.variables import Table, identifier
+from fmu_src.variables import Table
 
 _HEIGHTS = {"NormalForce": Height.LOAD, "Position": Height.GIVEN, "VerticalForce": Height.VERTICAL}
 #: Values of `Height`, by the number of an item of LOAD_KIND, less 1.
@@ -89,13 +88,6 @@ FAILURES: dict[int, str] = {
     Failure.ENDLESS: "the accumulated damage has no finite value for these inputs",
     Failure.TURNED: f"offset: with the wheelset's roll and yaw the wheel is turned by more than {LARGEST_ANGLE:g} rad",
 }
-
-
-def references(table: Table) -> Any:
-    """Return a named tuple of the value references of the table's rows."""
-    return namedtuple("References", [identifier(name) for name in table.span])(
-        *(span.start for span in table.span.values())
-    )
 
 
 def sizer(table: Table) -> Callable[..., Any]:

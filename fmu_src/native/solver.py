@@ -50,11 +50,12 @@ def choose(normal, tangential, case):
 
 
 @compiled
-def lay_out(work, end, kept, size, centre, plane, creep):
+def lay_out(work, end, kept, size, constants):
     """Lay out a workspace in `work` from index `end` on. Return it and the index where it ends.
 
-    `kept` is the memory of the warm start, of size `memory_size`.
+    `kept` is the memory of the warm start, of size `memory_size`; `constants` are pointers to those of `data`.
     """
+    _, centre, plane, creep = constants
     rule, end = memory.lay_rule(work, end, size)
     coefficients, end = memory.lay_kalker(work, end)
     space, end = memory.lay_space(work, end, size, kept)
@@ -76,8 +77,8 @@ def forget_forged(kept):
 
 
 @compiled
-def fill(own, poisson_ratio, published):
-    """Fill the arrays that depend only on resolution and material."""
+def fill(own, poisson_ratio, constants):
+    """Fill the arrays that depend only on resolution and material. `constants` are pointers to those of `data`."""
     rule, tables = own.rule, own.tables
     quadrature.fill_fejer(rule.across.nodes, rule.across.weights)
     quadrature.fill_elements(rule.elements)
@@ -86,4 +87,4 @@ def fill(own, poisson_ratio, published):
     if rule.columns.size > 1:
         fill_descent(tables.centre, tables.plane, rule.columns, rule.descent)
         influence.fill_columns(rule.cosine_logs, tables.centre, rule.columns)
-    fill_table(carray(published, (N_TABLE, 4, 3)), poisson_ratio, tables.kalker)
+    fill_table(carray(constants[0], (N_TABLE, 4, 3)), poisson_ratio, tables.kalker)

@@ -7,7 +7,6 @@ a wheel's contact remembers is copied into it before the wheel is solved.
 from __future__ import annotations
 
 import math
-from collections import namedtuple
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -23,10 +22,11 @@ from fmu_src.native import wheel_rail_pair as pair
 from fmu_src.native.component import SIGNATURES, Component, Resource
 from fmu_src.native.memory import Doubles, compiled, numbers_of
 from fmu_src.native.vehicle_parts import ENDED, LOST, arrays, has_ended, is_finite, layout_of, track_after, write_motion
+from fmu_src.native.wires import references
 from fmu_src.tables import wheel_rail_pair as pair_table
 from fmu_src.tables.vehicle import TOTALS, TRACK, WHEEL, table
 from fmu_src.track import MAGIC, ROWS
-from fmu_src.variables import Causality, Table, identifier
+from fmu_src.variables import Causality, Table
 from models.vehicle.assembly import Assembly
 from models.vehicle.kernels import motion
 from models.vehicle.kernels.layout import ELASTIC, Book
@@ -40,7 +40,9 @@ def _entry_of_pair(name: str) -> Any:
 
 _pair_memory, _pair_size = _entry_of_pair("model_memory"), _entry_of_pair("model_size")
 _pair_prepare, _pair_outputs = _entry_of_pair("model_prepare"), _entry_of_pair("model_outputs")
-_N_TOTALS = len(TOTALS)
+_N_TOTALS, _N_GIVEN = len(TOTALS), GIVEN.itemsize // 8
+_POSITION, _BY_LOAD = (pair_table.LOAD_KIND.number(name) for name in ("Position", "NormalForce"))
+_WORST_STATUS = max(int(status) for status in Status)
 
 
 def component(vehicle: str, inclination: float) -> Component:
@@ -83,44 +85,31 @@ class Wires(NamedTuple):
 
 
 def _wires(interface: Table, of_pair: Table) -> Wires:
-    at, its = (
-        namedtuple("References", [identifier(name) for name in table.span])(*(s.start for s in table.span.values()))
-        for table in (interface, of_pair)
-    )
     copied = [(of_pair.span[name].start, interface.span[row].start) for row, name in WHEEL.items()]
     rates = [[of_pair.span[rate].start for rate in (*rates, *rates)][:2] for _, _, rates in TOTALS.values()]
-    return Wires(at, its, np.array(copied), np.array(rates), np.array([len(r) == 1 for _, _, r in TOTALS.values()]))
+    return Wires(
+        references(interface),
+        references(of_pair),
+        np.array(copied),
+        np.array(rates),
+        np.array([len(r) == 1 for _, _, r in TOTALS.values()]),
+    )
 
 
-class Functions(NamedTuple):
-    """Compiled functions of the contacts."""
-
-    lay: Callable[..., Any]
-    fill: Callable[..., Any]
-    begin: Callable[..., Any]
-    press: Callable[..., Any]
-
-
-def _functions(wires: Wires, of_pair: Table, made: Assembly) -> Functions:
-    at, its, copied, rates, alone = wires
-    layout = layout_of(made)
-    arrange, kept = layout.arrange, layout.kept
-    n_its = of_pair.span[pair_table.ACCUMULATED[0]].start
-    n_parameters = sum(s.row.causality is Causality.PARAMETER for s in of_pair.scalars)
-    n_axles, n_given = made.wheelsets.size, GIVEN.itemsize // 8
-    n_wheels = 2 * n_axles
-    position, by_load = (pair_table.LOAD_KIND.number(name) for name in ("Position", "NormalForce"))
-    sides = np.array([pair_table.SIDE.number(name) for name in ("Right", "Left")], float)
-    worst_status = max(int(status) for status in Status)
+def _layer(made: Assembly, n_its: int) -> Callable[..., Any]:
+    """Return a compiled function that lays out the memory; the pair has `n_its` values."""
+    layout, n_axles = layout_of(made), made.wheelsets.size
+    arrange, kept, n_wheels = layout.arrange, layout.kept, 2 * n_axles
 
     @compiled
-    def lay(values, work, resources, constants):
+    def lay(values, work, given):
         """Return the vehicle, its contacts, the place of the turned rail and the total size in numbers."""
+        resources = given.resources
         memory, size = _pair_memory(values, resources), next_line(_pair_size(values, resources))
         track, n_track = track_after(resources, 2)
         totals, end = matrix(work, kept, _N_TOTALS, n_wheels)
         memories, end = matrix(work, end, n_wheels, memory)
-        parts, end = arrange(work, end, track, n_track, constants)
+        parts, end = arrange(work, end, track, n_track, given.data)
         heights, values_at = vector(work, end, n_axles)
         of_sides, end = matrix(work, values_at, 2, n_its)
         n_wheel = int(carray(resources, (1,))[0])
@@ -130,53 +119,66 @@ def _functions(wires: Wires, of_pair: Table, made: Assembly) -> Functions:
         contacts = Contacts(of_sides, memories, totals, heights, work, values_at, works_at, size)
         return parts, contacts, turned, works_at + 2 * size
 
+    return lay
+
+
+def _preparer(its: Any, n_its: int, n_parameters: int) -> Callable[..., Any]:
+    """Return a compiled function that prepares the pair of each side. `its` are the pair's value references."""
+    sides = np.array([pair_table.SIDE.number(name) for name in ("Right", "Left")], float)
+
     @compiled
-    def prepare_pairs(v, contacts, first, resources):
+    def prepare_pairs(v, contacts, given):
         """Fill values and workspaces of both sides; return 0 or the pair's code."""
-        start = carray(first, (n_its,))
+        start = carray(given.data[-1], (n_its,))
         for side in range(2):
             values = contacts.values[side]
             for i in range(n_its):
                 values[i] = v[i] if i < n_parameters else start[i]
-            values[its.side], values[its.load_kind] = sides[side], position
+            values[its.side], values[its.load_kind] = sides[side], _POSITION
             code = _pair_prepare(
                 ahead(contacts.work, contacts.values_at + side * n_its),
                 ahead(contacts.work, contacts.works_at + side * contacts.size),
-                resources,
+                given.resources,
             )
             if code > 0:
                 return code
         return 0
 
-    @compiled
-    def solve(contacts, w, resources):
-        """Solve the contact of wheel `w` for the values of its side; return the pair's code."""
-        side, memory = w % 2, contacts.memories[w]
-        work_at = contacts.works_at + side * contacts.size
-        its_memory, _ = vector(contacts.work, work_at, memory.size)
-        for i in range(memory.size):
-            its_memory[i] = memory[i]
-        code = _pair_outputs(
-            ahead(contacts.work, contacts.values_at + side * n_its), ahead(contacts.work, work_at), 0.0, resources
-        )
-        for i in range(memory.size):
-            memory[i] = its_memory[i]
-        return code
+    return prepare_pairs
+
+
+@compiled
+def _solve(contacts, w, resources):
+    """Solve the contact of wheel `w` for the values of its side; return the pair's code."""
+    side, memory = w % 2, contacts.memories[w]
+    values_at = contacts.values_at + side * contacts.values.shape[1]
+    work_at = contacts.works_at + side * contacts.size
+    its_memory, _ = vector(contacts.work, work_at, memory.size)
+    for i in range(memory.size):
+        its_memory[i] = memory[i]
+    code = _pair_outputs(ahead(contacts.work, values_at), ahead(contacts.work, work_at), 0.0, resources)
+    for i in range(memory.size):
+        memory[i] = its_memory[i]
+    return code
+
+
+def _placer(at: Any, its: Any) -> Callable[..., Any]:
+    """Return a compiled function that places the vehicle on its rails."""
 
     @compiled
     def begin(v, parts, contacts, resources):
-        """Place the vehicle on its rails; return 0 or the code of a contact that has no answer."""
+        """Return 0 or the code of a contact that has no answer."""
         model, speed = parts.model, v[at.speed]
-        for w in range(n_wheels):
+        for w in range(contacts.memories.shape[0]):
             values, axle = contacts.values[w % 2], w // 2
-            for i in range(n_given):
+            for i in range(_N_GIVEN):
                 values[its.pose_y + i] = 0.0
             values[its.velocity_x], values[its.velocity_spin] = speed, -speed / v[at.wheel_radius]
             values[its.friction_coefficient] = v[at.friction_coefficient]
-            values[its.load_kind], values[its.load_normal_force] = by_load, model.bodies[model.wheelsets[axle]].load
-            code = solve(contacts, w, resources)
-            values[its.load_kind] = position
-            if code > worst_status:
+            values[its.load_kind], values[its.load_normal_force] = _BY_LOAD, model.bodies[model.wheelsets[axle]].load
+            code = _solve(contacts, w, resources)
+            values[its.load_kind] = _POSITION
+            if code > _WORST_STATUS:
                 return code
             contacts.heights[axle] = 0.5 * values[its.wheelset_z] + (contacts.heights[axle] if w % 2 == 1 else 0.0)
         contacts.memories[:] = 0.0
@@ -184,14 +186,17 @@ def _functions(wires: Wires, of_pair: Table, made: Assembly) -> Functions:
         parts.begun[0] = 1.0
         return 0
 
+    return begin
+
+
+def _taker(its: Any, copied: Any) -> Callable[..., Any]:
+    """Return a compiled function that takes over what the pair has found for a wheel."""
+
     @compiled
     def take(v, values, wheel, w):
         """Enter what the contact of wheel `w` does to the vehicle, and write its outputs."""
-        wheel.longitudinal, wheel.lateral, wheel.vertical = (
-            values[its.force_x],
-            values[its.force_y],
-            -values[its.force_z],
-        )
+        wheel.longitudinal, wheel.lateral = values[its.force_x], values[its.force_y]
+        wheel.vertical = -values[its.force_z]
         wheel.moment_x, wheel.moment_y = values[its.moment_x], values[its.moment_y]
         wheel.moment_z, wheel.T_gamma = values[its.moment_z], values[its.damage_T_gamma]
         wheel.status = values[its.status]
@@ -208,18 +213,26 @@ def _functions(wires: Wires, of_pair: Table, made: Assembly) -> Functions:
         for i in range(copied.shape[0]):
             v[copied[i, 1] + w] = values[copied[i, 0]]
 
+    return take
+
+
+def _presser(wires: Wires) -> Callable[..., Any]:
+    """Return a compiled function that solves all contacts."""
+    its, rates, alone = wires.its, wires.rates, wires.alone
+    take = _taker(its, wires.copied)
+
     @compiled
     def press(v, parts, contacts, h, resources):
         """Solve all contacts, add up their totals over `h` [s]; return the worst status or the code of a failure."""
         worst = 0
-        for w in range(n_wheels):
+        for w in range(contacts.memories.shape[0]):
             values = contacts.values[w % 2]
-            numbers = carray(numbers_of(parts.scratch.given[w : w + 1]), (n_given,))
-            for i in range(n_given):
+            numbers = carray(numbers_of(parts.scratch.given[w : w + 1]), (_N_GIVEN,))
+            for i in range(_N_GIVEN):
                 values[its.pose_y + i] = numbers[i]
             values[its.friction_coefficient] = parts.scratch.seats[w].friction
-            code = solve(contacts, w, resources)
-            if code > worst_status:
+            code = _solve(contacts, w, resources)
+            if code > _WORST_STATUS:
                 return code
             worst = max(worst, code)
             take(v, values, parts.scratch.wheels[w], w)
@@ -228,21 +241,11 @@ def _functions(wires: Wires, of_pair: Table, made: Assembly) -> Functions:
                 contacts.totals[i, w] += h * (rate if alone[i] else rate * values[rates[i, 1]])
         return worst
 
-    return Functions(lay, prepare_pairs, begin, press)
+    return press
 
 
-def _entries(interface: Table, of_pair: Table, made: Assembly, ended: int) -> dict[str, Callable[..., Any]]:
-    """Return `Component.entries`. The data arguments are those of `vehicle_parts.arrays`, and the pair's start values."""
-    n_parameters = sum(s.row.causality is Causality.PARAMETER for s in of_pair.scalars)
-    if [s.name for s in interface.scalars[:n_parameters]] != [s.name for s in of_pair.scalars[:n_parameters]]:
-        raise ValueError("the parameters of the pair must come first, with its value references")
-    wires, layout = _wires(interface, of_pair), layout_of(made)
-    lay, prepare_pairs, begin, press = _functions(wires, of_pair, made)
-    at, fill = wires.at, layout.fill
-    n_values, n_wheels = len(interface.scalars), 2 * made.wheelsets.size
-    kept = layout.kept + _N_TOTALS * n_wheels
-    total_at = interface.span[f"wheel[].total.{next(iter(TOTALS))}"].start
-    worst_status = max(int(status) for status in Status)
+def _advancer(at: Any, press: Callable[..., Any], ended: int) -> Callable[..., Any]:
+    """Return a compiled function that moves the vehicle. The failures are numbered from `ended` on."""
 
     @compiled
     def advance(v, parts, contacts, h, resources):
@@ -255,13 +258,20 @@ def _entries(interface: Table, of_pair: Table, made: Assembly, ended: int) -> di
                 return ended
             motion.ask(model, state, motions, scratch, speed)
             code = press(v, parts, contacts, step, resources)
-            if code > worst_status:
+            if code > _WORST_STATUS:
                 return code
             if h > 0.0:
                 motion.move(model, state, motions, scratch, step, speed)
             if not is_finite(parts):
                 return ended + 1
         return code
+
+    return advance
+
+
+def _reporter(interface: Table, at: Any, n_wheels: int) -> Callable[..., Any]:
+    """Return a compiled function that writes the outputs of the vehicle."""
+    total_at = interface.span[f"wheel[].total.{next(iter(TOTALS))}"].start
 
     @compiled
     def report(v, parts, contacts):
@@ -276,52 +286,58 @@ def _entries(interface: Table, of_pair: Table, made: Assembly, ended: int) -> di
             for i in range(_N_TOTALS):
                 v[total_at + n_wheels * i + w] = contacts.totals[i, w]
 
-    def model_memory(values, resources, bodies, links, elements, table, wheelsets, rail, first):
-        return kept + n_wheels * _pair_memory(values, resources)
+    return report
 
-    def model_size(values, resources, bodies, links, elements, table, wheelsets, rail, first):
-        return lay(values, values, resources, (bodies, links, elements, table, wheelsets, rail))[3]
 
-    def model_prepare(values, work, resources, bodies, links, elements, table, wheelsets, rail, first):
+def _entries(interface: Table, of_pair: Table, made: Assembly, ended: int) -> dict[str, Callable[..., Any]]:
+    """Return `Component.entries`. The data are those of `vehicle_parts.arrays`, then the pair's start values."""
+    n_parameters = sum(s.row.causality is Causality.PARAMETER for s in of_pair.scalars)
+    if [s.name for s in interface.scalars[:n_parameters]] != [s.name for s in of_pair.scalars[:n_parameters]]:
+        raise ValueError("the parameters of the pair must come first, with its value references")
+    wires, layout = _wires(interface, of_pair), layout_of(made)
+    at, its, fill = wires.at, wires.its, layout.fill
+    n_values, n_wheels, n_its = (
+        len(interface.scalars),
+        2 * made.wheelsets.size,
+        of_pair.span[pair_table.ACCUMULATED[0]].start,
+    )
+    kept = layout.kept + _N_TOTALS * n_wheels
+    lay, prepare_pairs, begin = _layer(made, n_its), _preparer(its, n_its, n_parameters), _placer(at, its)
+    advance, report = _advancer(at, _presser(wires), ended), _reporter(interface, at, n_wheels)
+
+    def model_memory(values, given):
+        return kept + n_wheels * _pair_memory(values, given.resources)
+
+    def model_size(values, given):
+        return lay(values, values, given)[3]
+
+    def model_prepare(values, work, given):
         v = carray(values, (n_values,))
-        constants = (bodies, links, elements, table, wheelsets, rail)
-        parts, contacts, turned, _ = lay(values, work, resources, constants)
-        code = prepare_pairs(v, contacts, first, resources)
+        parts, contacts, turned, _ = lay(values, work, given)
+        code = prepare_pairs(v, contacts, given)
         if code > 0:
             return code
-        at_rail = 2 + N_PROFILE_ROWS * int(carray(resources, (1,))[0])
-        turn(carray(ahead(resources, at_rail), turned.shape), -math.atan(v[at.rail_inclination]), turned)
+        at_rail = 2 + N_PROFILE_ROWS * int(carray(given.resources, (1,))[0])
+        turn(carray(ahead(given.resources, at_rail), turned.shape), -math.atan(v[at.rail_inclination]), turned)
         origin_y, origin_z, _ = rail_origin(turned, v[at.track_gauge], v[at.track_gauge_point])
-        fill(parts, links, v[at.wheel_radius], origin_y, origin_z)
+        fill(parts, given.data, v[at.wheel_radius], origin_y, origin_z)
         return 0
 
-    def model_start(values, work, resources, bodies, links, elements, table, wheelsets, rail, first):
-        return 0
-
-    def model_outputs(values, work, h, resources, bodies, links, elements, table, wheelsets, rail, first):
+    def model_outputs(values, work, h, given):
         v = carray(values, (n_values,))
-        constants = (bodies, links, elements, table, wheelsets, rail)
-        parts, contacts, _, _ = lay(values, work, resources, constants)
+        parts, contacts, _, _ = lay(values, work, given)
         parts.model.surface[0], parts.model.surface[1] = v[at.friction_coefficient], v[at.friction_kinetic]
         if parts.begun[0] == 0.0:
-            code = begin(v, parts, contacts, resources)
-            if code > worst_status:
+            code = begin(v, parts, contacts, given.resources)
+            if code > _WORST_STATUS:
                 return code
-        code = advance(v, parts, contacts, h, resources)
-        if code <= worst_status:
+        code = advance(v, parts, contacts, h, given.resources)
+        if code <= _WORST_STATUS:
             report(v, parts, contacts)
         return code
 
-    def model_lazy(values, work, resources, bodies, links, elements, table, wheelsets, rail, first):
-        return 0
-
-    def model_difference(values, reference, resources, bodies, links, elements, table, wheelsets, rail, first):
+    def model_difference(values, reference, given):
         return 1e-6
 
-    def model_field(values, work, k, resources, bodies, links, elements, table, wheelsets, rail, first):
-        return 0
-
-    called_by_c = (
-        model_memory, model_size, model_prepare, model_start, model_outputs, model_lazy, model_difference, model_field
-    )  # fmt: skip
+    called_by_c = (model_memory, model_size, model_prepare, model_outputs, model_difference)
     return {function.__name__: function for function in called_by_c}

@@ -32,6 +32,8 @@ from models.vehicle.kernels.layout import (
 #: Texts of failures.
 ENDED = "the vehicle is not on the track: it ends here (fmu_src.track), or initial.distance is not on it"
 LOST = "the motion has no finite value"
+#: Number of `arrays`, and the place of the links among them.
+_N_ARRAYS, _LINKS = 6, 1
 _INTEGER = np.dtype([("value", "i8")])
 
 
@@ -73,9 +75,10 @@ def layout_of(made: Assembly) -> Layout:
     def arrange(work, end, track, n_track, constants):
         """Lay out a vehicle: what carries over at the beginning of `work`, the rest from index `end` on.
 
-        `track` points to the rows of the track, with `n_track` places. Returns the vehicle and the new end.
+        `track` points to the rows of the track, with `n_track` places, `constants` to those of `arrays`. Returns the vehicle
+        and the new end.
         """
-        bodies, _, elements, table, wheelsets, rail = constants
+        bodies, _, elements, table, wheelsets, rail = constants[:_N_ARRAYS]
         begun, at = vector(work, 0, 1)
         q, at = matrix(work, at, n_bodies, 6)
         u, at = matrix(work, at, n_bodies, 6)
@@ -109,10 +112,10 @@ def layout_of(made: Assembly) -> Layout:
         return Parts(begun, model, state, Scratch(frames, forces, given, seats, wheels, power), motions), end
 
     @compiled
-    def fill(parts, links, radius, origin_y, origin_z):
-        """Fill what depends only on the parameters. `links` are the declared ones, without rotations and offsets."""
+    def fill(parts, constants, radius, origin_y, origin_z):
+        """Fill what depends only on the parameters."""
         own = parts.model.links
-        declared = records(links, 0, n_links, LINK)[0]
+        declared = records(constants[_LINKS], 0, n_links, LINK)[0]  # without rotations and offsets
         for k in range(n_links):
             own[k].a, own[k].b = declared[k].a, declared[k].b
         parts.model.spacing[0], parts.model.spacing[1] = spacing, first

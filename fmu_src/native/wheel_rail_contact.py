@@ -5,7 +5,6 @@ The solver's own kernels do the work. This module converts values to their argum
 
 from __future__ import annotations
 
-from collections import namedtuple
 from collections.abc import Callable
 from enum import IntEnum, auto
 from typing import Any, NamedTuple
@@ -28,10 +27,10 @@ from fmu_src.differences import creepage_steps
 from fmu_src.native.component import Component
 from fmu_src.native.memory import compiled
 from fmu_src.native.solver import choose, data, fill, forget_forged, lay_out, size_of
-from fmu_src.native.wires import MATERIAL, case_reader, writer
+from fmu_src.native.wires import MATERIAL, case_reader, references, writer
 from fmu_src.tables.solver import DAMAGE_OUTPUTS, SURFACE
 from fmu_src.tables.wheel_rail_contact import FLATTEST, GEOMETRY_KIND, LOAD_KIND, table
-from fmu_src.variables import Table, identifier
+from fmu_src.variables import Table
 
 _CURVATURES, _NORMAL_FORCE = GEOMETRY_KIND.number("Curvatures"), LOAD_KIND.number("NormalForce")
 _CONFORMAL = SURFACE.number("Conformal")
@@ -128,10 +127,9 @@ class Arrays(NamedTuple):
 
 
 @compiled
-def _lay(work, size, kept, constants):
+def _lay(work, size, kept, data):
     """Lay out all arrays in `work`. Return them, the index of the field shown to the host, and the total size in numbers."""
-    centre, plane, creep = constants
-    own, end = lay_out(work, kept.size, kept, size, centre, plane, creep)
+    own, end = lay_out(work, kept.size, kept, size, data)
     n, capacity = size.n_samples, MAX_PATCHES * size.n_strips
     y, end = block.vector(work, end, n)
     g, end = block.vector(work, end, n)
@@ -155,16 +153,9 @@ def _first(samples, n):
     return Samples(samples.y[:n], samples.g[:n], samples.A[:n], samples.x_c[:n], samples.tilt[:n])
 
 
-def _references(table: Table) -> Any:
-    """Return a named tuple of the value references of the table's rows."""
-    return namedtuple("References", [identifier(name) for name in table.span])(
-        *(span.start for span in table.span.values())
-    )
-
-
 def _poser(table: Table) -> Callable[..., Any]:
     """Return a compiled function that fills samples and case from the values and returns the number of samples."""
-    at, points = _references(table), table.row["geometry.g"].size
+    at, points = references(table), table.row["geometry.g"].size
     read_case = case_reader(table, _CASE_INPUTS)
 
     @compiled
@@ -197,7 +188,7 @@ def _poser(table: Table) -> Callable[..., Any]:
 
 def _reporter(table: Table) -> Callable[..., Any]:
     """Return a compiled function that copies the results to the outputs."""
-    at = _references(table)
+    at = references(table)
     write, write_damage = writer(table, RESULT, _OUTPUTS), writer(table, DAMAGE, DAMAGE_OUTPUTS)
 
     @compiled
@@ -213,7 +204,7 @@ def _reporter(table: Table) -> Callable[..., Any]:
 
 def _differ(table: Table) -> tuple[Callable[..., Any], Callable[..., Any]]:
     """Return two compiled functions for difference quotients: steps of the three creepages, and step of any variable."""
-    at, points = _references(table), table.row["geometry.g"].size
+    at, points = references(table), table.row["geometry.g"].size
 
     @compiled
     def steps(v):
@@ -269,8 +260,8 @@ def _solve(n, a):
 
 
 def _entries(table: Table) -> dict[str, Callable[..., Any]]:
-    """Return `Component.entries`. The data arguments are the arrays of `solver.data`."""
-    at, n_values = _references(table), len(table.scalars)
+    """Return `Component.entries`. The data are those of `solver.data`."""
+    at, n_values = references(table), len(table.scalars)
     samples = max(table.row["geometry.g"].size, HERTZIAN_POINTS)
     rows = np.array([_FIELDS[field.twin_of or field.name] for field in table.fields])
     pose, report, (steps, difference) = _poser(table), _reporter(table), _differ(table)
@@ -281,29 +272,26 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         return size_of(int(v[at.method_normal]), n_strips, n_elements, samples)
 
     @compiled
-    def arrange(v, work, centre, plane, creep):
+    def arrange(v, work, given):
         kept, _ = block.vector(work, 0, memory.memory_size(size(v)))
-        return _lay(work, size(v), kept, (centre, plane, creep))
+        return _lay(work, size(v), kept, given.data)
 
-    def model_memory(values, published, centre, plane, creep):
+    def model_memory(values, given):
         return memory.memory_size(size(carray(values, (n_values,))))
 
-    def model_size(values, published, centre, plane, creep):
-        return arrange(carray(values, (n_values,)), values, centre, plane, creep)[2]
+    def model_size(values, given):
+        return arrange(carray(values, (n_values,)), values, given)[2]
 
-    def model_prepare(values, work, published, centre, plane, creep):
+    def model_prepare(values, work, given):
         v = carray(values, (n_values,))
-        a, _, _ = arrange(v, work, centre, plane, creep)
-        fill(a.own, v[at.material_poisson_ratio], published)
+        a, _, _ = arrange(v, work, given)
+        fill(a.own, v[at.material_poisson_ratio], given.data)
         a.damage_parameters[0] = _DAMAGE_PARAMETERS[0]
         return 0
 
-    def model_start(values, work, published, centre, plane, creep):
-        return 0
-
-    def model_outputs(values, work, h, published, centre, plane, creep):
+    def model_outputs(values, work, h, given):
         v = carray(values, (n_values,))
-        a, _, _ = arrange(v, work, centre, plane, creep)
+        a, _, _ = arrange(v, work, given)
         _solve(pose(v, a), a)
         parameters, n = a.damage_parameters[0], int(a.count[0])
         parameters.speed, parameters.wheel_radius = v[at.speed], v[at.wheel_radius]
@@ -313,9 +301,9 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         report(v, a)
         return a.result[0].status
 
-    def model_lazy(values, work, published, centre, plane, creep):
+    def model_lazy(values, work, given):
         v = carray(values, (n_values,))
-        a, _, _ = arrange(v, work, centre, plane, creep)
+        a, _, _ = arrange(v, work, given)
         n, case, result = pose(v, a), a.case[0], a.result[0]
         for j, step in enumerate(steps(v)):
             for i in range(3):
@@ -330,24 +318,15 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
                 case.phi = v[at.creepage_spin]
         return 0
 
-    def model_difference(values, reference, published, centre, plane, creep):
+    def model_difference(values, reference, given):
         return difference(carray(values, (n_values,)), reference)
 
-    def model_field(values, work, k, published, centre, plane, creep):
-        a, begin, _ = arrange(carray(values, (n_values,)), work, centre, plane, creep)
+    def model_field(values, work, k, given):
+        a, begin, _ = arrange(carray(values, (n_values,)), work, given)
         for i in range(a.shown.shape[0]):
             for j in range(a.shown.shape[1]):
                 a.shown[i, j] = _element(a.own.strips, a.own.fields, rows[k], i, j) if i < a.count[0] else 0.0
         return begin
 
-    called_by_c = (
-        model_memory,
-        model_size,
-        model_prepare,
-        model_start,
-        model_outputs,
-        model_lazy,
-        model_difference,
-        model_field,
-    )
+    called_by_c = (model_memory, model_size, model_prepare, model_outputs, model_lazy, model_difference, model_field)
     return {function.__name__: function for function in called_by_c}

@@ -20,8 +20,9 @@ from contact.kernels.rows import N_PROFILE_ROWS, Bin
 from fmu_src.native import pair_parts
 from fmu_src.native.component import Component, Resource
 from fmu_src.native.memory import compiled
-from fmu_src.native.pair_parts import FAILURES, TOTALS, WARNINGS, Failure, references, sizer
+from fmu_src.native.pair_parts import FAILURES, TOTALS, WARNINGS, Failure, sizer
 from fmu_src.native.solver import data, fill, lay_out
+from fmu_src.native.wires import references
 from fmu_src.profiles import MAGIC, ROWS
 from fmu_src.tables.wheel_rail_pair import ACCUMULATED, BINS, RAIL, WHEEL, table
 from fmu_src.variables import Table
@@ -78,10 +79,9 @@ def _lay_start(work, piece, n_bins, resources):
 @compiled
 def _lay(work, end, start, counts, size, constants):
     """Lay out the bench from index `end` on, for curves of `counts` nodes. Return it and the total size in numbers."""
-    centre, plane, creep = constants
     search, end = memory.lay_search(work, end, counts[0], counts[1], 0, size.n_samples)
     piece = memory.memory_size(size)
-    own, end = lay_out(work, end, start.kept[1 : 1 + piece], size, centre, plane, creep)
+    own, end = lay_out(work, end, start.kept[1 : 1 + piece], size, constants)
     ledger, end = memory.lay_ledger(work, end, start.wheel, start.turned, start.bins, size.n_strips)
     return memory.lay_bench(work, end, size, start.kept, search, own, ledger)
 
@@ -138,36 +138,36 @@ def layout_of(table: Table) -> Layout:
         return _lay_start(work, memory.memory_size(size(v)), n_bins(v), resources)
 
     @compiled
-    def arrange(v, work, resources, constants):
+    def arrange(v, work, given):
         """Return the bench that `model_prepare` has filled."""
-        start, end = begin(v, work, resources)
-        return _lay(work, end, start, (int(start.counts[0]), int(start.counts[1])), size(v), constants)[0]
+        start, end = begin(v, work, given.resources)
+        return _lay(work, end, start, (int(start.counts[0]), int(start.counts[1])), size(v), given.data)[0]
 
     return Layout(size, n_bins, begin, arrange)
 
 
 def entries(table: Table) -> dict[str, Callable[..., Any]]:
-    """Return `Component.entries`. The data arguments are the arrays of `solver.data`."""
+    """Return `Component.entries`. The data are those of `solver.data`."""
     at, n_values = references(table), table.span[ACCUMULATED[0]].start
     set_parameters, report, difference = _parameter_setter(table), pair_parts.reporter(table), pair_parts.differ(table)
     size, n_bins, begin, arrange = layout_of(table)
     solve = pair_parts.step_solver(table)
 
-    def model_memory(values, resources, published, centre, plane, creep):
+    def model_memory(values, given):
         v = carray(values, (n_values,))
         return memory.pair_memory_size(memory.memory_size(size(v))) + 2 * len(Bin) * n_bins(v)
 
-    def model_size(values, resources, published, centre, plane, creep):
+    def model_size(values, given):
         v = carray(values, (n_values,))
-        start, end = begin(v, values, resources)
+        start, end = begin(v, values, given.resources)
         counts = start.wheel.shape[1], start.turned.shape[1]
-        return _lay(values, end, start, counts, size(v), (centre, plane, creep))[1]
+        return _lay(values, end, start, counts, size(v), given.data)[1]
 
-    def model_prepare(values, work, resources, published, centre, plane, creep):
+    def model_prepare(values, work, given):
         v = carray(values, (n_values,))
-        start, end = begin(v, work, resources)
+        start, end = begin(v, work, given.resources)
         wheel, turned = start.wheel, start.turned
-        rail = carray(ahead(resources, 2 + N_PROFILE_ROWS * wheel.shape[1]), (N_PROFILE_ROWS, turned.shape[1]))
+        rail = carray(ahead(given.resources, 2 + N_PROFILE_ROWS * wheel.shape[1]), (N_PROFILE_ROWS, turned.shape[1]))
         turn(rail, -math.atan(v[at.rail_inclination]), turned)
         (wheel_from, wheel_to), (rail_from, rail_to) = facing(wheel, True), facing(turned, False)
         if wheel_to - wheel_from < 3 or rail_to - rail_from < 3:
@@ -176,20 +176,17 @@ def entries(table: Table) -> dict[str, Callable[..., Any]]:
         if deepest < v[at.track_gauge_point]:
             return Failure.GAUGE_POINT
         counts = wheel_to - wheel_from, rail_to - rail_from
-        bench, _ = _lay(work, end, start, counts, size(v), (centre, plane, creep))
+        bench, _ = _lay(work, end, start, counts, size(v), given.data)
         _place(wheel, turned, start.counts, bench.search)
-        fill(bench.own, v[at.material_poisson_ratio], published)
+        fill(bench.own, v[at.material_poisson_ratio], given.data)
         set_parameters(v, origin_y, origin_z, bench)
         arc_length(bench.ledger.wheel, bench.ledger.wheel_arc)
         arc_length(bench.ledger.rail, bench.ledger.rail_arc)
         return 0
 
-    def model_start(values, work, resources, published, centre, plane, creep):
-        return 0
-
-    def model_outputs(values, work, h, resources, published, centre, plane, creep):
+    def model_outputs(values, work, h, given):
         v = carray(values, (n_values,))
-        bench = arrange(v, work, resources, (centre, plane, creep))
+        bench = arrange(v, work, given)
         bench.ledger.settings[0].distance = v[at.velocity_x] * h
         failure = solve(values, v, memory.memory_size(size(v)), bench)
         if failure > 0:
@@ -199,23 +196,8 @@ def entries(table: Table) -> dict[str, Callable[..., Any]]:
         report(v, bench)
         return bench.total[0].status
 
-    def model_lazy(values, work, resources, published, centre, plane, creep):
-        return 0
-
-    def model_difference(values, reference, resources, published, centre, plane, creep):
+    def model_difference(values, reference, given):
         return difference(carray(values, (n_values,)), reference)
 
-    def model_field(values, work, k, resources, published, centre, plane, creep):
-        return 0
-
-    called_by_c = (
-        model_memory,
-        model_size,
-        model_prepare,
-        model_start,
-        model_outputs,
-        model_lazy,
-        model_difference,
-        model_field,
-    )
+    called_by_c = (model_memory, model_size, model_prepare, model_outputs, model_difference)
     return {function.__name__: function for function in called_by_c}

@@ -18,8 +18,9 @@ from contact.kernels.rows import N_PROFILE_ROWS, Bin
 from fmu_src.native import pair_parts
 from fmu_src.native.component import Component, Resource
 from fmu_src.native.memory import compiled
-from fmu_src.native.pair_parts import FAILURES, TOTALS, WARNINGS, Failure, references, sizer
+from fmu_src.native.pair_parts import FAILURES, TOTALS, WARNINGS, Failure, sizer
 from fmu_src.native.solver import data, fill, lay_out
+from fmu_src.native.wires import references
 from fmu_src.surfaces import MAGIC
 from fmu_src.tables.wheel_rail_surfaces import FRAME, HEAD, MOST_NUMBERS, RAIL, WHEEL, table
 from fmu_src.variables import Table
@@ -130,15 +131,14 @@ def _lay_surface(work, end, resources, at):
 
 
 @compiled
-def _lay(work, resources, size, constants):
+def _lay(work, given, size):
     """Lay out the bench. Return it and the total size in numbers."""
-    centre, plane, creep = constants
-    piece = memory.memory_size(size)
+    resources, piece = given.resources, memory.memory_size(size)
     kept, end = block.vector(work, 0, memory.pair_memory_size(piece))
     wheel, end = _lay_surface(work, end, resources, 0)
     rail, end = _lay_surface(work, end, resources, _rail_at(resources))
     search, end = memory.lay_surface_search(work, end, wheel, rail, size.n_samples)
-    own, end = lay_out(work, end, kept[1 : 1 + piece], size, centre, plane, creep)
+    own, end = lay_out(work, end, kept[1 : 1 + piece], size, given.data)
     nothing, _ = block.matrix(work, end, N_PROFILE_ROWS, 0)
     bins, _ = block.cube(work, end, 2, len(Bin), 0)
     ledger, end = memory.lay_ledger(work, end, nothing, nothing, bins, 0)
@@ -176,39 +176,37 @@ def _differ(table: Table) -> Callable[..., Any]:
 
 
 def _entries(table: Table) -> dict[str, Callable[..., Any]]:
-    """Return `Component.entries`. The data arguments are the arrays of `solver.data`."""
+    """Return `Component.entries`. The data are those of `solver.data`."""
     at, n_values = references(table), len(table.scalars)
     set_parameters, report, difference = _parameter_setter(table), pair_parts.reporter(table), _differ(table)
     size, solve = sizer(table), pair_parts.step_solver(table)
 
-    def model_memory(values, resources, published, centre, plane, creep):
+    def model_memory(values, given):
         return memory.pair_memory_size(memory.memory_size(size(carray(values, (n_values,)))))
 
-    def model_size(values, resources, published, centre, plane, creep):
-        return _lay(values, resources, size(carray(values, (n_values,))), (centre, plane, creep))[1]
+    def model_size(values, given):
+        return _lay(values, given, size(carray(values, (n_values,))))[1]
 
-    def model_prepare(values, work, resources, published, centre, plane, creep):
-        v, at_rail = carray(values, (n_values,)), _rail_at(resources)
+    def model_prepare(values, work, given):
+        v, resources = carray(values, (n_values,)), given.resources
+        at_rail = _rail_at(resources)
         if not _is_sound(resources, 0):
             return Failure.WHEEL
         if not _is_sound(resources, at_rail):
             return Failure.RAIL
-        bench, _ = _lay(work, resources, size(v), (centre, plane, creep))
+        bench, _ = _lay(work, given, size(v))
         search = bench.search
         search.wheel.period[0], search.wheel.period[1] = _period(resources, 0)
         search.rail.period[0], search.rail.period[1] = 0.0, math.nan
         quadrature.fill_fejer(search.across.nodes, search.across.weights)
-        fill(bench.own, v[at.material_poisson_ratio], published)
+        fill(bench.own, v[at.material_poisson_ratio], given.data)
         origin = carray(ahead(resources, at_rail + HEAD - 1), (2,))
         set_parameters(v, origin[0], origin[1], bench)
         return 0
 
-    def model_start(values, work, resources, published, centre, plane, creep):
-        return 0
-
-    def model_outputs(values, work, h, resources, published, centre, plane, creep):
+    def model_outputs(values, work, h, given):
         v = carray(values, (n_values,))
-        bench, _ = _lay(work, resources, size(v), (centre, plane, creep))
+        bench, _ = _lay(work, given, size(v))
         motion = bench.search.motion[0]
         motion.station, motion.rotation = v[at.pose_station], v[at.pose_rotation] + v[at.offset_pitch]
         failure = solve(values, v, memory.memory_size(size(v)), bench)
@@ -217,16 +215,8 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         report(v, bench)
         return bench.total[0].status
 
-    def model_lazy(values, work, resources, published, centre, plane, creep):
-        return 0
-
-    def model_difference(values, reference, resources, published, centre, plane, creep):
+    def model_difference(values, reference, given):
         return difference(carray(values, (n_values,)), reference)
 
-    def model_field(values, work, k, resources, published, centre, plane, creep):
-        return 0
-
-    called_by_c = (
-        model_memory, model_size, model_prepare, model_start, model_outputs, model_lazy, model_difference, model_field
-    )  # fmt: skip
+    called_by_c = (model_memory, model_size, model_prepare, model_outputs, model_difference)
     return {function.__name__: function for function in called_by_c}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import namedtuple
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,7 +11,7 @@ from numba import carray
 
 from contact.kernels.records import CASE
 from fmu_src.native.memory import compiled, integers_of, numbers_of
-from fmu_src.variables import Table
+from fmu_src.variables import Table, identifier
 
 #: Inputs and parameters of a contact → members of the record CASE.
 SURFACE = {
@@ -35,6 +36,11 @@ MATERIAL = {
     "material.pressure_limit": "pressure_limit",
     "method.max_iterations": "max_iterations",
 }
+
+
+def references(table: Table) -> Any:
+    """Return a named tuple of the value references of the table's rows."""
+    return namedtuple("References", map(identifier, table.span))(*(span.start for span in table.span.values()))
 
 
 def _wired(

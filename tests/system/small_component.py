@@ -33,20 +33,20 @@ def energy(numbers):
 def entries():
     """Return functions for all `SIGNATURES`."""
 
-    def count(values, data):
+    def count(values, given):
         return 3
 
-    def work(values, work, data):
+    def work(values, work, given):
         return int(energy(vector(values, 0, 3)[0]) > 1.0)
 
-    def outputs(values, work, h, data):
-        values[0] = energy(vector(data, 0, 4)[0]) + h
+    def outputs(values, work, h, given):
+        values[0] = energy(vector(given.data[0], 0, 4)[0]) + h
         return 0
 
-    def by_number(values, work, k, data):
+    def by_number(values, work, k, given):
         return k
 
-    def difference(values, reference, data):
+    def difference(values, reference, given):
         return 1e-6
 
     special = {"model_outputs": outputs, "model_field": by_number, "model_difference": difference}
