@@ -15,6 +15,7 @@ would depend on the start.
 """
 
 import math
+from typing import Any, NamedTuple
 
 from contact._jit import kernel
 from contact.kernels.cubic import locate
@@ -70,6 +71,18 @@ USABLE = 0.02
 SLIGHT = 0.045
 #: Distance of a patch from the end of the data, over its width, below which the data cut it off.
 AT_END = 0.01
+
+
+class Problem(NamedTuple):
+    """What stays the same while the normal problem is solved."""
+
+    sep: Any
+    own: Any
+    touch: Any  # approach at first touch [m]
+    skew: Any  # share of the strips' offsets along x that counts
+    unit: Any  # 1/(pi E*)
+    by_load: Any
+    amount: Any  # load [N] or approach above first touch [m]
 
 
 @kernel
@@ -167,9 +180,63 @@ def _can_descend(n, n_panels, vectors):
 
 
 @kernel
+def _find_pressures(problem, delta, panels, n_panels):
+    """Lay the strips between the ends of the panels and find their pressures. Return the approach above first touch [m].
+
+    `delta` is the approach so far, which bounds the half lengths.
+    """
+    own = problem.own
+    n = own.rule.across.nodes.size
+    lay_panels(problem.sep, problem.touch, problem.skew, panels, n_panels, own)
+    distances(panels, n_panels, own)
+    half_lengths(own.space.vectors, n, n_panels, delta)
+    assemble(panels, n_panels, own, problem.skew > 0.0, problem.unit)
+    return solve_active(n, n_panels, own.space, problem.by_load, problem.amount)
+
+
+@kernel
+def _fill_residuals(n, total, delta, cut, vectors):
+    """Fill the residuals of all half lengths in Vector.R. Return the sum of their magnitudes, and of the strips' loads.
+
+    A residual is the change of ln a that stretches a strip by the ratio of the overlap at its ends to that of a parabola.
+    Both sums count the loads up to a factor. If idle strips are `cut` off, there are no residuals.
+    """
+    error, load = math.inf if cut else 0.0, 0.0
+    for i in range(total):
+        vectors[Vector.R, i] = 0.0
+        weight = vectors[Vector.P, i] * vectors[Vector.A, i] * vectors[Vector.HALF, i]
+        load += weight
+        if weight > 0.0 and 0 < i % n < n - 1 and not cut:  # the ends of a panel follow their own rule
+            overlap = delta - vectors[Vector.GAP, i] - vectors[Vector.U, i]
+            ratio = overlap / (vectors[Vector.CURVATURE, i] * vectors[Vector.A, i] ** 2)
+            least = (vectors[Vector.FLOOR, i] / vectors[Vector.A, i]) ** 2
+            vectors[Vector.R, i] = 0.5 * math.log(min(max(ratio, 0.2, least), 5.0))
+            error += weight * abs(vectors[Vector.R, i])
+    return error, load
+
+
+@kernel
+def _report(problem, delta, panels, n_panels, result):
+    """Write the strips and their resultants. `result` still has ANALYN's. Return the number of strips."""
+    own, strips = problem.own, problem.own.strips
+    count = _write(problem.sep, n_panels, panels, own, result)
+    N = 0.0
+    for i in range(count):
+        N += 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
+    if problem.by_load and N > 0.0:  # end strips under tension carry nothing, so 1e-5 of the load goes to the others
+        for i in range(count):
+            strips[Strip.P0, i] *= problem.amount / N
+    N = problem.amount if problem.by_load else N
+    # d(ln N)/d(ln delta) of ANALYN, exact in Hertz contact; semi-ellipses cannot represent the edge pressure of a punch
+    result.stiffness *= (result.approach - problem.touch) / result.N * N / delta if delta > 0.0 else 0.0
+    result.N = N
+    result.approach = delta + problem.touch
+    return count
+
+
+@kernel
 def _solve(sep, case, own, result):
     """Solve the normal problem in the given orientation."""
-    y = sep.y
     rule, space, strips = own.rule, own.space, own.strips
     memory, vectors = space.memory, space.vectors
     n_strips = analyn(sep, case, rule.across, space.grid, strips, result)
@@ -177,7 +244,6 @@ def _solve(sep, case, own, result):
         forget(memory)
         return 0
     n = rule.across.nodes.size
-    size = y.size
     modulus = case.G / (1.0 - case.nu)
     unit = 1.0 / (math.pi * modulus)
     by_load = case.load_kind != LoadKind.APPROACH
@@ -185,7 +251,7 @@ def _solve(sep, case, own, result):
     amount = case.amount if by_load else case.amount - g_least
     start_low, start_high = result.edges[0], result.edges[2 * int(strips[Strip.PATCH, n_strips - 1]) + 1]
     skew = _skew(n_strips, strips)
-    skewed = skew > 0.0
+    problem = Problem(sep, own, g_least, skew, unit, by_load, amount)
     panels, n_panels = recall(sep, n, start_low, start_high, own)
     warm = n_panels > 0
     if not warm:
@@ -203,33 +269,17 @@ def _solve(sep, case, own, result):
             warm, begun, descending, searched = False, iteration, False, False
             known, best, last_error = 0, math.inf, math.inf
         age = iteration - begun
-        total = n * n_panels
-        lay_panels(sep, g_least, skew, panels, n_panels, own)
-        distances(panels, n_panels, own)
-        half_lengths(vectors, n, n_panels, delta)
-        assemble(panels, n_panels, own, skewed, unit)
-        delta = solve_active(n, n_panels, space, by_load, amount)
+        delta = _find_pressures(problem, delta, panels, n_panels)
         error, load = math.inf, 0.0
         if not abs(delta) < math.inf:
             if not warm:
                 break
             patience = iteration + 1
             continue
-        # strip ends: stretch each strip by the ratio of the overlap at its ends to that of a parabola
         cut = age < FREEZE and have_idle_part(n, n_panels, vectors)
         if not cut:  # otherwise the next iteration has other strips, and only the pressures count
-            edge_displacements(panels, n_panels, own, skewed, unit)
-        error, load = math.inf if cut else 0.0, 0.0
-        for i in range(total):
-            vectors[Vector.R, i] = 0.0
-            weight = vectors[Vector.P, i] * vectors[Vector.A, i] * vectors[Vector.HALF, i]
-            load += weight
-            if weight > 0.0 and 0 < i % n < n - 1 and not cut:  # the ends of a panel follow their own rule
-                overlap = delta - vectors[Vector.GAP, i] - vectors[Vector.U, i]
-                ratio = overlap / (vectors[Vector.CURVATURE, i] * vectors[Vector.A, i] ** 2)
-                least = (vectors[Vector.FLOOR, i] / vectors[Vector.A, i]) ** 2
-                vectors[Vector.R, i] = 0.5 * math.log(min(max(ratio, 0.2, least), 5.0))
-                error += weight * abs(vectors[Vector.R, i])
+            edge_displacements(panels, n_panels, own, skew > 0.0, unit)
+        error, load = _fill_residuals(n, n * n_panels, delta, cut, vectors)
         before = n_panels
         n_panels = remove_unloaded(n, n_panels, panels, vectors)
         if n_panels == 0:
@@ -237,7 +287,7 @@ def _solve(sep, case, own, result):
                 break
             patience = iteration + 1
             continue
-        moved = end_moves(y, n, n_panels, panels, rule.cosines, vectors, age >= FREEZE)
+        moved = end_moves(sep.y, n, n_panels, panels, rule.cosines, vectors, age >= FREEZE)
         if not cut:
             note_sides(n, n_panels, panels, vectors, known == 0 or n_panels < before)
         by_jacobian = descending
@@ -291,11 +341,7 @@ def _solve(sep, case, own, result):
         _take_best(n, n_panels, panels, vectors)
         error, load = best, 1.0
     if not (converged and exact):  # lengths, ends or panels have changed since the pressures were found
-        lay_panels(sep, g_least, skew, panels, n_panels, own)
-        distances(panels, n_panels, own)
-        half_lengths(vectors, n, n_panels, delta)
-        assemble(panels, n_panels, own, skewed, unit)
-        delta = solve_active(n, n_panels, space, by_load, amount)
+        delta = _find_pressures(problem, delta, panels, n_panels)
     peak = 0.0
     for i in range(n_panels * n):
         peak = max(peak, vectors[Vector.P, i])
@@ -307,26 +353,14 @@ def _solve(sep, case, own, result):
         forget(memory)
         return n_strips
     remember(n_panels if iteration - begun < FREEZE else 0, n, start_low, start_high, own)
-    count = _write(sep, n_panels, panels, own, result)
-    N = 0.0
-    for i in range(count):
-        N += 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
-    if by_load and N > 0.0:  # end strips under tension carry nothing, so 1e-5 of the load goes to the others
-        for i in range(count):
-            strips[Strip.P0, i] *= amount / N
+    count = _report(problem, delta, panels, n_panels, result)
     if not converged and error > ACCEPTABLE * load and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
     elif result.status == Status.OUT_OF_RANGE:
-        margin = AT_END * (
-            panels[2 * n_panels - 1] - panels[0]
-        )  # ends come close to the end of the data, but do not reach it
-        if panels[0] > y[0] + margin and panels[2 * n_panels - 1] < y[size - 1] - margin:
+        low, high = panels[0], panels[2 * n_panels - 1]
+        margin = AT_END * (high - low)  # ends come close to the end of the data, but do not reach it
+        if low > sep.y[0] + margin and high < sep.y[sep.y.size - 1] - margin:
             result.status = Status.OK
-    N = amount if by_load else N
-    # d(ln N)/d(ln delta) of ANALYN, exact in Hertz contact; semi-ellipses cannot represent the edge pressure of a punch
-    result.stiffness *= (result.approach - g_least) / result.N * N / delta if delta > 0.0 else 0.0
-    result.N = N
-    result.approach = delta + g_least
     return count
 
 
