@@ -9,7 +9,7 @@ from contact import workspace
 from contact.kernels.normal import influence
 from contact.kernels.normal.descent import FEWEST, MOST, N_LAYERS, descend, has_one_run
 from contact.kernels.normal.elimination import eliminate
-from contact.kernels.normal.panels import _is_overlapped, _summarise, have_idle_part
+from contact.kernels.normal.panels import _is_overlapped, _summarise, end_moves, have_idle_part, remove_unloaded
 from contact.kernels.rows import N_VECTOR_ROWS, Vector
 
 
@@ -85,6 +85,23 @@ def test_idle_sevenths_are_found_at_either_end_of_loaded_panels(idle, part, side
     vectors = np.zeros((N_VECTOR_ROWS, 40))
     vectors[Vector.P] = pressures[::side]
     assert have_idle_part(20, 2, vectors) == part
+
+
+def test_a_removed_panel_leaves_nothing_to_the_next_one():
+    """The end of a panel whose peak lies beside it moves by its first two pressures, wherever the panel stands in the lists."""
+    n, y = 8, np.array([-10.0, 10.0])
+    cosines = -np.cos(np.arange(n + 1) * math.pi / n)
+    moves = []
+    for unloaded in (0, 1):
+        vectors, panels = np.zeros((N_VECTOR_ROWS, 2 * n)), np.array([-3.0, -2.0, 1.0, 2.0])[2 - 2 * unloaded :]
+        own = slice(unloaded * n, (unloaded + 1) * n)
+        vectors[Vector.P, own] = [0.7, 1.5, 1.4, 1.0, 0.8, 0.6, 0.4, 0.2]
+        vectors[Vector.END] = -1.0
+        vectors[Vector.END, own] = vectors[Vector.P, own]
+        assert remove_unloaded(n, 1 + unloaded, panels, vectors) == 1
+        end_moves(y, n, 1, panels, cosines, vectors, False)
+        moves.append(vectors[Vector.R, 0])
+    assert moves[0] == moves[1] != 0.0
 
 
 @pytest.mark.parametrize(("pressures", "one"), [([0, 1, 1, 0], True), ([1, 0, 1, 1], False), ([1, 1, 1, 1], True)])

@@ -334,7 +334,7 @@ def _remove_panel(p, n, n_panels, panels, vectors):
     for q in range(p, n_panels - 1):
         panels[2 * q], panels[2 * q + 1] = panels[2 * q + 2], panels[2 * q + 3]
         for i in range(n):
-            for row in (Vector.LN_A, Vector.ACTIVE, Vector.P, Vector.A, Vector.HALF, Vector.R):
+            for row in (Vector.LN_A, Vector.ACTIVE, Vector.P, Vector.END, Vector.A, Vector.HALF, Vector.R):
                 vectors[row, q * n + i] = vectors[row, (q + 1) * n + i]
 
 
