@@ -23,7 +23,7 @@ $(READY): pyproject.toml | $(BIN)/python
 
 $(READY_FOR_DEMO): pyproject.toml | $(BIN)/python
 	@echo "Setting up $(VENV) for the demo (a minute the first time) ..."
-	$(BIN)/python -m pip install --quiet --editable '.[plot,fmu]'
+	$(BIN)/python -m pip install --quiet --editable '.[plot,fmu,build]'
 	@touch $@
 
 demo: $(READY_FOR_DEMO) ## build the FMUs, run the coupled wheelset, write pictures and a CSV to out/
@@ -37,20 +37,19 @@ fmu: $(READY)    ## build the FMUs into dist/native and dist/python (two and a h
 test: $(READY)   ## run the tests
 	$(BIN)/python -m pytest -n 2 --dist worksteal
 
-check: $(READY)  ## run the quick tests (a minute once the kernels are compiled)
+check: $(READY)  ## run the quick tests (a minute once the library is built)
 	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow"
 
 soak: $(READY)   ## check memory over a million steps of every native FMU, wrong calls, damaged files, vehicles under Wine (minutes)
 	SOAK=1 $(BIN)/python -m pytest tests/system/test_native_host.py tests/system/test_native_sources.py tests/test_readers.py \
 		tests/test_damaged_files.py -k "leave_memory or wrong_call or damaged or random_calls or any_order or sanitizers or ehicle"
 
-# Kernels are compiled with the check into a cache of their own, because the usual one does not know the option.
 KERNELS := tests/normal tests/tangential tests/pair tests/geometry tests/damage tests/test_properties.py tests/test_every_method.py tests/test_robustness.py
 bounds: $(READY) ## run the tests of the kernels with numba's check of array bounds (twenty minutes)
-	NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=build/bounds $(BIN)/python -m pytest -n 2 --dist worksteal $(KERNELS)
+	CONTACT_JIT=1 NUMBA_BOUNDSCHECK=1 $(BIN)/python -m pytest -n 2 --dist worksteal $(KERNELS)
 
-traps: $(READY)  ## run the same tests with floating-point traps; compile the kernels first, with the same tests
-	$(BIN)/python -m pytest -n 2 --dist worksteal $(KERNELS)
+traps: $(READY)  ## run the same tests with floating-point traps
+	$(BIN)/python -c 'import contact.core.library as library; library.cached()'
 	$(BIN)/python -m pytest -p tests.traps $(KERNELS)
 
 lint: $(READY)   ## ruff, mypy, import-linter

@@ -6,7 +6,6 @@ The methods follow M. Sh. Sichani, "On Efficient Modelling of Wheel-Rail Contact
 
 from typing import TYPE_CHECKING, Any
 
-from contact import compiling
 from contact.citation import cite
 from contact.creepage import Creepage
 from contact.errors import ContactError
@@ -55,8 +54,6 @@ __all__ = [
 ]
 
 __version__ = "0.1.0"
-
-compiling.announce()
 
 
 def __getattr__(name: str) -> Any:

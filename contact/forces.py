@@ -112,9 +112,7 @@ def forces(
     shape, count = amount.shape, amount.size
     bounds = np.cumsum([0, *(s.y.size for s in separations)])
     samples = Samples(*(np.concatenate(column) for column in zip(*(s.samples for s in separations), strict=True)))
-    for array in samples:
-        array.setflags(write=False)  # as in a Separation, so that numba compiles the solver for one signature only
-    which = np.array(which).ravel()  # a copy, because numba warns about a broadcast array
+    which = np.array(which).ravel()  # a copy, because it is broadcast
 
     cases = prepared_cases(count, method, rolling, material, conformal=conformal)
     set_surface(cases, surface or Friction(0.0), V.ravel())

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from contact import workspace
 from contact.case import cases, set_surface
+from contact.core import pack
 from contact.creepage import Creepage
 from contact.damage import DamageParameters
 from contact.elastic_rail import ElasticRail
@@ -20,9 +21,9 @@ from contact.geometry.posed import Posed
 from contact.geometry.records import Irregularity, Pose, Velocity, contact_angle
 from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair
-from contact.kernels.arrays import Bench, Ledger
+from contact.kernels.arrays import Bench, Ledger, Search, SurfaceSearch
 from contact.kernels.enumerations import Height, NoAnswer
-from contact.kernels.flexible import solve_flexible
+from contact.kernels.flexible import solve_on_profiles, solve_on_surfaces
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.records import LARGEST_ANGLE
 from contact.material import STEEL, Material
@@ -238,6 +239,9 @@ class WheelRailPair:
         self.bench.case[:] = cases(
             1, method, rolling, material, conformal=conformal, max_iterations=require_max_iterations(max_iterations)
         )
+        constant = isinstance(pair, Pair)
+        self._solve = solve_on_profiles if constant else solve_on_surfaces
+        self._packed = pack(Bench[Search] if constant else Bench[SurfaceSearch], self.bench)
         self._rail, self._offset = _RIGID, _STRAIGHT
         self.bench.damage_parameters[:] = (damage or DamageParameters()).record(material, 1.0, 1.0)
 
@@ -314,7 +318,7 @@ class WheelRailPair:
         self._set_rail(_RIGID if rail is None else rail)
         self._set_offset(_STRAIGHT if offset is None else offset)
         given = self.pair.given(pose, velocity, irregularity, station=station, rotation=rotation + self._offset.pitch)
-        code = solve_flexible(mode, amount, given, self.bench)
+        code = self._solve(mode, amount, given, self._packed)
         if code == NoAnswer.TURNED:
             raise ContactError(
                 f"offset.roll = {self._offset.roll:g} and offset.yaw = {self._offset.yaw:g}: with the wheelset's roll and "

@@ -7,6 +7,7 @@ from html import escape
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from contact.core import Packed
 from contact.errors import ContactError, require_number
 from contact.kernels.arrays import Samples
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
@@ -45,7 +46,7 @@ class Separation:
         range.
     """
 
-    __slots__ = ("A", "g", "rolling", "samples", "tilt", "x_c", "y")
+    __slots__ = ("A", "g", "packed", "rolling", "samples", "tilt", "x_c", "y")
 
     y: NDArray[np.float64]
     g: NDArray[np.float64]
@@ -54,6 +55,7 @@ class Separation:
     tilt: NDArray[np.float64]
     rolling: float
     samples: Samples  # the arrays as kernels use them
+    packed: Packed  # the same as the library takes them
 
     def __init__(
         self,
@@ -83,9 +85,7 @@ class Separation:
                 f"tilt[{i}] = {self.tilt[i]:g} is outside the allowed range [{-LARGEST_TILT:g}, {LARGEST_TILT:g}]"
             )
         self.rolling = require_number("rolling", rolling, -LARGEST_ROLLING, LARGEST_ROLLING)
-        for array in (self.y, self.g, self.A, self.x_c, self.tilt):
-            array.setflags(write=False)
-        self.samples = Samples(self.y, self.g, self.A, self.x_c, self.tilt)
+        self._lay_out()
 
     @classmethod
     def hertzian(cls, A: float, B: float) -> Separation:
@@ -105,10 +105,15 @@ class Separation:
         other.y, other.x_c, other.tilt, other.rolling = self.y, self.x_c, self.tilt, self.rolling
         other.g, other.A = _column("g", g, self.y.size), _column("A", A, self.y.size)
         _require_positive("A", other.A)
-        for array in (other.g, other.A):
-            array.setflags(write=False)
-        other.samples = Samples(other.y, other.g, other.A, other.x_c, other.tilt)
+        other._lay_out()
         return other
+
+    def _lay_out(self) -> None:
+        """Make the arrays read-only and set `samples` and `packed`."""
+        self.samples = Samples(self.y, self.g, self.A, self.x_c, self.tilt)
+        for array in self.samples:
+            array.setflags(write=False)
+        self.packed = Packed(Samples, self.samples)
 
     def _repr_html_(self) -> str:
         """Return HTML with a sketch of the gap near its minimum, for a notebook."""

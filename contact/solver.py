@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
 
@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact import workspace
-from contact._jit import compiled_for
 from contact.case import cases, set_surface
+from contact.core import pack
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_integer, require_number
 from contact.friction import Friction, as_friction
 from contact.given_force import solve_for_force, wanted_force
-from contact.kernels.arrays import Workspace
+from contact.kernels.arrays import Cases, Integers, Results, Workspace
 from contact.kernels.enumerations import LoadKind
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.pipeline import solve_cases
@@ -34,8 +34,6 @@ N_STRIPS, N_ELEMENTS = 20, 20
 THESIS: Mapping[str, Any] = MappingProxyType(
     {"normal": "analyn", "tangential": "fastrip", "n_strips": 30, "n_elements": 30}
 )
-#: An arbitrary separation to compile for: all separations have the same types.
-_FLAT = Separation([0.0, 1.0, 2.0], [0.0, 0.0, 0.0], 1.0)
 #: Default number of separation samples for which a solver allocates memory.
 N_SAMPLES = 101
 
@@ -54,18 +52,6 @@ def require_conformal(tangential: Method) -> None:
     """Raise a ContactError if the tangential method gives forces only, because it then needs a plane contact."""
     if not tangential.fields:
         raise ContactError(f"conformal: tangential = {tangential.name!r} is only for a plane contact")
-
-
-_COMPILED: dict[tuple[type, type], Callable[..., int]] = {}
-
-
-def _kernel(*arguments: Any) -> Callable[..., int]:
-    """Return the machine code for these arguments of `solve_cases`. The workspace among them has the method families."""
-    arrays: Workspace = arguments[-2]
-    families = type(arrays.families.normal), type(arrays.families.tangential)
-    if families not in _COMPILED:
-        _COMPILED[families] = compiled_for(solve_cases, *arguments)
-    return _COMPILED[families]
 
 
 class Solver:
@@ -134,7 +120,9 @@ class Solver:
         self._member = {name: self._case[name] for name in self._case.dtype.names or ()}
         self._result = np.zeros(1, RESULT)
         self._status = self._result["status"]
-        self._bounds, self._which = np.zeros(2, np.int64), np.zeros(1, np.int64)  # of the only separation
+        self._bounds = np.zeros(2, np.int64)  # of the only separation
+        self._problem = pack(Integers, self._bounds), pack(Integers, np.zeros(1, np.int64)), pack(Cases, self._case)
+        self._answer = pack(Results, self._result)
         self._numbers = self._case.view(np.float64), self._result.view(np.float64)  # faster to copy than records
         self.set_surface(friction, speed)
         self._coefficients: NDArray[np.float64] | None = None
@@ -177,11 +165,11 @@ class Solver:
         if self._coefficients is not None:
             self._full = self._full._replace(tables=self._full.tables._replace(kalker=self._coefficients))
         self._n_samples = n_samples
-        self._kernel = _kernel(0, 1, _FLAT.samples, self._bounds, self._which, self._case, self._full, self._result)
         # For forces only, all strips share one row of fields. A curved surface and a pressure limit compute the forces
         # from the fields, so they need all rows.
         needed = self.conformal or self.material.pressure_limit < math.inf
         self._forces_only = self._full._replace(fields=self._full.fields if needed else self._full.fields[:, :1].copy())
+        self._packed_full, self._packed_forces_only = pack(Workspace, self._full), pack(Workspace, self._forces_only)
 
     def solve(
         self,
@@ -240,7 +228,7 @@ class Solver:
                 )
 
             return solve_for_force(wanted_force(force), creepage, evaluate, self.tangential.saturates)
-        n = self._run(self._full, separation, creepage, load, approach, (friction, speed), warm)
+        n = self._run(True, separation, creepage, load, approach, (friction, speed), warm)
         prepared = Prepared(self.normal.name, self.tangential.name, self.material, self._speed)
         if throw:
             require_trustworthy(Status(self._status[0]), separation.y, load, approach)
@@ -258,7 +246,7 @@ class Solver:
         warm: bool = False,
     ) -> CaseForces:
         """Return the forces of one contact. Parameters as in `solve`; `status` tells whether they can be trusted."""
-        self._run(self._forces_only, separation, creepage, load, approach, (friction, speed), warm)
+        self._run(False, separation, creepage, load, approach, (friction, speed), warm)
         Fx, Fy, Mz, N, approach, pmax, area, slip_area, power, *_ = self._result.item()
         slip_ratio = slip_area / area if area > 0.0 else 0.0
         gap_error = float(self._result["gap_error"][0])
@@ -266,7 +254,7 @@ class Solver:
 
     def _run(
         self,
-        arrays: Workspace,
+        with_fields: bool,
         separation: Separation,
         creepage: Creepage,
         load: float | None,
@@ -291,14 +279,12 @@ class Solver:
         member["vx"][0], member["vy"][0], member["phi"][0] = creepage.longitudinal, creepage.lateral, creepage.spin
         member["rolling"][0] = separation.rolling
         if separation.y.size > self._n_samples:
-            forces_only = arrays is self._forces_only
             self._allocate(separation.y.size)
-            arrays = self._forces_only if forces_only else self._full
         if not warm:
-            arrays.space.memory[0] = 0.0
+            self._full.space.memory[0] = 0.0
         self._bounds[1] = separation.y.size
-        samples, bounds, which = separation.samples, self._bounds, self._which
-        return int(self._kernel(0, 1, samples, bounds, which, self._case, arrays, self._result))
+        arrays = self._packed_full if with_fields else self._packed_forces_only
+        return int(solve_cases(0, 1, separation.packed, *self._problem, arrays, self._answer))
 
 
 def require_trustworthy(status: Status, y: NDArray[np.float64], load: float | None, approach: float | None) -> None:

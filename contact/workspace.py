@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact import force_table, kalker
-from contact.kernels import families, memory, quadrature
+from contact.kernels import memory, quadrature
 from contact.kernels.arrays import Bench, Ledger, Rule, Search, Sheet, Size, SurfaceSearch, Tables, Workspace
 from contact.kernels.damage.deposit import arc_length
 from contact.kernels.normal import influence
@@ -90,17 +90,11 @@ def strip_tables() -> tuple[Array, Array]:
 def tables(poisson_ratio: float, tabulated: bool) -> Tables:
     """Return the cached tables. Only methods that need them get the half space's forces."""
     no_forces = np.zeros((1, 1, 1, 1, 1))
-    _read_only(no_forces)  # like the real table, so that numba compiles one signature
     return Tables(
         kalker.table(poisson_ratio),
         *strip_tables(),
         force_table.load() if tabulated else no_forces,
     )
-
-
-def markers(normal: Method, tangential: Method) -> families.Families:
-    """Return the markers that select the kernels for these methods."""
-    return families.Families(families.NORMAL[normal.family], families.TANGENTIAL[tangential.family])  # type: ignore[index]
 
 
 def allocate(
@@ -122,7 +116,6 @@ def allocate(
     strips, field_array = _laid(memory.lay_strips_and_fields, full)
     space = _laid(memory.lay_space, full, np.zeros(memory.memory_size(full)))
     return Workspace(
-        markers(normal, tangential),
         rule(full.n_strips, full.n_elements, normal.interacting),
         tables(poisson_ratio, tangential.tabulated),
         space,

@@ -5,8 +5,7 @@ from __future__ import annotations
 from importlib.metadata import distribution
 from pathlib import Path
 
-import contact
-from contact._jit import cache_directory
+from contact.core.library import cache_folder
 
 _ROOT = Path(__file__).parents[1]
 #: Folder of the repository, or None for an installed package.
@@ -17,7 +16,7 @@ def objects() -> Path:
     """Return the folder in which compiled kernels are kept from one build to the next."""
     if CHECKOUT:
         return CHECKOUT / "build" / "native"
-    return cache_directory(Path(contact.__file__).parent / "kernels").parent / "wheelrail-contact" / "native"
+    return cache_folder() / "wheelrail-contact" / "native"
 
 
 def licence() -> str:

@@ -3,7 +3,7 @@
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from threading import Thread
@@ -74,19 +74,6 @@ def _building(request, once) -> None:
 
     if _IS_WORKER:
         Thread(target=build, daemon=True).start()
-
-
-@pytest.fixture(scope="session", autouse=True)
-def _compiling(tmp_path_factory) -> Iterator[None]:
-    """Compile each kernel in one worker only."""
-    if not _IS_WORKER:
-        yield
-        return
-    from tests.compile_once import compile_once  # not on Windows
-
-    with pytest.MonkeyPatch.context() as patch:
-        compile_once(patch, tmp_path_factory.getbasetemp().parent / "compiling")
-        yield
 
 
 #: Folders in which every test is slow: whole FMUs, runs over a line, and the page with the compiled kernels.

@@ -10,14 +10,15 @@ import pytest
 ROOT = Path(__file__).parents[1]
 KERNELS = """
 import numpy as np
-from contact._jit import kernel
+from contact.core import entry, kernel
+from contact.kernels.arrays import Numbers
 
 @kernel
 def inner(a, i, below):
     return a[i] / below
 
-@kernel
-def outer(a, i, below):
+@entry
+def outer(a: Numbers, i: int, below: float) -> float:
     return 2.0 * inner(a, i, below)
 
 def test_outer():
@@ -29,7 +30,7 @@ def run(folder: Path, index: int, below: float, *options: str, **settings: str) 
     """Run a test that reads element `index` of three and divides it by `below`."""
     path = folder / "test_fault.py"
     path.write_text(KERNELS.format(index=index, below=below))
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "NUMBA_CACHE_DIR": str(folder / "cache"), **settings}
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "CONTACT_JIT": "1", **settings}
     command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", f"--rootdir={folder}", *options, path]
     return subprocess.run(command, capture_output=True, text=True, env=environment, cwd=folder, timeout=300)
 

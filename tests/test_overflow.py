@@ -13,7 +13,7 @@ BAD = (contact.Status.OUT_OF_RANGE, contact.Status.NOT_CONVERGED)
 
 @pytest.mark.parametrize("B", [math.nan, math.inf, 0.0, 1e308])
 def test_local_factors_are_numbers_whatever_the_curvature(B):
-    assert all(map(math.isfinite, local_factors.py_func(1.0, B) if B else local_factors(1.0, 1e-300)))
+    assert all(map(math.isfinite, local_factors.function(1.0, B) if B else local_factors(1.0, 1e-300)))
     assert all(map(math.isfinite, local_factors(1.0, B if B else 1e-300)))
 
 

@@ -8,21 +8,6 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 FOLDERS = ("contact", "fmu_src", "models", "reference", "tests", "benchmarks", "examples", "docs")
-#: Files that may import a private module of `contact` (leading underscore) → names that they may import.
-PRIVATE = {
-    "fmu_src/place.py": {"contact._jit.cache_directory"},  # folder of compiled kernels
-    "fmu_src/native/memory.py": {"contact._jit.uncached"},
-    "models/vehicle/kernels/benches.py": {"contact._jit.inlined", "contact._jit.kernel"},
-    **{
-        f"models/vehicle/kernels/{name}.py": {"contact._jit.kernel"}
-        for name in ("between", "crew", "elements", "frames", "motion", "wheels")
-    },
-    **{f"models/vehicle/{name}.py": {"contact._jit.compiled_for"} for name in ("coupling", "crew", "uneven")},
-    "models/wheelset/dynamics.py": {"contact._jit.kernel"},
-    "models/wheelset/motion.py": {"contact._jit.kernel"},
-    "tests/test_jit.py": {"contact._jit"},  # the test of that module
-    "tests/compile_once.py": {"contact._jit._ContentCache"},  # where workers wait for each other
-}
 
 
 def sources(*folders: str) -> list[Path]:
@@ -97,11 +82,8 @@ def test_private_modules_of_contact_stay_in_contact():
         parts = name.split(".")
         return parts[0] == "contact" and any(is_private_module(parts[: k + 1]) for k in range(1, len(parts)))
 
-    used: dict[str, set[str]] = {}
     for path in [*sources(*(folder for folder in FOLDERS if folder != "contact")), ROOT / "build_fmu.py"]:
-        if names := set(filter(private, imports(path))):
-            used[path.relative_to(ROOT).as_posix()] = names
-    assert used == PRIVATE
+        assert not set(filter(private, imports(path))), path
 
 
 def counted_names(path: Path) -> list[str]:

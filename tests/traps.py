@@ -1,7 +1,7 @@
 """pytest plugin, ``-p tests.traps``: a kernel that divides by zero or takes the root of a negative number ends the process.
 
-Multibody programs in Fortran switch such traps on. They are on while a test runs, also in NumPy. Compile the kernels first:
-run the same tests without this plugin. They stay off in tests marked `nan`, which give a kernel NaN on purpose.
+Multibody programs in Fortran switch such traps on. They are on while a test runs, also in NumPy. The
+library is built first, without traps. They stay off in tests marked `nan`, which give a kernel NaN on purpose.
 """
 
 import ctypes

@@ -8,9 +8,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact._jit import kernel
+from contact.core import entry
 from contact.errors import ContactError
 from contact.kernels import cubic
+from contact.kernels.arrays import Numbers
 from contact.kernels.cubic import locate, slopes
 from contact.kernels.normal.lay import find_patches, least_point
 from contact.kernels.records import MAX_PATCHES
@@ -99,8 +100,8 @@ def _raster(low: float, high: float, step: float) -> Array:
     return (np.arange(first, max(last, first + 2), dtype=np.float64) + 0.5) * step
 
 
-@kernel
-def _sample(y, g, m, at, out):
+@entry
+def _sample(y: Numbers, g: Numbers, m: Numbers, at: Numbers, out: Numbers) -> None:
     """Write to `out` the cubic interpolant of g (values g, slopes m) at the increasing positions `at`."""
     k = 0
     for i in range(at.size):

@@ -2,12 +2,13 @@
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry
+from contact.kernels.arrays import Case, Matrix
 from contact.kernels.friction import heating, of_heat
 
 
-@kernel
-def heat_up(case, flux, dx, coefficients):
+@entry
+def heat_up(case: Case, flux: Matrix, dx: float, coefficients: Matrix) -> None:
     """Reduce the `coefficients` of friction, shape (ny, nx) over increasing x, by the flash temperature.
 
     On entry `flux` is p |s|/V [Pa]; on return it is the heat with the reduced coefficients. Each row is marched from its

@@ -13,15 +13,18 @@ from __future__ import annotations
 
 import functools
 import math
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact._jit import kernel
+from contact.core import Shape, entry, kernel
+from contact.kernels.arrays import Matrix
 from contact.material import Material
 
 Array = NDArray[np.float64]
+ComplexMatrix = Annotated[Any, Shape(np.complex128, 2)]
+ComplexCube = Annotated[Any, Shape(np.complex128, 3)]
 #: Transfer functions xx, yy, xy; real for even influence numbers.
 Transfer = tuple[NDArray[Any], NDArray[Any], NDArray[Any]]
 
@@ -114,12 +117,13 @@ class Influence:
         """Return the inverse transform on the grid, shape (…, ny, nx)."""
         ny, nx = self.shape
         rows = np.fft.ifft(transform, axis=-2)[..., :ny, :]
-        return np.fft.irfft(rows, self._padded[1], axis=-1)[..., :nx]
+        return np.ascontiguousarray(np.fft.irfft(rows, self._padded[1], axis=-1)[..., :nx])
 
     def times(self, transfer: Transfer, q: Array) -> Array:
         """Return the product of the transfer functions with a field of two components, shape (2, ny, nx)."""
         transform = self.forward(q)
-        _multiply(*transfer, transform)
+        multiply = _multiply_complex if np.iscomplexobj(transfer[0]) else _multiply_real
+        multiply(*transfer, transform)
         return self.back(transform)
 
     def normal(self, p: Array) -> Array:
@@ -132,10 +136,22 @@ class Influence:
 
 
 @kernel
-def _multiply(xx, yy, xy, field):
+def _product(xx, yy, xy, field):
     """Multiply the two components of `field` in place by the symmetric matrix of each wave number."""
     for i in range(xx.shape[0]):
         for j in range(xx.shape[1]):
             x, y = field[0, i, j], field[1, i, j]
             field[0, i, j] = xx[i, j] * x + xy[i, j] * y
             field[1, i, j] = xy[i, j] * x + yy[i, j] * y
+
+
+@entry
+def _multiply_real(xx: Matrix, yy: Matrix, xy: Matrix, field: ComplexCube) -> None:
+    """As `_product`, by real transfer functions."""
+    _product(xx, yy, xy, field)
+
+
+@entry
+def _multiply_complex(xx: ComplexMatrix, yy: ComplexMatrix, xy: ComplexMatrix, field: ComplexCube) -> None:
+    """As `_product`, by complex transfer functions."""
+    _product(xx, yy, xy, field)

@@ -17,10 +17,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contact._jit import kernel
+from contact.core import entry
 from contact.halfspace.curved import Curved
 from contact.halfspace.influence import Influence
 from contact.halfspace.krylov import dot, size
+from contact.kernels.arrays import Flags, Matrix
 from contact.material import Material
 
 Array = NDArray[np.float64]
@@ -274,8 +275,8 @@ def _conjugate_gradients(h: Array, influence: Influence, p: Array, tolerance: fl
     return p, MAX_ITERATIONS, False
 
 
-@kernel
-def _steer(residual, z, touching, before, direction, old):
+@entry
+def _steer(residual: Matrix, z: Matrix, touching: Flags, before: float, direction: Matrix, old: Matrix) -> float:
     """Set the next direction from the preconditioned residual `z`. Return residual·z over the elements in contact.
 
     The rule is that of Polak and Ribière. It restarts by itself after a change of the contact set, and if before <= 0.
@@ -295,8 +296,10 @@ def _steer(residual, z, touching, before, direction, old):
     return square
 
 
-@kernel
-def _advance(p, e, residual, direction, moved, touching, own):
+@entry
+def _advance(
+    p: Matrix, e: Matrix, residual: Matrix, direction: Matrix, moved: Matrix, touching: Flags, own: float
+) -> tuple[float, int, int]:
     """Step along the direction to the least energy, and correct the set of elements in contact.
 
     Elements with tension leave the contact; elements that overlap enter it. Return the change of the pressure over the

@@ -2,14 +2,15 @@
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry
+from contact.kernels.arrays import Cube, FourD, Matrix
 
 #: Values of the array `zone`
 OUTSIDE, STICK, SLIP = 0.0, 1.0, 2.0
 
 
-@kernel
-def linearise(q, s, bound, rho, zone, step, stiffness):
+@entry
+def linearise(q: Cube, s: Cube, bound: Matrix, rho: float, zone: Matrix, step: FourD, stiffness: Matrix) -> float:
     """Set up the Newton step for q = projection of q - s/rho on the disc of radius `bound`. Return the squared residual.
 
     Let z = q - s/rho. An element with |z| <= bound sticks, and the step has to make its s zero. All others slip, against
@@ -47,8 +48,8 @@ def linearise(q, s, bound, rho, zone, step, stiffness):
     return total
 
 
-@kernel
-def restrict(v, zone, tangent):
+@entry
+def restrict(v: Cube, zone: Matrix, tangent: Cube) -> None:
     """Restrict `v` in place: unchanged in stick, its component along `tangent` in slip, zero outside."""
     for i in range(zone.shape[0]):
         for j in range(zone.shape[1]):
@@ -60,8 +61,10 @@ def restrict(v, zone, tangent):
                 v[0, i, j], v[1, i, j] = 0.0, 0.0
 
 
-@kernel
-def accumulate(v, u, zone, stiffness, own, gain, share, out):
+@entry
+def accumulate(
+    v: Cube, u: Cube, zone: Matrix, stiffness: Matrix, own: float, gain: float, share: float, out: Cube
+) -> None:
     """Precondition `v` into `out`: in stick the sum of `gain`·`u` from the leading edge, in slip `v` over a flexibility.
 
     The flexibility is that of the element itself (`own`) plus `stiffness`. From one element to the next the sum is
@@ -81,8 +84,8 @@ def accumulate(v, u, zone, stiffness, own, gain, share, out):
                 out[0, i, j], out[1, i, j] = v[0, i, j] / flexibility, v[1, i, j] / flexibility
 
 
-@kernel
-def admit(q, zone, bound):
+@entry
+def admit(q: Cube, zone: Matrix, bound: Matrix) -> None:
     """Scale the traction of slipping elements back onto the circle |q| = bound."""
     for i in range(bound.shape[0]):
         for j in range(bound.shape[1]):
@@ -93,8 +96,8 @@ def admit(q, zone, bound):
                 q[1, i, j] *= bound[i, j] / size
 
 
-@kernel
-def settle(q, s, zone, bound):
+@entry
+def settle(q: Cube, s: Cube, zone: Matrix, bound: Matrix) -> None:
     """Make the last iterate admissible: |q| <= bound, slip opposite to q, and no slip outside the slip zone."""
     for i in range(bound.shape[0]):
         for j in range(bound.shape[1]):

@@ -2,41 +2,76 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Annotated, Any, Generic, NamedTuple, TypeVar
 
-from contact.kernels.families import Families
+import numpy as np
 
-Array = Any  # an ndarray in Python; numba infers the rest
+from contact.core import Shape
+from contact.kernels import records
+
+Array = Any  # an ndarray of any shape
+Numbers = Annotated[Any, Shape(np.float64, 1)]
+Matrix = Annotated[Any, Shape(np.float64, 2)]
+Cube = Annotated[Any, Shape(np.float64, 3)]
+Flags = Annotated[Any, Shape(np.bool_, 2)]
+FourD = Annotated[Any, Shape(np.float64, 4)]
+FiveD = Annotated[Any, Shape(np.float64, 5)]
+Integers = Annotated[Any, Shape(np.int64, 1)]
+
+#: Arrays of records (`contact.kernels.records`), and single records.
+Cases = Annotated[Any, Shape(records.CASE, 1)]
+Case = Annotated[Any, Shape(records.CASE, 0)]
+Results = Annotated[Any, Shape(records.RESULT, 1)]
+Result = Annotated[Any, Shape(records.RESULT, 0)]
+Givens = Annotated[Any, Shape(records.GIVEN, 1)]
+Given = Annotated[Any, Shape(records.GIVEN, 0)]
+Motions = Annotated[Any, Shape(records.MOTION, 1)]
+Motion = Annotated[Any, Shape(records.MOTION, 0)]
+Patches = Annotated[Any, Shape(records.PATCH, 1)]
+Patch = Annotated[Any, Shape(records.PATCH, 0)]
+Lobes = Annotated[Any, Shape(records.LOBE, 1)]
+Contacts = Annotated[Any, Shape(records.CONTACT, 1)]
+Totals = Annotated[Any, Shape(records.TOTAL, 1)]
+Damages = Annotated[Any, Shape(records.DAMAGE, 1)]
+Damage = Annotated[Any, Shape(records.DAMAGE, 0)]
+Parameters = Annotated[Any, Shape(records.DAMAGE_PARAMETERS, 1)]
+DamageParameters = Annotated[Any, Shape(records.DAMAGE_PARAMETERS, 0)]
+Settings = Annotated[Any, Shape(records.LEDGER, 1)]
+Setting = Annotated[Any, Shape(records.LEDGER, 0)]
+Roots = Annotated[Any, Shape(records.ROOT, 1)]
+Root = Annotated[Any, Shape(records.ROOT, 0)]
+Springs = Annotated[Any, Shape(records.ELASTIC_RAIL, 1)]
+Offsets = Annotated[Any, Shape(records.WHEEL_OFFSET, 1)]
 
 
 class Samples(NamedTuple):
     """Samples of a separation: the rows of `contact.Separation`, all of the same length."""
 
-    y: Array
-    g: Array
-    A: Array
-    x_c: Array
-    tilt: Array
+    y: Numbers
+    g: Numbers
+    A: Numbers
+    x_c: Numbers
+    tilt: Numbers
 
 
 class Across(NamedTuple):
     """Positions of strips across a patch, on [-1, 1], and their weights: Fejér's first rule."""
 
-    nodes: Array
-    weights: Array
+    nodes: Numbers
+    weights: Numbers
 
 
 class Rule(NamedTuple):
     """Positions of strips and elements in a patch, and tables that follow from them. Constant for a resolution, read-only."""
 
     across: Across
-    elements: Array
-    cosines: Array
-    cosine_logs: Array
-    columns: Array
-    descent: Array
-    probes: Array
-    spread: Array
+    elements: Matrix
+    cosines: Numbers
+    cosine_logs: Matrix
+    columns: Cube
+    descent: Cube
+    probes: Numbers
+    spread: Matrix
 
 
 class Tables(NamedTuple):
@@ -46,10 +81,10 @@ class Tables(NamedTuple):
     the creep forces of the half space.
     """
 
-    kalker: Array
-    centre: Array
-    plane: Array
-    creep: Array
+    kalker: Matrix
+    centre: Matrix
+    plane: Matrix
+    creep: FiveD
 
 
 class Space(NamedTuple):
@@ -59,37 +94,26 @@ class Space(NamedTuple):
     orientation in which interacting strips are solved.
     """
 
-    grid: Array
-    turned: Array
-    vectors: Array
-    logs: Array
-    matrix: Array
-    lu: Array
-    memory: Array
-    lanes: Array
-    trace: Array
-    case: Array
-
-
-class Arrays(NamedTuple):
-    """Arrays of a workspace. Their types are the same for all methods, so a method is compiled once."""
-
-    rule: Rule
-    tables: Tables
-    space: Space
-    strips: Array
-    fields: Array
+    grid: Matrix
+    turned: Matrix
+    vectors: Matrix
+    logs: Matrix
+    matrix: Matrix
+    lu: Matrix
+    memory: Numbers
+    lanes: Numbers
+    trace: Matrix
+    case: Cases
 
 
 class Workspace(NamedTuple):
-    """Everything that `pipeline.solve_case` needs besides the problem. The type of `families` chooses the kernels."""
+    """Everything that `pipeline.solve_case` needs besides the problem."""
 
-    families: Families
     rule: Rule
     tables: Tables
     space: Space
-    strips: Array
-    fields: Array
+    strips: Matrix
+    fields: Cube
 
 
 class Search(NamedTuple):
@@ -100,22 +124,22 @@ class Search(NamedTuple):
     scratch.
     """
 
-    wheel: Array
-    rail: Array
-    motion: Array
-    grid: Array
-    patches: Array
-    separations: Array
-    line: Array
-    placed: Array
-    lobes: Array
-    wheel_plane: Array
-    rail_plane: Array
-    case: Array
+    wheel: Matrix
+    rail: Matrix
+    motion: Motions
+    grid: Numbers
+    patches: Patches
+    separations: Cube
+    line: Matrix
+    placed: Matrix
+    lobes: Lobes
+    wheel_plane: Matrix
+    rail_plane: Matrix
+    case: Cases
     across: Across
-    work: Array
-    strips: Array
-    result: Array
+    work: Matrix
+    strips: Matrix
+    result: Results
 
 
 class Sheet(NamedTuple):
@@ -126,11 +150,11 @@ class Sheet(NamedTuple):
     `deviation` has the rows u, value and slope of what is added to z.
     """
 
-    u: Array
-    nodes: Array
-    runs: Array
-    period: Array
-    deviation: Array
+    u: Numbers
+    nodes: Cube
+    runs: Matrix
+    period: Numbers
+    deviation: Matrix
 
 
 class SurfaceSearch(NamedTuple):
@@ -143,24 +167,24 @@ class SurfaceSearch(NamedTuple):
 
     wheel: Sheet
     rail: Sheet
-    motion: Array
-    patches: Array
-    separations: Array
-    lobes: Array
-    section: Array
-    column: Array
-    coarse: Array
-    rough: Array
-    fine: Array
-    boxes: Array
-    stack: Array
-    h: Array
-    x: Array
-    case: Array
+    motion: Motions
+    patches: Patches
+    separations: Cube
+    lobes: Lobes
+    section: Matrix
+    column: Matrix
+    coarse: Cube
+    rough: Cube
+    fine: Cube
+    boxes: Matrix
+    stack: Numbers
+    h: Matrix
+    x: Matrix
+    case: Cases
     across: Across
-    work: Array
-    strips: Array
-    result: Array
+    work: Matrix
+    strips: Matrix
+    result: Results
 
 
 class Ledger(NamedTuple):
@@ -170,17 +194,20 @@ class Ledger(NamedTuple):
     scratch.
     """
 
-    wheel: Array
-    wheel_arc: Array
-    rail: Array
-    rail_arc: Array
-    settings: Array
-    rates: Array
-    edges: Array
-    bins: Array
+    wheel: Matrix
+    wheel_arc: Numbers
+    rail: Matrix
+    rail_arc: Numbers
+    settings: Settings
+    rates: Matrix
+    edges: Matrix
+    bins: Cube
 
 
-class Bench(NamedTuple):
+Kind = TypeVar("Kind", Search, SurfaceSearch)
+
+
+class Bench(NamedTuple, Generic[Kind]):
     """All arrays of one pair.
 
     `search`, `own` and `damage_parameters` hold sizes and constants. `case` holds methods, material and friction.
@@ -190,23 +217,23 @@ class Bench(NamedTuple):
     wheelset, `displaced` the motion with it. `contacts` and `total` are the results. `ledger` accumulates damage.
     """
 
-    search: Search
+    search: Kind
     own: Workspace
-    case: Array
-    patch_case: Array
-    result: Array
-    memory: Array
-    damage_parameters: Array
-    damage_fields: Array
-    damage: Array
-    contacts: Array
-    total: Array
+    case: Cases
+    patch_case: Cases
+    result: Results
+    memory: Numbers
+    damage_parameters: Parameters
+    damage_fields: Cube
+    damage: Damages
+    contacts: Contacts
+    total: Totals
     ledger: Ledger
-    rail: Array
-    roots: Array
-    moved: Array
-    offset: Array
-    displaced: Array
+    rail: Springs
+    roots: Roots
+    moved: Givens
+    offset: Offsets
+    displaced: Givens
 
 
 class Size(NamedTuple):

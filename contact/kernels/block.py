@@ -9,38 +9,16 @@ from __future__ import annotations
 
 from typing import Any
 
-from llvmlite import ir
-from numba import carray, types
-from numba.core.errors import TypingError
-from numba.extending import intrinsic, overload, register_jitable
-
+from contact.core import COMPILING, shared
 from contact.kernels.arrays import Array
 
 #: Number of float64 in a cache line. Vectors that extend over two lines cost a sixth of the time of the march.
 _LINE = 8
 
 
-@intrinsic
-def ahead(typing_context, pointer, count):
-    """Return the pointer advanced by `count` float64 values."""
-    if pointer != types.CPointer(types.float64):
-        raise TypingError("a block in compiled code is a pointer to float64")
-
-    def generate(context, builder, signature, arguments):
-        base, offset = arguments
-        return builder.gep(base, [offset], source_etype=ir.DoubleType())
-
-    return pointer(pointer, types.int64), generate
-
-
-@intrinsic
-def _untyped(typing_context, pointer):
-    """Return the pointer as a void pointer, which `carray` requires for records."""
-
-    def generate(context, builder, signature, arguments):
-        return builder.bitcast(arguments[0], context.get_value_type(types.voidptr))
-
-    return types.voidptr(pointer), generate
+def ahead(block: Array, count: int) -> Array:
+    """Return the block without its first `count` float64; in compiled code the pointer advanced by as many."""
+    return block[count:]
 
 
 def vector(block: Array, end: int, n: int) -> tuple[Array, int]:
@@ -59,37 +37,84 @@ def cube(block: Array, end: int, layers: int, rows: int, columns: int) -> tuple[
     return block[end : end + size].reshape(layers, rows, columns), end + size
 
 
+def part(pool: Array, at: int, layers: int, rows: int, columns: int) -> Array:
+    """Return a three-dimensional view of the float64 of `pool` from the index `at` on."""
+    return pool[at : at + layers * rows * columns].reshape(layers, rows, columns)
+
+
 def records(block: Array, end: int, n: int, dtype: Any) -> tuple[Array, int]:
     """Return `n` records, laid in `block`, and the new end."""
     size = n * (dtype.itemsize // 8)
     return block[end : end + size].view(dtype), end + size
 
 
-@overload(vector)
-def _vector(block, end, n):
-    return lambda block, end, n: (carray(ahead(block, end), (n,)), end + n)
-
-
-@overload(matrix)
-def _matrix(block, end, rows, columns):
-    return lambda block, end, rows, columns: (carray(ahead(block, end), (rows, columns)), end + rows * columns)
-
-
-@overload(cube)
-def _cube(block, end, layers, rows, columns):
-    def lay(block, end, layers, rows, columns):
-        return carray(ahead(block, end), (layers, rows, columns)), end + layers * rows * columns
-
-    return lay
-
-
-@overload(records)
-def _records(block, end, n, dtype):
-    words = dtype.dtype.size // 8
-    return lambda block, end, n, dtype: (carray(_untyped(ahead(block, end)), (n,), dtype), end + n * words)
-
-
-@register_jitable
+@shared
 def next_line(end: int) -> int:
     """Return the first index from `end` on at which a cache line begins. The block itself begins at one."""
     return (end + _LINE - 1) // _LINE * _LINE
+
+
+if COMPILING:
+    from llvmlite import ir
+    from numba import carray, types
+    from numba.core.errors import TypingError
+    from numba.extending import intrinsic, overload
+
+    @intrinsic
+    def _advanced(typing_context, pointer, count):
+        """Return the pointer advanced by `count` float64 values."""
+        if pointer != types.CPointer(types.float64):
+            raise TypingError("a block in compiled code is a pointer to float64")
+
+        def generate(context, builder, signature, arguments):
+            base, offset = arguments
+            return builder.gep(base, [offset], source_etype=ir.DoubleType())
+
+        return pointer(pointer, types.int64), generate
+
+    @overload(ahead)
+    def _ahead(block, count):
+        return lambda block, count: _advanced(block, count)
+
+    @intrinsic
+    def _untyped(typing_context, pointer):
+        """Return the pointer as a void pointer, which `carray` requires for records."""
+
+        def generate(context, builder, signature, arguments):
+            return builder.bitcast(arguments[0], context.get_value_type(types.voidptr))
+
+        return types.voidptr(pointer), generate
+
+    @intrinsic
+    def _pointer_to(typing_context, array):
+        """Return the pointer to the first float64 of an array."""
+        pointer = types.CPointer(types.float64)
+
+        def generate(context, builder, signature, arguments):
+            return context.make_array(signature.args[0])(context, builder, arguments[0]).data
+
+        return pointer(array), generate
+
+    @overload(part)
+    def _part(pool, at, layers, rows, columns):
+        return lambda pool, at, layers, rows, columns: carray(ahead(_pointer_to(pool), at), (layers, rows, columns))
+
+    @overload(vector)
+    def _vector(block, end, n):
+        return lambda block, end, n: (carray(ahead(block, end), (n,)), end + n)
+
+    @overload(matrix)
+    def _matrix(block, end, rows, columns):
+        return lambda block, end, rows, columns: (carray(ahead(block, end), (rows, columns)), end + rows * columns)
+
+    @overload(cube)
+    def _cube(block, end, layers, rows, columns):
+        def lay(block, end, layers, rows, columns):
+            return carray(ahead(block, end), (layers, rows, columns)), end + layers * rows * columns
+
+        return lay
+
+    @overload(records)
+    def _records(block, end, n, dtype):
+        words = dtype.dtype.size // 8
+        return lambda block, end, n, dtype: (carray(_untyped(ahead(block, end)), (n,), dtype), end + n * words)

@@ -15,12 +15,13 @@ curvature on the elastic bodies (about 5 %, thesis 8.1).
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry, kernel
+from contact.kernels.arrays import Case, Matrix, Numbers, Samples
 from contact.kernels.rows import Field, Strip
 
 
-@kernel
-def surface_at(y, tilt, at):
+@entry
+def surface_at(y: Numbers, tilt: Numbers, at: float) -> tuple[float, float]:
     """Return slope [-] and height [m] of the surface at y = `at`. The height counts from the first sample.
 
     The slope is linear between samples and constant beyond them.
@@ -36,8 +37,8 @@ def surface_at(y, tilt, at):
     return slope, height + 0.5 * (slope + tilt[k - 1]) * (at - y[k - 1])
 
 
-@kernel
-def bend(sep, case, strips, n):
+@entry
+def bend(sep: Samples, case: Case, strips: Matrix, n: int) -> None:
     """Set slope and creepages of each of `n` strips by its position on the surface. `case.rolling` is κ [1/m]."""
     y, tilt, rolling = sep.y, sep.tilt, case.rolling
     vx, vy, phi = case.vx, case.vy, case.phi

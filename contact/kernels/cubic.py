@@ -6,18 +6,19 @@ position within the interval.
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry, kernel
+from contact.kernels.arrays import Numbers
 
 
-@kernel
-def value(h, f0, m0, f1, m1, t):
+@entry
+def value(h: float, f0: float, m0: float, f1: float, m1: float, t: float) -> float:
     """Return the value at t."""
     w = 1.0 - t
     return w * w * ((1.0 + 2.0 * t) * f0 + h * t * m0) + t * t * ((1.0 + 2.0 * w) * f1 - h * w * m1)
 
 
-@kernel
-def value_and_slope(h, f0, m0, f1, m1, t):
+@entry
+def value_and_slope(h: float, f0: float, m0: float, f1: float, m1: float, t: float) -> tuple[float, float]:
     """Return the value and the slope at t."""
     d = f1 - f0
     a = h * (m0 + m1) - 2.0 * d
@@ -25,15 +26,15 @@ def value_and_slope(h, f0, m0, f1, m1, t):
     return f0 + t * (h * m0 + t * (b + t * a)), m0 + t * (2.0 * b + 3.0 * t * a) / h
 
 
-@kernel
-def basis(t):
+@entry
+def basis(t: float) -> tuple[float, float, float, float]:
     """Return the weights of f0, h·m0, f1 and h·m1 at t. They serve several functions over one table."""
     w = 1.0 - t
     return (1.0 + 2.0 * t) * w * w, t * w * w, t * t * (3.0 - 2.0 * t), -t * t * w
 
 
-@kernel
-def integral(h, f0, m0, f1, m1, t):
+@entry
+def integral(h: float, f0: float, m0: float, f1: float, m1: float, t: float) -> float:
     """Return the integral from the start of the interval to t."""
     t2 = t * t
     t3, t4 = t2 * t, t2 * t2
@@ -45,8 +46,8 @@ def integral(h, f0, m0, f1, m1, t):
     )
 
 
-@kernel
-def interior_minimum(h, f0, m0, f1, m1):
+@entry
+def interior_minimum(h: float, f0: float, m0: float, f1: float, m1: float) -> tuple[float, float]:
     """Return position t in ]0, 1[ and value of the local minimum inside the interval, or (-1, 0) if there is none."""
     a = 3.0 * (2.0 * (f0 - f1) + h * (m0 + m1))  # h times the slope is a t² + b t + c
     b = 2.0 * (3.0 * (f1 - f0) - h * (2.0 * m0 + m1))
@@ -63,8 +64,8 @@ def interior_minimum(h, f0, m0, f1, m1):
     return t, value(h, f0, m0, f1, m1, t)
 
 
-@kernel
-def least(h, f0, m0, f1, m1):
+@entry
+def least(h: float, f0: float, m0: float, f1: float, m1: float) -> tuple[float, float]:
     """Return position t in [0, 1] and value of the smallest value of the interval, ends included."""
     best_t, best = (1.0, f1) if f1 < f0 else (0.0, f0)
     if m0 < 0.0 < m1:
@@ -74,8 +75,8 @@ def least(h, f0, m0, f1, m1):
     return best_t, best
 
 
-@kernel
-def crossing(h, f0, m0, f1, m1, level, low, high):
+@entry
+def crossing(h: float, f0: float, m0: float, f1: float, m1: float, level: float, low: float, high: float) -> float:
     """Return t between `low` and `high` where the cubic passes `level`.
 
     The method is Newton's, kept in the bracket, with at most 60 iterations.
@@ -122,8 +123,8 @@ def slope_at(y, f, n, i):
     return _slope_inside(y, f, i)
 
 
-@kernel
-def slopes(y, f, n, out):
+@entry
+def slopes(y: Numbers, f: Numbers, n: int, out: Numbers) -> None:
     """Fill `out` with three-point slopes of f over y. They are exact for a parabola and one-sided at the ends."""
     for i in range(1, n - 1):
         out[i] = _slope_inside(y, f, i)

@@ -6,7 +6,7 @@ with the contact force F on the rail and an external force P on it, in track coo
 search. A stiffness of 0 in the record means that the rail is rigid in that direction.
 """
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.enumerations import Height, Status
 from contact.kernels.pair import solve_pair
 from contact.kernels.root import advance, begin

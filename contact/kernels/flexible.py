@@ -8,7 +8,8 @@ wheelset with the centre C' = Q + d - t l' and these angles.
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry, kernel
+from contact.kernels.arrays import Bench, Given, Search, SurfaceSearch
 from contact.kernels.elastic_rail import solve_on_rail
 from contact.kernels.enumerations import NoAnswer
 from contact.kernels.geometry.search import axle
@@ -64,3 +65,15 @@ def solve_flexible(mode, amount, given, bench):
     total.Mz += x * total.Fy - y * total.Fx
     total.z -= z
     return code
+
+
+@entry
+def solve_on_profiles(mode: int, amount: float, given: Given, bench: Bench[Search]) -> int:
+    """As `solve_flexible`, of constant profiles."""
+    return solve_flexible(mode, amount, given, bench)
+
+
+@entry
+def solve_on_surfaces(mode: int, amount: float, given: Given, bench: Bench[SurfaceSearch]) -> int:
+    """As `solve_flexible`, of surfaces that change along the way."""
+    return solve_flexible(mode, amount, given, bench)

@@ -2,15 +2,16 @@
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry, kernel
+from contact.kernels.arrays import Case
 from contact.kernels.enumerations import FrictionLaw, SlipVelocity, TangentialFamily
 
 #: Upper limit of the heat of a strip. Products of such numbers do not overflow.
 _MOST_HEAT = 1e100
 
 
-@kernel
-def coefficient(law, static, kinetic, half_speed, velocity):
+@entry
+def coefficient(law: int, static: float, kinetic: float, half_speed: float, velocity: float) -> float:
     """Return the coefficient of friction at a sliding velocity [m/s] (theory.md 8.1).
 
     At `half_speed` it lies halfway between static and kinetic.
@@ -76,8 +77,8 @@ def heating(case, a, bound):
     return min(case.heating * math.sqrt(case.speed * a) * bound, _MOST_HEAT)
 
 
-@kernel
-def of_bodies(case):
+@entry
+def of_bodies(case: Case) -> float:
     """Return the factor on the coefficient due to the temperature of the bodies."""
     drop = case.drop
     if drop <= 0.0:
@@ -100,8 +101,8 @@ def of_heat(case, cold, warm, heat):
     return min(max(within, cold * ((1.0 - drop) / bodies)), cold)
 
 
-@kernel
-def of_case(case):
+@entry
+def of_case(case: Case) -> float:
     """Return the coefficient of friction of a case at its global slip velocity V√(ξ² + η²).
 
     Where the local slip velocity counts, return the coefficient at rest.
@@ -112,8 +113,8 @@ def of_case(case):
     return coefficient(case.law, case.mu, case.kinetic, case.half_speed, velocity)
 
 
-@kernel
-def over_profile(factor, border, width, y):
+@entry
+def over_profile(factor: float, border: float, width: float, y: float) -> float:
     """Return the factor on the coefficient of friction at y.
 
     It is `factor` where (border - y)/width > 1/2, 1 where this is below -1/2, and smooth between.

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from contact._jit import kernel
+from contact.core import entry, kernel
 from contact.kernels.cubic import basis
 
 
@@ -92,7 +92,7 @@ _TABLE = _build_table()
 elliptic_integrals = kernel(_elliptic_integrals)
 
 
-@kernel
+@entry
 def local_factors(A: float, B: float) -> tuple[float, float, float, float]:
     """Return 1 + alpha, 1 + beta, n·r and ln(a/b) of Hertz for half curvatures A, B > 0 [1/m] (theory.md 3.1).
 

@@ -2,7 +2,8 @@
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry
+from contact.kernels.arrays import Cube, Matrix
 from contact.kernels.cubic import basis
 
 #: Largest |ln(a/b)| of the table. Aspect ratios are clamped to [1/50, 50].
@@ -11,8 +12,8 @@ N_TABLE = 129
 _STEP = 2.0 * LOG_ASPECT_MAX / (N_TABLE - 1)
 
 
-@kernel
-def fill_table(published, nu, table):
+@entry
+def fill_table(published: Cube, nu: float, table: Matrix) -> None:
     """Fill `table` of `coefficients` for one Poisson's ratio.
 
     A parabola in nu is interpolated through 1/C for C11, C22, C23 and through C for C33.
@@ -31,8 +32,8 @@ def fill_table(published, nu, table):
         table[N_TABLE - 1, 4 + c] = table[N_TABLE - 1, c] - table[N_TABLE - 2, c]
 
 
-@kernel
-def coefficients(table, log_aspect):
+@entry
+def coefficients(table: Matrix, log_aspect: float) -> tuple[float, float, float, float]:
     """Return C11, C22, C23, C33 at ln(a/b) from `table`. C32 = -C23. The aspect ratio is clamped to [1/50, 50]."""
     u = (min(max(log_aspect, -LOG_ASPECT_MAX), LOG_ASPECT_MAX) + LOG_ASPECT_MAX) / _STEP
     i = min(int(u), N_TABLE - 2)

@@ -1,6 +1,6 @@
 """Damage by one pair on both of its profiles, accumulated over the distance."""
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.damage.deposit import deposit, place, strip_rates
 from contact.kernels.rows import Body
 

@@ -6,8 +6,7 @@ Every function lays arrays in `block`, from the float64 with index `end` on, and
 
 from __future__ import annotations
 
-from numba.extending import register_jitable
-
+from contact.core import shared
 from contact.kernels.arrays import (
     Across,
     Array,
@@ -72,13 +71,13 @@ SEARCH_STRIPS = 30
 COARSE_ROWS, COARSE_COLUMNS, GRIDS, FINE_ROWS, FINE_COLUMNS, PATCH_COLUMNS = 101, 151, 6, 29, 21, 19
 
 
-@register_jitable
+@shared
 def memory_size(size: Size) -> int:
     """Return the number of float64 that a normal method keeps from one call to the next."""
     return MEM_LN_A + (MAX_PATCHES * size.n_strips if size.interacting else 1)
 
 
-@register_jitable
+@shared
 def lay_across(block: Array, end: int, n_strips: int) -> tuple[Across, int]:
     """Return the arrays for positions and weights of strips across a patch, and the new end."""
     nodes, end = vector(block, end, n_strips)
@@ -86,7 +85,7 @@ def lay_across(block: Array, end: int, n_strips: int) -> tuple[Across, int]:
     return Across(nodes, weights), end
 
 
-@register_jitable
+@shared
 def lay_rule(block: Array, end: int, size: Size) -> tuple[Rule, int]:
     """Return the arrays of the rule of a resolution, and the new end."""
     n = size.n_strips
@@ -103,13 +102,13 @@ def lay_rule(block: Array, end: int, size: Size) -> tuple[Rule, int]:
     return Rule(across, elements, cosines, cosine_logs, columns, descent, probes, spread), end
 
 
-@register_jitable
+@shared
 def lay_kalker(block: Array, end: int) -> tuple[Array, int]:
     """Return the table of Kalker's coefficients for one Poisson's ratio, and the new end."""
     return matrix(block, end, N_TABLE, 8)
 
 
-@register_jitable
+@shared
 def lay_space(block: Array, end: int, size: Size, memory: Array) -> tuple[Space, int]:
     """Return the scratch arrays of a workspace around `memory`, which has the size `memory_size`, and the new end."""
     capacity = MAX_PATCHES * size.n_strips if size.interacting else 1
@@ -125,7 +124,7 @@ def lay_space(block: Array, end: int, size: Size, memory: Array) -> tuple[Space,
     return Space(grid, turned, vectors, logs, influence, lu, memory, lanes, trace, case), end
 
 
-@register_jitable
+@shared
 def lay_strips_and_fields(block: Array, end: int, size: Size) -> tuple[Array, Array, int]:
     """Return strips and fields of a solution, and the new end. Without fields one row of them serves all strips."""
     capacity = MAX_PATCHES * size.n_strips
@@ -134,7 +133,7 @@ def lay_strips_and_fields(block: Array, end: int, size: Size) -> tuple[Array, Ar
     return strips, fields, end
 
 
-@register_jitable
+@shared
 def lay_search(
     block: Array, end: int, n_wheel: int, n_rail: int, prescribed: int, n_samples: int
 ) -> tuple[Search, int]:
@@ -165,7 +164,7 @@ def lay_search(
     return search, end
 
 
-@register_jitable
+@shared
 def lay_sheet(block: Array, end: int, n_slices: int, n_paths: int, n_deviation: int) -> tuple[Sheet, int]:
     """Return the arrays of a surface, and the new end."""
     u, end = vector(block, end, n_slices)
@@ -176,7 +175,7 @@ def lay_sheet(block: Array, end: int, n_slices: int, n_paths: int, n_deviation: 
     return Sheet(u, nodes, runs, period, deviation), end
 
 
-@register_jitable
+@shared
 def lay_surface_search(block: Array, end: int, wheel: Sheet, rail: Sheet, n_samples: int) -> tuple[SurfaceSearch, int]:
     """Return the arrays of a contact search over two surfaces, and the new end."""
     motion, end = records(block, end, 2, MOTION)
@@ -204,7 +203,7 @@ def lay_surface_search(block: Array, end: int, wheel: Sheet, rail: Sheet, n_samp
     return search, end
 
 
-@register_jitable
+@shared
 def lay_ledger(block: Array, end: int, wheel: Array, rail: Array, bins: Array, n_strips: int) -> tuple[Ledger, int]:
     """Return a ledger around the rows of the profiles and the bins, and the new end."""
     capacity = MAX_PATCHES * n_strips
@@ -216,13 +215,13 @@ def lay_ledger(block: Array, end: int, wheel: Array, rail: Array, bins: Array, n
     return Ledger(wheel, wheel_arc, rail, rail_arc, settings, rates, edges, bins), end
 
 
-@register_jitable
+@shared
 def pair_memory_size(piece: int) -> int:
     """Return the size of the memory of a pair whose patches have `piece` numbers each, see `Bench`."""
     return 1 + MAX_PATCHES * piece + 2
 
 
-@register_jitable
+@shared
 def lay_bench(
     block: Array, end: int, size: Size, memory: Array, search: Search, own: Workspace, ledger: Ledger
 ) -> tuple[Bench, int]:

@@ -2,7 +2,7 @@
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.arrays import Samples, Space, Workspace
 from contact.kernels.damage.assess import clear_damage, damage_kernel
 from contact.kernels.enumerations import Height, LoadKind, NoAnswer, Status
@@ -210,7 +210,7 @@ def solve_patch(k, under_load, bench):
     _roll_patch(patch, under_load, search.motion[0], bench.case[0], case)
     samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
     space = _space_of_patch(own.space, memory[1 + k * piece : 1 + (k + 1) * piece])
-    of_patch = Workspace(own.families, own.rule, own.tables, space, own.strips, own.fields)
+    of_patch = Workspace(own.rule, own.tables, space, own.strips, own.fields)
     n_strips = solve_case(samples, bench.patch_case, of_patch, bench.result)
     parameters.speed, parameters.wheel_radius = search.motion[0].vx, patch.radius
     damage_kernel(

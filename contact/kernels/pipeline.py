@@ -2,9 +2,9 @@
 
 import math
 
-from contact._jit import chosen_by, inlined, kernel
-from contact.kernels import cubic, families
-from contact.kernels.arrays import Arrays, Samples
+from contact.core import entry, kernel
+from contact.kernels import cubic
+from contact.kernels.arrays import Case, Cases, Integers, Result, Results, Samples, Workspace
 from contact.kernels.conformal import bend, project
 from contact.kernels.enumerations import Status, Tangential, TangentialFamily
 from contact.kernels.friction import of_bodies, of_case, over_profile
@@ -118,33 +118,9 @@ def _set_rolling(strips, n, case):
             strips[Strip.BOUND, i] *= over_profile(factor, case.border, case.border_width, strips[Strip.Y, i])
 
 
-def _roll_by(family, part, case, own, result):
-    """Solve the tangential problem of one patch by the kernel of the marker `family`."""
-    raise NotImplementedError("only compiled kernels call this")
-
-
-@inlined
-def _fastrip(family, part, case, own, result):
-    fastrip(part, case, own, result)
-
-
-@inlined
-def _fastrip_mapped(family, part, case, own, result):
-    fastrip_mapped(part, case, own, result)
-
-
-@inlined
-def _fastsim(family, part, case, own, result):
-    fastsim(part, case, own, result)
-
-
-@inlined
-def _creep_force(family, part, case, own, result):
-    creep_force(part, case, own, result)
-
-
 @kernel
-def _any(family, part, case, own, result):
+def _roll_patch(part, case, own, result):
+    """Solve the tangential problem of one patch by the method of the case."""
     if case.tangential_family == TangentialFamily.FASTSIM:
         fastsim(part, case, own, result)
     elif case.tangential_family == TangentialFamily.FASTRIP_MAPPED:
@@ -155,20 +131,8 @@ def _any(family, part, case, own, result):
         fastrip(part, case, own, result)
 
 
-chosen_by(
-    _roll_by,
-    {
-        families.FaStrip: _fastrip,
-        families.FaStripMapped: _fastrip_mapped,
-        families.Fastsim: _fastsim,
-        families.CreepForce: _creep_force,
-        families.AnyTangential: _any,
-    },
-)
-
-
-@inlined
-def _roll(family, n, case, own, result):
+@kernel
+def _roll(n, case, own, result):
     """Solve the tangential problem patch by patch, with the friction and the creep stiffness of the surface."""
     own.space.case[0] = case
     surface = own.space.case[0]
@@ -179,14 +143,14 @@ def _roll(family, n, case, own, result):
         share, x, y = place_in_load(own.strips, n, first, last)
         part = Part(first, last, share * result.N, x, y)
         surface.G = stiffness_of(part, case, surface.mu * part.N, own)
-        _roll_by(family, part, surface, own, result)
+        _roll_patch(part, surface, own, result)
         first = last
 
 
-@inlined
-def press_case(family, sep, case, own, result):
+@entry
+def press_case(sep: Samples, case: Case, own: Workspace, result: Result) -> int:
     """Solve the normal problem and set the creepages and the bound of each strip; return the strip count."""
-    n = press(family, sep, case, own, result)
+    n = press(sep, case, own, result)
     if n == 0:
         return 0
 
@@ -214,11 +178,11 @@ def press_case(family, sep, case, own, result):
     return n
 
 
-@inlined
-def roll_case(family, n, case, own, result):
+@kernel
+def roll_case(n, case, own, result):
     """Solve the tangential problem of `n` > 0 strips."""
     strips = own.strips
-    _roll(family, n, case, own, result)
+    _roll(n, case, own, result)
     if result.limited != 0 and _bears_pressure(case):
         _rescale_tractions(strips, n, case, own.rule.elements, own.fields, result)
     if not abs(result.Fx) + abs(result.Fy) + abs(result.Mz) + result.N < math.inf:
@@ -244,25 +208,33 @@ def solve_case(sep, cases, own, results):
         A case on a bent surface (`case.conformal`) or with a limit of the pressure needs all rows.
     """
     case, result = cases[0], results[0]
-    arrays = Arrays(own.rule, own.tables, own.space, own.strips, own.fields)
-    n = press_case(own.families.normal, sep, case, arrays, result)
+    n = press_case(sep, case, own, result)
     if n == 0:
         return 0
     bent = case.conformal != 0 and case.tangential_family != TangentialFamily.CREEP_FORCE
     if bent:
         bend(sep, case, own.strips, n)
-    roll_case(own.families.tangential, n, case, arrays, result)
+    roll_case(n, case, own, result)
     if bent:
         project(own.strips, n, own.fields, result)
     return n
 
 
-@kernel
-def solve_cases(first, last, samples, bounds, which, cases, own, results):
+@entry
+def solve_cases(
+    first: int,
+    last: int,
+    samples: Samples,
+    bounds: Integers,
+    which: Integers,
+    cases: Cases,
+    own: Workspace,
+    results: Results,
+) -> int:
     """Solve cases[first:last] one after the other. Return the strip count of the last one.
 
     Separation k is samples[bounds[k]:bounds[k+1]], and case c uses which[c]. The first case starts from `own.space.memory`,
-    all others from nothing. This is the only kernel that Python calls for single cases too, so each method is compiled once.
+    all others from nothing. Python calls it for single cases too.
     """
     y, g, A, x_c, tilt = samples
     n = 0

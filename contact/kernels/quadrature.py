@@ -2,12 +2,13 @@
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry
+from contact.kernels.arrays import Matrix, Numbers
 from contact.kernels.rows import Element
 
 
-@kernel
-def on_circle(k, n):
+@entry
+def on_circle(k: int, n: int) -> tuple[float, float]:
     """Return cosine and sine of pi k/n, with an error of at most 2e-16.
 
     No libm is used, so strips lie at the same positions on every platform to the last digit. Integers reduce k/n
@@ -32,8 +33,8 @@ def on_circle(k, n):
     return -cosine if left else cosine, -sine if lower else sine
 
 
-@kernel
-def fill_fejer(nodes, weights):
+@entry
+def fill_fejer(nodes: Numbers, weights: Numbers) -> None:
     """Fill nodes and weights of Fejér's first rule on [-1, 1], as many as the arrays hold."""
     n = nodes.size
     for i in range((n + 1) // 2):  # the other half is the mirror image, so the rule is symmetric to round-off
@@ -45,8 +46,8 @@ def fill_fejer(nodes, weights):
         nodes[n - 1 - i], weights[n - 1 - i] = -nodes[i], weights[i]
 
 
-@kernel
-def fill_panel(edges, logs):
+@entry
+def fill_panel(edges: Numbers, logs: Matrix) -> None:
     """Fill `edges` of cosine-spaced strips on [-1, 1], and `logs[i, k]` = ln|edge k - middle of strip i|."""
     n = logs.shape[0]
     for k in range(n // 2 + 1):
@@ -57,8 +58,8 @@ def fill_panel(edges, logs):
             logs[i, k] = math.log(abs(edges[k] - 0.5 * (edges[i + 1] + edges[i])))
 
 
-@kernel
-def fill_elements(rows):
+@entry
+def fill_elements(rows: Matrix) -> None:
     """Fill the rows of `Element` for as many elements as `rows` holds."""
     n = rows.shape[1]
     # tangent of half the angle; atanh(cos) is minus its logarithm. The first is not used, but compilers divide by it.

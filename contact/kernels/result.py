@@ -1,6 +1,6 @@
 """Operations on a result that all solvers share."""
 
-from contact._jit import kernel
+from contact.core import kernel
 
 
 @kernel

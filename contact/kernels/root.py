@@ -4,22 +4,23 @@ The function is not an argument. `begin` sets the first point ``root.x``. The ca
 the value to `advance`, which sets the next point, as long as this returns True.
 """
 
-from contact._jit import kernel
+from contact.core import entry
+from contact.kernels.arrays import Root
 
 #: A step grows at most by this factor.
 _GROWTH = 4.0
 
 
-@kernel
-def begin(root, start, slope, first, last):
+@entry
+def begin(root: Root, start: float, slope: float, first: float, last: float) -> None:
     """Start a search at `start` [x] with the expected `slope` > 0 in the range from `first` to `last`."""
     root.x, root.before, root.value, root.slope = start, start, 0.0, slope
     root.first, root.last, root.low, root.high = first, last, first, last
     root.longest, root.evaluations, root.beyond = 0.0, 0, 0
 
 
-@kernel
-def advance(root, value, shortest, most):
+@entry
+def advance(root: Root, value: float, shortest: float, most: int) -> bool:
     """Set the next point from the `value` at ``root.x``. Return False at the end of the search.
 
     It ends at the value 0, at a bracket of the length `shortest` (the function jumps), after `most` evaluations, and with

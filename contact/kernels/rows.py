@@ -2,8 +2,7 @@
 
 from enum import IntEnum
 
-from numba import types
-from numba.extending import overload
+from contact.core import COMPILING
 
 
 class Strip(IntEnum):
@@ -245,10 +244,14 @@ class Body(IntEnum):
 N_PROFILE_ROWS, N_LINE_ROWS, N_VECTOR_ROWS = 3, 5, Vector.PAIRS + len(Pair)
 
 
-@overload(len)
-def _number_of_rows(rows):
-    """Let kernels call ``len(Strip)``, as Python does."""
-    if not isinstance(rows, types.IntEnumClass):
-        return None
-    count = len(rows.instance_class)
-    return lambda rows: count
+if COMPILING:
+    from numba import types
+    from numba.extending import overload
+
+    @overload(len)
+    def _number_of_rows(rows):
+        """Let kernels call ``len(Strip)``, as Python does."""
+        if not isinstance(rows, types.IntEnumClass):
+            return None
+        count = len(rows.instance_class)
+        return lambda rows: count

@@ -2,7 +2,8 @@
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry
+from contact.kernels.arrays import Numbers
 
 #: Number of samples of a separation with constant curvatures.
 HERTZIAN_POINTS = 41
@@ -11,8 +12,8 @@ HERTZIAN_POINTS = 41
 _HERTZIAN_GAP = 1e-3
 
 
-@kernel
-def fill_hertzian(B, y, g):
+@entry
+def fill_hertzian(B: float, y: Numbers, g: Numbers) -> None:
     """Fill `y` and `g` [m] with samples of g = B·y² up to a gap of 1 mm."""
     n = y.size
     for i in range(n):

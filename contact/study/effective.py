@@ -97,7 +97,7 @@ class OneEllipse:
         size = _RESOLUTION, _RESOLUTION, s.y.size
         own = workspace.allocate(normal, lookup("tangential", "fastrip"), material.poisson_ratio, size, fields=False)
         self.result = np.zeros(1, RESULT)[0]
-        self.n = press_case(own.families.normal, s.samples, case[0], own, self.result)
+        self.n = press_case(s.samples, case[0], own, self.result)
         self.spin = set_shapes(0, self.n, own)
         self.case, self.own, self.strips, self.area = case[0], own, own.strips.copy(), float(self.result.area)
 

@@ -11,12 +11,13 @@ runtime, and how it makes machine code. Therefore pyproject.toml pins the numba 
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import re
 import struct
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
@@ -30,12 +31,14 @@ if TYPE_CHECKING:
 
 #: Environment variables that must be set before numba is imported.
 ENVIRONMENT = {
+    "CONTACT_JIT": "build",
     "NUMBA_CPU_NAME": "generic",
     "NUMBA_CPU_FEATURES": "",
     "NUMBA_OPT": "0",
     "NUMBA_LOOP_VECTORIZE": "0",
     "NUMBA_SLP_VECTORIZE": "0",
     "NUMBA_DISABLE_INTEL_SVML": "1",
+    "NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING": "1",  # of overloads that do not fit, which nobody reads
 }
 
 #: Platform of FMI 2.0 → LLVM triple. Code is optimised for the first; the others differ only in their calling conventions.
@@ -68,7 +71,7 @@ _LIBM = {
     "tan",
     "fabs",
 }
-ALLOWED = _LIBM | {"memset", "memcpy", "memmove"}
+ALLOWED = _LIBM | {"memset", "memcpy", "memmove", "sched_yield"}
 
 #: Prefixes of the names of data that only Python exceptions and objects need.
 _REFUSED = (".const.pickle", "numba.dynamic")
@@ -124,22 +127,52 @@ def emit(components: Mapping[Path, Component]) -> None:
 
 
 def make_no_machine_code() -> None:
-    """Make numba stop at the IR: no machine code and no wrappers for calls from Python. This saves half of its work."""
-    from numba.core import caching, codegen, cpu, registry
+    """Make numba stop at the IR of each function: nothing is linked, optimised or wrapped for calls from Python.
 
-    def no_pointer(library: Any, name: str) -> int:
-        library._ensure_finalized()  # links the functions that it calls
-        return 0
+    `modules_of` then links the functions, each once, and LLVM optimises them as a whole.
+    """
+    from numba.core import codegen, cpu, registry
+    from numba.core.types import functions
+
+    def finish(library: Any) -> None:
+        library._finalize_dynamic_globals()
+        library._finalized = True
+
+    search: Callable[..., Any] = functions.BaseFunction.get_call_type
+    answers: dict[tuple[Any, ...], tuple[Any, Any]] = {}
+
+    def get_call_type(self: Any, context: Any, args: tuple[Any, ...], kws: Any) -> Any:
+        """Search the overloads of an operation once for each set of types: a quarter of the time goes into this search."""
+        if kws:
+            return search(self, context, args, kws)
+        key = (self.typing_key, args)
+        if key not in answers:
+            signature = search(self, context, args, kws)
+            answers[key] = signature, self._impl_keys[signature.args]
+        signature, implementation = answers[key]
+        self._impl_keys[signature.args] = implementation
+        return signature
 
     registry.cpu_target.target_context.refresh()
-    codegen.JITCodeLibrary._finalize_specific = lambda library: None
-    codegen.JITCodeLibrary.get_pointer_to_function = no_pointer
+    gc.disable()
+    functions.BaseFunction.get_call_type = get_call_type  # type: ignore[method-assign]
+    codegen.JITCodeLibrary.add_llvm_module = lambda library, module: library._final_module.link_in(module)
+    codegen.JITCodeLibrary.finalize = finish
+    codegen.JITCodeLibrary.get_pointer_to_function = lambda library, name: 0
     codegen.JITCPUCodegen._add_module = lambda self, module: None
     codegen.JITCPUCodegen.set_env = lambda self, name, environment: None
     cpu.CPUContext.create_cpython_wrapper = lambda self, *arguments, **options: None
-    # The kernels in the cache on disk are machine code.
-    caching.Cache.load_overload = lambda self, signature, context: None
-    caching.Cache.save_overload = lambda self, signature, compiled: None
+
+
+def modules_of(libraries: Iterable[Any]) -> Iterator[Any]:
+    """Yield the LLVM modules of numba's libraries and of all that they link, directly or not, each once."""
+    pending, seen = list(libraries), set()
+    while pending:
+        library = pending.pop()
+        if id(library) not in seen:
+            seen.add(id(library))
+            pending += library._linking_libraries
+            yield library._final_module
 
 
 def _symbol(entry: str, prefix: str) -> str:
@@ -229,17 +262,14 @@ def linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any], prefi
     from fmu_src.native.component import SIGNATURES, Given
     from fmu_src.native.memory import Doubles
 
-    parts, glue, entries = [], _Glue(data, prefix), {**_UNNEEDED, **entries}
+    libraries, glue, entries = [], _Glue(data, prefix), {**_UNNEEDED, **entries}
     visible = {_symbol(entry, prefix) for entry in SIGNATURES}
     given = types.NamedTuple((Doubles, types.UniTuple(Doubles, len(data))), Given)
     for name, (result, arguments) in SIGNATURES.items():
         compiled = cfunc(result(*arguments, given), error_model="numpy")(entries[name])
-        text = re.sub(r"^target .*$", "", _without_origin(compiled.inspect_llvm()), flags=re.MULTILINE)
         glue.add(_symbol(name, prefix), result, arguments, compiled.native_name.removeprefix("cfunc."))
-        parts.append(llvm.parse_assembly(text))
-    module, *others = parts
-    for part in others:
-        module.link_in(part)
+        libraries.append(compiled._library)
+    module = whole_module(libraries)
     for function in module.functions:  # numba's runtime: see `_Glue.text`
         if function.name in ("NRT_incref", "NRT_decref") and not function.is_declaration:
             function.linkage = "weak_any"
@@ -252,6 +282,17 @@ def linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any], prefi
             if not symbol.name.startswith(_REFUSED):
                 symbol.name = f"{_readable(symbol.name)}.{i}"
     return module
+
+
+def whole_module(libraries: Iterable[Any]) -> Any:
+    """Return one module of numba's libraries and of all that they link, without a trace of this machine."""
+    from llvmlite import binding as llvm
+
+    module = llvm.parse_assembly("")
+    for part in modules_of(libraries):
+        module.link_in(part, preserve=True)
+    text = str(module)
+    return llvm.parse_assembly(re.sub(r"^target .*$", "", _without_origin(text), flags=re.MULTILINE))
 
 
 def _readable(name: str) -> str:

@@ -6,14 +6,14 @@ from numba import types
 from numba.core.errors import TypingError
 from numba.extending import intrinsic
 
-from contact._jit import uncached
+from contact.core import arranging
 
 Doubles = types.CPointer(types.float64)
 #: With this the names of a component's entries begin.
 PREFIX = "model"
 
-#: The builder compiles these functions only once, so they are not kept.
-compiled = uncached
+#: Functions of a component lay arrays.
+compiled = arranging
 
 
 def _start_of(dtype):

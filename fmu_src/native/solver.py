@@ -7,7 +7,7 @@ from numba import carray
 
 import contact
 from contact import force_table, kalker, material, workspace
-from contact.kernels import families, memory, quadrature
+from contact.kernels import memory, quadrature
 from contact.kernels.arrays import Size, Tables, Workspace
 from contact.kernels.kalker import N_TABLE, fill_table
 from contact.kernels.normal import influence
@@ -66,7 +66,7 @@ def lay_out(work, end, kept, size, constants):
         carray(plane, influence.PLANE),
         carray(creep, CREEP),
     )
-    return Workspace(families.ANY, rule, tables, space, strips, fields), end
+    return Workspace(rule, tables, space, strips, fields), end
 
 
 @compiled

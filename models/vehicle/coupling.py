@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact._jit import compiled_for
+from contact.core import pack
 from contact.errors import ContactError
+from contact.kernels.arrays import Motions
 from models.vehicle.kernels import motion
 from models.vehicle.kernels.frames import speed_at
-from models.vehicle.kernels.layout import Book
+from models.vehicle.kernels.layout import Book, Model, Scratch, State
 from models.vehicle.simulation import SIDES, Simulation
 
 Array = NDArray[np.float64]
@@ -62,9 +63,7 @@ class OpenVehicle:
         model, state, scratch, motions = (
             simulation.model, simulation.state, simulation.scratch, simulation.benches.motions
         )  # fmt: skip
-        self._ask: Any = compiled_for(motion.ask, model, state, motions, scratch, 1.0)
-        self._move: Any = compiled_for(motion.move, model, state, motions, scratch, 1.0, 1.0)
-        self._arguments = model, state, motions, scratch
+        self._arguments = pack(Model, model), pack(State, state), pack(Motions, motions), pack(Scratch, scratch)
         self._late: Array | None = None  # answers to the questions of the step before
 
     @property
@@ -80,7 +79,7 @@ class OpenVehicle:
 
     def ask(self) -> Array:
         """Return the questions at the present state, shape (wheels, len(QUESTION))."""
-        self._ask(*self._arguments, self._speed)
+        motion.ask(*self._arguments, self._speed)
         scratch = self._simulation.scratch
         given = scratch.given.view(np.float64).reshape(scratch.given.size, -1)
         return np.column_stack((given, scratch.seats["friction"]))
@@ -90,7 +89,7 @@ class OpenVehicle:
         wheels = self._simulation.scratch.wheels
         for column, (name, member) in zip(answers.T, ANSWER.items(), strict=True):
             wheels[member] = -column if name == "force.z" else column
-        self._move(*self._arguments, float(h), self._speed)
+        motion.move(*self._arguments, float(h), self._speed)
 
     @property
     def _speed(self) -> float:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 
-from contact._jit import compiled_for
-from contact.kernels.arrays import Bench
+from contact.core import pack
+from contact.kernels.arrays import Bench, Search
 from models.vehicle.kernels import crew, motion
 from models.vehicle.kernels.benches import Benches
 from models.vehicle.kernels.layout import Model, Scratch, State
@@ -29,29 +28,25 @@ class Crew:
     def __init__(
         self, model: Model, state: State, benches: Benches, scratch: Scratch, memories: Sequence[Bench]
     ) -> None:
-        self._arrays = model, state, benches, scratch
-        self._helpers = [benches._replace(shared=own, scratch=np.zeros_like(benches.scratch)) for own in memories[1:]]
+        kind = Benches[Search]
+        self._arrays = pack(Model, model), pack(State, state), pack(kind, benches), pack(Scratch, scratch)
+        self._helpers = [
+            pack(kind, benches._replace(shared=own, scratch=np.zeros_like(benches.scratch))) for own in memories[1:]
+        ]
+        self._n_wheels = scratch.wheels.size
         self._counters = np.zeros(crew.N_LINE, np.int64)
         self._codes = np.zeros(scratch.wheels.size, np.int64)
-        self._lead: Callable[..., Any] | None = None
-        self._serve: Callable[..., Any] | None = None
 
     def advance(self, h: float, steps: int) -> int:
         """Advance by `steps` steps of `h` [s]; return 0 or the code of `kernels.wheels.press`."""
-        _, _, benches, scratch = self._arrays
         if not self._helpers:
-            if self._lead is None:
-                self._lead = compiled_for(motion.advance, *self._arrays, h, steps)
-            return int(self._lead(*self._arrays, h, steps))
-        shared = self._counters, self._codes
-        if self._lead is None or self._serve is None:
-            self._lead = compiled_for(crew.lead, *self._arrays, *shared, h, steps)
-            self._serve = compiled_for(crew.serve, benches, scratch, *shared)
-        self._counters[crew.Line.NEXT], self._counters[crew.Line.ENDED] = scratch.wheels.size, 0  # the list is closed
-        helpers = [threading.Thread(target=self._serve, args=(own, scratch, *shared)) for own in self._helpers]
+            return int(motion.advance(*self._arrays, h, steps))
+        scratch, shared = self._arrays[-1], (self._counters, self._codes)
+        self._counters[crew.Line.NEXT], self._counters[crew.Line.ENDED] = self._n_wheels, 0  # the list is closed
+        helpers = [threading.Thread(target=crew.serve, args=(own, scratch, *shared)) for own in self._helpers]
         for helper in helpers:
             helper.start()
-        code = self._lead(*self._arrays, *shared, h, steps)
+        code = crew.lead(*self._arrays, *shared, h, steps)
         for helper in helpers:
             helper.join()
         return int(code)

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact._jit import compiled_for
+from contact.core import pack
 from contact.geometry.surfaces import SurfacePair
+from contact.kernels.arrays import Bench, Motions, Search, SurfaceSearch
 from contact.pair import WheelRailPair
 from models.vehicle.kernels import motion, wheels
 from models.vehicle.kernels.benches import Benches
@@ -66,23 +67,18 @@ class Uneven:
         self._rotations = rotations
         self.on_surfaces = np.zeros(scratch.wheels.size, np.bool_)
         self._solvers: dict[tuple[int, Stretch | None], Callable[[], int]] = {}
-        self._ask: Any = None
-        self._move: Any = None
+        self._moving = pack(Model, model), pack(State, state), pack(Motions, benches.motions), pack(Scratch, scratch)
 
     def advance(self, h: float, steps: int) -> int:
         """Advance by `steps` steps of `h` [s]; return 0 or the code of `kernels.wheels.press`."""
-        model, state, benches, scratch = self._arrays
-        moving = model, state, benches.motions, scratch
-        if self._ask is None:
-            self._ask = compiled_for(motion.ask, *moving, h)
-            self._move = compiled_for(motion.move, *moving, h, h)
+        model, state, _, scratch = self._arrays
         for _ in range(steps):
             speed = float(speed_at(model.track, model.spacing, state.books[Book.DISTANCE]))
-            self._ask(*moving, speed)
+            motion.ask(*self._moving, speed)
             for w in range(scratch.wheels.size):
                 if self._solve(w) < 0:
                     return -1 - w
-            self._move(*moving, h, speed)
+            motion.move(*self._moving, h, speed)
             turned = self._rotations + h * state.u[model.wheelsets, Axis.PITCH]
             self._rotations[:] = np.remainder(turned + math.pi, 2.0 * math.pi) - math.pi
         return 0
@@ -105,8 +101,7 @@ class Uneven:
         """Return what solves the contact of wheel `w` on a stretch, or on profiles."""
         _, _, benches, scratch = self._arrays
         if here is not None:
-            given = here.pair.bench, scratch.given[w], scratch.seats[w], scratch.wheels[w]
-            one = compiled_for(wheels.press_one, *given)
-            return lambda: int(one(*given))
-        any_wheel = compiled_for(wheels.follow_wheel, benches, scratch, w)
-        return lambda: int(any_wheel(benches, scratch, w))
+            bench = pack(Bench[SurfaceSearch], here.pair.bench)
+            return lambda: int(wheels.press_one(bench, scratch.given[w], scratch.seats[w], scratch.wheels[w]))
+        every, rows = pack(Benches[Search], benches), pack(Scratch, scratch)
+        return lambda: int(wheels.follow_wheel(every, rows, w))

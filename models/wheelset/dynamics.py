@@ -10,7 +10,8 @@ from __future__ import annotations
 import math
 from enum import IntEnum
 
-from contact._jit import kernel
+from contact.core import entry, kernel
+from contact.kernels.arrays import Matrix, Numbers
 
 
 class Frame(IntEnum):
@@ -73,14 +74,14 @@ class Energy(IntEnum):
 N_STATE, N_CONSTANTS, N_ENERGY = len(State), len(Constant), len(Energy)
 
 
-@kernel
-def arm(frame):
+@entry
+def arm(frame: Numbers) -> float:
     """Return the roll moment about the centre per unit of -N, y cos δ + z sin δ [m] (5)."""
     return frame[Frame.Y] * math.cos(frame[Frame.ANGLE]) + frame[Frame.Z] * math.sin(frame[Frame.ANGLE])
 
 
-@kernel
-def locus(frame, axle):
+@entry
+def locus(frame: Numbers, axle: Numbers) -> float:
     """Return x of the contact origin [m], l_x a/(l_y cos δ + l_z sin δ).
 
     At this point of the wheel's circle the normal has no x component. The spin then moves the wheel only along the rail's
@@ -89,8 +90,8 @@ def locus(frame, axle):
     return axle[0] * arm(frame) / (axle[1] * math.cos(frame[Frame.ANGLE]) + axle[2] * math.sin(frame[Frame.ANGLE]))
 
 
-@kernel
-def normal_loads(frames, forces, axle_load, loads):
+@entry
+def normal_loads(frames: Matrix, forces: Matrix, axle_load: float, loads: Numbers) -> None:
     """Solve vertical and roll equilibrium (4, 5) for loads[side] [N]. A negative load is replaced by 0."""
     vertical, roll = axle_load, 0.0
     for side in range(2):
@@ -108,8 +109,8 @@ def normal_loads(frames, forces, axle_load, loads):
             loads[1 - side] = max(vertical / math.cos(frames[1 - side, Frame.ANGLE]), 0.0)
 
 
-@kernel
-def follow(frames, state):
+@entry
+def follow(frames: Matrix, state: Numbers) -> tuple[float, float]:
     """Return the vertical velocity [m/s] and roll rate [rad/s] that keep both wheels on the rails.
 
     The equations (6) are the transpose of (4, 5).
@@ -142,8 +143,8 @@ def creepages(frame, state, axle, z_rate, roll_rate, speed, out):
     out[2] = (omega_z * cosine - omega_y * sine) / speed
 
 
-@kernel
-def resultants(frames, forces, loads, axle, out):
+@entry
+def resultants(frames: Matrix, forces: Matrix, loads: Numbers, axle: Numbers, out: Numbers) -> None:
     """Write the generalised forces of both contacts to `out` (2, 3).
 
     out = (lateral [N], yaw [N m], spin [N m], longitudinal [N], roll [N m]). While both wheels carry load, the last is
@@ -180,8 +181,8 @@ def _kicked(velocity, mass, force, damping, h):
     return velocity + phi1 * gain, velocity + phi2 * gain
 
 
-@kernel
-def kick(state, constants, Q, h, energy):
+@entry
+def kick(state: Numbers, constants: Numbers, Q: Numbers, h: float, energy: Numbers) -> None:
     """Advance the velocities by `h` [s] with constant positions and contact forces `Q`, and add the work to `energy`."""
     lateral, yaw = state[State.LATERAL], state[State.YAW]
     spring_y, spring_psi = -constants[Constant.LATERAL_STIFFNESS] * lateral, -constants[Constant.YAW_STIFFNESS] * yaw
@@ -206,8 +207,8 @@ def kick(state, constants, Q, h, energy):
     state[State.SPIN] += spin_gain
 
 
-@kernel
-def drift(state, h):
+@entry
+def drift(state: Numbers, h: float) -> None:
     """Advance the positions by `h` [s]."""
     state[State.LATERAL] += h * state[State.LATERAL_VELOCITY]
     state[State.YAW] += h * state[State.YAW_RATE]

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from contact._jit import kernel
-from contact.kernels.arrays import Search
+from contact.core import entry, kernel
+from contact.kernels.arrays import Givens, Matrix, Numbers, Search
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.search import axle
 from contact.kernels.geometry.settle import first_touch, locate
@@ -45,21 +45,21 @@ class Wheelset(NamedTuple):
     to the next.
     """
 
-    constants: Array  # as in `dynamics`
-    state: Array
-    energy: Array  # since the start [J]
-    height: Array  # vertical [m], roll [rad]
-    irregularity: Array  # of the centre line: lateral [m], slope [-]
-    forces: Array  # of the contacts on the wheels, shape (2, 3)
-    approach: Array  # of the contacts [m], shape (2,)
-    frames: Array  # shape (2, 4)
-    axle: Array  # direction to the right
-    loads: Array  # [N], shape (2,)
-    resultants: Array
-    problems: Array  # inputs of the contacts in the order of `ports.PROBLEM`, shape (2, LOAD + 1)
-    rates: Array  # time derivatives of `state` at the last report
-    powers: Array  # time derivatives of `energy` [W] at the last report
-    given: Array  # of one wheel: pose, velocity, irregularity
+    constants: Numbers  # as in `dynamics`
+    state: Numbers
+    energy: Numbers  # since the start [J]
+    height: Numbers  # vertical [m], roll [rad]
+    irregularity: Numbers  # of the centre line: lateral [m], slope [-]
+    forces: Matrix  # of the contacts on the wheels, shape (2, 3)
+    approach: Numbers  # of the contacts [m], shape (2,)
+    frames: Matrix  # shape (2, 4)
+    axle: Numbers  # direction to the right
+    loads: Numbers  # [N], shape (2,)
+    resultants: Numbers
+    problems: Matrix  # inputs of the contacts in the order of `ports.PROBLEM`, shape (2, LOAD + 1)
+    rates: Numbers  # time derivatives of `state` at the last report
+    powers: Numbers  # time derivatives of `energy` [W] at the last report
+    given: Givens  # of one wheel: pose, velocity, irregularity
     right: Search
     left: Search
 
@@ -82,7 +82,7 @@ REMEMBERED = {
 }
 
 
-@kernel
+@entry
 def begin(w: Wheelset, lateral: float, yaw: float, lateral_velocity: float, yaw_rate: float, approach: float) -> int:
     """Put the wheelset onto the rails without forces. Its spin is V over the mean of both rolling radii."""
     w.energy[:] = 0.0
@@ -105,7 +105,7 @@ def begin(w: Wheelset, lateral: float, yaw: float, lateral_velocity: float, yaw_
     return MET
 
 
-@kernel
+@entry
 def step(w: Wheelset, h: float, substeps: int) -> int:
     """Advance by h [s] with constant forces."""
     balance(w)
@@ -236,7 +236,7 @@ def _settle(w: Wheelset, y: float, yaw: float) -> int:
     return NO_ROLL
 
 
-@kernel
+@entry
 def balance(w: Wheelset) -> None:
     """Compute normal loads and generalised forces from the present frames and the held creep forces."""
     dynamics.normal_loads(w.frames, w.forces, w.constants[Constant.AXLE_LOAD], w.loads)
@@ -267,7 +267,7 @@ def report(w: Wheelset) -> None:
     powers[Energy.DAMPER] += constants[Constant.YAW_DAMPING] * state[State.YAW_RATE] ** 2
 
 
-@kernel
+@entry
 def change(w: Wheelset) -> None:
     """Compute the time derivatives of the state under the present generalised forces (2, 3)."""
     c, Q, state, rates = w.constants, w.resultants, w.state, w.rates
@@ -282,7 +282,7 @@ def change(w: Wheelset) -> None:
     rates[State.SPIN] = Q[2] / c[Constant.SPIN_INERTIA]
 
 
-@kernel
+@entry
 def mechanical_energy(w: Wheelset) -> float:
     """Return kinetic energy without that of V, energy of the springs, and potential energy of the weight [J] (10)."""
     c, s = w.constants, w.state

@@ -1,10 +1,11 @@
 """Archard's sliding wear with the KTH map of wear coefficients (thesis Eqs. 6.3-6.4; Jendel 2002)."""
 
-from contact._jit import kernel
+from contact.core import entry, kernel
+from contact.kernels.arrays import Numbers
 
 
-@kernel
-def wear_coefficient_kernel(velocity, pressure, hardness, constants):
+@entry
+def wear_coefficient_kernel(velocity: float, pressure: float, hardness: float, constants: Numbers) -> float:
     """Return Archard's coefficient k [-] for a sliding velocity [m/s], pressure and hardness [Pa]."""
     mild, severe, mild_fast, seizure = constants[0], constants[1], constants[2], constants[3]
     k = severe if velocity <= constants[5] else mild_fast  # selections instead of branches, for vector instructions

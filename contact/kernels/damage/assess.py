@@ -2,7 +2,8 @@
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry, kernel
+from contact.kernels.arrays import Case, Cube, Damage, DamageParameters, Matrix, Result
 from contact.kernels.damage.archard import depth_times_hardness
 from contact.kernels.damage.burstow import burstow_kernel
 from contact.kernels.damage.energy_index import energy_index_kernel
@@ -29,8 +30,17 @@ def strip_width(strips, i):
     return strips[Strip.DY, i] * math.sqrt(1.0 + strips[Strip.TILT, i] ** 2)
 
 
-@kernel
-def damage_kernel(strips, n, fields, case, result, parameters, damage_fields, damage):
+@entry
+def damage_kernel(
+    strips: Matrix,
+    n: int,
+    fields: Cube,
+    case: Case,
+    result: Result,
+    parameters: DamageParameters,
+    damage_fields: Cube,
+    damage: Damage,
+) -> None:
     """Fill `damage` and the first `n` strips of `damage_fields` from a solved case (see `DamageField`).
 
     The depth of an element is spread over the circumference, so it is in metres per metre rolled. The volume is that of

@@ -1,10 +1,11 @@
 """Rolling-contact-fatigue index of rails from T-gamma: Burstow's whole life rail model."""
 
-from contact._jit import kernel
+from contact.core import entry
+from contact.kernels.arrays import Numbers
 
 
-@kernel
-def burstow_kernel(T_gamma, constants):
+@entry
+def burstow_kernel(T_gamma: float, constants: Numbers) -> float:
     """Return the damage per axle pass [-] for T-gamma [N]."""
     threshold, peak_at, zero_at, peak, floor = constants[0], constants[1], constants[2], constants[3], constants[4]
     if T_gamma <= threshold:

@@ -6,7 +6,8 @@ in the convention of the right side. Its arc length counts from the point neares
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry, kernel
+from contact.kernels.arrays import Cube, Damage, DamageParameters, Matrix, Numbers, Setting
 from contact.kernels.damage.assess import strip_width
 from contact.kernels.damage.usfd import usfd_kernel
 from contact.kernels.enumerations import WearLaw
@@ -38,8 +39,17 @@ def _depth(i, chord, area, fields, parameters, damage, damage_fields):
     return lost
 
 
-@kernel
-def strip_rates(strips, n, fields, parameters, damage, damage_fields, forward, rates):
+@entry
+def strip_rates(
+    strips: Matrix,
+    n: int,
+    fields: Cube,
+    parameters: DamageParameters,
+    damage: Damage,
+    damage_fields: Cube,
+    forward: float,
+    rates: Matrix,
+) -> None:
     """Fill the rates of each of `n` strips, per metre rolled and metre across, from the arrays of `damage_kernel`.
 
     WEAR is the depth on a wheel. VOLUME, per metre across, is the depth on a rail per pass. T-gamma of the whole patch
@@ -69,8 +79,8 @@ def strip_rates(strips, n, fields, parameters, damage, damage_fields, forward, r
         rates[Bin.ENERGY_INDEX_MAX, i] = greatest
 
 
-@kernel
-def arc_length(profile, arc):
+@entry
+def arc_length(profile: Matrix, arc: Numbers) -> None:
     """Fill `arc` with the arc length of each point of a profile [m]."""
     nearest = 0
     arc[0] = 0.0
@@ -115,8 +125,17 @@ def _facing(profile, arc, y0, z0, c, s):
     return first, last
 
 
-@kernel
-def place(profile, arc, point, angle, mirror, strips, n, edges):
+@entry
+def place(
+    profile: Matrix,
+    arc: Numbers,
+    point: tuple[float, float],
+    angle: float,
+    mirror: float,
+    strips: Matrix,
+    n: int,
+    edges: Matrix,
+) -> float:
     """Fill `edges` with the arc lengths at which each strip begins and ends on the profile [m].
 
     The edges of the strips are projected along the normal of the contact plane. The plane has the `angle` and passes
@@ -153,8 +172,10 @@ def place(profile, arc, point, angle, mirror, strips, n, edges):
     return off
 
 
-@kernel
-def deposit(rates, edges, strips, n, settings, share, is_wheel, bins):
+@entry
+def deposit(
+    rates: Matrix, edges: Matrix, strips: Matrix, n: int, settings: Setting, share: float, is_wheel: bool, bins: Matrix
+) -> None:
     """Add the damage by `n` strips over a distance to the bins of a wheel or a rail.
 
     Each strip is shared among the bins that it overlaps. `settings` is a record LEDGER of `layout`. `share` is the

@@ -1,12 +1,13 @@
 """Tread wear from T-gamma after Pearce & Sherratt 1991."""
 
-from contact._jit import kernel
+from contact.core import entry
+from contact.kernels.arrays import Numbers
 
 _MM2_PER_KM = 1e-9  # [m² per m rolled]
 
 
-@kernel
-def pearce_sherratt_kernel(T_gamma, diameter, constants):
+@entry
+def pearce_sherratt_kernel(T_gamma: float, diameter: float, constants: Numbers) -> float:
     """Return the area loss [m² per m rolled] for T-gamma [N] and wheel diameter [m]."""
     mild_slope, plateau, severe_slope, severe_offset, mild_limit, severe_from, floor = (
         constants[0],

@@ -2,10 +2,10 @@
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry
 
 
-@kernel
+@entry
 def stress_index_kernel(qx: float, qy: float, shear_yield: float) -> float:
     """Return SI = √(qx² + qy²) - k [Pa]."""
     return math.sqrt(qx * qx + qy * qy) - shear_yield

@@ -1,10 +1,11 @@
 """Wear rate over T-gamma/A: the University of Sheffield's function (Lewis & Dwyer-Joyce 2004, Braghin et al. 2006)."""
 
-from contact._jit import kernel
+from contact.core import entry
+from contact.kernels.arrays import Numbers
 
 
-@kernel
-def usfd_kernel(T_gamma, area, constants):
+@entry
+def usfd_kernel(T_gamma: float, area: float, constants: Numbers) -> float:
     """Return the volume lost per contact area and metre rolled [m] for T-gamma [N] and contact area [m²]."""
     mild_slope, mild_limit, plateau, severe_limit, severe_slope, intercept, density = (
         constants[0],

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact._jit import kernel
+from contact.core import entry, kernel
+from contact.kernels.arrays import Matrix
 from contact.kernels.cubic import value_and_slope
 from contact.kernels.rows import Curve
 
@@ -25,8 +26,8 @@ def advance(curve: Array, n: int, j: int, y: float) -> int:
     return j
 
 
-@kernel
-def at(curve: Array, j: int, y: float) -> tuple[float, float]:
+@entry
+def at(curve: Matrix, j: int, y: float) -> tuple[float, float]:
     """Return value and slope of the curve at y in segment j.
 
     The slope stays between those of the nodes, because a cubic would overshoot where two branches of an outline meet in

@@ -7,7 +7,7 @@ normal.
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.arrays import Search
 from contact.kernels.geometry.curve import Array, Record, advance, at
 from contact.kernels.geometry.plane import Frame, along, normal_gap, project, spread, track_slope

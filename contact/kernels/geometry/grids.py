@@ -5,7 +5,7 @@ All heights are at pose.z = 0. Lowering the wheel by z changes the vertical gap 
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.arrays import Sheet, SurfaceSearch
 from contact.kernels.geometry.curve import Array
 from contact.kernels.geometry.section import (

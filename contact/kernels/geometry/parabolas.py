@@ -2,7 +2,7 @@
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.geometry.curve import Array
 from contact.kernels.geometry.section import AWAY
 from contact.kernels.rows import Sep

@@ -7,7 +7,7 @@ plane is u = (y - y0) c + (z - z0) s. The height along its normal, from the whee
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.cubic import interior_minimum
 from contact.kernels.geometry.curve import Array, advance, at
 from contact.kernels.rows import Curve

@@ -5,9 +5,10 @@ A profile is an array with the rows y, z [m] and the angle of the tangent [rad],
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry, kernel
 from contact.kernels import cubic
-from contact.kernels.geometry.curve import Array, Record
+from contact.kernels.arrays import Given, Matrix, Motion
+from contact.kernels.geometry.curve import Array
 from contact.kernels.rows import Curve
 
 #: Largest slope angles of the parts that take part in the search [rad]. The roll comes in addition.
@@ -31,8 +32,8 @@ def _can_touch(profile: Array, i: int, steepest: float) -> bool:
     return rising and math.cos(profile[Curve.ANGLE, i]) > math.cos(steepest)
 
 
-@kernel
-def facing(profile: Array, is_wheel: bool) -> tuple[int, int]:
+@entry
+def facing(profile: Matrix, is_wheel: bool) -> tuple[int, int]:
     """Return the first node and the end of the part that can touch, around the wheel's tape circle or the rail's crown.
 
     Its nodes are less steep than `STEEPEST_…` and have rising y. The part is empty if even the middle is too steep.
@@ -57,16 +58,16 @@ def facing(profile: Array, is_wheel: bool) -> tuple[int, int]:
     return low, high
 
 
-@kernel
-def take_nodes(profile: Array, low: int, high: int, curve: Array) -> None:
+@entry
+def take_nodes(profile: Matrix, low: int, high: int, curve: Matrix) -> None:
     """Fill `curve` with the nodes low … high - 1 of a profile: rows y, z, dz/dy."""
     for i in range(low, high):
         curve[Curve.Y, i - low], curve[Curve.Z, i - low] = profile[Curve.Y, i], profile[Curve.Z, i]
         curve[Curve.SLOPE, i - low] = math.tan(profile[Curve.ANGLE, i])
 
 
-@kernel
-def rail_origin(rail: Array, gauge: float, gauge_point: float) -> tuple[float, float, float]:
+@entry
+def rail_origin(rail: Matrix, gauge: float, gauge_point: float) -> tuple[float, float, float]:
     """Return (y, z) of the origin of the right rail's profile and the depth that its gauge side reaches [m].
 
     With this origin the top lies at z = 0 and the gauge face at half the gauge. The depth counts from the top.
@@ -98,8 +99,8 @@ def rail_origin(rail: Array, gauge: float, gauge_point: float) -> tuple[float, f
     return 0.5 * gauge - y, -top, deepest
 
 
-@kernel
-def move(given: Record, motion: Record) -> None:
+@entry
+def move(given: Given, motion: Motion) -> None:
     """Copy pose, velocity and the rail's irregularity from a record GIVEN of `layout` to `motion`.
 
     They are mirrored to the right side, and the rail's origin is added.

@@ -7,7 +7,7 @@ All heights are at pose.z = 0. Lowering the wheel by z changes the vertical gap 
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.arrays import SurfaceSearch
 from contact.kernels.geometry.curve import Array, Record
 from contact.kernels.geometry.grids import aligned, fill_coarse, fill_grid, lateral_range

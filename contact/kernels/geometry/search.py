@@ -7,8 +7,9 @@ contact can lie nowhere else (Wang's trace line, theory.md 9.4). This makes the 
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry, kernel
 from contact.kernels import cubic
+from contact.kernels.arrays import Lobes, Matrix
 from contact.kernels.geometry.curve import Array, Record, advance, at
 from contact.kernels.records import MAX_LOBES
 from contact.kernels.rows import Curve
@@ -18,14 +19,14 @@ _GAUSS_T = 0.5 * math.sqrt(0.6)  # outer nodes of three-point Gauss, from the mi
 _TRANSITION = 0.25  # of the limits of distance and angle: width of the transition from one plane to two
 
 
-@kernel
+@entry
 def axle(roll: float, yaw: float) -> tuple[float, float, float]:
     """Return the direction of the axle, towards the right wheel."""
     return -math.sin(yaw) * math.cos(roll), math.cos(yaw) * math.cos(roll), math.sin(roll)
 
 
-@kernel
-def trace(wheel: Array, n: int, radius: float, tape: float, y: float, roll: float, yaw: float, line: Array) -> int:
+@entry
+def trace(wheel: Matrix, n: int, radius: float, tape: float, y: float, roll: float, yaw: float, line: Matrix) -> int:
     """Fill the trace line of the wheel profile `wheel` [m]. Return its first valid node.
 
     The wheelset is at (y, z = 0, roll, yaw). A point of the profile turns on a circle of radius r about the axle
@@ -65,7 +66,7 @@ def trace(wheel: Array, n: int, radius: float, tape: float, y: float, roll: floa
     return first
 
 
-@kernel
+@entry
 def on_wheel(slope: float, py: float, pz: float, lx: float, ly: float, lz: float) -> tuple[float, float, float]:
     """Return x, axial distance and rolling radius [m] of the trace point (py, pz) with the given slope.
 
@@ -150,8 +151,8 @@ def _add_moments(line: Array, j: int, z: float, t0: float, t1: float, lobe: Reco
         lobe[k].sine += weight * slope * cosine
 
 
-@kernel
-def lobes(line: Array, start: int, end: int, z: float, lobe: Record) -> int:
+@entry
+def lobes(line: Matrix, start: int, end: int, z: float, lobe: Lobes) -> int:
     """Fill `lobe` with the runs of y in which the wheel, lowered by z, lies inside the rail. Return their number.
 
     Points are weighted with depth^(5/2), which is the square of the interpenetration integrated along x. The mean
@@ -200,8 +201,8 @@ def _transition(value: float, limit: float) -> float:
     return t * t * (3.0 - 2.0 * t)
 
 
-@kernel
-def combine(lobe: Record, n: int, distance: float, angle: float, most: int) -> int:
+@entry
+def combine(lobe: Lobes, n: int, distance: float, angle: float, most: int) -> int:
     """Merge neighbouring lobes in place into at most `most` patches. Return the number of patches.
 
     Two lobes become separate patches if their nearest edges are further apart than `distance` [m], in a straight line,
@@ -254,8 +255,8 @@ def join(lobe: Record, patch: Record) -> None:
     patch.sine += lobe.sine
 
 
-@kernel
-def shared(lobe: Record, n: int, first: int, last: int) -> float:
+@entry
+def shared(lobe: Lobes, n: int, first: int, last: int) -> float:
     """Return the share with which the patches first … last of `n` count as one. The shares of each patch add up to 1."""
     share = 1.0 if first == 0 else 1.0 - lobe[first].tie
     for k in range(first + 1, last + 1):
@@ -263,8 +264,8 @@ def shared(lobe: Record, n: int, first: int, last: int) -> float:
     return share if last == n - 1 else share * (1.0 - lobe[last + 1].tie)
 
 
-@kernel
-def untie(lobe: Record, n: int, most: int) -> None:
+@entry
+def untie(lobe: Lobes, n: int, most: int) -> None:
     """Round ties until `n` patches, with all patches that they form together, are at most `most`.
 
     The tie nearest to 0 or 1 is rounded first.

@@ -7,7 +7,7 @@ frame is linear in y and z, `Placing` = (x0, x_y, x_z, s0, s_y, s_z, n0, n_y, n_
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels import cubic
 from contact.kernels.arrays import Sheet
 from contact.kernels.geometry.curve import Array, Record

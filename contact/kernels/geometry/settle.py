@@ -5,8 +5,8 @@ These are the entry kernels of the geometry. They return the number of patches o
 
 import math
 
-from contact._jit import chosen_by, inlined, kernel
-from contact.kernels.arrays import Samples, Search, SurfaceSearch
+from contact.core import chosen_by, entry, inlined, kernel
+from contact.kernels.arrays import Matrix, Motion, Samples, Search, SurfaceSearch
 from contact.kernels.enumerations import Height, LoadKind, NoAnswer
 from contact.kernels.geometry import surface
 from contact.kernels.geometry.curve import Array, Record
@@ -35,8 +35,8 @@ def oppose(wheel: Array, rail: Array, motion: Record, line: Array, placed: Array
     return first, start, end
 
 
-@kernel
-def first_touch(wheel: Array, rail: Array, motion: Record, line: Array, placed: Array) -> tuple[bool, float]:
+@entry
+def first_touch(wheel: Matrix, rail: Matrix, motion: Motion, line: Matrix, placed: Matrix) -> tuple[bool, float]:
     """Return whether the profiles lie above each other, and the z [m] at which the rigid wheel just touches."""
     _, start, end = oppose(wheel, rail, motion, line, placed)
     if end - start < 3:
@@ -44,7 +44,7 @@ def first_touch(wheel: Array, rail: Array, motion: Record, line: Array, placed: 
     return True, touch(line, start, end)
 
 
-@kernel
+@entry
 def carried(n: int, space: Search) -> float:
     """Return the vertical force of the pressures of n patches by ANALYN [N]. Fill `load` of each patch.
 
@@ -131,7 +131,7 @@ def locate(space: Search) -> int:
     return describe(space, z, nodes)
 
 
-@kernel
+@entry
 def settle(mode: int, amount: float, space: Search) -> int:
     """Set motion.z as `mode` says, describe the patches there and return their number.
 

@@ -2,7 +2,7 @@
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.arrays import SurfaceSearch
 from contact.kernels.geometry import grids, regions
 from contact.kernels.geometry.curve import Array, Record

@@ -16,7 +16,7 @@ The thesis does not say how curvature jumps are treated. Here B(y) is a second d
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels import cubic
 from contact.kernels.cubic import locate, slopes
 from contact.kernels.enumerations import LoadKind, Status

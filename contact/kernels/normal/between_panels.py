@@ -6,7 +6,8 @@ that lie nearly at Chebyshev's nodes. The polynomial through them serves the oth
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry, kernel
+from contact.kernels.arrays import Matrix, Numbers
 from contact.kernels.normal.influence import anywhere, at_centre
 from contact.kernels.normal.many_strips import displacement, fill_ln_X
 from contact.kernels.rows import Pair, Vector
@@ -17,8 +18,8 @@ PROBES = 6
 IN_LINE = 0.01
 
 
-@kernel
-def fill_probes(cosines, probes, spread):
+@entry
+def fill_probes(cosines: Numbers, probes: Numbers, spread: Matrix) -> None:
     """Fill the numbers of the strips that are probes, and spread[k, i].
 
     This is the polynomial that is 1 at probe k and 0 at the other probes, at the middle of strip i. Probes lie

@@ -4,7 +4,7 @@ The place of rest lies between them. Where a pressure peak at the end of a patch
 the end is several times too long. Without a bracket the end swings until it is fixed somewhere.
 """
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.rows import Vector
 
 #: An end that reverses and moves further than this, over the width, moves half the way.

@@ -7,7 +7,7 @@ specific to it.
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.enumerations import LoadKind, Normal, Status
 from contact.kernels.normal import semi_winkler as sw
 from contact.kernels.normal import srst as sr

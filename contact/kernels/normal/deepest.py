@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.cubic import locate, slopes
 from contact.kernels.hertz import local_factors
 from contact.kernels.normal.analyn import floored, lateral_curvature

@@ -7,7 +7,8 @@ with its a/b. The inverse removes three quarters of an error or more at every st
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry, kernel
+from contact.kernels.arrays import Cube, Matrix, Numbers
 from contact.kernels.normal.elimination import eliminate
 from contact.kernels.normal.influence import at_centre, in_row, logarithm, row_at
 from contact.kernels.quadrature import on_circle
@@ -146,8 +147,8 @@ def _fill_layer(aspect, scratch, centre, plane, layer):
             layer[i, k] = layer[n - 1 - i, n - 1 - k] = mean
 
 
-@kernel
-def fill_descent(centre, plane, scratch, descent):
+@entry
+def fill_descent(centre: Matrix, plane: Matrix, scratch: Cube, descent: Cube) -> None:
     """Fill the inverse Jacobians. `scratch` has at least five layers of the same shape, which are overwritten."""
     if descent.shape[1] < FEWEST:
         return
@@ -155,8 +156,8 @@ def fill_descent(centre, plane, scratch, descent):
         _fill_layer(math.exp(_LOW + m * _STEP), scratch, centre, plane, descent[m])
 
 
-@kernel
-def has_one_run(n, pressures):
+@entry
+def has_one_run(n: int, pressures: Numbers) -> bool:
     """Return whether no strip without pressure lies between loaded ones."""
     runs = 0
     for i in range(n):
@@ -190,8 +191,8 @@ def _prescribe(low, high, t, moves, held, out):
         )
 
 
-@kernel
-def descend(first, n, width, descent, vectors, frozen):
+@entry
+def descend(first: int, n: int, width: float, descent: Cube, vectors: Matrix, frozen: bool) -> None:
     """Replace the residuals Vector.R of the panel from strip `first` on by steps of half lengths and ends.
 
     The steps are the residuals times the inverse Jacobian of the Hertz contact with the panel's a/b. The entries of the

@@ -1,10 +1,11 @@
 """Gaussian elimination of the strips' linear system."""
 
-from contact._jit import kernel
+from contact.core import entry
+from contact.kernels.arrays import Matrix, Numbers
 
 
-@kernel
-def eliminate(lu, m, first, second):
+@entry
+def eliminate(lu: Matrix, m: int, first: Numbers, second: Numbers) -> None:
     """Solve lu·x = first and lu·x = second for `m` unknowns in place by Gaussian elimination.
 
     The influence matrix needs no pivoting. Two pivots and four rows are processed at a time, so a row is read and

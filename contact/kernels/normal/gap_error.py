@@ -9,7 +9,7 @@ construction.
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels import cubic
 from contact.kernels.normal.many_strips import displacement, fill_ln_X
 from contact.kernels.rows import Pair, Strip, Vector

@@ -2,7 +2,7 @@
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.cubic import locate
 from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.normal.analyn import NO_OVERLAP

@@ -12,8 +12,9 @@ import math
 
 import numpy as np
 
-from contact._jit import kernel
+from contact.core import entry, kernel
 from contact.kernels import cubic
+from contact.kernels.arrays import Cube, Matrix, Numbers
 from contact.kernels.hertz import elliptic_integrals
 
 _LN_T_MIN, _LN_T_MAX = math.log(1e-5), math.log(1e5)
@@ -83,8 +84,8 @@ def quadrature(X, t):
     return total
 
 
-@kernel
-def fill(centre, plane):
+@entry
+def fill(centre: Matrix, plane: Matrix) -> None:
     """Fill the tables of U on the centre line and over (X, ln t), of the shapes CENTRE and PLANE."""
     value = math.exp(_LN_T_MIN) * 2.0 * (math.log(4.0) - _LN_T_MIN)  # U ~ 2t ln(4/t)
     for i in range(_N_CENTRE):
@@ -106,8 +107,8 @@ def fill(centre, plane):
         plane[N_X + 1, k] = plane[N_X, k] + math.pi / 16.0 * t * (2.0 + t * t) / (1.0 + t * t) ** 1.5
 
 
-@kernel
-def at_centre(centre, log_t):
+@entry
+def at_centre(centre: Matrix, log_t: float) -> float:
     """Return U(0, t) for t > 0 given by its logarithm. The error is below 1e-7."""
     u = (log_t - _LN_T_MIN) * _PER_CENTRE_STEP
     if not u > 0.0:  # written so that NaN does not become an index, here and below
@@ -120,8 +121,8 @@ def at_centre(centre, log_t):
     return cubic.value(1.0, p[0], p[1], q[0], q[1], u - i)
 
 
-@kernel
-def fill_columns(cosine_logs, centre, columns):
+@entry
+def fill_columns(cosine_logs: Matrix, centre: Matrix, columns: Cube) -> None:
     """Fill columns[ln(a_j/half width), j, i] with U(0, t2) - U(0, t1) of strip j at the middle of strip i of one panel."""
     n = cosine_logs.shape[0]
     for m in range(columns.shape[0]):
@@ -132,8 +133,8 @@ def fill_columns(cosine_logs, centre, columns):
                 columns[m, j, i] = near + far if i == j else abs(far - near)
 
 
-@kernel
-def column(columns, j, ln_a, scale, out):
+@entry
+def column(columns: Cube, j: int, ln_a: float, scale: float, out: Numbers) -> None:
     """Fill `out` with U(0, t2) - U(0, t1) of strip j at all strips of its panel, times `scale`.
 
     The interpolation is cubic in ln(a_j/half width). Its error is 3e-6.
@@ -183,8 +184,8 @@ def in_row(plane, i, u, log_t):
     return low + u * (high - low) + extra
 
 
-@kernel
-def anywhere(plane, X, log_t):
+@entry
+def anywhere(plane: Matrix, X: float, log_t: float) -> float:
     """Return U(X, t) for X >= 0, t > 0. The error is below 1e-3."""
     i, u, ln_X = row_at(X, logarithm(X))
     return in_row(plane, i, u, log_t - ln_X)

@@ -12,7 +12,7 @@ appear and merge.
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 
 #: Share of the approach at which the gap is cut.
 PENETRATION = 0.55

@@ -15,7 +15,7 @@ small step (0.8 % of the load for two equal patches).
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.rows import Strip
 
 

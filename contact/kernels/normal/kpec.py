@@ -20,7 +20,7 @@ The load still steps where zones merge. Where eps decreases away from the ellips
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.hertz import local_factors
 from contact.kernels.normal.analyn import floored
 from contact.kernels.normal.lay import find_patches

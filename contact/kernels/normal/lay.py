@@ -5,14 +5,15 @@ slopes, which reproduces a parabola exactly. Patches are found at any approach, 
 interval.
 """
 
-from contact._jit import kernel
+from contact.core import entry, kernel
 from contact.kernels import cubic
+from contact.kernels.arrays import Numbers
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Strip
 
 
-@kernel
-def least_point(y, f, m, n):
+@entry
+def least_point(y: Numbers, f: Numbers, m: Numbers, n: int) -> tuple[float, float]:
     """Return position and value of the smallest value of the interpolant."""
     k = 0
     for i in range(1, n):
@@ -29,8 +30,8 @@ def least_point(y, f, m, n):
     return y_best, best
 
 
-@kernel
-def find_patches(y, G, m, n, delta, edges):
+@entry
+def find_patches(y: Numbers, G: Numbers, m: Numbers, n: int, delta: float, edges: Numbers) -> int:
     """Fill edges[2k], edges[2k+1] with the intervals of the `n` samples y on which G(y) < delta. Return their number.
 
     There are at most MAX_PATCHES; further ones are merged into the last. A patch that reaches the end of the data ends

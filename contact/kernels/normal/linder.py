@@ -12,7 +12,7 @@ theory.md 5.
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.rows import Strip
 
 

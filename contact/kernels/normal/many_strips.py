@@ -6,13 +6,14 @@ the table; a second one reads the table. This takes half the time of `in_row` st
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry
+from contact.kernels.arrays import Matrix, Numbers
 from contact.kernels.normal.influence import LN_T_LOW, N_T, N_X, PER_T_STEP, PER_X_STEP, T_STEP, X_MAX
 from contact.kernels.rows import Pair
 
 
-@kernel
-def fill_ln_X(n, pairs):
+@entry
+def fill_ln_X(n: int, pairs: Matrix) -> None:
     """Fill Pair.LN_X of `n` strips where the table needs it."""
     for m in range(n):
         pairs[Pair.LN_X, m] = 0.0
@@ -20,8 +21,8 @@ def fill_ln_X(n, pairs):
             pairs[Pair.LN_X, m] = math.log(pairs[Pair.X, m] + 1e-300)  # as in `displacement`
 
 
-@kernel
-def displacement(plane, forces, pairs, own):
+@entry
+def displacement(plane: Matrix, forces: Numbers, pairs: Matrix, own: int) -> float:
     """Return the displacement by the strips with p0·a/(pi E*) = `forces` [m]; `pairs` is overwritten.
 
     Pair.X is the distance of the point along x from each strip's middle over a, Pair.LOW and Pair.HIGH the logarithms of the

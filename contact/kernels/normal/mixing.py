@@ -1,6 +1,6 @@
 """Steps of the strip half space: Anderson's mixing of half lengths and panel ends over the last iterations (1965)."""
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.rows import DEPTH, Vector
 
 #: Weight of an end in the mixing. The loads of all strips together have the weight 1.

@@ -19,7 +19,7 @@ import math
 
 import numpy as np
 
-from contact._jit import kernel
+from contact.core import entry, kernel
 from contact.kernels.cubic import locate, slopes
 from contact.kernels.hertz import local_factors
 from contact.kernels.normal.analyn import floored, lateral_curvature
@@ -32,8 +32,8 @@ _LEAST_SHARE = 1e-4
 _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(12)
 
 
-@kernel
-def _outside(y, a2, b2):
+@entry
+def _outside(y: float, a2: float, b2: float) -> float:
     """Return the displacement of Hertz's ellipse at distance |y| >= b, up to a constant factor."""
     total = 0.0
     for i in range(_GAUSS_X.size):

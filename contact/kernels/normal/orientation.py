@@ -4,7 +4,7 @@ An iteration that stops at a tolerance amplifies round-off: it ended up to 5 % a
 panels of strips compete. Of a separation and its mirror image, y → −y, one is solved. The answer of the other is its image.
 """
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.arrays import Samples
 from contact.kernels.rows import Sep, Strip
 

@@ -2,8 +2,9 @@
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry, kernel
 from contact.kernels import cubic
+from contact.kernels.arrays import Matrix, Numbers
 from contact.kernels.cubic import locate
 from contact.kernels.normal.descent import END_LENGTH, END_SLOPE, END_STEP, END_VALUE
 from contact.kernels.normal.strip_system import displacement_outside
@@ -64,8 +65,8 @@ def lay_panels(sep, g_least, skew, panels, n_panels, own):
             low = high
 
 
-@kernel
-def half_lengths(vectors, n, n_panels, delta):
+@entry
+def half_lengths(vectors: Matrix, n: int, n_panels: int, delta: float) -> None:
     """Fill half lengths a from ln a, at the approach `delta` above first touch [m].
 
     Strips at the ends follow the square root of the edge. No strip may collapse beside its neighbours. None may be longer
@@ -146,8 +147,8 @@ def _idle(vectors, n, first, step):
     return idle
 
 
-@kernel
-def have_idle_part(n, n_panels, vectors):
+@entry
+def have_idle_part(n: int, n_panels: int, vectors: Matrix) -> bool:
     """Return whether a seventh of a loaded panel is idle at one of its ends, so that it must be cut off."""
     for p in range(n_panels):
         first, last = p * n, p * n + n - 1
@@ -201,8 +202,10 @@ def _end_move(vectors, n, first, step, cosines, frozen):
     return END_STEP * wanted * (1.0 + cosines[1])
 
 
-@kernel
-def end_moves(y, n, n_panels, panels, cosines, vectors, frozen):
+@entry
+def end_moves(
+    y: Numbers, n: int, n_panels: int, panels: Numbers, cosines: Numbers, vectors: Matrix, frozen: bool
+) -> float:
     """Fill Vector.R of the end strips with the moves of all panels' ends. Return the largest move over the width."""
     largest = 0.0
     for p in range(n_panels):
@@ -228,8 +231,8 @@ def cut_idle(n, n_panels, panels, cosines, vectors):
         vectors[Vector.ACTIVE, first : first + n] = 1.0
 
 
-@kernel
-def _summarise(n, n_panels, vectors, unit):
+@entry
+def _summarise(n: int, n_panels: int, vectors: Matrix, unit: float) -> None:
     """Fill reach and spread of strips and of whole panels."""
     for p in range(n_panels):
         first = p * n
@@ -244,8 +247,10 @@ def _summarise(n, n_panels, vectors, unit):
         vectors[Vector.SPREAD_OF_PANEL, first] = max(square / load - middle * middle, 1e-300) if load > 0.0 else 1.0
 
 
-@kernel
-def _is_overlapped(at, allowed, n, n_panels, vectors, centre, unit):
+@entry
+def _is_overlapped(
+    at: float, allowed: float, n: int, n_panels: int, vectors: Matrix, centre: Matrix, unit: float
+) -> bool:
     """Return whether the displacement at a point outside the panels is less than `allowed`.
 
     Two cheap lower bounds are tried first. They take the load of every panel, then of every strip, at the root mean
@@ -338,8 +343,8 @@ def _remove_panel(p, n, n_panels, panels, vectors):
                 vectors[row, q * n + i] = vectors[row, (q + 1) * n + i]
 
 
-@kernel
-def remove_unloaded(n, n_panels, panels, vectors):
+@entry
+def remove_unloaded(n: int, n_panels: int, panels: Numbers, vectors: Matrix) -> int:
     """Remove the panels that carry no load or have shrunk to nothing. Return the number of panels left."""
     widest = 0.0
     for p in range(n_panels):

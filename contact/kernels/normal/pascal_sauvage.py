@@ -9,7 +9,7 @@ is not at hand.
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.cubic import locate
 from contact.kernels.hertz import local_factors
 from contact.kernels.normal.multi_hertz import lay_ellipse

@@ -11,8 +11,7 @@ tangential problem work on semi-ellipses. For them a strip gets the peak p0·kep
 
 import math
 
-from contact._jit import chosen_by, inlined, kernel
-from contact.kernels import families
+from contact.core import entry, kernel
 from contact.kernels.enumerations import LoadKind, NormalFamily, Status
 from contact.kernels.normal.analyn import analyn
 from contact.kernels.normal.by_approach import by_approach
@@ -26,8 +25,8 @@ from contact.kernels.rows import Element, Strip
 _TOLERANCE, _MAX_ITERATIONS, _DIFFERENCE, _COARSE_DIFFERENCE = 1e-10, 60, 1e-3, 3e-2
 
 
-@kernel
-def kept(c):
+@entry
+def kept(c: float) -> float:
     """Return the share of its load that a semi-elliptic pressure keeps when it is limited to `c` < 1 of its peak."""
     return 2.0 / math.pi * (c * math.sqrt(1.0 - c * c) + math.asin(c))
 
@@ -55,52 +54,18 @@ def fill_limited(elements, p0, limit, row):
         before = load
 
 
-def _elastic(family, sep, case, own, result):
-    """Solve the elastic normal problem by the kernel of the marker `family`; return the strip count."""
-    raise NotImplementedError("only compiled kernels call this")
-
-
-@inlined
-def _analyn(family, sep, case, own, result):
-    return analyn(sep, case, own.rule.across, own.space.grid, own.strips, result)
-
-
-@inlined
-def _hertzian(family, sep, case, own, result):
-    return hertzian(sep, case, own.rule.across, own.space.grid, own.strips, result)
-
-
-@inlined
-def _strip_halfspace(family, sep, case, own, result):
-    return strip_halfspace(sep, case, own, result)
-
-
-@inlined
-def _by_approach(family, sep, case, own, result):
-    return by_approach(sep, case, own.rule.across, own.space.grid, own.strips, result)
-
-
 @kernel
-def _any(family, sep, case, own, result):
+def _elastic(sep, case, own, result):
+    """Solve the elastic normal problem by the method of the case; return the strip count."""
+    across, grid, strips = own.rule.across, own.space.grid, own.strips
+    clear(result)
     if case.normal_family == NormalFamily.HERTZ:
-        return _hertzian(family, sep, case, own, result)
+        return hertzian(sep, case, across, grid, strips, result)
     if case.normal_family == NormalFamily.STRIP_HALFSPACE:
         return strip_halfspace(sep, case, own, result)
     if case.normal_family == NormalFamily.BY_APPROACH:
-        return _by_approach(family, sep, case, own, result)
-    return _analyn(family, sep, case, own, result)
-
-
-chosen_by(
-    _elastic,
-    {
-        families.Analyn: _analyn,
-        families.Hertzian: _hertzian,
-        families.StripHalfspace: _strip_halfspace,
-        families.ByApproach: _by_approach,
-        families.AnyNormal: _any,
-    },
-)
+        return by_approach(sep, case, across, grid, strips, result)
+    return analyn(sep, case, across, grid, strips, result)
 
 
 @kernel
@@ -113,15 +78,8 @@ def _limited_load(strips, n, limit):
     return N
 
 
-@inlined
-def _solve_elastic(family, sep, case, own, result):
-    """Clear the result and call `_elastic`."""
-    clear(result)
-    return _elastic(family, sep, case, own, result)
-
-
 @kernel
-def _find_elastic_load(family, load, n, sep, case, own, result):
+def _find_elastic_load(load, n, sep, case, own, result):
     """Find the elastic load of `case` whose limited pressure carries `load` by a bracketed secant; return the strip count."""
     limit = case.pressure_limit
     before, previous, low, high = 0.0, 0.0, 0.0, math.inf
@@ -138,7 +96,7 @@ def _find_elastic_load(family, load, n, sep, case, own, result):
             new = 0.5 * (low + high) if high < math.inf else 2.0 * now
         before, previous, now = now, carried, min(new, 4.0 * now)
         case.amount = now
-        n = _solve_elastic(family, sep, case, own, result)
+        n = _elastic(sep, case, own, result)
         carried = _limited_load(own.strips, n, limit)
     if result.status == Status.OK:
         result.status = Status.NOT_CONVERGED
@@ -146,13 +104,13 @@ def _find_elastic_load(family, load, n, sep, case, own, result):
 
 
 @kernel
-def press(family, sep, case, own, result):
-    """Solve the normal problem by the kernel of the marker `family`; return the strip count.
+def press(sep, case, own, result):
+    """Solve the normal problem; return the strip count.
 
     The strips hold the elastic pressure, `result` the limited one. Where the limit is reached, `result.N` is the load that
     was asked for or, at a given approach, the load of the limited pressure.
     """
-    n = _solve_elastic(family, sep, case, own, result)
+    n = _elastic(sep, case, own, result)
     strips, limit, top = own.strips, case.pressure_limit, 0.0
     for i in range(n):
         top = max(top, strips[Strip.P0, i])
@@ -162,16 +120,16 @@ def press(family, sep, case, own, result):
     trial = own.space.case[0]  # the elastic problem whose limited pressure is the solution
     by_load = case.load_kind == LoadKind.LOAD
     if by_load:
-        n = _find_elastic_load(family, case.amount, n, sep, trial, own, result)
+        n = _find_elastic_load(case.amount, n, sep, trial, own, result)
     elastic_N, approach, status = trial.amount, result.approach, result.status
     carried = _limited_load(strips, n, limit)
     # the slope of the limited load, from a step in the approach; then back
     coarse = case.normal_family == NormalFamily.STRIP_HALFSPACE
     step = (_COARSE_DIFFERENCE if coarse else _DIFFERENCE) * (approach - result.touch)
     trial.load_kind, trial.amount = LoadKind.APPROACH, approach + step
-    further = _limited_load(strips, _solve_elastic(family, sep, trial, own, result), limit)
+    further = _limited_load(strips, _elastic(sep, trial, own, result), limit)
     trial.load_kind, trial.amount = case.load_kind, elastic_N
-    n = _solve_elastic(family, sep, trial, own, result)
+    n = _elastic(sep, trial, own, result)
     result.status = max(status, result.status)
     result.stiffness = max(further - carried, 0.0) / step
     result.N = case.amount if by_load else carried

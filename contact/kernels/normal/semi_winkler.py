@@ -18,7 +18,7 @@ Strips carry a semi-ellipse with the length and load of the parabola on its pede
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry, kernel
 from contact.kernels.cubic import locate, slopes
 from contact.kernels.normal.analyn import floored, lateral_curvature
 from contact.kernels.normal.deepest import unit_load
@@ -35,8 +35,8 @@ def _decay_length(point):
     return 0.5 / math.sqrt(math.sqrt(point.one_alpha * point.A * point.one_beta * point.B))
 
 
-@kernel
-def _share(B, decay):
+@entry
+def _share(B: float, decay: float) -> float:
     """Return the share of the approach at which the gap is cut."""
     u = decay * decay * B
     return (math.sqrt(1.0 + u) - math.sqrt(u)) ** 2
@@ -57,8 +57,8 @@ def prepare(y, g, A, n, point, work):
         work[Sample.EFFECTIVE_GAP, i] -= least
 
 
-@kernel
-def _strip(gap, A, B, delta, length):
+@entry
+def _strip(gap: float, A: float, B: float, delta: float, length: float) -> tuple[float, float]:
     """Return the half length of a strip [m], and its load over 2 a k."""
     depth = delta - gap
     side = 4.0 * length * length * B * gap

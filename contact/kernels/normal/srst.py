@@ -11,7 +11,7 @@ pi/3) K (delta/2)^(3/2)/√(AB) = N_Hertz at every approach. On an ellipse a/b =
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.normal.deepest import unit_load
 from contact.kernels.rows import Strip
 

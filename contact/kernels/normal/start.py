@@ -1,6 +1,6 @@
 """Start of the strip half space from the last call: the panels and half lengths that it left in `own.space.memory`."""
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Vector
 

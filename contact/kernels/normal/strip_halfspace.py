@@ -17,7 +17,7 @@ would depend on the start.
 import math
 from typing import Any, NamedTuple
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.cubic import locate
 from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.normal.analyn import analyn

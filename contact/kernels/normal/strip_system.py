@@ -2,7 +2,7 @@
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.normal.between_panels import IN_LINE, add_others, assemble_others
 from contact.kernels.normal.elimination import eliminate
 from contact.kernels.normal.influence import at_centre, column, in_row, logarithm, row_at

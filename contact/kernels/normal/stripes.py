@@ -15,7 +15,7 @@ recalled from Ayasse and Chollet, Vehicle System Dynamics 43 (2005) 161, by way 
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.cubic import slopes
 from contact.kernels.hertz import local_factors
 from contact.kernels.normal.analyn import floored, lateral_curvature

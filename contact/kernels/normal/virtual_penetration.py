@@ -7,7 +7,7 @@ its half length is a = √((delta - G)/S). With a constant share eps, G = g/eps 
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels import cubic
 from contact.kernels.cubic import locate, slopes
 from contact.kernels.normal.influence import centre_slope

@@ -17,7 +17,7 @@ differ by 16 % in L2.
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.normal.deepest import unit_load
 from contact.kernels.rows import Strip
 

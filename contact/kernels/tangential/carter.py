@@ -10,18 +10,18 @@ spin are neglected.
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry
 
 
-@kernel
-def carter(vx, full_slip):
+@entry
+def carter(vx: float, full_slip: float) -> tuple[float, float]:
     """Return Fx/(mu N) and the share of slip. `full_slip` is the creepage at which the whole contact slips."""
     x = min(max(vx / full_slip, -1.0), 1.0) if full_slip > 0.0 else math.copysign(1.0, vx)
     return -x * (2.0 - abs(x)), abs(x)
 
 
-@kernel
-def creepage_of_full_slip(limit, area, G, nu):
+@entry
+def creepage_of_full_slip(limit: float, area: float, G: float, nu: float) -> float:
     """Return the creepage of full slip mu a/R = 2 (1 - nu) mu p0/G [-] of a rectangle.
 
     The rectangle carries `limit` = mu N with p0 = (4/pi) N/area.

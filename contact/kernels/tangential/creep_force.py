@@ -8,7 +8,7 @@ what a law without moment leaves out.
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels import kalker
 from contact.kernels.enumerations import Tangential
 from contact.kernels.rows import Field, Strip

@@ -16,7 +16,7 @@ is in it.
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels import kalker
 from contact.kernels.rows import Strip
 from contact.kernels.tangential.ellipses import mean_ellipse

@@ -3,8 +3,9 @@
 import math
 from typing import NamedTuple
 
-from contact._jit import kernel
+from contact.core import entry, kernel
 from contact.kernels import kalker
+from contact.kernels.arrays import Matrix
 from contact.kernels.friction import slope_of_case
 from contact.kernels.rows import Strip
 
@@ -92,8 +93,8 @@ def mean_ellipse(strips, first, last):
     return a, 2.0 * area / (math.pi * max(a, 1e-300))
 
 
-@kernel
-def flexibilities(G, a, b, table):
+@entry
+def flexibilities(G: float, a: float, b: float, table: Matrix) -> tuple[float, float, float]:
     """Return L1, L2, L3 [m/Pa] with which the forces at vanishing creepage are Kalker's (thesis Eqs. 4.28-4.30).
 
     Return 1, 1, 1 if there is no ellipse.
@@ -108,8 +109,8 @@ def flexibilities(G, a, b, table):
     )
 
 
-@kernel
-def weighted(vx, vy, phi, c, L1, L2, L3):
+@entry
+def weighted(vx: float, vy: float, phi: float, c: float, L1: float, L2: float, L3: float) -> float:
     """Return the single flexibility (|vx| L1 + |vy| L2 + |phi| c L3)/√(vx² + vy² + phi² c²) [m/Pa].
 
     The source is Kalker 1982; thesis Eqs. 4.31-4.32.

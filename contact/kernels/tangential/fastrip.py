@@ -32,7 +32,7 @@ docs/accuracy.md; the published method has .0164):
 import math
 from enum import auto
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels import kalker
 from contact.kernels.enumerations import Tangential
 from contact.kernels.rows import Element, Field, Strip

@@ -23,7 +23,8 @@ roots falls from .097 to .045.
 import math
 from typing import NamedTuple
 
-from contact._jit import chosen_by, kernel
+from contact.core import chosen_by, entry, kernel
+from contact.kernels.arrays import Case, Result, Workspace
 from contact.kernels.rows import Element, Field, Strip
 from contact.kernels.tangential.effective import set_effective
 from contact.kernels.tangential.lanes import FAR, LANES, N_LANE_ROWS, Now, Row, Varying, decay_and_lag, turned
@@ -217,8 +218,8 @@ def _factor(power, work):
     return min(max(work / power, 1.0 / _MOST), _MOST) if power > 0.0 else 1.0
 
 
-@kernel
-def roll_patch(first, last, case, spin, own, result):
+@entry
+def roll_patch(first: int, last: int, case: Case, spin: tuple[float, float], own: Workspace, result: Result) -> None:
     """Add forces, power and slip area of the strips of a patch to `result`. Fill their fields if there is room.
 
     `spin` is that of `set_shapes`. In steady rolling the slip dissipates the work of the forces. The march's slip follows
@@ -269,8 +270,8 @@ def roll_patch(first, last, case, spin, own, result):
             fields[Field.SY, i, k] *= factor
 
 
-@kernel
-def set_shapes(first, last, own):
+@entry
+def set_shapes(first: int, last: int, own: Workspace) -> tuple[float, float]:
     """Set ties, aspect ratios and centres of the strips of a patch; return what `set_aspects` returns."""
     tie_strips(own.strips, first, last)
     spin = set_aspects(own.strips, first, last, own.tables.kalker)

@@ -21,7 +21,7 @@ on the ratio of the creepages, however small they are.
 import math
 from enum import auto
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.enumerations import Tangential
 from contact.kernels.normal.linder import local_ellipse
 from contact.kernels.rows import Element, Field, Strip

@@ -12,7 +12,7 @@ works while another waits. 32 are no faster and leave more lanes empty.
 
 from enum import IntEnum, auto
 
-from contact._jit import kernel
+from contact.core import kernel
 
 LANES = 16
 

@@ -15,7 +15,7 @@ zone is an ellipse 1 - f/3 times the patch.
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry, kernel
 
 _TINY = 1e-300  # for a friction limit of 0
 
@@ -29,15 +29,15 @@ def linear(creepage, G, c, coefficients):
     return -unit * c11 * vx, -unit * (c22 * vy + c23 * c * phi), unit * c * (c23 * vy - c33 * c * phi), 0.0
 
 
-@kernel
-def capped(force, limit):
+@entry
+def capped(force: float, limit: float) -> tuple[float, float]:
     """Return the factor that keeps a linear `force` below `limit`, and the share of slip."""
     # LLVM divides before it chooses, so the divisor must not be 0: that would be a trap
     return limit / max(force, limit, _TINY), 0.0 if force <= limit else 1.0
 
 
-@kernel
-def smoothed(force, limit):
+@entry
+def smoothed(force: float, limit: float) -> tuple[float, float]:
     """Return the factor by Johnson's and Vermeulen's cubic, and the share of slip."""
     if force <= 0.0:
         return 1.0, 0.0

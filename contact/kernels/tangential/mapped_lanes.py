@@ -3,7 +3,7 @@
 import math
 from enum import auto
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels import kalker
 from contact.kernels.rows import Strip
 from contact.kernels.tangential.fastsim import NO_FRICTION

@@ -2,7 +2,7 @@
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels import kalker
 from contact.kernels.rows import Strip
 from contact.kernels.tangential.ties import end_of_shape, share_shape

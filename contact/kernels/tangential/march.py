@@ -21,7 +21,7 @@ import math
 from enum import auto
 from typing import Any, NamedTuple
 
-from contact._jit import chosen_by, kernel
+from contact.core import chosen_by, kernel
 from contact.kernels.rows import Element
 from contact.kernels.tangential.lanes import FAR, LANES, Now, Row, after, decay_and_lag, keep, turned
 

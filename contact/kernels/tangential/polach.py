@@ -20,7 +20,7 @@ The reduction factors k_S <= k_A <= 1 describe a real surface. k_S, k_A are .4, 
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry, kernel
 
 _FAR = 1e100  # deep in full slip; its square does not overflow
 
@@ -37,8 +37,17 @@ def _spin_integral(eps):
     return eps * 2.0 * u * u * (1.0 - 4.0 / 3.0 * u) - root * root * root / 3.0
 
 
-@kernel
-def polach(creepage, G, a, b, coefficients, limit, k_A, k_S):
+@entry
+def polach(
+    creepage: tuple[float, float, float],
+    G: float,
+    a: float,
+    b: float,
+    coefficients: tuple[float, float, float, float],
+    limit: float,
+    k_A: float,
+    k_S: float,
+) -> tuple[float, float, float, float]:
     """Return Fx, Fy, Mz [N, N, N m] and the share of slip. `limit` is mu N."""
     vx, vy, phi = creepage
     c11, c22, c23, _ = coefficients

@@ -9,7 +9,7 @@ where e = D/(1 - nu) is the half length of the slip zone over a.
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 
 #: Larger root of D over 1 - nu at which the slip zone begins to grow, and the share of the way from there to the smaller root
 #: over which it grows. From 1 and .5 to 1.1 and .8 the forces are equally near those of the half space (4104 solutions of

@@ -28,7 +28,8 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from contact._jit import kernel
+from contact.core import entry, kernel
+from contact.kernels.arrays import FiveD
 
 Array = NDArray[np.float64]
 NU = 0.28
@@ -46,8 +47,8 @@ class Part(IntEnum):
     EFFECTIVE = 4
 
 
-@kernel
-def spin_weight(log_aspect, c11, c22, c23):
+@entry
+def spin_weight(log_aspect: float, c11: float, c22: float, c23: float) -> float:
     """Return the weight w of the spin [-].
 
     It is the rigid slip of spin at the edges, √((C11 b/2)² + (C22 a/2)²), over its lateral force C23 c.
@@ -121,8 +122,16 @@ def interpolated(log_aspect, X, Y, spin, first, table):
     return v0, v1, v2, v3
 
 
-@kernel
-def lookup(creepage, G, c, log_aspect, coefficients, limit, table):
+@entry
+def lookup(
+    creepage: tuple[float, float, float],
+    G: float,
+    c: float,
+    log_aspect: float,
+    coefficients: tuple[float, float, float, float],
+    limit: float,
+    table: FiveD,
+) -> tuple[float, float, float, float]:
     """Return Fx, Fy, Mz [N, N, N m] and the share of slip. `limit` is mu N, `table` is from `contact.force_table.load`."""
     vx, vy, phi = creepage
     _, c22, c23, c33 = coefficients

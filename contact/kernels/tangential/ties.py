@@ -15,7 +15,8 @@ checked on 40 other poses.
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry, kernel
+from contact.kernels.arrays import Matrix
 from contact.kernels.rows import Strip
 
 #: c, and the share d of L that a must fall below.
@@ -32,8 +33,8 @@ def _corner(strips, first, last, j):
     return (y, square) if i == j else (y + (j - i) * 0.5 * strips[Strip.DY, i], 0.0)
 
 
-@kernel
-def tie_strips(strips, first, last):
+@entry
+def tie_strips(strips: Matrix, first: int, last: int) -> None:
     """Set the tie of every strip of a patch with the one before it."""
     k = first - 1
     y, square = _corner(strips, first, last, k)
@@ -69,8 +70,8 @@ def end_of_shape(strips, last, i):
     return end
 
 
-@kernel
-def share_shape(strips, first, last, i):
+@entry
+def share_shape(strips: Matrix, first: int, last: int, i: int) -> None:
     """Set the share of every strip of a patch in the shape of strip i."""
     share = 1.0
     strips[Strip.SHARE, i] = share

@@ -8,7 +8,7 @@ strips.
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels.friction import fallen, falls_hot, falls_locally, heating, of_heat
 from contact.kernels.rows import Element, Strip
 from contact.kernels.tangential.lanes import LANES, Now, Trace, Varying

@@ -16,15 +16,15 @@ Mz = -(1 - k) a k³ mu N e_y, with e along the force.
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry
 from contact.kernels.hertz import elliptic_integrals
 from contact.kernels.tangential.linear import smoothed
 
 _NEARLY_CIRCULAR = 1e-3
 
 
-@kernel
-def slopes(aspect, nu):
+@entry
+def slopes(aspect: float, nu: float) -> tuple[float, float]:
     """Return C11 and C22 for a/b = `aspect`."""
     g = min(aspect, 1.0 / aspect)
     k2 = (1.0 - g) * (1.0 + g)
@@ -39,8 +39,10 @@ def slopes(aspect, nu):
     return math.pi / ((1.0 - nu) * B + nu * C), math.pi / (B - nu * C)
 
 
-@kernel
-def vermeulen_johnson(vx, vy, G, a, b, nu, limit):
+@entry
+def vermeulen_johnson(
+    vx: float, vy: float, G: float, a: float, b: float, nu: float, limit: float
+) -> tuple[float, float, float, float]:
     """Return Fx, Fy, Mz [N, N, N m] and the share of slip. `limit` is mu N."""
     c11, c22 = slopes(a / b, nu)
     Fx, Fy = -c11 * G * a * b * vx, -c22 * G * a * b * vy

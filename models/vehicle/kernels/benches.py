@@ -8,20 +8,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from enum import IntEnum
-from typing import Any, NamedTuple
+from typing import Annotated, Any, Generic, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact._jit import inlined, kernel
+from contact.core import Shape, arranging, kernel
 from contact.errors import ContactError
-from contact.kernels.memory import Bench, Ledger, Search
+from contact.kernels.arrays import Bench, Cases, Kind, Ledger, Matrix, Motions, Numbers, Search, Settings, Totals
+from contact.kernels.block import part
 from contact.kernels.records import CASE, CONTACT, LEDGER, MAX_PATCHES, MOTION, TOTAL
 from contact.kernels.rows import N_LINE_ROWS, N_PROFILE_ROWS
 from contact.pair import WheelRailPair
 from models.vehicle.kernels.between import Held
 
 Array = NDArray[np.float64]
+IntegerRows = Annotated[Any, Shape(np.int64, 2)]
+ContactRows = Annotated[Any, Shape(CONTACT, 2)]
 
 
 class Size(IntEnum):
@@ -41,19 +44,19 @@ class Size(IntEnum):
     ARC_RAIL_AT = 11
 
 
-class Benches(NamedTuple):
+class Benches(NamedTuple, Generic[Kind]):
     """Parts of the benches of all wheels."""
 
-    shared: Bench
-    cases: Any  # CASE, one each
-    motions: Any  # MOTION, one each
-    settings: Any  # LEDGER, one each
-    contacts: Any  # CONTACT, shape (wheels, MAX_PATCHES)
-    totals: Any  # TOTAL, one each
-    memories: Array  # starts of the next call, shape (wheels, size)
-    pool: Array
-    scratch: Array  # trace line, placed rail and both in the plane of a patch
-    sizes: NDArray[np.int64]  # shape (wheels, len(Size))
+    shared: Bench[Kind]
+    cases: Cases  # one each
+    motions: Motions  # one each
+    settings: Settings  # one each
+    contacts: ContactRows  # shape (wheels, MAX_PATCHES)
+    totals: Totals  # one each
+    memories: Matrix  # starts of the next call, shape (wheels, size)
+    pool: Numbers
+    scratch: Numbers  # trace line, placed rail and both in the plane of a patch
+    sizes: IntegerRows  # shape (wheels, len(Size))
     rows: int  # of the bins of a ledger
     held: Held
 
@@ -81,10 +84,10 @@ def gather(pairs: Sequence[WheelRailPair], last: Held) -> Benches:
         parts = (
             bench.search.wheel, bench.search.rail, ledger.bins, ledger.wheel, ledger.wheel_arc, ledger.rail, ledger.rail_arc,
         )  # fmt: skip
-        for at, part in zip(range(Size.WHEEL_AT, Size.ARC_RAIL_AT + 1), parts, strict=True):
+        for at, array in zip(range(Size.WHEEL_AT, Size.ARC_RAIL_AT + 1), parts, strict=True):
             own[at] = end
-            pool.append(part.ravel())
-            end += part.size
+            pool.append(array.ravel())
+            end += array.size
     most = int(sizes[:, : Size.RAIL + 1].max())
     made = Benches(
         first, np.zeros(n, CASE), np.zeros(n, MOTION), np.zeros(n, LEDGER), np.zeros((n, MAX_PATCHES), CONTACT),
@@ -103,16 +106,22 @@ def bins(benches: Benches, wheel: int) -> Array:
     return benches.pool[at : at + 2 * benches.rows * n].reshape(2, benches.rows, n)
 
 
-@inlined
+@arranging
 def _cut(pool, at, rows, columns):
-    return pool[at : at + rows * columns].reshape((rows, columns))
+    return part(pool, at, 1, rows, columns)[0]
+
+
+@arranging
+def _bins(benches, w):
+    size = benches.sizes[w]
+    return part(benches.pool, size[Size.BINS_AT], 2, benches.rows, size[Size.BINS])
 
 
 @kernel
 def bench_of(benches, w):
     """Return the bench of wheel `w`."""
     t, s, size, pool = benches.shared, benches.shared.search, benches.sizes[w], benches.pool
-    n_wheel, n_rail, n_bins = size[Size.WHEEL], size[Size.RAIL], size[Size.BINS]
+    n_wheel, n_rail = size[Size.WHEEL], size[Size.RAIL]
     placed_at = N_LINE_ROWS * n_wheel
     plane_at = placed_at + N_PROFILE_ROWS * n_rail
     rail_plane_at = plane_at + N_LINE_ROWS * n_wheel
@@ -135,7 +144,6 @@ def bench_of(benches, w):
         s.result,
     )
     of_wheel, of_rail = size[Size.ROWS_WHEEL], size[Size.ROWS_RAIL]
-    bins_at = size[Size.BINS_AT]
     ledger = Ledger(
         _cut(pool, size[Size.ROWS_WHEEL_AT], 2, of_wheel),
         pool[size[Size.ARC_WHEEL_AT] : size[Size.ARC_WHEEL_AT] + of_wheel],
@@ -144,7 +152,7 @@ def bench_of(benches, w):
         benches.settings[w : w + 1],
         t.ledger.rates,
         t.ledger.edges,
-        pool[bins_at : bins_at + 2 * benches.rows * n_bins].reshape((2, benches.rows, n_bins)),
+        _bins(benches, w),
     )
     return Bench(
         search,

@@ -11,13 +11,14 @@ from __future__ import annotations
 
 import math
 from enum import IntEnum
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact._jit import kernel
+from contact.core import kernel
 from contact.kernels import kalker
+from contact.kernels.arrays import Givens, Integers, Matrix, Numbers
 from contact.kernels.geometry.search import axle
 from contact.kernels.records import GIVEN
 from models.vehicle.kernels.layout import ELASTIC
@@ -53,15 +54,15 @@ class Load(IntEnum):
 class Held(NamedTuple):
     """What is kept of the last solution of every wheel, besides its contacts."""
 
-    asked: Any  # GIVEN, one each
-    answers: Array  # shape (wheels, len(Load))
-    drifts: Array  # per step
-    expected: Array
-    ages: NDArray[np.int64]  # steps since the last solution; 0 where there is none
-    paces: NDArray[np.int64]  # steps from the last solution to the next
-    noises: Array  # usual miss of a force after one step [N]
-    loads: Array  # static load [N]
-    solutions: NDArray[np.int64]  # their number so far
+    asked: Givens  # one each
+    answers: Matrix  # shape (wheels, len(Load))
+    drifts: Matrix  # per step
+    expected: Matrix
+    ages: Integers  # steps since the last solution; 0 where there is none
+    paces: Integers  # steps from the last solution to the next
+    noises: Numbers  # usual miss of a force after one step [N]
+    loads: Numbers  # static load [N]
+    solutions: Integers  # their number so far
     pace: int  # the largest of `paces`; 1: every step is a solution
     tolerance: float  # of a force, over the static load
 

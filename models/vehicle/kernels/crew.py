@@ -13,14 +13,11 @@ from __future__ import annotations
 import sys
 from enum import IntEnum
 
-from llvmlite import ir
-from numba import types
-from numba.core.errors import TypingError
-from numba.extending import intrinsic
-
-from contact._jit import kernel
+from contact.core import COMPILING, entry, kernel
+from contact.kernels.arrays import Integers, Search
+from models.vehicle.kernels.benches import Benches
 from models.vehicle.kernels.frames import speed_at
-from models.vehicle.kernels.layout import Book
+from models.vehicle.kernels.layout import Book, Model, Scratch, State
 from models.vehicle.kernels.motion import ask, move
 from models.vehicle.kernels.wheels import follow_wheel
 
@@ -37,48 +34,50 @@ N_LINE = 24
 #: Looks at a counter before a thread gives way: about 50 µs, the time of one contact.
 _PATIENCE = 5000
 
-#: Symbol of the system's function by which a thread gives way to others.
-_GIVE_WAY = types.ExternalFunction("SwitchToThread" if sys.platform == "win32" else "sched_yield", types.int32())
+if COMPILING:
+    from llvmlite import ir
+    from numba import types
+    from numba.core.errors import TypingError
+    from numba.extending import intrinsic
 
+    #: Symbol of the system's function by which a thread gives way to others.
+    _GIVE_WAY = types.ExternalFunction("SwitchToThread" if sys.platform == "win32" else "sched_yield", types.int32())
 
-def _pointer(context, builder, counters, arguments):
-    array = context.make_array(counters)(context, builder, arguments[0])
-    return builder.gep(array.data, [arguments[1]])
+    def _pointer(context, builder, counters, arguments):
+        array = context.make_array(counters)(context, builder, arguments[0])
+        return builder.gep(array.data, [arguments[1]])
 
+    @intrinsic
+    def _add(typing_context, counters, at, value):
+        """Add to a counter; return what it was. Memory is ordered: what others wrote before theirs is seen after this."""
+        if counters != types.Array(types.int64, 1, "C"):
+            raise TypingError("counters are an array of int64")
 
-@intrinsic
-def _add(typing_context, counters, at, value):
-    """Add to a counter; return what it was. Memory is ordered: what others wrote before theirs is seen after this."""
-    if counters != types.Array(types.int64, 1, "C"):
-        raise TypingError("counters are an array of int64")
+        def generate(context, builder, signature, arguments):
+            pointer = _pointer(context, builder, counters, arguments)
+            return builder.atomic_rmw("add", pointer, arguments[2], "seq_cst")
 
-    def generate(context, builder, signature, arguments):
-        pointer = _pointer(context, builder, counters, arguments)
-        return builder.atomic_rmw("add", pointer, arguments[2], "seq_cst")
+        return types.int64(counters, types.int64, types.int64), generate
 
-    return types.int64(counters, types.int64, types.int64), generate
+    @intrinsic
+    def _set(typing_context, counters, at, value):
+        """Set a counter; return what it was. Memory is ordered as for `_add`."""
 
+        def generate(context, builder, signature, arguments):
+            pointer = _pointer(context, builder, counters, arguments)
+            return builder.atomic_rmw("xchg", pointer, arguments[2], "seq_cst")
 
-@intrinsic
-def _set(typing_context, counters, at, value):
-    """Set a counter; return what it was. Memory is ordered as for `_add`."""
+        return types.int64(counters, types.int64, types.int64), generate
 
-    def generate(context, builder, signature, arguments):
-        pointer = _pointer(context, builder, counters, arguments)
-        return builder.atomic_rmw("xchg", pointer, arguments[2], "seq_cst")
+    @intrinsic
+    def _look(typing_context, counters, at):
+        """Return a counter as other threads have left it."""
 
-    return types.int64(counters, types.int64, types.int64), generate
+        def generate(context, builder, signature, arguments):
+            pointer = _pointer(context, builder, counters, arguments)
+            return builder.load_atomic(pointer, "seq_cst", 8, typ=ir.IntType(64))
 
-
-@intrinsic
-def _look(typing_context, counters, at):
-    """Return a counter as other threads have left it."""
-
-    def generate(context, builder, signature, arguments):
-        pointer = _pointer(context, builder, counters, arguments)
-        return builder.load_atomic(pointer, "seq_cst", 8, typ=ir.IntType(64))
-
-    return types.int64(counters, types.int64), generate
+        return types.int64(counters, types.int64), generate
 
 
 @kernel
@@ -92,8 +91,8 @@ def _work(benches, scratch, counters, codes):
         w = _add(counters, Line.NEXT.value, 1)
 
 
-@kernel
-def serve(benches, scratch, counters, codes):
+@entry
+def serve(benches: Benches[Search], scratch: Scratch, counters: Integers, codes: Integers) -> None:
     """Solve wheels whenever a list is open, until the leader has ended."""
     n, looks = scratch.wheels.size, 0
     while _look(counters, Line.ENDED.value) == 0:
@@ -122,8 +121,17 @@ def _press_together(benches, scratch, counters, codes):
     return 0
 
 
-@kernel
-def lead(model, state, benches, scratch, counters, codes, h, steps):
+@entry
+def lead(
+    model: Model,
+    state: State,
+    benches: Benches[Search],
+    scratch: Scratch,
+    counters: Integers,
+    codes: Integers,
+    h: float,
+    steps: int,
+) -> int:
     """As `motion.advance`, with the helpers that `serve`. They are told to return at the end."""
     failed = 0
     for _ in range(steps):

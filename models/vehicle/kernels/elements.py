@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from contact._jit import kernel
+from contact.core import kernel
 from models.vehicle.kernels.layout import Axis, Frame, Kind
 
 

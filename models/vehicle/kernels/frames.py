@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
-from contact._jit import kernel
-from models.vehicle.kernels.layout import Axis, Frame, Row
+from contact.core import entry, kernel
+from contact.kernels.arrays import Matrix, Numbers
+from models.vehicle.kernels.layout import Axis, Body, Frame, Model, Row
 
 
 @kernel
@@ -31,15 +32,15 @@ def smooth(track, row, k, t, width):
     return a + t * (ma + t * (second + t * third)), (ma + t * (2.0 * second + 3.0 * t * third)) / width
 
 
-@kernel
-def speed_at(track, spacing, s):
+@entry
+def speed_at(track: Matrix, spacing: Numbers, s: float) -> float:
     """Return the speed [m/s] that is given at `s` [m]."""
     k, d = place_on(track, spacing, s)
     return linear(track, Row.SPEED, k, d / spacing[0])
 
 
-@kernel
-def lay_frames(model, s, speed, frames):
+@entry
+def lay_frames(model: Model, s: float, speed: float, frames: Matrix) -> None:
     """Fill the frames of all bodies, of which that of the reference is at `s` [m]."""
     track, spacing, bodies = model.track, model.spacing, model.bodies
     for i in range(bodies.size):
@@ -63,8 +64,8 @@ def lay_frames(model, s, speed, frames):
         frame[Frame.RATE_Z] = turning * frame[Frame.COS_CANT]
 
 
-@kernel
-def carried(frame, body, q, speed, axis):
+@entry
+def carried(frame: Numbers, body: Body, q: Numbers, speed: float, axis: int) -> float:
     """Return the absolute velocity along or about `axis` of a body that stands still in its frame."""
     x, y, z = q[Axis.X], q[Axis.Y], q[Axis.Z] - body.height
     wx, wy, wz = frame[Frame.RATE_X], frame[Frame.RATE_Y], frame[Frame.RATE_Z]

@@ -8,14 +8,13 @@ axes of that frame. The pitch rate of a wheelset is its spin, negative when it r
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.core import Shape
+from contact.kernels.arrays import Cube, Givens, Integers, Matrix, Numbers
 from contact.kernels.records import GIVEN
-
-Array = NDArray[np.float64]
 
 
 class Axis(IntEnum):
@@ -171,41 +170,52 @@ WHEEL = np.dtype(
 SEAT = np.dtype([("along_y", "f8"), ("along_z", "f8"), ("friction", "f8"), ("kinetic", "f8")], align=True)
 
 
+#: Arrays of these records, and single ones.
+Bodies = Annotated[Any, Shape(BODY, 1)]
+Body = Annotated[Any, Shape(BODY, 0)]
+Links = Annotated[Any, Shape(LINK, 1)]
+Elements = Annotated[Any, Shape(ELEMENT, 1)]
+Wheels = Annotated[Any, Shape(WHEEL, 1)]
+Wheel = Annotated[Any, Shape(WHEEL, 0)]
+Seats = Annotated[Any, Shape(SEAT, 1)]
+Seat = Annotated[Any, Shape(SEAT, 0)]
+
+
 class Model(NamedTuple):
     """Constants of a vehicle on a track."""
 
-    bodies: Any  # BODY
-    links: Any  # LINK
-    elements: Any  # ELEMENT
-    table: Array  # deformation [m] and force [N] of stops, shape (2, n)
-    wheelsets: Any  # numbers of the bodies that are wheelsets
-    track: Array  # shape (len(Row), n)
-    rail: Array  # mass, lateral stiffness and damping, vertical stiffness and damping; mass 0: rigid
-    surface: Array  # coefficient of friction, at rest and kinetic
-    spacing: Array  # (spacing of the track's places [m], place of the first one [m])
+    bodies: Bodies
+    links: Links
+    elements: Elements
+    table: Matrix  # deformation [m] and force [N] of stops, shape (2, n)
+    wheelsets: Integers  # numbers of the bodies that are wheelsets
+    track: Matrix  # shape (len(Row), n)
+    rail: Numbers  # mass, lateral stiffness and damping, vertical stiffness and damping; mass 0: rigid
+    surface: Numbers  # coefficient of friction, at rest and kinetic
+    spacing: Numbers  # (spacing of the track's places [m], place of the first one [m])
 
 
 class State(NamedTuple):
     """What carries over from one step to the next."""
 
-    q: Array  # coordinates, shape (bodies, 6)
-    u: Array  # velocities, shape (bodies, 6)
-    inner: Array  # elongation of the dampers of series elements [m], shape (elements, 3)
-    rails: Array  # y, z and their rates under each wheel, shape (wheelsets, 2, 4)
-    loads: Array  # normal forces of the last step [N], shape (wheelsets, 2)
-    sums: Array  # over the steps since it was cleared, shape (2 wheelsets, len(Sum))
-    books: Array
+    q: Matrix  # coordinates, shape (bodies, 6)
+    u: Matrix  # velocities, shape (bodies, 6)
+    inner: Matrix  # elongation of the dampers of series elements [m], shape (elements, 3)
+    rails: Cube  # y, z and their rates under each wheel, shape (wheelsets, 2, 4)
+    loads: Matrix  # normal forces of the last step [N], shape (wheelsets, 2)
+    sums: Matrix  # over the steps since it was cleared, shape (2 wheelsets, len(Sum))
+    books: Numbers
 
 
 class Scratch(NamedTuple):
     """Arrays of one step."""
 
-    frames: Array  # shape (bodies, len(Frame))
-    forces: Array  # generalised, shape (bodies, 6)
-    given: Any  # GIVEN, what the contact of each wheel is asked, in the order of `wheels`
-    seats: Any  # SEAT, the rail under each wheel
-    wheels: Any  # WHEEL, one for each wheel: axle by axle, right before left
-    power: Array  # damper, dissipation, elastic energy of this step
+    frames: Matrix  # shape (bodies, len(Frame))
+    forces: Matrix  # generalised, shape (bodies, 6)
+    given: Givens  # what the contact of each wheel is asked, in the order of `wheels`
+    seats: Seats  # the rail under each wheel
+    wheels: Wheels  # one for each wheel: axle by axle, right before left
+    power: Numbers  # damper, dissipation, elastic energy of this step
 
 
 def scratch(bodies: int, wheelsets: int) -> Scratch:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from contact._jit import kernel
+from contact.core import entry, kernel
+from contact.kernels.arrays import Motions, Numbers, Search
+from models.vehicle.kernels.benches import Benches
 from models.vehicle.kernels.elements import pull
 from models.vehicle.kernels.frames import carried, drift, gyrate, lay_frames, speed_at
-from models.vehicle.kernels.layout import Axis, Book, Frame
+from models.vehicle.kernels.layout import Axis, Book, Frame, Model, Scratch, State
 from models.vehicle.kernels.wheels import act, count, press, rail_energy, seat, sink
 
 #: A normal force above this multiple of the static one is an impact.
@@ -94,8 +96,8 @@ def _kick(model, state, scratch, h):
                 books[Book.TORQUE] -= h * body.torque * mean
 
 
-@kernel
-def place(model, state, motions, heights, start, speed):
+@entry
+def place(model: Model, state: State, motions: Motions, heights: Numbers, start: float, speed: float) -> None:
     """Put the vehicle, all of whose state is zero, at rest in its nominal place at `start` [m], rolling at `speed` [m/s].
 
     `heights` are the coordinates z of its wheelsets [m].
@@ -110,16 +112,16 @@ def place(model, state, motions, heights, start, speed):
         state.u[i, Axis.PITCH] = -speed / motions[2 * axle].radius
 
 
-@kernel
-def ask(model, state, motions, scratch, speed):
+@entry
+def ask(model: Model, state: State, motions: Motions, scratch: Scratch, speed: float) -> None:
     """Fill the frames and what each contact is asked at the present state (`scratch.given`, `scratch.seats`)."""
     s = state.books[Book.DISTANCE]
     lay_frames(model, s, speed, scratch.frames)
     seat(model, state, s, motions, scratch)
 
 
-@kernel
-def move(model, state, motions, scratch, h, speed):
+@entry
+def move(model: Model, state: State, motions: Motions, scratch: Scratch, h: float, speed: float) -> None:
     """Advance by `h` [s] after `ask`, with the answers of the contacts in `scratch.wheels`."""
     books = state.books
     work = _hold(model, state, speed, scratch, h)
@@ -149,8 +151,8 @@ def step(model, state, benches, scratch, h):
     return 0
 
 
-@kernel
-def advance(model, state, benches, scratch, h, steps):
+@entry
+def advance(model: Model, state: State, benches: Benches[Search], scratch: Scratch, h: float, steps: int) -> int:
     """Advance by `steps` steps of `h` [s]; return 0 or the code of `press` at the step that failed."""
     for _ in range(steps):
         failed = step(model, state, benches, scratch, h)

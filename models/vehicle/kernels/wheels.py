@@ -4,14 +4,29 @@ from __future__ import annotations
 
 import math
 
-from contact._jit import kernel
+from contact.core import entry, kernel
+from contact.kernels.arrays import Bench, Given, Search, SurfaceSearch
 from contact.kernels.enumerations import Height, Status
 from contact.kernels.geometry.search import axle
 from contact.kernels.pair import solve_pair
-from models.vehicle.kernels.benches import bench_of
+from models.vehicle.kernels.benches import Benches, bench_of
 from models.vehicle.kernels.between import expect, learn, put
 from models.vehicle.kernels.frames import linear, place_on, smooth
-from models.vehicle.kernels.layout import ELASTIC, TO_LEFT, Axis, Book, Frame, Row, Sum
+from models.vehicle.kernels.layout import (
+    ELASTIC,
+    TO_LEFT,
+    Axis,
+    Book,
+    Frame,
+    Model,
+    Row,
+    Scratch,
+    Seat,
+    State,
+    Sum,
+    Wheel,
+    Wheels,
+)
 
 
 @kernel
@@ -45,8 +60,8 @@ def seat(model, state, s, motions, scratch):
             given.rail_vz += ramp * (motion.mirror * motion.origin_y + given.rail_y)
 
 
-@kernel
-def press_one(bench, given, here, wheel):
+@entry
+def press_one(bench: Bench[SurfaceSearch], given: Given, here: Seat, wheel: Wheel) -> int:
     """Solve the contact of one wheel for what `seat` has filled, and fill `wheel`; return as `solve_pair`."""
     case = bench.case[0]
     case.mu, case.kinetic, case.speed = here.friction, here.kinetic, given.vx
@@ -62,8 +77,8 @@ def press_wheel(benches, scratch, w):
     return press_one(bench_of(benches, w), scratch.given[w], scratch.seats[w], scratch.wheels[w])
 
 
-@kernel
-def follow_wheel(benches, scratch, w):
+@entry
+def follow_wheel(benches: Benches[Search], scratch: Scratch, w: int) -> int:
     """Fill what wheel `w` does: from the last solution of its contact if that is near enough, else by `press_wheel`.
 
     Returns as `press_wheel`.
@@ -147,8 +162,8 @@ def _report(bench, n, wheel):
     wheel.spin = contact.spin
 
 
-@kernel
-def count(model, state, wheels, most):
+@entry
+def count(model: Model, state: State, wheels: Wheels, most: float) -> None:
     """Count impacts (rises above `most` static loads), lifted wheels and untrustworthy contacts; add to the sums."""
     books = state.books
     for w in range(wheels.size):

@@ -1,0 +1,198 @@
+"""The library of compiled kernels: where it is, and the addresses of its functions.
+
+A wheel holds it, in `contact/library`. A checkout builds it when it is first needed, which needs numba, and keeps it in the
+user's cache under a name that is a hash of all that it is made from.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import hashlib
+import os
+import platform
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+_HERE = Path(__file__).parents[1]
+_ROOT = _HERE.parent
+#: Name of the library on this system.
+NAME = {"win32": "wheelrail.dll", "darwin": "libwheelrail.dylib"}.get(sys.platform, "libwheelrail.so")
+#: The library of an installed package.
+INSTALLED = _HERE / "library" / NAME
+#: Folders of a checkout that the library is made from, and the packages that compile it.
+_MADE_FROM, _TOOLS = ("contact", "models", "fmu_src"), ("numba", "llvmlite", "numpy")
+#: Programs in `fmu_src.native` that build it.
+_BUILDER = ("library.py", "emit.py")
+#: Libraries that were not used for this time [s] are removed. At most `_MOST` are kept.
+_STALE, _MOST = 30 * 86400.0, 8
+_PREFIX = "wheelrail-contact-"
+
+
+def address(symbol: str) -> int:
+    """Return the address of a function of the library."""
+    return _functions()(symbol)
+
+
+@cache
+def _functions() -> Callable[[str], int]:
+    """Return a function from the name of a symbol to its address, of the library of this process."""
+    if INSTALLED.is_file():
+        return _of_library(INSTALLED)
+    folder = cached()
+    linked = folder / NAME
+    return _of_library(linked) if linked.is_file() else _of_objects(folder)
+
+
+def _of_library(path: Path) -> Callable[[str], int]:
+    library = ctypes.CDLL(str(path))
+
+    def find(symbol: str) -> int:
+        try:
+            return ctypes.cast(getattr(library, symbol), ctypes.c_void_p).value or 0
+        except AttributeError:
+            raise ImportError(
+                f"{path} has no function {symbol}: it is the library of another version of wheelrail-contact. "
+                "Install the package again: pip install --force-reinstall wheelrail-contact"
+            ) from None
+
+    return find
+
+
+def _of_objects(folder: Path) -> Callable[[str], int]:
+    """Load the object file of a checkout on a machine that has no linker."""
+    from llvmlite import binding as llvm
+
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    machine = llvm.Target.from_default_triple().create_target_machine(jit=True)
+    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), machine)
+    engine.add_object_file(str(folder / "kernels.o"))
+    engine.finalize_object()
+    _KEPT.append(engine)
+    return lambda symbol: int(engine.get_function_address(symbol))
+
+
+_KEPT: list[object] = []
+
+
+def cached() -> Path:
+    """Return the folder of the library of this checkout. Build it if it is not there."""
+    folder = cache_folder() / (_PREFIX + fingerprint())
+    if (folder / "kernels.o").is_file():
+        with contextlib.suppress(OSError):
+            os.utime(folder)
+        return folder
+    if not (_ROOT / "fmu_src" / "native").is_dir():
+        raise ImportError(
+            f"wheelrail-contact has no compiled library for {platform.system()} on {platform.machine()}: {INSTALLED} is "
+            "missing. Install a wheel for this system, or build one from the sources (CONTRIBUTING.md)."
+        )
+    _build(folder)
+    _remove_stale(folder.parent)
+    return folder
+
+
+def _build(folder: Path) -> None:
+    """Build the library of this checkout in a process of its own. If another one does so already, wait for it."""
+    try:
+        version("numba")
+    except PackageNotFoundError:
+        raise ImportError(
+            "this checkout of wheelrail-contact has no compiled library yet, and numba, which compiles it, is not installed: "
+            "pip install 'numba==0.68.1', or install a wheel"
+        ) from None
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    lock = folder.parent / f"{folder.name}.lock"
+    with lock.open("w") as held:
+        with contextlib.suppress(ImportError):  # not on Windows, where two processes may build the same
+            import fcntl
+
+            fcntl.flock(held, fcntl.LOCK_EX)
+        if (folder / "kernels.o").is_file():
+            return
+        made = folder.parent / f"{folder.name}.{os.getpid()}"
+        shutil.rmtree(made, ignore_errors=True)
+        made.mkdir()
+        _run(made)
+        with contextlib.suppress(OSError):  # another process was faster
+            made.rename(folder)
+        shutil.rmtree(made, ignore_errors=True)
+
+
+def _run(folder: Path) -> None:
+    """Run the builder. On a terminal a line says so."""
+    shows = sys.stderr is not None and sys.stderr.isatty()
+    begin = time.monotonic()
+    command = [sys.executable, "-m", "fmu_src.native.library", str(folder)]
+    own = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, (str(_ROOT), os.environ.get("PYTHONPATH"))))}
+    with subprocess.Popen(
+        command, cwd=_ROOT, env=own, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    ) as process:
+        output = None
+        while output is None:
+            if shows:
+                spent = time.monotonic() - begin
+                sys.stderr.write(f"\rcontact: compiling the library, once for these sources: {spent:.0f} s\033[K")
+                sys.stderr.flush()
+            try:
+                output, _ = process.communicate(timeout=1.0)
+            except subprocess.TimeoutExpired:
+                continue
+    if shows:
+        sys.stderr.write("\r\033[K")
+    if process.returncode:
+        raise ImportError(f"the library of wheelrail-contact could not be built:\n{output}")
+
+
+@cache
+def fingerprint() -> str:
+    """Return a hash of all that the library of this checkout is made from: sources with kernels, and the tools."""
+    content = hashlib.sha256(platform.machine().encode())
+    for tool in _TOOLS:
+        with contextlib.suppress(PackageNotFoundError):
+            content.update(f"{tool} {version(tool)}".encode())
+    for path in sources():
+        content.update(f"{path.relative_to(_ROOT)}\0".encode() + path.read_bytes())
+    return content.hexdigest()[:16]
+
+
+def sources() -> list[Path]:
+    """Return the sources of the library: all files with kernels, and the builder."""
+    files = [path for name in _MADE_FROM for path in (_ROOT / name).rglob("*.py") if _has_kernels(path)]
+    builder = [*(_HERE / "core").glob("*.py"), *(_ROOT / "fmu_src" / "native" / name for name in _BUILDER)]
+    return sorted({*files, *builder, *(_HERE / "kernels").rglob("*.py")})
+
+
+def _has_kernels(path: Path) -> bool:
+    text = path.read_bytes()
+    return any(b"\n@" + mark in text for mark in (b"kernel\n", b"entry\n", b"inlined\n"))
+
+
+def cache_folder() -> Path:
+    """Return the folder in which libraries of checkouts are kept: CONTACT_CACHE_DIR if set, else the system's for caches."""
+    if own := os.environ.get("CONTACT_CACHE_DIR"):
+        return Path(own)
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA", Path.home() / "AppData" / "Local"))
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Caches"
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+
+
+def _remove_stale(base: Path) -> None:
+    """Remove libraries that were not used for `_STALE` seconds, and all but the `_MOST` latest."""
+    kept = sorted(
+        (path for path in base.glob(_PREFIX + "*") if path.is_dir()),
+        key=lambda path: path.stat().st_mtime,
+        reverse=True,
+    )
+    for i, path in enumerate(kept):
+        if i >= _MOST or path.stat().st_mtime < time.time() - _STALE:
+            shutil.rmtree(path, ignore_errors=True)

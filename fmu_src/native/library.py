@@ -1,0 +1,135 @@
+"""Build the library of all kernels that Python calls: ``python -m fmu_src.native.library FOLDER``.
+
+It writes kernels.o for this machine and, where there is a linker, the library beside it. This program imports all modules that
+have entries (`contact.core.entry`) with the settings of numba that `emit.ENVIRONMENT` lists.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterable, Iterator
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from fmu_src.native.emit import ENVIRONMENT
+
+
+def entries() -> Iterator[Any]:
+    """Yield all entries of the library."""
+    from contact.core import library
+    from contact.core.calls import Entry
+
+    root = Path(library.__file__).parents[2]
+    for path in library.sources():
+        if b"\n@entry\n" not in path.read_bytes():
+            continue
+        module = import_module(".".join(path.relative_to(root).with_suffix("").parts))
+        yield from (
+            one for one in vars(module).values() if isinstance(one, Entry) and one.__module__ == module.__name__
+        )
+
+
+def module_of(listed: Iterable[Any]) -> tuple[Any, list[str]]:
+    """Return one LLVM module with a C function for each entry, and the names of these functions."""
+    from llvmlite import binding as llvm
+
+    from contact.core.compiled import as_c_function
+    from fmu_src.native.emit import _REFUSED, _readable, whole_module
+
+    libraries, names = [], []
+    glue = ["define void @NRT_incref(ptr %0) { ret void }", "define void @NRT_decref(ptr %0) { ret void }"]
+    for one in listed:
+        made = as_c_function(one)
+        body = made.native_name.removeprefix("cfunc.")
+        libraries.append(made._library)
+        names.append(one.symbol)
+        glue += [
+            f'declare i32 @"{body}"(ptr, ptr, i64, i64)',
+            f"define void @{one.symbol}(ptr %a, ptr %r) {{",
+            "  %result = alloca ptr",
+            "  %exception = alloca ptr",
+            "  %1 = ptrtoint ptr %a to i64",
+            "  %2 = ptrtoint ptr %r to i64",
+            f'  call i32 @"{body}"(ptr %result, ptr %exception, i64 %1, i64 %2)',
+            "  ret void",
+            "}",
+        ]
+    module = whole_module(libraries)
+    for function in module.functions:  # numba's runtime: the arrays belong to the caller and have no reference count
+        if function.name in ("NRT_incref", "NRT_decref") and not function.is_declaration:
+            function.linkage = "weak_any"
+    module.link_in(llvm.parse_assembly("\n".join(glue)))
+    seen = set(names)
+    for i, symbol in enumerate((*module.functions, *module.global_variables)):
+        if symbol.name not in seen and not symbol.is_declaration:
+            symbol.linkage = "internal"
+            if not symbol.name.startswith(_REFUSED):
+                symbol.name = f"{_readable(symbol.name)}.{i}"
+    return module, names
+
+
+def write_object(module: Any, path: Path) -> None:
+    """Optimise a module for this machine and write its object file."""
+    from llvmlite import binding as llvm
+
+    from fmu_src.native.emit import refuse_the_rest
+
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    target = llvm.Target.from_default_triple()
+    machine = target.create_target_machine(
+        cpu=llvm.get_host_cpu_name(),
+        features=llvm.get_host_cpu_features().flatten(),
+        opt=3,
+        reloc="pic",
+        codemodel="default",
+    )
+    module.triple, module.data_layout = llvm.get_default_triple(), str(machine.target_data)
+    builder = llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options(speed_level=3))
+    builder.getModulePassManager().run(module, builder)
+    refuse_the_rest(module)
+    path.write_bytes(machine.emit_object(module))
+
+
+def link(folder: Path) -> None:
+    """Link the library with the system's compiler if there is one."""
+    from contact.core.library import NAME
+
+    compiler = next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
+    if compiler is not None:
+        command = [compiler, "-shared", "-o", str(folder / NAME), str(folder / "kernels.o"), "-lm"]
+        subprocess.run(command, check=False, capture_output=True)
+
+
+def main() -> None:
+    """Build the library into the folder that the command line names."""
+    if any(os.environ.get(name) != value for name, value in ENVIRONMENT.items()):
+        os.execve(
+            sys.executable, [sys.executable, "-m", "fmu_src.native.library", *sys.argv[1:]], os.environ | ENVIRONMENT
+        )
+    import time
+    import warnings
+
+    from numba.core.errors import NumbaWarning
+
+    from fmu_src.native.emit import make_no_machine_code
+
+    warnings.simplefilter("ignore", NumbaWarning)
+    begin = time.perf_counter()
+    listed = list(entries())
+    make_no_machine_code()
+    module, _ = module_of(listed)
+    compiled = time.perf_counter()
+    folder = Path(sys.argv[1])
+    write_object(module, folder / "kernels.o")
+    optimised = time.perf_counter()
+    link(folder)
+    sys.stdout.write(f"{len(listed)} entries: numba {compiled - begin:.0f} s, LLVM {optimised - compiled:.0f} s\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,154 @@
+"""The library of kernels, and how Python calls it."""
+
+import copy
+import json
+import os
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import contact
+from contact.core import library, pack
+from contact.kernels.arrays import Samples
+from contact.kernels.cubic import slopes
+from contact.kernels.geometry.search import axle
+from contact.kernels.hertz import local_factors
+from contact.kernels.root import begin
+
+ROOT = Path(contact.__file__).parents[1]
+
+USE_ALL = """
+import json, sys
+import contact
+from contact.geometry import Irregularity, Pose, Velocity, profile
+from contact.geometry.wheelset import Pair
+from contact.pair import WheelRailPair
+separation, creepage = contact.Separation.hertzian(1.1, 0.8), contact.Creepage(1e-3, 5e-4, 0.2)
+for normal in ("analyn", "hertz", "kik_piotrowski", "strip_halfspace", "halfspace"):
+    rolling = "halfspace" if normal == "halfspace" else "fastrip"
+    contact.solve(separation, creepage, load=8e4, normal=normal, tangential=rolling, throw=False).damage()
+contact.forces(separation, (1e-3, 0.0, 0.0), load=[1e4, 2e4])
+pair = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(1 / 40)))
+pair.solve(Pose(y=1e-3), Velocity(20.0), load=8e4)
+print(json.dumps(sorted({"numba", "llvmlite"} & set(sys.modules))))
+"""
+
+
+def run(code: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    """Run Python code in a process of its own."""
+    own = {name: value for name, value in os.environ.items() if name != "CONTACT_JIT"} | environment
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=own, cwd=ROOT, timeout=600)
+
+
+def test_the_library_needs_no_numba():
+    if not (library.INSTALLED.is_file() or (library.cached() / library.NAME).is_file()):
+        pytest.skip("no linker here: llvmlite loads the kernels")
+    done = run(USE_ALL)
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout) == []
+
+
+@pytest.mark.slow
+def test_numba_gives_the_bits_of_the_library():
+    code = """
+import numpy as np
+from contact.kernels.hertz import local_factors
+from contact.kernels.cubic import slopes
+from contact.kernels.geometry.search import axle
+y = np.linspace(0.0, 1.0, 9) ** 1.5
+out = np.zeros(9)
+slopes(y, np.sin(3.0 * y), 9, out)
+print(repr((local_factors(1.3, 0.4), axle(0.01, -0.02), out.tolist())))
+"""
+    of_library, of_numba = run(code), run(code, CONTACT_JIT="1")
+    assert of_library.returncode == 0, of_library.stderr
+    assert of_library.stdout == of_numba.stdout != ""
+
+
+def test_results_have_the_types_of_the_annotations():
+    assert [type(x) for x in local_factors(1.0, 2.0)] == [float] * 4
+    assert axle(roll=0.0, yaw=0.0) == (0.0, 1.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ((np.zeros(3), np.zeros(3), 3), "slopes takes 4 arguments, not 3"),
+        ((np.zeros(3), np.zeros(3), 3.5, np.zeros(3)), "integer"),
+        ((np.zeros(3), np.zeros((3, 3)), 3, np.zeros(3)), "shape \\(3, 3\\)"),
+        ((np.zeros(3), np.zeros(6)[::2], 3, np.zeros(3)), "not contiguous"),
+        ((np.zeros(3), np.zeros(3, np.float32), 3, np.zeros(3)), "float32"),
+        ((np.zeros(3), [0.0, 0.0, 0.0], 3, np.zeros(3)), "list"),
+    ],
+)
+def test_a_wrong_argument_is_refused(arguments, said):
+    with pytest.raises((TypeError, Exception), match=said):
+        slopes(*arguments)
+
+
+def test_a_record_of_another_type_is_refused():
+    with pytest.raises(TypeError, match="a record"):
+        begin(np.zeros(1), 0.0, 0.0, 0.0, 0.0)
+
+
+def test_a_kernel_for_other_kernels_says_so():
+    from contact.kernels.normal.analyn import analyn
+
+    with pytest.raises(TypeError, match="analyn is compiled for other kernels only"):
+        analyn()
+
+
+def test_packed_arguments_follow_their_arrays_into_a_copy():
+    samples = Samples(*np.linspace(0.0, 1.0, 15).reshape(5, 3))
+    packed = pack(Samples, samples)
+    for other in (copy.deepcopy(packed), pickle.loads(pickle.dumps(packed))):
+        assert other.words != packed.words
+        assert other.words == pack(Samples, other.value).words
+
+
+def test_a_separation_can_be_copied_and_sent_to_another_process():
+    separation = contact.Separation.hertzian(1.1, 0.8)
+    expected = contact.solve(separation, contact.Creepage(1e-3), load=8e4).Fx
+    for other in (copy.deepcopy(separation), pickle.loads(pickle.dumps(separation))):
+        assert contact.solve(other, contact.Creepage(1e-3), load=8e4).Fx == expected
+
+
+def test_the_name_of_the_library_depends_on_kernels_alone(tmp_path, monkeypatch):
+    kernel, other = tmp_path / "kernel.py", tmp_path / "other.py"
+    kernel.write_text("\n@kernel\ndef f():\n    pass\n")
+    other.write_text("pass\n")
+    assert library._has_kernels(kernel)
+    assert not library._has_kernels(other)
+    names = {path.name for path in library.sources()}
+    assert {"strip_halfspace.py", "zones.py", "motion.py", "emit.py"} <= names
+    assert not names & {"solve.py", "errors.py", "solution.py"}
+
+
+def test_a_checkout_without_library_and_numba_says_what_to_install(tmp_path):
+    code = """
+import importlib.metadata as metadata
+known = metadata.version
+def version(name):
+    if name == "numba":
+        raise metadata.PackageNotFoundError(name)
+    return known(name)
+metadata.version = version
+from contact.kernels.hertz import local_factors
+local_factors(1.0, 2.0)
+"""
+    done = run(code, CONTACT_CACHE_DIR=str(tmp_path))
+    assert done.returncode == 1
+    assert "ImportError: this checkout of wheelrail-contact has no compiled library yet" in done.stderr
+    assert "pip install" in done.stderr
+
+
+def test_a_library_of_another_version_is_named(tmp_path):
+    path = library.cached() / library.NAME
+    if not path.is_file():
+        pytest.skip("no linker here")
+    with pytest.raises(ImportError, match="another version of wheelrail-contact"):
+        library._of_library(path)("contact_kernels_of_tomorrow")
