@@ -4,26 +4,32 @@ In the repository the packages are called `contact`, `fmu_src` and `models`. Onc
 those of other packages: a user's own `models.py` would break the command line. A wheel therefore holds `contact`, `contact_fmu`
 and `contact_models`. `build_wheel` copies the sources into a temporary folder, renames the two packages there and calls
 setuptools. Editable installs and sdists are made by setuptools unchanged, with the names of the repository.
+
+A wheel is for one system and carries the library of compiled kernels for it. numba and zig build it, and are needed nowhere
+else. ``--config-setting system=win64`` chooses another system than this one (`SYSTEMS`).
 """
 
 from __future__ import annotations
 
 import ast
 import os
+import platform
 import re
 import shutil
+import subprocess
+import sys
+import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 from setuptools import build_meta
-from setuptools.build_meta import (  # hooks that a front end calls besides `build_wheel`
+from setuptools.build_meta import (  # hooks that a front end calls besides those below
     build_editable,
     build_sdist,
     get_requires_for_build_editable,
     get_requires_for_build_sdist,
-    get_requires_for_build_wheel,
     prepare_metadata_for_build_editable,
 )
 
@@ -45,6 +51,45 @@ _MENTION = re.compile(
     r"\bfmu_src\b|(?:(?<=^from )|(?<=^import )|(?<=    from )|(?<=    import )|\b(?=models[./](?:life|wheelset)\b))models\b",
     re.MULTILINE,
 )
+
+
+#: System, by its name in `fmu_src.native.linking` → tag of its wheels, and file name of the library.
+SYSTEMS = {
+    "linux64": ("manylinux_2_17_x86_64", "libwheelrail.so"),
+    "aarch64-linux": ("manylinux_2_17_aarch64", "libwheelrail.so"),
+    "win64": ("win_amd64", "wheelrail.dll"),
+    "darwin64": ("macosx_11_0_x86_64", "libwheelrail.dylib"),
+    "aarch64-darwin": ("macosx_11_0_arm64", "libwheelrail.dylib"),
+}
+
+
+def this_system() -> str:
+    """Return the name of this machine's system."""
+    arm = platform.machine().lower() in ("aarch64", "arm64")
+    names = {
+        "linux": ("linux64", "aarch64-linux"),
+        "darwin": ("darwin64", "aarch64-darwin"),
+        "win32": ("win64", "win64"),
+    }
+    return names[sys.platform][arm]
+
+
+def get_requires_for_build_wheel(config_settings: Mapping[str, Any] | None = None) -> list[str]:
+    """Return what builds the library, as pinned in pyproject.toml (hook of PEP 517)."""
+    extras = tomllib.loads(Path("pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
+    return [*extras["build"], *(name for name in extras["native"] if name.startswith("ziglang")), "numpy"]
+
+
+def library(root: Path, system: str) -> Path:
+    """Return the library of kernels for a system. It is kept with those of checkouts, so the same sources build it once."""
+    code = "from contact.core import library as l; print(l.cache_folder() / (l.PREFIX + l.fingerprint() + '-wheels'))"
+    told = subprocess.run([sys.executable, "-c", code], cwd=root, capture_output=True, text=True, check=True)
+    folder = Path(told.stdout.strip())
+    path = folder / system / SYSTEMS[system][1]
+    if not path.is_file():
+        folder.mkdir(parents=True, exist_ok=True)
+        subprocess.run([sys.executable, "-m", "fmu_src.native.library", str(folder), system], cwd=root, check=True)
+    return path
 
 
 def renamed(text: str) -> str:
@@ -79,11 +124,18 @@ def build_wheel(
 ) -> str:
     """Build a wheel into a folder and return its name (hook of PEP 517)."""
     root, target = Path.cwd(), os.path.abspath(wheel_directory)
+    system = (config_settings or {}).get("system") or this_system()
+    if system not in SYSTEMS:
+        raise ValueError(f"system = {system!r} is not one of {', '.join(SYSTEMS)}")
     with TemporaryDirectory() as folder:
         lay_out(root, Path(folder))
+        packed = Path(folder) / "contact" / "library"
+        packed.mkdir()
+        shutil.copyfile(library(root, system), packed / SYSTEMS[system][1])
         os.chdir(folder)
         try:
-            return str(build_meta.build_wheel(target, config_settings, None))
+            options = {"--build-option": ["--plat-name", SYSTEMS[system][0]]}
+            return str(build_meta.build_wheel(target, options, None))
         finally:
             os.chdir(root)
 

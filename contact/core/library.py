@@ -32,7 +32,7 @@ _MADE_FROM, _TOOLS = ("contact", "models", "fmu_src"), ("numba", "llvmlite", "nu
 _BUILDER = ("library.py", "emit.py")
 #: Libraries that were not used for this time [s] are removed. At most `_MOST` are kept.
 _STALE, _MOST = 30 * 86400.0, 8
-_PREFIX = "wheelrail-contact-"
+PREFIX = "wheelrail-contact-"
 
 
 def address(symbol: str) -> int:
@@ -52,10 +52,14 @@ def _functions() -> Callable[[str], int]:
 
 def _of_library(path: Path) -> Callable[[str], int]:
     library = ctypes.CDLL(str(path))
+    end = ""
+    if hasattr(library, "wr_processor"):  # it has each entry for several processors
+        library.wr_processor.restype = ctypes.c_char_p
+        end = "_" + library.wr_processor().decode()
 
     def find(symbol: str) -> int:
         try:
-            return ctypes.cast(getattr(library, symbol), ctypes.c_void_p).value or 0
+            return ctypes.cast(getattr(library, symbol + end), ctypes.c_void_p).value or 0
         except AttributeError:
             raise ImportError(
                 f"{path} has no function {symbol}: it is the library of another version of wheelrail-contact. "
@@ -84,7 +88,7 @@ _KEPT: list[object] = []
 
 def cached() -> Path:
     """Return the folder of the library of this checkout. Build it if it is not there."""
-    folder = cache_folder() / (_PREFIX + fingerprint())
+    folder = cache_folder() / (PREFIX + fingerprint())
     if (folder / "kernels.o").is_file():
         with contextlib.suppress(OSError):
             os.utime(folder)
@@ -189,7 +193,7 @@ def cache_folder() -> Path:
 def _remove_stale(base: Path) -> None:
     """Remove libraries that were not used for `_STALE` seconds, and all but the `_MOST` latest."""
     kept = sorted(
-        (path for path in base.glob(_PREFIX + "*") if path.is_dir()),
+        (path for path in base.glob(PREFIX + "*") if path.is_dir()),
         key=lambda path: path.stat().st_mtime,
         reverse=True,
     )

@@ -43,7 +43,7 @@ _OF_INTEGERS = {
 }  # fmt: skip
 _COMPARED = {"eq": "==", "ne": "!=", "gt": ">", "ge": ">=", "lt": "<", "le": "<="}
 _OPPOSITE = {"gt": "<=", "ge": "<", "lt": ">=", "le": ">"}
-_CONVERSIONS = {"sitofp", "uitofp", "fptosi", "zext", "sext", "trunc"}
+_CONVERSIONS = {"sitofp", "uitofp", "fptosi", "zext", "sext", "trunc", "inttoptr", "ptrtoint"}
 #: Intrinsics that C has under the same name, or `ir_to_c` defines.
 _INTRINSICS = {
     *("fabs", "sqrt", "exp", "log", "pow", "sin", "cos", "tan", "copysign", "floor", "ceil"),
@@ -163,7 +163,7 @@ class Function:
             kind, value = split_structure(structure)
             ((own, _),) = self._declare(name, split(kind[1:-1])[int(index)])
             return [f"{own} = {self._values(value, kind)[int(index)]};"]
-        if word == "call" and "@llvm.lifetime" in operands:
+        if word == "call" and re.search(r"@llvm\.(?:lifetime|experimental)", operands):
             return []
         if name is None:
             return self._effect(word, operands, label)
@@ -250,6 +250,8 @@ class Function:
         if word == "select":
             condition, yes, no = parts
             return yes.split()[0], f"{self._typed(condition)} ? {self._typed(yes)} : {self._typed(no)}"
+        if word == "load" and (found := re.match(r"atomic i64, (ptr \S+) seq_cst", operands)):
+            return "i64", f"__atomic_load_n((int64_t *){self._pointer(found[1])}, __ATOMIC_SEQ_CST)"
         if word == "load":
             return parts[0], f"load_{suffix_of(parts[0])}({self._pointer(parts[1])})"
         if word == "getelementptr" and len(parts) == 3:
@@ -264,6 +266,9 @@ class Function:
             return kind, self._value(more, kind)
         if word == "call":
             return self._call(operands)
+        if word == "atomicrmw" and (found := re.match(r"(add|xchg) (ptr \S+), (i64 \S+) seq_cst", operands)):
+            function = {"add": "__atomic_fetch_add", "xchg": "__atomic_exchange_n"}[found[1]]
+            return "i64", f"{function}((int64_t *){self._pointer(found[2])}, {self._typed(found[3])}, __ATOMIC_SEQ_CST)"
         raise unknown(f"{word} {operands}")
 
     def _converted(self, word: str, operands: str) -> tuple[str, str]:
@@ -274,6 +279,8 @@ class Function:
         value = self._value(text, source)
         if word in ("uitofp", "zext") and source in TYPES and source != "i1":
             value = f"(u{type_in_c(source)}){value}"
+        if word in ("inttoptr", "ptrtoint"):
+            return target, f"({type_in_c(target)})(intptr_t){value}"
         if word == "sext" and source == "i1":
             value = f"-(int){value}"
         if word == "trunc" and (mask := 1 if target == "i1" else mask_of(target)):

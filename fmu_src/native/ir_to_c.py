@@ -32,8 +32,10 @@ _HEADER = "\n".join(
 _CONSTANT = re.compile(
     rf'({GLOBAL}) = (.*?)\b(?:constant|global) \[(\d+) x (\w+)\](?: (?:c"(.*?)"|\[(.*)\]|(zeroinitializer)))?(?:, align \d+)?$'
 )
-#: An entry of kernels for any processor that is defined elsewhere. The C library's functions have their headers.
-_LINKED = re.compile(r"declare(?:\s+(?:noundef|dso_local|local_unnamed_addr))*\s+(\w+)\s+(@\w+_any)\((.*?)\)")
+#: An entry of kernels for any processor that is defined elsewhere, or a function of the system. The C library's have headers.
+_LINKED = re.compile(
+    r"declare(?:\s+(?:noundef|dso_local|local_unnamed_addr))*\s+(\w+)\s+(@(?:\w+_any|sched_yield))\((.*?)\)"
+)
 #: Type of the elements of a constant → its form for `struct`.
 _PACKED = {"double": "d", "i64": "q", "i32": "i", "i8": "b", "i1": "?"}
 
@@ -58,8 +60,8 @@ def _linked(lines: Sequence[str]) -> Iterator[str]:
     for line in lines:
         if found := _LINKED.match(line):
             result, name, given = found.groups()
-            kinds = (type_in_c(argument.split()[0]) for argument in split(given))
-            yield f"{type_in_c(result)} {identifier(name)}({', '.join(kinds)});"
+            kinds = ", ".join(type_in_c(argument.split()[0]) for argument in split(given))
+            yield f"{type_in_c(result)} {identifier(name)}({kinds or 'void'});"
 
 
 def _constant(line: str) -> str:

@@ -1,6 +1,7 @@
-"""Build the library of all kernels that Python calls: ``python -m fmu_src.native.library FOLDER``.
+"""Build the library of all kernels that Python calls: ``python -m fmu_src.native.library FOLDER [SYSTEM …]``.
 
-It writes kernels.o for this machine and, where there is a linker, the library beside it. This program imports all modules that
+It writes kernels.o for this machine and, where there is a linker, the library beside it. With names of systems (`linking`) it
+writes the libraries of wheels. This program imports all modules that
 have entries (`contact.core.entry`) with the settings of numba that `emit.ENVIRONMENT` lists.
 """
 
@@ -10,12 +11,16 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from importlib import import_module
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
 from fmu_src.native.emit import ENVIRONMENT
+
+_PROCESSOR = Path(__file__).parent / "c_library" / "processor.c"
 
 
 def entries() -> Iterator[Any]:
@@ -105,13 +110,31 @@ def link(folder: Path) -> None:
         subprocess.run(command, check=False, capture_output=True)
 
 
+def build(folder: Path, listed: Iterable[Any], platforms: Sequence[str]) -> None:
+    """Write the library for other systems, each into a folder of its name, and the kernels as C, kernels.c.
+
+    The library has each entry for processors with and without AVX2 (`emit.CPUS`) and says which this one runs. Libraries of
+    `linking.FROM_C` are made from the C.
+    """
+    from fmu_src.native import emit, linking
+
+    module, names = module_of(listed)
+    plain = emit._plain(module.as_bitcode())
+    with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as pool:
+        parts = [pool.submit(emit._write_kernels, plain, names, suffix, folder) for suffix in emit.CPUS]
+        for part in (*parts, pool.submit(emit._write_sources, plain, names, folder / "kernels.c")):
+            part.result()
+    for platform in platforms:
+        of_platform = [] if platform in linking.FROM_C else emit.objects(folder, platform)[1:]
+        sources = [_PROCESSOR, *([folder / "kernels.c"] if platform in linking.FROM_C else [])]
+        linking.link(platform, linking.library_name(platform), sources, of_platform, folder, exports=True)
+
+
 def main() -> None:
-    """Build the library into the folder that the command line names."""
+    """Build the library into the folder that the command line names, for this machine or for the systems that follow."""
     if any(os.environ.get(name) != value for name, value in ENVIRONMENT.items()):
-        os.execve(
-            sys.executable, [sys.executable, "-m", "fmu_src.native.library", *sys.argv[1:]], os.environ | ENVIRONMENT
-        )
-    import time
+        own = os.environ | ENVIRONMENT
+        os.execve(sys.executable, [sys.executable, "-m", "fmu_src.native.library", *sys.argv[1:]], own)
     import warnings
 
     from numba.core.errors import NumbaWarning
@@ -119,16 +142,15 @@ def main() -> None:
     from fmu_src.native.emit import make_no_machine_code
 
     warnings.simplefilter("ignore", NumbaWarning)
-    begin = time.perf_counter()
+    folder, platforms = Path(sys.argv[1]), sys.argv[2:]
     listed = list(entries())
     make_no_machine_code()
+    if platforms:
+        build(folder, listed, platforms)
+        return
     module, _ = module_of(listed)
-    compiled = time.perf_counter()
-    folder = Path(sys.argv[1])
     write_object(module, folder / "kernels.o")
-    optimised = time.perf_counter()
     link(folder)
-    sys.stdout.write(f"{len(listed)} entries: numba {compiled - begin:.0f} s, LLVM {optimised - compiled:.0f} s\n")
 
 
 if __name__ == "__main__":

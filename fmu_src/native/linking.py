@@ -7,8 +7,6 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-import fmpy
-
 from fmu_src.native.emit import OWN_LIBM
 from fmu_src.native.libm import compile_libm
 
@@ -19,7 +17,6 @@ OF_WINDOWS = Path(__file__).parent / "c_windows" / "library.c"
 _RUNTIME = ("convert", "heap", "math", "private", "runtime", "stdio", "string")
 #: Linker options: the libraries of Windows and not zig's start-up code for it, which takes a minute to build; no time stamp.
 WITHOUT_MINGW = ("-nostdlib", "-Wl,-Brepro", "-lkernel32", *(f"-lapi-ms-win-crt-{part}-l1-1-0" for part in _RUNTIME))
-HEADERS = Path(fmpy.__file__).parent / "c-code"  # headers of the FMI project (2-clause BSD licence)
 #: -ffp-contract=off: fused operations would make the results differ between processors.
 FLAGS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-Wall", "-Wextra", "-fPIC")
 #: Platform → target of zig, and the end of a library's name.
@@ -34,21 +31,39 @@ _TARGETS = {
 FROM_C = ("aarch64-linux", "aarch64-darwin")
 
 
-def link(platform: str, name: str, sources: Sequence[Path], objects: Sequence[Path], folder: Path) -> Path:
-    """Compile the C files among `sources`, link them with `objects` and return the path of the library in `folder`."""
+def link(
+    platform: str, name: str, sources: Sequence[Path], objects: Sequence[Path], folder: Path, *, exports: bool = False
+) -> Path:
+    """Compile the C files among `sources`, link them with `objects` and return the path of the library in `folder`.
+
+    With `exports` all functions can be called from outside, else only those that the sources mark.
+    """
     target, ending = _TARGETS[platform]
-    library = folder / platform / (name + ending)
+    library = folder / platform / (name if name.endswith(ending) else name + ending)
     library.parent.mkdir(exist_ok=True)
     made = compile_libm(compiler(platform), library.parent, run) if platform in OWN_LIBM else []
-    include = [f"-I{path}" for path in (*sorted({path.parent for path in sources}), HEADERS)]
+    include = [f"-I{path}" for path in sorted({path.parent for path in sources})]
+    if not exports:  # an FMU
+        from fmu_src.native.headers import HEADERS
+
+        include.append(f"-I{HEADERS}")
     own = [OF_WINDOWS] if "windows" in target else []
     for path in (*(path for path in sources if path.suffix == ".c"), *own):
         made.append(library.parent / f"{path.stem}.o")
-        run(*compiler(platform), *FLAGS, "-Wno-unused-parameter", *include, "-c", path, "-o", made[-1])
+        flags = [flag for flag in FLAGS if not (exports and flag == "-fvisibility=hidden")]
+        run(*compiler(platform), *flags, "-Wno-unused-parameter", *include, "-c", path, "-o", made[-1])
     # names without a folder, because a macOS library has a trace of them
     names, options = [path.name for path in made], _of_system(target, library.name)
+    if exports and "windows" in target:
+        options = [*options, "-Wl,--export-all-symbols"]
     run(*compiler(platform), "-shared", "-s", *names, *objects, "-o", library, *options, cwd=library.parent)
     return library
+
+
+def library_name(platform: str) -> str:
+    """Return the file name of the library of kernels for a platform."""
+    ending = _TARGETS[platform][1]
+    return ("" if ending == ".dll" else "lib") + "wheelrail" + ending
 
 
 def _of_system(target: str, name: str) -> list[str]:

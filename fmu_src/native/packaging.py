@@ -21,8 +21,9 @@ from fmu_src.documentation import markdown, page
 from fmu_src.icon import png
 from fmu_src.native import source
 from fmu_src.native.emit import TRIPLES, objects, sources
+from fmu_src.native.headers import HEADERS
 from fmu_src.native.licences import licences
-from fmu_src.native.linking import FROM_C, HEADERS, WRAPPER, link, run
+from fmu_src.native.linking import FROM_C, WRAPPER, link, run
 from fmu_src.terminals import terminals
 from models import vehicle, wheelset
 from models.vehicle.declared import find

@@ -10,7 +10,8 @@ import pytest
 from contact_case import NAME
 
 from fmu_src.native import source
-from fmu_src.native.linking import FLAGS, HEADERS, WRAPPER, compiler, run
+from fmu_src.native.headers import HEADERS
+from fmu_src.native.linking import FLAGS, WRAPPER, compiler, run
 from fmu_src.native.wheel_rail_contact import component
 from models.wheelset.ports import POINTS
 from reference.native import ATTACKED, ROLES, SANITIZED, kernel_library, kernel_objects, sanitized

@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from script_host import Script
 
-from fmu_src.native.linking import FROM_C, HEADERS, compiler, link, run
+from fmu_src.native.headers import HEADERS
+from fmu_src.native.linking import FROM_C, compiler, link, run
 from reference.native import HOST
 
 FLAGS = ("-std=c11", "-O1", "-ffp-contract=off", "-Wall", "-Wno-unused-parameter", "-fno-sanitize=undefined")

@@ -14,7 +14,7 @@
 /* Kernels as objects are for two kinds of x86-64 processors. Kernels in C are for any processor. */
 #if !defined(KERNELS_IN_C) && (defined(__x86_64__) || defined(_M_X64))
 #define HAS_TWO_KERNELS
-#include <cpuid.h>
+#include "processor.h"
 #endif
 
 static const struct {
@@ -120,19 +120,7 @@ static void restart(Instance *instance)
 ENTRIES(v2)
 ENTRIES(v3)
 
-/* x86-64-v3 requires AVX2, FMA, BMI, LZCNT, MOVBE and F16C of the processor, and a system that saves the wide registers.
- * __builtin_cpu_supports is not used, since it needs a variable that the library would have to write. */
-static const Model *model_for_this_processor(void)
-{
-    const unsigned leaf1 = bit_FMA | bit_MOVBE | bit_OSXSAVE | bit_AVX | bit_F16C, leaf7 = bit_AVX2 | bit_BMI | bit_BMI2;
-    const unsigned lzcnt = 1u << 5, wide_registers = 6;
-    unsigned a, b, c, d, saved, high;
-    if (!__get_cpuid(1, &a, &b, &c, &d) || (c & leaf1) != leaf1) return &model_v2;
-    if (!__get_cpuid_count(7, 0, &a, &b, &c, &d) || (b & leaf7) != leaf7) return &model_v2;
-    if (!__get_cpuid(0x80000001, &a, &b, &c, &d) || !(c & lzcnt)) return &model_v2;
-    __asm__("xgetbv" : "=a"(saved), "=d"(high) : "c"(0));
-    return (saved & wide_registers) == wide_registers ? &model_v3 : &model_v2;
-}
+static const Model *model_for_this_processor(void) { return has_x86_64_v3() ? &model_v3 : &model_v2; }
 #else
 ENTRIES(any)
 static const Model *model_for_this_processor(void) { return &model_any; }

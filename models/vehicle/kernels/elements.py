@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 
 from contact.core import kernel
+from models.vehicle.kernels.frames import member
 from models.vehicle.kernels.layout import Axis, Frame, Kind
 
 
@@ -150,8 +151,9 @@ def pull(model, state, h, scratch):
                 f[2] + k[2] * d[2] + c[2] * rate[2],
             )
             for j in range(3):
-                power[0] += c[j] * rate[j] * rate[j]
-                power[2] += (f[j] + 0.5 * k[j] * d[j]) * d[j]
+                rate_j, d_j = member(rate, j), member(d, j)
+                power[0] += c[j] * rate_j * rate_j
+                power[2] += (f[j] + 0.5 * k[j] * d_j) * d_j
             if element.turning[0] + element.turning[1] + element.turning[2] > 0.0:
                 _turn(element, link, frames, q, forces, power)
         pulled = _turned(q[a], bodies[a], force)
@@ -185,5 +187,5 @@ def _turn(element, link, frames, q, forces, power):
     power[2] += 0.5 * (moment[0] * roll + moment[1] * pitch + moment[2] * yaw)
     back = _into_b(turn, moment)
     for j in range(3):
-        forces[a, Axis.ROLL + j] += moment[j]
-        forces[b, Axis.ROLL + j] -= back[j]
+        forces[a, Axis.ROLL + j] += member(moment, j)
+        forces[b, Axis.ROLL + j] -= member(back, j)

@@ -10,6 +10,14 @@ from models.vehicle.kernels.layout import Axis, Body, Frame, Model, Row
 
 
 @kernel
+def member(v, j):
+    """Return v[j] of three numbers. An index that varies into a tuple could raise an exception."""
+    if j == 0:
+        return v[0]
+    return v[1] if j == 1 else v[2]
+
+
+@kernel
 def place_on(track, spacing, s):
     """Return the number of the place before `s` [m] and the distance from it [m]. Beyond the ends the last interval counts."""
     n = track.shape[1]
@@ -95,7 +103,7 @@ def drift(frames, bodies, q, u, speed, h):
         )
         for j in range(6):
             if body.held[j] == 0 and not (body.wheelset != 0 and j == Axis.PITCH):
-                q[i, j] += h * (u[i, j] - before[j])
+                q[i, j] += h * (u[i, j] - (member(before[:3], j) if j < 3 else member(before[3:], j - 3)))
 
 
 @kernel
