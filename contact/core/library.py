@@ -29,7 +29,7 @@ INSTALLED = _HERE / "library" / NAME
 #: Folders of a checkout that the library is made from, and the packages that compile it.
 _MADE_FROM, _TOOLS = ("contact", "models", "fmu_src"), ("numba", "llvmlite", "numpy")
 #: Programs in `fmu_src.native` that build it.
-_BUILDER = ("library.py", "emit.py")
+_BUILDER = ("library.py", "emit.py", "c_header.py", "ir_to_c.py", "ir_function.py", "linking.py")
 #: Libraries that were not used for this time [s] are removed. At most `_MOST` are kept.
 _STALE, _MOST = 30 * 86400.0, 8
 PREFIX = "wheelrail-contact-"
@@ -152,7 +152,8 @@ def _run(folder: Path) -> None:
     if shows:
         sys.stderr.write("\r\033[K")
     if process.returncode:
-        raise ImportError(f"the library of wheelrail-contact could not be built:\n{output}")
+        tail = "\n".join(output.splitlines()[-12:])
+        raise ImportError(f"the library of wheelrail-contact could not be built:\n{tail}")
 
 
 @cache
@@ -168,10 +169,11 @@ def fingerprint() -> str:
 
 
 def sources() -> list[Path]:
-    """Return the sources of the library: all files with kernels, and the builder."""
+    """Return the sources of the library: all files with kernels, the C interface and the builder."""
     files = [path for name in _MADE_FROM for path in (_ROOT / name).rglob("*.py") if _has_kernels(path)]
     builder = [*(_HERE / "core").glob("*.py"), *(_ROOT / "fmu_src" / "native" / name for name in _BUILDER)]
-    return sorted({*files, *builder, *(_HERE / "kernels").rglob("*.py")})
+    in_c = [path for name in ("c", "include") for path in (_HERE / name).iterdir()]
+    return sorted({*files, *builder, *in_c, *(_HERE / "kernels").rglob("*.py")})
 
 
 def _has_kernels(path: Path) -> bool:

@@ -33,7 +33,7 @@ from contact.geometry.shape import Profile
 from contact.kernels.arrays import Search
 from contact.kernels.geometry.prepare import facing, move, rail_origin, take_nodes
 from contact.kernels.geometry.settle import first_touch, settle
-from contact.kernels.records import MAX_PATCHES
+from contact.kernels.records import MAX_PATCHES, TAPE_FROM_FLANGE_BACK
 from contact.kernels.rows import Curve
 from contact.material import STEEL, Material
 from contact.separation import Separation
@@ -42,7 +42,6 @@ __all__ = ["Irregularity", "Pair", "Patch", "Pose", "Velocity", "contacts"]
 
 Array = NDArray[np.float64]
 
-TAPE_FROM_FLANGE_BACK = 0.070  # [m] EN 13715: the tape circle lies 70 mm outside the back of the flange
 SAMPLES = 81
 
 

@@ -23,6 +23,9 @@ SLOWEST = 1e-3
 #: Largest roll and yaw of a wheelset, and largest roll of a rail [rad], for which the search is designed.
 LARGEST_ANGLE, LARGEST_RAIL_ROLL = 0.1, 0.05
 
+#: Distance of the tape circle from the back of the flange [m] (EN 13715).
+TAPE_FROM_FLANGE_BACK = 0.070
+
 #: Record → member → meaning. `fmu_src.native.records` makes the C header from it.
 MEANING: dict[str, dict[str, str]] = {}
 

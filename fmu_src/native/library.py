@@ -21,6 +21,7 @@ from typing import Any
 from fmu_src.native.emit import ENVIRONMENT
 
 _PROCESSOR = Path(__file__).parent / "c_library" / "processor.c"
+_INTERFACE = Path(__file__).parents[2] / "contact" / "c" / "wheelrail.c"
 
 
 def entries() -> Iterator[Any]:
@@ -101,16 +102,17 @@ def write_object(module: Any, path: Path) -> None:
 
 
 def link(folder: Path) -> None:
-    """Link the library with the system's compiler if there is one."""
+    """Link the library, with its C interface, by the system's compiler if there is one."""
     from contact.core.library import NAME
 
     compiler = next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
     if compiler is not None:
-        command = [compiler, "-shared", "-o", str(folder / NAME), str(folder / "kernels.o"), "-lm"]
+        flags = ("-shared", "-fPIC", "-O2", "-ffp-contract=off", "-fvisibility=hidden", f"-I{folder}")
+        command = [compiler, *flags, "-o", str(folder / NAME), *map(str, (_INTERFACE, folder / "kernels.o")), "-lm"]
         subprocess.run(command, check=False, capture_output=True)
 
 
-def build(folder: Path, listed: Iterable[Any], platforms: Sequence[str]) -> None:
+def build(folder: Path, listed: Iterable[Any], data: Sequence[Any], platforms: Sequence[str]) -> None:
     """Write the library for other systems, each into a folder of its name, and the kernels as C, kernels.c.
 
     The library has each entry for processors with and without AVX2 (`emit.CPUS`) and says which this one runs. Libraries of
@@ -120,14 +122,18 @@ def build(folder: Path, listed: Iterable[Any], platforms: Sequence[str]) -> None
 
     module, names = module_of(listed)
     plain = emit._plain(module.as_bitcode())
+    text = emit.data_as_ir(data, "wr")
     with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as pool:
         parts = [pool.submit(emit._write_kernels, plain, names, suffix, folder) for suffix in emit.CPUS]
-        for part in (*parts, pool.submit(emit._write_sources, plain, names, folder / "kernels.c")):
+        parts.append(pool.submit(emit._write_sources, plain, names, folder / "kernels.c"))
+        for part in (*parts, pool.submit(emit._write_data, text, folder, folder / "data.c")):
             part.result()
     for platform in platforms:
-        of_platform = [] if platform in linking.FROM_C else emit.objects(folder, platform)[1:]
-        sources = [_PROCESSOR, *([folder / "kernels.c"] if platform in linking.FROM_C else [])]
-        linking.link(platform, linking.library_name(platform), sources, of_platform, folder, exports=True)
+        in_c = platform in linking.FROM_C
+        sources = [_PROCESSOR, _INTERFACE, *((folder / "kernels.c", folder / "data.c") if in_c else ())]
+        flags = (f"-I{folder}", "-DWR_ANY_VERSION" if in_c else "-DWR_TWO_VERSIONS")
+        of_platform = [] if in_c else emit.objects(folder, platform)
+        linking.link(platform, linking.library_name(platform), sources, of_platform, folder, exports=flags)
 
 
 def main() -> None:
@@ -137,18 +143,22 @@ def main() -> None:
         os.execve(sys.executable, [sys.executable, "-m", "fmu_src.native.library", *sys.argv[1:]], own)
     import warnings
 
+    from llvmlite import binding as llvm
     from numba.core.errors import NumbaWarning
 
-    from fmu_src.native.emit import make_no_machine_code
+    from fmu_src.native import c_header
+    from fmu_src.native.emit import data_as_ir, make_no_machine_code
 
     warnings.simplefilter("ignore", NumbaWarning)
     folder, platforms = Path(sys.argv[1]), sys.argv[2:]
-    listed = list(entries())
+    listed, data = list(entries()), c_header.tables()
+    (folder / "wheelrail_build.h").write_text(c_header.header(data), encoding="utf-8")
     make_no_machine_code()
     if platforms:
-        build(folder, listed, platforms)
+        build(folder, listed, data, platforms)
         return
     module, _ = module_of(listed)
+    module.link_in(llvm.parse_assembly(data_as_ir(data, "wr")))
     write_object(module, folder / "kernels.o")
     link(folder)
 

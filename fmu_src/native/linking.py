@@ -32,11 +32,17 @@ FROM_C = ("aarch64-linux", "aarch64-darwin")
 
 
 def link(
-    platform: str, name: str, sources: Sequence[Path], objects: Sequence[Path], folder: Path, *, exports: bool = False
+    platform: str,
+    name: str,
+    sources: Sequence[Path],
+    objects: Sequence[Path],
+    folder: Path,
+    *,
+    exports: Sequence[str] = (),
 ) -> Path:
     """Compile the C files among `sources`, link them with `objects` and return the path of the library in `folder`.
 
-    With `exports` all functions can be called from outside, else only those that the sources mark.
+    `exports` are flags of a library of which all functions can be called from outside, not only those that are marked.
     """
     target, ending = _TARGETS[platform]
     library = folder / platform / (name if name.endswith(ending) else name + ending)
@@ -51,7 +57,7 @@ def link(
     for path in (*(path for path in sources if path.suffix == ".c"), *own):
         made.append(library.parent / f"{path.stem}.o")
         flags = [flag for flag in FLAGS if not (exports and flag == "-fvisibility=hidden")]
-        run(*compiler(platform), *flags, "-Wno-unused-parameter", *include, "-c", path, "-o", made[-1])
+        run(*compiler(platform), *flags, *exports, "-Wno-unused-parameter", *include, "-c", path, "-o", made[-1])
     # names without a folder, because a macOS library has a trace of them
     names, options = [path.name for path in made], _of_system(target, library.name)
     if exports and "windows" in target:

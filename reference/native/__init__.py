@@ -14,7 +14,8 @@ from contact.solver import N_ELEMENTS, N_STRIPS
 from fmu_src.catalogue import models, vehicles
 from fmu_src.native import source
 from fmu_src.native.component import Component
-from fmu_src.native.linking import HEADERS, OF_WINDOWS, WITHOUT_MINGW, compiler, run
+from fmu_src.native.headers import HEADERS
+from fmu_src.native.linking import OF_WINDOWS, WITHOUT_MINGW, compiler, run
 from fmu_src.native.packaging import kernels
 from fmu_src.native.wheel_rail_contact import component
 from models.wheelset.ports import POINTS

@@ -24,7 +24,8 @@ ROOT = Path(contact.__file__).parents[1]
 USE_ALL = """
 import json, sys
 import contact
-from contact.geometry import Irregularity, Pose, Velocity, profile
+from contact.geometry import profile
+from contact.geometry.records import Pose, Velocity
 from contact.geometry.wheelset import Pair
 from contact.pair import WheelRailPair
 separation, creepage = contact.Separation.hertzian(1.1, 0.8), contact.Creepage(1e-3, 5e-4, 0.2)

@@ -241,7 +241,7 @@ def test_integers_of_a_width_that_c_has_not(tmp_path):
     [
         "%r = fadd <2 x double> zeroinitializer, zeroinitializer",
         "%r = call double @llvm.fma.f64(double %a, double %a, double %b)",
-        "%r = atomicrmw add ptr %p, i64 1 seq_cst",
+        "%r = atomicrmw and ptr %p, i64 1 seq_cst",
         "fence seq_cst",
     ],
 )

@@ -11,7 +11,8 @@ from contact.kernels import records as defined
 from contact.kernels.enumerations import LoadKind
 from fmu_src.catalogue import models
 from fmu_src.native import records, source
-from fmu_src.native.linking import HEADERS, WRAPPER, compiler, run
+from fmu_src.native.headers import HEADERS
+from fmu_src.native.linking import WRAPPER, compiler, run
 from models.wheelset.ports import POINTS
 
 STRICT = ("-std=c11", "-Wall", "-Wextra", "-Werror", "-c")
