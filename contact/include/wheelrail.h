@@ -173,7 +173,7 @@ WR_API int wr_pair_init(const wr_pair_options *options, const wr_profile *wheel,
 WR_API int wr_pair_input_default(const wr_pair_options *options, double mu, double speed, double load,
                                  wr_pair_input *input);
 WR_API int wr_pair_solve(void *memory, const wr_pair_input *input, wr_pair_answer *answer);
-/* Also books the damage of the last answer. */
+/* Also books the damage of the last answer, once.  Call wr_pair_patch before it. */
 WR_API int wr_pair_accept(void *memory);
 /* The bins stay. */
 WR_API int wr_pair_forget(void *memory);

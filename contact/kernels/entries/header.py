@@ -14,6 +14,7 @@ import numpy as np
 
 from contact.damage import DamageParameters
 from contact.friction import as_friction
+from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels import records
 from contact.kernels.enumerations import FrictionLaw, Height, LoadKind, SlipVelocity, Status, WearLaw
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
@@ -105,6 +106,7 @@ def _constants() -> str:
         **{f"WR_STRIP_{Strip(row).name}": int(row) for row in (Strip.Y, Strip.DY, Strip.PATCH, Strip.A, Strip.P0)},
         **{f"WR_FIELD_{row.name}": int(row) for row in Field},
         "WR_DEFAULT_ITERATIONS": MAX_ITERATIONS,
+        "WR_TAPE_FROM_FLANGE_BACK": TAPE_FROM_FLANGE_BACK,
         "WR_STEEL_SHEAR_MODULUS": repr(STEEL.shear_modulus),
         "WR_STEEL_POISSON_RATIO": repr(STEEL.poisson_ratio),
         "WR_STEEL_HARDNESS": repr(STEEL.hardness),

@@ -46,6 +46,20 @@ def lay_out(work, end, kept, size, constants):
 
 
 @compiled
+def copy(source, to):
+    """Copy a vector. An assignment of arrays would check their shapes and raise an exception."""
+    for i in range(to.size):
+        to[i] = source[i]
+
+
+@compiled
+def copy_rows(source, to):
+    """Copy a matrix."""
+    for i in range(to.shape[0]):
+        copy(source[i], to[i])
+
+
+@compiled
 def forget_forged(kept):
     """Forget a warm start that says more panels than there can be, which a host can write there."""
     if kept.size > 0 and not 0.0 <= kept[0] <= MAX_PATCHES:

@@ -15,7 +15,7 @@ from numba import carray
 
 from contact.kernels import block, memory, quadrature
 from contact.kernels.damage.deposit import arc_length
-from contact.kernels.entries.layout import compiled, fill, forget_forged, lay_out, size_of
+from contact.kernels.entries.layout import compiled, copy, copy_rows, fill, forget_forged, lay_out, size_of
 from contact.kernels.enumerations import Height
 from contact.kernels.flexible import solve_flexible
 from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes
@@ -67,6 +67,20 @@ def _lay(sizes, work, constants):
     return _Start(kept, trial, spare, kept_bins, bins, wheel, rail), bench, at_strips, at_bins, end
 
 
+@compiled
+def _copy_bins(source, to):
+    copy_rows(source[0], to[0])
+    copy_rows(source[1], to[1])
+
+
+@compiled
+def _clear_bins(bins):
+    for body in range(bins.shape[0]):
+        for row in range(bins.shape[1]):
+            for i in range(bins.shape[2]):
+                bins[body, row, i] = 0.0
+
+
 def pair_size(sizes, given):
     """Return the size of `work` in float64."""
     return _lay(sizes, sizes, given.data)[4]
@@ -101,8 +115,12 @@ def pair_init(sizes, work, wheel, rail, motion, case, parameters, gauge, gauge_p
     if deepest < gauge_point:
         return 1
     a, bench, _, _, _ = _lay(sizes, work, given.data)
-    a.kept[:], a.trial[:], a.kept_bins[:], a.bins[:] = 0.0, 0.0, 0.0, 0.0
-    a.wheel[:], a.rail[:] = whole_wheel, whole_rail
+    a.kept[:] = 0.0
+    a.trial[:] = 0.0
+    _clear_bins(a.kept_bins)
+    _clear_bins(a.bins)
+    copy_rows(whole_wheel, a.wheel)
+    copy_rows(whole_rail, a.rail)
     search, ledger = bench.search, bench.ledger
     low, high = facing(whole_wheel, True)
     take_nodes(whole_wheel, low, high, search.wheel)
@@ -131,7 +149,8 @@ def pair_solve(
     """Solve at one instant from the kept start, or with `cold` from nothing. Return the number of patches or `NoAnswer`."""
     a, bench, _, _, _ = _lay(sizes, work, given.data)
     piece = memory.memory_size(size_of(sizes))
-    a.trial[:], a.bins[:] = a.kept, a.kept_bins
+    copy(a.kept, a.trial)
+    _copy_bins(a.kept_bins, a.bins)
     if cold != 0:
         a.trial[:] = 0.0
     for k in range(MAX_PATCHES):
@@ -157,14 +176,16 @@ def pair_solve(
 def pair_accept(sizes, work, given):
     """Make what the last solution has left the start of the following ones, and keep its bins."""
     a, _, _, _, _ = _lay(sizes, work, given.data)
-    a.kept[:], a.kept_bins[:] = a.trial, a.bins
+    copy(a.trial, a.kept)
+    _copy_bins(a.bins, a.kept_bins)
     return 0
 
 
 def pair_forget(sizes, work, given):
     """Let the following solutions start from nothing. The bins stay."""
     a, _, _, _, _ = _lay(sizes, work, given.data)
-    a.kept[:], a.trial[:], a.bins[:] = 0.0, 0.0, a.kept_bins
+    a.kept[:] = 0.0
+    a.trial[:] = 0.0
     return 0
 
 
@@ -176,9 +197,9 @@ def pair_patch(sizes, work, k, mode, result, given):
     a, bench, _, _, _ = _lay(sizes, work, given.data)
     piece = memory.memory_size(size_of(sizes))
     of_patch = a.trial[1 + k * piece : 1 + (k + 1) * piece]
-    a.spare[:] = of_patch
+    copy(of_patch, a.spare)
     n = solve_patch(k, mode == Height.LOAD, bench)
-    of_patch[:] = a.spare
+    copy(a.spare, of_patch)
     results, _ = block.records(result, 0, 1, RESULT)
     results[0] = bench.result[0]
     return n

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from contact.kernels import block, memory
 from contact.kernels.arrays import Samples, Workspace
 from contact.kernels.damage.assess import damage_kernel
-from contact.kernels.entries.layout import compiled, fill, forget_forged, lay_out, size_of
+from contact.kernels.entries.layout import compiled, copy, fill, forget_forged, lay_out, size_of
 from contact.kernels.pipeline import solve_case
 from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, MAX_PATCHES, RESULT
 from contact.kernels.rows import DamageField
@@ -60,7 +60,7 @@ def contact_solve(sizes, work, cold, n, y, g, A, x_c, tilt, case, result, given)
     """Solve one case from the kept start, or with `cold` from nothing. Return the number of strips."""
     a, _, _ = _lay(sizes, work, given.data)
     trial = a.own.space.memory
-    trial[:] = a.kept
+    copy(a.kept, trial)
     forget_forged(trial)
     if cold != 0:
         trial[0] = 0.0
@@ -79,7 +79,7 @@ def contact_solve(sizes, work, cold, n, y, g, A, x_c, tilt, case, result, given)
 def contact_accept(sizes, work, given):
     """Make what the last solution has left the start of the following ones."""
     a, _, _ = _lay(sizes, work, given.data)
-    a.kept[:] = a.own.space.memory
+    copy(a.own.space.memory, a.kept)
     return 0
 
 
