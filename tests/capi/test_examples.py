@@ -33,7 +33,20 @@ def forces(text):
 def in_c(built, tmp_path_factory):
     folder = tmp_path_factory.mktemp("c")
     source = EXAMPLES / "c/wheel_on_rail.c"
-    run("gcc", "-Wall", "-Wextra", source, INCLUDE, f"-L{built}", "-lwheelrail", "-lm", "-o", "main", cwd=folder, library=built)
+    run(
+        "gcc",
+        "-Wall",
+        "-Wextra",
+        source,
+        INCLUDE,
+        f"-L{built}",
+        "-lwheelrail",
+        "-lm",
+        "-o",
+        "main",
+        cwd=folder,
+        library=built,
+    )
     return forces(run("./main", cwd=folder, library=built))
 
 
@@ -45,7 +58,9 @@ def test_fortran_gets_the_forces_of_c(in_c, built, tmp_path):
     need("gfortran")
     run("gcc", "-c", EXAMPLES / "fortran/wheelrail_simple.c", INCLUDE, cwd=tmp_path, library=built)
     source = EXAMPLES / "fortran/wheel_on_rail.f90"
-    run("gfortran", source, "wheelrail_simple.o", f"-L{built}", "-lwheelrail", "-o", "main", cwd=tmp_path, library=built)
+    run(
+        "gfortran", source, "wheelrail_simple.o", f"-L{built}", "-lwheelrail", "-o", "main", cwd=tmp_path, library=built
+    )
     assert forces(run("./main", cwd=tmp_path, library=built)) == pytest.approx(in_c, abs=2e-3)
 
 
@@ -54,7 +69,9 @@ def test_octave_gets_the_forces_of_c(in_c, built, tmp_path):
     source = EXAMPLES / "octave/wheel_on_rail.c"
     run("mkoctfile", "--mex", INCLUDE, source, f"-L{built}", "-lwheelrail", cwd=tmp_path, library=built)
     shutil.copy(EXAMPLES / "octave/example.m", tmp_path)
-    assert forces(run("octave", "--no-gui", "-q", "example.m", cwd=tmp_path, library=built)) == pytest.approx(in_c, abs=2e-3)
+    assert forces(run("octave", "--no-gui", "-q", "example.m", cwd=tmp_path, library=built)) == pytest.approx(
+        in_c, abs=2e-3
+    )
 
 
 def test_an_attacking_host_is_refused_everywhere(built, tmp_path):

@@ -86,7 +86,9 @@ def _methods() -> str:
             f'    X({int(m.id)}, "{name}", {int(m.family)}, {int(m.interacting)}, {int(m.fields)})'
             for name, m in known.items()
         )
-        kinds.append(f"/* X(number, name, family, strips interact, has fields) */\n#define {prefix}_METHODS(X) \\\n{rows}")
+        kinds.append(
+            f"/* X(number, name, family, strips interact, has fields) */\n#define {prefix}_METHODS(X) \\\n{rows}"
+        )
     return "\n\n".join(kinds)
 
 
