@@ -83,7 +83,7 @@ def main() -> None:
     folder.mkdir(parents=True, exist_ok=True)
     if "--keep" not in sys.argv:
         _make_objects(folder)
-    print(link(folder))
+    sys.stdout.write(f"{link(folder)}\n")
 
 
 if __name__ == "__main__":

@@ -128,7 +128,8 @@ def _damage_defaults() -> str:
         value = made[name]
         values.append("{" + ", ".join(repr(float(v)) for v in value) + "}" if value.shape else repr(value.item()))
     text = ", \\\n    ".join(values)
-    return f"/* Damage constants of `contact.damage.DamageParameters()` for steel. */\n#define WR_DAMAGE_DEFAULTS {{ \\\n    {text} }}"
+    about = "/* Damage constants of `contact.damage.DamageParameters()` for steel. */"
+    return f"{about}\n#define WR_DAMAGE_DEFAULTS {{ \\\n    {text} }}"
 
 
 def _surface_defaults() -> str:
