@@ -1,0 +1,599 @@
+/* wheelrail.h on top of the compiled entries of contact/kernels/entries: check arguments, then call.
+ *
+ * The entries get valid input only.  Nothing here has state, allocates or prints. */
+#define WR_BUILD
+#include "wheelrail.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "wheelrail_entries.h"
+
+/* ---------------------------------------------------------------- processors */
+
+static int is_wide(void) {
+#if defined(__x86_64__)
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+#else
+    return 0;
+#endif
+}
+
+#define CALL(entry, ...) (is_wide() ? wrk_##entry##_v3(__VA_ARGS__, NULL) : wrk_##entry##_v2(__VA_ARGS__, NULL))
+
+/* ---------------------------------------------------------------- codes: -(100 * argument + reason) */
+
+#define REASONS(X)                                                                                               \
+    X(IS_NULL, "the pointer is NULL")                                                                            \
+    X(NOT_FINITE, "a number is NaN or infinite")                                                                 \
+    X(RANGE, "a number is outside its allowed range")                                                            \
+    X(STRUCT, "the first member is not the size of the struct; call its ..._default function, or compile with "  \
+              "the header of this library")                                                                      \
+    X(NO_SOLVER, "the memory holds no such solver: it was not initialised, or it was overwritten")               \
+    X(SMALL, "the memory or the array is smaller than needed")                                                   \
+    X(ALIGNED, "the address is not a multiple of 8")                                                             \
+    X(NO_ANSWER, "there is no answer yet: call solve first")                                                     \
+    X(ORDER, "the values do not increase")                                                                       \
+    X(DIFFERS, "the value differs from that of the options with which the memory was initialised")               \
+    X(COINCIDE, "two neighbouring points coincide")                                                              \
+    X(STEEP, "the profile is too steep at the tape circle or at its top: too few points can touch")              \
+    X(GAUGE, "the rail does not reach as deep as the gauge point")                                               \
+    X(NO_OVERLAP, "wheel and rail do not lie above each other")                                                  \
+    X(NOT_SETTLED, "no height was found at which the wheel carries this force")                                  \
+    X(TOO_DEEP, "the wheel lies far inside the rail")                                                            \
+    X(TURNED, "wheelset and offset together turn the wheel too far")                                             \
+    X(ENDLESS, "the damage has no finite value")                                                                 \
+    X(PLANE, "this tangential method is only for a plane contact")
+
+enum { R_NONE,
+#define X(name, text) R_##name,
+       REASONS(X)
+#undef X
+       R_END };
+
+#define ARGUMENTS(X)                                                                                                 \
+    X(memory, "memory") X(bytes, "bytes") X(options, "options") X(result, "result") X(separation, "separation")      \
+    X(n, "n") X(sep_n, "separation.n") X(sep_y, "separation.y") X(sep_g, "separation.g") X(sep_A, "separation.A")    \
+    X(sep_x_c, "separation.x_c") X(sep_tilt, "separation.tilt") X(problem, "case") X(jacobian, "jacobian")           \
+    X(fields, "fields") X(parameters, "parameters") X(damage, "damage") X(n_separations, "n_separations")            \
+    X(which, "which") X(cases, "cases") X(results, "results") X(size, "size") X(wheel, "wheel") X(rail, "rail")      \
+    X(n_wheel, "n_wheel") X(n_rail, "n_rail") X(wheel_y, "wheel.y") X(wheel_z, "wheel.z")                            \
+    X(wheel_angle, "wheel.angle") X(rail_y, "rail.y") X(rail_z, "rail.z") X(rail_angle, "rail.angle")                \
+    X(input, "input") X(answer, "answer") X(k, "k") X(bins, "bins") X(count, "count") X(mu, "mu")                    \
+    X(speed, "speed") X(load, "load")                                                                                \
+    X(normal, "options.normal") X(tangential, "options.tangential") X(n_strips, "options.n_strips")                  \
+    X(n_elements, "options.n_elements") X(n_samples, "options.n_samples")                                            \
+    X(max_iterations, "options.max_iterations") X(conformal, "options.conformal")                                    \
+    X(shear_modulus, "options.shear_modulus") X(poisson_ratio, "options.poisson_ratio")                              \
+    X(pressure_limit, "options.pressure_limit") X(side, "options.side") X(most_patches, "options.most_patches")      \
+    X(wheel_radius, "options.wheel_radius") X(gauge, "options.gauge") X(flange_back, "options.flange_back")          \
+    X(gauge_point, "options.gauge_point") X(combine_distance, "options.combine_distance")                            \
+    X(combine_angle, "options.combine_angle") X(n_bins, "options.n_bins") X(bin_start, "options.bin_start")          \
+    X(bin_width, "options.bin_width") X(height, "input.height") X(amount, "input.amount")                            \
+    X(distance, "input.distance") X(motion, "input.motion") X(offset, "input.offset") X(springs, "input.rail")       \
+    X(p_speed, "parameters.speed") X(p_radius, "parameters.wheel_radius") X(p_hardness, "parameters.hardness")       \
+    X(p_yield, "parameters.shear_yield") X(p_spin, "parameters.with_spin") X(p_law, "parameters.wear_law")           \
+    X(p_constants, "parameters: constants of a law")                                                                 \
+    X(n_strips_most, "fields.n_strips_most")                                                                         \
+    X(c_load_kind, "case.load_kind") X(c_amount, "case.amount") X(c_normal, "case.normal")                           \
+    X(c_normal_family, "case.normal_family") X(c_tangential, "case.tangential")                                      \
+    X(c_tangential_family, "case.tangential_family") X(c_vx, "case.vx") X(c_vy, "case.vy") X(c_phi, "case.phi")      \
+    X(c_speed, "case.speed") X(c_G, "case.G") X(c_nu, "case.nu") X(c_pressure_limit, "case.pressure_limit")          \
+    X(c_max_iterations, "case.max_iterations") X(c_mu, "case.mu") X(c_law, "case.law")                               \
+    X(c_kinetic, "case.kinetic") X(c_half_speed, "case.half_speed") X(c_velocity, "case.velocity")                   \
+    X(c_slope, "case.slope") X(c_slope_far, "case.slope_far") X(c_slope_rate, "case.slope_rate")                     \
+    X(c_gauge_factor, "case.gauge_factor") X(c_border, "case.border") X(c_border_width, "case.border_width")         \
+    X(c_k_A, "case.k_A") X(c_k_S, "case.k_S") X(c_drop, "case.drop") X(c_warm, "case.warm")                          \
+    X(c_warm_range, "case.warm_range") X(c_heating, "case.heating") X(c_conformal, "case.conformal")                 \
+    X(c_rolling, "case.rolling")
+
+enum { A_none,
+#define X(name, text) A_##name,
+       ARGUMENTS(X)
+#undef X
+       A_end };
+
+static int bad(int argument, int reason) { return -(100 * argument + reason); }
+
+int wr_abi(void) { return WR_ABI; }
+
+#ifndef WR_VERSION
+#define WR_VERSION "0"
+#endif
+const char *wr_version(void) { return WR_VERSION; }
+
+const char *wr_message(int code) {
+    switch (code) {
+    case 0:
+    case WR_STATUS_OK: return "solved";
+    case WR_STATUS_NO_CONTACT: return "the bodies do not touch: all forces are zero";
+    case WR_STATUS_SATURATED: return "solved; the whole patch slips";
+    case WR_STATUS_OUT_OF_RANGE: return "the contact patch reaches the end of the given separation; extend y";
+    case WR_STATUS_NOT_CONVERGED: return "the iteration stopped at its cap; the last iterate is returned";
+    case WR_STATUS_UNREACHABLE: return "no creepage makes the given force";
+    default: break;
+    }
+    if (code < 0 && code > -100 * A_end) switch (-code % 100) {
+#define X(name, text) case R_##name: return text;
+        REASONS(X)
+#undef X
+        default: break;
+        }
+    return "unknown code";
+}
+
+const char *wr_argument(int code) {
+    if (code < 0 && code > -100 * A_end) switch (-code / 100) {
+#define X(name, text) case A_##name: return text;
+        ARGUMENTS(X)
+#undef X
+        default: break;
+        }
+    return "";
+}
+
+/* ---------------------------------------------------------------- methods */
+
+typedef struct {
+    int number;
+    const char *name;
+    int family, interacting, fields;
+} Method;
+
+#define X(number, name, family, interacting, fields) {number, name, family, interacting, fields},
+static const Method NORMAL[] = {WR_NORMAL_METHODS(X)};
+static const Method TANGENTIAL[] = {WR_TANGENTIAL_METHODS(X)};
+#undef X
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+static const Method *find(int tangential, int64_t number) {
+    const Method *known = tangential ? TANGENTIAL : NORMAL;
+    size_t n = tangential ? COUNT(TANGENTIAL) : COUNT(NORMAL);
+    for (size_t i = 0; i < n; i++)
+        if (known[i].number == number) return &known[i];
+    return NULL;
+}
+
+/* 0 normal, 1 tangential, -1 neither */
+static int kind_of(const char *kind) {
+    if (kind == NULL) return -1;
+    return strcmp(kind, "normal") == 0 ? 0 : strcmp(kind, "tangential") == 0 ? 1 : -1;
+}
+
+const char *wr_method_name(const char *kind, int number) {
+    int of = kind_of(kind);
+    const Method *found = of < 0 ? NULL : find(of, number);
+    return found == NULL ? NULL : found->name;
+}
+
+int wr_method_number(const char *kind, const char *name) {
+    int of = kind_of(kind);
+    if (of < 0 || name == NULL) return -1;
+    const Method *known = of ? TANGENTIAL : NORMAL;
+    size_t n = of ? COUNT(TANGENTIAL) : COUNT(NORMAL);
+    for (size_t i = 0; i < n; i++)
+        if (strcmp(known[i].name, name) == 0) return known[i].number;
+    return -1;
+}
+
+/* ---------------------------------------------------------------- checks */
+
+#define TRY(call)              \
+    do {                       \
+        int code_ = (call);    \
+        if (code_) return code_; \
+    } while (0)
+
+static int need(const void *pointer, int argument) { return pointer == NULL ? bad(argument, R_IS_NULL) : 0; }
+
+static int within(double value, double low, double high, int argument) {
+    if (!isfinite(value)) return bad(argument, R_NOT_FINITE);
+    return value < low || value > high ? bad(argument, R_RANGE) : 0;
+}
+
+static int above(double value, int argument) { /* positive and finite */
+    TRY(within(value, 0.0, INFINITY, argument));
+    return value == 0.0 ? bad(argument, R_RANGE) : 0;
+}
+
+static int among(int64_t value, int64_t low, int64_t high, int argument) {
+    return value < low || value > high ? bad(argument, R_RANGE) : 0;
+}
+
+static int finite_all(const double *values, int64_t n, int argument) {
+    for (int64_t i = 0; i < n; i++)
+        if (!isfinite(values[i])) return bad(argument, R_NOT_FINITE);
+    return 0;
+}
+
+static int aligned(const void *pointer, int argument) {
+    TRY(need(pointer, argument));
+    return (uintptr_t)pointer % 8 ? bad(argument, R_ALIGNED) : 0;
+}
+
+static int check_limit(double limit, int argument) { /* 0 or infinite for none */
+    return limit >= 0.0 ? 0 : bad(argument, isnan(limit) ? R_NOT_FINITE : R_RANGE);
+}
+
+static int check_contact_options(const wr_contact_options *o) {
+    TRY(aligned(o, A_options));
+    if (o->size != (int64_t)sizeof *o) return bad(A_options, R_STRUCT);
+    const Method *rolling = find(1, o->tangential);
+    if (find(0, o->normal) == NULL) return bad(A_normal, R_RANGE);
+    if (rolling == NULL) return bad(A_tangential, R_RANGE);
+    TRY(among(o->n_strips, 4, 1000, A_n_strips));
+    TRY(among(o->n_elements, 4, 1000, A_n_elements));
+    TRY(among(o->n_samples, 3, 100000, A_n_samples));
+    TRY(among(o->max_iterations, 1, 1000, A_max_iterations));
+    TRY(among(o->conformal, 0, 1, A_conformal));
+    TRY(above(o->shear_modulus, A_shear_modulus));
+    TRY(within(o->poisson_ratio, 0.0, 0.5, A_poisson_ratio));
+    return check_limit(o->pressure_limit, A_pressure_limit);
+}
+
+static int check_separation(const wr_separation *s, int64_t most) {
+    TRY(aligned(s, A_separation));
+    TRY(among(s->n, 3, most, A_sep_n));
+    TRY(aligned(s->y, A_sep_y));
+    TRY(aligned(s->g, A_sep_g));
+    TRY(aligned(s->A, A_sep_A));
+    TRY(finite_all(s->y, s->n, A_sep_y));
+    TRY(finite_all(s->g, s->n, A_sep_g));
+    for (int64_t i = 1; i < s->n; i++)
+        if (!(s->y[i] > s->y[i - 1])) return bad(A_sep_y, R_ORDER);
+    for (int64_t i = 0; i < s->n; i++) TRY(above(s->A[i], A_sep_A));
+    if (s->x_c != NULL) {
+        TRY(aligned(s->x_c, A_sep_x_c));
+        TRY(finite_all(s->x_c, s->n, A_sep_x_c));
+    }
+    if (s->tilt != NULL) {
+        TRY(aligned(s->tilt, A_sep_tilt));
+        for (int64_t i = 0; i < s->n; i++) TRY(within(s->tilt[i], -1e3, 1e3, A_sep_tilt));
+    }
+    return 0;
+}
+
+/* Methods, material and friction of a case. */
+static int check_surface(const wr_case *c, const wr_contact_options *o) {
+    const Method *rolling = find(1, c->tangential);
+    if (c->normal != o->normal) return bad(A_c_normal, R_DIFFERS);
+    if (c->normal_family != find(0, o->normal)->family) return bad(A_c_normal_family, R_RANGE);
+    if (rolling == NULL) return bad(A_c_tangential, R_RANGE);
+    if (c->tangential_family != rolling->family) return bad(A_c_tangential_family, R_RANGE);
+    TRY(within(c->speed, 0.0, INFINITY, A_c_speed));
+    TRY(above(c->G, A_c_G));
+    TRY(within(c->nu, 0.0, 0.5, A_c_nu));
+    if (c->nu != o->poisson_ratio) return bad(A_c_nu, R_DIFFERS);
+    TRY(check_limit(c->pressure_limit, A_c_pressure_limit));
+    TRY(among(c->max_iterations, 1, 1000, A_c_max_iterations));
+    TRY(within(c->mu, 0.0, 1e6, A_c_mu));
+    TRY(among(c->law, WR_FRICTION_COULOMB, WR_FRICTION_EXPONENTIAL, A_c_law));
+    TRY(within(c->kinetic, 0.0, 1e6, A_c_kinetic));
+    TRY(above(c->half_speed, A_c_half_speed));
+    TRY(among(c->velocity, WR_VELOCITY_GLOBAL, WR_VELOCITY_GREATEST, A_c_velocity));
+    TRY(above(c->slope, A_c_slope));
+    TRY(within(c->slope, 0.0, 1.0, A_c_slope));
+    TRY(within(c->slope_far, 0.0, 1.0, A_c_slope_far));
+    TRY(within(c->slope_rate, 0.0, INFINITY, A_c_slope_rate));
+    TRY(within(c->gauge_factor, 0.0, 100.0, A_c_gauge_factor));
+    TRY(within(c->border, -INFINITY, INFINITY, A_c_border));
+    TRY(within(c->border_width, -INFINITY, INFINITY, A_c_border_width));
+    TRY(above(c->k_A, A_c_k_A));
+    TRY(within(c->k_A, 0.0, 1.0, A_c_k_A));
+    TRY(above(c->k_S, A_c_k_S));
+    TRY(within(c->k_S, 0.0, 1.0, A_c_k_S));
+    TRY(within(c->drop, 0.0, 1.0, A_c_drop));
+    TRY(within(c->warm, -1e5, 1e5, A_c_warm));
+    TRY(above(c->warm_range, A_c_warm_range));
+    TRY(within(c->heating, 0.0, INFINITY, A_c_heating));
+    return among(c->conformal, 0, 1, A_c_conformal);
+}
+
+static int check_case(const wr_case *c, const wr_contact_options *o) {
+    TRY(aligned(c, A_problem));
+    TRY(check_surface(c, o));
+    if (c->conformal && !find(1, c->tangential)->fields) return bad(A_c_tangential, R_PLANE);
+    TRY(among(c->load_kind, WR_BY_LOAD, WR_BY_APPROACH, A_c_load_kind));
+    TRY(within(c->amount, c->load_kind == WR_BY_LOAD ? 0.0 : -INFINITY, INFINITY, A_c_amount));
+    TRY(within(c->vx, -WR_LARGEST_CREEPAGE, WR_LARGEST_CREEPAGE, A_c_vx));
+    TRY(within(c->vy, -WR_LARGEST_CREEPAGE, WR_LARGEST_CREEPAGE, A_c_vy));
+    TRY(within(c->phi, -WR_LARGEST_CREEPAGE, WR_LARGEST_CREEPAGE, A_c_phi));
+    return within(c->rolling, -1e3, 1e3, A_c_rolling);
+}
+
+static int check_damage(const wr_damage_parameters *p) {
+    TRY(aligned(p, A_parameters));
+    TRY(within(p->speed, 0.0, INFINITY, A_p_speed));
+    TRY(above(p->wheel_radius, A_p_radius));
+    TRY(above(p->hardness, A_p_hardness));
+    TRY(above(p->shear_yield, A_p_yield));
+    TRY(among(p->with_spin, 0, 1, A_p_spin));
+    TRY(among(p->wear_law, WR_WEAR_ARCHARD, WR_WEAR_PEARCE_SHERRATT, A_p_law));
+    const double *all[] = {p->pearce_sherratt, p->burstow, p->usfd, p->archard};
+    const size_t n[] = {COUNT(p->pearce_sherratt), COUNT(p->burstow), COUNT(p->usfd), COUNT(p->archard)};
+    for (size_t j = 0; j < 4; j++)
+        for (size_t i = 0; i < n[j]; i++)
+            if (isnan(all[j][i])) return bad(A_p_constants, R_NOT_FINITE);
+    return 0;
+}
+
+/* ---------------------------------------------------------------- the caller's memory */
+
+#define MAGIC 0x7765656c7261696cu
+enum { CONTACT = 1, PAIR = 2 };
+
+/* Head of every block.  `sum` covers what follows it up to `answered`, so that a forged or overwritten size is noticed. */
+typedef struct {
+    uint64_t magic, sum;
+    int64_t abi, kind, bytes;
+    int64_t at_zeros, at_work; /* in float64 from the head */
+    int64_t at_strips, at_bins; /* from `work` */
+    double sizes[9];
+    wr_contact_options patch;
+    int64_t n_bins;
+    int64_t answered; /* 1 after a solution: what follows belongs to it */
+    int64_t n_strips, n_patches, height;
+    wr_case problem;
+    wr_result result;
+} Head;
+
+static int64_t head_numbers(void) { return ((int64_t)sizeof(Head) / 8 + 7) / 8 * 8; }
+static double *numbers(void *memory, int64_t at) { return (double *)memory + at; }
+static const double *read_numbers(const void *memory, int64_t at) { return (const double *)memory + at; }
+static double *work_of(void *memory) { return numbers(memory, ((Head *)memory)->at_work); }
+
+static uint64_t sum_of(const Head *head) {
+    const unsigned char *bytes = (const unsigned char *)&head->abi, *end = (const unsigned char *)&head->answered;
+    uint64_t sum = 1469598103934665603u, word;
+    for (; bytes < end; bytes += sizeof word) {
+        memcpy(&word, bytes, sizeof word);
+        sum = (sum ^ word) * 1099511628211u;
+        sum ^= sum >> 29;
+    }
+    return sum;
+}
+
+static int check_memory(const void *memory, int64_t kind) {
+    const Head *head = memory;
+    TRY(aligned(memory, A_memory));
+    if (head->magic != MAGIC || head->abi != WR_ABI || head->kind != kind || head->sum != sum_of(head))
+        return bad(A_memory, R_NO_SOLVER);
+    return 0;
+}
+
+static int check_answer(const Head *head) {
+    if (head->answered != 1) return bad(A_memory, R_NO_ANSWER);
+    int64_t most = WR_MAX_PATCHES * head->patch.n_strips;
+    int sane = head->n_strips >= 0 && head->n_strips <= most && head->n_patches >= 0 && head->n_patches <= WR_MAX_PATCHES;
+    return sane ? 0 : bad(A_memory, R_NO_SOLVER);
+}
+
+static void set_sizes(double sizes[9], const wr_contact_options *o) {
+    memset(sizes, 0, 9 * sizeof *sizes);
+    sizes[0] = find(0, o->normal)->interacting;
+    sizes[1] = (double)o->n_strips;
+    sizes[2] = (double)o->n_elements;
+    sizes[3] = (double)o->n_samples;
+}
+
+static int room(const void *memory, size_t bytes, size_t needed) {
+    TRY(aligned(memory, A_memory));
+    return bytes < needed ? bad(A_bytes, R_SMALL) : 0;
+}
+
+static int copy_fields(const Head *head, const double *strips, int64_t n, wr_fields *f) {
+    int64_t m = head->patch.n_elements, capacity = WR_MAX_PATCHES * head->patch.n_strips;
+    const double *fields = strips + WR_STRIP_ROWS * capacity;
+    if (n > f->n_strips_most) return bad(A_n_strips_most, R_SMALL);
+    double *to[] = {f->x, f->p, f->qx, f->qy, f->sx, f->sy, f->stick};
+    const int row[] = {WR_FIELD_X, WR_FIELD_P, WR_FIELD_QX, WR_FIELD_QY, WR_FIELD_SX, WR_FIELD_SY, WR_FIELD_STICK};
+    for (size_t j = 0; j < COUNT(row); j++)
+        if (to[j] != NULL) memcpy(to[j], fields + row[j] * capacity * m, (size_t)(n * m) * sizeof(double));
+    for (int64_t i = 0; f->y != NULL && i < n; i++)
+        for (int64_t k = 0; k < m; k++) f->y[i * m + k] = strips[WR_STRIP_Y * capacity + i];
+    f->n_strips = n;
+    return 0;
+}
+
+static int check_fields(const wr_fields *f) {
+    TRY(aligned(f, A_fields));
+    if (f->size != (int64_t)sizeof *f) return bad(A_fields, R_STRUCT);
+    double *to[] = {f->x, f->y, f->p, f->qx, f->qy, f->sx, f->sy, f->stick};
+    for (size_t j = 0; j < COUNT(to); j++)
+        if ((uintptr_t)to[j] % 8) return bad(A_fields, R_ALIGNED);
+    return among(f->n_strips_most, 0, INT64_MAX, A_n_strips_most);
+}
+
+/* ---------------------------------------------------------------- one patch */
+
+int wr_contact_default(wr_contact_options *o) {
+    TRY(aligned(o, A_options));
+    *o = (wr_contact_options){.size = sizeof *o,
+                              .normal = WR_DEFAULT_NORMAL,
+                              .tangential = WR_DEFAULT_TANGENTIAL,
+                              .n_strips = 20,
+                              .n_elements = 20,
+                              .n_samples = 101,
+                              .max_iterations = WR_DEFAULT_ITERATIONS,
+                              .shear_modulus = WR_STEEL_SHEAR_MODULUS,
+                              .poisson_ratio = WR_STEEL_POISSON_RATIO,
+                              .pressure_limit = INFINITY};
+    return 0;
+}
+
+int wr_contact_size(const wr_contact_options *o, size_t *bytes) {
+    double sizes[9];
+    TRY(check_contact_options(o));
+    TRY(aligned(bytes, A_bytes));
+    if (o->conformal && !find(1, o->tangential)->fields) return bad(A_tangential, R_PLANE);
+    set_sizes(sizes, o);
+    *bytes = 8 * (size_t)(head_numbers() + (o->n_samples + 7) / 8 * 8 + CALL(contact_size, sizes));
+    return 0;
+}
+
+int wr_contact_init(const wr_contact_options *o, void *memory, size_t bytes) {
+    size_t needed;
+    TRY(wr_contact_size(o, &needed));
+    TRY(room(memory, bytes, needed));
+    wr_contact_options kept = *o; /* it may lie in the memory */
+    memset(memory, 0, needed);
+    Head *head = memory;
+    head->magic = MAGIC, head->abi = WR_ABI, head->kind = CONTACT, head->bytes = (int64_t)needed;
+    head->patch = kept;
+    set_sizes(head->sizes, &kept);
+    head->at_zeros = head_numbers();
+    head->at_work = head->at_zeros + (kept.n_samples + 7) / 8 * 8;
+    head->at_strips = CALL(contact_strips, head->sizes);
+    CALL(contact_init, head->sizes, kept.poisson_ratio, work_of(memory));
+    head->sum = sum_of(head);
+    return 0;
+}
+
+int wr_contact_case(const wr_contact_options *o, double mu, double speed, wr_case *c) {
+    TRY(check_contact_options(o));
+    TRY(within(mu, 0.0, 1e6, A_mu));
+    TRY(within(speed, 0.0, INFINITY, A_speed));
+    TRY(aligned(c, A_problem));
+    memset(c, 0, sizeof *c);
+    c->normal = o->normal, c->normal_family = find(0, o->normal)->family;
+    c->tangential = o->tangential, c->tangential_family = find(1, o->tangential)->family;
+    c->G = o->shear_modulus, c->nu = o->poisson_ratio, c->pressure_limit = o->pressure_limit;
+    c->max_iterations = o->max_iterations, c->conformal = o->conformal;
+    c->mu = c->kinetic = mu, c->speed = speed;
+#define X(member, value) c->member = value;
+    WR_SURFACE_DEFAULTS(X)
+#undef X
+    return 0;
+}
+
+static int code_of(int64_t status) { return status == WR_STATUS_OK ? 0 : (int)status; }
+
+/* Solve a checked case.  Return the number of strips. */
+static int64_t solve_contact(void *memory, int cold, const wr_separation *s, const wr_case *c, wr_result *result) {
+    Head *head = memory;
+    double *zeros = numbers(memory, head->at_zeros);
+    memset(zeros, 0, (size_t)s->n * sizeof *zeros);
+    const double *x_c = s->x_c != NULL ? s->x_c : zeros, *tilt = s->tilt != NULL ? s->tilt : zeros;
+    head->answered = 0;
+    return CALL(contact_solve, head->sizes, work_of(memory), cold, s->n, (void *)s->y, (void *)s->g, (void *)s->A,
+                (void *)x_c, (void *)tilt, (void *)c, result);
+}
+
+int wr_contact_solve(void *memory, const wr_separation *s, const wr_case *c, wr_result *result) {
+    TRY(check_memory(memory, CONTACT));
+    Head *head = memory;
+    TRY(check_separation(s, head->patch.n_samples));
+    TRY(check_case(c, &head->patch));
+    TRY(aligned(result, A_result));
+    head->problem = *c;
+    head->n_strips = solve_contact(memory, 0, s, &head->problem, &head->result);
+    head->answered = 1;
+    *result = head->result;
+    return code_of(result->status);
+}
+
+int wr_contact_accept(void *memory) {
+    TRY(check_memory(memory, CONTACT));
+    TRY(check_answer(memory));
+    CALL(contact_accept, ((Head *)memory)->sizes, work_of(memory));
+    return 0;
+}
+
+int wr_contact_forget(void *memory) {
+    TRY(check_memory(memory, CONTACT));
+    CALL(contact_forget, ((Head *)memory)->sizes, work_of(memory));
+    ((Head *)memory)->answered = 0;
+    return 0;
+}
+
+int wr_contact_derivatives(void *memory, const wr_separation *s, const wr_case *c, double *jacobian) {
+    TRY(check_memory(memory, CONTACT));
+    Head *head = memory;
+    TRY(check_separation(s, head->patch.n_samples));
+    TRY(check_case(c, &head->patch));
+    TRY(aligned(jacobian, A_jacobian));
+    wr_case moved = *c;
+    wr_result at, side[2];
+    solve_contact(memory, 1, s, &moved, &at);
+    /* A step so small that elements hardly ever change from stick to slip within it: a millionth of the creepage at
+     * saturation, of the load, of the penetration and of the friction. */
+    double creepage = 1e-9, spin = 1e-6, area = at.area > 0.0 ? at.area : 1e-4;
+    if (c->mu * at.N > 0.0 && at.area > 0.0) {
+        creepage = 1e-6 * c->mu * at.N / (c->G * area);
+        spin = creepage / sqrt(area / 3.141592653589793);
+    }
+    double penetration = at.stiffness > 0.0 ? 1.5 * at.N / at.stiffness : 1e-6;
+    double amount = c->load_kind == WR_BY_LOAD ? fmax(1e-6 * c->amount, 1e-12) : 1e-6 * penetration;
+    double steps[5] = {creepage, creepage, spin, amount, fmax(1e-6 * c->mu, 1e-12)};
+    for (int j = 0; j < 5; j++) {
+        double span = 0.0;
+        for (int sign = 1; sign >= -1; sign -= 2) {
+            moved = *c;
+            double *member[5] = {&moved.vx, &moved.vy, &moved.phi, &moved.amount, &moved.mu};
+            double before = *member[j];
+            *member[j] += sign * steps[j];
+            if (*member[j] < 0.0 && (j == 4 || (j == 3 && c->load_kind == WR_BY_LOAD))) *member[j] = 0.0;
+            if (j == 4) moved.kinetic = c->mu > 0.0 ? c->kinetic * (moved.mu / c->mu) : moved.mu;
+            span += sign * (*member[j] - before);
+            solve_contact(memory, 1, s, &moved, &side[sign < 0]);
+        }
+        double high[6] = {side[0].Fx, side[0].Fy, side[0].Mz, side[0].N, side[0].approach, side[0].power};
+        double low[6] = {side[1].Fx, side[1].Fy, side[1].Mz, side[1].N, side[1].approach, side[1].power};
+        for (int i = 0; i < 6; i++) jacobian[5 * i + j] = span > 0.0 ? (high[i] - low[i]) / span : 0.0;
+    }
+    head->problem = *c;
+    head->n_strips = solve_contact(memory, 0, s, &head->problem, &head->result); /* fields and trial start as after solve */
+    head->answered = 1;
+    return code_of(head->result.status);
+}
+
+int wr_contact_fields(const void *memory, wr_fields *fields) {
+    TRY(check_memory(memory, CONTACT));
+    const Head *head = memory;
+    TRY(check_answer(head));
+    TRY(check_fields(fields));
+    return copy_fields(head, read_numbers(memory, head->at_work + head->at_strips), head->n_strips, fields);
+}
+
+int wr_damage_default(wr_damage_parameters *parameters) {
+    TRY(aligned(parameters, A_parameters));
+    *parameters = (wr_damage_parameters)WR_DAMAGE_DEFAULTS;
+    return 0;
+}
+
+int wr_contact_damage(void *memory, const wr_damage_parameters *parameters, wr_damage *damage) {
+    TRY(check_memory(memory, CONTACT));
+    Head *head = memory;
+    TRY(check_answer(head));
+    TRY(check_damage(parameters));
+    TRY(aligned(damage, A_damage));
+    CALL(contact_damage, head->sizes, work_of(memory), head->n_strips, &head->problem, &head->result, (void *)parameters,
+         damage);
+    return 0;
+}
+
+int wr_contact_batch(void *memory, int64_t n_separations, const wr_separation *separations, int64_t n,
+                     const int64_t *which, const wr_case *cases, wr_result *results, int64_t *failed) {
+    TRY(check_memory(memory, CONTACT));
+    Head *head = memory;
+    TRY(among(n_separations, 1, INT64_MAX / (int64_t)sizeof *separations, A_n_separations));
+    TRY(among(n, 0, INT64_MAX / (int64_t)sizeof *cases, A_n));
+    TRY(aligned(separations, A_separation));
+    TRY(aligned(cases, A_cases));
+    TRY(aligned(results, A_results));
+    if ((uintptr_t)which % 8) return bad(A_which, R_ALIGNED);
+    for (int64_t i = 0; i < n; i++) {
+        int64_t of = which != NULL ? which[i] : 0;
+        int code = among(of, 0, n_separations - 1, A_which);
+        if (!code) code = check_separation(&separations[of], head->patch.n_samples);
+        if (!code) code = check_case(&cases[i], &head->patch);
+        if (code) {
+            if (failed != NULL) *failed = i;
+            return code;
+        }
+        solve_contact(memory, 1, &separations[of], &cases[i], &results[i]);
+    }
+    return 0;
+}
+
+#include "wheelrail_pair.h"

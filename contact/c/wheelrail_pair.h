@@ -1,0 +1,331 @@
+/* The part of wheelrail.c for a wheel on a rail.  Included there once. */
+
+#define MOST_NODES 100000
+
+static int check_pair_options(const wr_pair_options *o) {
+    TRY(aligned(o, A_options));
+    if (o->size != (int64_t)sizeof *o) return bad(A_options, R_STRUCT);
+    TRY(check_contact_options(&o->patch));
+    TRY(among(o->patch.n_samples, 5, 2001, A_n_samples));
+    if (o->side != 1 && o->side != -1) return bad(A_side, R_RANGE);
+    TRY(among(o->most_patches, 1, WR_MAX_PATCHES, A_most_patches));
+    TRY(within(o->wheel_radius, 0.05, 2.0, A_wheel_radius));
+    TRY(within(o->gauge, 0.1, 3.0, A_gauge));
+    TRY(within(o->flange_back, 0.1, 3.0, A_flange_back));
+    TRY(above(o->gauge_point, A_gauge_point));
+    TRY(within(o->combine_distance, 0.0, INFINITY, A_combine_distance));
+    TRY(within(o->combine_angle, 0.0, INFINITY, A_combine_angle));
+    TRY(among(o->n_bins, 0, 100000, A_n_bins));
+    TRY(within(o->bin_start, -1e6, 1e6, A_bin_start));
+    TRY(within(o->bin_width, 1e-9, 1e6, A_bin_width));
+    return check_damage(&o->damage);
+}
+
+int wr_pair_default(wr_pair_options *o) {
+    TRY(aligned(o, A_options));
+    *o = (wr_pair_options){.size = sizeof *o,
+                           .side = 1,
+                           .most_patches = WR_MAX_PATCHES,
+                           .wheel_radius = 0.46,
+                           .gauge = 1.435,
+                           .flange_back = 1.36,
+                           .gauge_point = 0.014,
+                           .combine_distance = 8e-3,
+                           .combine_angle = 0.17453292519943295,
+                           .bin_width = 1e-3,
+                           .damage = WR_DAMAGE_DEFAULTS};
+    TRY(wr_contact_default(&o->patch));
+    o->patch.n_samples = 81;
+    return 0;
+}
+
+/* Numbers before `work`: the head.  After it: room for profiles while they are prepared. */
+static int64_t staging(int64_t n_wheel, int64_t n_rail) {
+    int64_t most = n_wheel > n_rail ? n_wheel : n_rail;
+    return 3 * (n_wheel + n_rail) + 6 * most;
+}
+
+int wr_pair_size(const wr_pair_options *o, int64_t n_wheel, int64_t n_rail, size_t *bytes) {
+    double sizes[9];
+    TRY(check_pair_options(o));
+    TRY(among(n_wheel, 4, MOST_NODES, A_n_wheel));
+    TRY(among(n_rail, 4, MOST_NODES, A_n_rail));
+    TRY(aligned(bytes, A_bytes));
+    set_sizes(sizes, &o->patch);
+    sizes[4] = sizes[7] = (double)n_wheel;
+    sizes[5] = sizes[8] = (double)n_rail;
+    sizes[6] = (double)o->n_bins;
+    *bytes = 8 * (size_t)(head_numbers() + CALL(pair_size, sizes) + staging(n_wheel, n_rail));
+    return 0;
+}
+
+static int check_profile(const wr_profile *p, const int arguments[4]) {
+    TRY(aligned(p, arguments[0]));
+    TRY(among(p->n, 4, MOST_NODES, arguments[0]));
+    TRY(aligned(p->y, arguments[1]));
+    TRY(aligned(p->z, arguments[2]));
+    TRY(finite_all(p->y, p->n, arguments[1]));
+    TRY(finite_all(p->z, p->n, arguments[2]));
+    for (int64_t i = 1; i < p->n; i++)
+        if (!(hypot(p->y[i] - p->y[i - 1], p->z[i] - p->z[i - 1]) > 0.0)) return bad(arguments[1], R_COINCIDE);
+    if (p->angle == NULL) return 0;
+    TRY(aligned(p->angle, arguments[3]));
+    return finite_all(p->angle, p->n, arguments[3]);
+}
+
+/* Slopes of the C2 cubic spline through (u, f); the end segments are parabolas.  As contact.geometry.outline. */
+static void spline_slopes(int64_t n, const double *h, const double *f, double *middle, double *right, double *slopes) {
+#define D(i) ((f[(i) + 1] - f[i]) / h[i])
+#define LOWER(i) ((i) == n - 2 ? 1.0 : h[(i) + 1])
+#define UPPER(i) ((i) == 0 ? 1.0 : h[(i) - 1])
+    for (int64_t i = 0; i < n; i++) {
+        int inside = i > 0 && i < n - 1;
+        middle[i] = inside ? 2.0 * (h[i] + h[i - 1]) : 1.0;
+        right[i] = inside ? 3.0 * (h[i] * D(i - 1) + h[i - 1] * D(i)) : 2.0 * (i == 0 ? D(0) : D(n - 2));
+    }
+    for (int64_t i = 1; i < n; i++) {
+        double factor = LOWER(i - 1) / middle[i - 1];
+        middle[i] -= factor * UPPER(i - 1);
+        right[i] -= factor * right[i - 1];
+    }
+    slopes[n - 1] = right[n - 1] / middle[n - 1];
+    for (int64_t i = n - 2; i >= 0; i--) slopes[i] = (right[i] - UPPER(i) * slopes[i + 1]) / middle[i];
+#undef D
+#undef LOWER
+#undef UPPER
+}
+
+/* Write the rows y, z, angle of a profile to `rows`; `scratch` has room for 6 n numbers. */
+static void place_profile(const wr_profile *p, double *rows, double *scratch) {
+    int64_t n = p->n;
+    size_t row = (size_t)n * sizeof(double);
+    memcpy(rows, p->y, row);
+    memcpy(rows + n, p->z, row);
+    if (p->angle != NULL) {
+        memcpy(rows + 2 * n, p->angle, row);
+        return;
+    }
+    double *h = scratch, *middle = h + n, *right = middle + n, *dy = right + n, *dz = dy + n, *u = dz + n;
+    const double pi = 3.141592653589793;
+    u[0] = 0.0;
+    for (int64_t i = 0; i + 1 < n; i++) u[i + 1] = u[i] + hypot(p->y[i + 1] - p->y[i], p->z[i + 1] - p->z[i]);
+    for (int64_t i = 0; i + 1 < n; i++) h[i] = u[i + 1] - u[i];
+    spline_slopes(n, h, p->y, middle, right, dy);
+    spline_slopes(n, h, p->z, middle, right, dz);
+    double turns = 0.0, before = 0.0;
+    for (int64_t i = 0; i < n; i++) {
+        double angle = atan2(dz[i], dy[i]);
+        if (i > 0 && angle - before > pi) turns -= 2.0 * pi;
+        if (i > 0 && angle - before < -pi) turns += 2.0 * pi;
+        before = angle;
+        rows[2 * n + i] = angle + turns;
+    }
+}
+
+int wr_pair_init(const wr_pair_options *options, const wr_profile *wheel, const wr_profile *rail, void *memory,
+                 size_t bytes) {
+    static const int of_wheel[] = {A_wheel, A_wheel_y, A_wheel_z, A_wheel_angle};
+    static const int of_rail[] = {A_rail, A_rail_y, A_rail_z, A_rail_angle};
+    TRY(check_pair_options(options));
+    TRY(check_profile(wheel, of_wheel));
+    TRY(check_profile(rail, of_rail));
+    size_t needed;
+    TRY(wr_pair_size(options, wheel->n, rail->n, &needed));
+    TRY(room(memory, bytes, needed));
+    wr_pair_options o = *options;
+    Head *head = memory;
+    memset(memory, 0, needed);
+    head->abi = WR_ABI, head->kind = PAIR, head->bytes = (int64_t)needed;
+    head->patch = o.patch, head->n_bins = o.n_bins, head->at_work = head_numbers();
+    set_sizes(head->sizes, &o.patch);
+    head->sizes[4] = head->sizes[7] = (double)wheel->n;
+    head->sizes[5] = head->sizes[8] = (double)rail->n;
+    head->sizes[6] = (double)o.n_bins;
+    double *stage = numbers(memory, (int64_t)(needed / 8) - staging(wheel->n, rail->n));
+    double *wheel_rows = stage, *rail_rows = wheel_rows + 3 * wheel->n, *scratch = rail_rows + 3 * rail->n, ends[4];
+    place_profile(wheel, wheel_rows, scratch);
+    place_profile(rail, rail_rows, scratch);
+    CALL(pair_facing, head->sizes, wheel_rows, rail_rows, ends);
+    if (ends[1] - ends[0] < 3.0) return bad(A_wheel, R_STEEP);
+    if (ends[3] - ends[2] < 3.0) return bad(A_rail, R_STEEP);
+    head->sizes[7] = ends[1] - ends[0];
+    head->sizes[8] = ends[3] - ends[2];
+    union {
+        double f;
+        int64_t i;
+    } motion[WR_MOTION_NUMBERS];
+    memset(motion, 0, sizeof motion);
+    motion[WR_MOTION_RADIUS].f = o.wheel_radius;
+    motion[WR_MOTION_TAPE].f = 0.5 * o.flange_back + WR_TAPE_FROM_FLANGE_BACK;
+    motion[WR_MOTION_COMBINE_DISTANCE].f = o.combine_distance;
+    motion[WR_MOTION_COMBINE_ANGLE].f = o.combine_angle;
+    motion[WR_MOTION_MOST_PATCHES].i = o.most_patches;
+    motion[WR_MOTION_MIRROR].f = (double)o.side;
+    wr_case problem;
+    TRY(wr_contact_case(&o.patch, 0.0, 0.0, &problem));
+    head->at_strips = CALL(pair_strips, head->sizes);
+    head->at_bins = CALL(pair_bins, head->sizes);
+    if (CALL(pair_init, head->sizes, work_of(memory), wheel_rows, rail_rows, motion, &problem, &o.damage, o.gauge,
+             o.gauge_point, o.bin_start, o.bin_width))
+        return bad(A_gauge_point, R_GAUGE);
+    head->magic = MAGIC;
+    head->sum = sum_of(head);
+    return 0;
+}
+
+int wr_pair_input_default(const wr_pair_options *o, double mu, double speed, double load, wr_pair_input *input) {
+    TRY(check_pair_options(o));
+    TRY(within(load, 0.0, INFINITY, A_load));
+    TRY(aligned(input, A_input));
+    wr_case surface;
+    TRY(wr_contact_case(&o->patch, mu, speed, &surface));
+    *input = (wr_pair_input){.size = sizeof *input, .height = WR_HEIGHT_LOAD, .amount = load};
+    input->surface = surface;
+    input->motion.vx = speed;
+    input->motion.spin = -speed / o->wheel_radius;
+    return 0;
+}
+
+static int check_motion(const wr_motion *m) {
+    const double *all = (const double *)m;
+    TRY(finite_all(all, (int64_t)(sizeof *m / sizeof *all), A_motion));
+    int sane = fabs(m->roll) <= WR_LARGEST_ANGLE && fabs(m->yaw) <= WR_LARGEST_ANGLE && m->vx >= 0.0;
+    return sane && fabs(m->rail_roll) <= WR_LARGEST_RAIL_ROLL ? 0 : bad(A_motion, R_RANGE);
+}
+
+static int check_input(const wr_pair_input *in, const wr_contact_options *o) {
+    TRY(aligned(in, A_input));
+    if (in->size != (int64_t)sizeof *in) return bad(A_input, R_STRUCT);
+    TRY(among(in->height, WR_HEIGHT_GIVEN, WR_HEIGHT_VERTICAL, A_height));
+    TRY(within(in->amount, 0.0, in->height == WR_HEIGHT_PENETRATION ? 2e-3 : INFINITY, A_amount));
+    TRY(check_motion(&in->motion));
+    TRY(check_surface(&in->surface, o));
+    TRY(within(in->rail.ky, 0.0, INFINITY, A_springs));
+    TRY(within(in->rail.kz, 0.0, INFINITY, A_springs));
+    TRY(within(in->rail.preload_y, -INFINITY, INFINITY, A_springs));
+    TRY(within(in->rail.preload_z, -INFINITY, INFINITY, A_springs));
+    const wr_wheel_offset *d = &in->offset;
+    TRY(finite_all((const double *)d, (int64_t)(sizeof *d / sizeof(double)), A_offset));
+    if (fabs(d->roll) > WR_LARGEST_ANGLE || fabs(d->pitch) > WR_LARGEST_ANGLE || fabs(d->yaw) > WR_LARGEST_ANGLE)
+        return bad(A_offset, R_RANGE);
+    return within(in->distance, 0.0, INFINITY, A_distance);
+}
+
+static int failure(int64_t code, int64_t height) {
+    switch (code) {
+    case -1: return bad(A_motion, R_NO_OVERLAP);
+    case -2: return bad(A_amount, R_NOT_SETTLED);
+    case -3: return bad(height == WR_HEIGHT_GIVEN ? A_motion : A_amount, R_TOO_DEEP);
+    case -4: return bad(A_offset, R_TURNED);
+    default: return bad(A_distance, R_ENDLESS);
+    }
+}
+
+/* Solve checked input.  Return 0 or an error. */
+static int solve_pair(void *memory, int cold, const wr_pair_input *in, wr_pair_answer *answer) {
+    Head *head = memory;
+    wr_case surface = in->surface;
+    wr_elastic_rail rail = in->rail, deflected;
+    wr_motion motion = in->motion;
+    wr_wheel_offset offset = in->offset;
+    wr_pair_answer made = {.size = sizeof made};
+    surface.speed = motion.vx;
+    rail.dy = rail.dz = 0.0;
+    rail.balanced = 0;
+    head->answered = 0;
+    int64_t n = CALL(pair_solve, head->sizes, work_of(memory), cold, in->height, in->amount, in->distance, &motion,
+                     &surface, &rail, &offset, &made.total, made.patches, &deflected);
+    if (n < 0) return failure(n, in->height);
+    made.deflection_y = deflected.dy, made.deflection_z = deflected.dz;
+    head->answered = 1, head->n_patches = n, head->height = in->height;
+    *answer = made;
+    return 0;
+}
+
+static int check_answer_struct(const wr_pair_answer *answer) {
+    TRY(aligned(answer, A_answer));
+    return answer->size == (int64_t)sizeof *answer ? 0 : bad(A_answer, R_STRUCT);
+}
+
+int wr_pair_solve(void *memory, const wr_pair_input *input, wr_pair_answer *answer) {
+    TRY(check_memory(memory, PAIR));
+    TRY(check_input(input, &((Head *)memory)->patch));
+    TRY(check_answer_struct(answer));
+    TRY(solve_pair(memory, 0, input, answer));
+    return code_of(answer->total.status);
+}
+
+int wr_pair_accept(void *memory) {
+    TRY(check_memory(memory, PAIR));
+    TRY(check_answer(memory));
+    CALL(pair_accept, ((Head *)memory)->sizes, work_of(memory));
+    ((Head *)memory)->answered = 0; /* its damage is booked once */
+    return 0;
+}
+
+int wr_pair_forget(void *memory) {
+    TRY(check_memory(memory, PAIR));
+    CALL(pair_forget, ((Head *)memory)->sizes, work_of(memory));
+    ((Head *)memory)->answered = 0;
+    return 0;
+}
+
+#define N_MOTION ((int)(sizeof(wr_motion) / sizeof(double)))
+
+int wr_pair_derivatives(void *memory, const wr_pair_input *input, double *jacobian) {
+    TRY(check_memory(memory, PAIR));
+    Head *head = memory;
+    TRY(check_input(input, &head->patch));
+    TRY(aligned(jacobian, A_jacobian));
+    wr_pair_input at = *input;
+    wr_pair_answer middle, side[2];
+    double made[6 * (N_MOTION + 1)];
+    at.distance = 0.0;
+    TRY(solve_pair(memory, 1, &at, &middle));
+    double speed = fmax(at.motion.vx, 1e-3), area = middle.total.area;
+    double creepage = area > 0.0 ? 1e-6 * at.surface.mu * middle.total.N / (at.surface.G * area) : 0.0;
+    if (!(creepage > 0.0)) creepage = 1e-9;
+    for (int j = 0; j <= N_MOTION; j++) {
+        double span = 0.0, *member = j < N_MOTION ? (double *)&at.motion + j : &at.amount;
+        double before = *member;
+        int is_height = member == &at.motion.z || member == &at.motion.rail_z;
+        int is_place = member == &at.motion.y || member == &at.motion.roll || member == &at.motion.yaw ||
+                       member == &at.motion.rail_y || member == &at.motion.rail_roll;
+        double step = is_height ? 1e-8 : is_place ? 1e-7 : creepage * speed;
+        if (j == N_MOTION) step = fmax((at.height == WR_HEIGHT_PENETRATION ? 1e-6 : 1e-4) * before, 1e-12);
+        for (int sign = 1; sign >= -1; sign -= 2) {
+            *member = before + sign * step;
+            if (*member < 0.0 && (j == N_MOTION || member == &at.motion.vx)) *member = 0.0;
+            span += sign * (*member - before);
+            TRY(solve_pair(memory, 1, &at, &side[sign < 0]));
+        }
+        *member = before;
+        const double *high = &side[0].total.Fx, *low = &side[1].total.Fx; /* Fx, Fy, Fz, Mx, My, Mz lead wr_total */
+        for (int i = 0; i < 6; i++) made[(N_MOTION + 1) * i + j] = span > 0.0 ? (high[i] - low[i]) / span : 0.0;
+    }
+    memcpy(jacobian, made, sizeof made);
+    TRY(solve_pair(memory, 0, input, &middle)); /* the answer of the memory is that of solve */
+    return code_of(middle.total.status);
+}
+
+int wr_pair_patch(void *memory, int64_t k, wr_result *result, wr_fields *fields) {
+    TRY(check_memory(memory, PAIR));
+    Head *head = memory;
+    TRY(check_answer(head));
+    TRY(among(k, 0, head->n_patches - 1, A_k));
+    TRY(aligned(result, A_result));
+    if (fields != NULL) TRY(check_fields(fields));
+    int64_t n = CALL(pair_patch, head->sizes, work_of(memory), k, head->height, result);
+    if (fields != NULL) TRY(copy_fields(head, work_of(memory) + head->at_strips, n, fields));
+    return code_of(result->status);
+}
+
+int wr_pair_bins(const void *memory, double *bins, int64_t count) {
+    TRY(check_memory(memory, PAIR));
+    const Head *head = memory;
+    TRY(aligned(bins, A_bins));
+    int64_t n = 2 * WR_BIN_ROWS * head->n_bins;
+    if (count < n) return bad(A_count, R_SMALL);
+    memcpy(bins, read_numbers(memory, head->at_work + head->at_bins), (size_t)n * sizeof(double));
+    return 0;
+}

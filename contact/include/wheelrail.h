@@ -1,0 +1,192 @@
+/* wheelrail.h - wheel-rail contact: forces, pressures, slip and damage.  C99, C++.
+ *
+ * Units are SI: m, N, Pa, rad, s.  Forces act on the wheel.  x points forward, y to the right, z down.
+ * The library has no global state.  It allocates no memory, opens no file and prints nothing.
+ *
+ * Use:   options -> size -> memory from the caller -> init -> solve, accept, solve, accept, ...
+ *
+ * solve   changes nothing that a later call sees.  An integrator may try a step as often as it wants.
+ * accept  makes the last answer the start of the following solutions.
+ * forget  lets the following solutions start from nothing.
+ *
+ * Without accept every solution starts from nothing and depends on its arguments alone.
+ *
+ * Memory: aligned to 8 bytes; to 64 bytes it is a little faster.  One block serves one thread at a time.  Any number of
+ * blocks may be in use in any number of threads.  A block may be copied, for example to keep a state.
+ *
+ * Codes: every function returns an int.
+ *    0            solved
+ *    2, 3         answers too: the bodies do not touch; the whole patch slips (WR_STATUS_NO_CONTACT, _SATURATED)
+ *    4, 5         an answer that cannot be trusted (WR_STATUS_OUT_OF_RANGE, _NOT_CONVERGED)
+ *    below 0      an error.  wr_message(code) says which, wr_argument(code) names the argument.  Results are unchanged.
+ */
+#ifndef WHEELRAIL_H
+#define WHEELRAIL_H
+#include "wheelrail_records.h"
+
+#if defined(_WIN32) && !defined(WR_STATIC)
+#ifdef WR_BUILD
+#define WR_API __declspec(dllexport)
+#else
+#define WR_API __declspec(dllimport)
+#endif
+#elif defined(WR_BUILD)
+#define WR_API __attribute__((visibility("default")))
+#else
+#define WR_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Number of this interface.  Compare it with wr_abi() before any other call. */
+#define WR_ABI 1
+WR_API int wr_abi(void);
+WR_API const char *wr_version(void);
+
+/* One English sentence for any code. */
+WR_API const char *wr_message(int code);
+/* Name of the argument that an error is about, for example "case.mu"; "" for codes that are no error. */
+WR_API const char *wr_argument(int code);
+
+/* Names of methods.  kind: "normal" or "tangential".  The name is NULL and the number -1 for an unknown method. */
+WR_API const char *wr_method_name(const char *kind, int number);
+WR_API int wr_method_number(const char *kind, const char *name);
+
+/* ---------------------------------------------------------------- one patch, or several in one plane */
+
+typedef struct {
+    int64_t size;           /* sizeof(wr_contact_options), set by wr_contact_default */
+    int64_t normal;         /* WR_NORMAL_... */
+    int64_t tangential;     /* WR_TANGENTIAL_... */
+    int64_t n_strips;       /* per patch, 4 to 1000; default 20 */
+    int64_t n_elements;     /* per strip, 4 to 1000; default 20 */
+    int64_t n_samples;      /* most samples of a separation, 3 to 100000; default 101 */
+    int64_t max_iterations; /* of the strip half space, 1 to 1000 */
+    int64_t conformal;      /* 1: the contact angle varies over the patch */
+    double shear_modulus;   /* [Pa] */
+    double poisson_ratio;   /* 0 to 0.5 */
+    double pressure_limit;  /* [Pa]; 0 or infinity: none */
+} wr_contact_options;
+
+/* Undeformed gap between wheel and rail over the lateral coordinate of the contact plane. */
+typedef struct {
+    int64_t n;         /* number of samples, at least 3 */
+    const double *y;   /* strictly increasing [m] */
+    const double *g;   /* gap [m]; the approach is measured from g = 0 */
+    const double *A;   /* half curvature along the rolling direction, positive [1/m] */
+    const double *x_c; /* longitudinal position of the least gap [m]; NULL: 0 */
+    const double *tilt; /* slope of the bent surface, at most 1000; NULL: 0 */
+} wr_separation;
+
+/* Arrays of the caller for fields, each of n_strips_most * n_elements numbers; NULL: not wanted.
+ * Value k of strip i is [i * n_elements + k].  Element 0 is at the leading edge. */
+typedef struct {
+    int64_t size;          /* sizeof(wr_fields) */
+    int64_t n_strips_most; /* strips for which the arrays have room; 4 * options.n_strips is always enough */
+    int64_t n_strips;      /* out: strips of the answer */
+    double *x, *y;         /* position [m] */
+    double *p;             /* pressure [Pa] */
+    double *qx, *qy;       /* traction on the wheel [Pa] */
+    double *sx, *sy;       /* relative slip [-] */
+    double *stick;         /* 1 where the element sticks, 0 where it slips */
+} wr_fields;
+
+WR_API int wr_contact_default(wr_contact_options *options);
+WR_API int wr_contact_size(const wr_contact_options *options, size_t *bytes);
+WR_API int wr_contact_init(const wr_contact_options *options, void *memory, size_t bytes);
+/* Fill a case with the options, a constant coefficient of friction and the speed [m/s].  Then set load_kind, amount
+ * (load [N] or approach [m]), vx, vy, phi; for a friction law its members too. */
+WR_API int wr_contact_case(const wr_contact_options *options, double mu, double speed, wr_case *problem);
+WR_API int wr_contact_solve(void *memory, const wr_separation *separation, const wr_case *problem, wr_result *result);
+WR_API int wr_contact_accept(void *memory);
+WR_API int wr_contact_forget(void *memory);
+/* d(Fx, Fy, Mz, N, approach, power per metre)/d(vx, vy, phi, amount, mu) as jacobian[6][5], row by row.
+ * `mu` scales the whole friction law: kinetic changes in the same ratio.  Now central differences of ten solutions, each
+ * from nothing; an exact derivative will have this signature.  The last answer and the kept start stay. */
+WR_API int wr_contact_derivatives(void *memory, const wr_separation *separation, const wr_case *problem, double *jacobian);
+/* Fields of the last answer. */
+WR_API int wr_contact_fields(const void *memory, wr_fields *fields);
+/* Constants of the damage models for steel. */
+WR_API int wr_damage_default(wr_damage_parameters *parameters);
+/* Damage of the last answer, per metre rolled. */
+WR_API int wr_contact_damage(void *memory, const wr_damage_parameters *parameters, wr_damage *damage);
+/* Solve n cases, each from nothing, case i with separations[which[i]]; which NULL: all with the first.  Stops at the first
+ * error; failed (or NULL) then is its number.  For several threads give each one its memory and its part of the arrays. */
+WR_API int wr_contact_batch(void *memory, int64_t n_separations, const wr_separation *separations, int64_t n,
+                            const int64_t *which, const wr_case *cases, wr_result *results, int64_t *failed);
+
+/* ---------------------------------------------------------------- a wheel on a rail */
+
+typedef struct {
+    int64_t size;             /* sizeof(wr_pair_options), set by wr_pair_default */
+    wr_contact_options patch; /* methods, resolution and material; n_samples of each patch, 5 to 2001, default 81 */
+    int64_t side;             /* 1: right, -1: left */
+    int64_t most_patches;     /* 1 to 4 */
+    double wheel_radius;      /* at the tape circle [m], 0.05 to 2 */
+    double gauge;             /* [m], 0.1 to 3 */
+    double flange_back;       /* distance of the flange backs [m], 0.1 to 3 */
+    double gauge_point;       /* depth below the top of the rail at which the gauge is measured [m] */
+    double combine_distance;  /* lobes that are nearer [m] or */
+    double combine_angle;     /* differ by less [rad] share one patch */
+    int64_t n_bins;           /* bins on each profile in which damage adds up; 0: none; at most 100000 */
+    double bin_start;         /* arc length where the first bin begins [m] */
+    double bin_width;         /* [m] */
+    wr_damage_parameters damage;
+} wr_pair_options;
+
+/* A profile in the convention of the right side, for either side: points from the field side of y < 0 on.
+ * Wheel: origin at the tape circle.  Rail: already inclined.  docs: profiles.md. */
+typedef struct {
+    int64_t n;           /* 3 to 100000 */
+    const double *y;     /* [m] */
+    const double *z;     /* [m], down */
+    const double *angle; /* of the tangent [rad]; NULL: that of a cubic spline through the points */
+} wr_profile;
+
+typedef struct {
+    int64_t size;   /* sizeof(wr_pair_input), set by wr_pair_input_default */
+    int64_t height; /* WR_HEIGHT_GIVEN: motion.z; _PENETRATION: amount [m]; _LOAD: the normal forces carry amount [N];
+                       _VERTICAL: normal and friction forces together carry amount [N] */
+    double amount;
+    wr_motion motion;      /* pose and velocity of the wheelset, irregularity of the rail */
+    wr_case surface;       /* methods, material, friction: as wr_contact_case fills it; loads and creepages are ignored */
+    wr_elastic_rail rail;  /* springs; 0: rigid */
+    wr_wheel_offset offset; /* displacement of the wheel against its wheelset */
+    double distance;       /* rolled in this state [m], for the bins */
+} wr_pair_input;
+
+typedef struct {
+    int64_t size;                     /* sizeof(wr_pair_answer), set by the caller */
+    wr_total total;                   /* forces and moments in track coordinates, Y, Q, damage ... */
+    wr_patch patches[WR_MAX_PATCHES]; /* the first total.n_patches of them */
+    double deflection_y, deflection_z; /* of an elastic rail [m] */
+} wr_pair_answer;
+
+WR_API int wr_pair_default(wr_pair_options *options);
+WR_API int wr_pair_size(const wr_pair_options *options, int64_t n_wheel, int64_t n_rail, size_t *bytes);
+/* The profiles are copied. */
+WR_API int wr_pair_init(const wr_pair_options *options, const wr_profile *wheel, const wr_profile *rail, void *memory,
+                        size_t bytes);
+/* Steady rolling of a centred wheelset at this speed [m/s] under a load [N] that the normal forces carry. */
+WR_API int wr_pair_input_default(const wr_pair_options *options, double mu, double speed, double load,
+                                 wr_pair_input *input);
+WR_API int wr_pair_solve(void *memory, const wr_pair_input *input, wr_pair_answer *answer);
+/* Also books the damage of the last answer, once.  Call wr_pair_patch before it. */
+WR_API int wr_pair_accept(void *memory);
+/* The bins stay. */
+WR_API int wr_pair_forget(void *memory);
+/* d(Fx, Fy, Fz, Mx, My, Mz)/d(members of wr_motion in their order, amount) as jacobian[6][17], row by row.  Central
+ * differences of 34 solutions, each from nothing; an exact derivative will have this signature. */
+WR_API int wr_pair_derivatives(void *memory, const wr_pair_input *input, double *jacobian);
+/* Result and fields of patch k of the last answer, on the right side.  The patch is solved once more, from the last answer,
+ * so the numbers agree with it within the tolerance of the method.  fields may be NULL. */
+WR_API int wr_pair_patch(void *memory, int64_t k, wr_result *result, wr_fields *fields);
+/* Copy the bins that accept has booked: bins[2][WR_BIN_ROWS][n_bins], first the wheel's. */
+WR_API int wr_pair_bins(const void *memory, double *bins, int64_t count);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,21 @@
+"""What C calls: one short function for each entry of the library, over C types alone.
+
+`ENTRIES` says for each entry its function, the type of its result and those of its arguments: ``i64``, ``f64`` and ``ptr``,
+a pointer to float64. Every function has one more argument, `given`, with `given.data`, the pointers to `tables.data`.
+The functions get valid arguments only: `contact/c/wheelrail.c` checks them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+#: Entry → function, type of the result, types of the arguments.
+Entries = dict[str, tuple[Callable[..., Any], str, tuple[str, ...]]]
+
+
+def all_entries() -> Entries:
+    """Return the entries of all modules."""
+    from contact.kernels.entries import pair, patch
+
+    return {**patch.ENTRIES, **pair.ENTRIES}

@@ -1,0 +1,218 @@
+"""Entries of a wheel on a rail, from two profiles and the motion of the wheelset: `wr_pair_…` of wheelrail.h.
+
+`sizes` are those of `patch`, then the nodes of the wheel's and the rail's profile, the number of bins, and the nodes of both
+profiles that can touch (`pair_init` says how many; before, all). A profile is an array with the rows y, z and the angle of
+the tangent. `work` begins with the kept start and the kept bins, from which every solution starts, and with those that the
+last solution has left.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from numba import carray
+
+from contact.kernels import block, memory, quadrature
+from contact.kernels.damage.deposit import arc_length
+from contact.kernels.entries.layout import compiled, copy, copy_rows, fill, forget_forged, lay_out, size_of
+from contact.kernels.enumerations import Height
+from contact.kernels.flexible import solve_flexible
+from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes
+from contact.kernels.pair import solve_patch
+from contact.kernels.records import (
+    CASE,
+    CONTACT,
+    DAMAGE_PARAMETERS,
+    ELASTIC_RAIL,
+    GIVEN,
+    MAX_PATCHES,
+    MOTION,
+    RESULT,
+    TOTAL,
+    WHEEL_OFFSET,
+)
+from contact.kernels.rows import N_PROFILE_ROWS, Bin
+
+
+class _Start(NamedTuple):
+    """The first arrays in the caller's memory: warm starts, bins and whole profiles."""
+
+    kept: Any
+    trial: Any
+    spare: Any
+    kept_bins: Any
+    bins: Any
+    wheel: Any
+    rail: Any
+
+
+@compiled
+def _lay(sizes, work, constants):
+    """Return the start, the bench, the index of the strips, the index of the kept bins and the total size in numbers."""
+    size, s = size_of(sizes), carray(sizes, (9,))
+    n_wheel, n_rail, n_bins, facing_wheel, facing_rail = int(s[4]), int(s[5]), int(s[6]), int(s[7]), int(s[8])
+    piece = memory.memory_size(size)
+    kept, end = block.vector(work, 0, memory.pair_memory_size(piece))
+    trial, end = block.vector(work, end, memory.pair_memory_size(piece))
+    spare, at_bins = block.vector(work, end, piece)
+    kept_bins, end = block.cube(work, at_bins, 2, len(Bin), n_bins)
+    bins, end = block.cube(work, end, 2, len(Bin), n_bins)
+    wheel, end = block.matrix(work, end, N_PROFILE_ROWS, n_wheel)
+    rail, end = block.matrix(work, end, N_PROFILE_ROWS, n_rail)
+    search, end = memory.lay_search(work, end, facing_wheel, facing_rail, 0, size.n_samples)
+    own, at_strips, end = lay_out(work, end, trial[1 : 1 + piece], size, constants)
+    ledger, end = memory.lay_ledger(work, end, wheel, rail, bins, size.n_strips)
+    bench, end = memory.lay_bench(work, end, size, trial, search, own, ledger)
+    return _Start(kept, trial, spare, kept_bins, bins, wheel, rail), bench, at_strips, at_bins, end
+
+
+@compiled
+def _copy_bins(source, to):
+    copy_rows(source[0], to[0])
+    copy_rows(source[1], to[1])
+
+
+@compiled
+def _clear_bins(bins):
+    for body in range(bins.shape[0]):
+        for row in range(bins.shape[1]):
+            for i in range(bins.shape[2]):
+                bins[body, row, i] = 0.0
+
+
+def pair_size(sizes, given):
+    """Return the size of `work` in float64."""
+    return _lay(sizes, sizes, given.data)[4]
+
+
+def pair_strips(sizes, given):
+    """Return the index of the strips in `work`. The fields follow them."""
+    return _lay(sizes, sizes, given.data)[2]
+
+
+def pair_bins(sizes, given):
+    """Return the index of the kept bins in `work`."""
+    return _lay(sizes, sizes, given.data)[3]
+
+
+def pair_facing(sizes, wheel, rail, counts, given):
+    """Fill `counts`: the first node and the end of the part that can touch, of the wheel and of the rail."""
+    s, c = carray(sizes, (9,)), carray(counts, (4,))
+    a, b = facing(carray(wheel, (N_PROFILE_ROWS, int(s[4]))), True)
+    c[0], c[1] = a, b
+    a, b = facing(carray(rail, (N_PROFILE_ROWS, int(s[5]))), False)
+    c[2], c[3] = a, b
+    return 0
+
+
+def pair_init(sizes, work, wheel, rail, motion, case, parameters, gauge, gauge_point, start, width, given):
+    """Fill what depends only on the options. Return 0, or 1 where the rail has no gauge point."""
+    s = carray(sizes, (9,))
+    whole_wheel = carray(wheel, (N_PROFILE_ROWS, int(s[4])))
+    whole_rail = carray(rail, (N_PROFILE_ROWS, int(s[5])))
+    y, z, deepest = rail_origin(whole_rail, gauge, gauge_point)
+    if deepest < gauge_point:
+        return 1
+    a, bench, _, _, _ = _lay(sizes, work, given.data)
+    a.kept[:] = 0.0
+    a.trial[:] = 0.0
+    _clear_bins(a.kept_bins)
+    _clear_bins(a.bins)
+    copy_rows(whole_wheel, a.wheel)
+    copy_rows(whole_rail, a.rail)
+    search, ledger = bench.search, bench.ledger
+    low, high = facing(whole_wheel, True)
+    take_nodes(whole_wheel, low, high, search.wheel)
+    low, high = facing(whole_rail, False)
+    take_nodes(whole_rail, low, high, search.rail)
+    quadrature.fill_fejer(search.across.nodes, search.across.weights)
+    motions, _ = block.records(motion, 0, 1, MOTION)
+    search.motion[0] = motions[0]
+    search.motion[0].origin_y, search.motion[0].origin_z = y, z
+    cases, _ = block.records(case, 0, 1, CASE)
+    bench.case[0] = cases[0]
+    search.case[0].G, search.case[0].nu = cases[0].G, cases[0].nu
+    constants, _ = block.records(parameters, 0, 1, DAMAGE_PARAMETERS)
+    bench.damage_parameters[0] = constants[0]
+    fill(bench.own, cases[0].nu, given.data)
+    ledger.settings[0].start, ledger.settings[0].width = start / width, width
+    ledger.settings[0].distance = 0.0
+    arc_length(ledger.wheel, ledger.wheel_arc)
+    arc_length(ledger.rail, ledger.rail_arc)
+    return 0
+
+
+def pair_solve(
+    sizes, work, cold, mode, amount, distance, motion, case, rail, offset, total, contacts, deflected, given
+):
+    """Solve at one instant from the kept start, or with `cold` from nothing. Return the number of patches or `NoAnswer`."""
+    a, bench, _, _, _ = _lay(sizes, work, given.data)
+    piece = memory.memory_size(size_of(sizes))
+    copy(a.kept, a.trial)
+    _copy_bins(a.kept_bins, a.bins)
+    if cold != 0:
+        a.trial[:] = 0.0
+    for k in range(MAX_PATCHES):
+        forget_forged(a.trial[1 + k * piece : 1 + (k + 1) * piece])
+    cases, _ = block.records(case, 0, 1, CASE)
+    springs, _ = block.records(rail, 0, 1, ELASTIC_RAIL)
+    offsets, _ = block.records(offset, 0, 1, WHEEL_OFFSET)
+    givens, _ = block.records(motion, 0, 1, GIVEN)
+    bench.case[0], bench.rail[0], bench.offset[0] = cases[0], springs[0], offsets[0]
+    bench.ledger.settings[0].distance = distance
+    code = solve_flexible(mode, amount, givens[0], bench)
+    if code < 0:
+        return code
+    totals, _ = block.records(total, 0, 1, TOTAL)
+    patches, _ = block.records(contacts, 0, MAX_PATCHES, CONTACT)
+    out, _ = block.records(deflected, 0, 1, ELASTIC_RAIL)
+    totals[0], out[0] = bench.total[0], bench.rail[0]
+    for k in range(MAX_PATCHES):
+        patches[k] = bench.contacts[k]
+    return code if math.isfinite(a.bins.sum()) else -100
+
+
+def pair_accept(sizes, work, given):
+    """Make what the last solution has left the start of the following ones, and keep its bins."""
+    a, _, _, _, _ = _lay(sizes, work, given.data)
+    copy(a.trial, a.kept)
+    _copy_bins(a.bins, a.kept_bins)
+    return 0
+
+
+def pair_forget(sizes, work, given):
+    """Let the following solutions start from nothing. The bins stay."""
+    a, _, _, _, _ = _lay(sizes, work, given.data)
+    a.kept[:] = 0.0
+    a.trial[:] = 0.0
+    return 0
+
+
+def pair_patch(sizes, work, k, mode, result, given):
+    """Solve patch k of the last solution once more, for its strips and fields. Return the number of strips.
+
+    It starts from what the last solution has left, which it restores.
+    """
+    a, bench, _, _, _ = _lay(sizes, work, given.data)
+    piece = memory.memory_size(size_of(sizes))
+    of_patch = a.trial[1 + k * piece : 1 + (k + 1) * piece]
+    copy(of_patch, a.spare)
+    n = solve_patch(k, mode == Height.LOAD, bench)
+    copy(a.spare, of_patch)
+    results, _ = block.records(result, 0, 1, RESULT)
+    results[0] = bench.result[0]
+    return n
+
+
+ENTRIES = {
+    "pair_size": (pair_size, "i64", ("ptr",)),
+    "pair_strips": (pair_strips, "i64", ("ptr",)),
+    "pair_bins": (pair_bins, "i64", ("ptr",)),
+    "pair_facing": (pair_facing, "i64", ("ptr",) * 4),
+    "pair_init": (pair_init, "i64", (*("ptr",) * 7, *("f64",) * 4)),
+    "pair_solve": (pair_solve, "i64", ("ptr", "ptr", "i64", "i64", "f64", "f64", *("ptr",) * 7)),
+    "pair_accept": (pair_accept, "i64", ("ptr", "ptr")),
+    "pair_forget": (pair_forget, "i64", ("ptr", "ptr")),
+    "pair_patch": (pair_patch, "i64", ("ptr", "ptr", "i64", "i64", "ptr")),
+}

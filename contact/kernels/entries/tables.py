@@ -1,0 +1,12 @@
+"""Constant arrays that the entries read. The builder puts them into the library. No kernel: this module may read files."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from contact import force_table, kalker, workspace
+
+
+def data() -> tuple[np.ndarray, ...]:
+    """Return Kalker's coefficients, the influence of strips on the centre line, that off it, and the table of creep forces."""
+    return kalker.published(), *workspace.strip_tables(), force_table.load()

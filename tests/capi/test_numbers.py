@@ -1,0 +1,157 @@
+"""The C interface gives the numbers of Python, bit for bit."""
+
+import numpy as np
+import pytest
+
+import contact
+from contact.geometry import profile
+from contact.geometry.wheelset import Pair as Profiles
+from contact.geometry.wheelset import Pose, Velocity
+from contact.kernels.entries.header import PATH, header
+from contact.kernels.enumerations import Height
+from contact.kernels.records import DAMAGE, RESULT
+from contact.pair import WheelRailPair
+from tests.capi.library import FIELDS, Library, Pair, Patch
+
+SEPARATION = contact.Separation((y := np.linspace(-12e-3, 12e-3, 101)), 0.8 * y**2 + 3e3 * y**3 + 2e6 * y**4, 1.1)
+CREEPAGE = contact.Creepage(1e-3, 5e-4, 0.2)
+
+
+@pytest.fixture(scope="module")
+def library(built):
+    return Library(built)
+
+
+def set_case(patch, creepage=CREEPAGE, load=80e3):
+    patch.case["load_kind"], patch.case["amount"] = 0, load
+    patch.case["vx"], patch.case["vy"], patch.case["phi"] = creepage.longitudinal, creepage.lateral, creepage.spin
+
+
+def equal(record, solution):
+    for name in ("Fx", "Fy", "Mz", "N", "approach"):
+        assert record[name][0] == getattr(solution, name), name
+
+
+def test_the_committed_header_is_the_generated_one():
+    assert PATH.read_text() == header()
+
+
+@pytest.mark.parametrize(("normal", "tangential"), [("strip_halfspace", "fastrip_mapped"), ("analyn", "fastrip"),
+                                                ("kik_piotrowski", "fastsim"), ("hertz", "polach")])  # fmt: skip
+def test_a_patch_has_the_bits_of_the_solver(library, normal, tangential):
+    known = contact.methods().batched
+    ids = int(known.normal[normal].id), int(known.tangential[tangential].id)
+    patch = Patch(library, normal=ids[0], tangential=ids[1])
+    solver = contact.Solver(normal=normal, tangential=tangential)
+    separation, result = patch.separation(SEPARATION), np.zeros(1, RESULT)
+    for step in range(4):
+        creepage = contact.Creepage(1e-3, 5e-4 * step, 0.2)
+        set_case(patch, creepage, 80e3 + 1e3 * step)
+        want = solver.solve(SEPARATION, creepage, load=80e3 + 1e3 * step, warm=step > 0)
+        library.need("wr_contact_solve", patch.memory, separation, patch.case, result)
+        equal(result, want)
+        library.need("wr_contact_accept", patch.memory)
+
+
+def test_trying_is_free_and_accept_is_not(library):
+    patch, result, again = Patch(library), np.zeros(1, RESULT), np.zeros(1, RESULT)
+    separation = patch.separation(SEPARATION)
+    set_case(patch)
+    library.need("wr_contact_solve", patch.memory, separation, patch.case, result)
+    other = patch.case.copy()
+    other["amount"] = 60e3
+    library.need("wr_contact_solve", patch.memory, separation, other, again)
+    library.need("wr_contact_solve", patch.memory, separation, patch.case, again)
+    assert again == result
+    library.need("wr_contact_accept", patch.memory)
+    library.need("wr_contact_solve", patch.memory, separation, patch.case, again)
+    assert again["iterations"] < result["iterations"] or again["Fx"] != result["Fx"]
+    library.need("wr_contact_forget", patch.memory)
+    library.need("wr_contact_solve", patch.memory, separation, patch.case, again)
+    assert again == result
+
+
+def test_fields_and_damage_are_those_of_the_solution(library):
+    patch, result = Patch(library), np.zeros(1, RESULT)
+    set_case(patch)
+    library.need("wr_contact_solve", patch.memory, patch.separation(SEPARATION), patch.case, result)
+    want = contact.Solver().solve(SEPARATION, CREEPAGE, load=80e3)
+    arrays, fields = np.zeros((8, 80, 20)), np.zeros(1, FIELDS)
+    fields["size"], fields["n_strips_most"] = FIELDS.itemsize, 80
+    for name, array in zip(("x", "y", "p", "qx", "qy", "sx", "sy", "stick"), arrays, strict=True):
+        fields[name] = array.ctypes.data
+    library.need("wr_contact_fields", patch.memory, fields)
+    n = int(fields["n_strips"][0])
+    assert n == 20
+    for name, array in zip(("x", "p", "qx", "qy", "sx", "sy"), arrays[[0, 2, 3, 4, 5, 6], :n], strict=True):
+        assert np.array_equal(array, np.asarray(getattr(want, name))), name
+    assert np.array_equal(arrays[7, :n] > 0.5, np.asarray(want.stick) > 0.5)
+    assert np.array_equal(arrays[1, :n, 0], np.asarray(want.strips.y))
+    parameters = np.zeros(1, contact.damage.DamageParameters().record(contact.STEEL, 0.46, 20.0).dtype)
+    damage = np.zeros(1, DAMAGE)
+    library.need("wr_damage_default", parameters)
+    library.need("wr_contact_damage", patch.memory, parameters, damage)
+    assert damage["T_gamma"][0] == abs(want.Fx * 1e-3) + abs(want.Fy * 5e-4)
+
+
+def test_derivatives_are_slopes_of_the_forces(library):
+    patch = Patch(library, normal=0, tangential=0)  # analyn, fastrip
+    set_case(patch)
+    jacobian = np.zeros((6, 5))
+    separation = patch.separation(SEPARATION)
+    library.need("wr_contact_derivatives", patch.memory, separation, patch.case, jacobian)
+    solver = contact.Solver(normal="analyn", tangential="fastrip")
+    h = 1e-6
+    sides = [solver.solve(SEPARATION, contact.Creepage(1e-3 + s * h, 5e-4, 0.2), load=80e3) for s in (1, -1)]
+    assert jacobian[0, 0] == pytest.approx((sides[0].Fx - sides[1].Fx) / (2 * h), rel=0.02)
+    assert jacobian[3, 3] == pytest.approx(1.0, rel=1e-6)  # dN/d(load)
+    assert jacobian[0, 0] < 0.0
+
+
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize("height", ["load", "vertical", "given"])
+def test_a_pair_has_the_bits_of_python(library, side, height):
+    wheel, rail = profile.s1002(), profile.rail_60e1()
+    pair = Pair(library, wheel, rail, side=side)
+    reference = WheelRailPair(Profiles(wheel, rail, side="right" if side == 1 else "left"))
+    for lateral in (0.0, 3e-3, 6.5e-3):
+        pose = Pose(lateral, 1e-4 if height == "given" else 0.0, 0.0, 2e-3)
+        force = {} if height == "given" else {height: 80e3}
+        want = reference.solve(pose, Velocity(20.0), **force)
+        pair.input["height"] = {"load": Height.LOAD, "vertical": Height.VERTICAL, "given": Height.GIVEN}[height]
+        pair.input["motion"]["y"], pair.input["motion"]["z"], pair.input["motion"]["yaw"] = pose.y, pose.z, pose.yaw
+        pair.solve()
+        total = pair.answer["total"][0]
+        assert [total[n] for n in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")] == [*want.force, *want.moment]
+        assert total["n_patches"] == len(want.contacts)
+        assert total["z"] == want.z
+        for k, one in enumerate(want.contacts):
+            assert pair.answer["patches"][0, k]["N"] == one.N
+        library.need("wr_pair_accept", pair.memory)
+
+
+def test_trying_a_pair_is_free(library):
+    pair = Pair(library, profile.s1002(), profile.rail_60e1(), n_bins=200)
+    pair.input["distance"] = 1.0
+    pair.solve()
+    first, bins = pair.answer.copy(), np.zeros((2, 10, 200))
+    library.need("wr_pair_bins", pair.memory, bins, 4000)
+    assert not bins.any()
+    pair.input["motion"]["y"] = 4e-3
+    pair.solve()
+    pair.input["motion"]["y"] = 0.0
+    pair.solve()
+    assert pair.answer.tobytes() == first.tobytes()
+    library.need("wr_pair_accept", pair.memory)
+    library.need("wr_pair_bins", pair.memory, bins, 4000)
+    assert bins.any()
+    assert library.call("wr_pair_accept", pair.memory) < 0  # booked once
+
+
+def test_profiles_without_tangents_get_those_of_python(library):
+    wheel, rail = profile.s1002(), profile.rail_60e1()
+    plain = [profile.Profile(p.kind, p.y, p.z) for p in (wheel, rail)]
+    pair = Pair(library, *plain, angles=False)
+    pair.solve()
+    want = WheelRailPair(Profiles(*plain)).solve(Pose(), Velocity(20.0), load=80e3)
+    assert pair.answer["total"]["Fy"][0] == pytest.approx(want.force[1], rel=1e-6)
