@@ -7,6 +7,7 @@ The methods follow M. Sh. Sichani, "On Efficient Modelling of Wheel-Rail Contact
 from typing import TYPE_CHECKING, Any
 
 from contact.citation import cite
+from contact.core.library import get_include, get_library
 from contact.creepage import Creepage
 from contact.errors import ContactError
 from contact.forces import forces
@@ -48,6 +49,8 @@ __all__ = [
     "cite",
     "compare",
     "forces",
+    "get_include",
+    "get_library",
     "hertz",
     "methods",
     "solve",

@@ -11,15 +11,21 @@
 
 /* ---------------------------------------------------------------- processors */
 
-static int is_wide(void) {
-#if defined(__x86_64__)
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
-#else
-    return 0;
-#endif
-}
+#if defined(WR_SEVERAL) /* kernels for two kinds of x86-64 processors */
+const char *wr_processor(void);
 
+/* The answer is kept, since a virtual machine takes microseconds for it. It is the same for all threads. */
+static int is_wide(void) {
+    static volatile char known;
+    if (!known) known = wr_processor()[1];
+    return known == '3';
+}
 #define CALL(entry, ...) (is_wide() ? wrk_##entry##_v3(__VA_ARGS__, NULL) : wrk_##entry##_v2(__VA_ARGS__, NULL))
+#elif defined(WR_ANY) /* kernels in C */
+#define CALL(entry, ...) wrk_##entry##_any(__VA_ARGS__, NULL)
+#else /* kernels for this machine */
+#define CALL(entry, ...) wrk_##entry(__VA_ARGS__, NULL)
+#endif
 
 /* ---------------------------------------------------------------- codes: -(100 * argument + reason) */
 

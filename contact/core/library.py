@@ -29,10 +29,29 @@ INSTALLED = _HERE / "library" / NAME
 #: Folders of a checkout that the library is made from, and the packages that compile it.
 _MADE_FROM, _TOOLS = ("contact", "models", "fmu_src"), ("numba", "llvmlite", "numpy")
 #: Programs in `fmu_src.native` that build it.
-_BUILDER = ("library.py", "emit.py", "c_header.py", "ir_to_c.py", "ir_function.py", "linking.py")
+_BUILDER = ("library.py", "emit.py", "c_tables.py", "ir_to_c.py", "ir_function.py", "linking.py")
 #: Libraries that were not used for this time [s] are removed. At most `_MOST` are kept.
 _STALE, _MOST = 30 * 86400.0, 8
 PREFIX = "wheelrail-contact-"
+
+
+def get_include() -> Path:
+    """Return the folder of wheelrail.h, for compilers of programs that call the library."""
+    return _HERE / "include"
+
+
+def get_library() -> Path:
+    """Return the library with the C interface, wheelrail.h. A checkout builds it if necessary.
+
+    Raises
+    ------
+    ImportError
+        If this machine has none: no library fits, or a checkout has no C compiler.
+    """
+    path = INSTALLED if INSTALLED.is_file() else cached() / NAME
+    if not path.is_file():
+        raise ImportError(f"{path} was not linked: the C interface of a checkout needs cc, gcc or clang")
+    return path
 
 
 def address(symbol: str) -> int:

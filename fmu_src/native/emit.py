@@ -334,6 +334,20 @@ class _Glue:
             "}",
         ]
 
+    def add_plain(self, name: str, body: str) -> None:
+        """Add a function `name` that passes two addresses to numba's `body` (`contact.core.compiled`)."""
+        self.lines += [
+            f'declare i32 @"{body}"(ptr, ptr, i64, i64)',
+            f"define void @{name}(ptr %a, ptr %r) {{",
+            "  %result = alloca ptr",
+            "  %exception = alloca ptr",
+            "  %1 = ptrtoint ptr %a to i64",
+            "  %2 = ptrtoint ptr %r to i64",
+            f'  call i32 @"{body}"(ptr %result, ptr %exception, i64 %1, i64 %2)',
+            "  ret void",
+            "}",
+        ]
+
     def text(self) -> str:
         return "\n".join(self.lines)
 

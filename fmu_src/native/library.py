@@ -22,6 +22,9 @@ from fmu_src.native.emit import ENVIRONMENT
 
 _PROCESSOR = Path(__file__).parent / "c_library" / "processor.c"
 _INTERFACE = Path(__file__).parents[2] / "contact" / "c" / "wheelrail.c"
+_INCLUDE = Path(__file__).parents[2] / "contact" / "include"
+#: Beginning of the names of the functions that the C interface calls, and of its tables.
+PREFIX = "wrk"
 
 
 def entries() -> Iterator[Any]:
@@ -39,36 +42,36 @@ def entries() -> Iterator[Any]:
         )
 
 
-def module_of(listed: Iterable[Any]) -> tuple[Any, list[str]]:
-    """Return one LLVM module with a C function for each entry, and the names of these functions."""
+def module_of(listed: Iterable[Any], data: Sequence[Any]) -> tuple[Any, list[str]]:
+    """Return one LLVM module with a C function for each entry of Python and of the C interface, and their names."""
     from llvmlite import binding as llvm
+    from numba import cfunc, types
 
     from contact.core.compiled import as_c_function
-    from fmu_src.native.emit import _REFUSED, _readable, whole_module
+    from contact.kernels.entries import all_entries
+    from fmu_src.native.component import Given
+    from fmu_src.native.emit import _REFUSED, _Glue, _readable, whole_module
+    from fmu_src.native.memory import Doubles
 
-    libraries, names = [], []
-    glue = ["define void @NRT_incref(ptr %0) { ret void }", "define void @NRT_decref(ptr %0) { ret void }"]
+    libraries, names, glue = [], [], _Glue(data, PREFIX)
     for one in listed:
         made = as_c_function(one)
-        body = made.native_name.removeprefix("cfunc.")
         libraries.append(made._library)
         names.append(one.symbol)
-        glue += [
-            f'declare i32 @"{body}"(ptr, ptr, i64, i64)',
-            f"define void @{one.symbol}(ptr %a, ptr %r) {{",
-            "  %result = alloca ptr",
-            "  %exception = alloca ptr",
-            "  %1 = ptrtoint ptr %a to i64",
-            "  %2 = ptrtoint ptr %r to i64",
-            f'  call i32 @"{body}"(ptr %result, ptr %exception, i64 %1, i64 %2)',
-            "  ret void",
-            "}",
-        ]
+        glue.add_plain(one.symbol, made.native_name.removeprefix("cfunc."))
+    kinds = {"i64": types.int64, "f64": types.float64, "ptr": Doubles}
+    given = types.NamedTuple((Doubles, types.UniTuple(Doubles, len(data))), Given)
+    for name, (function, result, arguments) in all_entries().items():
+        taken = tuple(kinds[kind] for kind in arguments)
+        made = cfunc(kinds[result](*taken, given), error_model="numpy")(function)
+        libraries.append(made._library)
+        names.append(f"{PREFIX}_{name}")
+        glue.add(names[-1], kinds[result], taken, made.native_name.removeprefix("cfunc."))
     module = whole_module(libraries)
     for function in module.functions:  # numba's runtime: the arrays belong to the caller and have no reference count
         if function.name in ("NRT_incref", "NRT_decref") and not function.is_declaration:
             function.linkage = "weak_any"
-    module.link_in(llvm.parse_assembly("\n".join(glue)))
+    module.link_in(llvm.parse_assembly(glue.text()))
     seen = set(names)
     for i, symbol in enumerate((*module.functions, *module.global_variables)):
         if symbol.name not in seen and not symbol.is_declaration:
@@ -76,6 +79,18 @@ def module_of(listed: Iterable[Any]) -> tuple[Any, list[str]]:
             if not symbol.name.startswith(_REFUSED):
                 symbol.name = f"{_readable(symbol.name)}.{i}"
     return module, names
+
+
+def write_declarations(folder: Path, ends: Sequence[str]) -> None:
+    """Write wheelrail_entries.h: the entries that the C interface calls, one function for each end of a name."""
+    from contact.kernels.entries import all_entries
+
+    kinds = {"i64": "int64_t", "f64": "double", "ptr": "void *"}
+    lines = ["/* Generated from contact/kernels/entries. */", "#include <stdint.h>"]
+    for name, (_, result, arguments) in all_entries().items():
+        taken = ", ".join([*(kinds[kind] for kind in arguments), "void *"])
+        lines += [f"{kinds[result]} {PREFIX}_{name}{end}({taken});" for end in ends]
+    (folder / "wheelrail_entries.h").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def write_object(module: Any, path: Path) -> None:
@@ -102,14 +117,20 @@ def write_object(module: Any, path: Path) -> None:
 
 
 def link(folder: Path) -> None:
-    """Link the library, with its C interface, by the system's compiler if there is one."""
+    """Link the library, with its C interface, by the system's compiler if there is one. Else Python alone can use kernels.o."""
+    from contact import __version__
     from contact.core.library import NAME
 
     compiler = next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
-    if compiler is not None:
-        flags = ("-shared", "-fPIC", "-O2", "-ffp-contract=off", "-fvisibility=hidden", f"-I{folder}")
-        command = [compiler, *flags, "-o", str(folder / NAME), *map(str, (_INTERFACE, folder / "kernels.o")), "-lm"]
-        subprocess.run(command, check=False, capture_output=True)
+    if compiler is None:
+        return
+    write_declarations(folder, ("",))
+    flags = ("-shared", "-fPIC", "-O2", "-ffp-contract=off", "-fvisibility=hidden", f"-I{folder}", f"-I{_INCLUDE}")
+    version = f'-DWR_VERSION="{__version__}"'
+    parts = (_INTERFACE, folder / "kernels.o")
+    command = [compiler, "-std=c11", *flags, version, "-o", str(folder / NAME), *map(str, parts), "-lm"]
+    done = subprocess.run(command, check=False, capture_output=True, text=True)
+    sys.stdout.write(done.stderr)  # a compiler without headers or a linker is like none
 
 
 def build(folder: Path, listed: Iterable[Any], data: Sequence[Any], platforms: Sequence[str]) -> None:
@@ -118,20 +139,27 @@ def build(folder: Path, listed: Iterable[Any], data: Sequence[Any], platforms: S
     The library has each entry for processors with and without AVX2 (`emit.CPUS`) and says which this one runs. Libraries of
     `linking.FROM_C` are made from the C.
     """
+    from contact import __version__
     from fmu_src.native import emit, linking
 
-    module, names = module_of(listed)
+    module, names = module_of(listed, data)
     plain = emit._plain(module.as_bitcode())
-    text = emit.data_as_ir(data, "wr")
+    text = emit.data_as_ir(data, PREFIX)
     with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as pool:
         parts = [pool.submit(emit._write_kernels, plain, names, suffix, folder) for suffix in emit.CPUS]
         parts.append(pool.submit(emit._write_sources, plain, names, folder / "kernels.c"))
         for part in (*parts, pool.submit(emit._write_data, text, folder, folder / "data.c")):
             part.result()
+    write_declarations(folder, [f"_{suffix}" for suffix in (*emit.CPUS, "any")])
     for platform in platforms:
         in_c = platform in linking.FROM_C
         sources = [_PROCESSOR, _INTERFACE, *((folder / "kernels.c", folder / "data.c") if in_c else ())]
-        flags = (f"-I{folder}", "-DWR_ANY_VERSION" if in_c else "-DWR_TWO_VERSIONS")
+        flags = (
+            f"-I{folder}",
+            f"-I{_INCLUDE}",
+            "-DWR_ANY" if in_c else "-DWR_SEVERAL",
+            f'-DWR_VERSION="{__version__}"',
+        )
         of_platform = [] if in_c else emit.objects(folder, platform)
         linking.link(platform, linking.library_name(platform), sources, of_platform, folder, exports=flags)
 
@@ -146,19 +174,18 @@ def main() -> None:
     from llvmlite import binding as llvm
     from numba.core.errors import NumbaWarning
 
-    from fmu_src.native import c_header
+    from fmu_src.native import c_tables
     from fmu_src.native.emit import data_as_ir, make_no_machine_code
 
     warnings.simplefilter("ignore", NumbaWarning)
     folder, platforms = Path(sys.argv[1]), sys.argv[2:]
-    listed, data = list(entries()), c_header.tables()
-    (folder / "wheelrail_build.h").write_text(c_header.header(data), encoding="utf-8")
+    listed, data = list(entries()), c_tables.data()
     make_no_machine_code()
     if platforms:
         build(folder, listed, data, platforms)
         return
-    module, _ = module_of(listed)
-    module.link_in(llvm.parse_assembly(data_as_ir(data, "wr")))
+    module, _ = module_of(listed, data)
+    module.link_in(llvm.parse_assembly(data_as_ir(data, PREFIX)))
     write_object(module, folder / "kernels.o")
     link(folder)
 

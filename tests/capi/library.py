@@ -4,8 +4,8 @@ import ctypes
 
 import numpy as np
 
-from contact.kernels.entries.header import header  # noqa: F401 - the tests of the header use it
 from contact.kernels.records import CASE, CONTACT, DAMAGE_PARAMETERS, ELASTIC_RAIL, GIVEN, TOTAL, WHEEL_OFFSET
+from fmu_src.native.c_header import header  # noqa: F401 - the tests of the header use it
 
 
 def _struct(*members):

@@ -7,10 +7,10 @@ import contact
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair as Profiles
 from contact.geometry.wheelset import Pose, Velocity
-from contact.kernels.entries.header import PATH, header
 from contact.kernels.enumerations import Height
 from contact.kernels.records import DAMAGE, RESULT
 from contact.pair import WheelRailPair
+from fmu_src.native.c_header import PATH, header
 from tests.capi.library import FIELDS, Library, Pair, Patch
 
 SEPARATION = contact.Separation((y := np.linspace(-12e-3, 12e-3, 101)), 0.8 * y**2 + 3e3 * y**3 + 2e6 * y**4, 1.1)

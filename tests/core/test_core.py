@@ -31,7 +31,7 @@ from contact.pair import WheelRailPair
 separation, creepage = contact.Separation.hertzian(1.1, 0.8), contact.Creepage(1e-3, 5e-4, 0.2)
 for normal in ("analyn", "hertz", "kik_piotrowski", "strip_halfspace", "halfspace"):
     rolling = "halfspace" if normal == "halfspace" else "fastrip"
-    contact.solve(separation, creepage, load=8e4, normal=normal, tangential=rolling, throw=False).damage()
+    contact.solve(separation, creepage, load=8e4, normal=normal, tangential=rolling, throw=False).damage
 contact.forces(separation, (1e-3, 0.0, 0.0), load=[1e4, 2e4])
 pair = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(1 / 40)))
 pair.solve(Pose(y=1e-3), Velocity(20.0), load=8e4)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from numba import carray
-
-from contact._jit import uncached
-from contact.kernels import families, memory, quadrature
+from contact.core import COMPILING
+from contact.core import arranging as compiled
+from contact.kernels import memory, quadrature
 from contact.kernels.arrays import Size, Tables, Workspace
 from contact.kernels.kalker import N_TABLE, fill_table
 from contact.kernels.normal import influence
@@ -14,8 +13,8 @@ from contact.kernels.normal.descent import fill_descent
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.tangential.table import SHAPE as CREEP
 
-#: The builder compiles these functions once, so numba does not keep them.
-compiled = uncached
+if COMPILING:
+    from numba import carray
 
 
 @compiled
@@ -42,7 +41,7 @@ def lay_out(work, end, kept, size, constants):
         carray(plane, influence.PLANE),
         carray(creep, CREEP),
     )
-    return Workspace(families.ANY, rule, tables, space, strips, fields), at_strips, end
+    return Workspace(rule, tables, space, strips, fields), at_strips, end
 
 
 @compiled

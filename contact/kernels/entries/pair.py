@@ -11,8 +11,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from numba import carray
-
+from contact.core import COMPILING
 from contact.kernels import block, memory, quadrature
 from contact.kernels.damage.deposit import arc_length
 from contact.kernels.entries.layout import compiled, copy, copy_rows, fill, forget_forged, lay_out, size_of
@@ -33,6 +32,9 @@ from contact.kernels.records import (
     WHEEL_OFFSET,
 )
 from contact.kernels.rows import N_PROFILE_ROWS, Bin
+
+if COMPILING:
+    from numba import carray
 
 
 class _Start(NamedTuple):
