@@ -124,7 +124,7 @@ _MOTION_CONSTANTS = ("radius", "tape", "combine_distance", "combine_angle", "mos
 def _damage_defaults() -> str:
     made = DamageParameters().record(STEEL, 1.0, 1.0)
     values = []
-    for name in made.dtype.names:
+    for name in made.dtype.names or ():
         value = made[name]
         values.append("{" + ", ".join(repr(float(v)) for v in value) + "}" if value.shape else repr(value.item()))
     text = ", \\\n    ".join(values)

@@ -7,11 +7,10 @@ The functions get valid arguments only: `contact/c/wheelrail.c` checks them.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 #: Entry → function, type of the result, types of the arguments.
-Entries = dict[str, tuple[Callable[..., Any], str, tuple[str, ...]]]
+Entries = dict[str, tuple[Any, str, tuple[str, ...]]]
 
 
 def all_entries() -> Entries:

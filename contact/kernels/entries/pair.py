@@ -207,7 +207,7 @@ def pair_patch(sizes, work, k, mode, result, given):
     return n
 
 
-ENTRIES = {
+ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {
     "pair_size": (pair_size, "i64", ("ptr",)),
     "pair_strips": (pair_strips, "i64", ("ptr",)),
     "pair_bins": (pair_bins, "i64", ("ptr",)),

@@ -103,7 +103,7 @@ def contact_damage(sizes, work, n, case, result, parameters, damage, given):
     return 0
 
 
-ENTRIES = {
+ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {
     "contact_size": (contact_size, "i64", ("ptr",)),
     "contact_strips": (contact_strips, "i64", ("ptr",)),
     "contact_init": (contact_init, "i64", ("ptr", "f64", "ptr")),
