@@ -7,7 +7,7 @@ READY_FOR_DEMO := $(VENV)/.ready-for-demo
 READY_FOR_DOCS := $(VENV)/.ready-for-docs
 
 .DEFAULT_GOAL := help
-.PHONY: help demo docs explorer test check soak bounds traps lint fmu accuracy bench coupling smoothness pictures format clean
+.PHONY: help demo docs explorer test check soak bounds traps wheels lint fmu accuracy bench coupling smoothness pictures format clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -51,6 +51,11 @@ bounds: $(READY) ## run the tests of the kernels with numba's check of array bou
 traps: $(READY)  ## run the same tests with floating-point traps
 	$(BIN)/python -c 'import contact.core.library as library; library.cached()'
 	$(BIN)/python -m pytest -p tests.traps $(KERNELS)
+
+SYSTEMS := linux64 aarch64-linux win64 darwin64 aarch64-darwin
+wheels: $(READY) ## build the wheels of all systems into dist/wheels (three minutes the first time)
+	PYTHONPATH=tools $(BIN)/python -c "import build_backend as b; b.libraries(b.Path.cwd(), b.SYSTEMS)"
+	for system in $(SYSTEMS); do $(BIN)/python -m build --no-isolation --wheel --config-setting system=$$system --outdir dist/wheels || exit 1; done
 
 lint: $(READY)   ## ruff, mypy, import-linter
 	$(BIN)/ruff check .

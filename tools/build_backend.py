@@ -19,7 +19,7 @@ import shutil
 import subprocess
 import sys
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -80,16 +80,17 @@ def get_requires_for_build_wheel(config_settings: Mapping[str, Any] | None = Non
     return [*extras["build"], *(name for name in extras["native"] if name.startswith("ziglang")), "numpy"]
 
 
-def library(root: Path, system: str) -> Path:
-    """Return the library of kernels for a system. It is kept with those of checkouts, so the same sources build it once."""
+def libraries(root: Path, systems: Iterable[str]) -> dict[str, Path]:
+    """Return the libraries of kernels for systems, kept with those of checkouts: the same sources build them once."""
     code = "from contact.core import library as l; print(l.cache_folder() / (l.PREFIX + l.fingerprint() + '-wheels'))"
     told = subprocess.run([sys.executable, "-c", code], cwd=root, capture_output=True, text=True, check=True)
     folder = Path(told.stdout.strip())
-    path = folder / system / SYSTEMS[system][1]
-    if not path.is_file():
+    found = {system: folder / system / SYSTEMS[system][1] for system in systems}
+    missing = [system for system, path in found.items() if not path.is_file()]
+    if missing:
         folder.mkdir(parents=True, exist_ok=True)
-        subprocess.run([sys.executable, "-m", "fmu_src.native.library", str(folder), system], cwd=root, check=True)
-    return path
+        subprocess.run([sys.executable, "-m", "fmu_src.native.library", str(folder), *missing], cwd=root, check=True)
+    return found
 
 
 def renamed(text: str) -> str:
@@ -131,7 +132,7 @@ def build_wheel(
         lay_out(root, Path(folder))
         packed = Path(folder) / "contact" / "library"
         packed.mkdir()
-        shutil.copyfile(library(root, system), packed / SYSTEMS[system][1])
+        shutil.copyfile(libraries(root, [system])[system], packed / SYSTEMS[system][1])
         os.chdir(folder)
         try:
             options = {"--build-option": ["--plat-name", SYSTEMS[system][0]]}

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import getpass
 import hashlib
 import os
 import platform
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from functools import cache
@@ -201,14 +203,22 @@ def _has_kernels(path: Path) -> bool:
 
 
 def cache_folder() -> Path:
-    """Return the folder in which libraries of checkouts are kept: CONTACT_CACHE_DIR if set, else the system's for caches."""
+    """Return the folder in which libraries of checkouts are kept: CONTACT_CACHE_DIR if set, else the system's for caches.
+
+    Where that cannot be written, it is a folder of the user among the temporary ones.
+    """
     if own := os.environ.get("CONTACT_CACHE_DIR"):
         return Path(own)
     if sys.platform == "win32":
-        return Path(os.environ.get("LOCALAPPDATA", Path.home() / "AppData" / "Local"))
-    if sys.platform == "darwin":
-        return Path.home() / "Library" / "Caches"
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+        folder = Path(os.environ.get("LOCALAPPDATA", Path.home() / "AppData" / "Local"))
+    elif sys.platform == "darwin":
+        folder = Path.home() / "Library" / "Caches"
+    else:
+        folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    existing = next(path for path in (folder, *folder.parents) if path.exists())
+    if os.access(existing, os.W_OK):
+        return folder
+    return Path(tempfile.gettempdir()) / f"wheelrail-contact-{getpass.getuser()}"
 
 
 def _remove_stale(base: Path) -> None:
