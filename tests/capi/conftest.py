@@ -7,8 +7,6 @@ import pytest
 
 from contact.core import library
 
-ROOT = Path(__file__).parents[2]
-
 
 @pytest.fixture(scope="session")
 def built() -> Path:

@@ -7,7 +7,7 @@ import subprocess
 
 import pytest
 
-from tests.capi.conftest import ROOT
+from tests.capi.library import ROOT
 
 EXAMPLES, INCLUDE = ROOT / "examples", f"-I{ROOT / 'contact/include'}"
 
