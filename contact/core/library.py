@@ -179,14 +179,23 @@ def _run(folder: Path) -> None:
 
 @cache
 def fingerprint() -> str:
-    """Return a hash of all that the library of this checkout is made from: sources with kernels, and the tools."""
-    content = hashlib.sha256(platform.machine().encode())
+    """Return a hash of all that the library of this checkout is made from: sources, tools, and the processor it is for."""
+    content = hashlib.sha256(_processor().encode())
     for tool in _TOOLS:
         with contextlib.suppress(PackageNotFoundError):
             content.update(f"{tool} {version(tool)}".encode())
     for path in sources():
         content.update(f"{path.relative_to(_ROOT)}\0".encode() + path.read_bytes())
     return content.hexdigest()[:16]
+
+
+def _processor() -> str:
+    """Return what tells this processor from those for which its library may be wrong: on Linux all that it can do."""
+    said = f"{platform.machine()} {platform.processor()}"
+    with contextlib.suppress(OSError):
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines()
+        said += next((line for line in lines if line.startswith(("flags", "Features"))), "")
+    return said
 
 
 def sources() -> list[Path]:

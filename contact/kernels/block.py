@@ -56,8 +56,7 @@ def next_line(end: int) -> int:
 
 if COMPILING:
     from llvmlite import ir
-    from numba import carray, types
-    from numba.core.errors import TypingError
+    from numba import TypingError, carray, types
     from numba.extending import intrinsic, overload
 
     @intrinsic

@@ -1,8 +1,8 @@
 """Build the library of all kernels that Python calls: ``python -m fmu_src.native.library FOLDER [SYSTEM …]``.
 
 It writes kernels.o for this machine and, where there is a linker, the library beside it. With names of systems (`linking`) it
-writes the libraries of wheels. This program imports all modules that
-have entries (`contact.core.entry`) with the settings of numba that `emit.ENVIRONMENT` lists.
+writes the libraries of wheels. It imports all modules that have entries (`contact.core.entry`), with the settings of numba that
+`emit.ENVIRONMENT` lists.
 """
 
 from __future__ import annotations

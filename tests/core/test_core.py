@@ -129,6 +129,14 @@ def test_the_name_of_the_library_depends_on_kernels_alone(tmp_path, monkeypatch)
     assert not names & {"solve.py", "errors.py", "solution.py"}
 
 
+def test_the_library_of_another_processor_has_another_name(monkeypatch):
+    """Machines that share a home folder would else run instructions that one of them does not have."""
+    here = library.fingerprint.__wrapped__()
+    assert library.fingerprint.__wrapped__() == here
+    monkeypatch.setattr(library, "_processor", lambda: "another one")
+    assert library.fingerprint.__wrapped__() != here
+
+
 def test_a_checkout_without_library_and_numba_says_what_to_install(tmp_path):
     code = """
 import importlib.metadata as metadata

@@ -36,8 +36,7 @@ _PATIENCE = 5000
 
 if COMPILING:
     from llvmlite import ir
-    from numba import types
-    from numba.core.errors import TypingError
+    from numba import TypingError, types
     from numba.extending import intrinsic
 
     #: Symbol of the system's function by which a thread gives way to others.
