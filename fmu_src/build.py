@@ -91,7 +91,7 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
 def build_native(chosen: Sequence[Model], folder: Path, *, arm: bool = False) -> None:
     """Build FMUs that need no Python and print the progress.
 
-    One process compiles the kernels of all models. The models are then linked in parallel.
+    The library of all FMUs is built if it is not there. An FMU is this library and its data.
     """
     try:
         from fmu_src.native import packaging as native
@@ -110,7 +110,7 @@ def build_native(chosen: Sequence[Model], folder: Path, *, arm: bool = False) ->
             say_of_it(_size(path))
 
     print("Native, for hosts without Python:")
-    native.compile_kernels(chosen, place.objects(), say)
+    native.library.libraries(place.objects(), say, arm=arm)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         list(pool.map(build, chosen))
 

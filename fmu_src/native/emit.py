@@ -11,7 +11,6 @@ runtime, and how it makes machine code. Therefore pyproject.toml pins the numba 
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import struct
@@ -26,7 +25,7 @@ from fmu_src.native.ir_to_c import as_c
 from fmu_src.native.memory import PREFIX
 
 if TYPE_CHECKING:
-    from fmu_src.native.component import Component
+    from fmu_src.native.kinds import Kernels
 
 #: Environment variables that must be set before numba is imported.
 ENVIRONMENT = {
@@ -73,6 +72,9 @@ ALLOWED = _LIBM | {"memset", "memcpy", "memmove"}
 #: Prefixes of the names of data that only Python exceptions and objects need.
 _REFUSED = (".const.pickle", "numba.dynamic")
 
+#: Kind whose entries the kernels of other kinds call.
+CALLED = "pair"
+
 #: Platforms for which the FMU brings its own exp, log and pow, one version for each processor (`libm.py`).
 OWN_LIBM = {"win64"}
 
@@ -87,22 +89,22 @@ def sources(folder: Path, prefix: str = PREFIX) -> list[Path]:
     return [folder / (part if prefix == PREFIX else f"{prefix}_{part}") for part in ("data.c", "kernels.c")]
 
 
-def emit(components: Mapping[Path, Component]) -> None:
+def emit(components: Mapping[Path, Kernels]) -> None:
     """Write the `objects` of each component for every platform, and its `sources` in C, into its folder.
 
     The names of the kernels end with the processor, for example model_outputs_v2, and in C with `any`. The objects of a
     component do not depend on which others are emitted in the same call. No kernel can be called in this process afterwards.
-    Names begin with `Component.prefix` instead of `model`.
+    Names begin with `Kernels.kind` instead of `model`.
 
     Raises
     ------
     RuntimeError
         If the kernels need a symbol that is not in ALLOWED.
     """
-    from fmu_src.native.component import SIGNATURES
+    from fmu_src.native.kinds import SIGNATURES
 
     # This comes before machine code is switched off, since components may call kernels to make their data.
-    made = {folder: (own.entries(), own.data(), own.prefix) for folder, own in components.items()}
+    made = {folder: (own.entries(), own.data(), own.kind) for folder, own in components.items()}
     make_no_machine_code()
     with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as pool, ThreadPoolExecutor(len(made)) as chains:
 
@@ -226,12 +228,13 @@ def linked(entries: Mapping[str, Callable[..., Any]], data: Sequence[Any], prefi
     from llvmlite import binding as llvm
     from numba import cfunc, types
 
-    from fmu_src.native.component import SIGNATURES, Given
+    from fmu_src.native.component import Given
+    from fmu_src.native.kinds import SIGNATURES
     from fmu_src.native.memory import Doubles
 
     parts, glue, entries = [], _Glue(data, prefix), {**_UNNEEDED, **entries}
     visible = {_symbol(entry, prefix) for entry in SIGNATURES}
-    given = types.NamedTuple((Doubles, types.UniTuple(Doubles, len(data))), Given)
+    given = types.NamedTuple((Doubles, Doubles, types.UniTuple(Doubles, len(data))), Given)
     for name, (result, arguments) in SIGNATURES.items():
         compiled = cfunc(result(*arguments, given), error_model="numpy")(entries[name])
         text = re.sub(r"^target .*$", "", _without_origin(compiled.inspect_llvm()), flags=re.MULTILINE)
@@ -277,7 +280,7 @@ class _Glue:
 
     def add(self, name: str, result: Any, arguments: Sequence[Any], body: str) -> None:
         """Add a function `name` that calls numba's `body`, i32 body(result*, exception**, arguments…), which never fails."""
-        names = [*(f"{_TYPES[str(a)]} %a{i}" for i, a in enumerate(arguments)), "ptr %resources"]
+        names = [*(f"{_TYPES[str(a)]} %a{i}" for i, a in enumerate(arguments)), "ptr %resources", "ptr %own"]
         constants = [f"ptr @{self.prefix}_data{i}" for i in range(len(self.data))]
         kind = _TYPES[str(result)]
         types = ", ".join(["ptr", "ptr", *(n.split()[0] for n in names), *("ptr" for _ in constants)])
@@ -333,10 +336,11 @@ def _named(module: Any, entries: Iterable[str], suffix: str) -> Any:
     RuntimeError
         If it needs a symbol that is not in ALLOWED.
     """
-    from fmu_src.native.component import SIGNATURES
+    from fmu_src.native.kinds import SIGNATURES
 
+    called = {_symbol(entry, CALLED) for entry in SIGNATURES}
     for function in module.functions:
-        if function.name in entries or (function.is_declaration and function.name in SIGNATURES):
+        if function.name in entries or (function.is_declaration and function.name in called):
             function.name = f"{function.name}_{suffix}"
     refuse_the_rest(module)
     return module
@@ -361,7 +365,7 @@ def refuse_the_rest(module: Any) -> None:
     needed = {f.name for f in module.functions if f.is_declaration and not f.name.startswith("llvm.")}
     needed |= {g.name for g in module.global_variables if g.is_declaration and not re.search(r"_data\d+$", g.name)}
     needed |= {g.name for g in module.global_variables if g.name.startswith(_REFUSED)}
-    needed = {name for name in needed if not re.fullmatch(rf"{PREFIX}_\w+_(?:{'|'.join(CPUS)}|any)", name)}
+    needed = {name for name in needed if not re.fullmatch(rf"{CALLED}_\w+_(?:{'|'.join(CPUS)}|any)", name)}
     if needed - ALLOWED:
         raise RuntimeError(f"the kernels need symbols that the FMU may not have: {', '.join(sorted(needed - ALLOWED))}")
 
@@ -377,12 +381,11 @@ def main() -> None:
     from numba.core.errors import NumbaWarning
 
     warnings.simplefilter("ignore", NumbaWarning)  # unoptimised code cannot be cached
-    from fmu_src.catalogue import Model
+    from fmu_src.native.kinds import kernels_of
 
     components = {}
-    for name, options, folder in zip(*(iter(sys.argv[1:]),) * 3, strict=True):
-        model = Model(name, json.loads(options))
-        components[Path(folder)] = model.module("native").component(**model.options)
+    for name, folder in zip(*(iter(sys.argv[1:]),) * 2, strict=True):
+        components[Path(folder)] = kernels_of(name)
     emit(components)
 
 

@@ -10,10 +10,10 @@ from pathlib import Path
 import fmpy
 
 from fmu_src.native.emit import OWN_LIBM
+from fmu_src.native.library import WRAPPER as WRAPPER
 from fmu_src.native.libm import compile_libm
 
 _BEAT = 15.0  # between two signs of life of a long command [s]
-WRAPPER = Path(__file__).parent / "c"
 #: What every library for Windows has. It needs the Universal C Runtime, which is part of Windows since version 10.
 OF_WINDOWS = Path(__file__).parent / "c_windows" / "library.c"
 _RUNTIME = ("convert", "heap", "math", "private", "runtime", "stdio", "string")

@@ -18,36 +18,18 @@ from contact.kernels.damage.deposit import arc_length
 from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes, turn
 from contact.kernels.rows import N_PROFILE_ROWS, Bin
 from fmu_src.native import pair_parts
-from fmu_src.native.component import Component, Resource
+from fmu_src.native.components import Failure
+from fmu_src.native.kinds import Kernels
 from fmu_src.native.memory import compiled
-from fmu_src.native.pair_parts import FAILURES, TOTALS, WARNINGS, Failure, sizer
+from fmu_src.native.pair_parts import sizer
 from fmu_src.native.solver import data, fill, lay_out
 from fmu_src.native.wires import references
-from fmu_src.profiles import MAGIC, ROWS
-from fmu_src.tables.wheel_rail_pair import ACCUMULATED, BINS, RAIL, WHEEL, table
+from fmu_src.tables.wheel_rail_pair import ACCUMULATED, BINS, table
 from fmu_src.variables import Table
 
-_FAILURES: dict[int, str] = {
-    **FAILURES,
-    Failure.GAUGE_POINT: "track.gauge_point: the rail reaches no deeper on its gauge side",
-    Failure.STEEP: "rail.inclination: the rail is steep at its top",
-}
-
-
-def component(inclination: float, accumulation: bool = False) -> Component:
-    """Return the FMU. `inclination` is the default of `rail.inclination` (tangent); `accumulation` shows the bins."""
-    interface = table(inclination, accumulation)
-    return Component(
-        table=interface,
-        entries=lambda: entries(interface),
-        data=data,
-        resources=(Resource(WHEEL, MAGIC["wheel"], ROWS), Resource(RAIL, MAGIC["rail"], ROWS)),
-        totals=TOTALS,
-        accumulated=ACCUMULATED,
-        accumulates="accumulation.wear_law",
-        warnings=WARNINGS,
-        failures=_FAILURES,
-    )
+def kernels() -> Kernels:
+    """Return the kernels."""
+    return Kernels(kind="pair", entries=lambda: entries(table()), data=data)
 
 
 class Start(NamedTuple):

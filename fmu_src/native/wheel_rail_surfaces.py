@@ -16,45 +16,24 @@ from contact.kernels.arrays import Sheet
 from contact.kernels.block import ahead
 from contact.kernels.rows import N_PROFILE_ROWS, Bin
 from fmu_src.native import pair_parts
-from fmu_src.native.component import Component, Resource
+from fmu_src.native.components import Failure
+from fmu_src.native.kinds import Kernels
 from fmu_src.native.memory import compiled
-from fmu_src.native.pair_parts import FAILURES, TOTALS, WARNINGS, Failure, sizer
+from fmu_src.native.pair_parts import sizer
 from fmu_src.native.solver import data, fill, lay_out
 from fmu_src.native.wires import references
-from fmu_src.surfaces import MAGIC
-from fmu_src.tables.wheel_rail_surfaces import FRAME, HEAD, MOST_NUMBERS, RAIL, WHEEL, table
+from fmu_src.tables.wheel_rail_surfaces import FRAME, HEAD, table
 from fmu_src.variables import Table
 
-_FAILURES: dict[int, str] = {
-    **FAILURES,
-    Failure.NO_OVERLAP: "pose.y: the wheel does not lie above its rail",
-    **{
-        number: f"resource {name}: its slices are not in order, or its numbers do not belong together"
-        for number, name in ((Failure.WHEEL, WHEEL), (Failure.RAIL, RAIL))
-    },
-}
 _TILTED = FRAME.number("Tilted")
 #: Least distance of slices and of points of a deviation, below those that `fmu_src.surfaces` writes, and greatest number.
 _CLOSEST, _GREATEST = 1e-7, 1e7
 _STEP_ALONG, _STEP_ANGLE = 1e-6, 2e-6  # [m], [rad] for difference quotients
 
 
-def component() -> Component:
-    """Return the FMU."""
-    interface = table()
-    return Component(
-        table=interface,
-        entries=lambda: _entries(interface),
-        data=data,
-        resources=(
-            Resource(WHEEL, MAGIC["wheel"], 1, MOST_NUMBERS),
-            Resource(RAIL, MAGIC["rail"], 1, MOST_NUMBERS),
-        ),
-        totals=TOTALS,
-        warnings=WARNINGS,
-        failures=_FAILURES,
-        prefix="surfaces",
-    )
+def kernels() -> Kernels:
+    """Return the kernels."""
+    return Kernels(kind="surfaces", entries=lambda: _entries(table()), data=data)
 
 
 @compiled

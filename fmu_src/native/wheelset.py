@@ -18,7 +18,8 @@ from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes, tu
 from contact.kernels.memory import lay_search
 from contact.kernels.records import GIVEN, MAX_PATCHES
 from contact.kernels.rows import N_PROFILE_ROWS
-from fmu_src.native.component import Component
+from fmu_src.native.components import OUT_OF_GAUGE
+from fmu_src.native.kinds import Kernels
 from fmu_src.native.memory import compiled
 from fmu_src.native.wires import references
 from fmu_src.tables.wheelset import table
@@ -38,19 +39,14 @@ _TABLE = table()
 _AT = references(_TABLE)
 _N_VALUES = len(_TABLE.scalars)
 _STEPS = np.array([_DIFFERENCES.get(s.unit, 1e-6 * abs(s.first)) for s in _TABLE.scalars])
-_OUT_OF_GAUGE = max(motion.MESSAGES) + 1
 
 
-def component() -> Component:
-    """Return the FMU. Its data are the profiles of the wheel and of the rail before it is inclined."""
-    return Component(
-        table=_TABLE,
+def kernels() -> Kernels:
+    """Return the kernels. Their data are the profiles of the wheel and of the rail before it is inclined."""
+    return Kernels(
+        kind="wheelset",
         entries=lambda: {function.__name__: function for function in _CALLED_BY_C},
         data=lambda: (_rows(_WHEEL), _rows(_RAIL)),
-        failures={
-            **motion.MESSAGES,
-            _OUT_OF_GAUGE: "the rail's side does not reach down to where the gauge is measured",
-        },
     )
 
 
@@ -199,7 +195,7 @@ def model_prepare(values, work, given):
     turn(carray(rail, (N_PROFILE_ROWS, _N_RAIL)), -math.atan(v[_AT.rail_inclination]), turned)
     origin_y, origin_z, deepest = rail_origin(turned, v[_AT.track_gauge], _GAUGE_POINT)
     if deepest < _GAUGE_POINT:
-        return _OUT_OF_GAUGE
+        return OUT_OF_GAUGE
     wheel_from, wheel_to = facing(wheel_rows, True)
     rail_from, rail_to = facing(turned, False)
     sizes[0], sizes[1] = wheel_to - wheel_from, rail_to - rail_from

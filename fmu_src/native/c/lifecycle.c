@@ -96,8 +96,9 @@ Status choose_log(Instance *instance, const char *function, bool on, size_t n, c
 static void restart(Instance *instance)
 {
     memset(&instance->is, 0, sizeof instance->is);
-    for (size_t i = 0; i < N_VALUES; i++) instance->is.values[i] = variables[i].start;
-    memcpy(instance->is.solved, instance->is.values, sizeof instance->is.solved);
+    for (size_t i = 0; i < N(values); i++) instance->values[i] = instance->table.variables[i].start;
+    memcpy(instance->solved, instance->values, N(values) * sizeof(double));
+    memset(instance->accepted, 0, N(totals) * sizeof(double));
     instance->is.stop_time = INFINITY;
     instance->is.phase = INSTANTIATED;
     instance->is.is_new = true;
@@ -105,38 +106,51 @@ static void restart(Instance *instance)
     instance->work_is_solved = false;
 }
 
-#define ENTRIES(cpu) \
-    int64_t ENTRY(memory, cpu)(double *, const double *); \
-    int64_t ENTRY(size, cpu)(double *, const double *); \
-    int64_t ENTRY(prepare, cpu)(double *, double *, const double *); \
-    int64_t ENTRY(start, cpu)(double *, double *, const double *); \
-    int64_t ENTRY(outputs, cpu)(double *, double *, double, const double *); \
-    int64_t ENTRY(lazy, cpu)(double *, double *, const double *); \
-    double ENTRY(difference, cpu)(double *, int64_t, const double *); \
-    int64_t ENTRY(field, cpu)(double *, double *, int64_t, const double *); \
-    static const Model model_##cpu = {ENTRY(memory, cpu),  ENTRY(size, cpu), ENTRY(prepare, cpu),    ENTRY(start, cpu), \
-                                      ENTRY(outputs, cpu), ENTRY(lazy, cpu), ENTRY(difference, cpu), ENTRY(field, cpu)};
+#define DECLARE(kind, cpu) \
+    int64_t kind##_memory_##cpu(double *, const double *, const double *); \
+    int64_t kind##_size_##cpu(double *, const double *, const double *); \
+    int64_t kind##_prepare_##cpu(double *, double *, const double *, const double *); \
+    int64_t kind##_start_##cpu(double *, double *, const double *, const double *); \
+    int64_t kind##_outputs_##cpu(double *, double *, double, const double *, const double *); \
+    int64_t kind##_lazy_##cpu(double *, double *, const double *, const double *); \
+    double kind##_difference_##cpu(double *, int64_t, const double *, const double *); \
+    int64_t kind##_field_##cpu(double *, double *, int64_t, const double *, const double *);
+#define LIST(kind, cpu) \
+    {#kind, kind##_memory_##cpu, kind##_size_##cpu, kind##_prepare_##cpu, kind##_start_##cpu, kind##_outputs_##cpu, \
+     kind##_lazy_##cpu, kind##_difference_##cpu, kind##_field_##cpu},
+#define KERNELS(cpu) \
+    KINDS(DECLARE, cpu) \
+    static const Kernels kernels_##cpu[] = {KINDS(LIST, cpu){0}};
+
 #ifdef HAS_TWO_KERNELS
-ENTRIES(v2)
-ENTRIES(v3)
+KERNELS(v2)
+KERNELS(v3)
 
 /* x86-64-v3 requires AVX2, FMA, BMI, LZCNT, MOVBE and F16C of the processor, and a system that saves the wide registers.
  * __builtin_cpu_supports is not used, since it needs a variable that the library would have to write. */
-static const Model *model_for_this_processor(void)
+static const Kernels *kernels_for_this_processor(void)
 {
     const unsigned leaf1 = bit_FMA | bit_MOVBE | bit_OSXSAVE | bit_AVX | bit_F16C, leaf7 = bit_AVX2 | bit_BMI | bit_BMI2;
     const unsigned lzcnt = 1u << 5, wide_registers = 6;
     unsigned a, b, c, d, saved, high;
-    if (!__get_cpuid(1, &a, &b, &c, &d) || (c & leaf1) != leaf1) return &model_v2;
-    if (!__get_cpuid_count(7, 0, &a, &b, &c, &d) || (b & leaf7) != leaf7) return &model_v2;
-    if (!__get_cpuid(0x80000001, &a, &b, &c, &d) || !(c & lzcnt)) return &model_v2;
+    if (!__get_cpuid(1, &a, &b, &c, &d) || (c & leaf1) != leaf1) return kernels_v2;
+    if (!__get_cpuid_count(7, 0, &a, &b, &c, &d) || (b & leaf7) != leaf7) return kernels_v2;
+    if (!__get_cpuid(0x80000001, &a, &b, &c, &d) || !(c & lzcnt)) return kernels_v2;
     __asm__("xgetbv" : "=a"(saved), "=d"(high) : "c"(0));
-    return (saved & wide_registers) == wide_registers ? &model_v3 : &model_v2;
+    return (saved & wide_registers) == wide_registers ? kernels_v3 : kernels_v2;
 }
 #else
-ENTRIES(any)
-static const Model *model_for_this_processor(void) { return &model_any; }
+KERNELS(any)
+static const Kernels *kernels_for_this_processor(void) { return kernels_any; }
 #endif
+
+/* Return the kernels of a kind of model for this processor, or NULL if they are not in this binary. */
+const Kernels *kernels_of(const char *kind)
+{
+    const Kernels *k = kernels_for_this_processor();
+    while (k->kind && strcmp(k->kind, kind)) k++;
+    return k->kind ? k : NULL;
+}
 
 /* Return a new instance, or log the reason and return NULL. */
 Instance *instantiate(Type type, bool arrays, const char *name, const char *guid, const char *folder, const Log *log,
@@ -153,11 +167,6 @@ Instance *instantiate(Type type, bool arrays, const char *name, const char *guid
         report(&caller, LOG_ERROR, "fmuType %d is neither co-simulation nor model exchange", (int)type);
         return NULL;
     }
-    if (!guid || strcmp(guid, MODEL_GUID)) {
-        report(&caller, LOG_ERROR, "guid %.60s is not that of this binary, %s: description and binary come from different builds",
-               guid ? guid : "NULL", MODEL_GUID);
-        return NULL;
-    }
     instance = calloc(1, sizeof *instance);
     if (!instance) {
         report(&caller, LOG_ERROR, "out of memory");
@@ -166,11 +175,18 @@ Instance *instantiate(Type type, bool arrays, const char *name, const char *guid
     memcpy(instance->name, caller.name, sizeof instance->name);
     instance->type = type;
     instance->arrays = arrays;
-    instance->model = model_for_this_processor();
     instance->log = *log;
     instance->categories = logging ? LOG_WARNING | LOG_DISCARD | LOG_ERROR : LOG_DISCARD | LOG_ERROR;
-    restart(instance);
-    if (load_resources(instance, folder)) return instance;
+    if (load_table(instance, folder)) {
+        const char *own = TEXT(instance->table.head->guid);
+        if (!guid || strcmp(guid, own))
+            report(instance, LOG_ERROR, "guid %.60s is not that of the resources, %s: they come from different builds",
+                   guid ? guid : "NULL", own);
+        else if (load_resources(instance, folder)) {
+            restart(instance);
+            return instance;
+        }
+    }
     release(instance);
     return NULL;
 }
@@ -181,6 +197,8 @@ void release(Instance *instance)
     free_work(instance);
     free(instance->memory);
     free(instance->resources);
+    free(instance->values);
+    free(instance->table.block);
     free(instance);
 }
 
@@ -196,7 +214,7 @@ Status set_up(Instance *instance, const char *function, double start, bool has_s
 
 Status enter_configuration(Instance *instance, const char *function)
 {
-    REQUIRE(instance, function, N_FIELDS > 0 ? INSTANTIATED : 0); /* without fields the FMU has no structural parameters */
+    REQUIRE(instance, function, N(fields) > 0 ? INSTANTIATED : 0); /* without fields the FMU has no structural parameters */
     instance->is.phase = CONFIGURATION;
     return OK;
 }
