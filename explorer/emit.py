@@ -47,7 +47,7 @@ def main() -> None:
     warnings.simplefilter("ignore", NumbaWarning)  # unoptimised code cannot be cached
     from explorer import patch
     from fmu_src.native import emit, solver
-    from fmu_src.native.component import SIGNATURES
+    from fmu_src.native.kinds import SIGNATURES
     from fmu_src.tables.wheel_rail_pair import table
 
     folder = Path(sys.argv[1])

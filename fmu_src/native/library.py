@@ -117,7 +117,7 @@ def _build(folder: Path, cache: Path, say: Callable[[str], None]) -> None:
         words = [word for kind in parts if kind in missing for word in (KINDS[kind], parts[kind])]
         run(sys.executable, "-m", "fmu_src.native.emit", *words, waiting=lambda: None)
     common = folder / "sources"
-    common.mkdir(exist_ok=True)
+    common.mkdir(parents=True, exist_ok=True)
     (common / "records.h").write_text(header())
     for path in HEADERS.glob("fmi[23]*.h"):
         copy(path, common)

@@ -12,12 +12,11 @@ import numpy as np
 from contact.kernels.records import MAX_PATCHES
 from contact.solver import N_ELEMENTS, N_STRIPS
 from fmu_src.catalogue import models, vehicles
-from fmu_src.native import source
 from fmu_src.native.component import Component
+from fmu_src.native.library import KINDS, objects_of
 from fmu_src.native.linking import HEADERS, OF_WINDOWS, WITHOUT_MINGW, compiler, run
-from fmu_src.native.packaging import kernels
-from fmu_src.native.wheel_rail_contact import component
 from models.wheelset.ports import POINTS
+from reference.native import source
 
 ROOT = Path(__file__).parents[2]
 NAME = "WheelRailContact"
@@ -90,7 +89,7 @@ class Host:
         self.resources = resources_of(unzipped, own)
         every = models(POINTS, accumulation=True) if name in ROLES else (*models(POINTS), *vehicles(SCENARIO))
         (model,) = (model for model in every if model.table.name == name)
-        its = model.module("native").component(**model.all_options)
+        its = model.component()
         (folder / "model.h").write_text(source.header(its, self.guid))
         (folder / "roles.h").write_text(roles(its))
         self.program = folder / f"host{program}"
@@ -125,7 +124,7 @@ class Host:
 
     def solve(self, cases: Iterable[Mapping[str, float]], outputs: Sequence[str]) -> np.ndarray:
         """Return `outputs` of the FMU after one step from the start, one row for each case (input values by name)."""
-        table = component(POINTS).table
+        table = models(POINTS)[0].table
         names = [scalar.name for scalar in table.scalars]
         lines = []
         for case in cases:
@@ -183,7 +182,10 @@ def roles(its: Component) -> str:
 
 def kernel_objects() -> list[Path]:
     """Return the paths of the compiled kernels for Linux, which the build of the FMU keeps."""
-    return kernels(models(POINTS)[0], ROOT / "build" / "native", print)["linux64"]
+    from fmu_src.native.emit import objects
+
+    folder = objects_of(ROOT / "build" / "native")
+    return [path for kind in KINDS for path in objects(folder / kind, "linux64")]
 
 
 def kernel_library(folder: Path, cpu: str) -> Path:

@@ -9,13 +9,10 @@ pytest.importorskip("ziglang")
 from contact import Status
 from contact.kernels import records as defined
 from contact.kernels.enumerations import LoadKind
-from fmu_src.catalogue import models
-from fmu_src.native import records, source
-from fmu_src.native.linking import HEADERS, WRAPPER, compiler, run
-from models.wheelset.ports import POINTS
+from fmu_src.native import records
+from fmu_src.native.linking import compiler, run
 
 STRICT = ("-std=c11", "-Wall", "-Wextra", "-Werror", "-c")
-MODELS = {model.name: model for model in models(POINTS)}
 
 
 @pytest.mark.parametrize("platform", ["linux64", "win64", "darwin64"])
@@ -71,15 +68,3 @@ def test_enumerators_are_prefixed():
     assert records.enumerator(Status.NOT_CONVERGED) == "CONTACT_STATUS_NOT_CONVERGED"
     assert records.enumerator(LoadKind.LOAD) == "CONTACT_LOAD_KIND_LOAD"
     assert records.enumerator(7) == "7"
-
-
-@pytest.mark.parametrize("name", MODELS)
-def test_the_code_of_every_model_compiles(tmp_path, name):
-    """It includes records.h, whose enumerators relate warnings to statuses. Kernels are not needed."""
-    model = MODELS[name]
-    component = model.module("native").component(**model.options)
-    source.write(component, "{guid}", tmp_path)
-    body = (tmp_path / "model.c").read_text()
-    assert all(f"[{records.enumerator(number)}] = {{LOG_WARNING" in body for number in component.warnings)
-    include = (f"-I{tmp_path}", f"-I{WRAPPER}", f"-I{HEADERS}")
-    run(*compiler("linux64"), *STRICT, *include, tmp_path / "model.c", "-o", tmp_path / "model.o")

@@ -16,8 +16,8 @@ if __name__ == "__main__" and any(os.environ.get(name) != value for name, value 
 import numpy as np
 
 from contact.kernels.block import vector
-from fmu_src.native.component import SIGNATURES, Component
 from fmu_src.native.emit import emit
+from fmu_src.native.kinds import SIGNATURES, Kernels
 from fmu_src.native.memory import compiled
 
 
@@ -56,5 +56,5 @@ def entries():
 
 if __name__ == "__main__":
     own, *others = map(Path, sys.argv[1:])
-    components = {folder: Component(table=None, entries=entries, data=lambda: (np.arange(5.0),)) for folder in others}
-    emit({**components, own: Component(table=None, entries=entries, data=lambda: (np.arange(4.0),))})
+    components = {folder: Kernels(kind="pair", entries=entries, data=lambda: (np.arange(5.0),)) for folder in others}
+    emit({**components, own: Kernels(kind="pair", entries=entries, data=lambda: (np.arange(4.0),))})

@@ -9,10 +9,8 @@ from copy import copy
 import pytest
 from contact_case import NAME
 
-from fmu_src.native import source
+from fmu_src.native import library, records
 from fmu_src.native.linking import FLAGS, HEADERS, WRAPPER, compiler, run
-from fmu_src.native.wheel_rail_contact import component
-from models.wheelset.ports import POINTS
 from reference.native import ATTACKED, ROLES, SANITIZED, kernel_library, kernel_objects, sanitized
 
 OTHERS = [name for name in ROLES if name != NAME]
@@ -113,13 +111,13 @@ def test_two_fmus_in_one_process_do_not_share_symbols(hosts, host, tmp_path):
 
 def test_the_wrapper_has_no_undefined_behaviour(host, tmp_path):
     """It is compiled so that undefined behaviour ends the program."""
-    model = component(POINTS)
-    source.write(model, host.guid, tmp_path)
+    (tmp_path / "build.h").write_text(library.build_header("checked", tuple(library.KINDS), in_c=False))
+    (tmp_path / "records.h").write_text(records.header())
     checked = copy(host)
     checked.library = tmp_path / "checked.so"
     run(
         *(*compiler("linux64"), *FLAGS, "-shared", "-fsanitize=undefined", "-fsanitize-trap=undefined"),
-        *(f"-I{tmp_path}", f"-I{WRAPPER}", f"-I{HEADERS}", *WRAPPER.glob("*.c"), tmp_path / "model.c"),
+        *(f"-I{tmp_path}", f"-I{WRAPPER}", f"-I{HEADERS}", *WRAPPER.glob("*.c")),
         *(*kernel_objects(), "-o", checked.library, "-lm"),
     )
     for command in COMMANDS:
