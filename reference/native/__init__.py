@@ -191,6 +191,8 @@ def kernel_objects() -> list[Path]:
 def kernel_library(folder: Path, cpu: str) -> Path:
     """Build a Linux library of the kernels for one processor (size, prepare, outputs) and return its path."""
     library = folder / f"kernels_{cpu}.so"
-    source = Path(__file__).with_name("kernels.c")
-    run(*compiler("linux64"), "-shared", "-fPIC", f"-DCPU={cpu}", source, *kernel_objects(), "-o", library, "-lm")
+    code = Path(__file__).with_name("kernels.c")
+    own = ", ".join(map(str, models(POINTS)[0].component().own))
+    (folder / "own.h").write_text(f"static const int64_t own[] = {{{own}}};\n")
+    run(*compiler("linux64"), "-shared", "-fPIC", f"-I{folder}", f"-DCPU={cpu}", code, *kernel_objects(), "-o", library, "-lm")
     return library

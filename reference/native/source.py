@@ -28,7 +28,7 @@ def header(component: Component, guid: str) -> str:
 #define N_CHOICES {sum(row.is_given for row in table.twins)}
 #define N_MIRRORS {sum(not row.is_given for row in table.twins)}
 #define N_FIELDS {len(table.fields)}
-#define N_RESOURCES {len(component.resources)}
+#define N_RESOURCES {1 + len(component.resources)}
 #define FIELD_SIZE(values) {_field_size(table)}
 enum {{
 {references}

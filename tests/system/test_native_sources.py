@@ -47,7 +47,7 @@ def _objects(folder: Path, into: Path, target: str, *prefix: str) -> list[Path]:
     objects, options = [], [*FLAGS, f"-I{folder / 'sources'}"]
     for path in _listed(folder):
         objects.append(into / f"{path.stem}.o")
-        chosen = prefix if path.stem not in ("kernels", "data") or "FUNCTION_PREFIX" in path.read_text() else ()
+        chosen = prefix if not path.stem.endswith(("_kernels", "_data")) else ()
         run(*_zig(target), *options, *chosen, "-c", path, "-o", objects[-1])
     return objects
 
@@ -60,7 +60,8 @@ def _embedded(folder: Path, target: str, *options: str) -> Path:
     """Compile the FMU's sources and a host to one program for a target of zig."""
     into = folder / target
     into.mkdir(exist_ok=True)
-    parts = [f"-I{folder / 'sources'}", *_objects(folder, into, target), HOST / "embedded.c"]
+    guid = fmpy.read_model_description(str(folder)).guid
+    parts = [f"-I{folder / 'sources'}", f'-DMODEL_GUID="{guid}"', *_objects(folder, into, target), HOST / "embedded.c"]
     run(*_zig(target), *FLAGS, *options, *parts, "-o", into / "embedded", "-lm")
     return into / "embedded"
 
