@@ -27,7 +27,7 @@ from models.wheelset.ports import POINTS
 class Model:
     """An FMU: name of its modules, options of its table and native component, and its files in resources/.
 
-    `view` are options that change only what hosts see of the table, so the kernels do not depend on them. `declared` names the function of `native.components`.
+    `view` are options that change only what hosts see of the table. `declared` names the function of `native.components`.
     """
 
     name: str

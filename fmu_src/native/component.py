@@ -28,7 +28,7 @@ def numbers(table: Table, **sizes: int) -> NDArray[np.int64]:
 
 
 class Given(NamedTuple):
-    """What every entry gets last: pointers to the content of the `resources`, to the numbers `own` and to the `Kernels.data`."""
+    """What every entry gets last: pointers to the `resources`, to the numbers `own` and to the `Kernels.data`."""
 
     resources: Any
     own: Any

@@ -1,4 +1,4 @@
-"""resources/model.bin of a native FMU, which has its variables: what is damaged is refused with a message that names the file."""
+"""resources/model.bin of a native FMU: what is damaged is refused with a message that names the file."""
 
 import shutil
 import struct
