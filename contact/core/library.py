@@ -17,7 +17,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -26,12 +26,17 @@ _HERE = Path(__file__).parents[1]
 _ROOT = _HERE.parent
 #: Name of the library on this system.
 NAME = {"win32": "wheelrail.dll", "darwin": "libwheelrail.dylib"}.get(sys.platform, "libwheelrail.so")
+#: This system, by its name in `fmu_src.native.systems`.
+_ARM = platform.machine().lower() in ("aarch64", "arm64")
+SYSTEM = {"win32": "win64", "darwin": "aarch64-darwin" if _ARM else "darwin64"}.get(
+    sys.platform, "aarch64-linux" if _ARM else "linux64"
+)
 #: The library of an installed package.
 INSTALLED = _HERE / "library" / NAME
 #: Folders of a checkout that the library is made from, and the packages that compile it.
 _MADE_FROM, _TOOLS = ("contact", "models", "fmu_src"), ("numba", "llvmlite", "numpy")
 #: Programs in `fmu_src.native` that build it.
-_BUILDER = ("library.py", "emit.py", "c_tables.py", "ir_to_c.py", "ir_function.py", "linking.py")
+_BUILDER = ("library.py", "emit.py", "objects.py", "c_tables.py", "ir_to_c.py", "ir_function.py", "ir_text.py")
 #: Libraries that were not used for this time [s] are removed. At most `_MOST` are kept.
 _STALE, _MOST = 30 * 86400.0, 8
 PREFIX = "wheelrail-contact-"
@@ -50,7 +55,7 @@ def get_library() -> Path:
     ImportError
         If this machine has none: no library fits, or a checkout has no C compiler.
     """
-    path = INSTALLED if INSTALLED.is_file() else cached() / NAME
+    path = INSTALLED if INSTALLED.is_file() else _among_systems() or cached() / NAME
     if not path.is_file():
         raise ImportError(f"{path} was not linked: the C interface of a checkout needs cc, gcc or clang")
     return path
@@ -64,8 +69,8 @@ def address(symbol: str) -> int:
 @cache
 def _functions() -> Callable[[str], int]:
     """Return a function from the name of a symbol to its address, of the library of this process."""
-    if INSTALLED.is_file():
-        return _of_library(INSTALLED)
+    if whole := INSTALLED if INSTALLED.is_file() else _among_systems():
+        return _of_library(whole)
     folder = cached()
     linked = folder / NAME
     return _of_library(linked) if linked.is_file() else _of_objects(folder)
@@ -107,6 +112,12 @@ def _of_objects(folder: Path) -> Callable[[str], int]:
 _KEPT: list[object] = []
 
 
+def _among_systems() -> Path | None:
+    """Return the library of this system if this checkout has built those of all systems (`fmu_src.native.systems`)."""
+    found = cache_folder().glob(f"{PREFIX}{fingerprint()}-systems-*/linked-*/{SYSTEM}/{NAME}")
+    return max(found, key=lambda path: path.stat().st_mtime, default=None)
+
+
 def cached() -> Path:
     """Return the folder of the library of this checkout. Build it if it is not there."""
     folder = cache_folder() / (PREFIX + fingerprint())
@@ -125,7 +136,33 @@ def cached() -> Path:
 
 
 def _build(folder: Path) -> None:
-    """Build the library of this checkout in a process of its own. If another one does so already, wait for it."""
+    """Build the library of this checkout. If another process does so already, wait for it."""
+    with locked(folder):
+        if (folder / "kernels.o").is_file():
+            return
+        made = folder.parent / f"{folder.name}.{os.getpid()}"
+        shutil.rmtree(made, ignore_errors=True)
+        made.mkdir()
+        run_builder(made)
+        with contextlib.suppress(OSError):  # another process was faster
+            made.rename(folder)
+        shutil.rmtree(made, ignore_errors=True)
+
+
+@contextlib.contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Let one process at a time build what belongs into a folder."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    with (folder.parent / f"{folder.name}.lock").open("w") as held:
+        with contextlib.suppress(ImportError):  # not on Windows, where two processes may build the same
+            import fcntl
+
+            fcntl.flock(held, fcntl.LOCK_EX)
+        yield
+
+
+def run_builder(folder: Path, *options: str) -> None:
+    """Run the builder (`fmu_src.native.library`) in a process of its own. On a terminal a line says so."""
     try:
         version("numba")
     except PackageNotFoundError:
@@ -133,29 +170,10 @@ def _build(folder: Path) -> None:
             "this checkout of wheelrail-contact has no compiled library yet, and numba, which compiles it, is not installed: "
             "pip install 'numba==0.68.1', or install a wheel"
         ) from None
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    lock = folder.parent / f"{folder.name}.lock"
-    with lock.open("w") as held:
-        with contextlib.suppress(ImportError):  # not on Windows, where two processes may build the same
-            import fcntl
-
-            fcntl.flock(held, fcntl.LOCK_EX)
-        if (folder / "kernels.o").is_file():
-            return
-        made = folder.parent / f"{folder.name}.{os.getpid()}"
-        shutil.rmtree(made, ignore_errors=True)
-        made.mkdir()
-        _run(made)
-        with contextlib.suppress(OSError):  # another process was faster
-            made.rename(folder)
-        shutil.rmtree(made, ignore_errors=True)
-
-
-def _run(folder: Path) -> None:
-    """Run the builder. On a terminal a line says so."""
+    folder.mkdir(parents=True, exist_ok=True)
     shows = sys.stderr is not None and sys.stderr.isatty()
     begin = time.monotonic()
-    command = [sys.executable, "-m", "fmu_src.native.library", str(folder)]
+    command = [sys.executable, "-m", "fmu_src.native.library", str(folder), *options]
     own = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, (str(_ROOT), os.environ.get("PYTHONPATH"))))}
     with subprocess.Popen(
         command, cwd=_ROOT, env=own, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True

@@ -12,13 +12,12 @@ import numpy as np
 from contact.kernels.records import MAX_PATCHES
 from contact.solver import N_ELEMENTS, N_STRIPS
 from fmu_src.catalogue import models, vehicles
-from fmu_src.native import source
+from fmu_src.native import systems
 from fmu_src.native.component import Component
 from fmu_src.native.headers import HEADERS
 from fmu_src.native.linking import OF_WINDOWS, WITHOUT_MINGW, compiler, run
-from fmu_src.native.packaging import kernels
-from fmu_src.native.wheel_rail_contact import component
 from models.wheelset.ports import POINTS
+from reference.native import source
 
 ROOT = Path(__file__).parents[2]
 NAME = "WheelRailContact"
@@ -91,7 +90,7 @@ class Host:
         self.resources = resources_of(unzipped, own)
         every = models(POINTS, accumulation=True) if name in ROLES else (*models(POINTS), *vehicles(SCENARIO))
         (model,) = (model for model in every if model.table.name == name)
-        its = model.module("native").component(**model.all_options)
+        its = model.component()
         (folder / "model.h").write_text(source.header(its, self.guid))
         (folder / "roles.h").write_text(roles(its))
         self.program = folder / f"host{program}"
@@ -126,7 +125,7 @@ class Host:
 
     def solve(self, cases: Iterable[Mapping[str, float]], outputs: Sequence[str]) -> np.ndarray:
         """Return `outputs` of the FMU after one step from the start, one row for each case (input values by name)."""
-        table = component(POINTS).table
+        table = models(POINTS)[0].table
         names = [scalar.name for scalar in table.scalars]
         lines = []
         for case in cases:
@@ -184,12 +183,27 @@ def roles(its: Component) -> str:
 
 def kernel_objects() -> list[Path]:
     """Return the paths of the compiled kernels for Linux, which the build of the FMU keeps."""
-    return kernels(models(POINTS)[0], ROOT / "build" / "native", print)["linux64"]
+    from fmu_src.native.objects import objects
+
+    return objects(systems.kernels(), "linux64")
 
 
 def kernel_library(folder: Path, cpu: str) -> Path:
     """Build a Linux library of the kernels for one processor (size, prepare, outputs) and return its path."""
     library = folder / f"kernels_{cpu}.so"
-    source = Path(__file__).with_name("kernels.c")
-    run(*compiler("linux64"), "-shared", "-fPIC", f"-DCPU={cpu}", source, *kernel_objects(), "-o", library, "-lm")
+    code = Path(__file__).with_name("kernels.c")
+    own = ", ".join(map(str, models(POINTS)[0].component().own))
+    (folder / "own.h").write_text(f"static const int64_t own[] = {{{own}}};\n")
+    run(
+        *compiler("linux64"),
+        "-shared",
+        "-fPIC",
+        f"-I{folder}",
+        f"-DCPU={cpu}",
+        code,
+        *kernel_objects(),
+        "-o",
+        library,
+        "-lm",
+    )
     return library

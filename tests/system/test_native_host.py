@@ -9,11 +9,9 @@ from copy import copy
 import pytest
 from contact_case import NAME
 
-from fmu_src.native import source
 from fmu_src.native.headers import HEADERS
-from fmu_src.native.linking import FLAGS, WRAPPER, compiler, run
-from fmu_src.native.wheel_rail_contact import component
-from models.wheelset.ports import POINTS
+from fmu_src.native.kinds import KINDS
+from fmu_src.native.linking import FLAGS, compiler, run
 from reference.native import ATTACKED, ROLES, SANITIZED, kernel_library, kernel_objects, sanitized
 
 OTHERS = [name for name in ROLES if name != NAME]
@@ -114,13 +112,13 @@ def test_two_fmus_in_one_process_do_not_share_symbols(hosts, host, tmp_path):
 
 def test_the_wrapper_has_no_undefined_behaviour(host, tmp_path):
     """It is compiled so that undefined behaviour ends the program."""
-    model = component(POINTS)
-    source.write(model, host.guid, tmp_path)
+    (tmp_path / "build.h").write_text(systems.header("checked", tuple(KINDS), in_c=False))
     checked = copy(host)
     checked.library = tmp_path / "checked.so"
     run(
         *(*compiler("linux64"), *FLAGS, "-shared", "-fsanitize=undefined", "-fsanitize-trap=undefined"),
-        *(f"-I{tmp_path}", f"-I{WRAPPER}", f"-I{HEADERS}", *WRAPPER.glob("*.c"), tmp_path / "model.c"),
+        *(f"-I{path}" for path in (tmp_path, systems.WRAPPER[0].parent, systems.INCLUDE, HEADERS)),
+        *(path for path in systems.WRAPPER if path.suffix == ".c"),
         *(*kernel_objects(), "-o", checked.library, "-lm"),
     )
     for command in COMMANDS:
