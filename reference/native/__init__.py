@@ -105,7 +105,7 @@ class Host:
 
     def __call__(self, command: str, *arguments: object, stdin: str | None = None, before: tuple[str, ...] = ()) -> str:
         """Run a command of the host and return its output. The first argument is a number."""
-        given = (self.library, self.guid, *((self.resources,) if self.fmi2 else ()))
+        given = (self.library, self.guid, self.resources if self.fmi2 else path_of(self.resources))
         words = [*before, *self.prefix, self.program, *given, command, *(arguments or (0,))]
         done = subprocess.run(
             list(map(str, words)), input=stdin, capture_output=True, text=True, timeout=3000, env=self.environment
@@ -118,7 +118,7 @@ class Host:
         program = folder / "wrong"
         flags = ["-std=gnu11", "-O1", f"-I{self.program.parent}", f"-I{HEADERS}"]
         run(*self.compiler, *flags, HOST / "common.c", HOST / "wrong.c", "-o", program, "-ldl", "-lpthread", "-lm")
-        words = [program, self.library, self.guid, self.resources, unquote(urlsplit(self.resources).path), trials]
+        words = [program, self.library, self.guid, self.resources, path_of(self.resources), trials]
         done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=3000)
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
         return done.stdout
@@ -165,6 +165,12 @@ def resources_of(unzipped: Path, platform: str) -> str:
     """Return the URI of the resources of an unzipped FMU. Wine shows the files of Linux as drive Z."""
     uri = (unzipped / "resources").resolve().as_uri()
     return uri if platform == "linux64" else uri.replace("file:///", "file:///Z:/")
+
+
+def path_of(resources: str) -> str:
+    """Return the path of a folder for hosts of FMI 3.0, which get no URI."""
+    path = unquote(urlsplit(resources).path)
+    return path.removeprefix("/") if path.startswith("/Z:") else path
 
 
 def roles(its: Component) -> str:

@@ -9,9 +9,12 @@ from copy import copy
 import pytest
 from contact_case import NAME
 
+from fmu_src.catalogue import models
+from fmu_src.native import systems, table
 from fmu_src.native.headers import HEADERS
 from fmu_src.native.kinds import KINDS
 from fmu_src.native.linking import FLAGS, compiler, run
+from models.wheelset.ports import POINTS
 from reference.native import ATTACKED, ROLES, SANITIZED, kernel_library, kernel_objects, sanitized
 
 OTHERS = [name for name in ROLES if name != NAME]
@@ -101,13 +104,14 @@ def test_cycles_and_steps_leave_memory_as_it_was(hosts, name):
 def test_two_fmus_in_one_process_do_not_share_symbols(hosts, host, tmp_path):
     """Their symbols have equal names, but RTLD_LOCAL keeps them apart. One FMU with two guids is tested too."""
     twin = tmp_path / "twin.so"
+    shutil.copy(host.library, twin)
+    component = models(POINTS)[0].component()
     guid = "{" + "0" * 36 + "}"
-    twin.write_bytes(host.library.read_bytes().replace(host.guid.encode(), guid.encode()))
-    host("two_libraries", 0, twin, guid)
+    (tmp_path / table.NAME).write_bytes(table.content(component, guid))
+    host("two_libraries", 0, twin, guid, tmp_path.as_uri())
     for name in OTHERS:
-        other, together = hosts("linux64", name), copy(host)
-        together.resources = other.resources
-        together("two_libraries", 0, other.library, other.guid)
+        other = hosts("linux64", name)
+        host("two_libraries", 0, other.library, other.guid, other.resources)
 
 
 def test_the_wrapper_has_no_undefined_behaviour(host, tmp_path):

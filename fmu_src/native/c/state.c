@@ -40,7 +40,9 @@ static size_t state_bytes(const Instance *instance, int64_t memory_size)
 
 static bool is_ours(const Instance *instance, const State *state)
 {
-    return !strncmp(state->guid, TEXT(instance->table.head->guid), GUID_ROOM);
+    char own[GUID_ROOM]; /* zeros after the guid, which the checksum does not cover */
+    strncpy(own, TEXT(instance->table.head->guid), GUID_ROOM);
+    return !memcmp(state->guid, own, GUID_ROOM);
 }
 
 /* Whether this is a phase of an instance of this type. */
