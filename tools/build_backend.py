@@ -5,8 +5,9 @@ those of other packages: a user's own `models.py` would break the command line. 
 and `contact_models`. `build_wheel` copies the sources into a temporary folder, renames the two packages there and calls
 setuptools. Editable installs and sdists are made by setuptools unchanged, with the names of the repository.
 
-A wheel is for one system and carries the library of compiled kernels for it. numba and zig build it, and are needed nowhere
-else. ``--config-setting system=win64`` chooses another system than this one (`SYSTEMS`).
+A wheel is for one system and carries the library of compiled kernels for it. The libraries for the other systems are there
+too, because an FMU has them all. numba and zig build them, and are needed nowhere else. ``--config-setting system=win64``
+chooses another system than this one (`SYSTEMS`).
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ import shutil
 import subprocess
 import sys
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -53,13 +54,13 @@ _MENTION = re.compile(
 )
 
 
-#: System, by its name in `fmu_src.native.linking` → tag of its wheels, and file name of the library.
+#: System, by its name in `fmu_src.native.systems` → tag of its wheels.
 SYSTEMS = {
-    "linux64": ("manylinux_2_17_x86_64", "libwheelrail.so"),
-    "aarch64-linux": ("manylinux_2_17_aarch64", "libwheelrail.so"),
-    "win64": ("win_amd64", "wheelrail.dll"),
-    "darwin64": ("macosx_11_0_x86_64", "libwheelrail.dylib"),
-    "aarch64-darwin": ("macosx_11_0_arm64", "libwheelrail.dylib"),
+    "linux64": "manylinux_2_17_x86_64",
+    "aarch64-linux": "manylinux_2_17_aarch64",
+    "win64": "win_amd64",
+    "darwin64": "macosx_11_0_x86_64",
+    "aarch64-darwin": "macosx_11_0_arm64",
 }
 
 
@@ -77,20 +78,15 @@ def this_system() -> str:
 def get_requires_for_build_wheel(config_settings: Mapping[str, Any] | None = None) -> list[str]:
     """Return what builds the library, as pinned in pyproject.toml (hook of PEP 517)."""
     extras = tomllib.loads(Path("pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
-    return [*extras["build"], *(name for name in extras["native"] if name.startswith("ziglang")), "numpy"]
+    more = (name for name in (*extras["native"], *extras["fmu"]) if name.startswith(("ziglang", "fmpy")))
+    return [*extras["build"], *more, "numpy"]
 
 
-def libraries(root: Path, systems: Iterable[str]) -> dict[str, Path]:
-    """Return the libraries of kernels for systems, kept with those of checkouts: the same sources build them once."""
-    code = "from contact.core import library as l; print(l.cache_folder() / (l.PREFIX + l.fingerprint() + '-wheels'))"
-    told = subprocess.run([sys.executable, "-c", code], cwd=root, capture_output=True, text=True, check=True)
-    folder = Path(told.stdout.strip())
-    found = {system: folder / system / SYSTEMS[system][1] for system in systems}
-    missing = [system for system, path in found.items() if not path.is_file()]
-    if missing:
-        folder.mkdir(parents=True, exist_ok=True)
-        subprocess.run([sys.executable, "-m", "fmu_src.native.library", str(folder), *missing], cwd=root, check=True)
-    return found
+def libraries(root: Path) -> Path:
+    """Return the folder of the libraries for all systems, kept with those of checkouts: the same sources build them once."""
+    code = f"from fmu_src.native.systems import folder; print(folder({tuple(SYSTEMS)}))"
+    told = subprocess.run([sys.executable, "-c", code], cwd=root, stdout=subprocess.PIPE, text=True, check=True)
+    return Path(told.stdout.splitlines()[-1])
 
 
 def renamed(text: str) -> str:
@@ -130,12 +126,10 @@ def build_wheel(
         raise ValueError(f"system = {system!r} is not one of {', '.join(SYSTEMS)}")
     with TemporaryDirectory() as folder:
         lay_out(root, Path(folder))
-        packed = Path(folder) / "contact" / "library"
-        packed.mkdir()
-        shutil.copyfile(libraries(root, [system])[system], packed / SYSTEMS[system][1])
+        shutil.copytree(libraries(root), Path(folder) / "contact" / "library")
         os.chdir(folder)
         try:
-            options = {"--build-option": ["--plat-name", SYSTEMS[system][0]]}
+            options = {"--build-option": ["--plat-name", SYSTEMS[system]]}
             return str(build_meta.build_wheel(target, options, None))
         finally:
             os.chdir(root)

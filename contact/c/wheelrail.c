@@ -112,6 +112,19 @@ int wr_abi(void) { return WR_ABI; }
 #endif
 const char *wr_version(void) { return WR_VERSION; }
 
+/* The constant arrays of the kernels, by number. Python reads them instead of computing them again. */
+#ifdef _WIN32
+#define OF_KERNELS extern
+#else
+#define OF_KERNELS extern __attribute__((visibility("hidden")))
+#endif
+OF_KERNELS const char wr_data0[], wr_data1[], wr_data2[], wr_data3[];
+
+WR_API const void *wr_constants(int k) {
+    const char *all[] = {wr_data0, wr_data1, wr_data2, wr_data3};
+    return k >= 0 && k < 4 ? all[k] : NULL;
+}
+
 const char *wr_message(int code) {
     switch (code) {
     case 0:

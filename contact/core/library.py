@@ -10,6 +10,7 @@ import contextlib
 import ctypes
 import getpass
 import hashlib
+import math
 import os
 import platform
 import shutil
@@ -18,9 +19,15 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.version import __version__
 
 _HERE = Path(__file__).parents[1]
 _ROOT = _HERE.parent
@@ -32,7 +39,7 @@ SYSTEM = {"win32": "win64", "darwin": "aarch64-darwin" if _ARM else "darwin64"}.
     sys.platform, "aarch64-linux" if _ARM else "linux64"
 )
 #: The library of an installed package.
-INSTALLED = _HERE / "library" / NAME
+INSTALLED = _HERE / "library" / SYSTEM / NAME
 #: Folders of a checkout that the library is made from, and the packages that compile it.
 _MADE_FROM, _TOOLS = ("contact", "models", "fmu_src"), ("numba", "llvmlite", "numpy")
 #: Programs in `fmu_src.native` that build it.
@@ -63,12 +70,27 @@ def get_library() -> Path:
 
 def address(symbol: str) -> int:
     """Return the address of a function of the library."""
-    return _functions()(symbol)
+    return _loaded().address(symbol)
+
+
+def constants(k: int, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """Return array `k` of the constant arrays that the kernels read (`fmu_src.native.c_tables`). It is read-only."""
+    numbers = (ctypes.c_double * math.prod(shape)).from_address(_loaded().constants(k))
+    found = np.frombuffer(numbers).reshape(shape)
+    found.setflags(write=False)
+    return found
+
+
+@dataclass(frozen=True)
+class _Loaded:
+    """The library of this process: the address of a function by its name, and that of a constant array by its number."""
+
+    address: Callable[[str], int]
+    constants: Callable[[int], int]
 
 
 @cache
-def _functions() -> Callable[[str], int]:
-    """Return a function from the name of a symbol to its address, of the library of this process."""
+def _loaded() -> _Loaded:
     if whole := INSTALLED if INSTALLED.is_file() else _among_systems():
         return _of_library(whole)
     folder = cached()
@@ -76,9 +98,23 @@ def _functions() -> Callable[[str], int]:
     return _of_library(linked) if linked.is_file() else _of_objects(folder)
 
 
-def _of_library(path: Path) -> Callable[[str], int]:
-    library = ctypes.CDLL(str(path))
-    end = ""
+def _of_library(path: Path) -> _Loaded:
+    """Load a library.
+
+    Raises
+    ------
+    ImportError
+        If it is that of another version.
+    """
+    library, end = ctypes.CDLL(str(path)), ""
+    if hasattr(library, "wr_version"):
+        library.wr_version.restype = ctypes.c_char_p
+    of_library = library.wr_version().decode() if hasattr(library, "wr_version") else "an unknown version"
+    if of_library != __version__:
+        raise ImportError(
+            f"{path} is the library of wheelrail-contact {of_library}, and this is version {__version__}. "
+            "Install the package again: pip install --force-reinstall wheelrail-contact"
+        )
     if hasattr(library, "wr_processor"):  # it has each entry for several processors
         library.wr_processor.restype = ctypes.c_char_p
         end = "_" + library.wr_processor().decode()
@@ -88,14 +124,15 @@ def _of_library(path: Path) -> Callable[[str], int]:
             return ctypes.cast(getattr(library, symbol + end), ctypes.c_void_p).value or 0
         except AttributeError:
             raise ImportError(
-                f"{path} has no function {symbol}: it is the library of another version of wheelrail-contact. "
+                f"{path} has no function {symbol}: it was built from other sources. "
                 "Install the package again: pip install --force-reinstall wheelrail-contact"
             ) from None
 
-    return find
+    library.wr_constants.restype = ctypes.c_void_p
+    return _Loaded(find, lambda k: library.wr_constants(k) or 0)
 
 
-def _of_objects(folder: Path) -> Callable[[str], int]:
+def _of_objects(folder: Path) -> _Loaded:
     """Load the object file of a checkout on a machine that has no linker."""
     from llvmlite import binding as llvm
 
@@ -106,7 +143,10 @@ def _of_objects(folder: Path) -> Callable[[str], int]:
     engine.add_object_file(str(folder / "kernels.o"))
     engine.finalize_object()
     _KEPT.append(engine)
-    return lambda symbol: int(engine.get_function_address(symbol))
+    return _Loaded(
+        lambda symbol: int(engine.get_function_address(symbol)),
+        lambda k: int(engine.get_global_value_address(f"wr_data{k}")),
+    )
 
 
 _KEPT: list[object] = []

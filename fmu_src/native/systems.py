@@ -1,6 +1,6 @@
 """The libraries of all systems, which native FMUs and wheels hold: kernels, C interface and FMI in one file.
 
-A wheel has them in `fmu_src/library`. In a checkout they are built when they are first needed, and kept beside the library of
+A wheel has them in `contact/library`. In a checkout they are built when they are first needed, and kept beside the library of
 this machine (`contact.core.library`). The folder has
 
 * ``<system>/``, the library of a system,
@@ -23,7 +23,7 @@ PREFIX = "wrk"
 _HERE = Path(__file__).parent
 _ROOT = _HERE.parents[1]
 #: The libraries of an installed package.
-INSTALLED = _HERE.parent / "library"
+INSTALLED = library.INSTALLED.parents[1]
 #: The C sources of the library: the C interface, and the wrapper that makes an FMU of it.
 INCLUDE = library.get_include()
 C_SOURCES = [INCLUDE.parent / "c" / "wheelrail.c", _HERE / "c_library" / "processor.c"]

