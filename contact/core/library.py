@@ -76,7 +76,7 @@ def address(symbol: str) -> int:
 def constants(k: int, shape: tuple[int, ...]) -> NDArray[np.float64]:
     """Return array `k` of the constant arrays that the kernels read (`fmu_src.native.c_tables`). It is read-only."""
     numbers = (ctypes.c_double * math.prod(shape)).from_address(_loaded().constants(k))
-    found = np.frombuffer(numbers).reshape(shape)
+    found = np.frombuffer(memoryview(numbers).cast("B")).reshape(shape)
     found.setflags(write=False)
     return found
 

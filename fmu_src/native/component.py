@@ -16,8 +16,8 @@ from fmu_src.variables import Table, identifier
 SIZES = ("n_values", "points", "n_bodies", "n_links", "n_elements", "n_axles", "n_table")
 
 
-def places(table: Table) -> np.dtype:
-    """Return the record with which the numbers of a model begin: its sizes, and the value reference of each row."""
+def places(table: Table) -> Any:
+    """Return the numpy type of the record with which the numbers of a model begin: its sizes, and the reference of each row."""
     return np.dtype([(name, np.int64) for name in (*SIZES, *map(identifier, table.span))])
 
 
