@@ -161,32 +161,31 @@ def _among_systems() -> Path | None:
 def cached() -> Path:
     """Return the folder of the library of this checkout. Build it if it is not there."""
     folder = cache_folder() / (PREFIX + fingerprint())
-    if (folder / "kernels.o").is_file():
-        with contextlib.suppress(OSError):
-            os.utime(folder)
-        return folder
-    if not (_ROOT / "fmu_src" / "native").is_dir():
+    if not folder.is_dir() and not (_ROOT / "fmu_src" / "native").is_dir():
         raise ImportError(
             f"wheelrail-contact has no compiled library for {platform.system()} on {platform.machine()}: {INSTALLED} is "
             "missing. Install a wheel for this system, or build one from the sources (CONTRIBUTING.md)."
         )
-    _build(folder)
+    return build(folder)
+
+
+def build(folder: Path, *options: str) -> Path:
+    """Return a folder that the builder fills, with these options. If another process does so already, wait for it."""
+    if folder.is_dir():
+        with contextlib.suppress(OSError):
+            os.utime(folder)
+        return folder
+    with locked(folder):
+        if not folder.is_dir():
+            made = folder.parent / f"{folder.name}.{os.getpid()}"
+            shutil.rmtree(made, ignore_errors=True)
+            made.mkdir()
+            _run_builder(made, *options)
+            with contextlib.suppress(OSError):  # another process was faster
+                made.rename(folder)
+            shutil.rmtree(made, ignore_errors=True)
     _remove_stale(folder.parent)
     return folder
-
-
-def _build(folder: Path) -> None:
-    """Build the library of this checkout. If another process does so already, wait for it."""
-    with locked(folder):
-        if (folder / "kernels.o").is_file():
-            return
-        made = folder.parent / f"{folder.name}.{os.getpid()}"
-        shutil.rmtree(made, ignore_errors=True)
-        made.mkdir()
-        run_builder(made)
-        with contextlib.suppress(OSError):  # another process was faster
-            made.rename(folder)
-        shutil.rmtree(made, ignore_errors=True)
 
 
 @contextlib.contextmanager
@@ -201,7 +200,7 @@ def locked(folder: Path) -> Iterator[None]:
         yield
 
 
-def run_builder(folder: Path, *options: str) -> None:
+def _run_builder(folder: Path, *options: str) -> None:
     """Run the builder (`fmu_src.native.library`) in a process of its own. On a terminal a line says so."""
     try:
         version("numba")
@@ -210,7 +209,6 @@ def run_builder(folder: Path, *options: str) -> None:
             "this checkout of wheelrail-contact has no compiled library yet, and numba, which compiles it, is not installed: "
             "pip install 'numba==0.68.1', or install a wheel"
         ) from None
-    folder.mkdir(parents=True, exist_ok=True)
     shows = sys.stderr is not None and sys.stderr.isatty()
     begin = time.monotonic()
     command = [sys.executable, "-m", "fmu_src.native.library", str(folder), *options]

@@ -40,6 +40,24 @@ SYSTEMS = {
 USUAL, ARM = ("linux64", "win64", "darwin64"), ("aarch64-linux", "aarch64-darwin")
 
 
+#: Modules of `fmu_src` that have no part in the kernels.
+_WITHOUT = {
+    *(
+        "archive",
+        "build",
+        "catalogue",
+        "command",
+        "description",
+        "description_fmi3",
+        "documentation",
+        "icon",
+        "place",
+        "ssp",
+    ),
+    *("terminals", "c_header", "headers", "libm", "licences", "linking", "packaging", "systems", "table"),
+}
+
+
 def flags(folder: Path) -> list[str]:
     """Return the flags of a C compiler for the C interface. `folder` has the declarations of its entries."""
     import contact
@@ -53,9 +71,14 @@ def folder(systems: Sequence[str] = USUAL, say: Callable[[str], None] = print) -
     Raises
     ------
     ImportError
-        If they are missing and cannot be built here.
+        If they are missing and cannot be built here: an installation from an sdist has that of its own system alone.
     """
     if INSTALLED.is_dir():
+        if lacking := [one for one in systems if not (INSTALLED / one / SYSTEMS[one]).is_file()]:
+            raise ImportError(
+                f"{INSTALLED} has no library for {', '.join(lacking)}: it was built from an sdist. Install a wheel, which has "
+                "those of all systems, to pack native FMUs"
+            )
         return INSTALLED
     compiled = kernels(say)
     made = compiled / f"linked-{_hash(*WRAPPER, *C_SOURCES, *INCLUDE.iterdir(), *_HERE.glob('l*.py'))}"
@@ -75,15 +98,13 @@ def kernels(say: Callable[[str], None] = print) -> Path:
     The name of the folder is a hash of everything that they are made from.
     """
     parts = [path for name in (".", "native", "tables") for path in (_HERE.parent / name).glob("*.py")]
+    parts = [path for path in parts if path.stem not in _WITHOUT]
     models = (_ROOT / "models").rglob("*.py")
     content = _hash(*parts, *models, *(_ROOT / "explorer").glob("patch.py"))
     made = library.cache_folder() / f"{library.PREFIX}{library.fingerprint()}-systems-{content}"
-    if not (made / "kernels.c").is_file():
-        with library.locked(made):
-            if not (made / "kernels.c").is_file():
-                say("compiling the kernels for all systems, some minutes the first time")
-                library.run_builder(made, "--systems")
-    return made
+    if not made.is_dir():
+        say("compiling the kernels for all systems, some minutes the first time")
+    return library.build(made, "--systems")
 
 
 def _hash(*paths: Path) -> str:
