@@ -30,7 +30,7 @@ demo: $(READY_FOR_DEMO) ## build the FMUs, run the coupled wheelset, write pictu
 	$(BIN)/python build_fmu.py --packaging python
 	$(BIN)/contact demo --out out
 
-fmu: $(READY)    ## build the FMUs into dist/native and dist/python (two and a half minutes of processor time the first time, then seconds)
+fmu: $(READY)    ## build the FMUs into dist/native and dist/python (three and a half minutes of processor time the first time, then seconds)
 	$(BIN)/python build_fmu.py
 	$(BIN)/python -m fmu_src.lint dist/python/*.fmu dist/native/*.fmu dist/native/fmi3/*.fmu
 
