@@ -30,11 +30,12 @@ demo: $(READY_FOR_DEMO) ## build the FMUs, run the coupled wheelset, write pictu
 	$(BIN)/python build_fmu.py --packaging python
 	$(BIN)/contact demo --out out
 
-fmu: $(READY)    ## build the FMUs into dist/native and dist/python (two and a half minutes of processor time the first time, then seconds)
+fmu: $(READY)    ## build the FMUs into dist/native and dist/python (three and a half minutes of processor time the first time, then seconds)
 	$(BIN)/python build_fmu.py
 	$(BIN)/python -m fmu_src.lint dist/python/*.fmu dist/native/*.fmu dist/native/fmi3/*.fmu
 
 test: $(READY)   ## run the tests
+	$(BIN)/python -c 'from fmu_src.native import systems; systems.folder()'
 	$(BIN)/python -m pytest -n 2 --dist worksteal
 
 check: $(READY)  ## run the quick tests (a minute once the library is built)
@@ -53,8 +54,7 @@ traps: $(READY)  ## run the same tests with floating-point traps
 	$(BIN)/python -m pytest -p tests.traps $(KERNELS)
 
 SYSTEMS := linux64 aarch64-linux win64 darwin64 aarch64-darwin
-wheels: $(READY) ## build the wheels of all systems into dist/wheels (three minutes the first time)
-	PYTHONPATH=tools $(BIN)/python -c "import build_backend as b; b.libraries(b.Path.cwd(), b.SYSTEMS)"
+wheels: $(READY) ## build the wheels of all systems into dist/wheels (five minutes the first time)
 	for system in $(SYSTEMS); do $(BIN)/python -m build --no-isolation --wheel --config-setting system=$$system --outdir dist/wheels || exit 1; done
 
 lint: $(READY)   ## ruff, mypy, import-linter

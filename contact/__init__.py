@@ -21,6 +21,7 @@ from contact.separation import Separation
 from contact.solution import Solution, Status, Strips
 from contact.solve import solve
 from contact.solver import THESIS, Solver
+from contact.version import __version__ as __version__
 
 if TYPE_CHECKING:
     from contact.study.case import Case
@@ -55,8 +56,6 @@ __all__ = [
     "methods",
     "solve",
 ]
-
-__version__ = "0.1.0"
 
 
 def __getattr__(name: str) -> Any:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact import force_table, kalker
+from contact.core import COMPILING, library
 from contact.kernels import memory, quadrature
 from contact.kernels.arrays import Bench, Ledger, Rule, Search, Sheet, Size, SurfaceSearch, Tables, Workspace
 from contact.kernels.damage.deposit import arc_length
@@ -76,10 +77,9 @@ def rule(n_strips: int, n_elements: int, interacting: bool) -> Rule:
 
 @functools.cache
 def strip_tables() -> tuple[Array, Array]:
-    """Return U on the centre line, shape (401, 2), and over (X, ln t), shape (203, 534).
-
-    The tables are computed once per process, in 0.2 s.
-    """
+    """Return U on the centre line, shape (401, 2), and over (X, ln t), shape (203, 534), from the library if there is one."""
+    if not COMPILING:
+        return library.constants(1, influence.CENTRE), library.constants(2, influence.PLANE)
     centre, plane = np.empty(influence.CENTRE), np.empty(influence.PLANE)
     influence.fill(centre, plane)
     _read_only(centre, plane)

@@ -14,7 +14,8 @@ from contact.geometry.profile import Profile
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels.records import MAX_PATCHES
 from explorer.patch import FIELDS, STRIPS
-from fmu_src.native import wheel_rail_pair
+from fmu_src.native import components
+from fmu_src.tables import wheel_rail_pair
 from fmu_src.units import DISPLAY_UNITS
 from fmu_src.variables import Causality, Table, Variable
 
@@ -111,7 +112,7 @@ def bundle(wasm: bytes) -> dict[str, Any]:
     interface = wheel_rail_pair.table()
     n_values = interface.span[wheel_rail_pair.ACCUMULATED[0]].start
     rows = [row for row in interface.rows if interface.span[row.name].start < n_values]
-    component = wheel_rail_pair.component(1.0 / 40.0)
+    component = components.pair(1.0 / 40.0)
     return {
         "version": contact.__version__,
         "wasm": base64.b64encode(wasm).decode(),

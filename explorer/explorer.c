@@ -4,11 +4,11 @@
 
 #define EXPORT(name) __attribute__((export_name(#name)))
 
-extern int64_t model_memory(double *values, double *resources);
-extern int64_t model_size(double *values, double *resources);
-extern int64_t model_prepare(double *values, double *work, double *resources);
-extern int64_t model_outputs(double *values, double *work, double h, double *resources);
-extern int64_t model_field(double *values, double *work, int64_t k, double *resources);
+extern int64_t page_memory(double *values, double *resources, double *own);
+extern int64_t page_size(double *values, double *resources, double *own);
+extern int64_t page_prepare(double *values, double *work, double *resources, double *own);
+extern int64_t page_outputs(double *values, double *work, double h, double *resources, double *own);
+extern int64_t page_field(double *values, double *work, int64_t k, double *resources, double *own);
 
 extern unsigned char __heap_base;
 
@@ -45,16 +45,16 @@ EXPORT(forget) void forget(void)
 /* Fill what depends on parameters and profiles. Return 0, the number of a failure, or -1 if there is no memory. */
 EXPORT(prepare) int prepare(void)
 {
-    work = take((size_t)work, (size_t)model_size(values, resources));
+    work = take((size_t)work, (size_t)page_size(values, resources, NULL));
     if (!work)
         return -1;
-    warm = (size_t)model_memory(values, resources);
+    warm = (size_t)page_memory(values, resources, NULL);
     forget();
-    return (int)model_prepare(values, work, resources);
+    return (int)page_prepare(values, work, resources, NULL);
 }
 
 /* Solve with the inputs among the values. Return a status or the number of a failure. */
-EXPORT(solve) int solve(void) { return (int)model_outputs(values, work, 0.0, resources); }
+EXPORT(solve) int solve(void) { return (int)page_outputs(values, work, 0.0, resources, NULL); }
 
 /* Write strips and fields of patch k of the last solution behind the values. Return the number of strips. */
-EXPORT(patch) int patch(int k) { return (int)model_field(values, work, k, resources); }
+EXPORT(patch) int patch(int k) { return (int)page_field(values, work, k, resources, NULL); }

@@ -12,8 +12,7 @@ from contact.kernels.block import ahead
 from contact.kernels.pair import solve_patch
 from contact.kernels.rows import DamageField, Field, Strip
 from fmu_src.native import wheel_rail_pair
-from fmu_src.tables.wheel_rail_pair import LOAD_KIND
-from fmu_src.variables import Table
+from fmu_src.tables.wheel_rail_pair import ACCUMULATED, LOAD_KIND, table
 
 #: Rows of a patch that the page draws, one number a strip.
 STRIPS = (Strip.Y, Strip.DY, Strip.XC, Strip.A)
@@ -25,14 +24,15 @@ _STRIPS, _FIELDS = np.array(STRIPS), np.array(FIELDS)  # an index into a tuple c
 _BY_HEIGHT = LOAD_KIND.number("Position")
 
 
-def entries(table: Table) -> dict[str, Callable[..., Any]]:
-    """Return `Component.entries` of WheelRailPair, with a `model_field` that writes patch k behind the values.
+def entries() -> dict[str, Callable[..., Any]]:
+    """Return the entries of WheelRailPair, with a `model_field` that writes patch k behind the values.
 
     It writes the rows STRIPS and then those of FIELDS and the energy index, row by row, with as many strips as it returns.
     """
-    arrange = wheel_rail_pair.layout_of(table).arrange
-    n_values = table.span[wheel_rail_pair.ACCUMULATED[0]].start
-    kind, elements = table.span["load.kind"].start, table.span["resolution.n_elements"].start
+    rows = table()
+    arrange = wheel_rail_pair.layout_of(rows).arrange
+    n_values = rows.span[ACCUMULATED[0]].start
+    kind, elements = rows.span["load.kind"].start, rows.span["resolution.n_elements"].start
     energy = DamageField.ENERGY_INDEX
 
     def model_field(values, work, k, given):
@@ -51,4 +51,4 @@ def entries(table: Table) -> dict[str, Callable[..., Any]]:
                 by_element[_FIELDS.size, i, j] = bench.damage_fields[energy, i, j]
         return n
 
-    return {**wheel_rail_pair.entries(table), "model_field": model_field}
+    return {**wheel_rail_pair.entries(), "model_field": model_field}

@@ -10,9 +10,11 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from contact.errors import ContactError
-from fmu_src import place, profiles, ssp
+from fmu_src import profiles, ssp
 from fmu_src.catalogue import Model, models, surfaces, vehicles
 from fmu_src.documentation import markdown
+from fmu_src.native import packaging as native
+from fmu_src.native import systems
 from fmu_src.python import packaging as python
 from fmu_src.tables.vehicle import START
 from models.life import scenario
@@ -91,12 +93,8 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
 def build_native(chosen: Sequence[Model], folder: Path, *, arm: bool = False) -> None:
     """Build FMUs that need no Python and print the progress.
 
-    One process compiles the kernels of all models. The models are then linked in parallel.
+    The library of all FMUs is built if it is not there. An FMU is this library and its data.
     """
-    try:
-        from fmu_src.native import packaging as native
-    except ModuleNotFoundError as error:
-        raise SystemExit(f"{error}: native FMUs need  pip install 'wheelrail-contact[native]'") from None
     begin = time.monotonic()
 
     def say(what: str) -> None:
@@ -106,11 +104,11 @@ def build_native(chosen: Sequence[Model], folder: Path, *, arm: bool = False) ->
         def say_of_it(what: str) -> None:
             say(f"{model.table.name}: {what}")
 
-        for path in native.build(model, folder, place.objects(), say_of_it, arm=arm):
+        for path in native.build(model, folder, say_of_it, arm=arm):
             say_of_it(_size(path))
 
     print("Native, for hosts without Python:")
-    native.compile_kernels(chosen, place.objects(), say)
+    systems.folder((*systems.USUAL, *(systems.ARM if arm else ())), say)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         list(pool.map(build, chosen))
 

@@ -25,17 +25,16 @@ from models.wheelset.ports import POINTS
 
 @dataclass(frozen=True)
 class Model:
-    """An FMU: name of its modules, options of its table, slave and component, and its files in resources/.
+    """An FMU: name of its modules, options of its table and native component, and its files in resources/.
 
-    `view` are options that change only what hosts see of the table, so the kernels do not depend on them. The objects of the
-    models `linked` are linked with its own.
+    `view` are options that change only what hosts see of the table. `declared` names the function of `native.components`.
     """
 
     name: str
     options: Mapping[str, Any]
     resources: Mapping[str, bytes] = field(default_factory=dict)
     view: Mapping[str, bool] = field(default_factory=dict)
-    linked: tuple[Model, ...] = ()
+    declared: str = ""
 
     @property
     def table(self) -> Table:
@@ -44,11 +43,15 @@ class Model:
 
     @property
     def all_options(self) -> dict[str, Any]:
-        """Options of table, slave and component."""
+        """Options of table and native component."""
         return {**self.options, **self.view}
 
+    def component(self) -> Any:
+        """Return what the native FMU has (`native.component.Component`)."""
+        return getattr(import_module("fmu_src.native.components"), self.declared)(**self.all_options)
+
     def module(self, part: str) -> Any:
-        """Return the FMU's module in the package `part`: "tables", "python" or "native"."""
+        """Return the FMU's module in the package `part`: "tables" or "python"."""
         return import_module(f"fmu_src.{part}.{self.name}")
 
 
@@ -63,22 +66,25 @@ def models(points: int, given: Mapping[Kind, Profile] | None = None, accumulatio
     both: dict[Kind, Profile] = {"wheel": profile.s1002(), "rail": profile.rail_60e1(0.0), **(given or {})}
     inclination = 0.0 if given and "rail" in given else 1.0 / 40.0
     return (
-        Model("wheel_rail_contact", {"points": points}),
-        Model("wheel_rail_contact", {"points": points}, view={"elliptic": True}),
+        Model("wheel_rail_contact", {"points": points}, declared="contact"),
+        Model("wheel_rail_contact", {"points": points}, view={"elliptic": True}, declared="contact"),
         Model(
             "wheel_rail_pair",
             {"inclination": inclination},
             profiles.resources(both["wheel"], both["rail"]),
             {"accumulation": accumulation},
+            "pair",
         ),
-        Model("wheelset", {}),
+        Model("wheelset", {}, declared="axle"),
     )
 
 
 def surfaces(given: Mapping[Kind, Profile] | None = None) -> Model:
     """Return the native FMU of surfaces that change along the way, with the profiles of `models` all along."""
     both: dict[Kind, Profile] = {"wheel": profile.s1002(), "rail": profile.rail_60e1(), **(given or {})}
-    return Model("wheel_rail_surfaces", {}, slices.of_pair(SurfacePair(both["wheel"], both["rail"])))
+    return Model(
+        "wheel_rail_surfaces", {}, slices.of_pair(SurfacePair(both["wheel"], both["rail"])), declared="surface_pair"
+    )
 
 
 def vehicles(path: Path, given: Mapping[Kind, Profile] | None = None) -> tuple[Model, ...]:
@@ -98,6 +104,6 @@ def vehicles(path: Path, given: Mapping[Kind, Profile] | None = None) -> tuple[M
     vehicle = str(beside) if beside.is_file() else declared.declared.vehicle
     track = {TRACK: pack(declared)}
     return (
-        Model("vehicle", {"vehicle": vehicle, **pair.options}, {**pair.resources, **track}, linked=(pair,)),
-        Model("open_vehicle", {"vehicle": vehicle}, track),
+        Model("vehicle", {"vehicle": vehicle, **pair.options}, {**pair.resources, **track}, declared="whole_vehicle"),
+        Model("open_vehicle", {"vehicle": vehicle}, track, declared="vehicle_alone"),
     )

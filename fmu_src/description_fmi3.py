@@ -41,7 +41,9 @@ def build_description(name: str, sources: Sequence[str]) -> str:
     """Return sources/buildDescription.xml for these C files."""
     root = Element("fmiBuildDescription", fmiVersion="3.0")
     configuration = SubElement(root, "BuildConfiguration", modelIdentifier=name)
-    files = SubElement(configuration, "SourceFileSet", language="C11", compilerOptions="-ffp-contract=off")
+    files = SubElement(
+        configuration, "SourceFileSet", language="C11", compiler="gcc", compilerOptions="-ffp-contract=off"
+    )
     for source in sources:
         SubElement(files, "SourceFile", name=source)
     # A host that makes a shared library cancels the prefix by FMI3_OVERRIDE_FUNCTION_PREFIX.

@@ -5,18 +5,9 @@ from __future__ import annotations
 from importlib.metadata import distribution
 from pathlib import Path
 
-from contact.core.library import cache_folder
-
 _ROOT = Path(__file__).parents[1]
 #: Folder of the repository, or None for an installed package.
 CHECKOUT = _ROOT if (_ROOT / "build_fmu.py").is_file() and (_ROOT / "LICENSE").is_file() else None
-
-
-def objects() -> Path:
-    """Return the folder in which compiled kernels are kept from one build to the next."""
-    if CHECKOUT:
-        return CHECKOUT / "build" / "native"
-    return cache_folder() / "wheelrail-contact" / "native"
 
 
 def licence() -> str:

@@ -30,7 +30,7 @@ def pack(magic: bytes, rows: Array, most: int = MOST_POINTS) -> bytes:
     if rows.shape[1] > most:
         raise ContactError(f"{rows.shape[1]} points: an FMU reads at most {most}")
     content = struct.pack("<q", rows.shape[1]) + rows.astype("<f8").tobytes()
-    return magic + struct.pack("<Q", _checksum(content)) + content
+    return magic + struct.pack("<Q", checksum(content)) + content
 
 
 def unpack(resource: bytes, rows: int, fault: str) -> Array:
@@ -42,7 +42,7 @@ def unpack(resource: bytes, rows: int, fault: str) -> Array:
         If the bytes are no such resource. The message begins with `fault`.
     """
     content = resource[16:]
-    if len(content) < 8 or struct.unpack("<Q", resource[8:16]) != (_checksum(content),):
+    if len(content) < 8 or struct.unpack("<Q", resource[8:16]) != (checksum(content),):
         raise ContactError(f"{fault}: it is damaged or was not made by fmu_src.resources")
     (n,) = struct.unpack("<q", content[:8])
     if not 4 <= n <= MOST_POINTS or len(content) != 8 + 8 * rows * n:
@@ -50,7 +50,8 @@ def unpack(resource: bytes, rows: int, fault: str) -> Array:
     return np.frombuffer(content[8:], "<f8").reshape(rows, -1)
 
 
-def _checksum(content: bytes) -> int:
+def checksum(content: bytes) -> int:
+    """Return the FNV-1a hash of 64 bits."""
     value = 14695981039346656037
     for byte in content:
         value = (value ^ byte) * 1099511628211 & (1 << 64) - 1

@@ -17,17 +17,9 @@ def _fmus(path: Path, packaging: str, *options: str | Path) -> None:
 
 
 def _native(path: Path) -> None:
-    """Build the native FMUs, and beside their folder one of those of vehicles.
-
-    One process compiles the kernels of all that tests need, because they share most of the work.
-    """
-    from fmu_src import place
-    from fmu_src.catalogue import models, surfaces, vehicles
-    from fmu_src.native import packaging
-    from models.wheelset.ports import POINTS
+    """Build the native FMUs, and beside their folder one of those of vehicles."""
     from reference.native import SCENARIO
 
-    packaging.compile_kernels((*models(POINTS), *vehicles(SCENARIO), surfaces()), place.objects(), print)
     _fmus(path, "native", "--vehicle", SCENARIO)
     native = path / "native"
     for one in [one for one in native.rglob("*") if one.stem.lower().endswith("vehicle")]:
@@ -37,11 +29,10 @@ def _native(path: Path) -> None:
 
 
 def _surfaces(path: Path) -> None:
-    from fmu_src import place
     from fmu_src.catalogue import surfaces
     from fmu_src.native import packaging
 
-    packaging.build(surfaces(), path, place.objects(), print)
+    packaging.build(surfaces(), path)
 
 
 def _page(path: Path) -> None:

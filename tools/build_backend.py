@@ -3,10 +3,12 @@
 In the repository the packages are called `contact`, `fmu_src` and `models`. Once installed, the last two names could clash with
 those of other packages: a user's own `models.py` would break the command line. A wheel therefore holds `contact`, `contact_fmu`
 and `contact_models`. `build_wheel` copies the sources into a temporary folder, renames the two packages there and calls
-setuptools. Editable installs and sdists are made by setuptools unchanged, with the names of the repository.
+setuptools. Editable installs and sdists are made by setuptools, with the names of the repository.
 
-A wheel is for one system and carries the library of compiled kernels for it. numba and zig build it, and are needed nowhere
-else. ``--config-setting system=win64`` chooses another system than this one (`SYSTEMS`).
+A wheel is for one system and carries the library of compiled kernels for it. The libraries for the other systems are there
+too, because an FMU has them all. numba and zig build them, and are needed nowhere else. ``--config-setting system=win64``
+chooses another system than this one (`SYSTEMS`). An sdist has the kernels in C, so that a wheel is built from it for this
+machine alone by any C compiler.
 """
 
 from __future__ import annotations
@@ -18,8 +20,9 @@ import re
 import shutil
 import subprocess
 import sys
+import sysconfig
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -27,9 +30,7 @@ from typing import Any
 from setuptools import build_meta
 from setuptools.build_meta import (  # hooks that a front end calls besides those below
     build_editable,
-    build_sdist,
     get_requires_for_build_editable,
-    get_requires_for_build_sdist,
     prepare_metadata_for_build_editable,
 )
 
@@ -53,13 +54,13 @@ _MENTION = re.compile(
 )
 
 
-#: System, by its name in `fmu_src.native.linking` → tag of its wheels, and file name of the library.
+#: System, by its name in `fmu_src.native.systems` → tag of its wheels.
 SYSTEMS = {
-    "linux64": ("manylinux_2_17_x86_64", "libwheelrail.so"),
-    "aarch64-linux": ("manylinux_2_17_aarch64", "libwheelrail.so"),
-    "win64": ("win_amd64", "wheelrail.dll"),
-    "darwin64": ("macosx_11_0_x86_64", "libwheelrail.dylib"),
-    "aarch64-darwin": ("macosx_11_0_arm64", "libwheelrail.dylib"),
+    "linux64": "manylinux_2_17_x86_64",
+    "aarch64-linux": "manylinux_2_17_aarch64",
+    "win64": "win_amd64",
+    "darwin64": "macosx_11_0_x86_64",
+    "aarch64-darwin": "macosx_11_0_arm64",
 }
 
 
@@ -74,23 +75,77 @@ def this_system() -> str:
     return names[sys.platform][arm]
 
 
+#: Folder of an sdist with the kernels in C, and what else their library is compiled from.
+IN_C = Path("contact", "library", "sources")
+
+
+def get_requires_for_build_sdist(config_settings: Mapping[str, Any] | None = None) -> list[str]:
+    """Return what writes the kernels in C (hook of PEP 517)."""
+    return [] if (IN_C / "kernels.c").is_file() else _builders()
+
+
 def get_requires_for_build_wheel(config_settings: Mapping[str, Any] | None = None) -> list[str]:
-    """Return what builds the library, as pinned in pyproject.toml (hook of PEP 517)."""
+    """Return what builds the library: nothing for an sdist, which has the kernels in C (hook of PEP 517)."""
+    return [] if (IN_C / "kernels.c").is_file() else _builders()
+
+
+def _builders() -> list[str]:
+    """Return numba, zig and what else builds the libraries, as pinned in pyproject.toml."""
     extras = tomllib.loads(Path("pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
-    return [*extras["build"], *(name for name in extras["native"] if name.startswith("ziglang")), "numpy"]
+    more = (name for name in (*extras["native"], *extras["fmu"]) if name.startswith(("ziglang", "fmpy")))
+    return [*extras["build"], *more, "numpy"]
 
 
-def libraries(root: Path, systems: Iterable[str]) -> dict[str, Path]:
-    """Return the libraries of kernels for systems, kept with those of checkouts: the same sources build them once."""
-    code = "from contact.core import library as l; print(l.cache_folder() / (l.PREFIX + l.fingerprint() + '-wheels'))"
-    told = subprocess.run([sys.executable, "-c", code], cwd=root, capture_output=True, text=True, check=True)
-    folder = Path(told.stdout.strip())
-    found = {system: folder / system / SYSTEMS[system][1] for system in systems}
-    missing = [system for system, path in found.items() if not path.is_file()]
-    if missing:
-        folder.mkdir(parents=True, exist_ok=True)
-        subprocess.run([sys.executable, "-m", "fmu_src.native.library", str(folder), *missing], cwd=root, check=True)
-    return found
+def libraries(root: Path) -> Path:
+    """Return the folder of the libraries for all systems, kept with those of checkouts: the same sources build them once."""
+    code = f"from fmu_src.native.systems import folder; print(folder({tuple(SYSTEMS)}))"
+    told = subprocess.run([sys.executable, "-c", code], cwd=root, stdout=subprocess.PIPE, text=True, check=True)
+    return Path(told.stdout.splitlines()[-1])
+
+
+def build_sdist(sdist_directory: str, config_settings: Mapping[str, Any] | None = None) -> str:
+    """Build an sdist with the kernels in C into a folder and return its name (hook of PEP 517)."""
+    if (IN_C / "kernels.c").is_file():
+        return str(build_meta.build_sdist(sdist_directory, config_settings))
+    linked = libraries(Path.cwd())
+    shutil.copytree(linked / "sources", IN_C)
+    for name in ("kernels.c", "wheelrail_entries.h"):
+        shutil.copy2(linked.parent / name, IN_C)
+    try:
+        return str(build_meta.build_sdist(sdist_directory, config_settings))
+    finally:
+        shutil.rmtree(IN_C.parent)
+
+
+def compile_in_c(root: Path, library: Path) -> None:
+    """Compile the library of this machine from the C of an sdist.
+
+    Raises
+    ------
+    RuntimeError
+        If there is no C compiler, or if it fails.
+    """
+    compiler = os.environ.get("CC") or next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
+    if compiler is None:
+        raise RuntimeError("no C compiler: install one (apt-get install gcc), or install a wheel of wheelrail-contact")
+    native, given = root / "fmu_src" / "native", root / IN_C
+    parts = [root / "contact" / "c" / "wheelrail.c", *native.glob("c_library/*.c"), *native.glob("c/*.c")]
+    (found,) = re.findall(r'__version__ = "(.*)"', (root / "contact" / "version.py").read_text(encoding="utf-8"))
+    include = [f"-I{path}" for path in (given, native / "c", root / "contact" / "include")]
+    flags = ["-std=c11", "-O2", "-fPIC", "-shared", "-ffp-contract=off", "-w", "-DWR_ANY", "-DKERNELS_IN_C"]
+    library.parent.mkdir(parents=True)
+    command = [
+        *compiler.split(),
+        *flags,
+        f'-DWR_VERSION="{found}"',
+        *include,
+        *parts,
+        given / "kernels.c",
+        given / "data.c",
+    ]
+    done = subprocess.run([*map(str, command), "-o", str(library), "-lm"], capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise RuntimeError(f"the library could not be compiled:\n{done.stderr[-3000:]}")
 
 
 def renamed(text: str) -> str:
@@ -130,12 +185,16 @@ def build_wheel(
         raise ValueError(f"system = {system!r} is not one of {', '.join(SYSTEMS)}")
     with TemporaryDirectory() as folder:
         lay_out(root, Path(folder))
-        packed = Path(folder) / "contact" / "library"
-        packed.mkdir()
-        shutil.copyfile(libraries(root, [system])[system], packed / SYSTEMS[system][1])
+        of_sdist = (root / IN_C / "kernels.c").is_file()
+        if of_sdist:
+            ending = {"win32": "wheelrail.dll", "darwin": "libwheelrail.dylib"}.get(sys.platform, "libwheelrail.so")
+            compile_in_c(root, Path(folder) / "contact" / "library" / this_system() / ending)
+        else:
+            shutil.copytree(libraries(root), Path(folder) / "contact" / "library")
         os.chdir(folder)
         try:
-            options = {"--build-option": ["--plat-name", SYSTEMS[system][0]]}
+            tag = sysconfig.get_platform() if of_sdist else SYSTEMS[system]
+            options = {"--build-option": ["--plat-name", tag.replace("-", "_").replace(".", "_")]}
             return str(build_meta.build_wheel(target, options, None))
         finally:
             os.chdir(root)

@@ -11,20 +11,24 @@
 
 /* ---------------------------------------------------------------- processors */
 
+/* Numbers of `sizes`, the first argument of every entry. The last one says which kernels this processor runs, since asking the
+ * processor takes microseconds in a virtual machine. */
+enum { WIDE = 9, N_SIZES };
+
 #if defined(WR_SEVERAL) /* kernels for two kinds of x86-64 processors */
 const char *wr_processor(void);
 
-/* The answer is kept, since a virtual machine takes microseconds for it. It is the same for all threads. */
-static int is_wide(void) {
-    static volatile char known;
-    if (!known) known = wr_processor()[1];
-    return known == '3';
-}
-#define CALL(entry, ...) (is_wide() ? wrk_##entry##_v3(__VA_ARGS__, NULL) : wrk_##entry##_v2(__VA_ARGS__, NULL))
-#elif defined(WR_ANY) /* kernels in C */
-#define CALL(entry, ...) wrk_##entry##_any(__VA_ARGS__, NULL)
+static double is_wide(void) { return wr_processor()[1] == '3'; }
+#define FIRST(sizes, ...) (sizes)
+#define CALL(entry, ...) \
+    (FIRST(__VA_ARGS__, 0)[WIDE] != 0.0 ? wrk_##entry##_v3(__VA_ARGS__) : wrk_##entry##_v2(__VA_ARGS__))
+#else
+static double is_wide(void) { return 0.0; }
+#if defined(WR_ANY) /* kernels in C */
+#define CALL(entry, ...) wrk_##entry##_any(__VA_ARGS__)
 #else /* kernels for this machine */
-#define CALL(entry, ...) wrk_##entry(__VA_ARGS__, NULL)
+#define CALL(entry, ...) wrk_##entry(__VA_ARGS__)
+#endif
 #endif
 
 /* ---------------------------------------------------------------- codes: -(100 * argument + reason) */
@@ -107,6 +111,19 @@ int wr_abi(void) { return WR_ABI; }
 #define WR_VERSION "0"
 #endif
 const char *wr_version(void) { return WR_VERSION; }
+
+/* The constant arrays of the kernels, by number. Python reads them instead of computing them again. */
+#ifdef _WIN32
+#define OF_KERNELS extern
+#else
+#define OF_KERNELS extern __attribute__((visibility("hidden")))
+#endif
+OF_KERNELS const char wr_data0[], wr_data1[], wr_data2[], wr_data3[];
+
+WR_API const void *wr_constants(int k) {
+    const char *all[] = {wr_data0, wr_data1, wr_data2, wr_data3};
+    return k >= 0 && k < 4 ? all[k] : NULL;
+}
 
 const char *wr_message(int code) {
     switch (code) {
@@ -334,7 +351,7 @@ typedef struct {
     int64_t abi, kind, bytes;
     int64_t at_zeros, at_work; /* in float64 from the head */
     int64_t at_strips, at_bins; /* from `work` */
-    double sizes[9];
+    double sizes[N_SIZES];
     wr_contact_options patch;
     int64_t n_bins;
     int64_t answered; /* 1 after a solution: what follows belongs to it */
@@ -374,8 +391,9 @@ static int check_answer(const Head *head) {
     return sane ? 0 : bad(A_memory, R_NO_SOLVER);
 }
 
-static void set_sizes(double sizes[9], const wr_contact_options *o) {
-    memset(sizes, 0, 9 * sizeof *sizes);
+static void set_sizes(double sizes[N_SIZES], const wr_contact_options *o) {
+    memset(sizes, 0, N_SIZES * sizeof *sizes);
+    sizes[WIDE] = is_wide();
     sizes[0] = find(0, o->normal)->interacting;
     sizes[1] = (double)o->n_strips;
     sizes[2] = (double)o->n_elements;
@@ -428,7 +446,7 @@ int wr_contact_default(wr_contact_options *o) {
 }
 
 int wr_contact_size(const wr_contact_options *o, size_t *bytes) {
-    double sizes[9];
+    double sizes[N_SIZES];
     TRY(check_contact_options(o));
     TRY(aligned(bytes, A_bytes));
     if (o->conformal && !find(1, o->tangential)->fields) return bad(A_tangential, R_PLANE);

@@ -46,7 +46,7 @@ static int64_t staging(int64_t n_wheel, int64_t n_rail) {
 }
 
 int wr_pair_size(const wr_pair_options *o, int64_t n_wheel, int64_t n_rail, size_t *bytes) {
-    double sizes[9];
+    double sizes[N_SIZES];
     TRY(check_pair_options(o));
     TRY(among(n_wheel, 4, MOST_NODES, A_n_wheel));
     TRY(among(n_rail, 4, MOST_NODES, A_n_rail));

@@ -10,6 +10,7 @@ import contextlib
 import ctypes
 import getpass
 import hashlib
+import math
 import os
 import platform
 import shutil
@@ -17,21 +18,32 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.version import __version__
 
 _HERE = Path(__file__).parents[1]
 _ROOT = _HERE.parent
 #: Name of the library on this system.
 NAME = {"win32": "wheelrail.dll", "darwin": "libwheelrail.dylib"}.get(sys.platform, "libwheelrail.so")
+#: This system, by its name in `fmu_src.native.systems`.
+_ARM = platform.machine().lower() in ("aarch64", "arm64")
+SYSTEM = {"win32": "win64", "darwin": "aarch64-darwin" if _ARM else "darwin64"}.get(
+    sys.platform, "aarch64-linux" if _ARM else "linux64"
+)
 #: The library of an installed package.
-INSTALLED = _HERE / "library" / NAME
+INSTALLED = _HERE / "library" / SYSTEM / NAME
 #: Folders of a checkout that the library is made from, and the packages that compile it.
 _MADE_FROM, _TOOLS = ("contact", "models", "fmu_src"), ("numba", "llvmlite", "numpy")
 #: Programs in `fmu_src.native` that build it.
-_BUILDER = ("library.py", "emit.py", "c_tables.py", "ir_to_c.py", "ir_function.py", "linking.py")
+_BUILDER = ("library.py", "emit.py", "objects.py", "c_tables.py", "ir_to_c.py", "ir_function.py", "ir_text.py")
 #: Libraries that were not used for this time [s] are removed. At most `_MOST` are kept.
 _STALE, _MOST = 30 * 86400.0, 8
 PREFIX = "wheelrail-contact-"
@@ -50,7 +62,7 @@ def get_library() -> Path:
     ImportError
         If this machine has none: no library fits, or a checkout has no C compiler.
     """
-    path = INSTALLED if INSTALLED.is_file() else cached() / NAME
+    path = INSTALLED if INSTALLED.is_file() else _among_systems() or cached() / NAME
     if not path.is_file():
         raise ImportError(f"{path} was not linked: the C interface of a checkout needs cc, gcc or clang")
     return path
@@ -58,22 +70,51 @@ def get_library() -> Path:
 
 def address(symbol: str) -> int:
     """Return the address of a function of the library."""
-    return _functions()(symbol)
+    return _loaded().address(symbol)
+
+
+def constants(k: int, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """Return array `k` of the constant arrays that the kernels read (`fmu_src.native.c_tables`). It is read-only."""
+    numbers = (ctypes.c_double * math.prod(shape)).from_address(_loaded().constants(k))
+    found = np.frombuffer(memoryview(numbers).cast("B")).reshape(shape)
+    found.setflags(write=False)
+    return found
+
+
+@dataclass(frozen=True)
+class _Loaded:
+    """The library of this process: the address of a function by its name, and that of a constant array by its number."""
+
+    address: Callable[[str], int]
+    constants: Callable[[int], int]
 
 
 @cache
-def _functions() -> Callable[[str], int]:
-    """Return a function from the name of a symbol to its address, of the library of this process."""
-    if INSTALLED.is_file():
-        return _of_library(INSTALLED)
+def _loaded() -> _Loaded:
+    if whole := INSTALLED if INSTALLED.is_file() else _among_systems():
+        return _of_library(whole)
     folder = cached()
     linked = folder / NAME
     return _of_library(linked) if linked.is_file() else _of_objects(folder)
 
 
-def _of_library(path: Path) -> Callable[[str], int]:
-    library = ctypes.CDLL(str(path))
-    end = ""
+def _of_library(path: Path) -> _Loaded:
+    """Load a library.
+
+    Raises
+    ------
+    ImportError
+        If it is that of another version.
+    """
+    library, end = ctypes.CDLL(str(path)), ""
+    if hasattr(library, "wr_version"):
+        library.wr_version.restype = ctypes.c_char_p
+    of_library = library.wr_version().decode() if hasattr(library, "wr_version") else "an unknown version"
+    if of_library != __version__:
+        raise ImportError(
+            f"{path} is the library of wheelrail-contact {of_library}, and this is version {__version__}. "
+            "Install the package again: pip install --force-reinstall wheelrail-contact"
+        )
     if hasattr(library, "wr_processor"):  # it has each entry for several processors
         library.wr_processor.restype = ctypes.c_char_p
         end = "_" + library.wr_processor().decode()
@@ -83,14 +124,15 @@ def _of_library(path: Path) -> Callable[[str], int]:
             return ctypes.cast(getattr(library, symbol + end), ctypes.c_void_p).value or 0
         except AttributeError:
             raise ImportError(
-                f"{path} has no function {symbol}: it is the library of another version of wheelrail-contact. "
+                f"{path} has no function {symbol}: it was built from other sources. "
                 "Install the package again: pip install --force-reinstall wheelrail-contact"
             ) from None
 
-    return find
+    library.wr_constants.restype = ctypes.c_void_p
+    return _Loaded(find, lambda k: library.wr_constants(k) or 0)
 
 
-def _of_objects(folder: Path) -> Callable[[str], int]:
+def _of_objects(folder: Path) -> _Loaded:
     """Load the object file of a checkout on a machine that has no linker."""
     from llvmlite import binding as llvm
 
@@ -101,31 +143,65 @@ def _of_objects(folder: Path) -> Callable[[str], int]:
     engine.add_object_file(str(folder / "kernels.o"))
     engine.finalize_object()
     _KEPT.append(engine)
-    return lambda symbol: int(engine.get_function_address(symbol))
+    return _Loaded(
+        lambda symbol: int(engine.get_function_address(symbol)),
+        lambda k: int(engine.get_global_value_address(f"wr_data{k}")),
+    )
 
 
 _KEPT: list[object] = []
 
 
+def _among_systems() -> Path | None:
+    """Return the library of this system if this checkout has built those of all systems (`fmu_src.native.systems`)."""
+    found = cache_folder().glob(f"{PREFIX}{fingerprint()}-systems-*/linked-*/{SYSTEM}/{NAME}")
+    return max(found, key=lambda path: path.stat().st_mtime, default=None)
+
+
 def cached() -> Path:
     """Return the folder of the library of this checkout. Build it if it is not there."""
     folder = cache_folder() / (PREFIX + fingerprint())
-    if (folder / "kernels.o").is_file():
-        with contextlib.suppress(OSError):
-            os.utime(folder)
-        return folder
-    if not (_ROOT / "fmu_src" / "native").is_dir():
+    if not folder.is_dir() and not (_ROOT / "fmu_src" / "native").is_dir():
         raise ImportError(
             f"wheelrail-contact has no compiled library for {platform.system()} on {platform.machine()}: {INSTALLED} is "
             "missing. Install a wheel for this system, or build one from the sources (CONTRIBUTING.md)."
         )
-    _build(folder)
+    return build(folder)
+
+
+def build(folder: Path, *options: str) -> Path:
+    """Return a folder that the builder fills, with these options. If another process does so already, wait for it."""
+    if folder.is_dir():
+        with contextlib.suppress(OSError):
+            os.utime(folder)
+        return folder
+    with locked(folder):
+        if not folder.is_dir():
+            made = folder.parent / f"{folder.name}.{os.getpid()}"
+            shutil.rmtree(made, ignore_errors=True)
+            made.mkdir()
+            _run_builder(made, *options)
+            with contextlib.suppress(OSError):  # another process was faster
+                made.rename(folder)
+            shutil.rmtree(made, ignore_errors=True)
     _remove_stale(folder.parent)
     return folder
 
 
-def _build(folder: Path) -> None:
-    """Build the library of this checkout in a process of its own. If another one does so already, wait for it."""
+@contextlib.contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Let one process at a time build what belongs into a folder."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    with (folder.parent / f"{folder.name}.lock").open("w") as held:
+        with contextlib.suppress(ImportError):  # not on Windows, where two processes may build the same
+            import fcntl
+
+            fcntl.flock(held, fcntl.LOCK_EX)
+        yield
+
+
+def _run_builder(folder: Path, *options: str) -> None:
+    """Run the builder (`fmu_src.native.library`) in a process of its own. On a terminal a line says so."""
     try:
         version("numba")
     except PackageNotFoundError:
@@ -133,29 +209,9 @@ def _build(folder: Path) -> None:
             "this checkout of wheelrail-contact has no compiled library yet, and numba, which compiles it, is not installed: "
             "pip install 'numba==0.68.1', or install a wheel"
         ) from None
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    lock = folder.parent / f"{folder.name}.lock"
-    with lock.open("w") as held:
-        with contextlib.suppress(ImportError):  # not on Windows, where two processes may build the same
-            import fcntl
-
-            fcntl.flock(held, fcntl.LOCK_EX)
-        if (folder / "kernels.o").is_file():
-            return
-        made = folder.parent / f"{folder.name}.{os.getpid()}"
-        shutil.rmtree(made, ignore_errors=True)
-        made.mkdir()
-        _run(made)
-        with contextlib.suppress(OSError):  # another process was faster
-            made.rename(folder)
-        shutil.rmtree(made, ignore_errors=True)
-
-
-def _run(folder: Path) -> None:
-    """Run the builder. On a terminal a line says so."""
     shows = sys.stderr is not None and sys.stderr.isatty()
     begin = time.monotonic()
-    command = [sys.executable, "-m", "fmu_src.native.library", str(folder)]
+    command = [sys.executable, "-m", "fmu_src.native.library", str(folder), *options]
     own = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, (str(_ROOT), os.environ.get("PYTHONPATH"))))}
     with subprocess.Popen(
         command, cwd=_ROOT, env=own, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True

@@ -27,10 +27,10 @@ def libraries_are_named(root: Element, files: dict[str, bytes]) -> Iterator[str]
 
 
 def guid_is_the_same(root: Element, files: dict[str, bytes]) -> Iterator[str]:
-    """The guid is contained in every library, or in the script if there is one:"""
+    """The guid is contained in the file of the model or the script, or without one in every library:"""
     guid = (root.get("guid", "") or root.get("instantiationToken", "")).encode()
-    scripts = {name for name in files if re.fullmatch(r"resources/[^/]+\.py", name)}
-    for name in scripts or {name for name in files if name.startswith("binaries/")}:
+    models = {name for name in files if re.fullmatch(r"resources/([^/]+\.py|model\.bin)", name)}
+    for name in models or {name for name in files if name.startswith("binaries/")}:
         if not guid or guid not in files[name]:
             yield f"not in {name}"
 

@@ -1,75 +1,61 @@
-"""Compile the C parts of an FMU with zig and link them to one library for each platform."""
+"""Compile the C parts of the library with zig and link them with the kernels for each system."""
 
 from __future__ import annotations
 
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from fmu_src.native.emit import OWN_LIBM
 from fmu_src.native.libm import compile_libm
+from fmu_src.native.objects import OWN_LIBM, objects
+from fmu_src.native.systems import ARM, C_SOURCES, WRAPPER, flags
 
-_BEAT = 15.0  # between two signs of life of a long command [s]
-WRAPPER = Path(__file__).parent / "c"
 #: What every library for Windows has. It needs the Universal C Runtime, which is part of Windows since version 10.
 OF_WINDOWS = Path(__file__).parent / "c_windows" / "library.c"
 _RUNTIME = ("convert", "heap", "math", "private", "runtime", "stdio", "string")
 #: Linker options: the libraries of Windows and not zig's start-up code for it, which takes a minute to build; no time stamp.
 WITHOUT_MINGW = ("-nostdlib", "-Wl,-Brepro", "-lkernel32", *(f"-lapi-ms-win-crt-{part}-l1-1-0" for part in _RUNTIME))
+_VISIBLE = ("-std=c11", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-fPIC")
 #: -ffp-contract=off: fused operations would make the results differ between processors.
-FLAGS = ("-std=c11", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-Wall", "-Wextra", "-fPIC")
-#: Platform → target of zig, and the end of a library's name.
+FLAGS = (*_VISIBLE, "-fvisibility=hidden")
+#: System → target of zig.
 _TARGETS = {
-    "linux64": ("x86_64-linux-gnu.2.17", ".so"),
-    "win64": ("x86_64-windows-gnu", ".dll"),
-    "darwin64": ("x86_64-macos.11.0", ".dylib"),
-    "aarch64-linux": ("aarch64-linux-gnu.2.17", ".so"),
-    "aarch64-darwin": ("aarch64-macos.11.0", ".dylib"),
+    "linux64": "x86_64-linux-gnu.2.17",
+    "win64": "x86_64-windows-gnu",
+    "darwin64": "x86_64-macos.11.0",
+    "aarch64-linux": "aarch64-linux-gnu.2.17",
+    "aarch64-darwin": "aarch64-macos.11.0",
 }
-#: Platforms whose library is made from the kernels in C. FMI 3.0 has these names, FMI 2.0 has none for 64-bit ARM.
-FROM_C = ("aarch64-linux", "aarch64-darwin")
 
 
-def link(
-    platform: str,
-    name: str,
-    sources: Sequence[Path],
-    objects: Sequence[Path],
-    folder: Path,
-    *,
-    exports: Sequence[str] = (),
-) -> Path:
-    """Compile the C files among `sources`, link them with `objects` and return the path of the library in `folder`.
+def link(system: str, name: str, kernels: Path, folder: Path) -> Path:
+    """Link the library of a system and return its path, `folder`/`system`/`name`.
 
-    `exports` are flags of a library of which all functions can be called from outside, not only those that are marked.
+    `kernels` is the folder of the compiled kernels, and `folder`/sources has headers that the C sources need.
     """
-    target, ending = _TARGETS[platform]
-    library = folder / platform / (name if name.endswith(ending) else name + ending)
+    library, in_c = folder / system / name, system in ARM
     library.parent.mkdir(exist_ok=True)
-    made = compile_libm(compiler(platform), library.parent, run) if platform in OWN_LIBM else []
-    include = [f"-I{path}" for path in sorted({path.parent for path in sources})]
-    if not exports:  # an FMU
-        from fmu_src.native.headers import HEADERS
+    include = [f"-I{path}" for path in (WRAPPER[0].parent, folder / "sources")]
+    defined = ["-DWR_ANY", "-DKERNELS_IN_C"] if in_c else ["-DWR_SEVERAL"]
+    of_system = [OF_WINDOWS] if system == "win64" else []
+    made = compile_libm(compiler(system), library.parent, run) if system in OWN_LIBM else []
 
-        include.append(f"-I{HEADERS}")
-    own = [OF_WINDOWS] if "windows" in target else []
-    for path in (*(path for path in sources if path.suffix == ".c"), *own):
+    def compile_c(path: Path, options: tuple[str, ...]) -> None:
         made.append(library.parent / f"{path.stem}.o")
-        flags = [flag for flag in FLAGS if not (exports and flag == "-fvisibility=hidden")]
-        run(*compiler(platform), *flags, *exports, "-Wno-unused-parameter", *include, "-c", path, "-o", made[-1])
+        unused = "-Wno-unused-parameter"
+        run(*compiler(system), *options, *defined, *flags(kernels), unused, *include, "-c", path, "-o", made[-1])
+
+    for path in (*C_SOURCES, *(path for path in WRAPPER if path.suffix == ".c"), *of_system):
+        compile_c(path, FLAGS)
+    for path in (kernels / "kernels.c", kernels / "data.c") if in_c else ():
+        compile_c(path, _VISIBLE)
     # names without a folder, because a macOS library has a trace of them
-    names, options = [path.name for path in made], _of_system(target, library.name)
-    if exports and "windows" in target:
-        options = [*options, "-Wl,--export-all-symbols"]
-    run(*compiler(platform), "-shared", "-s", *names, *objects, "-o", library, *options, cwd=library.parent)
+    names, ready = [path.name for path in made], [] if in_c else objects(kernels, system)
+    options = _of_system(_TARGETS[system], name)
+    run(*compiler(system), "-shared", "-s", *names, *ready, "-o", library, *options, cwd=library.parent)
+    for path in (*made, *library.parent.glob("*.lib")):
+        path.unlink()
     return library
-
-
-def library_name(platform: str) -> str:
-    """Return the file name of the library of kernels for a platform."""
-    ending = _TARGETS[platform][1]
-    return ("" if ending == ".dll" else "lib") + "wheelrail" + ending
 
 
 def _of_system(target: str, name: str) -> list[str]:
@@ -81,21 +67,20 @@ def _of_system(target: str, name: str) -> list[str]:
     return [f"-Wl,-install_name,@rpath/{name}"]
 
 
-def compiler(platform: str) -> list[str]:
-    """Return the command of the C compiler for a platform."""
-    return [sys.executable, "-m", "ziglang", "cc", "-target", _TARGETS[platform][0], "-fno-sanitize=undefined"]
+def compiler(system: str) -> list[str]:
+    """Return the command of the C compiler for a system."""
+    return [sys.executable, "-m", "ziglang", "cc", "-target", _TARGETS[system], "-fno-sanitize=undefined"]
 
 
-def run(*command: str | Path, waiting: Callable[[], None] | None = None, cwd: Path | None = None) -> None:
-    """Run a command in a folder. If it fails, raise an error with its output. Every 15 s that it lasts, `waiting` is called."""
+def run(*command: str | Path, cwd: Path | None = None) -> None:
+    """Run a command in a folder.
+
+    Raises
+    ------
+    RuntimeError
+        If it fails. The message has its output.
+    """
     words = list(map(str, command))
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=cwd) as process:
-        said = None
-        while said is None:
-            try:
-                said, _ = process.communicate(timeout=_BEAT)
-            except subprocess.TimeoutExpired:
-                if waiting is not None:
-                    waiting()
-    if process.returncode:
-        raise RuntimeError(f"{' '.join(words)}\n{said}")
+    done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=cwd, check=False)
+    if done.returncode:
+        raise RuntimeError(f"{' '.join(words)}\n{done.stdout}")

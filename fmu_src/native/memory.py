@@ -9,9 +9,8 @@ from numba.extending import intrinsic
 from contact.core import arranging
 
 Doubles = types.CPointer(types.float64)
-#: With this the names of a component's entries begin.
-PREFIX = "model"
-
+#: Type of an argument or of a result, as tables of entries name it → that of numba.
+TYPES = {"i64": types.int64, "f64": types.float64, "ptr": Doubles}
 #: Functions of a component lay arrays.
 compiled = arranging
 

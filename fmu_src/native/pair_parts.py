@@ -3,34 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from enum import IntEnum, auto
 from typing import Any
 
 import numpy as np
 from numba import carray
 
 import contact
-from contact import Status
 from contact.damage import DamageParameters
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels import block
+from contact.kernels.entries.layout import forget_forged
 from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.flexible import solve_flexible
-from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import (
     CASE,
     DAMAGE_PARAMETERS,
     GIVEN,
-    LARGEST_ANGLE,
     MAX_PATCHES,
     SLOWEST,
     TOTAL,
     WHEEL_OFFSET,
 )
 from fmu_src.differences import creepage_steps
+from fmu_src.native.components import Failure
 from fmu_src.native.memory import compiled, numbers_of
-from fmu_src.native.solver import choose, forget_forged, size_of
-from fmu_src.native.wires import MATERIAL, case_reader, reader, references, writer
+from fmu_src.native.wires import MATERIAL, case_reader, choose, constant, reader, references, size_of, writer
 from fmu_src.tables.solver import DAMAGE_OUTPUTS
 from fmu_src.tables.wheel_rail_pair import LOAD_KIND, PATCH, PATCHES, SIDE
 from fmu_src.variables import Table
@@ -57,38 +54,6 @@ _OUTPUTS = {
 }
 _steps = compiled(creepage_steps)
 
-#: Outputs that are integrated over time: see `Component.totals`.
-TOTALS = {
-    "total.energy": ("power.friction",),
-    "total.worn_volume": ("damage.archard_volume", "velocity.x"),
-    "total.distance": ("velocity.x",),
-    "total.T_gamma": ("damage.T_gamma", "velocity.x"),
-}
-WARNINGS: dict[int, str] = {s: f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)}
-
-
-class Failure(IntEnum):
-    """Reasons to discard a step. Their numbers follow those of the statuses."""
-
-    NO_OVERLAP = max(Status) + 1
-    NOT_SETTLED = auto()
-    TOO_DEEP = auto()
-    ENDLESS = auto()
-    TURNED = auto()
-    GAUGE_POINT = auto()
-    STEEP = auto()
-    WHEEL = auto()
-    RAIL = auto()
-
-
-FAILURES: dict[int, str] = {
-    Failure.NO_OVERLAP: "pose.y: the profiles of wheel and rail do not overlap",
-    Failure.NOT_SETTLED: "load.normal_force: no height was found at which the wheel carries this load on this rail",
-    Failure.TOO_DEEP: f"pose.z: the wheel lies more than {DEEPEST:g} m inside its rail",
-    Failure.ENDLESS: "the accumulated damage has no finite value for these inputs",
-    Failure.TURNED: f"offset: with the wheelset's roll and yaw the wheel is turned by more than {LARGEST_ANGLE:g} rad",
-}
-
 
 def sizer(table: Table) -> Callable[..., Any]:
     """Return a compiled function that returns the sizes of the workspace for the parameters."""
@@ -104,7 +69,7 @@ def sizer(table: Table) -> Callable[..., Any]:
 
 def parameter_setter(table: Table) -> Callable[..., Any]:
     """Return a compiled function that copies the parameters to the bench."""
-    at = references(table)
+    at, rows = references(table), constant(table)
     read_material = reader(table, CASE, {**MATERIAL, "patches.surface": "conformal"})
 
     @compiled
@@ -116,7 +81,7 @@ def parameter_setter(table: Table) -> Callable[..., Any]:
         motion.most_patches = int(v[at.patches_max])
         motion.mirror = 1.0 if v[at.side] == _RIGHT else -1.0
         motion.origin_y, motion.origin_z = origin_y, origin_z
-        read_material(v, bench.case)
+        read_material(v, rows, bench.case)
         choose(int(v[at.method_normal]), int(v[at.method_tangential]), bench.case[0])
         bench.search.case[0].G, bench.search.case[0].nu = bench.case[0].G, bench.case[0].nu
         bench.damage_parameters[0] = _DAMAGE_PARAMETERS[0]
@@ -131,13 +96,13 @@ def parameter_setter(table: Table) -> Callable[..., Any]:
 
 def step_solver(table: Table) -> Callable[..., Any]:
     """Return a compiled function that solves the pair for the inputs, and returns 0 or the number of a failure."""
-    at = references(table)
+    at, rows = references(table), constant(table)
     read_surface = case_reader(table, {"velocity.x": "speed"})
 
     @compiled
     def solve(values, v, piece, bench):
         """Solve for `v`, which are `values` as an array. `piece` is the size of the memory of a patch."""
-        read_surface(v, bench.case)
+        read_surface(v, rows, bench.case)
         given, _ = block.records(values, at.pose_y, 1, GIVEN)
         offset, _ = block.records(values, at.offset_x, 1, WHEEL_OFFSET)
         bench.offset[0] = offset[0]
@@ -165,13 +130,13 @@ def _failure(code):
 
 def reporter(table: Table) -> Callable[..., Any]:
     """Return a compiled function that copies the results to the outputs."""
-    at = references(table)
+    at, rows = references(table), constant(table)
     write = writer(table, TOTAL, _OUTPUTS)
 
     @compiled
     def report(v, bench):
         total = bench.total[0]
-        write(v, bench.total)
+        write(v, rows, bench.total)
         for i, component in enumerate((total.Fx, total.Fy, total.Fz, total.Mx, total.My, total.Mz)):
             v[at.force_x + i] = component
         for k in range(PATCHES):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,9 +10,7 @@ from numba import carray
 from contact.kernels.block import ahead, cube, matrix, records, vector
 from contact.kernels.records import GIVEN, MOTION
 from fmu_src.native.memory import compiled, integers_of
-from models.vehicle.assembly import Assembly, assemble
 from models.vehicle.course import BEYOND, SPACING
-from models.vehicle.declared import read
 from models.vehicle.kernels.layout import (
     BODY,
     ELEMENT,
@@ -29,12 +26,9 @@ from models.vehicle.kernels.layout import (
     Sum,
 )
 
-#: Texts of failures.
-ENDED = "the vehicle is not on the track: it ends here (fmu_src.track), or initial.distance is not on it"
-LOST = "the motion has no finite value"
-#: Number of `arrays`, and the place of the links among them.
-_N_ARRAYS, _LINKS = 6, 1
 _INTEGER = np.dtype([("value", "i8")])
+_N_BODY, _N_LINK, _N_ELEMENT = BODY.itemsize // 8, LINK.itemsize // 8, ELEMENT.itemsize // 8
+_N_FRAME, _N_SUM, _N_BOOK, _N_ROW = len(Frame), len(Sum), len(Book), len(Row)
 
 
 class Parts(NamedTuple):
@@ -47,84 +41,92 @@ class Parts(NamedTuple):
     motions: Any
 
 
-class Layout(NamedTuple):
-    """Compiled functions of a vehicle in memory, and the number of values that carry over from step to step."""
+class Constants(NamedTuple):
+    """Pointers to the arrays of a vehicle in its numbers (`components`), and the wheels' radius."""
 
-    kept: int
-    arrange: Callable[..., Any]
-    fill: Callable[..., Any]
-
-
-def arrays(vehicle: str) -> tuple[Assembly, tuple[np.ndarray, ...]]:
-    """Return the arrays of a vehicle, and the same as the constants of its kernels."""
-    made = assemble(read(vehicle))
-    parts = (made.bodies, made.links, made.elements, made.table, made.wheelsets, made.rail)
-    return made, tuple(np.ascontiguousarray(part).view(np.float64).ravel() for part in parts)
+    bodies: Any
+    links: Any
+    elements: Any
+    table: Any
+    wheelsets: Any
+    rail: Any
+    radius: Any
 
 
-def layout_of(made: Assembly) -> Layout:
-    """Return the functions for a vehicle of this size."""
-    n_bodies, n_links, n_elements = len(made.names), made.links.size, made.elements.size
-    n_axles, n_table = made.wheelsets.size, made.table.shape[1]
-    n_wheels = 2 * n_axles
-    kept = 1 + (3 * 6 * n_bodies) + 3 * n_elements + 8 * n_axles + 2 * n_axles + n_wheels * len(Sum) + len(Book)
-    n_frame, n_sum, n_book, n_row = len(Frame), len(Sum), len(Book), len(Row)
-    spacing, first = SPACING, -BEYOND
+@compiled
+def constants_of(own, at, begin):
+    """Return the constants, which begin at index `begin` of the numbers, after `at`."""
+    links = begin + at.n_bodies * _N_BODY
+    elements = links + at.n_links * _N_LINK
+    table = elements + at.n_elements * _N_ELEMENT
+    wheelsets = table + 2 * at.n_table
+    rail = wheelsets + at.n_axles
+    radius, _ = vector(own, rail + 5, 1)
+    return Constants(
+        ahead(own, begin), ahead(own, links), ahead(own, elements), ahead(own, table), ahead(own, wheelsets),
+        ahead(own, rail), radius[0],
+    )  # fmt: skip
 
-    @compiled
-    def arrange(work, end, track, n_track, constants):
-        """Lay out a vehicle: what carries over at the beginning of `work`, the rest from index `end` on.
 
-        `track` points to the rows of the track, with `n_track` places, `constants` to those of `arrays`. Returns the vehicle
-        and the new end.
-        """
-        bodies, _, elements, table, wheelsets, rail = constants[:_N_ARRAYS]
-        begun, at = vector(work, 0, 1)
-        q, at = matrix(work, at, n_bodies, 6)
-        u, at = matrix(work, at, n_bodies, 6)
-        inner, at = matrix(work, at, n_elements, 3)
-        rails, at = cube(work, at, n_axles, 2, 4)
-        loads, at = matrix(work, at, n_axles, 2)
-        sums, at = matrix(work, at, n_wheels, n_sum)
-        books, at = vector(work, at, n_book)
-        forces, at = matrix(work, at, n_bodies, 6)  # of the last step, for the work of what holds the bodies
-        own_links, end = records(work, end, n_links, LINK)
-        frames, end = matrix(work, end, n_bodies, n_frame)
-        given, end = records(work, end, n_wheels, GIVEN)
-        seats, end = records(work, end, n_wheels, SEAT)
-        wheels, end = records(work, end, n_wheels, WHEEL)
-        power, end = vector(work, end, 3)
-        motions, end = records(work, end, n_wheels, MOTION)
-        surface, end = vector(work, end, 2)
-        places, end = vector(work, end, 2)
-        model = Model(
-            records(bodies, 0, n_bodies, BODY)[0],
-            own_links,
-            records(elements, 0, n_elements, ELEMENT)[0],
-            carray(table, (2, n_table)),
-            carray(integers_of(records(wheelsets, 0, n_axles, _INTEGER)[0]), (n_axles,)),
-            carray(track, (n_row, n_track)),
-            carray(rail, (5,)),
-            surface,
-            places,
-        )
-        state = State(q, u, inner, rails, loads, sums, books)
-        return Parts(begun, model, state, Scratch(frames, forces, given, seats, wheels, power), motions), end
+@compiled
+def kept_by(at):
+    """Return the number of values that carry over from step to step."""
+    of_bodies = 1 + (3 * 6 * at.n_bodies) + 3 * at.n_elements
+    return of_bodies + 8 * at.n_axles + 2 * at.n_axles + 2 * at.n_axles * _N_SUM + _N_BOOK
 
-    @compiled
-    def fill(parts, constants, radius, origin_y, origin_z):
-        """Fill what depends only on the parameters."""
-        own = parts.model.links
-        declared = records(constants[_LINKS], 0, n_links, LINK)[0]  # without rotations and offsets
-        for k in range(n_links):
-            own[k].a, own[k].b = declared[k].a, declared[k].b
-        parts.model.spacing[0], parts.model.spacing[1] = spacing, first
-        for w in range(n_wheels):
-            here = parts.motions[w]
-            here.radius, here.mirror = radius, 1.0 if w % 2 == 0 else -1.0
-            here.origin_y, here.origin_z = origin_y, origin_z
 
-    return Layout(kept, arrange, fill)
+@compiled
+def arrange(work, end, track, n_track, at, constants):
+    """Lay out a vehicle: what carries over at the beginning of `work`, the rest from index `end` on.
+
+    `track` points to the rows of the track, with `n_track` places. Returns the vehicle and the new end.
+    """
+    n_bodies, n_elements, n_axles, n_wheels = at.n_bodies, at.n_elements, at.n_axles, 2 * at.n_axles
+    begun, to = vector(work, 0, 1)
+    q, to = matrix(work, to, n_bodies, 6)
+    u, to = matrix(work, to, n_bodies, 6)
+    inner, to = matrix(work, to, n_elements, 3)
+    rails, to = cube(work, to, n_axles, 2, 4)
+    loads, to = matrix(work, to, n_axles, 2)
+    sums, to = matrix(work, to, n_wheels, _N_SUM)
+    books, to = vector(work, to, _N_BOOK)
+    forces, to = matrix(work, to, n_bodies, 6)  # of the last step, for the work of what holds the bodies
+    own_links, end = records(work, end, at.n_links, LINK)
+    frames, end = matrix(work, end, n_bodies, _N_FRAME)
+    given, end = records(work, end, n_wheels, GIVEN)
+    seats, end = records(work, end, n_wheels, SEAT)
+    wheels, end = records(work, end, n_wheels, WHEEL)
+    power, end = vector(work, end, 3)
+    motions, end = records(work, end, n_wheels, MOTION)
+    surface, end = vector(work, end, 2)
+    places, end = vector(work, end, 2)
+    model = Model(
+        records(constants.bodies, 0, n_bodies, BODY)[0],
+        own_links,
+        records(constants.elements, 0, n_elements, ELEMENT)[0],
+        carray(constants.table, (2, at.n_table)),
+        carray(integers_of(records(constants.wheelsets, 0, n_axles, _INTEGER)[0]), (n_axles,)),
+        carray(track, (_N_ROW, n_track)),
+        carray(constants.rail, (5,)),
+        surface,
+        places,
+    )
+    state = State(q, u, inner, rails, loads, sums, books)
+    return Parts(begun, model, state, Scratch(frames, forces, given, seats, wheels, power), motions), end
+
+
+@compiled
+def fill(parts, constants, radius, origin_y, origin_z):
+    """Fill what depends only on the parameters."""
+    own = parts.model.links
+    declared = records(constants.links, 0, own.size, LINK)[0]  # without rotations and offsets
+    for k in range(own.size):
+        own[k].a, own[k].b = declared[k].a, declared[k].b
+    parts.model.spacing[0], parts.model.spacing[1] = SPACING, -BEYOND
+    for w in range(parts.motions.size):
+        here = parts.motions[w]
+        here.radius, here.mirror = radius, 1.0 if w % 2 == 0 else -1.0
+        here.origin_y, here.origin_z = origin_y, origin_z
 
 
 @compiled

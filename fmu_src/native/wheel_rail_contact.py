@@ -13,24 +13,22 @@ import numpy as np
 from numba import carray
 
 import contact
-from contact import Status
 from contact.damage import DamageParameters
 from contact.kernels import block, memory
 from contact.kernels.arrays import Samples, Workspace
 from contact.kernels.damage.assess import damage_kernel
+from contact.kernels.entries.layout import fill, forget_forged, lay_out
 from contact.kernels.enumerations import LoadKind
 from contact.kernels.pipeline import solve_case
 from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, MAX_PATCHES, RESULT
 from contact.kernels.rows import DamageField, Field, Strip
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
 from fmu_src.differences import creepage_steps
-from fmu_src.native.component import Component
+from fmu_src.native.component import places
 from fmu_src.native.memory import compiled
-from fmu_src.native.solver import choose, data, fill, forget_forged, lay_out, size_of
-from fmu_src.native.wires import MATERIAL, case_reader, references, writer
+from fmu_src.native.wires import MATERIAL, case_reader, choose, size_of, writer
 from fmu_src.tables.solver import DAMAGE_OUTPUTS, SURFACE
 from fmu_src.tables.wheel_rail_contact import FLATTEST, GEOMETRY_KIND, LOAD_KIND, table
-from fmu_src.variables import Table
 
 _CURVATURES, _NORMAL_FORCE = GEOMETRY_KIND.number("Curvatures"), LOAD_KIND.number("NormalForce")
 _CONFORMAL = SURFACE.number("Conformal")
@@ -99,17 +97,8 @@ def _element(strips, fields, row, i, j):
     return fields[row, i, j]
 
 
-def component(points: int, elliptic: bool = False) -> Component:
-    """Return the FMU for separations of `points` samples, or the one that shows only constant curvatures."""
-    interface = table(points, elliptic)
-    return Component(
-        table=interface,
-        entries=lambda: _entries(interface),
-        data=data,
-        lazy=("creep_stiffness",),
-        totals={"total.energy": ("power.friction",), "total.worn_volume": ("damage.archard_volume", "speed")},
-        warnings={s: f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)},
-    )
+_TABLE = table()  # its rows, of whatever size
+_AT = places(_TABLE)
 
 
 class Arrays(NamedTuple):
@@ -129,7 +118,7 @@ class Arrays(NamedTuple):
 @compiled
 def _lay(work, size, kept, data):
     """Lay out all arrays in `work`. Return them, the index of the field shown to the host, and the total size in numbers."""
-    own, end = lay_out(work, kept.size, kept, size, data)
+    own, _, end = lay_out(work, kept.size, kept, size, data)
     n, capacity = size.n_samples, MAX_PATCHES * size.n_strips
     y, end = block.vector(work, end, n)
     g, end = block.vector(work, end, n)
@@ -153,92 +142,87 @@ def _first(samples, n):
     return Samples(samples.y[:n], samples.g[:n], samples.A[:n], samples.x_c[:n], samples.tilt[:n])
 
 
-def _poser(table: Table) -> Callable[..., Any]:
-    """Return a compiled function that fills samples and case from the values and returns the number of samples."""
-    at, points = references(table), table.row["geometry.g"].size
-    read_case = case_reader(table, _CASE_INPUTS)
+_read_case = case_reader(_TABLE, _CASE_INPUTS)
+_write, _write_damage = writer(_TABLE, RESULT, _OUTPUTS), writer(_TABLE, DAMAGE, DAMAGE_OUTPUTS)
 
-    @compiled
-    def pose(v, a):
-        sep, case = a.samples, a.case[0]
-        read_case(v, a.case)
-        choose(int(v[at.method_normal]), int(v[at.method_tangential]), case)
-        by_load = v[at.load_kind] == _NORMAL_FORCE
-        case.load_kind = LoadKind.LOAD if by_load else LoadKind.APPROACH
-        case.amount = max(v[at.load_normal_force], 0.0) if by_load else v[at.load_approach]
-        curved = v[at.geometry_kind] == _CURVATURES
-        conformal = not curved and v[at.geometry_surface] == _CONFORMAL
-        n = HERTZIAN_POINTS if curved else points
-        if not conformal:
-            case.conformal, case.rolling = 0, 0.0
+
+@compiled
+def _values(values, given):
+    """Return the values as an array, and the record `places` as an array of one record."""
+    rows, _ = block.records(given.own, 0, 1, _AT)
+    return carray(values, (rows[0].n_values,)), rows
+
+
+@compiled
+def _pose(v, rows, a):
+    """Fill samples and case from the values. Return the number of samples."""
+    at, sep, case = rows[0], a.samples, a.case[0]
+    _read_case(v, rows, a.case)
+    choose(int(v[at.method_normal]), int(v[at.method_tangential]), case)
+    by_load = v[at.load_kind] == _NORMAL_FORCE
+    case.load_kind = LoadKind.LOAD if by_load else LoadKind.APPROACH
+    case.amount = max(v[at.load_normal_force], 0.0) if by_load else v[at.load_approach]
+    curved = v[at.geometry_kind] == _CURVATURES
+    conformal = not curved and v[at.geometry_surface] == _CONFORMAL
+    n = HERTZIAN_POINTS if curved else at.points
+    if not conformal:
+        case.conformal, case.rolling = 0, 0.0
+    if curved:
+        fill_hertzian(max(v[at.geometry_B0], FLATTEST), sep.y[:n], sep.g[:n])
+    for i in range(n):
+        sep.x_c[i] = 0.0
         if curved:
-            fill_hertzian(max(v[at.geometry_B0], FLATTEST), sep.y[:n], sep.g[:n])
-        for i in range(n):
-            sep.x_c[i] = 0.0
-            if curved:
-                sep.A[i], sep.tilt[i] = max(v[at.geometry_A0], FLATTEST), 0.0
-            else:
-                sep.y[i] = v[at.geometry_y0] + v[at.geometry_dy] * i
-                sep.g[i], sep.A[i] = v[at.geometry_g + i], max(v[at.geometry_A + i], FLATTEST)
-                sep.tilt[i] = v[at.geometry_tilt + i] if conformal else 0.0
-        return n
-
-    return pose
+            sep.A[i], sep.tilt[i] = max(v[at.geometry_A0], FLATTEST), 0.0
+        else:
+            sep.y[i] = v[at.geometry_y0] + v[at.geometry_dy] * i
+            sep.g[i], sep.A[i] = v[at.geometry_g + i], max(v[at.geometry_A + i], FLATTEST)
+            sep.tilt[i] = v[at.geometry_tilt + i] if conformal else 0.0
+    return n
 
 
-def _reporter(table: Table) -> Callable[..., Any]:
-    """Return a compiled function that copies the results to the outputs."""
-    at = references(table)
-    write, write_damage = writer(table, RESULT, _OUTPUTS), writer(table, DAMAGE, DAMAGE_OUTPUTS)
-
-    @compiled
-    def report(v, a):
-        result = a.result[0]
-        write(v, a.result)
-        write_damage(v, a.damage)
-        v[at.power_friction] = v[at.speed] * result.power
-        v[at.slip_ratio] = result.slip_area / result.area if result.area > 0.0 else 0.0
-
-    return report
+@compiled
+def _report(v, rows, a):
+    """Copy the results to the outputs."""
+    at, result = rows[0], a.result[0]
+    _write(v, rows, a.result)
+    _write_damage(v, rows, a.damage)
+    v[at.power_friction] = v[at.speed] * result.power
+    v[at.slip_ratio] = result.slip_area / result.area if result.area > 0.0 else 0.0
 
 
-def _differ(table: Table) -> tuple[Callable[..., Any], Callable[..., Any]]:
-    """Return two compiled functions for difference quotients: steps of the three creepages, and step of any variable."""
-    at, points = references(table), table.row["geometry.g"].size
+@compiled
+def _creepages(v, at):
+    """Return the steps of the three creepages for difference quotients."""
+    return _steps(v[at.friction_coefficient], v[at.force_n], v[at.material_shear_modulus], v[at.patch_area])
 
-    @compiled
-    def steps(v):
-        return _steps(v[at.friction_coefficient], v[at.force_n], v[at.material_shear_modulus], v[at.patch_area])
 
-    @compiled
-    def difference(v, reference):
-        """Return a step so small that elements hardly ever change from stick to slip within it, where forces have kinks.
+@compiled
+def _difference(v, at, reference):
+    """Return a step so small that elements hardly ever change from stick to slip within it, where forces have kinks.
 
-        For a creepage it is a thousandth of the step of `creep_stiffness`, which is meant to average over the kinks. For the
-        approach it is a millionth of the penetration. For the gap it is a millionth of the penetration or of the height above
-        the least gap, whichever is greater: in a derivative along the whole geometry, samples outside the patch then leave
-        those inside a step above round-off. For other variables it is a millionth of the value. Both sides of a difference
-        are solved from a cold start, so that the tolerance of interacting strips, 1e-4, gives the same error on both sides.
-        """
-        if at.creepage_longitudinal <= reference <= at.creepage_spin:
-            longitudinal, lateral, spin = steps(v)
-            if reference == at.creepage_spin:
-                return 1e-3 * spin
-            return 1e-3 * (lateral if reference == at.creepage_lateral else longitudinal)
-        stiffness = v[at.stiffness_normal]
-        penetration = 1.5 * v[at.force_n] / stiffness if stiffness > 0.0 else 1e-6  # N ~ its ^3/2
-        if reference == at.load_approach:
-            return 1e-6 * penetration
-        if at.geometry_g <= reference < at.geometry_g + points:
-            least = v[at.geometry_g]
-            for i in range(1, points):
-                least = min(least, v[at.geometry_g + i])
-            return 1e-6 * max(penetration, v[reference] - least)
-        if at.geometry_tilt <= reference <= at.geometry_rolling:
-            return 1e-6 * max(abs(v[reference]), 1.0)
-        return max(1e-6 * abs(v[reference]), 1e-12)
-
-    return steps, difference
+    For a creepage it is a thousandth of the step of `creep_stiffness`, which is meant to average over the kinks. For the
+    approach it is a millionth of the penetration. For the gap it is a millionth of the penetration or of the height above
+    the least gap, whichever is greater: in a derivative along the whole geometry, samples outside the patch then leave
+    those inside a step above round-off. For other variables it is a millionth of the value. Both sides of a difference
+    are solved from a cold start, so that the tolerance of interacting strips, 1e-4, gives the same error on both sides.
+    """
+    if at.creepage_longitudinal <= reference <= at.creepage_spin:
+        longitudinal, lateral, spin = _creepages(v, at)
+        if reference == at.creepage_spin:
+            return 1e-3 * spin
+        return 1e-3 * (lateral if reference == at.creepage_lateral else longitudinal)
+    stiffness = v[at.stiffness_normal]
+    penetration = 1.5 * v[at.force_n] / stiffness if stiffness > 0.0 else 1e-6  # N ~ its ^3/2
+    if reference == at.load_approach:
+        return 1e-6 * penetration
+    if at.geometry_g <= reference < at.geometry_g + at.points:
+        least = v[at.geometry_g]
+        for i in range(1, at.points):
+            least = min(least, v[at.geometry_g + i])
+        return 1e-6 * max(penetration, v[reference] - least)
+    if at.geometry_tilt <= reference <= at.geometry_rolling:
+        return 1e-6 * max(abs(v[reference]), 1.0)
+    return max(1e-6 * abs(v[reference]), 1e-12)
 
 
 @compiled
@@ -259,53 +243,55 @@ def _solve(n, a):
     a.count[0] = solve_case(_first(a.samples, n), a.case, a.own, a.result)
 
 
-def _entries(table: Table) -> dict[str, Callable[..., Any]]:
-    """Return `Component.entries`. The data are those of `solver.data`."""
-    at, n_values = references(table), len(table.scalars)
-    samples = max(table.row["geometry.g"].size, HERTZIAN_POINTS)
-    rows = np.array([_FIELDS[field.twin_of or field.name] for field in table.fields])
-    pose, report, (steps, difference) = _poser(table), _reporter(table), _differ(table)
+def entries() -> dict[str, Callable[..., Any]]:
+    """Return the functions of this kind (`kinds`), for separations of any number of samples."""
+    fields = np.array([_FIELDS[field.twin_of or field.name] for field in _TABLE.fields])
 
     @compiled
-    def size(v):
+    def size(v, at):
         n_strips, n_elements = int(v[at.resolution_n_strips]), int(v[at.resolution_n_elements])
-        return size_of(int(v[at.method_normal]), n_strips, n_elements, samples)
+        return size_of(int(v[at.method_normal]), n_strips, n_elements, max(at.points, HERTZIAN_POINTS))
 
     @compiled
-    def arrange(v, work, given):
-        kept, _ = block.vector(work, 0, memory.memory_size(size(v)))
-        return _lay(work, size(v), kept, given.data)
+    def arrange(v, at, work, given):
+        kept, _ = block.vector(work, 0, memory.memory_size(size(v, at)))
+        return _lay(work, size(v, at), kept, given.data)
 
     def model_memory(values, given):
-        return memory.memory_size(size(carray(values, (n_values,))))
+        v, rows = _values(values, given)
+        return memory.memory_size(size(v, rows[0]))
 
     def model_size(values, given):
-        return arrange(carray(values, (n_values,)), values, given)[2]
+        v, rows = _values(values, given)
+        return arrange(v, rows[0], values, given)[2]
 
     def model_prepare(values, work, given):
-        v = carray(values, (n_values,))
-        a, _, _ = arrange(v, work, given)
+        v, rows = _values(values, given)
+        at = rows[0]
+        a, _, _ = arrange(v, at, work, given)
         fill(a.own, v[at.material_poisson_ratio], given.data)
         a.damage_parameters[0] = _DAMAGE_PARAMETERS[0]
         return 0
 
     def model_outputs(values, work, h, given):
-        v = carray(values, (n_values,))
-        a, _, _ = arrange(v, work, given)
-        _solve(pose(v, a), a)
+        v, rows = _values(values, given)
+        at = rows[0]
+        a, _, _ = arrange(v, at, work, given)
+        _solve(_pose(v, rows, a), a)
         parameters, n = a.damage_parameters[0], int(a.count[0])
         parameters.speed, parameters.wheel_radius = v[at.speed], v[at.wheel_radius]
         parameters.hardness, parameters.shear_yield = v[at.material_hardness], v[at.material_shear_yield]
         own = a.own
         damage_kernel(own.strips, n, own.fields, a.case[0], a.result[0], parameters, a.damage_fields, a.damage[0])
-        report(v, a)
+        _report(v, rows, a)
         return a.result[0].status
 
     def model_lazy(values, work, given):
-        v = carray(values, (n_values,))
-        a, _, _ = arrange(v, work, given)
-        n, case, result = pose(v, a), a.case[0], a.result[0]
-        for j, step in enumerate(steps(v)):
+        v, rows = _values(values, given)
+        at = rows[0]
+        a, _, _ = arrange(v, at, work, given)
+        n, case, result = _pose(v, rows, a), a.case[0], a.result[0]
+        for j, step in enumerate(_creepages(v, at)):
             for i in range(3):
                 v[at.creep_stiffness + 3 * i + j] = 0.0
             for sign in (1.0, -1.0):
@@ -319,13 +305,15 @@ def _entries(table: Table) -> dict[str, Callable[..., Any]]:
         return 0
 
     def model_difference(values, reference, given):
-        return difference(carray(values, (n_values,)), reference)
+        v, rows = _values(values, given)
+        return _difference(v, rows[0], reference)
 
     def model_field(values, work, k, given):
-        a, begin, _ = arrange(carray(values, (n_values,)), work, given)
+        v, places = _values(values, given)
+        a, begin, _ = arrange(v, places[0], work, given)
         for i in range(a.shown.shape[0]):
             for j in range(a.shown.shape[1]):
-                a.shown[i, j] = _element(a.own.strips, a.own.fields, rows[k], i, j) if i < a.count[0] else 0.0
+                a.shown[i, j] = _element(a.own.strips, a.own.fields, fields[k], i, j) if i < a.count[0] else 0.0
         return begin
 
     called_by_c = (model_memory, model_size, model_prepare, model_outputs, model_lazy, model_difference, model_field)

@@ -15,39 +15,16 @@ from numba import carray
 from contact.kernels import block, memory, quadrature
 from contact.kernels.block import ahead
 from contact.kernels.damage.deposit import arc_length
+from contact.kernels.entries.layout import fill, lay_out
 from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes, turn
 from contact.kernels.rows import N_PROFILE_ROWS, Bin
 from fmu_src.native import pair_parts
-from fmu_src.native.component import Component, Resource
+from fmu_src.native.components import Failure
 from fmu_src.native.memory import compiled
-from fmu_src.native.pair_parts import FAILURES, TOTALS, WARNINGS, Failure, sizer
-from fmu_src.native.solver import data, fill, lay_out
+from fmu_src.native.pair_parts import sizer
 from fmu_src.native.wires import references
-from fmu_src.profiles import MAGIC, ROWS
-from fmu_src.tables.wheel_rail_pair import ACCUMULATED, BINS, RAIL, WHEEL, table
+from fmu_src.tables.wheel_rail_pair import ACCUMULATED, BINS, table
 from fmu_src.variables import Table
-
-_FAILURES: dict[int, str] = {
-    **FAILURES,
-    Failure.GAUGE_POINT: "track.gauge_point: the rail reaches no deeper on its gauge side",
-    Failure.STEEP: "rail.inclination: the rail is steep at its top",
-}
-
-
-def component(inclination: float, accumulation: bool = False) -> Component:
-    """Return the FMU. `inclination` is the default of `rail.inclination` (tangent); `accumulation` shows the bins."""
-    interface = table(inclination, accumulation)
-    return Component(
-        table=interface,
-        entries=lambda: entries(interface),
-        data=data,
-        resources=(Resource(WHEEL, MAGIC["wheel"], ROWS), Resource(RAIL, MAGIC["rail"], ROWS)),
-        totals=TOTALS,
-        accumulated=ACCUMULATED,
-        accumulates="accumulation.wear_law",
-        warnings=WARNINGS,
-        failures=_FAILURES,
-    )
 
 
 class Start(NamedTuple):
@@ -81,7 +58,7 @@ def _lay(work, end, start, counts, size, constants):
     """Lay out the bench from index `end` on, for curves of `counts` nodes. Return it and the total size in numbers."""
     search, end = memory.lay_search(work, end, counts[0], counts[1], 0, size.n_samples)
     piece = memory.memory_size(size)
-    own, end = lay_out(work, end, start.kept[1 : 1 + piece], size, constants)
+    own, _, end = lay_out(work, end, start.kept[1 : 1 + piece], size, constants)
     ledger, end = memory.lay_ledger(work, end, start.wheel, start.turned, start.bins, size.n_strips)
     return memory.lay_bench(work, end, size, start.kept, search, own, ledger)
 
@@ -146,12 +123,13 @@ def layout_of(table: Table) -> Layout:
     return Layout(size, n_bins, begin, arrange)
 
 
-def entries(table: Table) -> dict[str, Callable[..., Any]]:
-    """Return `Component.entries`. The data are those of `solver.data`."""
-    at, n_values = references(table), table.span[ACCUMULATED[0]].start
-    set_parameters, report, difference = _parameter_setter(table), pair_parts.reporter(table), pair_parts.differ(table)
-    size, n_bins, begin, arrange = layout_of(table)
-    solve = pair_parts.step_solver(table)
+def entries() -> dict[str, Callable[..., Any]]:
+    """Return the functions of this kind (`kinds`)."""
+    rows = table()
+    at, n_values = references(rows), rows.span[ACCUMULATED[0]].start
+    set_parameters, report, difference = _parameter_setter(rows), pair_parts.reporter(rows), pair_parts.differ(rows)
+    size, n_bins, begin, arrange = layout_of(rows)
+    solve = pair_parts.step_solver(rows)
 
     def model_memory(values, given):
         v = carray(values, (n_values,))

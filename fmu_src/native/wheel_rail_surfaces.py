@@ -14,47 +14,20 @@ from numba import carray
 from contact.kernels import block, memory, quadrature
 from contact.kernels.arrays import Sheet
 from contact.kernels.block import ahead
+from contact.kernels.entries.layout import fill, lay_out
 from contact.kernels.rows import N_PROFILE_ROWS, Bin
 from fmu_src.native import pair_parts
-from fmu_src.native.component import Component, Resource
+from fmu_src.native.components import Failure
 from fmu_src.native.memory import compiled
-from fmu_src.native.pair_parts import FAILURES, TOTALS, WARNINGS, Failure, sizer
-from fmu_src.native.solver import data, fill, lay_out
+from fmu_src.native.pair_parts import sizer
 from fmu_src.native.wires import references
-from fmu_src.surfaces import MAGIC
-from fmu_src.tables.wheel_rail_surfaces import FRAME, HEAD, MOST_NUMBERS, RAIL, WHEEL, table
+from fmu_src.tables.wheel_rail_surfaces import FRAME, HEAD, table
 from fmu_src.variables import Table
 
-_FAILURES: dict[int, str] = {
-    **FAILURES,
-    Failure.NO_OVERLAP: "pose.y: the wheel does not lie above its rail",
-    **{
-        number: f"resource {name}: its slices are not in order, or its numbers do not belong together"
-        for number, name in ((Failure.WHEEL, WHEEL), (Failure.RAIL, RAIL))
-    },
-}
 _TILTED = FRAME.number("Tilted")
 #: Least distance of slices and of points of a deviation, below those that `fmu_src.surfaces` writes, and greatest number.
 _CLOSEST, _GREATEST = 1e-7, 1e7
 _STEP_ALONG, _STEP_ANGLE = 1e-6, 2e-6  # [m], [rad] for difference quotients
-
-
-def component() -> Component:
-    """Return the FMU."""
-    interface = table()
-    return Component(
-        table=interface,
-        entries=lambda: _entries(interface),
-        data=data,
-        resources=(
-            Resource(WHEEL, MAGIC["wheel"], 1, MOST_NUMBERS),
-            Resource(RAIL, MAGIC["rail"], 1, MOST_NUMBERS),
-        ),
-        totals=TOTALS,
-        warnings=WARNINGS,
-        failures=_FAILURES,
-        prefix="surfaces",
-    )
 
 
 @compiled
@@ -138,7 +111,7 @@ def _lay(work, given, size):
     wheel, end = _lay_surface(work, end, resources, 0)
     rail, end = _lay_surface(work, end, resources, _rail_at(resources))
     search, end = memory.lay_surface_search(work, end, wheel, rail, size.n_samples)
-    own, end = lay_out(work, end, kept[1 : 1 + piece], size, given.data)
+    own, _, end = lay_out(work, end, kept[1 : 1 + piece], size, given.data)
     nothing, _ = block.matrix(work, end, N_PROFILE_ROWS, 0)
     bins, _ = block.cube(work, end, 2, len(Bin), 0)
     ledger, end = memory.lay_ledger(work, end, nothing, nothing, bins, 0)
@@ -175,11 +148,12 @@ def _differ(table: Table) -> Callable[..., Any]:
     return difference
 
 
-def _entries(table: Table) -> dict[str, Callable[..., Any]]:
-    """Return `Component.entries`. The data are those of `solver.data`."""
-    at, n_values = references(table), len(table.scalars)
-    set_parameters, report, difference = _parameter_setter(table), pair_parts.reporter(table), _differ(table)
-    size, solve = sizer(table), pair_parts.step_solver(table)
+def entries() -> dict[str, Callable[..., Any]]:
+    """Return the functions of this kind (`kinds`)."""
+    rows = table()
+    at, n_values = references(rows), len(rows.scalars)
+    set_parameters, report, difference = _parameter_setter(rows), pair_parts.reporter(rows), _differ(rows)
+    size, solve = sizer(rows), pair_parts.step_solver(rows)
 
     def model_memory(values, given):
         return memory.pair_memory_size(memory.memory_size(size(carray(values, (n_values,)))))

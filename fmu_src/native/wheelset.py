@@ -6,19 +6,19 @@ The kernels of `models.wheelset.motion` do the work. This module converts values
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numba import carray
 
 from contact.geometry import profile
-from contact.geometry.profile import Profile
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels.block import matrix, records, vector
 from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes, turn
 from contact.kernels.memory import lay_search
 from contact.kernels.records import GIVEN, MAX_PATCHES
 from contact.kernels.rows import N_PROFILE_ROWS
-from fmu_src.native.component import Component
+from fmu_src.native.components import OUT_OF_GAUGE
 from fmu_src.native.memory import compiled
 from fmu_src.native.wires import references
 from fmu_src.tables.wheelset import table
@@ -27,6 +27,7 @@ from models.wheelset.parameters import WheelsetParameters
 from models.wheelset.ports import CREEPAGE, LOAD, POINTS
 
 _WHEEL, _RAIL = WheelsetParameters().wheel, profile.rail_60e1(inclination=0.0)
+_WHEEL_ROWS, _RAIL_ROWS = (np.stack((of.y, of.z, of.angle)) for of in (_WHEEL, _RAIL))
 _N_WHEEL, _N_RAIL = _WHEEL.y.size, _RAIL.y.size
 _GAUGE_POINT = WheelsetParameters().gauge_point
 _REMEMBERED = 1 + sum(math.prod(shape) for shape in motion.REMEMBERED.values())
@@ -38,24 +39,6 @@ _TABLE = table()
 _AT = references(_TABLE)
 _N_VALUES = len(_TABLE.scalars)
 _STEPS = np.array([_DIFFERENCES.get(s.unit, 1e-6 * abs(s.first)) for s in _TABLE.scalars])
-_OUT_OF_GAUGE = max(motion.MESSAGES) + 1
-
-
-def component() -> Component:
-    """Return the FMU. Its data are the profiles of the wheel and of the rail before it is inclined."""
-    return Component(
-        table=_TABLE,
-        entries=lambda: {function.__name__: function for function in _CALLED_BY_C},
-        data=lambda: (_rows(_WHEEL), _rows(_RAIL)),
-        failures={
-            **motion.MESSAGES,
-            _OUT_OF_GAUGE: "the rail's side does not reach down to where the gauge is measured",
-        },
-    )
-
-
-def _rows(shape: Profile) -> np.ndarray:
-    return np.stack((shape.y, shape.z, shape.angle))
 
 
 @compiled
@@ -193,21 +176,20 @@ def model_size(values, given):
 
 
 def model_prepare(values, work, given):
-    v, (wheel, rail) = carray(values, (_N_VALUES,)), given.data
+    v = carray(values, (_N_VALUES,))
     _, _, turned, sizes, _ = _arrange(work, _N_WHEEL, _N_RAIL)
-    wheel_rows = carray(wheel, (N_PROFILE_ROWS, _N_WHEEL))
-    turn(carray(rail, (N_PROFILE_ROWS, _N_RAIL)), -math.atan(v[_AT.rail_inclination]), turned)
+    turn(_RAIL_ROWS, -math.atan(v[_AT.rail_inclination]), turned)
     origin_y, origin_z, deepest = rail_origin(turned, v[_AT.track_gauge], _GAUGE_POINT)
     if deepest < _GAUGE_POINT:
-        return _OUT_OF_GAUGE
-    wheel_from, wheel_to = facing(wheel_rows, True)
+        return OUT_OF_GAUGE
+    wheel_from, wheel_to = facing(_WHEEL_ROWS, True)
     rail_from, rail_to = facing(turned, False)
     sizes[0], sizes[1] = wheel_to - wheel_from, rail_to - rail_from
     w, _ = _prepared(work)
     w.given[0] = _STANDSTILL[0]
     w.constants[:] = 0.0
     for found, mirror in ((w.right, 1.0), (w.left, -1.0)):
-        take_nodes(wheel_rows, wheel_from, wheel_to, found.wheel)
+        take_nodes(_WHEEL_ROWS, wheel_from, wheel_to, found.wheel)
         take_nodes(turned, rail_from, rail_to, found.rail)
         _prepare_search(v, found, mirror, origin_y, origin_z)
     _fill_constants(v, w.constants)
@@ -247,4 +229,7 @@ def model_difference(values, reference, given):
     return _STEPS[reference]
 
 
-_CALLED_BY_C = (model_memory, model_size, model_prepare, model_start, model_outputs, model_difference)
+def entries() -> dict[str, Any]:
+    """Return the functions of this kind (`kinds`)."""
+    called_by_c = (model_memory, model_size, model_prepare, model_start, model_outputs, model_difference)
+    return {function.__name__: function for function in called_by_c}

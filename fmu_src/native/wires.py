@@ -9,7 +9,11 @@ from typing import Any
 import numpy as np
 from numba import carray
 
+import contact
+from contact import material
+from contact.kernels.arrays import Size
 from contact.kernels.records import CASE
+from fmu_src.native.component import numbers, places
 from fmu_src.native.memory import compiled, integers_of, numbers_of
 from fmu_src.variables import Table, identifier
 
@@ -37,84 +41,104 @@ MATERIAL = {
     "method.max_iterations": "max_iterations",
 }
 
+_METHODS = contact.methods().batched
+#: Indexed by the value of `method.normal` or `method.tangential`, less 1.
+_NORMAL = np.array([(int(m.id), int(m.family), int(m.interacting)) for m in _METHODS.normal.values()])
+_TANGENTIAL = np.array([(int(m.id), int(m.family)) for m in _METHODS.tangential.values()])
+_heating = compiled(material.heating)
+
+
+@compiled
+def size_of(normal, n_strips, n_elements, samples):
+    """Return the sizes of a workspace. `normal` is the value of `method.normal`."""
+    return Size(n_strips, n_elements, samples, _NORMAL[normal - 1, 2], 1)
+
+
+@compiled
+def choose(normal, tangential, case):
+    """Write the methods into a case. The arguments are the values of `method.normal` and `method.tangential`."""
+    case.normal, case.normal_family = _NORMAL[normal - 1, 0], _NORMAL[normal - 1, 1]
+    case.tangential, case.tangential_family = _TANGENTIAL[tangential - 1, 0], _TANGENTIAL[tangential - 1, 1]
+
 
 def references(table: Table) -> Any:
-    """Return a named tuple of the value references of the table's rows."""
+    """Return a named tuple of the value references of the table's rows, for a table without options that change them."""
     return namedtuple("References", map(identifier, table.span))(*(span.start for span in table.span.values()))
+
+
+def constant(table: Table) -> np.ndarray:
+    """Return the same as an array of one record `places`."""
+    return numbers(table).view(places(table))
 
 
 def _wired(
     table: Table, dtype: np.dtype, wires: Mapping[str, str]
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Return four arrays: value references, positions in the record, whether a member is an integer, and value offsets.
+    """Return four arrays: positions in `places`, positions in the record, whether a member is an integer, and value offsets.
 
     The offset is needed for enumerations: their items count from 1, the values of a member from 0.
     """
     assert dtype.fields is not None
-    references = np.array([table.span[name].start for name in wires])
-    places = np.array([dtype.fields[member][1] // 8 for member in wires.values()])
+    names = places(table).names
+    references = np.array([names.index(identifier(name)) for name in wires])
+    positions = np.array([dtype.fields[member][1] // 8 for member in wires.values()])
     whole = np.array([dtype.fields[member][0].kind == "i" for member in wires.values()])
     first = np.array([0.0 if table.row[name].enumeration is None else 1.0 for name in wires])
-    return references, places, whole, first
+    return references, positions, whole, first
 
 
 def reader(table: Table, dtype: np.dtype, wires: Mapping[str, str]) -> Any:
-    """Return a compiled function `read(v, records)` that copies values to the first record."""
-    references, places, whole, first = _wired(table, dtype, wires)
-    size = dtype.itemsize // 8
+    """Return a compiled function `read(v, at, records)` that copies values to the first record.
+
+    `at` is an array of one record `places` of a table with the rows of `table`.
+    """
+    references, positions, whole, first = _wired(table, dtype, wires)
+    size, n_places = dtype.itemsize // 8, len(places(table))
 
     @compiled
-    def read(v, records):
+    def read(v, at, records):
         numbers, integers = carray(numbers_of(records), (size,)), carray(integers_of(records), (size,))
+        starts = carray(integers_of(at), (n_places,))
         for i in range(references.size):
+            value = v[starts[references[i]]] - first[i]
             if whole[i]:
-                integers[places[i]] = int(v[references[i]] - first[i])
+                integers[positions[i]] = int(value)
             else:
-                numbers[places[i]] = v[references[i]] - first[i]
+                numbers[positions[i]] = value
 
     return read
 
 
 def writer(table: Table, dtype: np.dtype, wires: Mapping[str, str]) -> Any:
-    """Return a compiled function `write(v, records)` that copies members of the first record to values.
+    """Return a compiled function `write(v, at, records)` that copies members of the first record to values.
 
     The value of a status is already the number of its item.
     """
-    references, places, whole, _ = _wired(table, dtype, wires)
-    size = dtype.itemsize // 8
+    references, positions, whole, _ = _wired(table, dtype, wires)
+    size, n_places = dtype.itemsize // 8, len(places(table))
 
     @compiled
-    def write(v, records):
+    def write(v, at, records):
         numbers, integers = carray(numbers_of(records), (size,)), carray(integers_of(records), (size,))
+        starts = carray(integers_of(at), (n_places,))
         for i in range(references.size):
-            v[references[i]] = float(integers[places[i]]) if whole[i] else numbers[places[i]]
+            v[starts[references[i]]] = float(integers[positions[i]]) if whole[i] else numbers[positions[i]]
 
     return write
 
 
 def case_reader(table: Table, wires: Mapping[str, str]) -> Any:
     """Return a compiled function that fills a case from values: the members in `wires`, and friction with its heat."""
-    from fmu_src.native.solver import heating
-
     read = reader(table, CASE, {**SURFACE, **wires})
-    hot, reference, background, conductivity, density, capacity, share = (
-        table.span[name].start
-        for name in (
-            "friction.hot_factor",
-            "friction.reference_temperature",
-            "friction.background_temperature",
-            "thermal.conductivity",
-            "thermal.density",
-            "thermal.heat_capacity",
-            "thermal.heat_share",
-        )
-    )
 
     @compiled
-    def read_case(v, cases):
-        read(v, cases)
-        case = cases[0]
-        case.drop, case.warm = 1.0 - v[hot], v[reference] - v[background]
-        case.heating = heating(v[conductivity], v[density], v[capacity], v[share])
+    def read_case(v, places, cases):
+        read(v, places, cases)
+        case, at = cases[0], places[0]
+        case.drop = 1.0 - v[at.friction_hot_factor]
+        case.warm = v[at.friction_reference_temperature] - v[at.friction_background_temperature]
+        case.heating = _heating(
+            v[at.thermal_conductivity], v[at.thermal_density], v[at.thermal_heat_capacity], v[at.thermal_heat_share]
+        )
 
     return read_case

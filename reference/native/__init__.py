@@ -12,13 +12,12 @@ import numpy as np
 from contact.kernels.records import MAX_PATCHES
 from contact.solver import N_ELEMENTS, N_STRIPS
 from fmu_src.catalogue import models, vehicles
-from fmu_src.native import source
+from fmu_src.native import systems
 from fmu_src.native.component import Component
 from fmu_src.native.headers import HEADERS
 from fmu_src.native.linking import OF_WINDOWS, WITHOUT_MINGW, compiler, run
-from fmu_src.native.packaging import kernels
-from fmu_src.native.wheel_rail_contact import component
 from models.wheelset.ports import POINTS
+from reference.native import source
 
 ROOT = Path(__file__).parents[2]
 NAME = "WheelRailContact"
@@ -91,7 +90,7 @@ class Host:
         self.resources = resources_of(unzipped, own)
         every = models(POINTS, accumulation=True) if name in ROLES else (*models(POINTS), *vehicles(SCENARIO))
         (model,) = (model for model in every if model.table.name == name)
-        its = model.module("native").component(**model.all_options)
+        its = model.component()
         (folder / "model.h").write_text(source.header(its, self.guid))
         (folder / "roles.h").write_text(roles(its))
         self.program = folder / f"host{program}"
@@ -106,7 +105,7 @@ class Host:
 
     def __call__(self, command: str, *arguments: object, stdin: str | None = None, before: tuple[str, ...] = ()) -> str:
         """Run a command of the host and return its output. The first argument is a number."""
-        given = (self.library, self.guid, *((self.resources,) if self.fmi2 else ()))
+        given = (self.library, self.guid, self.resources if self.fmi2 else path_of(self.resources))
         words = [*before, *self.prefix, self.program, *given, command, *(arguments or (0,))]
         done = subprocess.run(
             list(map(str, words)), input=stdin, capture_output=True, text=True, timeout=3000, env=self.environment
@@ -119,14 +118,14 @@ class Host:
         program = folder / "wrong"
         flags = ["-std=gnu11", "-O1", f"-I{self.program.parent}", f"-I{HEADERS}"]
         run(*self.compiler, *flags, HOST / "common.c", HOST / "wrong.c", "-o", program, "-ldl", "-lpthread", "-lm")
-        words = [program, self.library, self.guid, self.resources, unquote(urlsplit(self.resources).path), trials]
+        words = [program, self.library, self.guid, self.resources, path_of(self.resources), trials]
         done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=3000)
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
         return done.stdout
 
     def solve(self, cases: Iterable[Mapping[str, float]], outputs: Sequence[str]) -> np.ndarray:
         """Return `outputs` of the FMU after one step from the start, one row for each case (input values by name)."""
-        table = component(POINTS).table
+        table = models(POINTS)[0].table
         names = [scalar.name for scalar in table.scalars]
         lines = []
         for case in cases:
@@ -168,6 +167,12 @@ def resources_of(unzipped: Path, platform: str) -> str:
     return uri if platform == "linux64" else uri.replace("file:///", "file:///Z:/")
 
 
+def path_of(resources: str) -> str:
+    """Return the path of a folder for hosts of FMI 3.0, which get no URI."""
+    path = unquote(urlsplit(resources).path)
+    return path.removeprefix("/") if path.startswith("/Z:") else path
+
+
 def roles(its: Component) -> str:
     """Return the text of roles.h for an FMU."""
     table = its.table
@@ -184,12 +189,27 @@ def roles(its: Component) -> str:
 
 def kernel_objects() -> list[Path]:
     """Return the paths of the compiled kernels for Linux, which the build of the FMU keeps."""
-    return kernels(models(POINTS)[0], ROOT / "build" / "native", print)["linux64"]
+    from fmu_src.native.objects import objects
+
+    return objects(systems.kernels(), "linux64")
 
 
 def kernel_library(folder: Path, cpu: str) -> Path:
     """Build a Linux library of the kernels for one processor (size, prepare, outputs) and return its path."""
     library = folder / f"kernels_{cpu}.so"
-    source = Path(__file__).with_name("kernels.c")
-    run(*compiler("linux64"), "-shared", "-fPIC", f"-DCPU={cpu}", source, *kernel_objects(), "-o", library, "-lm")
+    code = Path(__file__).with_name("kernels.c")
+    own = ", ".join(map(str, models(POINTS)[0].component().own))
+    (folder / "own.h").write_text(f"static const int64_t own[] = {{{own}}};\n")
+    run(
+        *compiler("linux64"),
+        "-shared",
+        "-fPIC",
+        f"-I{folder}",
+        f"-DCPU={cpu}",
+        code,
+        *kernel_objects(),
+        "-o",
+        library,
+        "-lm",
+    )
     return library

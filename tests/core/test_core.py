@@ -155,9 +155,16 @@ local_factors(1.0, 2.0)
     assert "pip install" in done.stderr
 
 
-def test_a_library_of_another_version_is_named(tmp_path):
-    path = library.cached() / library.NAME
-    if not path.is_file():
-        pytest.skip("no linker here")
-    with pytest.raises(ImportError, match="another version of wheelrail-contact"):
-        library._of_library(path)("contact_kernels_of_tomorrow")
+def test_a_library_of_another_version_is_named(monkeypatch):
+    path = library.get_library()
+    with pytest.raises(ImportError, match="built from other sources"):
+        library._of_library(path).address("contact_kernels_of_tomorrow")
+    monkeypatch.setattr(library, "__version__", "99.0")
+    with pytest.raises(ImportError, match=rf"{path} is the library of wheelrail-contact .*, and this is version 99.0"):
+        library._of_library(path)
+
+
+def test_the_library_holds_the_constants_that_numba_computes(tmp_path):
+    """Python reads the influence of strips from the library; a process with numba computes it."""
+    code = "from contact import workspace; print([part.tobytes().hex()[:4000] for part in workspace.strip_tables()])"
+    assert run(code).stdout == run(code, CONTACT_JIT="1").stdout != ""

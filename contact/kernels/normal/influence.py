@@ -84,8 +84,8 @@ def quadrature(X, t):
     return total
 
 
-@entry
-def fill(centre: Matrix, plane: Matrix) -> None:
+@kernel
+def fill(centre, plane):
     """Fill the tables of U on the centre line and over (X, ln t), of the shapes CENTRE and PLANE."""
     value = math.exp(_LN_T_MIN) * 2.0 * (math.log(4.0) - _LN_T_MIN)  # U ~ 2t ln(4/t)
     for i in range(_N_CENTRE):

@@ -12,17 +12,17 @@ bool in_range(const Variable *variable, double value)
 }
 
 /* Let the choices that are not 0 be the values of their enumerations. */
-void choose(double *values)
+void choose(const Instance *instance, double *values)
 {
-    for (int i = 0; i < N_CHOICES; i++)
-        if (values[choices[i].twin] >= 1.0 && in_range(&variables[choices[i].twin], values[choices[i].twin]))
-            values[choices[i].of] = values[choices[i].twin];
+    for (size_t i = 0; i < N(choices); i++)
+        if (values[instance->table.choices[i].twin] >= 1.0 && in_range(&instance->table.variables[instance->table.choices[i].twin], values[instance->table.choices[i].twin]))
+            values[instance->table.choices[i].of] = values[instance->table.choices[i].twin];
 }
 
 /* After this the discrete variables are what their mirrors show. In continuous-time mode they keep what they were. */
-void show_mirrored(double *values)
+void show_mirrored(const Instance *instance, double *values)
 {
-    for (int i = 0; i < N_MIRRORS; i++) values[mirrors[i].of] = values[mirrors[i].twin];
+    for (size_t i = 0; i < N(mirrors); i++) values[instance->table.mirrors[i].of] = values[instance->table.mirrors[i].twin];
 }
 
 /* Whether a value has any effect. The enumerations come before the values that depend on them. */
@@ -34,21 +34,21 @@ static bool is_used(const Variable *variable, const double *values)
 }
 
 /* Whether this value may be computed with, or is not used. */
-bool is_allowed(size_t i, const double *values)
+bool is_allowed(const Instance *instance, size_t i, const double *values)
 {
-    if (variables[i].role == OUTPUT) return isfinite(values[i]);
-    return in_range(&variables[i], values[i]) || !is_used(&variables[i], values);
+    if (instance->table.variables[i].role == OUTPUT) return isfinite(values[i]);
+    return in_range(&instance->table.variables[i], values[i]) || !is_used(&instance->table.variables[i], values);
 }
 
 /* Check the first n values, which are in order, since parameters come first. */
 Status check_ranges(const Instance *instance, const double *values, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
-        const Variable *v = &variables[i];
-        if (v->role == OUTPUT || is_allowed(i, values)) continue;
+        const Variable *v = &instance->table.variables[i];
+        if (v->role == OUTPUT || is_allowed(instance, i, values)) continue;
         if (isinf(v->minimum) && isinf(v->maximum))
-            return report(instance, LOG_DISCARD, "%s = %g is not finite", v->name, values[i]);
-        return report(instance, LOG_DISCARD, "%s = %g is outside the allowed range %s%g, %g%s", v->name, values[i],
+            return report(instance, LOG_DISCARD, "%s = %g is not finite", TEXT(v->name), values[i]);
+        return report(instance, LOG_DISCARD, "%s = %g is outside the allowed range %s%g, %g%s", TEXT(v->name), values[i],
                       v->open_minimum || isinf(v->minimum) ? "]" : "[", v->minimum, v->maximum,
                       isinf(v->maximum) ? "[" : "]");
     }
@@ -56,11 +56,15 @@ Status check_ranges(const Instance *instance, const double *values, size_t n)
 }
 
 /* Log the model's message with this number. Numbers without a text are not logged. */
-static const Message *message(int64_t number) { return &messages[number <= N_MESSAGES ? number : 0]; }
-static bool failed(int64_t number) { return message(number)->category == LOG_DISCARD; }
+static const Message *message(const Instance *instance, int64_t number)
+{
+    return &instance->table.messages[number > 0 && (uint64_t)number <= N(messages) ? number : 0];
+}
+static bool failed(const Instance *instance, int64_t number) { return message(instance, number)->category == LOG_DISCARD; }
 static Status say(const Instance *instance, int64_t number)
 {
-    return message(number)->text ? report(instance, message(number)->category, "%s", message(number)->text) : OK;
+    const Message *m = message(instance, number);
+    return m->category ? report(instance, (Category)m->category, "%s", TEXT(m->text)) : OK;
 }
 
 enum { CACHE_LINE = 64 };
@@ -77,18 +81,18 @@ Status prepare(Instance *instance, double *values)
 {
     int64_t number;
     Status status;
-    if (instance->work && !memcmp(values, instance->prepared, N_PARAMETERS * sizeof(double))) return OK;
-    status = check_ranges(instance, values, N_PARAMETERS); /* those of a restored state have not been checked */
+    if (instance->work && !memcmp(values, instance->prepared, N(parameters) * sizeof(double))) return OK;
+    status = check_ranges(instance, values, N(parameters)); /* those of a restored state have not been checked */
     if (status != OK) return status;
-    int64_t memory_size = instance->model->memory(values, instance->resources);
-    void *block = malloc((size_t)instance->model->size(values, instance->resources) * sizeof(double) + CACHE_LINE);
+    int64_t memory_size = instance->kernels->memory(values, instance->resources, instance->table.own);
+    void *block = malloc((size_t)instance->kernels->size(values, instance->resources, instance->table.own) * sizeof(double) + CACHE_LINE);
     double *memory = memory_size == instance->memory_size ? instance->memory : calloc(2 * (size_t)memory_size, sizeof(double));
     if (!block || !memory) {
         free(block);
         if (memory != instance->memory) free(memory);
         instance->is.phase = BROKEN;
         return report(instance, LOG_ERROR, "out of memory: this resolution takes %lld bytes",
-                      (long long)instance->model->size(values, instance->resources) * (long long)sizeof(double));
+                      (long long)instance->kernels->size(values, instance->resources, instance->table.own) * (long long)sizeof(double));
     }
     free_work(instance);
     if (memory != instance->memory) free(instance->memory);
@@ -97,9 +101,9 @@ Status prepare(Instance *instance, double *values)
     instance->work_is_solved = false;
     instance->memory = memory;
     instance->memory_size = memory_size;
-    memcpy(instance->prepared, values, N_PARAMETERS * sizeof(double));
-    number = instance->model->prepare(values, instance->work, instance->resources);
-    if (!failed(number)) return OK;
+    memcpy(instance->prepared, values, N(parameters) * sizeof(double));
+    number = instance->kernels->prepare(values, instance->work, instance->resources, instance->table.own);
+    if (!failed(instance, number)) return OK;
     free_work(instance);
     return say(instance, number);
 }
@@ -107,11 +111,11 @@ Status prepare(Instance *instance, double *values)
 /* NaN and infinity must not leave the FMU: restore `before` if an output is not finite. What the host sets may be anything. */
 static Status keep_finite(Instance *instance, const double *before)
 {
-    double *values = instance->is.values;
-    for (size_t i = 0; i < N_VALUES; i++) {
-        if (!isfinite(values[i]) && !(variables[i].role & (PARAMETER | INPUT))) {
-            memcpy(values, before, sizeof instance->is.values);
-            return report(instance, LOG_DISCARD, "%s has no finite value for these inputs", variables[i].name);
+    double *values = instance->values;
+    for (size_t i = 0; i < N(values); i++) {
+        if (!isfinite(values[i]) && !(instance->table.variables[i].role & (PARAMETER | INPUT))) {
+            memcpy(values, before, N(values) * sizeof(double));
+            return report(instance, LOG_DISCARD, "%s has no finite value for these inputs", TEXT(instance->table.variables[i].name));
         }
     }
     return OK;
@@ -122,10 +126,10 @@ static Status keep_finite(Instance *instance, const double *before)
  * do not follow inputs at once. */
 int64_t evaluate(const Instance *instance, double *values, double h)
 {
-    bool starting = N_STATES > 0 && instance->is.phase == INITIALIZATION;
-    int64_t number = starting ? instance->model->start(values, instance->work, instance->resources) : 0;
-    if (failed(number) || (starting && instance->type == CO_SIMULATION)) return number;
-    return instance->model->outputs(values, instance->work, h, instance->resources);
+    bool starting = N(states) > 0 && instance->is.phase == INITIALIZATION;
+    int64_t number = starting ? instance->kernels->start(values, instance->work, instance->resources, instance->table.own) : 0;
+    if (failed(instance, number) || (starting && instance->type == CO_SIMULATION)) return number;
+    return instance->kernels->outputs(values, instance->work, h, instance->resources, instance->table.own);
 }
 
 static double rate(const Total *t, const double *values)
@@ -136,33 +140,32 @@ static double rate(const Total *t, const double *values)
 /* Compute the outputs for the present values and advance states and totals by h. With `warm` start from the last step. */
 Status update(Instance *instance, double h, bool warm)
 {
-    double before[N_VALUES];
-    double *values = instance->is.values;
+    double *values = instance->values, *before = instance->before;
     double *next, *from;
     size_t memory_bytes;
     int64_t number;
     Status status = OK;
-    choose(values);
-    if (instance->is.is_new) status = check_ranges(instance, values, N_VALUES);
+    choose(instance, values);
+    if (instance->is.is_new) status = check_ranges(instance, values, N(values));
     if (status == OK) status = prepare(instance, values);
     if (status != OK) return status;
     memory_bytes = (size_t)instance->memory_size * sizeof(double);
     next = instance->memory, from = next + instance->memory_size;
-    memcpy(before, values, sizeof before);
+    memcpy(before, values, N(values) * sizeof(double));
     instance->work_is_solved = false;
     if (warm)
         memcpy(instance->work, next, memory_bytes);
     else
         memset(instance->work, 0, memory_bytes);
     number = evaluate(instance, values, h);
-    if (failed(number)) {
-        memcpy(values, before, sizeof before);
+    if (failed(instance, number)) {
+        memcpy(values, before, N(values) * sizeof(double));
         return say(instance, number);
     }
-    for (int i = 0; i < N_TOTALS; i++) values[totals[i].total] += rate(&totals[i], values) * h;
-    for (int i = 0; i < N_MIRRORS; i++) {
-        values[mirrors[i].twin] = values[mirrors[i].of];
-        if (instance->is.phase == CONTINUOUS) values[mirrors[i].of] = before[mirrors[i].of]; /* changes only at events */
+    for (size_t i = 0; i < N(totals); i++) values[instance->table.totals[i].total] += rate(&instance->table.totals[i], values) * h;
+    for (size_t i = 0; i < N(mirrors); i++) {
+        values[instance->table.mirrors[i].twin] = values[instance->table.mirrors[i].of];
+        if (instance->is.phase == CONTINUOUS) values[instance->table.mirrors[i].of] = before[instance->table.mirrors[i].of]; /* changes only at events */
     }
     status = keep_finite(instance, before);
     if (status != OK) return status;
@@ -173,7 +176,7 @@ Status update(Instance *instance, double h, bool warm)
         memset(from, 0, memory_bytes);
     }
     instance->work_is_solved = true;
-    memcpy(instance->is.solved, values, sizeof instance->is.solved);
+    memcpy(instance->solved, values, N(values) * sizeof(double));
     instance->is.is_new = false;
     instance->is.lazy_stale = true;
     if (number == instance->is.said) return OK;
@@ -184,16 +187,16 @@ Status update(Instance *instance, double h, bool warm)
 /* Compute the lazy outputs of the last step. */
 Status update_lazy(Instance *instance)
 {
-    double solved[N_VALUES];
-    memcpy(solved, instance->is.solved, sizeof solved);
+    double *solved = instance->other;
+    memcpy(solved, instance->solved, N(values) * sizeof(double));
     if (!instance->is.lazy_stale || prepare(instance, solved) != OK) return OK;
     instance->work_is_solved = false;
-    instance->model->lazy(solved, instance->work, instance->resources);
-    for (size_t i = 0; i < N_VALUES; i++)
-        if (variables[i].lazy) {
+    instance->kernels->lazy(solved, instance->work, instance->resources, instance->table.own);
+    for (size_t i = 0; i < N(values); i++)
+        if (instance->table.variables[i].lazy) {
             if (!isfinite(solved[i]))
-                return report(instance, LOG_DISCARD, "%s has no finite value for these inputs", variables[i].name);
-            instance->is.values[i] = solved[i];
+                return report(instance, LOG_DISCARD, "%s has no finite value for these inputs", TEXT(instance->table.variables[i].name));
+            instance->values[i] = solved[i];
         }
     instance->is.lazy_stale = false;
     return OK;
@@ -202,9 +205,9 @@ Status update_lazy(Instance *instance)
 /* Restore working memory to the state of the last outputs, bit for bit, if it has been used since. */
 Status update_work(Instance *instance)
 {
-    double solved[N_VALUES];
+    double *solved = instance->other;
     Status status;
-    memcpy(solved, instance->is.solved, sizeof solved);
+    memcpy(solved, instance->solved, N(values) * sizeof(double));
     status = prepare(instance, solved);
     if (status != OK || instance->work_is_solved) return status;
     memcpy(instance->work, instance->memory + instance->memory_size, (size_t)instance->memory_size * sizeof(double));
@@ -224,10 +227,10 @@ void accumulate(Instance *instance)
 {
     Content *is = &instance->is;
     double h = is->time - is->accepted_time;
-    for (int i = 0; i < N_TOTALS; i++) {
-        double now = rate(&totals[i], is->values);
-        if (h > 0.0) is->values[totals[i].total] += 0.5 * h * (is->accepted[i] + now);
-        is->accepted[i] = now;
+    for (size_t i = 0; i < N(totals); i++) {
+        double now = rate(&instance->table.totals[i], instance->values);
+        if (h > 0.0) instance->values[instance->table.totals[i].total] += 0.5 * h * (instance->accepted[i] + now);
+        instance->accepted[i] = now;
     }
     is->accepted_time = is->time;
 }

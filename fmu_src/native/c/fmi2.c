@@ -92,7 +92,7 @@ fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference refs[], size_
         NO_NULL(c, IF(n, refs), IF(n, values)); \
         Status status = before_set(c, __func__, refs, n, kinds, n); \
         if (status != OK) return SHARED(status); \
-        for (size_t k = 0; k < n; k++) instance->is.values[refs[k]] = values[k]; \
+        for (size_t k = 0; k < n; k++) instance->values[refs[k]] = values[k]; \
         return fmi2OK; \
     }
 SET(fmi2SetReal, fmi2Real, REAL)
@@ -203,7 +203,7 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2
     NO_NULL(c, value);
     REQUIRE_SLAVE(STEPPED);
     if (kind != fmi2Terminated) return unknown_status(c, __func__);
-    *value = fmi2False; /* this model never requests termination */
+    *value = ((Instance *)c)->is.phase == STEP_FAILED; /* a host may ask for another step, but without other inputs it fails too */
     return fmi2OK;
 }
 

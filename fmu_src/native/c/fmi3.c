@@ -108,7 +108,7 @@ GET(Boolean, BOOLEAN)
         Status status = before_set(c, __func__, refs, n, kinds, n_values); \
         if (status != OK) return SHARED(status); \
         for (size_t k = 0; k < n; k++) { \
-            double *to = instance->is.values + refs[k]; \
+            double *to = instance->values + refs[k]; \
             for (size_t i = extent(c, refs[k]); i > 0; i--) *to++ = (double)*values++; \
         } \
         return fmi3OK; \
@@ -294,8 +294,9 @@ fmi3Status fmi3GetEventIndicators(fmi3Instance c, fmi3Float64 indicators[], size
 
 fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance c, size_t *n)
 {
+    const Instance *instance = c;
     NO_NULL(c, n);
-    return SHARED(count_of(c, __func__, N_STATES, n));
+    return SHARED(count_of(c, __func__, (size_t)N(states), n));
 }
 
 fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance c, size_t *n)

@@ -1,7 +1,6 @@
-/* One instance of the FMU. The model consists of model.h, which is generated from the variable table, and of the entries
- * model_…, which are compiled from the solver's kernels, once for all processors and once for those with AVX2. The code here
- * serves any model with this interface and both versions of FMI. fmi2.c and fmi3.c only translate. The other files define
- * what a call does and when it is legal.
+/* One instance of an FMU. Its model is data: resources/model.bin has the variables, states, totals and messages, and says
+ * which kernels compute it (table.c). So this code, with all kernels, is one library for every FMU. fmi2.c and fmi3.c only
+ * translate. The other files define what a call does and when it is legal.
  *
  * There is no writable data outside an instance, so each instance may run in its own thread. Memory is allocated when an
  * instance is made, when its resolution is set and when a state is saved. A step allocates nothing. */
@@ -11,24 +10,27 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
-#include "model.h"
+#include "build.h"
 #include "names.h"
 
-/* ---- the model: its functions take one array of all values, indexed by value reference, and one of working memory, which
- * begins with the warm start. component.py documents each function. Those that compute return 0 or the number of a message. */
+/* ---- the kernels of one kind of model. They take one array of all values, indexed by value reference, and one of working
+ * memory, which begins with the warm start; then the files in resources/ and the numbers of the model. component.py documents
+ * each function. Those that compute return 0 or the number of a message. */
 typedef struct {
-    int64_t (*memory)(double *values, const double *resources);
-    int64_t (*size)(double *values, const double *resources);
-    int64_t (*prepare)(double *values, double *work, const double *resources);
-    int64_t (*start)(double *values, double *work, const double *resources);
-    int64_t (*outputs)(double *values, double *work, double h, const double *resources);
-    int64_t (*lazy)(double *values, double *work, const double *resources);
-    double (*difference)(double *values, int64_t reference, const double *resources);
-    int64_t (*field)(double *values, double *work, int64_t k, const double *resources);
-} Model;
+    const char *kind;
+    int64_t (*memory)(double *values, const double *resources, const double *own);
+    int64_t (*size)(double *values, const double *resources, const double *own);
+    int64_t (*prepare)(double *values, double *work, const double *resources, const double *own);
+    int64_t (*start)(double *values, double *work, const double *resources, const double *own);
+    int64_t (*outputs)(double *values, double *work, double h, const double *resources, const double *own);
+    int64_t (*lazy)(double *values, double *work, const double *resources, const double *own);
+    double (*difference)(double *values, int64_t reference, const double *resources, const double *own);
+    int64_t (*field)(double *values, double *work, int64_t k, const double *resources, const double *own);
+} Kernels;
 
-/* ---- the table */
+/* ---- the table: structs of 8-byte members, as they lie in model.bin. A text is its place among the texts. */
 typedef enum {
     REAL = 1,
     INTEGER = 2,
@@ -52,67 +54,82 @@ typedef uint32_t Reference;
 
 /* A value that is used only with some items of an enumeration, a bit for each; without bits it is always used. */
 typedef struct {
-    int enumeration;
-    unsigned items;
+    int64_t enumeration, items;
 } Use;
 enum { MOST_USES = 2 };
 
 typedef struct {
-    const char *name;
-    Kind kind;
-    Role role;
-    size_t size; /* size of the array that begins here, 1 for a scalar, 0 within an array; for fields see FIELD_SIZE */
-    bool lazy;   /* computed by model_lazy only when a host reads it */
-    bool open_minimum;
+    uint64_t name;
+    int64_t kind, role; /* Kind, Role */
+    uint64_t size; /* size of the array that begins here, 1 for a scalar, 0 within an array; for fields see field_size */
+    int64_t lazy;  /* computed by the kernel `lazy` only when a host reads it */
+    int64_t open_minimum;
     double start, minimum, maximum;
     Use used[MOST_USES];
 } Variable;
 
 /* First the variables in `values`, then those that accumulate, then fields and time. In FMI 2.0 each element of an array is a
- * variable, in FMI 3.0 the whole array is one. */
-extern const Variable variables[N_VALUES + N_ACCUMULATED + N_FIELDS + 1];
-
-/* A continuous state: value references of the state and of its derivative, and its nominal value. */
+@ state: value references of the state and of its derivative, and its nominal value. */
 typedef struct {
-    int value, derivative;
+    int64_t value, derivative;
     double nominal;
 } Continuous;
 
-extern const Continuous states[N_STATES];
-
 /* A file in resources/ that an instance reads, the bytes with which it begins, its number of rows and most points of a row. */
 typedef struct {
-    const char *name;
-    char magic[9];
-    int rows, most;
+    uint64_t name;
+    char magic[8];
+    int64_t rows, most;
 } Resource;
-
-extern const Resource resources[N_RESOURCES];
 
 /* An output that is integrated over time: its rate is the product of two values, or one value. */
 enum { ALONE = -1 };
 typedef struct {
-    int total, factor, other;
+    int64_t total, factor, other;
 } Total;
-
-extern const Total totals[N_TOTALS];
 
 /* A variable that stands for another one, whose type some hosts do not know. A choice that is not 0 is the value of its
  * enumeration. A mirror is an output that shows a local variable as a Real. */
 typedef struct {
-    int twin, of;
+    int64_t twin, of;
 } Twin;
-
-extern const Twin choices[N_CHOICES], mirrors[N_MIRRORS];
 
 /* A message of the model, by number: a warning or the reason to discard a step. There is no text if there is nothing to log. */
 typedef enum { LOG_WARNING = 1, LOG_DISCARD = 2, LOG_ERROR = 4 } Category;
 typedef struct {
-    Category category;
-    const char *text;
+    int64_t category; /* Category, or 0 */
+    uint64_t text;
 } Message;
 
-extern const Message messages[N_MESSAGES + 1];
+/* How model.bin begins, after its magic bytes and its checksum. */
+typedef struct {
+    uint64_t bytes; /* of the file from here on */
+    uint64_t guid, name, kind; /* texts */
+    uint64_t n_values, n_accumulated, n_fields, n_parameters, n_states, n_messages, n_totals, n_choices, n_mirrors, n_resources;
+    int64_t accumulates; /* enumeration: nothing accumulates with its first item; or NONE */
+    int64_t field_factor, field_by[2]; /* size of a field: this number times two parameters, or NONE */
+    uint64_t n_own, n_text; /* numbers for the kernels; bytes of all texts */
+} Head;
+enum { NONE = -1 };
+
+/* The content of model.bin. First the variables in `values`, then those that accumulate, then fields and time. In FMI 2.0
+ * each element of an array is a variable, in FMI 3.0 the whole array is one. */
+typedef struct {
+    double *block; /* all of it */
+    const Head *head;
+    const Variable *variables;
+    const Continuous *states;
+    const Message *messages; /* one more than n_messages, by number */
+    const Total *totals;
+    const Twin *choices, *mirrors;
+    const Resource *resources;
+    const double *own;
+    const char *text;
+} Table;
+
+/* In functions with an `instance`: a number of its table, and one of its texts. */
+#define N(what) (instance->table.head->n_##what)
+#define TEXT(place) (instance->table.text + (place))
 
 /* ---- FMI's state machine. A step is complete when the call returns, so there is no state for a step in progress. */
 typedef enum {
@@ -141,12 +158,10 @@ typedef struct Log {
     void *environment;
 } Log;
 
-/* The content of an instance without its memory. An FMU state copies all of it byte by byte. */
+/* The content of an instance without its arrays. An FMU state copies all of it byte by byte. */
 typedef struct {
-    double values[N_VALUES];
-    double solved[N_VALUES]; /* the values for which the outputs were computed */
     double time, stop_time;
-    double accepted_time, accepted[N_TOTALS]; /* model exchange: totals are integrated up to this time, rates there */
+    double accepted_time; /* model exchange: totals are integrated up to this time */
     int64_t phase;
     int64_t is_new;     /* a value was set after the outputs were computed */
     int64_t lazy_stale; /* the lazy outputs are out of date */
@@ -156,6 +171,13 @@ typedef struct {
 
 typedef struct {
     Content is;
+    Table table;
+    double *values; /* begins the block of these arrays; a state has the first three */
+    double *solved; /* the values for which the outputs were computed */
+    double *accepted; /* model exchange: rates of the totals at accepted_time */
+    double *prepared; /* parameters for which `work` is laid out and filled; none if the first one is negative */
+    double *before, *other; /* values within a call */
+    double *nothing; /* zeros in place of what accumulates */
     double *memory; /* twice memory_size numbers: warm start of the next step, then the warm start of the present outputs */
     int64_t memory_size;
     double *resources;       /* for each file: number of points n, then its rows of n numbers; NULL if there are none */
@@ -163,8 +185,7 @@ typedef struct {
     double *work;        /* begins at a cache line, so that vectors are loaded at once */
     void *work_block;    /* allocated block that contains `work` */
     bool work_is_solved; /* `work` still belongs to the outputs */
-    double prepared[N_VALUES]; /* parameters for which `work` is laid out and filled; none if the first one is negative */
-    const Model *model; /* kernels for this processor; the results are the same for all */
+    const Kernels *kernels; /* kernels for this processor; the results are the same for all */
     Type type;
     bool arrays; /* FMI 3.0: a value reference denotes a whole array */
     char name[256]; /* a longer name is cut */
@@ -188,6 +209,7 @@ typedef struct {
 #define IF(n, array) ((n) ? (const void *)(array) : (const void *)"")
 
 /* lifecycle.c */
+const Kernels *kernels_of(const char *kind);
 bool has_null(const Instance *instance, const char *function, const void *const pointers[], size_t n);
 Status report(const Instance *instance, Category category, const char *format, ...);
 Status refuse(const Instance *instance, const char *function);
@@ -205,7 +227,13 @@ Status reset(Instance *instance, const char *function);
 
 /* resources.c; a folder is a path, a location is a URI; the caller frees the path */
 char *path_of(const char *location);
+FILE *open_resource(const Instance *instance, const char *folder, const char *name);
 bool load_resources(Instance *instance, const char *folder);
+
+/* table.c */
+bool load_table(Instance *instance, const char *folder);
+size_t field_size(const Instance *instance, const double *values);
+size_t kept_numbers(const Instance *instance); /* values, solved and accepted */
 
 /* state.c */
 uint64_t hash(const void *content, size_t size);
@@ -242,10 +270,10 @@ Status serialize(Instance *instance, const char *function, void *source, void *b
 Status deserialize(Instance *instance, const char *function, const void *bytes, size_t size, void **target);
 
 /* evaluate.c: compute in place; unless the status is OK, the content is unchanged */
-void choose(double *values);
-void show_mirrored(double *values);
+void choose(const Instance *instance, double *values);
+void show_mirrored(const Instance *instance, double *values);
 bool in_range(const Variable *variable, double value);
-bool is_allowed(size_t i, const double *values);
+bool is_allowed(const Instance *instance, size_t i, const double *values);
 Status check_ranges(const Instance *instance, const double *values, size_t n);
 Status prepare(Instance *instance, double *values);
 int64_t evaluate(const Instance *instance, double *values, double h); /* does not change the content, but uses working memory */

@@ -7,10 +7,6 @@
 
 #include "instance.h"
 
-#ifdef KERNELS_IN_C
-#include "kernels.h"
-#endif
-
 /* Kernels as objects are for two kinds of x86-64 processors. Kernels in C are for any processor. */
 #if !defined(KERNELS_IN_C) && (defined(__x86_64__) || defined(_M_X64))
 #define HAS_TWO_KERNELS
@@ -96,8 +92,9 @@ Status choose_log(Instance *instance, const char *function, bool on, size_t n, c
 static void restart(Instance *instance)
 {
     memset(&instance->is, 0, sizeof instance->is);
-    for (size_t i = 0; i < N_VALUES; i++) instance->is.values[i] = variables[i].start;
-    memcpy(instance->is.solved, instance->is.values, sizeof instance->is.solved);
+    for (size_t i = 0; i < N(values); i++) instance->values[i] = instance->table.variables[i].start;
+    memcpy(instance->solved, instance->values, N(values) * sizeof(double));
+    memset(instance->accepted, 0, N(totals) * sizeof(double));
     instance->is.stop_time = INFINITY;
     instance->is.phase = INSTANTIATED;
     instance->is.is_new = true;
@@ -105,26 +102,39 @@ static void restart(Instance *instance)
     instance->work_is_solved = false;
 }
 
-#define ENTRIES(cpu) \
-    int64_t ENTRY(memory, cpu)(double *, const double *); \
-    int64_t ENTRY(size, cpu)(double *, const double *); \
-    int64_t ENTRY(prepare, cpu)(double *, double *, const double *); \
-    int64_t ENTRY(start, cpu)(double *, double *, const double *); \
-    int64_t ENTRY(outputs, cpu)(double *, double *, double, const double *); \
-    int64_t ENTRY(lazy, cpu)(double *, double *, const double *); \
-    double ENTRY(difference, cpu)(double *, int64_t, const double *); \
-    int64_t ENTRY(field, cpu)(double *, double *, int64_t, const double *); \
-    static const Model model_##cpu = {ENTRY(memory, cpu),  ENTRY(size, cpu), ENTRY(prepare, cpu),    ENTRY(start, cpu), \
-                                      ENTRY(outputs, cpu), ENTRY(lazy, cpu), ENTRY(difference, cpu), ENTRY(field, cpu)};
-#ifdef HAS_TWO_KERNELS
-ENTRIES(v2)
-ENTRIES(v3)
+#define DECLARE(kind, cpu) \
+    int64_t kind##_memory_##cpu(double *, const double *, const double *); \
+    int64_t kind##_size_##cpu(double *, const double *, const double *); \
+    int64_t kind##_prepare_##cpu(double *, double *, const double *, const double *); \
+    int64_t kind##_start_##cpu(double *, double *, const double *, const double *); \
+    int64_t kind##_outputs_##cpu(double *, double *, double, const double *, const double *); \
+    int64_t kind##_lazy_##cpu(double *, double *, const double *, const double *); \
+    double kind##_difference_##cpu(double *, int64_t, const double *, const double *); \
+    int64_t kind##_field_##cpu(double *, double *, int64_t, const double *, const double *);
+#define LIST(kind, cpu) \
+    {#kind, kind##_memory_##cpu, kind##_size_##cpu, kind##_prepare_##cpu, kind##_start_##cpu, kind##_outputs_##cpu, \
+     kind##_lazy_##cpu, kind##_difference_##cpu, kind##_field_##cpu},
+#define KERNELS(cpu) \
+    KINDS(DECLARE, cpu) \
+    static const Kernels kernels_##cpu[] = {KINDS(LIST, cpu){0}};
 
-static const Model *model_for_this_processor(void) { return has_x86_64_v3() ? &model_v3 : &model_v2; }
+#ifdef HAS_TWO_KERNELS
+KERNELS(v2)
+KERNELS(v3)
+
+static const Kernels *kernels_for_this_processor(void) { return has_x86_64_v3() ? kernels_v3 : kernels_v2; }
 #else
-ENTRIES(any)
-static const Model *model_for_this_processor(void) { return &model_any; }
+KERNELS(any)
+static const Kernels *kernels_for_this_processor(void) { return kernels_any; }
 #endif
+
+/* Return the kernels of a kind of model for this processor, or NULL if they are not in this binary. */
+const Kernels *kernels_of(const char *kind)
+{
+    const Kernels *k = kernels_for_this_processor();
+    while (k->kind && strcmp(k->kind, kind)) k++;
+    return k->kind ? k : NULL;
+}
 
 /* Return a new instance, or log the reason and return NULL. */
 Instance *instantiate(Type type, bool arrays, const char *name, const char *guid, const char *folder, const Log *log,
@@ -141,11 +151,6 @@ Instance *instantiate(Type type, bool arrays, const char *name, const char *guid
         report(&caller, LOG_ERROR, "fmuType %d is neither co-simulation nor model exchange", (int)type);
         return NULL;
     }
-    if (!guid || strcmp(guid, MODEL_GUID)) {
-        report(&caller, LOG_ERROR, "guid %.60s is not that of this binary, %s: description and binary come from different builds",
-               guid ? guid : "NULL", MODEL_GUID);
-        return NULL;
-    }
     instance = calloc(1, sizeof *instance);
     if (!instance) {
         report(&caller, LOG_ERROR, "out of memory");
@@ -154,11 +159,18 @@ Instance *instantiate(Type type, bool arrays, const char *name, const char *guid
     memcpy(instance->name, caller.name, sizeof instance->name);
     instance->type = type;
     instance->arrays = arrays;
-    instance->model = model_for_this_processor();
     instance->log = *log;
     instance->categories = logging ? LOG_WARNING | LOG_DISCARD | LOG_ERROR : LOG_DISCARD | LOG_ERROR;
-    restart(instance);
-    if (load_resources(instance, folder)) return instance;
+    if (load_table(instance, folder)) {
+        const char *own = TEXT(instance->table.head->guid);
+        if (!guid || strcmp(guid, own))
+            report(instance, LOG_ERROR, "guid %.60s is not that of the resources, %s: they come from different builds",
+                   guid ? guid : "NULL", own);
+        else if (load_resources(instance, folder)) {
+            restart(instance);
+            return instance;
+        }
+    }
     release(instance);
     return NULL;
 }
@@ -169,6 +181,8 @@ void release(Instance *instance)
     free_work(instance);
     free(instance->memory);
     free(instance->resources);
+    free(instance->values);
+    free(instance->table.block);
     free(instance);
 }
 
@@ -184,7 +198,7 @@ Status set_up(Instance *instance, const char *function, double start, bool has_s
 
 Status enter_configuration(Instance *instance, const char *function)
 {
-    REQUIRE(instance, function, N_FIELDS > 0 ? INSTANTIATED : 0); /* without fields the FMU has no structural parameters */
+    REQUIRE(instance, function, N(fields) > 0 ? INSTANTIATED : 0); /* without fields the FMU has no structural parameters */
     instance->is.phase = CONFIGURATION;
     return OK;
 }

@@ -3,13 +3,6 @@
 #ifndef NAMES_H
 #define NAMES_H
 
-#define variables OWN(variables)
-#define states OWN(states)
-#define resources OWN(resources)
-#define totals OWN(totals)
-#define choices OWN(choices)
-#define mirrors OWN(mirrors)
-#define messages OWN(messages)
 #define has_null OWN(has_null)
 #define report OWN(report)
 #define refuse OWN(refuse)
@@ -25,6 +18,11 @@
 #define reset OWN(reset)
 #define path_of OWN(path_of)
 #define load_resources OWN(load_resources)
+#define open_resource OWN(open_resource)
+#define load_table OWN(load_table)
+#define field_size OWN(field_size)
+#define kept_numbers OWN(kept_numbers)
+#define kernels_of OWN(kernels_of)
 #define hash OWN(hash)
 #define before_get OWN(before_get)
 #define before_set OWN(before_set)

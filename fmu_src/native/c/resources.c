@@ -15,8 +15,6 @@ enum { UTF_8 = 65001 };
 
 #include "instance.h"
 
-#if N_RESOURCES > 0
-
 static int hexadecimal(char c)
 {
     const char *digits = "0123456789abcdef0123456789ABCDEF", *found = c ? strchr(digits, c) : NULL;
@@ -95,47 +93,38 @@ static size_t append(Instance *instance, FILE *file, const Resource *resource, s
     return size + length;
 }
 
+/* Open a file of the folder with the resources. If it cannot be opened, log a message and return NULL. */
+FILE *open_resource(const Instance *instance, const char *folder, const char *name)
+{
+    size_t room = (folder ? strlen(folder) : 0) + strlen(name) + 2;
+    char *path = malloc(room);
+    FILE *file = NULL;
+    if (path && folder) {
+        snprintf(path, room, "%s/%s", folder, name);
+        file = open_to_read(path);
+    }
+    free(path);
+    if (!file)
+        report(instance, LOG_ERROR, "resource %s cannot be read from %s", name,
+               folder ? folder : "no folder: the resource location is NULL");
+    return file;
+}
+
 /* Read all files of the model. If one cannot be read, log a message and return false. */
 bool load_resources(Instance *instance, const char *folder)
 {
     size_t size = 0;
-    for (int i = 0; i < N_RESOURCES; i++) {
-        size_t room = (folder ? strlen(folder) : 0) + strlen(resources[i].name) + 2;
-        char *path = malloc(room);
-        FILE *file = NULL;
-        if (path && folder) {
-            snprintf(path, room, "%s/%s", folder, resources[i].name);
-            file = open_to_read(path);
-        }
-        free(path);
-        if (!file) {
-            report(instance, LOG_ERROR, "resource %s cannot be read from %s", resources[i].name,
-                   folder ? folder : "no folder: the resource location is NULL");
-            return false;
-        }
-        size = append(instance, file, &resources[i], size);
+    for (size_t i = 0; i < N(resources); i++) {
+        const Resource *resource = &instance->table.resources[i];
+        FILE *file = open_resource(instance, folder, TEXT(resource->name));
+        if (!file) return false;
+        size = append(instance, file, resource, size);
         fclose(file);
         if (size == 0) {
             report(instance, LOG_ERROR, "resource %s is not valid: it is damaged, of another kind or not made by fmu_src.resources",
-                   resources[i].name);
+                   TEXT(resource->name));
             return false;
         }
     }
     return true;
 }
-
-#else /* all data are in the binary, so any folder is accepted, even none */
-
-char *path_of(const char *location)
-{
-    (void)location;
-    return NULL;
-}
-
-bool load_resources(Instance *instance, const char *folder)
-{
-    (void)instance, (void)folder;
-    return true;
-}
-
-#endif

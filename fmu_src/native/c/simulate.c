@@ -34,7 +34,7 @@ Status enter_event(Instance *instance, const char *function)
 {
     REQUIRE(instance, function, EVENT | CONTINUOUS);
     instance->is.phase = EVENT;
-    show_mirrored(instance->is.values);
+    show_mirrored(instance, instance->values);
     return OK;
 }
 
@@ -49,7 +49,7 @@ Status update_discrete(Instance *instance, const char *function)
 Status enter_continuous(Instance *instance, const char *function)
 {
     REQUIRE(instance, function, EVENT);
-    if (N_TOTALS > 0 && refresh(instance) <= WARNING) accumulate(instance);
+    if (N(totals) > 0 && refresh(instance) <= WARNING) accumulate(instance);
     instance->is.phase = CONTINUOUS;
     return OK;
 }
@@ -84,8 +84,8 @@ static Status wrong_number(const Instance *instance, const char *function, size_
 Status set_states(Instance *instance, const char *function, const double x[], size_t n)
 {
     REQUIRE(instance, function, CONTINUOUS);
-    if (n != N_STATES) return wrong_number(instance, function, n, N_STATES);
-    for (size_t i = 0; i < n; i++) instance->is.values[states[i].value] = x[i];
+    if (n != N(states)) return wrong_number(instance, function, n, N(states));
+    for (size_t i = 0; i < n; i++) instance->values[instance->table.states[i].value] = x[i];
     if (n > 0) instance->is.is_new = true;
     return OK;
 }
@@ -94,10 +94,10 @@ Status get_states(Instance *instance, const char *function, double x[], size_t n
 {
     Status status = OK;
     REQUIRE(instance, function, READABLE);
-    if (n != N_STATES) return wrong_number(instance, function, n, N_STATES);
+    if (n != N(states)) return wrong_number(instance, function, n, N(states));
     if (n > 0 && instance->is.phase == INITIALIZATION) status = refresh(instance);
     if (status > WARNING) return status;
-    for (size_t i = 0; i < n; i++) x[i] = instance->is.values[states[i].value];
+    for (size_t i = 0; i < n; i++) x[i] = instance->values[instance->table.states[i].value];
     return status;
 }
 
@@ -105,18 +105,18 @@ Status get_derivatives(Instance *instance, const char *function, double derivati
 {
     Status status = OK;
     REQUIRE(instance, function, READABLE);
-    if (n != N_STATES) return wrong_number(instance, function, n, N_STATES);
+    if (n != N(states)) return wrong_number(instance, function, n, N(states));
     if (n > 0 && instance->is.phase != TERMINATED) status = refresh(instance);
     if (status > WARNING) return status;
-    for (size_t i = 0; i < n; i++) derivatives[i] = instance->is.values[states[i].derivative];
+    for (size_t i = 0; i < n; i++) derivatives[i] = instance->values[instance->table.states[i].derivative];
     return status;
 }
 
 Status get_nominals(Instance *instance, const char *function, double nominals[], size_t n)
 {
     REQUIRE(instance, function, READABLE);
-    if (n != N_STATES) return wrong_number(instance, function, n, N_STATES);
-    for (size_t i = 0; i < n; i++) nominals[i] = states[i].nominal;
+    if (n != N(states)) return wrong_number(instance, function, n, N(states));
+    for (size_t i = 0; i < n; i++) nominals[i] = instance->table.states[i].nominal;
     return OK;
 }
 

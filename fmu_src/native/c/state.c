@@ -6,8 +6,7 @@
 
 #include "instance.h"
 
-enum { GUID_ROOM = (sizeof MODEL_GUID + 7) / 8 * 8 }; /* no padding after it, which the checksum would not cover */
-static const char own_guid[GUID_ROOM] = MODEL_GUID;
+enum { GUID_ROOM = 40 }; /* with zeros after the guid */
 
 typedef struct {
     char guid[GUID_ROOM]; /* first, since a state of another FMU may be shorter than this one */
@@ -17,7 +16,7 @@ typedef struct {
     uint64_t resources_hash;
     int64_t memory_size;
     Content is;
-    double memory[]; /* both warm starts */
+    double numbers[]; /* values, solved, accepted; then both warm starts */
 } State;
 
 uint64_t hash(const void *content, size_t size)
@@ -34,8 +33,17 @@ static uint64_t checksum(const State *state)
 }
 
 static size_t memory_bytes(int64_t memory_size) { return 2 * (size_t)memory_size * sizeof(double); }
+static size_t state_bytes(const Instance *instance, int64_t memory_size)
+{
+    return sizeof(State) + kept_numbers(instance) * sizeof(double) + memory_bytes(memory_size);
+}
 
-static bool is_ours(const State *state) { return !memcmp(state->guid, own_guid, sizeof own_guid); }
+static bool is_ours(const Instance *instance, const State *state)
+{
+    char own[GUID_ROOM]; /* zeros after the guid, which the checksum does not cover */
+    strncpy(own, TEXT(instance->table.head->guid), GUID_ROOM);
+    return !memcmp(state->guid, own, GUID_ROOM);
+}
 
 /* Whether this is a phase of an instance of this type. */
 static bool is_phase(int64_t phase, Type type)
@@ -49,15 +57,16 @@ static bool is_phase(int64_t phase, Type type)
 static bool is_possible(const Instance *instance, const State *state)
 {
     const Content *is = &state->is;
+    const double *values = state->numbers, *solved = values + N(values);
     if (!is_phase(is->phase, instance->type) || is->last_step < OK || is->last_step > ERROR) return false;
     if (is->is_new >> 1 || is->lazy_stale >> 1) return false;
     if (!isfinite(is->time) || !isfinite(is->accepted_time) || isnan(is->stop_time)) return false;
-    for (size_t i = 0; i < N_VALUES; i++)
-        if (!is_allowed(i, is->solved) || !(is->is_new || is_allowed(i, is->values))) return false;
+    for (size_t i = 0; i < N(values); i++)
+        if (!is_allowed(instance, i, solved) || !(is->is_new || is_allowed(instance, i, values))) return false;
     /* working memory and fields have the size that follows from `values` and are then used with `solved` */
     if (is->is_new && is->phase & (INSTANTIATED | CONFIGURATION | INITIALIZATION)) return true;
-    for (size_t i = 0; i < N_PARAMETERS; i++)
-        if (is->values[i] != is->solved[i] && !(is->is_new && variables[i].role & TUNABLE)) return false;
+    for (size_t i = 0; i < N(parameters); i++)
+        if (values[i] != solved[i] && !(is->is_new && instance->table.variables[i].role & TUNABLE)) return false;
     return true;
 }
 
@@ -67,7 +76,7 @@ Status get_state(Instance *instance, const char *function, void **target)
     State *state;
     REQUIRE(instance, function, ANY);
     if (!target) return report(instance, LOG_ERROR, "%s: the pointer to the state is NULL", function);
-    size = sizeof *state + memory_bytes(instance->memory_size);
+    size = state_bytes(instance, instance->memory_size);
     state = *target;
     if (!state || state->size != (int64_t)size) {
         state = calloc(1, size);
@@ -75,13 +84,15 @@ Status get_state(Instance *instance, const char *function, void **target)
         free(*target);
     }
     *target = state;
-    memcpy(state->guid, own_guid, sizeof own_guid);
+    strncpy(state->guid, TEXT(instance->table.head->guid), GUID_ROOM);
     state->size = (int64_t)size;
     state->type = instance->type;
     state->resources_hash = instance->resources_hash;
     state->memory_size = instance->memory_size;
     state->is = instance->is;
-    if (instance->memory) memcpy(state->memory, instance->memory, size - sizeof *state);
+    memcpy(state->numbers, instance->values, kept_numbers(instance) * sizeof(double));
+    if (instance->memory)
+        memcpy(state->numbers + kept_numbers(instance), instance->memory, memory_bytes(instance->memory_size));
     return OK;
 }
 
@@ -90,7 +101,7 @@ Status set_state(Instance *instance, const char *function, const void *source)
     const State *state = source;
     REQUIRE(instance, function, ANY);
     if (!state) return report(instance, LOG_ERROR, "%s: the state is NULL", function);
-    if (!is_ours(state)) return report(instance, LOG_ERROR, "%s: this is not a state of this FMU", function);
+    if (!is_ours(instance, state)) return report(instance, LOG_ERROR, "%s: this is not a state of this FMU", function);
     if (state->type != (int64_t)instance->type)
         return report(instance, LOG_ERROR, "%s: the state is from the other FMI type", function);
     if (state->resources_hash != instance->resources_hash)
@@ -105,7 +116,9 @@ Status set_state(Instance *instance, const char *function, const void *source)
     }
     instance->is = state->is;
     instance->work_is_solved = false;
-    if (instance->memory) memcpy(instance->memory, state->memory, memory_bytes(state->memory_size));
+    memcpy(instance->values, state->numbers, kept_numbers(instance) * sizeof(double));
+    if (instance->memory)
+        memcpy(instance->memory, state->numbers + kept_numbers(instance), memory_bytes(state->memory_size));
     return OK;
 }
 
@@ -123,7 +136,7 @@ Status state_size(Instance *instance, const char *function, const void *state, s
 {
     REQUIRE(instance, function, ANY);
     if (!state || !size) return report(instance, LOG_ERROR, "%s: the state is NULL", function);
-    if (!is_ours(state)) return report(instance, LOG_ERROR, "%s: this is not a state of this FMU", function);
+    if (!is_ours(instance, state)) return report(instance, LOG_ERROR, "%s: this is not a state of this FMU", function);
     *size = (size_t)((const State *)state)->size;
     return OK;
 }
@@ -132,7 +145,7 @@ Status serialize(Instance *instance, const char *function, void *source, void *b
 {
     State *state = source;
     REQUIRE(instance, function, ANY);
-    if (!state || !bytes || !is_ours(state) || size < (size_t)state->size)
+    if (!state || !bytes || !is_ours(instance, state) || size < (size_t)state->size)
         return report(instance, LOG_ERROR, "%s: the state is not one of this FMU or the buffer is too small", function);
     state->checksum = checksum(state);
     memcpy(bytes, state, (size_t)state->size);
@@ -150,9 +163,9 @@ Status deserialize(Instance *instance, const char *function, const void *bytes, 
     state = malloc(size);
     if (!state) return report(instance, LOG_ERROR, "out of memory");
     memcpy(state, bytes, size);
-    valid = is_ours(state) && state->size >= (int64_t)sizeof *state &&
-            (uint64_t)state->size <= size && state->memory_size >= 0 &&
-            memory_bytes(state->memory_size) == (size_t)state->size - sizeof *state &&
+    valid = is_ours(instance, state) && state->size >= (int64_t)sizeof *state &&
+            (uint64_t)state->size <= size && state->memory_size >= 0 && state->memory_size <= state->size &&
+            state_bytes(instance, state->memory_size) == (size_t)state->size &&
             state->checksum == checksum(state) && is_possible(instance, state);
     if (!valid) {
         free(state);

@@ -8,38 +8,39 @@
 size_t extent(const Instance *instance, Reference reference)
 {
     if (!instance->arrays) return 1;
-    return variables[reference].role == FIELD ? FIELD_SIZE(instance->is.values) : variables[reference].size;
+    return instance->table.variables[reference].role == FIELD ? field_size(instance, instance->values)
+                                                                : (size_t)instance->table.variables[reference].size;
 }
 
 /* Damage that has accumulated since the start. */
 static const double *accumulated(const Instance *instance)
 {
-    static const double nothing[N_ACCUMULATED + 1];
-    if (!ACCUMULATES(instance->is.values) || instance->memory_size < N_ACCUMULATED) return nothing;
-    return instance->memory + instance->memory_size - N_ACCUMULATED;
+    const int64_t choice = instance->table.head->accumulates, n = (int64_t)N(accumulated);
+    if (choice == NONE || instance->values[choice] <= 1.0 || instance->memory_size < n) return instance->nothing;
+    return instance->memory + instance->memory_size - n;
 }
 
 /* The numbers in `values` or working memory that a value reference denotes. */
 static const double *numbers_of(const Instance *instance, double *values, Reference reference)
 {
-    const int64_t field = (int64_t)reference - N_VALUES - N_ACCUMULATED;
-    if (variables[reference].role == ACCUMULATED) return accumulated(instance) + (reference - N_VALUES);
-    if (variables[reference].role != FIELD) return values + reference;
-    return instance->work + instance->model->field(values, instance->work, field, instance->resources);
+    const int64_t field = (int64_t)(reference - N(values) - N(accumulated));
+    if (instance->table.variables[reference].role == ACCUMULATED) return accumulated(instance) + (reference - N(values));
+    if (instance->table.variables[reference].role != FIELD) return values + reference;
+    return instance->work + instance->kernels->field(values, instance->work, field, instance->resources, instance->table.own);
 }
 
 /* The same for the instance's own values. `solved` holds the values that working memory belongs to. */
 const double *numbers(const Instance *instance, Reference reference)
 {
-    if (variables[reference].role == TIME) return &instance->is.time;
-    return numbers_of(instance, (double *)(variables[reference].role == FIELD ? instance->is.solved : instance->is.values),
+    if (instance->table.variables[reference].role == TIME) return &instance->is.time;
+    return numbers_of(instance, (double *)(instance->table.variables[reference].role == FIELD ? instance->solved : instance->values),
                       reference);
 }
 
 static bool exists(const Instance *instance, Reference reference)
 {
-    if (!instance->arrays) return reference < N_VALUES + N_ACCUMULATED;
-    return reference <= V_time && (variables[reference].size > 0 || variables[reference].role == FIELD);
+    if (!instance->arrays) return reference < N(values) + N(accumulated);
+    return reference <= N(values) + N(accumulated) + N(fields) && (instance->table.variables[reference].size > 0 || instance->table.variables[reference].role == FIELD);
 }
 
 /* Check that all references have these kinds and roles and denote n_values numbers. */
@@ -51,8 +52,8 @@ static Status check(const Instance *instance, const Reference refs[], size_t n, 
     for (size_t k = 0; k < n; k++) {
         if (!exists(instance, refs[k]))
             return report(instance, LOG_ERROR, "%s: there is no value reference %u", function, refs[k]);
-        if (!(variables[refs[k]].kind & kinds) || !(variables[refs[k]].role & roles))
-            return report(instance, LOG_ERROR, "%s is not a variable for %s now", variables[refs[k]].name, function);
+        if (!(instance->table.variables[refs[k]].kind & kinds) || !(instance->table.variables[refs[k]].role & roles))
+            return report(instance, LOG_ERROR, "%s is not a variable for %s now", TEXT(instance->table.variables[refs[k]].name), function);
         count += extent(instance, refs[k]);
     }
     if (count == n_values) return OK;
@@ -70,8 +71,8 @@ Status before_get(Instance *instance, const char *function, const Reference refs
     status = check(instance, refs, n, kinds, roles, n_values, function);
     if (status != OK) return status;
     for (size_t k = 0; k < n; k++) {
-        read |= variables[refs[k]].role;
-        lazy |= variables[refs[k]].lazy;
+        read |= (int)instance->table.variables[refs[k]].role;
+        lazy |= instance->table.variables[refs[k]].lazy != 0;
     }
     if (read & (ANY_OUTPUT | FIELD) && instance->is.phase & (INITIALIZATION | EVENT | CONTINUOUS))
         status = refresh(instance);
@@ -98,23 +99,23 @@ Status before_set(Instance *instance, const char *function, const Reference refs
 }
 
 /* Return `h`, or 0 if a step of this length along the seed leaves the range of a known. */
-static double reach(const double *values, const double *seeds, double h)
+static double reach(const Instance *instance, const double *seeds, double h)
 {
-    for (size_t i = 0; i < N_VALUES; i++)
-        if (seeds[i] != 0.0 && !in_range(&variables[i], values[i] + h * seeds[i])) return 0.0;
+    for (size_t i = 0; i < N(values); i++)
+        if (seeds[i] != 0.0 && !in_range(&instance->table.variables[i], instance->values[i] + h * seeds[i])) return 0.0;
     return h;
 }
 
 /* Compute values and outputs at a distance h along the seed. */
 static void displaced(Instance *instance, const double *seeds, double h, bool lazy, double *values)
 {
-    for (size_t i = 0; i < N_VALUES; i++)
-        values[i] = seeds[i] != 0.0 ? instance->is.values[i] + h * seeds[i] : instance->is.values[i];
+    for (size_t i = 0; i < N(values); i++)
+        values[i] = seeds[i] != 0.0 ? instance->values[i] + h * seeds[i] : instance->values[i];
     memset(instance->work, 0, (size_t)instance->memory_size * sizeof(double));
     instance->work_is_solved = false;
     evaluate(instance, values, 0.0);
     if (!lazy) return;
-    instance->model->lazy(values, instance->work, instance->resources);
+    instance->kernels->lazy(values, instance->work, instance->resources, instance->table.own);
     memset(instance->work, 0, (size_t)instance->memory_size * sizeof(double));
     evaluate(instance, values, 0.0); /* restores the fields, which the lazy outputs overwrite */
 }
@@ -127,7 +128,8 @@ Status derivative(Instance *instance, const char *function, const Reference unkn
                   const Reference knowns[], size_t n_knowns, const double seed[], size_t n_seed, double result[],
                   size_t n_result)
 {
-    double seeds[N_VALUES] = {0.0}, values[N_VALUES], up, down /* negative */, h = INFINITY;
+    double *seeds = instance ? instance->before : NULL, *values = instance ? instance->other : NULL;
+    double up, down /* negative */, h = INFINITY;
     bool lazy = false;
     Status status;
     REQUIRE(instance, function, INITIALIZATION | RUNNING | TERMINATED);
@@ -135,24 +137,25 @@ Status derivative(Instance *instance, const char *function, const Reference unkn
     if (status == OK)
         status = check(instance, knowns, n_knowns, REAL, INPUT | (instance->is.phase == INITIALIZATION ? PARAMETER : STATE),
                        n_seed, function);
-    choose(instance->is.values);
-    if (status == OK) status = check_ranges(instance, instance->is.values, N_VALUES);
-    if (status == OK) status = prepare(instance, instance->is.values);
+    choose(instance, instance->values);
+    if (status == OK) status = check_ranges(instance, instance->values, N(values));
+    if (status == OK) status = prepare(instance, instance->values);
     if (status != OK) return status;
 
+    memset(seeds, 0, N(values) * sizeof *seeds);
     for (size_t k = 0; k < n_knowns; k++)
         for (size_t i = 0; i < extent(instance, knowns[k]); i++, seed++) {
             if (!isfinite(*seed)) return report(instance, LOG_ERROR, "a seed of a directional derivative is not finite");
             seeds[knowns[k] + i] += *seed;
         }
     if (n_result > 0) memset(result, 0, n_result * sizeof *result); /* else it may be NULL */
-    for (size_t k = 0; k < n_unknowns; k++) lazy |= variables[unknowns[k]].lazy;
+    for (size_t k = 0; k < n_unknowns; k++) lazy |= instance->table.variables[unknowns[k]].lazy != 0;
     displaced(instance, seeds, 0.0, false, values); /* the steps depend on the outputs at the present values */
-    for (size_t i = 0; i < N_VALUES; i++)
-        if (seeds[i] != 0.0) h = fmin(h, instance->model->difference(values, (int64_t)i, instance->resources) / fabs(seeds[i]));
+    for (size_t i = 0; i < N(values); i++)
+        if (seeds[i] != 0.0) h = fmin(h, instance->kernels->difference(values, (int64_t)i, instance->resources, instance->table.own) / fabs(seeds[i]));
     if (isinf(h)) return OK;
-    up = reach(instance->is.values, seeds, h);
-    down = reach(instance->is.values, seeds, -h);
+    up = reach(instance, seeds, h);
+    down = reach(instance, seeds, -h);
     if (up == down) return report(instance, LOG_DISCARD, "the directional derivative leaves the allowed range");
     displaced(instance, seeds, up, lazy, values);
     for (size_t k = 0, at = 0; k < n_unknowns; at += extent(instance, unknowns[k++]))
@@ -163,7 +166,7 @@ Status derivative(Instance *instance, const char *function, const Reference unkn
         for (size_t i = 0; i < extent(instance, unknowns[k]); i++, result++) {
             *result = (*result - behind[i]) / (up - down);
             if (!isfinite(*result))
-                return report(instance, LOG_DISCARD, "%s has no finite derivative here", variables[unknowns[k]].name);
+                return report(instance, LOG_DISCARD, "%s has no finite derivative here", TEXT(instance->table.variables[unknowns[k]].name));
         }
     }
     return OK;

@@ -1,10 +1,16 @@
 /* Which version of the kernels this processor runs. */
+#ifdef _WIN32
+#define EXPORTED __declspec(dllexport)
+#else
+#define EXPORTED __attribute__((visibility("default")))
+#endif
+
 #if defined(__x86_64__) || defined(_M_X64)
 #include "../c/processor.h"
 
-const char *wr_processor(void) { return has_x86_64_v3() ? "v3" : "v2"; }
+EXPORTED const char *wr_processor(void) { return has_x86_64_v3() ? "v3" : "v2"; }
 #else
-const char *wr_processor(void) { return "any"; }
+EXPORTED const char *wr_processor(void) { return "any"; }
 #endif
 
 #ifdef _WIN32

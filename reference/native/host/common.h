@@ -18,7 +18,7 @@ typedef pthread_t Thread;
 #define THREAD_RESULT void *
 #endif
 
-extern const char *guid, *resources; /* of the tested FMU; resources is a URI */
+extern const char *guid, *resources; /* of the tested FMU; resources is a URI in FMI 2.0, a path in FMI 3.0 */
 extern int failures, messages;
 extern char last_message[1024];
 

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include "fmi2Functions.h"
-#include "model.h"
 
 static void say(void *environment, fmi2String name, fmi2Status status, fmi2String category, fmi2String message, ...)
 {

@@ -4,9 +4,9 @@
 #define DEFINE(f) fmi2##f##TYPE *f;
 FUNCTIONS(DEFINE)
 
-void use(void *library, const char *its_guid)
+void use(void *library, const char *its_guid, const char *its_resources)
 {
-    guid = its_guid;
+    guid = its_guid, resources = its_resources;
 #define FIND(f) \
     if (!(f = (fmi2##f##TYPE *)find(library, "fmi2" #f))) puts("fmi2" #f " is missing"), exit(2);
     FUNCTIONS(FIND)
@@ -77,7 +77,7 @@ double any(fmi2Component c, fmi2ValueReference r)
     return GetReal(c, &r, 1, &value) > fmi2Warning ? whole(c, r) : value;
 }
 
-/* LIBRARY GUID RESOURCES COMMAND NUMBER [PATH GUID | NUMBER]. Failures are printed and set the exit code. */
+/* LIBRARY GUID RESOURCES COMMAND NUMBER [PATH GUID RESOURCES | NUMBER]. Failures are printed and set the exit code. */
 int main(int n_arguments, char **arguments)
 {
     double begin = now();
@@ -85,8 +85,7 @@ int main(int n_arguments, char **arguments)
     const char *command = n_arguments > 5 ? arguments[4] : "", *path = n_arguments > 6 ? arguments[6] : "";
     int number = n_arguments > 5 ? atoi(arguments[5]) : 0;
     if (!library) return puts("the library cannot be loaded"), 2;
-    use(library, arguments[2]);
-    resources = arguments[3];
+    use(library, arguments[2], arguments[3]);
     if (!strcmp(command, "instantiate")) instantiate();
     else if (!strcmp(command, "every_call")) every_call();
     else if (!strcmp(command, "fuzz")) fuzz(number);
@@ -95,7 +94,8 @@ int main(int n_arguments, char **arguments)
     else if (!strcmp(command, "threads")) threads();
     else if (!strcmp(command, "soak")) soak(number, atoi(path));
     else if (!strcmp(command, "cases")) cases();
-    else if (!strcmp(command, "two_libraries") && n_arguments > 7) two_libraries(library, path, arguments[7]);
+    else if (!strcmp(command, "two_libraries") && n_arguments > 8)
+        two_libraries(library, path, arguments[7], arguments[8]);
     else if (!strcmp(command, "first_step")) first_step(begin);
     else if (!strcmp(command, "speed")) speed(number, path);
     else return printf("%s is not a command\n", command), 2;

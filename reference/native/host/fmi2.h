@@ -21,7 +21,7 @@
 FUNCTIONS(DECLARE)
 
 /* fmi2.c */
-void use(void *library, const char *its_guid); /* let the functions above be those of this library */
+void use(void *library, const char *its_guid, const char *its_resources); /* let the functions above be those of this library */
 #define LOGGER(name) \
     void name(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status, fmi2String category, \
               fmi2String message, ...)
@@ -48,7 +48,7 @@ void log_categories(void);
 void threads(void);
 void soak(int cycles, int steps);
 void cases(void);
-void two_libraries(void *library, const char *path, const char *its_guid);
+void two_libraries(void *library, const char *path, const char *its_guid, const char *its_resources);
 
 /* speed.c */
 void speed(int n, const char *kernels);

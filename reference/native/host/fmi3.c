@@ -53,8 +53,8 @@ typedef enum { ME, CS } Type;
 
 static fmi3Instance make(Type type, fmi3LogMessageCallback log)
 {
-    if (type == ME) return InstantiateModelExchange("instance", guid, NULL, fmi3False, fmi3True, NULL, log);
-    return InstantiateCoSimulation("instance", guid, NULL, fmi3False, fmi3True, fmi3False, fmi3False, NULL, 0, NULL, log, NULL);
+    if (type == ME) return InstantiateModelExchange("instance", guid, resources, fmi3False, fmi3True, NULL, log);
+    return InstantiateCoSimulation("instance", guid, resources, fmi3False, fmi3True, fmi3False, fmi3False, NULL, 0, NULL, log, NULL);
 }
 
 static fmi3Status set(fmi3Instance c, fmi3ValueReference r, double value) { return SetFloat64(c, &r, 1, &value, 1); }
@@ -78,16 +78,16 @@ static fmi3Status step(fmi3Instance c, double time, double h)
 static void instantiate(void)
 {
     check(!strcmp(GetVersion(), "3.0"), "version", GetVersion());
-    check(!InstantiateModelExchange("i", "{wrong}", NULL, 0, 0, NULL, logger) && messages == 1, "wrong token", last_message);
-    check(!InstantiateModelExchange("i", NULL, NULL, 0, 0, NULL, logger) && messages == 2, "no token", last_message);
-    check(!InstantiateModelExchange("", guid, NULL, 0, 0, NULL, logger) && messages == 3, "no name", last_message);
-    check(!InstantiateCoSimulation("i", guid, NULL, 0, 0, 1, 0, NULL, 0, NULL, logger, NULL) && messages == 4, "event mode",
+    check(!InstantiateModelExchange("i", "{wrong}", resources, 0, 0, NULL, logger) && messages == 1, "wrong token", last_message);
+    check(!InstantiateModelExchange("i", NULL, resources, 0, 0, NULL, logger) && messages == 2, "no token", last_message);
+    check(!InstantiateModelExchange("", guid, resources, 0, 0, NULL, logger) && messages == 3, "no name", last_message);
+    check(!InstantiateCoSimulation("i", guid, resources, 0, 0, 1, 0, NULL, 0, NULL, logger, NULL) && messages == 4, "event mode",
           last_message);
-    check(!InstantiateCoSimulation("i", guid, NULL, 0, 0, 0, 0, &load, 1, NULL, logger, NULL) && messages == 5,
+    check(!InstantiateCoSimulation("i", guid, resources, 0, 0, 0, 0, &load, 1, NULL, logger, NULL) && messages == 5,
           "intermediate update", last_message);
-    check(!InstantiateScheduledExecution("i", guid, NULL, 0, 0, NULL, logger, NULL, NULL, NULL) && messages == 6,
+    check(!InstantiateScheduledExecution("i", guid, resources, 0, 0, NULL, logger, NULL, NULL, NULL) && messages == 6,
           "scheduled execution", last_message);
-    check(!InstantiateModelExchange("i", "{wrong}", NULL, 0, 0, NULL, NULL), "wrong token", "without a logger");
+    check(!InstantiateModelExchange("i", "{wrong}", resources, 0, 0, NULL, NULL), "wrong token", "without a logger");
     FreeInstance(NULL);
     check(Reset(NULL) == fmi3Error, "fmi3Reset", "of no instance");
     check(step(NULL, 0.0, 1e-3) == fmi3Error, "fmi3DoStep", "of no instance");
@@ -378,11 +378,12 @@ static void speed(int n)
 
 int main(int n_arguments, char **arguments)
 {
-    void *library = n_arguments > 3 ? open_library(arguments[1]) : NULL;
-    const char *command = n_arguments > 3 ? arguments[3] : "";
-    int argument = n_arguments > 4 ? atoi(arguments[4]) : 0;
+    void *library = n_arguments > 4 ? open_library(arguments[1]) : NULL;
+    const char *command = n_arguments > 4 ? arguments[4] : "";
+    int argument = n_arguments > 5 ? atoi(arguments[5]) : 0;
     if (!library) return puts("the library cannot be loaded"), 2;
     guid = arguments[2];
+    resources = arguments[3];
 #define FIND(f) if (!(f = (fmi3##f##TYPE *)find(library, "fmi3" #f))) return puts("fmi3" #f " is missing"), 2;
     FUNCTIONS(FIND)
     if (!strcmp(command, "instantiate")) instantiate();

@@ -66,27 +66,27 @@ static void step_and_read(fmi2Component c, int k, double *values)
     for (fmi2ValueReference r = 0; r < N_READ; r++) GetReal(c, &r, 1, &values[r]);
 }
 
-void two_libraries(void *library, const char *path, const char *its_guid)
+void two_libraries(void *library, const char *path, const char *its_guid, const char *its_resources)
 {
     static Trajectory alone[2], together[2];
     void *both[2] = {library, open_library(path)};
-    const char *guids[2] = {guid, its_guid};
+    const char *guids[2] = {guid, its_guid}, *folders[2] = {resources, its_resources};
     fmi2Component c[2];
     check(both[1] && both[1] != both[0], "two libraries", path);
     for (int i = 0; i < 2; i++) {
-        use(both[i], guids[i]);
+        use(both[i], guids[i], folders[i]);
         c[i] = running(quiet);
         for (int k = 0; k < N_STEPS; k++) step_and_read(c[i], k, alone[i][k]);
         FreeInstance(c[i]);
         check(!make(fmi2CoSimulation, quiet) == !c[i], "instantiate", path);
         guid = guids[1 - i];
-        check(!make(fmi2CoSimulation, quiet), "each library refuses the guid of the other", path);
+        check(!make(fmi2CoSimulation, quiet), "each FMU refuses the guid of the other", path);
     }
-    for (int i = 0; i < 2; i++) use(both[i], guids[i]), c[i] = running(quiet);
+    for (int i = 0; i < 2; i++) use(both[i], guids[i], folders[i]), c[i] = running(quiet);
     for (int k = 0; k < N_STEPS; k++)
-        for (int i = 0; i < 2; i++) use(both[i], guids[i]), step_and_read(c[i], k, together[i][k]);
+        for (int i = 0; i < 2; i++) use(both[i], guids[i], folders[i]), step_and_read(c[i], k, together[i][k]);
     check(!memcmp(alone, together, sizeof alone), "together as alone", path);
-    for (int i = 0; i < 2; i++) use(both[i], guids[i]), FreeInstance(c[i]);
+    for (int i = 0; i < 2; i++) use(both[i], guids[i], folders[i]), FreeInstance(c[i]);
 }
 
 /* ---------------------------------------------------------------- memory over time */

@@ -1,0 +1,71 @@
+"""The kinds of models of native FMUs, and the functions of each that C calls.
+
+The module of a kind has a function `entries()`. It returns Python functions by the names in `SIGNATURES`, which numba compiles.
+The first argument is the array of all values, indexed by value reference. Most functions also take the working memory, which
+begins with the warm start. The last argument is `component.Given`.
+
+* ``model_memory(values, given)`` returns the size of the warm start in numbers, ``model_size(values, given)`` that of all
+  working memory. Both depend only on the parameters in `values`.
+* ``model_prepare(values, work, given)`` fills what depends only on the parameters.
+* ``model_start(values, work, given)`` computes the continuous states and the outputs of co-simulation at the start, from the
+  parameters. A model without states does not need it.
+* ``model_outputs(values, work, h, given)`` advances by h [s] from the warm start, then computes the outputs. With h = 0 it
+  computes them only from the inputs and states in `values`.
+* ``model_lazy(values, work, given)`` computes the rows `lazy`. A model without such rows does not need it.
+* ``model_difference(values, reference, given)`` returns a suitable step of one variable for difference quotients.
+* ``model_field(values, work, k, given)`` writes field number `k` of the last ``model_outputs`` into `work` and returns where
+  it begins. A model without fields does not need it.
+
+The functions that return neither a size, a step nor a position return 0 or the number of a message (`Component.warnings`,
+`failures`). At a cold start the warm start is all zeros. In the library the names begin with the kind instead of ``model``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any
+
+#: Function → types of its result and of its arguments without `given`: a number of 64 bits, or a pointer to float64.
+SIGNATURES: dict[str, tuple[str, tuple[str, ...]]] = {
+    "memory": ("i64", ("ptr",)),
+    "size": ("i64", ("ptr",)),
+    "prepare": ("i64", ("ptr", "ptr")),
+    "start": ("i64", ("ptr", "ptr")),
+    "outputs": ("i64", ("ptr", "ptr", "f64")),
+    "lazy": ("i64", ("ptr", "ptr")),
+    "difference": ("f64", ("ptr", "i64")),
+    "field": ("i64", ("ptr", "ptr", "i64")),
+}
+#: Kind of model → module of its kernels.
+KINDS = {
+    "contact": "fmu_src.native.wheel_rail_contact",
+    "pair": "fmu_src.native.wheel_rail_pair",
+    "surfaces": "fmu_src.native.wheel_rail_surfaces",
+    "wheelset": "fmu_src.native.wheelset",
+    "vehicle": "fmu_src.native.vehicle",
+    "open_vehicle": "fmu_src.native.open_vehicle",
+}
+
+
+def names(kind: str) -> list[str]:
+    """Return the names of a kind's functions in the library."""
+    return [f"{kind}_{name}" for name in SIGNATURES]
+
+
+def entries(module: str) -> dict[str, Callable[..., Any]]:
+    """Return the functions of the kind in a module, by the names in `SIGNATURES`."""
+    given = import_module(module).entries()
+    return {name: given.get(f"model_{name}", _UNNEEDED.get(name)) for name in SIGNATURES}
+
+
+def _nothing(values: Any, work: Any, given: Any) -> int:
+    return 0
+
+
+def _no_field(values: Any, work: Any, k: Any, given: Any) -> int:
+    return 0
+
+
+#: What stands for functions that a kind does not need.
+_UNNEEDED = {"start": _nothing, "lazy": _nothing, "field": _no_field}
