@@ -18,6 +18,8 @@ _AWAY, _NEAR = 0.8, 1.1
 #: First over second pressure at the exact half width, its change over a width of the end strip, the curvature of this relation,
 #: and the largest excess that counts in it (strip_halfspace.md 2, step 4).
 _FIRST_VALUE, _FIRST_SLOPE, _BEND_OUTWARDS, _BEND_INWARDS, _MOST = 0.36, 0.625, 0.55, 0.3, 1.6
+#: Largest offset of a strip's middle along x over the half length of the virtual penetration.
+_WITHIN = 0.95
 #: A panel narrower than this, over the widest, is removed.
 NO_PANEL = 1e-5
 #: Overlap outside the panels, over the approach, that counts as missed contact: early, and at convergence.
@@ -65,6 +67,32 @@ def lay_panels(sep, g_least, skew, panels, n_panels, own):
 
 
 @kernel
+def place_middles(vectors, n, n_panels, delta):
+    """Move the strips along x by their offsets d from the line of least gap, which opens the gap by A d² (Eq. skew).
+
+    Offsets of the end strips continue those of their neighbours linearly in y, as the chords of an ellipse do. The middle of
+    a strip lies well inside the virtual penetration, A d² < delta - g.
+    """
+    for p in range(n_panels):
+        first, last = p * n, p * n + n - 1
+        for end, inwards in ((first, 1), (last, -1)):
+            one, other = end + inwards, end + 2 * inwards
+            slope = (vectors[Vector.OFFSET, one] - vectors[Vector.OFFSET, other]) / (
+                vectors[Vector.Y, one] - vectors[Vector.Y, other]
+            )
+            vectors[Vector.OFFSET, end] = vectors[Vector.OFFSET, one] + slope * (
+                vectors[Vector.Y, end] - vectors[Vector.Y, one]
+            )
+        for i in range(first, last + 1):
+            square = max(delta - vectors[Vector.GAP, i], 0.0) / vectors[Vector.CURVATURE, i]
+            bound = _WITHIN * math.sqrt(square)
+            offset = min(max(vectors[Vector.OFFSET, i], -bound), bound)
+            vectors[Vector.OFFSET, i] = offset
+            vectors[Vector.XC, i] += offset
+            vectors[Vector.GAP, i] += vectors[Vector.CURVATURE, i] * offset * offset
+
+
+@kernel
 def half_lengths(vectors, n, n_panels, delta):
     """Fill half lengths a from ln a, at the approach `delta` above first touch [m].
 
@@ -93,11 +121,12 @@ def half_lengths(vectors, n, n_panels, delta):
 
 @kernel
 def _resample(old_low, old_high, low, high, cosines, vectors, first):
-    """Transfer a²(y) of one panel to new ends, linear in y and constant beyond."""
+    """Transfer a²(y) and offsets of one panel to new ends, linear in y and constant beyond."""
     n = cosines.size - 1
     scale = 0.5 * (old_high - old_low)
     for i in range(n):
         vectors[Vector.R_OLD, first + i] = vectors[Vector.LN_A, first + i]
+        vectors[Vector.OFFSET_R_OLD, first + i] = vectors[Vector.OFFSET, first + i]
     for i in range(n):
         at = 0.5 * (low + high) + 0.25 * (high - low) * (cosines[i] + cosines[i + 1])
         unit = (at - 0.5 * (old_low + old_high)) / scale
@@ -110,6 +139,8 @@ def _resample(old_low, old_high, low, high, cosines, vectors, first):
             2.0 * vectors[Vector.R_OLD, first + k + 1]
         )
         vectors[Vector.LN_A, first + i] = 0.5 * math.log(square)
+        offset = (1.0 - t) * vectors[Vector.OFFSET_R_OLD, first + k] + t * vectors[Vector.OFFSET_R_OLD, first + k + 1]
+        vectors[Vector.OFFSET, first + i] = offset
 
 
 @kernel
@@ -132,7 +163,7 @@ def start_panels(n_strips, panel_strips, strips, result, panels, cosines, vector
                 a = max(
                     a, 0.4 * max(strips[Strip.A, p * panel_strips + i - 1], strips[Strip.A, p * panel_strips + i + 1])
                 )
-            vectors[Vector.LN_A, p * n + i] = math.log(a)
+            vectors[Vector.LN_A, p * n + i], vectors[Vector.OFFSET, p * n + i] = math.log(a), 0.0
             vectors[Vector.ACTIVE, p * n + i] = 1.0
     return count
 
@@ -314,7 +345,7 @@ def extend_to_ghosts(sep, g_least, delta, least, unit, n_panels, panels, own):
                 unit_y = 0.5 * (cosines[j] + cosines[j + 1])
                 a = 0.5 * reference * math.sqrt((high - low) / width * (1.0 - unit_y * unit_y))
                 vectors[Vector.LN_A, p * n + j] = math.log(max(a, 1e-3 * reference))
-                vectors[Vector.A, p * n + j] = reference
+                vectors[Vector.A, p * n + j], vectors[Vector.OFFSET, p * n + j] = reference, 0.0
                 vectors[Vector.ACTIVE, p * n + j] = 1.0
                 vectors[Vector.P, p * n + j] = 0.0
         else:
@@ -335,6 +366,8 @@ def _remove_panel(p, n, n_panels, panels, vectors):
         panels[2 * q], panels[2 * q + 1] = panels[2 * q + 2], panels[2 * q + 3]
         for i in range(n):
             for row in (Vector.LN_A, Vector.ACTIVE, Vector.P, Vector.END, Vector.A, Vector.HALF, Vector.R):
+                vectors[row, q * n + i] = vectors[row, (q + 1) * n + i]
+            for row in (Vector.OFFSET, Vector.OFFSET_R):
                 vectors[row, q * n + i] = vectors[row, (q + 1) * n + i]
 
 
@@ -375,6 +408,7 @@ def join_panels(n, n_panels, panels, cosines, vectors):
                 _resample(panels[2 * wider], panels[2 * wider + 1], low, high, cosines, vectors, wider * n)
                 for i in range(n):
                     vectors[Vector.LN_A, p * n + i] = vectors[Vector.LN_A, wider * n + i]
+                    vectors[Vector.OFFSET, p * n + i] = vectors[Vector.OFFSET, wider * n + i]
                 vectors[Vector.ACTIVE, p * n : p * n + n] = 1.0
                 panels[2 * p], panels[2 * p + 1] = low, high
                 _remove_panel(q, n, n_panels, panels, vectors)
