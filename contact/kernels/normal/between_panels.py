@@ -7,7 +7,7 @@ that lie nearly at Chebyshev's nodes. The polynomial through them serves the oth
 import math
 
 from contact._jit import kernel
-from contact.kernels.normal.influence import anywhere, at_centre
+from contact.kernels.normal.influence import at_centre, off_line
 from contact.kernels.normal.many_strips import displacement, fill_ln_X
 from contact.kernels.rows import Pair, Vector
 
@@ -88,7 +88,7 @@ def assemble_others(n_panels, own, unit):
                     left, right = at[j + q] - ln_a, at[j + q + 1] - ln_a
                     X = abs(vectors[Vector.XC, p * n + int(probes[m])] - vectors[Vector.XC, j]) * inverse
                     if X > IN_LINE:
-                        at_probes[m] = scale * abs(anywhere(plane, X, right) - anywhere(plane, X, left))
+                        at_probes[m] = scale * off_line(centre, plane, X, max(right, left), min(right, left))
                     else:
                         at_probes[m] = scale * abs(at_centre(centre, right) - at_centre(centre, left))
                 if p != q:

@@ -46,6 +46,7 @@ from contact.kernels.normal.strip_system import (
     edge_displacements,
     solve_active,
 )
+from contact.kernels.normal.turned import turn_panels
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Sample, Strip, Vector
 
@@ -269,6 +270,8 @@ def _solve(sep, case, own, result):
     warm = n_panels > 0
     if not warm:
         n_panels = start_panels(n_strips, n, strips, result, panels, rule.cosines, vectors)
+        if skew > 0.0:
+            turn_panels(sep, n_panels, n, strips, skew, by_load, panels, vectors)
     # a warm start that finds no rest leaves the cold one at least as many iterations, or takes all
     patience = WARM if case.max_iterations >= 2 * WARM else case.max_iterations
 
@@ -278,6 +281,8 @@ def _solve(sep, case, own, result):
     for iteration in range(case.max_iterations):
         if warm and iteration == patience:
             n_panels = start_panels(n_strips, n, strips, result, panels, rule.cosines, vectors)
+            if skew > 0.0:
+                turn_panels(sep, n_panels, n, strips, skew, by_load, panels, vectors)
             delta = result.approach - g_least
             warm, begun, descending, searched = False, iteration, False, False
             known, best, last_error = 0, math.inf, math.inf

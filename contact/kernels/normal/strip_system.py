@@ -5,7 +5,7 @@ import math
 from contact._jit import kernel
 from contact.kernels.normal.between_panels import IN_LINE, add_others, assemble_others
 from contact.kernels.normal.elimination import eliminate
-from contact.kernels.normal.influence import at_centre, column, in_row, logarithm, row_at
+from contact.kernels.normal.influence import N_X, at_centre, column, in_row, logarithm, row_at
 from contact.kernels.normal.many_strips import displacement, fill_ln_X
 from contact.kernels.rows import Pair, Vector
 
@@ -27,13 +27,17 @@ def _fill_off_line(first, n, half, own, unit):
         for i in range(n):
             X = abs(loci[i] - locus) * inverse
             left, right = cosine_logs[i, k] - ln_a, cosine_logs[i, k + 1] - ln_a
+            if not tabulated:
+                low = at_centre(centre, left)
+                row[i] = scale * abs(at_centre(centre, right) + (low if i == k else -low))
             if X > IN_LINE:
                 place, share, ln_X = row_at(X, logarithm(X))
                 low, high = in_row(plane, place, share, left - ln_X), in_row(plane, place, share, right - ln_X)
-                row[i] = scale * abs(high - low)
-            elif not tabulated:
-                low = at_centre(centre, left)
-                row[i] = scale * abs(at_centre(centre, right) + (low if i == k else -low))
+                if place < N_X:  # the table gives what differs from the centre line, as in `off_line`
+                    low, high = low - in_row(plane, 0, 0.0, left), high - in_row(plane, 0, 0.0, right)
+                    row[i] += scale * (high - low if right > left else low - high)
+                else:
+                    row[i] = scale * abs(high - low)
 
 
 @kernel
