@@ -27,6 +27,9 @@ _HOLD = 0.03
 _LOCAL = 0.5
 #: Half length of an end strip over that of its neighbour.
 END_LENGTH = 0.447
+#: Weight of a strip's distance from the line through its neighbours' middles in the residual of its offset. Middles of an
+#: ellipse's chords lie in line. Where strips are long and narrow, the conditions at their ends hardly tell zigzags.
+STRAIGHTEN = 0.1
 #: Share of the move that the rule of the ends asks for; (p1/p2)² at the exact half width and its slope
 #: (strip_halfspace.md 2, step 4).
 END_STEP, END_VALUE, END_SLOPE = 0.6, 0.365, 0.108
@@ -176,7 +179,10 @@ def _fill_offset_layer(aspect, scratch, centre, plane, layer):
                 slope = p[k] * change / (_DIFFERENCE * a[i]) / (4.0 * A * a[i])
                 jacobian[i, k] -= slope
                 jacobian[i, i] += slope
-        jacobian[i, i] -= 1.0
+        jacobian[i, i] -= 1.0 + STRAIGHTEN
+        share = (y[i + 1] - y[i]) / (y[i + 1] - y[i - 1])
+        jacobian[i, i - 1] += STRAIGHTEN * share
+        jacobian[i, i + 1] += STRAIGHTEN * (1.0 - share)
         jacobian[i, 1] += (1.0 + near) * jacobian[i, 0]
         jacobian[i, 2] -= near * jacobian[i, 0]
         jacobian[i, last - 1] += (1.0 + near) * jacobian[i, last]

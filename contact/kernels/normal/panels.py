@@ -67,23 +67,51 @@ def lay_panels(sep, g_least, skew, panels, n_panels, own):
 
 
 @kernel
+def is_between_loaded(i, n, vectors):
+    """Return whether strip i and both its neighbours in the panel bear pressure, so that it has a middle of its own."""
+    place = i % n
+    inner = 0 < place < n - 1
+    return inner and min(vectors[Vector.P, i - 1], vectors[Vector.P, i], vectors[Vector.P, i + 1]) > 0.0
+
+
+@kernel
+def _middle(i, first, n, vectors):
+    """Return the middle along x of a strip that has none of its own: in line with the nearest two that have, see `place_middles`."""
+    last = first + n - 1
+    left, right = i - 1, i + 1
+    while left >= first and not is_between_loaded(left, n, vectors):
+        left -= 1
+    while right <= last and not is_between_loaded(right, n, vectors):
+        right += 1
+    if left < first and right > last:
+        return vectors[Vector.XC, i] + vectors[Vector.OFFSET, i]
+    if left >= first and right <= last:
+        near, far = left, right
+    else:
+        near, step = (right, 1) if left < first else (left, -1)
+        far = near + step
+        if not is_between_loaded(far, n, vectors):
+            return vectors[Vector.XC, i] + vectors[Vector.OFFSET, near]
+    at_near = vectors[Vector.XC, near] + vectors[Vector.OFFSET, near]
+    at_far = vectors[Vector.XC, far] + vectors[Vector.OFFSET, far]
+    share = (vectors[Vector.Y, i] - vectors[Vector.Y, near]) / (vectors[Vector.Y, far] - vectors[Vector.Y, near])
+    return at_near + share * (at_far - at_near)
+
+
+@kernel
 def place_middles(vectors, n, n_panels, delta):
     """Move the strips along x by their offsets d from the line of least gap, which opens the gap by A d² (Eq. skew).
 
-    Offsets of the end strips continue those of their neighbours linearly in y, as the chords of an ellipse do. The middle of
-    a strip lies well inside the virtual penetration, A d² < delta - g.
+    A strip without pressure, or beside one, or at the end of a panel hardly feels where its middle is. It lies in line with
+    its neighbours, as the middles of an ellipse's chords do. The pressures are those of the last iteration. The middle of
+    every strip lies well inside the virtual penetration, A d² < delta - g.
     """
     for p in range(n_panels):
-        first, last = p * n, p * n + n - 1
-        for end, inwards in ((first, 1), (last, -1)):
-            one, other = end + inwards, end + 2 * inwards
-            slope = (vectors[Vector.OFFSET, one] - vectors[Vector.OFFSET, other]) / (
-                vectors[Vector.Y, one] - vectors[Vector.Y, other]
-            )
-            vectors[Vector.OFFSET, end] = vectors[Vector.OFFSET, one] + slope * (
-                vectors[Vector.Y, end] - vectors[Vector.Y, one]
-            )
-        for i in range(first, last + 1):
+        first = p * n
+        for i in range(first, first + n):
+            if not is_between_loaded(i, n, vectors):
+                vectors[Vector.OFFSET, i] = _middle(i, first, n, vectors) - vectors[Vector.XC, i]
+        for i in range(first, first + n):
             square = max(delta - vectors[Vector.GAP, i], 0.0) / vectors[Vector.CURVATURE, i]
             bound = _WITHIN * math.sqrt(square)
             offset = min(max(vectors[Vector.OFFSET, i], -bound), bound)
@@ -164,7 +192,7 @@ def start_panels(n_strips, panel_strips, strips, result, panels, cosines, vector
                     a, 0.4 * max(strips[Strip.A, p * panel_strips + i - 1], strips[Strip.A, p * panel_strips + i + 1])
                 )
             vectors[Vector.LN_A, p * n + i], vectors[Vector.OFFSET, p * n + i] = math.log(a), 0.0
-            vectors[Vector.ACTIVE, p * n + i] = 1.0
+            vectors[Vector.ACTIVE, p * n + i] = vectors[Vector.P, p * n + i] = 1.0
     return count
 
 

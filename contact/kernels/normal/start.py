@@ -44,7 +44,7 @@ def recall(sep, n, low, high, own):
             return panels, 0
     for i in range(n_panels * n):
         vectors[Vector.LN_A, i], vectors[Vector.OFFSET, i] = memory[MEM_LN_A + 2 * i], memory[MEM_LN_A + 2 * i + 1]
-        vectors[Vector.ACTIVE, i] = 1.0
+        vectors[Vector.ACTIVE, i] = vectors[Vector.P, i] = 1.0
     return panels, n_panels
 
 

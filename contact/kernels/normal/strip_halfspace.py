@@ -23,7 +23,7 @@ from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.normal.analyn import analyn
 from contact.kernels.normal.between_panels import distances
 from contact.kernels.normal.brackets import damp_turns, keep_between, note_sides
-from contact.kernels.normal.descent import descend, descend_offsets, has_one_run
+from contact.kernels.normal.descent import STRAIGHTEN, descend, descend_offsets, has_one_run
 from contact.kernels.normal.mixing import advance, mix
 from contact.kernels.normal.orientation import is_image, turn_back, turn_samples
 from contact.kernels.normal.panels import (
@@ -34,6 +34,7 @@ from contact.kernels.normal.panels import (
     extend_to_ghosts,
     half_lengths,
     have_idle_part,
+    is_between_loaded,
     join_panels,
     lay_panels,
     place_middles,
@@ -202,6 +203,14 @@ def _find_pressures(problem, delta, panels, n_panels):
 
 
 @kernel
+def _bend(i, vectors):
+    """Return how far a strip's middle would have to move to lie in line with its neighbours' [m]."""
+    before, after = vectors[Vector.Y, i] - vectors[Vector.Y, i - 1], vectors[Vector.Y, i + 1] - vectors[Vector.Y, i]
+    in_line = after * vectors[Vector.XC, i - 1] + before * vectors[Vector.XC, i + 1]
+    return in_line / (before + after) - vectors[Vector.XC, i]
+
+
+@kernel
 def _fill_residuals(n, total, delta, cut, skewed, vectors):
     """Fill the residuals of all half lengths in Vector.R. Return the sum of their magnitudes, and of the strips' loads.
 
@@ -220,10 +229,11 @@ def _fill_residuals(n, total, delta, cut, skewed, vectors):
             least = (vectors[Vector.FLOOR, i] / vectors[Vector.A, i]) ** 2
             vectors[Vector.R, i] = 0.5 * math.log(min(max(ratio, 0.2, least), 5.0))
             error += weight * abs(vectors[Vector.R, i])
-            if skewed:
+            if skewed and is_between_loaded(i, n, vectors):
                 a = vectors[Vector.A, i]
                 centred = -vectors[Vector.DIFFERENCE, i] / (4.0 * vectors[Vector.CURVATURE, i] * a)
-                change = min(max(centred - vectors[Vector.OFFSET, i], -a), a)
+                change = centred - vectors[Vector.OFFSET, i] + STRAIGHTEN * _bend(i, vectors)
+                change = min(max(change, -a), a)
                 vectors[Vector.OFFSET_R, i] = change
                 error += weight * abs(change) / a
     return error, load
