@@ -47,7 +47,7 @@ from contact.kernels.normal.strip_system import (
     edge_displacements,
     solve_active,
 )
-from contact.kernels.normal.turned import turn_panels
+from contact.kernels.normal.turned import turn_aspects, turn_panels
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Sample, Strip, Vector
 
@@ -244,6 +244,8 @@ def _report(problem, delta, panels, n_panels, result):
     """Write the strips and their resultants. `result` still has ANALYN's. Return the number of strips."""
     own, strips = problem.own, problem.own.strips
     count = _write(problem.sep, n_panels, panels, problem.skew > 0.0, own, result)
+    if problem.skew > 0.0:
+        turn_aspects(count, problem.skew, strips)
     N = 0.0
     for i in range(count):
         N += 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]

@@ -99,3 +99,40 @@ def turn_panels(sep, n_panels, n, strips, skew, by_load, panels, vectors):
         grow = (width - 1.0) * half
         panels[2 * p] = max(low - grow, sep.y[0])
         panels[2 * p + 1] = min(high + grow, sep.y[sep.y.size - 1])
+
+
+@kernel
+def _turned_aspect(a, b, slope):
+    """Return how much ln(a/b) of a turned ellipse in its rolling direction exceeds that of ANALYN's straight one.
+
+    The ellipse has the half length `a` of the middle strip, the half width `b` and strips with middles on x = `slope`·y. Its
+    ln(a/b) of the axes counts with cos 2θ at the angle θ between long axis and rolling direction: in full at 0, not at all
+    at 45°, reversed at 90°.
+    """
+    xx, xy, yy = 1.0 / (a * a), -slope / (a * a), 1.0 / (b * b) + slope * slope / (a * a)
+    root = math.sqrt(0.25 * (xx - yy) ** 2 + xy * xy)
+    large = 0.5 * (xx + yy) + root
+    small = 1.0 / (a * a * b * b * large)
+    if not large - small > 1e-9 * large:
+        return 0.0
+    axes = 0.5 * math.log(large / small)
+    turned = (yy - xx) / (large - small)  # cos 2θ
+    ratio = math.exp(min(_curvature_ratio(axes), 15.0))  # Q/P
+    A = 0.5 * (1.0 + turned) + 0.5 * (1.0 - turned) * ratio  # for P = 1, and B = PQ/A
+    return axes * turned - local_factors(A, ratio / A)[3]
+
+
+@kernel
+def turn_aspects(n, skew, strips):
+    """Add to Strip.ASPECT what the turn of each patch makes of it, times `skew`. `n` is the number of strips."""
+    first = 0
+    while first < n:
+        last, longest, width = first, 0.0, 0.0
+        while last < n and strips[Strip.PATCH, last] == strips[Strip.PATCH, first]:
+            longest, width = max(longest, strips[Strip.A, last]), width + strips[Strip.DY, last]
+            last += 1
+        _, _, slope = _mean_slope(first, last - first, strips)
+        change = skew * _turned_aspect(longest, 0.5 * width, slope)
+        for i in range(first, last):
+            strips[Strip.ASPECT, i] += change
+        first = last
