@@ -69,6 +69,8 @@ BRACKET = 12
 WARM = 8
 #: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's solution is.
 USABLE = 0.02
+#: Pressure of the last strip at an end over those of the next two, from which on it is a spur: the end has found no rest.
+SPUR = 1.5
 
 #: Largest mean slope of the line of the strips' middles at which strips count as in line.
 SLIGHT = 0.045
@@ -240,6 +242,24 @@ def _fill_residuals(n, total, delta, cut, skewed, vectors):
 
 
 @kernel
+def _has_spur(n, n_panels, vectors):
+    """Return whether the last strip at an end of a panel has the largest pressure, far above that of its neighbours."""
+    largest = 0.0
+    for i in range(n * n_panels):
+        largest = max(largest, vectors[Vector.P, i])
+    for p in range(n_panels):
+        for end, inwards in ((p * n, 1), (p * n + n - 1, -1)):
+            k = 0
+            while k < n - 3 and vectors[Vector.P, end] <= 0.0:
+                end += inwards
+                k += 1
+            inner = max(vectors[Vector.P, end + inwards], vectors[Vector.P, end + 2 * inwards])
+            if vectors[Vector.P, end] >= largest and vectors[Vector.P, end] > SPUR * inner:
+                return True
+    return False
+
+
+@kernel
 def _report(problem, delta, panels, n_panels, result):
     """Write the strips and their resultants. `result` still has ANALYN's. Return the number of strips."""
     own, strips = problem.own, problem.own.strips
@@ -386,7 +406,8 @@ def _solve(sep, case, own, result):
         return n_strips
     remember(n_panels if iteration - begun < FREEZE else 0, n, start_low, start_high, skew > 0.0, own)
     count = _report(problem, delta, panels, n_panels, result)
-    if not converged and error > ACCEPTABLE * load and result.status != Status.OUT_OF_RANGE:
+    rough = error > ACCEPTABLE * load or _has_spur(n, n_panels, vectors)
+    if not converged and rough and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
     elif result.status == Status.OUT_OF_RANGE:
         low, high = panels[0], panels[2 * n_panels - 1]
