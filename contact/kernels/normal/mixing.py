@@ -66,9 +66,7 @@ def mix(n, n_panels, panels, vectors, load, known, skewed, gram):
         for i in range(total):
             product += vectors[Vector.Q1, i] * vectors[Vector.CHANGES + k, i] * vectors[Vector.R, i]
         if skewed:
-            product += _product(
-                total, vectors[Vector.Q2], vectors[Vector.OFFSET_CHANGES + k], vectors[Vector.OFFSET_R]
-            )
+            product += _product(total, vectors[Vector.Q2], vectors[Vector.OFFSET_CHANGES + k], vectors[Vector.OFFSET_R])
         gram[k, depth] = product
         gram[k, k] *= 1.0 + 1e-8
         gram[k, k] += 1e-30

@@ -76,7 +76,7 @@ def is_between_loaded(i, n, vectors):
 
 @kernel
 def _middle(i, first, n, vectors):
-    """Return the middle along x of a strip that has none of its own: in line with the nearest two that have, see `place_middles`."""
+    """Return the middle along x of a strip that has none of its own: in line with the nearest two that have one."""
     last = first + n - 1
     left, right = i - 1, i + 1
     while left >= first and not is_between_loaded(left, n, vectors):

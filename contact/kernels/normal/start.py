@@ -4,7 +4,7 @@ from contact._jit import kernel
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Vector
 
-# memory[...]: number of panels, whether all is mirrored, the panels' ends, the outer ends of ANALYN's patches, then ln a and the
+# memory[...]: number of panels, whether all is mirrored, the panels' ends, the outer ends of ANALYN's patches, then ln a and
 # offset of every strip in turns
 MEM_PANELS, MEM_IMAGE, MEM_ENDS, MEM_START, MEM_LN_A = 0, 1, 2, 2 + 2 * MAX_PATCHES, 4 + 2 * MAX_PATCHES
 #: Shift of ANALYN's patch over its width from which on the panels do not move with it.

@@ -1,10 +1,11 @@
 """Strip half space: longitudinal strips with semi-elliptic pressure and exact half-space influence between them.
 
 The unknowns are the peak pressure and the half length of every strip and, for a prescribed load, the approach. There
-are two conditions per strip: the gap closes on the centre line and at the strip's ends (strip_halfspace.md 2, "C1";
-after Knothe and Le The 1984). Hertz's ellipse satisfies both exactly for every aspect ratio. Strips are cosine-spaced
-between moving ends, with one panel of strips for every patch of the start solution. All panels interact. No second
-derivative of the profile is used.
+are two conditions per strip: the gap closes at its middle and, in the mean, at its ends (strip_halfspace.md 2, "C1";
+after Knothe and Le The 1984). Hertz's ellipse satisfies both exactly for every aspect ratio. Under yaw the middle of a
+strip is a third unknown, and the gap closes at both of its ends alike (strip_halfspace.md Eq. skew). Strips are
+cosine-spaced between moving ends, with one panel of strips for every patch of the start solution. All panels interact. No
+second derivative of the profile is used.
 
 Half lengths and ends are mixed together. Ends follow their rule for 16 iterations, the last of them within brackets
 (`brackets`), and are then fixed. The active set ends the patch inside them. The best iterate since then is kept. A panel
@@ -70,7 +71,7 @@ WARM = 8
 #: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's solution is.
 USABLE = 0.02
 #: Pressure of the last strip at an end over those of the next two, from which on it is a spur: the end has found no rest.
-SPUR = 1.5
+SPUR = 1.2
 
 #: Largest mean slope of the line of the strips' middles at which strips count as in line.
 SLIGHT = 0.045
