@@ -28,6 +28,7 @@ class Strip(IntEnum):
     SHARE = 17  # of a strip in the shape of which another strip is a part
     STIFFNESS = 18  # C11·a·dy [m²]
     CENTRE = 19  # of the longitudinal stiffness of the strip's shape [m]
+    OFFSET = 20  # part of XC by which a skewed strip's middle lies off the line of least gap; 0 by other normal methods
 
 
 class Field(IntEnum):

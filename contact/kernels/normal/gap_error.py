@@ -82,8 +82,7 @@ def gap_error(sep, n, case, own, result):
         m0, m1 = cubic.slope_at(y, g, size, k), cubic.slope_at(y, g, size, k + 1)
         t = (at - y[k]) / h
         gap = cubic.value(h, g[k], m0, g[k + 1], m1, t) - result.touch
-        offset = strips[Strip.XC, i] - ((1.0 - t) * sep.x_c[k] + t * sep.x_c[k + 1])  # of a skewed strip
-        gap += ((1.0 - t) * sep.A[k] + t * sep.A[k + 1]) * offset * offset
+        gap += ((1.0 - t) * sep.A[k] + t * sep.A[k + 1]) * strips[Strip.OFFSET, i] ** 2
         left = (
             abs(gap + per_modulus * _displacement(at, strips[Strip.XC, i], i, n, strips, vectors, plane) - delta)
             / delta

@@ -128,8 +128,8 @@ def _write(sep, n_panels, panels, skewed, own, result):
             strips[Strip.Y, count] = at
             strips[Strip.DY, count] = 2.0 * vectors[Vector.HALF, row]
             strips[Strip.XC, count] = (1.0 - t) * sep.x_c[k] + t * sep.x_c[k + 1]
-            if skewed:
-                strips[Strip.XC, count] += vectors[Vector.OFFSET, row]
+            strips[Strip.OFFSET, count] = vectors[Vector.OFFSET, row] if skewed else 0.0
+            strips[Strip.XC, count] += strips[Strip.OFFSET, count]
             strips[Strip.A, count] = vectors[Vector.A, row]
             strips[Strip.P0, count] = vectors[Vector.P, row]
             strips[Strip.ASPECT, count] = (1.0 - t) * work[Sample.LOG_ASPECT, k] + t * work[Sample.LOG_ASPECT, k + 1]
