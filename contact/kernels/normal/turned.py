@@ -11,7 +11,7 @@ the slope s that gives k, and by how much patch and strips are longer or shorter
 
 import math
 
-from contact.core import kernel
+from contact.core import entry, kernel
 from contact.kernels.cubic import locate
 from contact.kernels.hertz import local_factors
 from contact.kernels.rows import Strip, Vector
@@ -29,8 +29,8 @@ def _curvature_ratio(log_aspect):
     return u
 
 
-@kernel
-def turned_ellipse(A, log_aspect, slope, by_load):
+@entry
+def turned_ellipse(A: float, log_aspect: float, slope: float, by_load: bool) -> tuple[float, float, float]:
     """Return slope of the chords' middles, and lengths and width over those of the ellipse with `slope` 0.
 
     The line of least gap has the `slope`. The load is the same if `by_load`, otherwise the approach is.
