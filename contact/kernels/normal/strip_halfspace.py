@@ -363,6 +363,7 @@ def _solve(sep, case, own, result):
         left = 0.0 if cut else mix(n, n_panels, panels, vectors, load, known, skew > 0.0, space.lu)
         exact = not cut and error < TOLERANCE * load and moved < 2.0 * TOLERANCE
         settled = exact or (descending and left < LEFT and error < CLOSE * load and moved < CLOSE)
+        settled = settled or (skew > 0.0 and age >= FREEZE and not cut and error < ACCEPTABLE * load)
         ghosts, held = False, n_panels
         if settled or not (searched or cut):
             searched = True
