@@ -23,7 +23,7 @@ def real_patch(y, yaw=0.0):
 
 
 def turned(P, Q, angle, load=1e4):
-    """Return a Hertz contact with half curvatures P and Q, turned in its plane: separation, exact answer, slope of the middles."""
+    """Return a Hertz contact (half curvatures P, Q) turned in its plane: separation, exact answer, slope of the middles."""
     cosine, sine = math.cos(math.radians(angle)), math.sin(math.radians(angle))
     axes = np.array([[cosine, -sine], [sine, cosine]])  # of P and Q
     (A, off), (_, other) = axes @ np.diag([P, Q]) @ axes.T

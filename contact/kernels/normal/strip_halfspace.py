@@ -363,14 +363,14 @@ def _solve(sep, case, own, result):
         left = 0.0 if cut else mix(n, n_panels, panels, vectors, load, known, skew > 0.0, space.lu)
         exact = not cut and error < TOLERANCE * load and moved < 2.0 * TOLERANCE
         settled = exact or (descending and left < LEFT and error < CLOSE * load and moved < CLOSE)
-        settled = settled or (skew > 0.0 and age >= FREEZE and not cut and error < ACCEPTABLE * load)
+        calm = skew > 0.0 and age >= FREEZE and not cut and error < ACCEPTABLE * load  # more would be slow
         ghosts, held = False, n_panels
-        if settled or not (searched or cut):
+        if settled or calm or not (searched or cut):
             searched = True
-            least = GHOST if settled else EARLY_GHOST
+            least = GHOST if settled or calm else EARLY_GHOST
             n_panels, ghosts = extend_to_ghosts(sep, g_least, delta, least, unit, n_panels, panels, own)
-            if settled and not ghosts:
-                converged = True
+            if (settled or calm) and not ghosts:
+                converged = settled
                 break
         if ghosts:
             known, best = 0, math.inf

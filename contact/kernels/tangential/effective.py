@@ -104,8 +104,8 @@ def _is_read(i, first, last):
 def set_effective(strips, first, last, case, of_patch, tables):
     """Set the effective creepages and the map exponent of every strip of one patch, as changes.
 
-    `of_patch` is that of `set_shapes`. The table takes .9 µs. Where shapes change it is read for every other strip. A strip between two others gets a mean of
-    theirs, in which the one that it is tied to more closely has the greater weight.
+    `of_patch` is that of `set_shapes`. The table takes .9 µs. Where shapes change it is read for every other strip. A strip
+    between two others gets a mean of theirs, in which the one that it is tied to more closely has the greater weight.
     """
     before = first
     for i in range(first, last):
