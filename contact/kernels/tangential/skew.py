@@ -14,7 +14,7 @@ from contact.kernels.rows import Strip
 
 #: Share of the turn in the aspect ratios: the best on turned ellipses, and as good as any on real patches.
 _SHARE = 0.7
-#: Rate of the coupling over ln g; longitudinal force by spin over that by lateral creepage of equal force. From linear theory.
+#: Rate of the coupling over ln g, from linear theory; longitudinal force by spin over that by lateral creepage of equal force.
 _RATE, _BY_SPIN = 0.62, 3.5
 #: Creepage (as r in `tangential.table`) at which a quarter of the coupling is left.
 _FADE = 5.0
