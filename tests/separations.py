@@ -1,5 +1,6 @@
 """Separations for several tests, one for each kind of patch."""
 
+import math
 from functools import cache
 
 import numpy as np
@@ -19,6 +20,18 @@ def two_lobes(depth: float, spacing: float = 12e-3) -> contact.Separation:
 def real_patch(y, yaw=0.0):
     """Return the first patch of S1002 on 60E1, right side."""
     return random_cases.pair().contacts(wheelset.Pose(y=y, yaw=yaw), load=8e4)[0].separation
+
+
+def turned(P, Q, angle, load=1e4):
+    """Return a Hertz contact (half curvatures P, Q) turned in its plane: separation, exact answer, slope of the middles."""
+    cosine, sine = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    axes = np.array([[cosine, -sine], [sine, cosine]])  # of P and Q
+    (A, off), (_, other) = axes @ np.diag([P, Q]) @ axes.T
+    exact = contact.hertz(P, Q, load=load)
+    (xx, xy), (_, yy) = axes @ np.diag([exact.a**-2, exact.b**-2]) @ axes.T
+    half_width = math.sqrt(xx / (xx * yy - xy * xy))
+    y = np.linspace(-3.0 * half_width, 3.0 * half_width, 401)
+    return contact.Separation(y, (other - off * off / A) * y**2, A, -off / A * y), exact, -xy / xx
 
 
 def yawed():

@@ -74,7 +74,7 @@ COARSE_ROWS, COARSE_COLUMNS, GRIDS, FINE_ROWS, FINE_COLUMNS, PATCH_COLUMNS = 101
 @shared
 def memory_size(size: Size) -> int:
     """Return the number of float64 that a normal method keeps from one call to the next."""
-    return MEM_LN_A + (MAX_PATCHES * size.n_strips if size.interacting else 1)
+    return MEM_LN_A + (2 * MAX_PATCHES * size.n_strips if size.interacting else 1)
 
 
 @shared

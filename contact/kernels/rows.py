@@ -28,6 +28,7 @@ class Strip(IntEnum):
     SHARE = 17  # of a strip in the shape of which another strip is a part
     STIFFNESS = 18  # C11·a·dy [m²]
     CENTRE = 19  # of the longitudinal stiffness of the strip's shape [m]
+    OFFSET = 20  # part of XC by which a skewed strip's middle lies off the line of least gap; 0 by other normal methods
 
 
 class Field(IntEnum):
@@ -201,7 +202,15 @@ class Vector(IntEnum):
     INSIDE = 30  # in the end strips: the place from which the end last moved outwards
     OUTSIDE = 31  # the place from which it last moved inwards
     END = 32  # in the end strips: the pressure, which may be tension; then the share of the rule for a peak at the end
-    PAIRS = 33  # first of the rows of `Pair`
+    OFFSET = 33  # middle of the strip along x minus the line of least gap [m]
+    DIFFERENCE = 34  # displacement at the leading end of the strip minus that at the trailing end [m]
+    OFFSET_R = 35  # residual of the offset [m]
+    OFFSET_R_OLD = 36
+    OFFSET_STEP = 37
+    OFFSET_BEST = 38  # offset of the best iterate
+    OFFSET_STEPS = 39  # first of DEPTH rows, as STEPS
+    OFFSET_CHANGES = 42  # first of DEPTH rows, as CHANGES
+    PAIRS = 45  # first of the rows of `Pair`
 
 
 class Pair(IntEnum):

@@ -8,7 +8,7 @@ import math
 
 from contact.core import entry, kernel
 from contact.kernels.arrays import Matrix, Numbers
-from contact.kernels.normal.influence import anywhere, at_centre
+from contact.kernels.normal.influence import at_centre, off_line
 from contact.kernels.normal.many_strips import displacement, fill_ln_X
 from contact.kernels.rows import Pair, Vector
 
@@ -89,7 +89,7 @@ def assemble_others(n_panels, own, unit):
                     left, right = at[j + q] - ln_a, at[j + q + 1] - ln_a
                     X = abs(vectors[Vector.XC, p * n + int(probes[m])] - vectors[Vector.XC, j]) * inverse
                     if X > IN_LINE:
-                        at_probes[m] = scale * abs(anywhere(plane, X, right) - anywhere(plane, X, left))
+                        at_probes[m] = scale * off_line(centre, plane, X, max(right, left), min(right, left))
                     else:
                         at_probes[m] = scale * abs(at_centre(centre, right) - at_centre(centre, left))
                 if p != q:
@@ -100,16 +100,19 @@ def assemble_others(n_panels, own, unit):
 def add_others(p, n_panels, own, skewed):
     """Add to Vector.U the displacement at the ends of panel p's strips by the other panels, the mean of both ends.
 
-    The rows Q1, Q2 and R of the vectors hold ln a, 1/a and p0·a/(pi E*). Both ends differ if strips are `skewed`.
+    The rows Q1, Q2 and R of the vectors hold ln a, 1/a and p0·a/(pi E*). Both ends differ if strips are `skewed`. Then
+    Vector.DIFFERENCE gets their difference.
     """
     vectors, logs, spread, plane = own.space.vectors, own.space.logs, own.rule.spread, own.tables.plane
-    n, U = spread.shape[1], vectors[Vector.U, p * spread.shape[1] : (p + 1) * spread.shape[1]]
+    n = spread.shape[1]
+    U, difference = vectors[Vector.U, p * n : p * n + n], vectors[Vector.DIFFERENCE, p * n : p * n + n]
     logs_a, inverses = vectors[Vector.Q1], vectors[Vector.Q2]
     forces, loci = vectors[Vector.R], vectors[Vector.XC]
     pairs = vectors[Vector.PAIRS : Vector.PAIRS + len(Pair)]
     for m in range(PROBES):
         strip = p * n + int(own.rule.probes[m])
-        a, x, at, u = vectors[Vector.A, strip], loci[strip], logs[p * PROBES + m], 0.0
+        a, x, at = vectors[Vector.A, strip], loci[strip], logs[p * PROBES + m]
+        trailing, leading = 0.0, 0.0
         for q in range(n_panels):
             for end in range(0 if q == p else 2 if skewed else 1):
                 side = a if end == 0 else -a
@@ -119,6 +122,13 @@ def add_others(p, n_panels, own, skewed):
                     pairs[Pair.LOW, j], pairs[Pair.HIGH, j] = at[k + q] - logs_a[k], at[k + q + 1] - logs_a[k]
                 fill_ln_X(n, pairs)
                 by_panel = displacement(plane, forces[q * n : q * n + n], pairs, -1)
-                u += 0.5 * by_panel if skewed else by_panel
+                if end == 0:
+                    trailing += by_panel
+                else:
+                    leading += by_panel
+        u = 0.5 * (trailing + leading) if skewed else trailing
         for i in range(n):
             U[i] += spread[m, i] * u
+        if skewed:
+            for i in range(n):
+                difference[i] += spread[m, i] * (leading - trailing)

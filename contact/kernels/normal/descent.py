@@ -14,8 +14,10 @@ from contact.kernels.normal.influence import at_centre, in_row, logarithm, row_a
 from contact.kernels.quadrature import on_circle
 from contact.kernels.rows import Vector
 
-#: Layers of the table: ln(a/b) of the first layer, step between layers, number of layers.
-_LOW, _STEP, N_LAYERS = -3.0, 0.7, 10
+#: Ratios of the table: ln(a/b) of the first one, step between them, their number.
+_LOW, _STEP, N_RATIOS = -3.0, 0.7, 10
+#: Layers of the table: half lengths and ends for every ratio, then the offsets of skewed strips.
+N_LAYERS = 2 * N_RATIOS
 #: Range of strips per panel that use the Jacobian. Otherwise the residuals are the steps.
 FEWEST, MOST = 8, 64
 #: Steps of the difference quotients: of ln a, and of an end over the width of the end strip.
@@ -26,6 +28,9 @@ _HOLD = 0.03
 _LOCAL = 0.5
 #: Half length of an end strip over that of its neighbour.
 END_LENGTH = 0.447
+#: Weight of a strip's distance from the line through its neighbours' middles in the residual of its offset. Middles of an
+#: ellipse's chords lie in line. Where strips are long and narrow, the conditions at their ends hardly tell zigzags.
+STRAIGHTEN = 0.1
 #: Share of the move that the rule of the ends asks for; (p1/p2)² at the exact half width and its slope
 #: (strip_halfspace.md 2, step 4).
 END_STEP, END_VALUE, END_SLOPE = 0.6, 0.365, 0.108
@@ -147,13 +152,90 @@ def _fill_layer(aspect, scratch, centre, plane, layer):
             layer[i, k] = layer[n - 1 - i, n - 1 - k] = mean
 
 
+@kernel
+def _fill_offset_layer(aspect, scratch, centre, plane, layer):
+    """Fill `layer` with minus the inverse Jacobian of the offsets' residuals, of the Hertz contact with a/b = `aspect`.
+
+    Offsets of a straight ellipse change neither pressures nor half lengths at first order, because both ends of a strip are
+    alike. So the Jacobian is that of the difference of the displacements at both ends. A strip that moves away from its
+    neighbours feels their pressure, and they feel its own; moved together, strips feel nothing. End strips follow
+    their neighbours as in `place_middles`.
+    """
+    n = scratch.shape[1]
+    _, A = _hertz(aspect, scratch, centre, plane)
+    a, p, y, h = scratch[1, 1], scratch[1, 2], scratch[2, 0], scratch[2, 1]
+    jacobian, lu, one, other = scratch[3], scratch[0], scratch[4, 0], scratch[4, 1]
+    last = n - 1
+    near = (y[0] - y[1]) / (y[1] - y[2])  # offset of an end strip: (1 + near)·d1 - near·d2
+    for i in range(n):
+        for k in range(n):
+            jacobian[i, k] = 0.0
+    for i in range(1, last):
+        for k in range(n):
+            if k != i:
+                X, step = a[i] / a[k], _DIFFERENCE * a[i] / a[k]
+                change = _influence(i, k, X - step, y, h, a, centre, plane)
+                change -= _influence(i, k, X + step, y, h, a, centre, plane)
+                # of (u+ - u-)/(4 A a) by an offset of strip k, and by one of strip i
+                slope = p[k] * change / (_DIFFERENCE * a[i]) / (4.0 * A * a[i])
+                jacobian[i, k] -= slope
+                jacobian[i, i] += slope
+        jacobian[i, i] -= 1.0 + STRAIGHTEN
+        share = (y[i + 1] - y[i]) / (y[i + 1] - y[i - 1])
+        jacobian[i, i - 1] += STRAIGHTEN * share
+        jacobian[i, i + 1] += STRAIGHTEN * (1.0 - share)
+        jacobian[i, 1] += (1.0 + near) * jacobian[i, 0]
+        jacobian[i, 2] -= near * jacobian[i, 0]
+        jacobian[i, last - 1] += (1.0 + near) * jacobian[i, last]
+        jacobian[i, last - 2] -= near * jacobian[i, last]
+    for k in range(0, n - 2, 2):
+        for i in range(n - 2):
+            one[i], other[i] = 0.0, 0.0
+            for j in range(n - 2):
+                lu[i, j] = -jacobian[i + 1, j + 1]
+        one[k], other[min(k + 1, n - 3)] = 1.0, 1.0
+        eliminate(lu, n - 2, one, other)
+        for i in range(n - 2):
+            layer[i + 1, k + 1] = one[i]
+            layer[i + 1, min(k + 1, n - 3) + 1] = other[i]
+    for i in range(n):
+        layer[0, i] = layer[i, 0] = layer[last, i] = layer[i, last] = 0.0
+    for i in range(n):  # makes both halves mirror images to the last bit
+        for k in range((n + 1) // 2):
+            mean = 0.5 * (layer[i, k] + layer[last - i, last - k])
+            layer[i, k] = layer[last - i, last - k] = mean
+
+
+@kernel
+def descend_offsets(first, n, width, descent, vectors):
+    """Replace the residuals of the offsets of the panel from strip `first` on by steps, as `descend` does for half lengths."""
+    r, out = vectors[Vector.Q1, first : first + n], vectors[Vector.OFFSET_R, first : first + n]
+    longest = 0.0
+    for i in range(n):
+        longest = max(longest, vectors[Vector.A, first + i])
+        r[i] = out[i]
+    u = (math.log(longest / (0.5 * width)) - _LOW) * (1.0 / _STEP)
+    u = u if u > 0.0 else 0.0  # written so that NaN does not become an index
+    u = min(u, N_RATIOS - 1.000001)
+    m = int(u)
+    t = u - m
+    low, high = descent[N_RATIOS + m], descent[N_RATIOS + m + 1]
+    for i in range(n):
+        one, other = 0.0, 0.0
+        for j in range(n):
+            one += low[i, j] * r[j]
+            other += high[i, j] * r[j]
+        out[i] = (1.0 - t) * one + t * other
+
+
 @entry
 def fill_descent(centre: Matrix, plane: Matrix, scratch: Cube, descent: Cube) -> None:
     """Fill the inverse Jacobians. `scratch` has at least five layers of the same shape, which are overwritten."""
     if descent.shape[1] < FEWEST:
         return
-    for m in range(N_LAYERS):
+    for m in range(N_RATIOS):
         _fill_layer(math.exp(_LOW + m * _STEP), scratch, centre, plane, descent[m])
+        _fill_offset_layer(math.exp(_LOW + m * _STEP), scratch, centre, plane, descent[N_RATIOS + m])
 
 
 @entry
@@ -207,7 +289,7 @@ def descend(first: int, n: int, width: float, descent: Cube, vectors: Matrix, fr
         r[i] = out[i]
     u = (math.log(longest / (0.5 * width)) - _LOW) * (1.0 / _STEP)
     u = u if u > 0.0 else 0.0  # written so that NaN does not become an index
-    u = min(u, N_LAYERS - 1.000001)
+    u = min(u, N_RATIOS - 1.000001)
     m = int(u)
     t = u - m
     move_low, move_high = -r[0] / width, r[last] / width

@@ -16,6 +16,8 @@ from contact.kernels.rows import Pair, Strip, Vector
 
 #: Number of strips at which the gap is evaluated.
 CHECKED = 8
+#: Distance from the middle of a skewed strip, over its half length, at which the gap is evaluated too.
+ASIDE = 0.5
 #: Half length [m] in place of 0, of which logarithm and reciprocal are traps.
 _LEAST = 1e-12
 
@@ -80,12 +82,15 @@ def gap_error(sep, n, case, own, result):
         k = cubic.locate(y, size, at, k)
         h = y[k + 1] - y[k]
         m0, m1 = cubic.slope_at(y, g, size, k), cubic.slope_at(y, g, size, k + 1)
-        gap = cubic.value(h, g[k], m0, g[k + 1], m1, (at - y[k]) / h) - result.touch
-        left = (
-            abs(gap + per_modulus * _displacement(at, strips[Strip.XC, i], i, n, strips, vectors, plane) - delta)
-            / delta
-        )
-        largest = max(largest, min(left, 1.0))
+        t = (at - y[k]) / h
+        gap = cubic.value(h, g[k], m0, g[k + 1], m1, t) - result.touch
+        offset, curvature = strips[Strip.OFFSET, i], (1.0 - t) * sep.A[k] + t * sep.A[k + 1]
+        for point in range(-1 if offset != 0.0 else 0, 2 if offset != 0.0 else 1):
+            aside = point * ASIDE * strips[Strip.A, i]
+            away, locus = offset + aside, strips[Strip.XC, i] + aside
+            used = per_modulus * _displacement(at, locus, i, n, strips, vectors, plane)
+            left = abs(gap + curvature * away * away + used - delta) / delta
+            largest = max(largest, min(left, 1.0))
     missed = _deepest_outside(sep, n, delta, strips, result)
     if missed >= 0:
         used = per_modulus * _displacement(y[missed], sep.x_c[missed], -1, n, strips, vectors, plane)

@@ -85,5 +85,5 @@ def lay_strips(edges, count, across, strips):
         for i in range(n):
             strips[Strip.Y, k * n + i] = centre + half * nodes[i]
             strips[Strip.DY, k * n + i] = half * weights[i]
-            strips[Strip.PATCH, k * n + i] = k
+            strips[Strip.PATCH, k * n + i], strips[Strip.OFFSET, k * n + i] = k, 0.0
     return count * n

@@ -5,11 +5,24 @@ from contact.kernels.rows import DEPTH, Vector
 
 #: Weight of an end in the mixing. The loads of all strips together have the weight 1.
 _END_WEIGHT = 1.0
+#: Largest step of the offset of a strip along x over its half length.
+_FARTHEST = 0.8
 
 
 @kernel
-def mix(n, n_panels, panels, vectors, load, known, gram):
+def _product(total, weights, one, other):
+    """Return the weighted sum of the products of two rows."""
+    product = 0.0
+    for i in range(total):
+        product += weights[i] * one[i] * other[i]
+    return product
+
+
+@kernel
+def mix(n, n_panels, panels, vectors, load, known, skewed, gram):
     """Fill Vector.STEP with the next step of half lengths and ends. Return the size of the residual that the mixing leaves.
+
+    If strips are `skewed`, their offsets along x over their half lengths are mixed with them.
 
     Anderson's mixing uses the last `DEPTH` of the `known` steps. The weights are strip loads. In the residual Vector.R
     and in the steps, the entries of the end strips belong to the ends of their panel. Steps and changes of the residual
@@ -22,6 +35,9 @@ def mix(n, n_panels, panels, vectors, load, known, gram):
         for i in range(total):
             vectors[Vector.STEPS + row, i] = vectors[Vector.STEP, i]
             vectors[Vector.CHANGES + row, i] = vectors[Vector.R, i] - vectors[Vector.R_OLD, i]
+        for i in range(total if skewed else 0):
+            vectors[Vector.OFFSET_STEPS + row, i] = vectors[Vector.OFFSET_STEP, i]
+            vectors[Vector.OFFSET_CHANGES + row, i] = vectors[Vector.OFFSET_R, i] - vectors[Vector.OFFSET_R_OLD, i]
     depth = min(known, DEPTH)
     for i in range(total):
         weight = vectors[Vector.P, i] * vectors[Vector.A, i] * vectors[Vector.HALF, i] / load
@@ -32,15 +48,25 @@ def mix(n, n_panels, panels, vectors, load, known, gram):
         vectors[Vector.Q1, i] = weight
         vectors[Vector.STEP, i] = vectors[Vector.R, i]
         vectors[Vector.R_OLD, i] = vectors[Vector.R, i]
+    for i in range(total if skewed else 0):
+        vectors[Vector.OFFSET_STEP, i] = vectors[Vector.OFFSET_R_OLD, i] = vectors[Vector.OFFSET_R, i]
+        inner = 0 < i % n < n - 1
+        vectors[Vector.Q2, i] = vectors[Vector.Q1, i] / vectors[Vector.A, i] ** 2 if inner else 0.0
     for k in range(depth):
         for m in range(depth):
             product = 0.0
             for i in range(total):
                 product += vectors[Vector.Q1, i] * vectors[Vector.CHANGES + k, i] * vectors[Vector.CHANGES + m, i]
+            if skewed:
+                product += _product(
+                    total, vectors[Vector.Q2], vectors[Vector.OFFSET_CHANGES + k], vectors[Vector.OFFSET_CHANGES + m]
+                )
             gram[k, m] = product
         product = 0.0
         for i in range(total):
             product += vectors[Vector.Q1, i] * vectors[Vector.CHANGES + k, i] * vectors[Vector.R, i]
+        if skewed:
+            product += _product(total, vectors[Vector.Q2], vectors[Vector.OFFSET_CHANGES + k], vectors[Vector.OFFSET_R])
         gram[k, depth] = product
         gram[k, k] *= 1.0 + 1e-8
         gram[k, k] += 1e-30
@@ -56,26 +82,36 @@ def mix(n, n_panels, panels, vectors, load, known, gram):
     for k in range(depth):
         for i in range(total):
             vectors[Vector.STEP, i] -= gram[k, depth] * vectors[Vector.CHANGES + k, i]
+        for i in range(total if skewed else 0):
+            vectors[Vector.OFFSET_STEP, i] -= gram[k, depth] * vectors[Vector.OFFSET_CHANGES + k, i]
     lengths, ends = 0.0, 0.0
     for i in range(total):
         if i % n in (0, n - 1):
             ends = max(ends, abs(vectors[Vector.STEP, i]) / (panels[2 * (i // n) + 1] - panels[2 * (i // n)]))
         else:
             lengths += vectors[Vector.Q1, i] * abs(vectors[Vector.STEP, i])
+            if skewed:
+                lengths += vectors[Vector.Q1, i] * abs(vectors[Vector.OFFSET_STEP, i]) / vectors[Vector.A, i]
     for k in range(depth):
         for i in range(total):
             vectors[Vector.STEP, i] -= gram[k, depth] * vectors[Vector.STEPS + k, i]
+        for i in range(total if skewed else 0):
+            vectors[Vector.OFFSET_STEP, i] -= gram[k, depth] * vectors[Vector.OFFSET_STEPS + k, i]
     return max(lengths, ends)
 
 
 @kernel
-def advance(n, n_panels, panels, vectors):
-    """Change half lengths and ends by the step that `mix` has found."""
+def advance(n, n_panels, panels, vectors, skewed):
+    """Change half lengths and ends, and the offsets if strips are `skewed`, by the step that `mix` has found."""
     for p in range(n_panels):
         first, last = p * n, p * n + n - 1
         for i in range(first + 1, last):
             vectors[Vector.STEP, i] = min(max(vectors[Vector.STEP, i], -0.8), 0.8)
             vectors[Vector.LN_A, i] += vectors[Vector.STEP, i]
+            if skewed:
+                bound = _FARTHEST * vectors[Vector.A, i]
+                vectors[Vector.OFFSET_STEP, i] = min(max(vectors[Vector.OFFSET_STEP, i], -bound), bound)
+                vectors[Vector.OFFSET, i] += vectors[Vector.OFFSET_STEP, i]
         bound = 0.25 * (panels[2 * p + 1] - panels[2 * p])
         for end in (first, last):
             # beyond its range the end rule gives only a direction, which mixing must not reverse

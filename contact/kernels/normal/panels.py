@@ -19,6 +19,8 @@ _AWAY, _NEAR = 0.8, 1.1
 #: First over second pressure at the exact half width, its change over a width of the end strip, the curvature of this relation,
 #: and the largest excess that counts in it (strip_halfspace.md 2, step 4).
 _FIRST_VALUE, _FIRST_SLOPE, _BEND_OUTWARDS, _BEND_INWARDS, _MOST = 0.36, 0.625, 0.55, 0.3, 1.6
+#: Largest offset of a strip's middle along x over the half length of the virtual penetration.
+_WITHIN = 0.95
 #: A panel narrower than this, over the widest, is removed.
 NO_PANEL = 1e-5
 #: Overlap outside the panels, over the approach, that counts as missed contact: early, and at convergence.
@@ -65,6 +67,60 @@ def lay_panels(sep, g_least, skew, panels, n_panels, own):
             low = high
 
 
+@kernel
+def is_between_loaded(i, n, vectors):
+    """Return whether strip i and both its neighbours in the panel bear pressure, so that it has a middle of its own."""
+    place = i % n
+    inner = 0 < place < n - 1
+    return inner and min(vectors[Vector.P, i - 1], vectors[Vector.P, i], vectors[Vector.P, i + 1]) > 0.0
+
+
+@kernel
+def _middle(i, first, n, vectors):
+    """Return the middle along x of a strip that has none of its own: in line with the nearest two that have one."""
+    last = first + n - 1
+    left, right = i - 1, i + 1
+    while left >= first and not is_between_loaded(left, n, vectors):
+        left -= 1
+    while right <= last and not is_between_loaded(right, n, vectors):
+        right += 1
+    if left < first and right > last:
+        return vectors[Vector.XC, i] + vectors[Vector.OFFSET, i]
+    if left >= first and right <= last:
+        near, far = left, right
+    else:
+        near, step = (right, 1) if left < first else (left, -1)
+        far = near + step
+        if not is_between_loaded(far, n, vectors):
+            return vectors[Vector.XC, i] + vectors[Vector.OFFSET, near]
+    at_near = vectors[Vector.XC, near] + vectors[Vector.OFFSET, near]
+    at_far = vectors[Vector.XC, far] + vectors[Vector.OFFSET, far]
+    share = (vectors[Vector.Y, i] - vectors[Vector.Y, near]) / (vectors[Vector.Y, far] - vectors[Vector.Y, near])
+    return at_near + share * (at_far - at_near)
+
+
+@kernel
+def place_middles(vectors, n, n_panels, delta):
+    """Move the strips along x by their offsets d from the line of least gap, which opens the gap by A d² (Eq. skew).
+
+    A strip without pressure, or beside one, or at the end of a panel hardly feels where its middle is. It lies in line with
+    its neighbours, as the middles of an ellipse's chords do. The pressures are those of the last iteration. The middle of
+    every strip lies well inside the virtual penetration, A d² < delta - g.
+    """
+    for p in range(n_panels):
+        first = p * n
+        for i in range(first, first + n):
+            if not is_between_loaded(i, n, vectors):
+                vectors[Vector.OFFSET, i] = _middle(i, first, n, vectors) - vectors[Vector.XC, i]
+        for i in range(first, first + n):
+            square = max(delta - vectors[Vector.GAP, i], 0.0) / vectors[Vector.CURVATURE, i]
+            bound = _WITHIN * math.sqrt(square)
+            offset = min(max(vectors[Vector.OFFSET, i], -bound), bound)
+            vectors[Vector.OFFSET, i] = offset
+            vectors[Vector.XC, i] += offset
+            vectors[Vector.GAP, i] += vectors[Vector.CURVATURE, i] * offset * offset
+
+
 @entry
 def half_lengths(vectors: Matrix, n: int, n_panels: int, delta: float) -> None:
     """Fill half lengths a from ln a, at the approach `delta` above first touch [m].
@@ -94,11 +150,12 @@ def half_lengths(vectors: Matrix, n: int, n_panels: int, delta: float) -> None:
 
 @kernel
 def _resample(old_low, old_high, low, high, cosines, vectors, first):
-    """Transfer a²(y) of one panel to new ends, linear in y and constant beyond."""
+    """Transfer a²(y) and offsets of one panel to new ends, linear in y and constant beyond."""
     n = cosines.size - 1
     scale = 0.5 * (old_high - old_low)
     for i in range(n):
         vectors[Vector.R_OLD, first + i] = vectors[Vector.LN_A, first + i]
+        vectors[Vector.OFFSET_R_OLD, first + i] = vectors[Vector.OFFSET, first + i]
     for i in range(n):
         at = 0.5 * (low + high) + 0.25 * (high - low) * (cosines[i] + cosines[i + 1])
         unit = (at - 0.5 * (old_low + old_high)) / scale
@@ -111,6 +168,8 @@ def _resample(old_low, old_high, low, high, cosines, vectors, first):
             2.0 * vectors[Vector.R_OLD, first + k + 1]
         )
         vectors[Vector.LN_A, first + i] = 0.5 * math.log(square)
+        offset = (1.0 - t) * vectors[Vector.OFFSET_R_OLD, first + k] + t * vectors[Vector.OFFSET_R_OLD, first + k + 1]
+        vectors[Vector.OFFSET, first + i] = offset
 
 
 @kernel
@@ -133,8 +192,8 @@ def start_panels(n_strips, panel_strips, strips, result, panels, cosines, vector
                 a = max(
                     a, 0.4 * max(strips[Strip.A, p * panel_strips + i - 1], strips[Strip.A, p * panel_strips + i + 1])
                 )
-            vectors[Vector.LN_A, p * n + i] = math.log(a)
-            vectors[Vector.ACTIVE, p * n + i] = 1.0
+            vectors[Vector.LN_A, p * n + i], vectors[Vector.OFFSET, p * n + i] = math.log(a), 0.0
+            vectors[Vector.ACTIVE, p * n + i] = vectors[Vector.P, p * n + i] = 1.0
     return count
 
 
@@ -319,7 +378,7 @@ def extend_to_ghosts(sep, g_least, delta, least, unit, n_panels, panels, own):
                 unit_y = 0.5 * (cosines[j] + cosines[j + 1])
                 a = 0.5 * reference * math.sqrt((high - low) / width * (1.0 - unit_y * unit_y))
                 vectors[Vector.LN_A, p * n + j] = math.log(max(a, 1e-3 * reference))
-                vectors[Vector.A, p * n + j] = reference
+                vectors[Vector.A, p * n + j], vectors[Vector.OFFSET, p * n + j] = reference, 0.0
                 vectors[Vector.ACTIVE, p * n + j] = 1.0
                 vectors[Vector.P, p * n + j] = 0.0
         else:
@@ -340,6 +399,8 @@ def _remove_panel(p, n, n_panels, panels, vectors):
         panels[2 * q], panels[2 * q + 1] = panels[2 * q + 2], panels[2 * q + 3]
         for i in range(n):
             for row in (Vector.LN_A, Vector.ACTIVE, Vector.P, Vector.END, Vector.A, Vector.HALF, Vector.R):
+                vectors[row, q * n + i] = vectors[row, (q + 1) * n + i]
+            for row in (Vector.OFFSET, Vector.OFFSET_R):
                 vectors[row, q * n + i] = vectors[row, (q + 1) * n + i]
 
 
@@ -380,6 +441,7 @@ def join_panels(n, n_panels, panels, cosines, vectors):
                 _resample(panels[2 * wider], panels[2 * wider + 1], low, high, cosines, vectors, wider * n)
                 for i in range(n):
                     vectors[Vector.LN_A, p * n + i] = vectors[Vector.LN_A, wider * n + i]
+                    vectors[Vector.OFFSET, p * n + i] = vectors[Vector.OFFSET, wider * n + i]
                 vectors[Vector.ACTIVE, p * n : p * n + n] = 1.0
                 panels[2 * p], panels[2 * p + 1] = low, high
                 _remove_panel(q, n, n_panels, panels, vectors)

@@ -1,10 +1,11 @@
-"""Start of the strip half space from the last call: the panels and half lengths that it left in `own.space.memory`."""
+"""Start of the strip half space from the last call: panels, half lengths and offsets that it left in `own.space.memory`."""
 
 from contact.core import kernel
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Vector
 
-# memory[...]: number of panels, whether all is mirrored, the panels' ends, the outer ends of ANALYN's patches, then ln a
+# memory[...]: number of panels, whether all is mirrored, the panels' ends, the outer ends of ANALYN's patches, then ln a and
+# offset of every strip in turns
 MEM_PANELS, MEM_IMAGE, MEM_ENDS, MEM_START, MEM_LN_A = 0, 1, 2, 2 + 2 * MAX_PATCHES, 4 + 2 * MAX_PATCHES
 #: Shift of ANALYN's patch over its width from which on the panels do not move with it.
 _FURTHEST = 0.02
@@ -26,7 +27,7 @@ def face(image, memory):
 
 @kernel
 def recall(sep, n, low, high, own):
-    """Fill half lengths and active set from the memory. Return the ends of the panels, a view of it, and their number.
+    """Fill half lengths, offsets and active set from the memory. Return the ends of the panels, a view of it, and their number.
 
     The number is 0 if the memory is empty or belongs to another position. `low` and `high` are the outer ends of ANALYN's
     patches; the panels move with them.
@@ -42,14 +43,19 @@ def recall(sep, n, low, high, own):
         if not panels[2 * p] < panels[2 * p + 1]:
             return panels, 0
     for i in range(n_panels * n):
-        vectors[Vector.LN_A, i], vectors[Vector.ACTIVE, i] = memory[MEM_LN_A + i], 1.0
+        vectors[Vector.LN_A, i], vectors[Vector.OFFSET, i] = memory[MEM_LN_A + 2 * i], memory[MEM_LN_A + 2 * i + 1]
+        vectors[Vector.ACTIVE, i] = vectors[Vector.P, i] = 1.0
     return panels, n_panels
 
 
 @kernel
-def remember(n_panels, n, low, high, own):
-    """Keep half lengths of the panels, whose ends are in the memory already, for the next call. 0 panels empty the memory."""
+def remember(n_panels, n, low, high, skewed, own):
+    """Keep half lengths of the panels, whose ends are in the memory already, for the next call. 0 panels empty the memory.
+
+    Offsets are kept if strips are `skewed`, and are 0 otherwise.
+    """
     memory, vectors = own.space.memory, own.space.vectors
     memory[MEM_PANELS], memory[MEM_START], memory[MEM_START + 1] = n_panels, low, high
     for i in range(n_panels * n):
-        memory[MEM_LN_A + i] = vectors[Vector.LN_A, i]
+        memory[MEM_LN_A + 2 * i] = vectors[Vector.LN_A, i]
+        memory[MEM_LN_A + 2 * i + 1] = vectors[Vector.OFFSET, i] if skewed else 0.0

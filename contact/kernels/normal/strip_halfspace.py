@@ -1,10 +1,11 @@
 """Strip half space: longitudinal strips with semi-elliptic pressure and exact half-space influence between them.
 
 The unknowns are the peak pressure and the half length of every strip and, for a prescribed load, the approach. There
-are two conditions per strip: the gap closes on the centre line and at the strip's ends (strip_halfspace.md 2, "C1";
-after Knothe and Le The 1984). Hertz's ellipse satisfies both exactly for every aspect ratio. Strips are cosine-spaced
-between moving ends, with one panel of strips for every patch of the start solution. All panels interact. No second
-derivative of the profile is used.
+are two conditions per strip: the gap closes at its middle and, in the mean, at its ends (strip_halfspace.md 2, "C1";
+after Knothe and Le The 1984). Hertz's ellipse satisfies both exactly for every aspect ratio. Under yaw the middle of a
+strip is a third unknown, and the gap closes at both of its ends alike (strip_halfspace.md Eq. skew). Strips are
+cosine-spaced between moving ends, with one panel of strips for every patch of the start solution. All panels interact. No
+second derivative of the profile is used.
 
 Half lengths and ends are mixed together. Ends follow their rule for 16 iterations, the last of them within brackets
 (`brackets`), and are then fixed. The active set ends the patch inside them. The best iterate since then is kept. A panel
@@ -23,7 +24,7 @@ from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.normal.analyn import analyn
 from contact.kernels.normal.between_panels import distances
 from contact.kernels.normal.brackets import damp_turns, keep_between, note_sides
-from contact.kernels.normal.descent import descend, has_one_run
+from contact.kernels.normal.descent import STRAIGHTEN, descend, descend_offsets, has_one_run
 from contact.kernels.normal.mixing import advance, mix
 from contact.kernels.normal.orientation import is_image, turn_back, turn_samples
 from contact.kernels.normal.panels import (
@@ -34,8 +35,10 @@ from contact.kernels.normal.panels import (
     extend_to_ghosts,
     half_lengths,
     have_idle_part,
+    is_between_loaded,
     join_panels,
     lay_panels,
+    place_middles,
     remove_unloaded,
     start_panels,
 )
@@ -45,6 +48,7 @@ from contact.kernels.normal.strip_system import (
     edge_displacements,
     solve_active,
 )
+from contact.kernels.normal.turned import turn_aspects, turn_panels
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Sample, Strip, Vector
 
@@ -66,6 +70,8 @@ BRACKET = 12
 WARM = 8
 #: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's solution is.
 USABLE = 0.02
+#: Pressure of the last strip at an end over those of the next two, from which on it is a spur: the end has found no rest.
+SPUR = 1.2
 
 #: Largest mean slope of the line of the strips' middles at which strips count as in line.
 SLIGHT = 0.045
@@ -86,7 +92,7 @@ class Problem(NamedTuple):
 
 
 @kernel
-def _write(sep, n_panels, panels, own, result):
+def _write(sep, n_panels, panels, skewed, own, result):
     """Fill `own.strips` with the loaded strips in ascending order of y. Return their number.
 
     Runs of neighbours are the patches.
@@ -122,6 +128,8 @@ def _write(sep, n_panels, panels, own, result):
             strips[Strip.Y, count] = at
             strips[Strip.DY, count] = 2.0 * vectors[Vector.HALF, row]
             strips[Strip.XC, count] = (1.0 - t) * sep.x_c[k] + t * sep.x_c[k + 1]
+            strips[Strip.OFFSET, count] = vectors[Vector.OFFSET, row] if skewed else 0.0
+            strips[Strip.XC, count] += strips[Strip.OFFSET, count]
             strips[Strip.A, count] = vectors[Vector.A, row]
             strips[Strip.P0, count] = vectors[Vector.P, row]
             strips[Strip.ASPECT, count] = (1.0 - t) * work[Sample.LOG_ASPECT, k] + t * work[Sample.LOG_ASPECT, k + 1]
@@ -152,21 +160,22 @@ def _skew(n, strips):
 
 @kernel
 def _keep_best(n, n_panels, panels, vectors):
-    """Store half lengths and ends in Vector.BEST."""
+    """Store half lengths and ends in Vector.BEST, and the offsets."""
     for i in range(n * n_panels):
-        vectors[Vector.BEST, i] = vectors[Vector.LN_A, i]
+        vectors[Vector.BEST, i], vectors[Vector.OFFSET_BEST, i] = vectors[Vector.LN_A, i], vectors[Vector.OFFSET, i]
     for p in range(n_panels):
         vectors[Vector.BEST, p * n], vectors[Vector.BEST, p * n + n - 1] = panels[2 * p], panels[2 * p + 1]
 
 
 @kernel
 def _take_best(n, n_panels, panels, vectors):
-    """Restore the half lengths and ends that `_keep_best` stored."""
+    """Restore the half lengths, ends and offsets that `_keep_best` stored."""
     for p in range(n_panels):
         first, last = p * n, p * n + n - 1
         panels[2 * p], panels[2 * p + 1] = vectors[Vector.BEST, first], vectors[Vector.BEST, last]
         for i in range(first, last + 1):
             vectors[Vector.LN_A, i] = vectors[Vector.BEST, min(max(i, first + 1), last - 1)]
+            vectors[Vector.OFFSET, i] = vectors[Vector.OFFSET_BEST, i]
         vectors[Vector.ACTIVE, first : last + 1] = 1.0
 
 
@@ -188,6 +197,8 @@ def _find_pressures(problem, delta, panels, n_panels):
     own = problem.own
     n = own.rule.across.nodes.size
     lay_panels(problem.sep, problem.touch, problem.skew, panels, n_panels, own)
+    if problem.skew > 0.0:
+        place_middles(own.space.vectors, n, n_panels, delta)
     distances(panels, n_panels, own)
     half_lengths(own.space.vectors, n, n_panels, delta)
     assemble(panels, n_panels, own, problem.skew > 0.0, problem.unit)
@@ -195,15 +206,24 @@ def _find_pressures(problem, delta, panels, n_panels):
 
 
 @kernel
-def _fill_residuals(n, total, delta, cut, vectors):
+def _bend(i, vectors):
+    """Return how far a strip's middle would have to move to lie in line with its neighbours' [m]."""
+    before, after = vectors[Vector.Y, i] - vectors[Vector.Y, i - 1], vectors[Vector.Y, i + 1] - vectors[Vector.Y, i]
+    in_line = after * vectors[Vector.XC, i - 1] + before * vectors[Vector.XC, i + 1]
+    return in_line / (before + after) - vectors[Vector.XC, i]
+
+
+@kernel
+def _fill_residuals(n, total, delta, cut, skewed, vectors):
     """Fill the residuals of all half lengths in Vector.R. Return the sum of their magnitudes, and of the strips' loads.
 
     A residual is the change of ln a that stretches a strip by the ratio of the overlap at its ends to that of a parabola.
-    Both sums count the loads up to a factor. If idle strips are `cut` off, there are no residuals.
+    Both sums count the loads up to a factor. If idle strips are `cut` off, there are no residuals. If strips are `skewed`,
+    their offsets have residuals too, the changes that close the gap at both ends alike.
     """
     error, load = math.inf if cut else 0.0, 0.0
     for i in range(total):
-        vectors[Vector.R, i] = 0.0
+        vectors[Vector.R, i] = vectors[Vector.OFFSET_R, i] = 0.0
         weight = vectors[Vector.P, i] * vectors[Vector.A, i] * vectors[Vector.HALF, i]
         load += weight
         if weight > 0.0 and 0 < i % n < n - 1 and not cut:  # the ends of a panel follow their own rule
@@ -212,14 +232,41 @@ def _fill_residuals(n, total, delta, cut, vectors):
             least = (vectors[Vector.FLOOR, i] / vectors[Vector.A, i]) ** 2
             vectors[Vector.R, i] = 0.5 * math.log(min(max(ratio, 0.2, least), 5.0))
             error += weight * abs(vectors[Vector.R, i])
+            if skewed and is_between_loaded(i, n, vectors):
+                a = vectors[Vector.A, i]
+                centred = -vectors[Vector.DIFFERENCE, i] / (4.0 * vectors[Vector.CURVATURE, i] * a)
+                change = centred - vectors[Vector.OFFSET, i] + STRAIGHTEN * _bend(i, vectors)
+                change = min(max(change, -a), a)
+                vectors[Vector.OFFSET_R, i] = change
+                error += weight * abs(change) / a
     return error, load
+
+
+@kernel
+def _has_spur(n, n_panels, vectors):
+    """Return whether the last strip at an end of a panel has the largest pressure, far above that of its neighbours."""
+    largest = 0.0
+    for i in range(n * n_panels):
+        largest = max(largest, vectors[Vector.P, i])
+    for p in range(n_panels):
+        for end, inwards in ((p * n, 1), (p * n + n - 1, -1)):
+            k = 0
+            while k < n - 3 and vectors[Vector.P, end] <= 0.0:
+                end += inwards
+                k += 1
+            inner = max(vectors[Vector.P, end + inwards], vectors[Vector.P, end + 2 * inwards])
+            if vectors[Vector.P, end] >= largest and vectors[Vector.P, end] > SPUR * inner:
+                return True
+    return False
 
 
 @kernel
 def _report(problem, delta, panels, n_panels, result):
     """Write the strips and their resultants. `result` still has ANALYN's. Return the number of strips."""
     own, strips = problem.own, problem.own.strips
-    count = _write(problem.sep, n_panels, panels, own, result)
+    count = _write(problem.sep, n_panels, panels, problem.skew > 0.0, own, result)
+    if problem.skew > 0.0:
+        turn_aspects(count, problem.skew, strips)
     N = 0.0
     for i in range(count):
         N += 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
@@ -256,6 +303,8 @@ def _solve(sep, case, own, result):
     warm = n_panels > 0
     if not warm:
         n_panels = start_panels(n_strips, n, strips, result, panels, rule.cosines, vectors)
+        if skew > 0.0:
+            turn_panels(sep, n_panels, n, strips, skew, by_load, panels, vectors)
     # a warm start that finds no rest leaves the cold one at least as many iterations, or takes all
     patience = WARM if case.max_iterations >= 2 * WARM else case.max_iterations
 
@@ -265,6 +314,8 @@ def _solve(sep, case, own, result):
     for iteration in range(case.max_iterations):
         if warm and iteration == patience:
             n_panels = start_panels(n_strips, n, strips, result, panels, rule.cosines, vectors)
+            if skew > 0.0:
+                turn_panels(sep, n_panels, n, strips, skew, by_load, panels, vectors)
             delta = result.approach - g_least
             warm, begun, descending, searched = False, iteration, False, False
             known, best, last_error = 0, math.inf, math.inf
@@ -279,7 +330,7 @@ def _solve(sep, case, own, result):
         cut = age < FREEZE and have_idle_part(n, n_panels, vectors)
         if not cut:  # otherwise the next iteration has other strips, and only the pressures count
             edge_displacements(panels, n_panels, own, skew > 0.0, unit)
-        error, load = _fill_residuals(n, n * n_panels, delta, cut, vectors)
+        error, load = _fill_residuals(n, n * n_panels, delta, cut, skew > 0.0, vectors)
         before = n_panels
         n_panels = remove_unloaded(n, n_panels, panels, vectors)
         if n_panels == 0:
@@ -307,28 +358,31 @@ def _solve(sep, case, own, result):
                 damp_turns(n, n_panels, panels, vectors)
             for p in range(n_panels):
                 descend(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors, age >= FREEZE)
-        left = 0.0 if cut else mix(n, n_panels, panels, vectors, load, known, space.lu)
+                if skew > 0.0:
+                    descend_offsets(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors)
+        left = 0.0 if cut else mix(n, n_panels, panels, vectors, load, known, skew > 0.0, space.lu)
         exact = not cut and error < TOLERANCE * load and moved < 2.0 * TOLERANCE
         settled = exact or (descending and left < LEFT and error < CLOSE * load and moved < CLOSE)
+        calm = skew > 0.0 and age >= FREEZE and not cut and error < ACCEPTABLE * load  # more would be slow
         ghosts, held = False, n_panels
-        if settled or not (searched or cut):
+        if settled or calm or not (searched or cut):
             searched = True
-            least = GHOST if settled else EARLY_GHOST
+            least = GHOST if settled or calm else EARLY_GHOST
             n_panels, ghosts = extend_to_ghosts(sep, g_least, delta, least, unit, n_panels, panels, own)
-            if settled and not ghosts:
-                converged = True
+            if (settled or calm) and not ghosts:
+                converged = settled
                 break
         if ghosts:
             known, best = 0, math.inf
             if n_panels > held:  # the other panels need not wait for the new one
-                advance(n, held, panels, vectors)
+                advance(n, held, panels, vectors, skew > 0.0)
         elif cut:
             cut_idle(n, n_panels, panels, rule.cosines, vectors)
             known = 0
         else:
             if BRACKET <= age < FREEZE and not settled:
                 keep_between(n, n_panels, panels, vectors)
-            advance(n, n_panels, panels, vectors)
+            advance(n, n_panels, panels, vectors, skew > 0.0)
             known += 1
         n_panels, joined = join_panels(n, n_panels, panels, rule.cosines, vectors)
         if joined:
@@ -336,7 +390,7 @@ def _solve(sep, case, own, result):
 
     result.iterations = iteration + 1
     if converged and not exact:
-        advance(n, n_panels, panels, vectors)
+        advance(n, n_panels, panels, vectors, skew > 0.0)
     elif not converged and n_panels > 0 and best * load < error:
         _take_best(n, n_panels, panels, vectors)
         error, load = best, 1.0
@@ -352,9 +406,10 @@ def _solve(sep, case, own, result):
             result.status = Status.NOT_CONVERGED
         forget(memory)
         return n_strips
-    remember(n_panels if iteration - begun < FREEZE else 0, n, start_low, start_high, own)
+    remember(n_panels if iteration - begun < FREEZE else 0, n, start_low, start_high, skew > 0.0, own)
     count = _report(problem, delta, panels, n_panels, result)
-    if not converged and error > ACCEPTABLE * load and result.status != Status.OUT_OF_RANGE:
+    rough = error > ACCEPTABLE * load or _has_spur(n, n_panels, vectors)
+    if not converged and rough and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
     elif result.status == Status.OUT_OF_RANGE:
         low, high = panels[0], panels[2 * n_panels - 1]

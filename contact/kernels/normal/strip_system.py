@@ -5,7 +5,7 @@ import math
 from contact.core import kernel
 from contact.kernels.normal.between_panels import IN_LINE, add_others, assemble_others
 from contact.kernels.normal.elimination import eliminate
-from contact.kernels.normal.influence import at_centre, column, in_row, logarithm, row_at
+from contact.kernels.normal.influence import N_X, at_centre, column, in_row, logarithm, row_at
 from contact.kernels.normal.many_strips import displacement, fill_ln_X
 from contact.kernels.rows import Pair, Vector
 
@@ -27,13 +27,17 @@ def _fill_off_line(first, n, half, own, unit):
         for i in range(n):
             X = abs(loci[i] - locus) * inverse
             left, right = cosine_logs[i, k] - ln_a, cosine_logs[i, k + 1] - ln_a
+            if not tabulated:
+                low = at_centre(centre, left)
+                row[i] = scale * abs(at_centre(centre, right) + (low if i == k else -low))
             if X > IN_LINE:
                 place, share, ln_X = row_at(X, logarithm(X))
                 low, high = in_row(plane, place, share, left - ln_X), in_row(plane, place, share, right - ln_X)
-                row[i] = scale * abs(high - low)
-            elif not tabulated:
-                low = at_centre(centre, left)
-                row[i] = scale * abs(at_centre(centre, right) + (low if i == k else -low))
+                if place < N_X:  # the table gives what differs from the centre line, as in `off_line`
+                    low, high = low - in_row(plane, 0, 0.0, left), high - in_row(plane, 0, 0.0, right)
+                    row[i] += scale * (high - low if right > left else low - high)
+                else:
+                    row[i] = scale * abs(high - low)
 
 
 @kernel
@@ -61,7 +65,8 @@ def _add_panel(first, n, logs, ln_unit, skewed, vectors, plane):
     """Add to Vector.U the displacement at the ends of a panel's strips by the panel itself.
 
     `first` is the panel's first strip. `logs` + `ln_unit` are ln|Y_k - y_i|. The end strips are left out: their lengths
-    follow from their neighbours. If strips are `skewed`, the mean of both ends is taken.
+    follow from their neighbours. If strips are `skewed`, the mean of both ends is taken, and Vector.DIFFERENCE gets their
+    difference.
     """
     last = first + n
     logs_a, inverses = vectors[Vector.Q1, first:last], vectors[Vector.Q2, first:last]
@@ -71,7 +76,8 @@ def _add_panel(first, n, logs, ln_unit, skewed, vectors, plane):
         i = first + k
         if vectors[Vector.P, i] == 0.0:
             continue
-        a, ln_a, x, at, u = vectors[Vector.A, i], vectors[Vector.Q1, i], vectors[Vector.XC, i], logs[k], 0.0
+        a, ln_a, x, at = vectors[Vector.A, i], vectors[Vector.Q1, i], vectors[Vector.XC, i], logs[k]
+        u, trailing = 0.0, 0.0
         for end in range(2 if skewed else 1):
             for m in range(n):
                 shift = ln_unit - logs_a[m]
@@ -82,8 +88,10 @@ def _add_panel(first, n, logs, ln_unit, skewed, vectors, plane):
                 for m in range(n):
                     pairs[Pair.X, m] = abs(side + loci[m] - x) * inverses[m]
                 fill_ln_X(n, pairs)
-            u += displacement(plane, forces, pairs, k)
-        vectors[Vector.U, i] += 0.5 * u if skewed else u
+            trailing = u  # end 0, once the leading one is known
+            u = displacement(plane, forces, pairs, k)
+        vectors[Vector.U, i] += 0.5 * (trailing + u) if skewed else u
+        vectors[Vector.DIFFERENCE, i] += u - trailing if skewed else 0.0
 
 
 @kernel
@@ -95,7 +103,7 @@ def edge_displacements(panels, n_panels, own, skewed, unit):
         vectors[Vector.Q1, j] = math.log(vectors[Vector.A, j])
         vectors[Vector.Q2, j] = 1.0 / vectors[Vector.A, j]
         vectors[Vector.R, j] = vectors[Vector.P, j] * vectors[Vector.A, j] * unit
-        vectors[Vector.U, j] = 0.0
+        vectors[Vector.U, j] = vectors[Vector.DIFFERENCE, j] = 0.0
     for p in range(n_panels):
         ln_half = math.log(0.5 * (panels[2 * p + 1] - panels[2 * p]))
         _add_panel(p * n, n, cosine_logs, ln_half, skewed, vectors, plane)

@@ -21,13 +21,16 @@ from contact.kernels import kalker
 from contact.kernels.rows import Strip
 from contact.kernels.tangential.ellipses import mean_ellipse
 from contact.kernels.tangential.fastsim import NO_FRICTION
+from contact.kernels.tangential.skew import coupled
 from contact.kernels.tangential.table import Part, interpolated, signs, units
 from contact.kernels.tangential.ties import share_shape
 
 
 @kernel
-def _changes(strips, first, last, case, centre, tables):
+def _changes(strips, first, last, case, centre, of_patch, tables):
     """Return the changes of creepages and map exponent for the shape that is shared. Rigid slip is referred to y = `centre`.
+
+    `of_patch` is that of `set_shapes`.
 
     The equivalent ellipse has the shape's area and mean length. On our own patches this is better than
     the longest strip (.0054 instead of .0058 of mu N on new profiles). Creepages that differ from strip to strip enter by
@@ -48,7 +51,7 @@ def _changes(strips, first, last, case, centre, tables):
     if not limit > NO_FRICTION * G * a * b or (vx == 0.0 and vy == 0.0 and phi == 0.0):
         return 0.0, 0.0, 0.0, 0.0
     x, vx, vy, phi = x / weights, vx / weights, vy / weights, phi / weights
-    log_aspect, c = math.log(a / b), math.sqrt(a * b)
+    log_aspect, c = math.log(a / b) + of_patch[2], math.sqrt(a * b)
     coefficients = kalker.coefficients(tables.kalker, log_aspect)
     unit_x, unit_y, unit_z, weight = units(G, c, limit, log_aspect, coefficients)
     unit_spin = weight * unit_z
@@ -59,9 +62,10 @@ def _changes(strips, first, last, case, centre, tables):
     )
     r = math.sqrt(X * X + Y * Y + spin * spin)
     to_spin *= sign_y * r / unit_spin
+    by_turn_x, by_turn_y = coupled(of_patch[3], case.nu, r, coefficients, c, (vx, vy, phi))
     return (
-        sign_x * r * to_x / unit_x + to_spin * centre,
-        sign_y * r * to_y / unit_y - to_spin * x,
+        sign_x * r * to_x / unit_x + to_spin * centre + by_turn_x,
+        sign_y * r * to_y / unit_y - to_spin * x + by_turn_y,
         to_spin,
         exponent,
     )
@@ -78,13 +82,13 @@ def _mix(strips, i, j, k, share):
 
 
 @kernel
-def _set_changes(strips, first, last, i, back, case, tables):
+def _set_changes(strips, first, last, i, back, case, of_patch, tables):
     """Set the changes of strip i of a patch: those of strip i - `back` if it has the same shape."""
     if i - back >= first and strips[Strip.TIE, i] * strips[Strip.TIE, i - back + 1] == 1.0:
         _mix(strips, i, i - back, i - back, 0.0)
         return
     share_shape(strips, first, last, i)
-    to_x, to_y, to_phi, exponent = _changes(strips, first, last, case, strips[Strip.CENTRE, i], tables)
+    to_x, to_y, to_phi, exponent = _changes(strips, first, last, case, strips[Strip.CENTRE, i], of_patch, tables)
     strips[Strip.TO_X, i], strips[Strip.TO_Y, i] = to_x, to_y
     strips[Strip.TO_PHI, i], strips[Strip.TO_EXPONENT, i] = to_phi, exponent
 
@@ -97,16 +101,16 @@ def _is_read(i, first, last):
 
 
 @kernel
-def set_effective(strips, first, last, case, tables):
+def set_effective(strips, first, last, case, of_patch, tables):
     """Set the effective creepages and the map exponent of every strip of one patch, as changes.
 
-    The table takes .9 µs. Where shapes change it is read for every other strip. A strip between two others gets a mean of
-    theirs, in which the one that it is tied to more closely has the greater weight.
+    `of_patch` is that of `set_shapes`. The table takes .9 µs. Where shapes change it is read for every other strip. A strip
+    between two others gets a mean of theirs, in which the one that it is tied to more closely has the greater weight.
     """
     before = first
     for i in range(first, last):
         if _is_read(i, first, last):
-            _set_changes(strips, first, last, i, max(i - before, 1), case, tables)
+            _set_changes(strips, first, last, i, max(i - before, 1), case, of_patch, tables)
             before = i
     for i in range(first + 1, last - 1):
         if not _is_read(i, first, last):

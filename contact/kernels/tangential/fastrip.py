@@ -93,7 +93,8 @@ def _set_block(part, block, case, c_patch, own):
     for l in range(LANES):
         i = min(block + l, part.last - 1)
         a, bound = strips[Strip.A, i], case.mu * strips[Strip.BOUND, i]
-        lanes[_Lane.A + l], lanes[_Lane.Y + l], lanes[_Lane.XC + l] = a, strips[Strip.Y, i], strips[Strip.XC, i]
+        lanes[_Lane.A + l], lanes[_Lane.Y + l] = a, strips[Strip.Y, i]
+        lanes[_Lane.XC + l] = strips[Strip.XC, i] - strips[Strip.OFFSET, i]  # as in `mapped_lanes`
         lanes[_Lane.VX + l], lanes[_Lane.VY + l], lanes[_Lane.SPIN + l] = (
             strips[Strip.VX, i],
             strips[Strip.VY, i],

@@ -38,6 +38,10 @@ _MOST = 2.0  # factor by which slip velocities may be scaled
 _ROUND_OFF = 1e-12  # a slip zone shorter than this, over half the length of its strip, is none
 
 
+#: Numbers of a patch that `set_shapes` returns.
+OfPatch = tuple[float, float, float, float]
+
+
 class _Shown(Row):
     """Column of `trace` in which `_apply_friction` puts the share of the traction that friction still bears."""
 
@@ -219,10 +223,10 @@ def _factor(power, work):
 
 
 @entry
-def roll_patch(first: int, last: int, case: Case, spin: tuple[float, float], own: Workspace, result: Result) -> None:
+def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, own: Workspace, result: Result) -> None:
     """Add forces, power and slip area of the strips of a patch to `result`. Fill their fields if there is room.
 
-    `spin` is that of `set_shapes`. In steady rolling the slip dissipates the work of the forces. The march's slip follows
+    `of_patch` is that of `set_shapes`. In steady rolling the slip dissipates the work of the forces. The march's slip follows
     the given creepages, its forces the effective ones, so the slip velocities of the patch are scaled to that work.
     """
     strips, fields, elements = own.strips, own.fields, own.rule.elements
@@ -232,7 +236,7 @@ def roll_patch(first: int, last: int, case: Case, spin: tuple[float, float], own
     factor, power, work = 1.0, 0.0, 0.0
     if falling:  # friction follows from the scaled slip, so its factor is needed first
         for block in range(first, last, LANES):
-            set_block(strips, block, last, case, own.tables.kalker, spin, lanes)
+            set_block(strips, block, last, case, own.tables.kalker, of_patch, lanes)
             march(Uneven(), elements, lanes, trace)
             for l in range(min(LANES, last - block)):
                 more_power, more_work = _energy(strips, block + l, l, lanes)
@@ -240,7 +244,7 @@ def roll_patch(first: int, last: int, case: Case, spin: tuple[float, float], own
         factor = _factor(power, work)
         power, work = 0.0, 0.0
     for block in range(first, last, LANES):
-        set_block(strips, block, last, case, own.tables.kalker, spin, lanes)
+        set_block(strips, block, last, case, own.tables.kalker, of_patch, lanes)
         march(Uneven(), elements, lanes, trace)
         if falling:
             begin_varying(strips, block, last, case, lanes[Lane.BOUND : Lane.BOUND + LANES], lanes)
@@ -271,17 +275,17 @@ def roll_patch(first: int, last: int, case: Case, spin: tuple[float, float], own
 
 
 @entry
-def set_shapes(first: int, last: int, own: Workspace) -> tuple[float, float]:
+def set_shapes(first: int, last: int, own: Workspace) -> OfPatch:
     """Set ties, aspect ratios and centres of the strips of a patch; return what `set_aspects` returns."""
     tie_strips(own.strips, first, last)
-    spin = set_aspects(own.strips, first, last, own.tables.kalker)
+    of_patch = set_aspects(own.strips, first, last, own.tables.kalker)
     set_centres(own.strips, first, last)
-    return spin
+    return of_patch
 
 
 @kernel
 def fastrip_mapped(part, case, own, result):
     """Fill the traction, slip and stick fields of one patch. Add its forces, power and slip area to `result`."""
-    spin = set_shapes(part.first, part.last, own)
-    set_effective(own.strips, part.first, part.last, case, own.tables)
-    roll_patch(part.first, part.last, case, spin, own, result)
+    of_patch = set_shapes(part.first, part.last, own)
+    set_effective(own.strips, part.first, part.last, case, of_patch, own.tables)
+    roll_patch(part.first, part.last, case, of_patch, own, result)

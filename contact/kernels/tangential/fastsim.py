@@ -122,7 +122,8 @@ def fastsim(part, case, own, result):
             lanes[_Lane.PER_LENGTH + l] = lanes[_Lane.PEAK + l] / a if a > 0.0 else 0.0
             vx, vy = vx - phi * part.y, vy + phi * part.x  # L3 belongs to the spin about the patch's own place
             lanes[March.X + l] = scale * (vx / L1 - phi * (strips[Strip.Y, i] - part.y) / L3)
-            lanes[March.Y + l] = scale * (vy / L2 + phi * (strips[Strip.XC, i] - part.x) / L3)
+            x = strips[Strip.XC, i] - strips[Strip.OFFSET, i]  # as in `mapped_lanes`
+            lanes[March.Y + l] = scale * (vy / L2 + phi * (x - part.x) / L3)
             lanes[March.Z + l] = scale * a * phi / L3
         march(Even(elliptic), elements, lanes, trace)
         if falling:

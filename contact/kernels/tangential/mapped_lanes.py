@@ -55,26 +55,28 @@ class _Input(Row):
 
 
 @kernel
-def set_block(strips, block, last, case, table, spin_of_patch, lanes):
+def set_block(strips, block, last, case, table, of_patch, lanes):
     """Fill `lanes` for the strips from `block` on: steps 1 and 2 of mapped_strip.md 3.
 
-    `spin_of_patch` is that of `set_aspects`. All rows are zero for a strip that carries no load.
+    `of_patch` is that of `set_aspects`. All rows are zero for a strip that carries no load. The rigid slip of spin is that on
+    the line of least gap: on a skewed patch, strips hold each other back (mapped_strip.md 7).
     """
     G = case.G
-    offset, rho33 = spin_of_patch
+    offset, rho33, turn, _ = of_patch
     least = NO_FRICTION * G
     for l in range(LANES):
         i = min(block + l, last - 1)
         a, bound, log_aspect = strips[Strip.A, i], case.mu * strips[Strip.BOUND, i], strips[Strip.ASPECT, i]
         lanes[Lane.BOUND + l] = bound if a > 0.0 and bound > least else 0.0
-        lanes[_Input.HALF + l], lanes[_Input.AT + l], lanes[_Input.XC + l] = a, strips[Strip.Y, i], strips[Strip.XC, i]
+        lanes[_Input.HALF + l], lanes[_Input.AT + l] = a, strips[Strip.Y, i]
+        lanes[_Input.XC + l] = strips[Strip.XC, i] - strips[Strip.OFFSET, i]
         to_x, to_y, to_phi = strips[Strip.TO_X, i], strips[Strip.TO_Y, i], strips[Strip.TO_PHI, i]
         lanes[_Input.VX + l], lanes[_Input.VY + l] = strips[Strip.VX, i] + to_x, strips[Strip.VY, i] + to_y
         lanes[_Input.PHI + l] = strips[Strip.PHI, i] + to_phi
         lanes[Lane.TO_X + l], lanes[Lane.TO_Y + l], lanes[Lane.TO_SPIN + l] = to_x, to_y, to_phi
         c11, c22, c23, _ = kalker.coefficients(table, log_aspect)
         lanes[_Input.C11 + l], lanes[_Input.C22 + l], lanes[_Input.C23 + l] = c11, c22, c23
-        lanes[_Input.ROOT_ASPECT + l] = math.exp(0.5 * log_aspect)
+        lanes[_Input.ROOT_ASPECT + l] = math.exp(0.5 * (log_aspect - turn))  # of chord and width
         lanes[_Input.FITTED + l] = min(max(log_aspect, -_LOG_ASPECT_FIT), _LOG_ASPECT_FIT)
         lanes[Lane.N + l] = strips[Strip.TO_EXPONENT, i]
         lanes[_Input.CENTRE + l] = strips[Strip.CENTRE, i]

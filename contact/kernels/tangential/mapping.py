@@ -5,6 +5,7 @@ import math
 from contact.core import kernel
 from contact.kernels import kalker
 from contact.kernels.rows import Strip
+from contact.kernels.tangential.skew import turn_of
 from contact.kernels.tangential.ties import end_of_shape, share_shape
 
 #: Share of a strip's own ln(a/b), from the curvatures, against that of the equivalent ellipse (theory.md 4.4).
@@ -70,9 +71,10 @@ def slid_at(s, direction, r, pole, rigid, from_edge):
 def set_aspects(strips, first, last, table):
     """Blend the aspect ratios of a patch in place, and set the stiffness of its strips (mapped_strip.md 3, step 0).
 
-    Return the distance of the centre of spin from that of longitudinal stiffness [m], and the C33 factor, of the patch. The
-    weights are C11·a²·dy and C11·a·dy. On an ellipse both centres are its own.
+    Return the distance of the centre of spin from that of longitudinal stiffness [m], the C33 factor of the patch, and its
+    turn (`turn_of`). The weights are C11·a²·dy and C11·a·dy. On an ellipse both centres are its own.
     """
+    turn, coupling = turn_of(strips, first, last)
     stiffness, moment, stiffness2, moment2, spin = 0.0, 0.0, 0.0, 0.0, 0.0
     i = first
     while i < last:
@@ -82,7 +84,7 @@ def set_aspects(strips, first, last, table):
             a, share = strips[Strip.A, j], strips[Strip.SHARE, j]
             longest = max(longest, share * a)
             area += 2.0 * share * a * strips[Strip.DY, j]
-        log_equivalent = math.log(math.pi * longest * longest / area) if area > 0.0 else 0.0
+        log_equivalent = turn + (math.log(math.pi * longest * longest / area) if area > 0.0 else 0.0)
         end = end_of_shape(strips, last, i)
         for j in range(i, end):
             a, y = strips[Strip.A, j], strips[Strip.Y, j]
@@ -96,7 +98,9 @@ def set_aspects(strips, first, last, table):
             moment2 += weight * a * y
             spin += weight * 4.0 * c33 * math.exp(log_aspect) / c11
         i = end
-    return (moment2 / stiffness2 - moment / stiffness, spin / stiffness) if stiffness > 0.0 else (0.0, 1.0)
+    if not stiffness > 0.0:
+        return 0.0, 1.0, 0.0, 0.0
+    return moment2 / stiffness2 - moment / stiffness, spin / stiffness, turn, coupling
 
 
 @kernel
