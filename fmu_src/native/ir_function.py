@@ -27,9 +27,10 @@ from fmu_src.native.ir_text import (
     unknown,
 )
 
-#: Words that do not change the result: promises to the optimiser, and how a function is called.
+#: Words that do not change the result: promises to the optimiser, and how a function is called. They are no part of a name.
 _MARKS = re.compile(
-    r"\b(?:nuw|nsw|nneg|exact|disjoint|inbounds|nusw|samesign|tail|notail|musttail|fastcc|volatile|noundef|nonnull|noalias"
+    r"(?<![%@.\"])\b"
+    r"(?:nuw|nsw|nneg|exact|disjoint|inbounds|nusw|samesign|tail|notail|musttail|fastcc|volatile|noundef|nonnull|noalias"
     r"|readonly|writeonly|readnone|local_unnamed_addr|unnamed_addr|dso_local|nocapture|zeroext|signext|immarg|internal|hidden"
     r"|dead_on_unwind|writable|returned)\b"
     r"|captures\([^)]*\)|initializes\((?:[^()]|\([^()]*\))*\)|range\([^)]*\)|align \d+|dereferenceable\(\d+\)"
@@ -64,6 +65,7 @@ class Function:
         self._variables: dict[str, str] = {}
         arguments = (argument.split() for argument in split(given))
         declared = ", ".join(f"{type_in_c(words[0])} {self._local(words[-1])}" for words in arguments)
+        self._arguments = list(self._names.values())
         linkage = "static " if re.search(r"\binternal\b", lines[0]) else ""
         self._nothing = "return;" if result == "void" else "return 0;"
         self.head = f"{linkage}{type_in_c(result)} {identifier(name)}({declared or 'void'})"
@@ -84,7 +86,9 @@ class Function:
                 if " = phi " not in text:
                     lines += [f"    {line}" for line in self._statements(text, label)]
         declared = [f"    {kind} {name};" for name, kind in self._variables.items()]
-        return "\n".join((self.head, "{", *declared, *lines, "}"))
+        used = set(re.findall(r"\bv_\w+\b(?! = )", "\n".join(lines)))
+        unused = [f"    (void){name};" for name in (*self._arguments, *self._variables) if name not in used]
+        return "\n".join((self.head, "{", *declared, *unused, *lines, "}"))
 
     def _local(self, name: str) -> str:
         """Return the C name of a value, unique in the function."""
@@ -240,10 +244,10 @@ class Function:
                     raise unknown(f"{word} {operands}")
                 return kind, f"({f' {operator} '.join(self._value(part, kind) for part in split(more))}) & {mask:#x}"
             to = f"({'u' if unsigned and kind != 'i1' else ''}{type_in_c(kind)})"
-            return (
-                kind,
-                f"({type_in_c(kind)})({f' {operator} '.join(to + self._value(part, kind) for part in split(more))})",
-            )
+            left, right = (to + self._value(part, kind) for part in split(more))
+            if operator in ("<<", ">>"):  # of a shift by more than the width LLVM uses no bit, and C has no such shift
+                right = f"({right} & {8 * size_of(kind) - 1})"
+            return kind, f"({type_in_c(kind)})({left} {operator} {right})"
         if word in ("icmp", "fcmp"):
             kind, _, more = more.partition(" ")
             return "i1", _compared(operands.split()[0], kind, *(self._value(part, kind) for part in split(more)))
