@@ -17,9 +17,10 @@ from fmu_src.native.ir_text import GLOBAL, identifier, number, split, type_in_c,
 # Memory is read and written by memcpy, because the IR does not say which types a pointer may alias.
 _ACCESS = """static inline {type} load_{name}(const char *p) {{ {type} v; memcpy(&v, p, sizeof v); return v; }}
 static inline void store_{name}(char *p, {type} v) {{ memcpy(p, &v, sizeof v); }}"""
-_HEADER = "\n".join(
+_INCLUDED = "\n".join(f"#include <{name}.h>" for name in ("math", "stdbool", "stdint", "string"))
+#: Functions that the code may call, a line each. Those that it does not call are left out.
+_FUNCTIONS = "\n".join(
     (
-        *(f"#include <{name}.h>" for name in ("math", "stdbool", "stdint", "string")),
         *(_ACCESS.format(type=f"{name}_t", name=name) for name in ("int64", "int32", "int16", "int8")),
         _ACCESS.format(type="double", name="double"),
         _ACCESS.format(type="char *", name="pointer"),
@@ -28,7 +29,7 @@ _HEADER = "\n".join(
         "static inline int64_t umin(uint64_t a, uint64_t b) { return (int64_t)(a < b ? a : b); }",
         "static inline int64_t umax(uint64_t a, uint64_t b) { return (int64_t)(a > b ? a : b); }",
     )
-)
+).splitlines()
 _CONSTANT = re.compile(
     rf'({GLOBAL}) = (.*?)\b(?:constant|global) \[(\d+) x (\w+)\](?: (?:c"(.*?)"|\[(.*)\]|(zeroinitializer)))?(?:, align \d+)?$'
 )
@@ -52,7 +53,10 @@ def as_c(ir: str) -> str:
     functions = [Function(body) for body in _bodies(lines)]
     constants = [_constant(line) for line in lines if line.startswith("@")]
     heads = [*_linked(lines), *(f"{function.head};" for function in functions)]
-    return "\n".join((_HEADER, *constants, *heads, *(function.code() for function in functions))) + "\n"
+    code = [*constants, *heads, *(function.code() for function in functions)]
+    called = set(re.findall(r"\b(\w+)\(", "\n".join(code)))
+    needed = [line for line in _FUNCTIONS if re.findall(r"(\w+)\(", line)[0] in called]
+    return "\n".join((_INCLUDED, *needed, *code)) + "\n"
 
 
 def _linked(lines: Sequence[str]) -> Iterator[str]:

@@ -38,7 +38,6 @@ def _both(ir, result, arguments, tmp_path):
     run(
         *compiler("linux64"),
         *flags,
-        "-Wno-unused-function",
         tmp_path / "f.c",
         "-o",
         tmp_path / "f.so",
