@@ -15,7 +15,6 @@ from fmu_src.catalogue import Model, models, surfaces, vehicles
 from fmu_src.documentation import markdown
 from fmu_src.native import packaging as native
 from fmu_src.native import systems
-from fmu_src.python import packaging as python
 from fmu_src.tables.vehicle import START
 from models.life import scenario
 from models.wheelset import ports
@@ -78,6 +77,8 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
         print("\n".join(markdown(model.table) for model in (*chosen, *more)))
         return
     if arguments.packaging != "native":
+        from fmu_src.python import packaging as python  # it needs pythonfmu
+
         for model in chosen:
             print(f"{model.table.name}, for hosts with Python ... ", end="", flush=True)
             print(_size(python.build(model, arguments.out / "python")))

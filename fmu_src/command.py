@@ -64,13 +64,6 @@ def fmu(
 
     Example:  contact fmu --packaging python --out dist
     """
-    try:
-        from fmu_src.build import main
-    except ModuleNotFoundError as missing:
-        stop(
-            f"FMUs need {missing.name}: pip install 'wheelrail-contact[fmu]', native ones 'wheelrail-contact[native]'",
-            1,
-        )
     options = {
         "packaging": packaging,
         "out": out,
@@ -90,10 +83,25 @@ def fmu(
         "--profile-repair": repair,
     }
     words += [word for word, on in switches.items() if on]
+    with contextlib.redirect_stdout(sys.stderr) if as_json else contextlib.nullcontext():
+        _build(words)
     if not as_json:
-        main(words, "contact fmu")
         return
-    with contextlib.redirect_stdout(sys.stderr):
-        main(words, "contact fmu")
     files = sorted(str(path) for path in out.rglob("*") if path.suffix in (".fmu", ".ssp"))
     typer.echo(document({"files": files}))
+
+
+def _build(words: list[str]) -> None:
+    """Build the FMUs, or say what is not installed."""
+    try:
+        from fmu_src.build import main
+
+        main(words, "contact fmu")
+    except ModuleNotFoundError as missing:
+        stop(
+            f"FMUs for hosts with Python need {missing.name}: pip install 'wheelrail-contact[fmu]'. "
+            "Native ones do not: --packaging native",
+            1,
+        )
+    except ImportError as error:
+        stop(str(error), 1)

@@ -18,9 +18,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
-
-import fmpy
+from xml.etree.ElementTree import Element, SubElement, fromstring, indent, tostring
+from zipfile import ZipFile
 
 from fmu_src import archive
 from fmu_src.description import number
@@ -159,7 +158,9 @@ def obstacle(folder: Path) -> str:
 
 
 def _inputs(fmu: Path) -> set[str]:
-    return {v.name for v in fmpy.read_model_description(str(fmu)).modelVariables if v.causality == "input"}
+    with ZipFile(fmu) as archive:
+        description = fromstring(archive.read("modelDescription.xml"))
+    return {v.get("name", "") for v in description.iter("ScalarVariable") if v.get("causality") == "input"}
 
 
 def build(folder: Path, made: System) -> Path:
