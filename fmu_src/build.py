@@ -66,6 +66,9 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
     if arguments.points < 3:
         parser.error(f"--points {arguments.points}: a separation has at least 3 samples")
 
+    if arguments.packaging != "python" and not arguments.describe:
+        # first, because Python uses the one of this system; else a clone would build a library for itself too
+        systems.folder((*systems.USUAL, *(systems.ARM if arguments.arm else ())))
     try:
         given = profiles.chosen(arguments)
         chosen = models(arguments.points, given, arguments.accumulation)
@@ -94,7 +97,7 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
 def build_native(chosen: Sequence[Model], folder: Path, *, arm: bool = False) -> None:
     """Build FMUs that need no Python and print the progress.
 
-    The library of all FMUs is built if it is not there. An FMU is this library and its data.
+    An FMU is the libraries and its data. A clone builds the libraries if they are not there.
     """
     begin = time.monotonic()
 
@@ -109,7 +112,6 @@ def build_native(chosen: Sequence[Model], folder: Path, *, arm: bool = False) ->
             say_of_it(_size(path))
 
     print("Native, for hosts without Python:")
-    systems.folder((*systems.USUAL, *(systems.ARM if arm else ())), say)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         list(pool.map(build, chosen))
 
