@@ -16,9 +16,11 @@ from contact.kernels.rows import Sep, Strip
 
 #: Heights that are tried for a vertical force, of which the residual should be and may be (as under a load), and the
 #: furthest height [m].
-_MAX_HEIGHTS, _TOLERANCE, _ACCEPTABLE, _FURTHEST = 40, 1e-9, 1e-3, 1.0
+_MAX_HEIGHTS, _TOLERANCE, _ACCEPTABLE, _FURTHEST = 16, 1e-9, 1e-3, 1.0
 #: The same residuals on surfaces that change along the way. On the edge of a fresh flat the force is not smooth in z.
 _ROUGHER, _ACCEPTABLE_ROUGH = 1e-7, 1e-2
+#: Relative difference of two approaches under one load, up to which z follows from the other approach.
+_NEAR = 0.02
 
 
 @kernel
@@ -220,8 +222,22 @@ def solve_patch(k, under_load, bench):
 
 
 @kernel
+def _is_alone(n, bench):
+    """Return whether one patch carries the load, with nearly the approach that the search has found with ANALYN.
+
+    Then z follows from its approach, because a small change of z hardly changes the separation.
+    """
+    patch, contact = bench.search.patches[0], bench.contacts[0]
+    near = abs(contact.approach - patch.approach) <= _NEAR * contact.approach
+    return n == 1 and near and bench.search.motion[0].missed <= _ACCEPTABLE
+
+
+@kernel
 def _solve_at(mode, amount, given, z, enters, bench):
-    """As `solve_pair`, at the height z if `mode` is GIVEN. `enters` says whether the ledger is filled."""
+    """As `solve_pair`, at the height z if `mode` is GIVEN; under a load each patch for the load that the search has found.
+
+    The ledger is filled if `enters` says so, and under a load if `_is_alone`.
+    """
     search, own, memory = bench.search, bench.own, bench.memory
     total, result, damage, case = bench.total[0], bench.result[0], bench.damage[0], bench.patch_case[0]
     motion = search.motion[0]
@@ -243,10 +259,12 @@ def _solve_at(mode, amount, given, z, enters, bench):
         pressure = _pressure_wrench(own.strips, n_strips)
         _report(patch, case, result, pressure, contact)
         if n_strips > 0:
+            patch.load = result.N  # for another solution of the same patch
             _add_wrench(contact, pressure, patch.share, motion, total)
             _add_results(result, damage, patch.share, total)
             total.gap_error = max(total.gap_error, contact.gap_error)
-            if enters and bench.ledger.bins.shape[2] > 0 and bench.ledger.settings[0].distance > 0.0:
+            entered = enters and (mode != Height.LOAD or _is_alone(n, bench))
+            if entered and bench.ledger.bins.shape[2] > 0 and bench.ledger.settings[0].distance > 0.0:
                 enter(patch, n_strips, damage, bench)
     if motion.missed > _ACCEPTABLE:
         total.status = Status.NOT_CONVERGED.value
@@ -257,14 +275,31 @@ def _solve_at(mode, amount, given, z, enters, bench):
 
 
 @kernel
-def _solve_vertical(force, given, bench):
-    """As `solve_pair` for Height.VERTICAL: find the height by a bracketed secant over the whole solution.
+def _upward(mode, n, bench):
+    """Return the force that is to equal the load [N]: the vertical part of all forces, or of the normal forces only."""
+    if mode == Height.VERTICAL:
+        return -bench.total[0].Fz
+    force = 0.0
+    for k in range(n):
+        contact = bench.contacts[k]
+        force += contact.N * math.cos(contact.angle) * math.cos(contact.pitch)
+    return force
 
-    It begins at the height at which the normal forces carry the load. The force grows with the power 3/2 of the depth there.
-    Where it jumps over the load, the nearest height found is the answer, with the status NOT_CONVERGED.
+
+@kernel
+def _solve_under(mode, force, given, bench):
+    """As `solve_pair` for Height.LOAD and Height.VERTICAL: find the height by a bracketed secant over the whole solution.
+
+    It begins at the height at which the normal forces by ANALYN carry the load. The force grows with the power 3/2 of the
+    depth there. Where it jumps over the load, the nearest height found is the answer, with the status NOT_CONVERGED.
     """
-    n = _solve_at(Height.LOAD, force, given, given.z, False, bench)
+    n = _solve_at(Height.LOAD, force, given, given.z, mode == Height.LOAD, bench)
     if n <= 0 or force <= 0.0:
+        return n
+    if mode == Height.LOAD and _is_alone(n, bench):
+        patch, contact, motion = bench.search.patches[0], bench.contacts[0], bench.search.motion[0]
+        motion.z += (contact.approach - patch.approach) / (math.cos(patch.angle) * math.cos(patch.pitch))
+        bench.total[0].z = motion.z
         return n
     total, changing = bench.total[0], bench.search.motion[0].changing
     tolerance, acceptable = (_ROUGHER, _ACCEPTABLE_ROUGH) if changing else (_TOLERANCE, _ACCEPTABLE)
@@ -278,7 +313,7 @@ def _solve_vertical(force, given, bench):
         n = _solve_at(Height.GIVEN, 0.0, given, z, False, bench)
         if n < 0:
             return NoAnswer.NOT_SETTLED.value
-        f = -bench.total[0].Fz - force
+        f = _upward(mode, n, bench) - force
         if abs(f) < best:
             best, z_best = abs(f), z
         if abs(f) <= tolerance * force:
@@ -295,10 +330,10 @@ def _solve_vertical(force, given, bench):
             break
         z_before, f_before, z = z, f, new
     missed = best > acceptable * force
-    if missed and not (changing and high < math.inf):
+    if missed and high == math.inf:
         return NoAnswer.NOT_SETTLED.value
     n = _solve_at(Height.GIVEN, 0.0, given, z_best, True, bench)
-    if missed:  # on a surface the force may jump with the height, as under a load (`settle`)
+    if missed:  # the force jumps with the height: on surfaces, and by ANALYN where a lobe appears
         total.status = Status.NOT_CONVERGED.value
     return n
 
@@ -307,13 +342,12 @@ def _solve_vertical(force, given, bench):
 def solve_pair(mode, amount, given, bench):
     """Find the patches, solve each of them, add up.
 
-    `given` is a record GIVEN of `layout`, `mode` and `amount` are those of `settle`. Under a load every patch is solved for
-    the normal force that the search has found for it, so the vertical parts of the normal forces add up to the load for
-    every normal method; else for its approach. With Height.VERTICAL the height is found at which the vertical parts of all
-    forces, friction included, add up to the load. Damage is per patch, with its own rolling radius. What adds up does so with
+    `given` is a record GIVEN of `layout`, `mode` and `amount` are those of `settle`. Under a load the height is found at
+    which the vertical parts of the normal forces add up to it, with Height.VERTICAL those of all forces, friction included.
+    The forces are those of the normal method. Damage is per patch, with its own rolling radius. What adds up does so with
     the patches' shares (`search.combine`), which are 1 nearly always. Fills bench.contacts and bench.total, and enters what
     the patches do into bench.ledger. Returns the number of patches, or a code of `settle` where there is no answer.
     """
-    if mode == Height.VERTICAL:
-        return _solve_vertical(amount, given, bench)
+    if mode == Height.VERTICAL or mode == Height.LOAD:
+        return _solve_under(mode, amount, given, bench)
     return _solve_at(mode, amount, given, given.z, True, bench)
