@@ -273,8 +273,8 @@ class WheelRailPair:
         Parameters
         ----------
         pose, velocity, load, penetration, irregularity :
-            As for `contact.geometry.wheelset.contacts`. The normal forces alone carry `load`, shared by the patches as
-            ANALYN shares it; friction adds to the vertical force or relieves it.
+            As for `contact.geometry.wheelset.contacts`. The normal forces alone carry `load`, by the normal method of
+            this pair; friction adds to the vertical force or relieves it.
         station, rotation : float
             Position of the axle along the slices of the rail [m], and angle by which the wheel has turned about the y axis
             [rad], for surfaces. It decreases when rolling forward: the angle -rotation of the wheel is at the bottom.

@@ -17,7 +17,8 @@ from contact.kernels.rows import Sep, Strip
 #: Heights that are tried for a vertical force, of which the residual should be and may be (as under a load), and the
 #: furthest height [m].
 _MAX_HEIGHTS, _TOLERANCE, _ACCEPTABLE, _FURTHEST = 16, 1e-9, 1e-3, 1.0
-#: The same residuals on surfaces that change along the way. On the edge of a fresh flat the force is not smooth in z.
+#: The same residuals on surfaces that change along the way, the second with friction. On the edge of a fresh flat the force
+#: is not smooth in z.
 _ROUGHER, _ACCEPTABLE_ROUGH = 1e-7, 1e-2
 #: Relative difference of two approaches under one load, up to which z follows from the other approach.
 _NEAR = 0.02
@@ -298,11 +299,14 @@ def _solve_under(mode, force, given, bench):
         return n
     if mode == Height.LOAD and _is_alone(n, bench):
         patch, contact, motion = bench.search.patches[0], bench.contacts[0], bench.search.motion[0]
-        motion.z += (contact.approach - patch.approach) / (math.cos(patch.angle) * math.cos(patch.pitch))
+        deeper = (contact.approach - patch.approach) / (math.cos(patch.angle) * math.cos(patch.pitch))
+        motion.z += deeper
+        contact.z += deeper  # with the wheel, so that the arm of the wrench stays
         bench.total[0].z = motion.z
         return n
     total, changing = bench.total[0], bench.search.motion[0].changing
-    tolerance, acceptable = (_ROUGHER, _ACCEPTABLE_ROUGH) if changing else (_TOLERANCE, _ACCEPTABLE)
+    tolerance = _ROUGHER if changing else _TOLERANCE
+    acceptable = _ACCEPTABLE_ROUGH if changing and mode == Height.VERTICAL else _ACCEPTABLE
     deepest = 0.0
     for k in range(n):
         deepest = max(deepest, bench.contacts[k].approach / math.cos(bench.contacts[k].angle))
