@@ -5,7 +5,7 @@
 #define EXPORTED __attribute__((visibility("default")))
 #endif
 
-#if defined(__x86_64__) || defined(_M_X64)
+#if !defined(WR_ANY) && (defined(__x86_64__) || defined(_M_X64))
 #include "../c/processor.h"
 
 EXPORTED const char *wr_processor(void) { return has_x86_64_v3() ? "v3" : "v2"; }
