@@ -87,7 +87,11 @@ class Function:
                     lines += [f"    {line}" for line in self._statements(text, label)]
         declared = [f"    {kind} {name};" for name, kind in self._variables.items()]
         used = set(re.findall(r"\bv_\w+\b(?! = )", "\n".join(lines)))
-        unused = [f"    (void){name};" for name in (*self._arguments, *self._variables) if name not in used]
+        unused = [
+            f"    (void){name};"
+            for name in (*self._arguments, *self._variables)
+            if name not in used and "[" not in name
+        ]
         return "\n".join((self.head, "{", *declared, *unused, *lines, "}"))
 
     def _local(self, name: str) -> str:

