@@ -200,14 +200,15 @@ class Emission:
 
 
 def _whole(libraries: Iterable[Any]) -> Any:
-    """Return one module of numba's libraries and of all that they link, without a trace of this machine."""
-    from llvmlite import binding as llvm
-
-    module = llvm.parse_assembly("")
-    for part in modules_of(libraries):
-        module.link_in(part, preserve=True)
-    text = str(module)
-    return llvm.parse_assembly(re.sub(r"^target .*$", "", _without_origin(text), flags=re.MULTILINE))
+    """Return one module of numba's libraries and of all that they link. They are used up."""
+    parts = list(modules_of(libraries))
+    while len(parts) > 1:  # two by two, since LLVM looks through the whole module for each part that is linked to it
+        for part, next_part in zip(parts[::2], parts[1::2], strict=False):
+            part.link_in(next_part)
+        parts = parts[::2]
+    (module,) = parts
+    module.triple = module.data_layout = ""
+    return module
 
 
 def _readable(name: str) -> str:
@@ -218,16 +219,6 @@ def _readable(name: str) -> str:
         parts.append(rest[found.end() : end])
         rest = rest[end:]
     return ".".join(parts) or "data"
-
-
-def _without_origin(text: str) -> str:
-    """Return the IR with blank exception messages. Nothing reads them, and they name source files of this machine."""
-    return re.sub(
-        r'^(@"?\.const\.pickledata\S* = .*constant \[\d+ x i8\]) c".*?"',
-        r"\1 zeroinitializer",
-        text,
-        flags=re.MULTILINE,
-    )
 
 
 def refuse_the_rest(module: Any) -> None:
