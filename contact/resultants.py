@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.jacobian import Jacobian
 from contact.kernels.enumerations import Status
 
 Numbers = float | NDArray[np.float64]
@@ -31,7 +32,7 @@ class Forces:
 
 @dataclass(frozen=True, slots=True)
 class CaseForces(Forces):
-    """Results of one case: `Forces` with numbers instead of arrays."""
+    """Results of one case: `Forces` with numbers instead of arrays. `jacobian` is None unless it was asked for."""
 
     Fx: float
     Fy: float
@@ -44,3 +45,4 @@ class CaseForces(Forces):
     power_per_metre: float
     status: Status
     gap_error: float
+    jacobian: Jacobian | None = None

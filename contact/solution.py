@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from contact.absence import only_with_fields
 from contact.creepage import Creepage
 from contact.damage import Damage, evaluate
+from contact.jacobian import Jacobian
 from contact.kernels.arrays import Workspace
 from contact.kernels.enumerations import Status
 from contact.kernels.friction import of_case
@@ -102,6 +103,7 @@ class Solution:
     status : Status
     x, y, p, qx, qy, sx, sy, stick, dA : fields: position [m], pressure and traction on the wheel [Pa], slip velocity
         relative to V [-], stick flag, element area [m²]
+    jacobian : derivatives, if they were asked for by ``derivatives=True``; else None
     """
 
     Fx: float
@@ -139,10 +141,17 @@ class Solution:
     pressure_y: float
     patch_edges: Array = field(repr=False)
     memory: Array = field(repr=False)
+    jacobian: Jacobian | None = field(default=None, repr=False, kw_only=True)
 
     @classmethod
     def of_kernel(
-        cls, n: int, own: Workspace, numbers: tuple[Array, Array], creepage: Creepage, prepared: Prepared
+        cls,
+        n: int,
+        own: Workspace,
+        numbers: tuple[Array, Array],
+        creepage: Creepage,
+        prepared: Prepared,
+        jacobian: Jacobian | None = None,
     ) -> Solution:
         """Return a solution from the workspace that a kernel has filled for `n` strips.
 
@@ -153,6 +162,7 @@ class Solution:
         case, result = numbers
         arrays = own.strips[:, :n].copy(), own.fields[:, :n].copy(), own.space.memory.copy()
         solution.__dict__["_left"] = (case.copy(), result.copy(), *arrays, creepage, prepared)
+        solution.__dict__["jacobian"] = jacobian
         return solution
 
     def __getattr__(self, name: str) -> Any:

@@ -60,6 +60,7 @@ def solve(
     layer: ThirdBody | None = None,
     start: Solution | None = None,
     progress: Callable[[int, float], None] | None = None,
+    derivatives: bool = False,
     throw: bool = True,
 ) -> Solution:
     """Solve the contact of one wheel-rail pair in the plane of its separation.
@@ -104,6 +105,9 @@ def solve(
         the computing time, and the result only within the method's tolerance.
     progress : callable
         Called with step and residual of the half space's tangential iteration.
+    derivatives : bool
+        Also find `Solution.jacobian`, the derivatives of forces and load or approach by creepages, load or approach, and
+        friction. It works for the methods of ``contact.methods().batched``, not with `force`.
     throw : bool
         Raise an exception if the solution cannot be trusted (patch beyond the separation, not converged). If False, only
         the `status` of the solution tells.
@@ -154,6 +158,9 @@ def solve(
         )
     if method.elementwise and not rolling.elementwise:
         raise ContactError(f"tangential = {tangential!r} does not work with normal = {normal!r}; allowed: halfspace")
+    if derivatives and (wanted is not None or method.elementwise or rolling.calibrated or rolling.elementwise):
+        what = "force" if wanted is not None else f"normal = {normal!r}, tangential = {tangential!r}"
+        raise ContactError(f"derivatives = True does not work with {what}")
     solver: Callable[[Creepage], Solution] | Pressed
     if method.elementwise:
         solver = press_gap(
@@ -176,7 +183,7 @@ def solve(
             separation, load, approach, surface, material, speed, method.name, size, start, conformal, max_iterations
         )
         if wanted is None and not (rolling.calibrated or rolling.elementwise):  # the solution stays lazy
-            return problem.solve(creepage, rolling.name, throw=throw)
+            return problem.solve(creepage, rolling.name, derivatives=derivatives, throw=throw)
         solver = _rolling(problem, creepage, rolling, division, layer, progress)
     evaluate = solver.roll if isinstance(solver, Pressed) else solver
     if wanted is None:
@@ -249,6 +256,7 @@ class _StripProblem(NamedTuple):
         creepage: Creepage,
         tangential: str,
         coefficients: tuple[float, float, float] | None = None,
+        derivatives: bool = False,
         throw: bool = False,
     ) -> Solution:
         """Return the solution. `coefficients` are C11, C22, C23 to use instead of those of linear theory."""
@@ -264,6 +272,7 @@ class _StripProblem(NamedTuple):
             friction=self.friction,
             speed=self.speed,
             warm=self.start is not None,
+            derivatives=derivatives,
             throw=throw,
         )
 

@@ -17,8 +17,10 @@ from contact.creepage import Creepage
 from contact.errors import ContactError, require_integer, require_number
 from contact.friction import Friction, as_friction
 from contact.given_force import solve_for_force, wanted_force
+from contact.jacobian import Jacobian
 from contact.kernels.arrays import Cases, Integers, Results, Workspace
 from contact.kernels.enumerations import LoadKind
+from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import RESULT
@@ -123,6 +125,7 @@ class Solver:
         self._bounds = np.zeros(2, np.int64)  # of the only separation
         self._problem = pack(Integers, self._bounds), pack(Integers, np.zeros(1, np.int64)), pack(Cases, self._case)
         self._answer = pack(Results, self._result)
+        self._two_cases, self._two_results = np.zeros(2, self._case.dtype), np.zeros(2, RESULT)
         self._numbers = self._case.view(np.float64), self._result.view(np.float64)  # faster to copy than records
         self.set_surface(friction, speed)
         self._coefficients: NDArray[np.float64] | None = None
@@ -182,6 +185,7 @@ class Solver:
         friction: float | Friction | None = None,
         speed: float | None = None,
         warm: bool = False,
+        derivatives: bool = False,
         throw: bool = True,
     ) -> Solution:
         """Solve one contact.
@@ -200,6 +204,8 @@ class Solver:
         warm : bool
             Start from the last solution. For interacting strips this changes the computing time, and the result within
             the method's tolerance.
+        derivatives : bool
+            Also find `Solution.jacobian`. The solution is then iterated further, so it differs within the method's tolerance.
         throw : bool
             As in `contact.solve`.
 
@@ -214,6 +220,8 @@ class Solver:
             As `contact.solve`.
         """
         if force is not None:
+            if derivatives:
+                raise ContactError("derivatives = True does not work with force; solve again with the creepage found")
 
             def evaluate(creepage: Creepage) -> Solution:
                 return self.solve(
@@ -228,11 +236,12 @@ class Solver:
                 )
 
             return solve_for_force(wanted_force(force), creepage, evaluate, self.tangential.saturates)
-        n = self._run(True, separation, creepage, load, approach, (friction, speed), warm)
+        jacobian = _jacobian(load) if derivatives else None
+        n = self._run(True, separation, creepage, load, approach, (friction, speed), warm, jacobian)
         prepared = Prepared(self.normal.name, self.tangential.name, self.material, self._speed)
         if throw:
             require_trustworthy(Status(self._status[0]), separation.y, load, approach)
-        return Solution.of_kernel(n, self._full, self._numbers, creepage, prepared)
+        return Solution.of_kernel(n, self._full, self._numbers, creepage, prepared, jacobian)
 
     def forces(
         self,
@@ -244,13 +253,17 @@ class Solver:
         friction: float | Friction | None = None,
         speed: float | None = None,
         warm: bool = False,
+        derivatives: bool = False,
     ) -> CaseForces:
         """Return the forces of one contact. Parameters as in `solve`; `status` tells whether they can be trusted."""
-        self._run(False, separation, creepage, load, approach, (friction, speed), warm)
+        jacobian = _jacobian(load) if derivatives else None
+        self._run(False, separation, creepage, load, approach, (friction, speed), warm, jacobian)
         Fx, Fy, Mz, N, approach, pmax, area, slip_area, power, *_ = self._result.item()
         slip_ratio = slip_area / area if area > 0.0 else 0.0
         gap_error = float(self._result["gap_error"][0])
-        return CaseForces(Fx, Fy, Mz, N, approach, pmax, area, slip_ratio, power, Status(self._status[0]), gap_error)
+        return CaseForces(
+            Fx, Fy, Mz, N, approach, pmax, area, slip_ratio, power, Status(self._status[0]), gap_error, jacobian
+        )
 
     def _run(
         self,
@@ -261,6 +274,7 @@ class Solver:
         approach: float | None,
         surface: tuple[float | Friction | None, float | None],
         warm: bool,
+        jacobian: Jacobian | None,
     ) -> int:
         """Check the arguments, fill the case and call the kernel; return the number of strips."""
         if not isinstance(separation, Separation):
@@ -284,7 +298,18 @@ class Solver:
             self._full.space.memory[0] = 0.0
         self._bounds[1] = separation.y.size
         arrays = self._packed_full if with_fields else self._packed_forces_only
+        if jacobian is not None:
+            self._two_cases[0] = self._case[0]
+            n = int(solve_with_jacobian(separation.packed, self._two_cases, arrays, self._two_results, jacobian.values))
+            jacobian.values.setflags(write=False)
+            self._result[0] = self._two_results[0]
+            return n
         return int(solve_cases(0, 1, separation.packed, *self._problem, arrays, self._answer))
+
+
+def _jacobian(load: float | None) -> Jacobian:
+    """Return a jacobian that a kernel has to fill."""
+    return Jacobian(np.zeros((ROWS, COLUMNS)), "approach" if load is None else "load")
 
 
 def require_trustworthy(status: Status, y: NDArray[np.float64], load: float | None, approach: float | None) -> None:

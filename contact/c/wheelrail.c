@@ -95,7 +95,7 @@ enum { R_NONE,
     X(c_gauge_factor, "case.gauge_factor") X(c_border, "case.border") X(c_border_width, "case.border_width")         \
     X(c_k_A, "case.k_A") X(c_k_S, "case.k_S") X(c_drop, "case.drop") X(c_warm, "case.warm")                          \
     X(c_warm_range, "case.warm_range") X(c_heating, "case.heating") X(c_conformal, "case.conformal")                 \
-    X(c_rolling, "case.rolling")
+    X(c_rolling, "case.rolling") X(c_tolerance, "case.tolerance")
 
 enum { A_none,
 #define X(name, text) A_##name,
@@ -289,6 +289,7 @@ static int check_surface(const wr_case *c, const wr_contact_options *o) {
     if (c->nu != o->poisson_ratio) return bad(A_c_nu, R_DIFFERS);
     TRY(check_limit(c->pressure_limit, A_c_pressure_limit));
     TRY(among(c->max_iterations, 1, 1000, A_c_max_iterations));
+    TRY(within(c->tolerance, 0.0, 1e-2, A_c_tolerance));
     TRY(within(c->mu, 0.0, 1e6, A_c_mu));
     TRY(among(c->law, WR_FRICTION_COULOMB, WR_FRICTION_EXPONENTIAL, A_c_law));
     TRY(within(c->kinetic, 0.0, 1e6, A_c_kinetic));
@@ -492,12 +493,18 @@ int wr_contact_case(const wr_contact_options *o, double mu, double speed, wr_cas
 
 static int code_of(int64_t status) { return status == WR_STATUS_OK ? 0 : (int)status; }
 
+/* Find the samples that a separation may leave out: zeros. */
+static void optional_samples(void *memory, const wr_separation *s, const double **x_c, const double **tilt) {
+    double *zeros = numbers(memory, ((Head *)memory)->at_zeros);
+    memset(zeros, 0, (size_t)s->n * sizeof *zeros);
+    *x_c = s->x_c != NULL ? s->x_c : zeros, *tilt = s->tilt != NULL ? s->tilt : zeros;
+}
+
 /* Solve a checked case.  Return the number of strips. */
 static int64_t solve_contact(void *memory, int cold, const wr_separation *s, const wr_case *c, wr_result *result) {
     Head *head = memory;
-    double *zeros = numbers(memory, head->at_zeros);
-    memset(zeros, 0, (size_t)s->n * sizeof *zeros);
-    const double *x_c = s->x_c != NULL ? s->x_c : zeros, *tilt = s->tilt != NULL ? s->tilt : zeros;
+    const double *x_c, *tilt;
+    optional_samples(memory, s, &x_c, &tilt);
     head->answered = 0;
     return CALL(contact_solve, head->sizes, work_of(memory), cold, s->n, (void *)s->y, (void *)s->g, (void *)s->A,
                 (void *)x_c, (void *)tilt, (void *)c, result);
@@ -536,38 +543,13 @@ int wr_contact_derivatives(void *memory, const wr_separation *s, const wr_case *
     TRY(check_separation(s, head->patch.n_samples));
     TRY(check_case(c, &head->patch));
     TRY(aligned(jacobian, A_jacobian));
-    wr_case moved = *c;
-    wr_result at, side[2];
-    solve_contact(memory, 1, s, &moved, &at);
-    /* A step so small that elements hardly ever change from stick to slip within it: a millionth of the creepage at
-     * saturation, of the load, of the penetration and of the friction. */
-    double creepage = 1e-9, spin = 1e-6, area = at.area > 0.0 ? at.area : 1e-4;
-    if (c->mu * at.N > 0.0 && at.area > 0.0) {
-        creepage = 1e-6 * c->mu * at.N / (c->G * area);
-        spin = creepage / sqrt(area / 3.141592653589793);
-    }
-    double penetration = at.stiffness > 0.0 ? 1.5 * at.N / at.stiffness : 1e-6;
-    double amount = c->load_kind == WR_BY_LOAD ? fmax(1e-6 * c->amount, 1e-12) : 1e-6 * penetration;
-    double steps[5] = {creepage, creepage, spin, amount, fmax(1e-6 * c->mu, 1e-12)};
-    for (int j = 0; j < 5; j++) {
-        double span = 0.0;
-        for (int sign = 1; sign >= -1; sign -= 2) {
-            moved = *c;
-            double *member[5] = {&moved.vx, &moved.vy, &moved.phi, &moved.amount, &moved.mu};
-            double before = *member[j];
-            *member[j] += sign * steps[j];
-            if (*member[j] < 0.0 && (j == 4 || (j == 3 && c->load_kind == WR_BY_LOAD))) *member[j] = 0.0;
-            if (j == 4) moved.kinetic = c->mu > 0.0 ? c->kinetic * (moved.mu / c->mu) : moved.mu;
-            span += sign * (*member[j] - before);
-            solve_contact(memory, 1, s, &moved, &side[sign < 0]);
-        }
-        double high[6] = {side[0].Fx, side[0].Fy, side[0].Mz, side[0].N, side[0].approach, side[0].power};
-        double low[6] = {side[1].Fx, side[1].Fy, side[1].Mz, side[1].N, side[1].approach, side[1].power};
-        for (int i = 0; i < 6; i++) jacobian[5 * i + j] = span > 0.0 ? (high[i] - low[i]) / span : 0.0;
-    }
-    head->problem = *c;
-    head->n_strips = solve_contact(memory, 0, s, &head->problem, &head->result); /* fields and trial start as after solve */
-    head->answered = 1;
+    wr_case problems[2] = {*c, *c};
+    wr_result results[2];
+    const double *x_c, *tilt;
+    optional_samples(memory, s, &x_c, &tilt);
+    head->n_strips = CALL(contact_derivatives, head->sizes, work_of(memory), s->n, (void *)s->y, (void *)s->g,
+                          (void *)s->A, (void *)x_c, (void *)tilt, problems, results, jacobian);
+    head->problem = *c, head->result = results[0], head->answered = 1;
     return code_of(head->result.status);
 }
 

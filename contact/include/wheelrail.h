@@ -102,9 +102,9 @@ WR_API int wr_contact_case(const wr_contact_options *options, double mu, double 
 WR_API int wr_contact_solve(void *memory, const wr_separation *separation, const wr_case *problem, wr_result *result);
 WR_API int wr_contact_accept(void *memory);
 WR_API int wr_contact_forget(void *memory);
-/* d(Fx, Fy, Mz, N, approach, power per metre)/d(vx, vy, phi, amount, mu) as jacobian[6][5], row by row.
- * `mu` scales the whole friction law: kinetic changes in the same ratio.  Now central differences of ten solutions, each
- * from nothing; an exact derivative will have this signature.  The last answer and the kept start stay. */
+/* Also a solution: the last answer is then that of this problem.  d(Fx, Fy, Mz, N, approach, power per metre)/
+ * d(vx, vy, phi, amount, mu) as jacobian[6][5], row by row; to the side of larger values where a force has a kink.
+ * `mu` scales the whole friction law: kinetic changes in the same ratio. */
 WR_API int wr_contact_derivatives(void *memory, const wr_separation *separation, const wr_case *problem, double *jacobian);
 /* Fields of the last answer. */
 WR_API int wr_contact_fields(const void *memory, wr_fields *fields);

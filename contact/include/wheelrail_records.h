@@ -11,7 +11,7 @@
 #define WR_LARGEST_ANGLE 0.1
 #define WR_LARGEST_RAIL_ROLL 0.05
 #define WR_BIN_ROWS 10
-#define WR_STRIP_ROWS 21
+#define WR_STRIP_ROWS 22
 #define WR_MOTION_NUMBERS 30
 #define WR_MOTION_RADIUS 16
 #define WR_MOTION_TAPE 17
@@ -195,9 +195,10 @@ typedef struct {
     double heating; /* share of heat over 2 sqrt(pi lambda rho c) [m2 K/(W sqrt(s))] */
     int64_t conformal; /* 1 where the surface of contact is not taken as a plane */
     double rolling; /* turn of the wheel about the plane's y axis per metre rolled [1/m]; for a bent surface */
+    double tolerance; /* at which the strip half space stops [-]; 0 for the default */
 } wr_case;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
-_Static_assert(sizeof(wr_case) == 264, "wr_case");
+_Static_assert(sizeof(wr_case) == 272, "wr_case");
 _Static_assert(offsetof(wr_case, load_kind) == 0, "wr_case.load_kind");
 _Static_assert(offsetof(wr_case, amount) == 8, "wr_case.amount");
 _Static_assert(offsetof(wr_case, normal) == 16, "wr_case.normal");
@@ -231,6 +232,7 @@ _Static_assert(offsetof(wr_case, warm_range) == 232, "wr_case.warm_range");
 _Static_assert(offsetof(wr_case, heating) == 240, "wr_case.heating");
 _Static_assert(offsetof(wr_case, conformal) == 248, "wr_case.conformal");
 _Static_assert(offsetof(wr_case, rolling) == 256, "wr_case.rolling");
+_Static_assert(offsetof(wr_case, tolerance) == 264, "wr_case.tolerance");
 #endif
 
 typedef struct {

@@ -4,7 +4,7 @@ import math
 
 from contact.core import entry, kernel
 from contact.kernels import cubic
-from contact.kernels.arrays import Case, Cases, Integers, Result, Results, Samples, Workspace
+from contact.kernels.arrays import Case, Cases, Integers, Matrix, Result, Results, Samples, Workspace
 from contact.kernels.conformal import bend, project
 from contact.kernels.enumerations import Status, Tangential, TangentialFamily
 from contact.kernels.friction import of_bodies, of_case, over_profile
@@ -105,11 +105,15 @@ def _rescale_tractions(strips, n, case, elements, fields, result):
             result.power -= load * (qx * fields[Field.SX, i, k] + qy * fields[Field.SY, i, k])
 
 
-@kernel
-def _set_rolling(strips, n, case):
-    """Set the bound of each strip, the pressure times factors of temperature and profile, and the plane's creepages."""
+@entry
+def set_rolling(strips: Matrix, n: int, case: Case) -> None:
+    """Set what the tangential problem of `n` strips starts from: aspect ratios, bounds and the creepages of the plane.
+
+    The bound is the pressure times factors of the bodies' temperature and of the profile.
+    """
     factor, bodies = case.gauge_factor, of_bodies(case)
     for i in range(n):
+        strips[Strip.ASPECT, i] = strips[Strip.LN_ASPECT, i]
         strips[Strip.VX, i], strips[Strip.VY, i], strips[Strip.PHI, i] = case.vx, case.vy, case.phi
         strips[Strip.BOUND, i] = strips[Strip.P0, i] * bodies
         strips[Strip.TO_X, i], strips[Strip.TO_Y, i], strips[Strip.TO_PHI, i] = 0.0, 0.0, 0.0
@@ -149,7 +153,7 @@ def _roll(n, case, own, result):
 
 @entry
 def press_case(sep: Samples, case: Case, own: Workspace, result: Result) -> int:
-    """Solve the normal problem and set the creepages and the bound of each strip; return the strip count."""
+    """Solve the normal problem; return the strip count."""
     n = press(sep, case, own, result)
     if n == 0:
         return 0
@@ -170,7 +174,6 @@ def press_case(sep: Samples, case: Case, own: Workspace, result: Result) -> int:
     if 0.0 < case.pressure_limit < result.pmax:
         result.pmax, result.limited = case.pressure_limit, 1
         _limit_pressure(strips, n, case.pressure_limit, elements, fields, result.N)
-    _set_rolling(strips, n, case)
     y_low, y_high = math.inf, -math.inf
     for k in range(count):
         y_low, y_high = min(y_low, result.edges[2 * k]), max(y_high, result.edges[2 * k + 1])
@@ -179,9 +182,13 @@ def press_case(sep: Samples, case: Case, own: Workspace, result: Result) -> int:
 
 
 @kernel
-def roll_case(n, case, own, result):
-    """Solve the tangential problem of `n` > 0 strips."""
+def roll_case(sep, n, case, own, result):
+    """Solve the tangential problem of `n` > 0 strips, in the plane or on the bent surface. It may be solved again."""
     strips = own.strips
+    set_rolling(strips, n, case)
+    bent = case.conformal != 0 and case.tangential_family != TangentialFamily.CREEP_FORCE
+    if bent:
+        bend(sep, case, strips, n)
     _roll(n, case, own, result)
     if result.limited != 0 and _bears_pressure(case):
         _rescale_tractions(strips, n, case, own.rule.elements, own.fields, result)
@@ -190,6 +197,8 @@ def roll_case(n, case, own, result):
     full = result.area * (1.0 - 1e-12)
     if result.status == Status.OK and case.mu > 0.0 and result.slip_area >= full:
         result.status = Status.SATURATED
+    if bent:
+        project(strips, n, own.fields, result)
     for i in range(n):
         strips[Strip.ASPECT, i] = math.exp(strips[Strip.ASPECT, i])
 
@@ -209,14 +218,8 @@ def solve_case(sep, cases, own, results):
     """
     case, result = cases[0], results[0]
     n = press_case(sep, case, own, result)
-    if n == 0:
-        return 0
-    bent = case.conformal != 0 and case.tangential_family != TangentialFamily.CREEP_FORCE
-    if bent:
-        bend(sep, case, own.strips, n)
-    roll_case(n, case, own, result)
-    if bent:
-        project(own.strips, n, own.fields, result)
+    if n > 0:
+        roll_case(sep, n, case, own, result)
     return n
 
 

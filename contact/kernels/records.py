@@ -85,6 +85,7 @@ CASE = _record(
     heating         share of heat over 2 sqrt(pi lambda rho c) [m2 K/(W sqrt(s))]
     conformal:int   1 where the surface of contact is not taken as a plane
     rolling         turn of the wheel about the plane's y axis per metre rolled [1/m]; for a bent surface
+    tolerance       at which the strip half space stops [-]; 0 for the default
     """,
 )
 

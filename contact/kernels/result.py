@@ -12,3 +12,10 @@ def clear(result):
     result.n_patches, result.iterations, result.status, result.limited = 0, 0, 0, 0
     result.pressure_y, result.touch, result.gap_error = 0.0, 0.0, 0.0
     result.edges[:] = 0.0
+
+
+@kernel
+def clear_forces(result):
+    """Set what the tangential problem adds to a result to zero."""
+    result.Fx, result.Fy, result.Mz = 0.0, 0.0, 0.0
+    result.slip_area, result.power, result.pressure_y = 0.0, 0.0, 0.0

@@ -13,7 +13,7 @@ class Strip(IntEnum):
     XC = 2
     A = 3  # half length
     P0 = 4  # peak of the semi-elliptic pressure, or of the one with the strip's load where the pressure is limited
-    ASPECT = 5
+    ASPECT = 5  # a/b; its logarithm while the tangential problem is solved
     PATCH = 6
     BOUND = 7  # peak over the patch's coefficient of friction of the semi-ellipse that bounds the traction
     VX = 8  # creepages: rigid slip VX - PHI·y, VY + PHI·x
@@ -29,6 +29,7 @@ class Strip(IntEnum):
     STIFFNESS = 18  # C11·a·dy [m²]
     CENTRE = 19  # of the longitudinal stiffness of the strip's shape [m]
     OFFSET = 20  # part of XC by which a skewed strip's middle lies off the line of least gap; 0 by other normal methods
+    LN_ASPECT = 21  # ln(a/b) by the normal method
 
 
 class Field(IntEnum):

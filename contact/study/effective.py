@@ -14,7 +14,7 @@ from contact import force_table as table
 from contact import friction, workspace
 from contact.case import cases, set_surface
 from contact.errors import ContactError
-from contact.kernels.pipeline import press_case
+from contact.kernels.pipeline import press_case, set_rolling
 from contact.kernels.records import RESULT
 from contact.kernels.rows import Strip
 from contact.kernels.tangential.fastrip_mapped import roll_patch, set_shapes
@@ -98,6 +98,7 @@ class OneEllipse:
         own = workspace.allocate(normal, lookup("tangential", "fastrip"), material.poisson_ratio, size, fields=False)
         self.result = np.zeros(1, RESULT)[0]
         self.n = press_case(s.samples, case[0], own, self.result)
+        set_rolling(own.strips, self.n, case[0])
         self.spin = set_shapes(0, self.n, own)
         self.case, self.own, self.strips, self.area = case[0], own, own.strips.copy(), float(self.result.area)
 

@@ -11,7 +11,8 @@ begins with the warm start. The last argument is `component.Given`.
   parameters. A model without states does not need it.
 * ``model_outputs(values, work, h, given)`` advances by h [s] from the warm start, then computes the outputs. With h = 0 it
   computes them only from the inputs and states in `values`.
-* ``model_lazy(values, work, given)`` computes the rows `lazy`. A model without such rows does not need it.
+* ``model_lazy(values, work, given)`` computes the rows `lazy` from the solution that ``model_outputs`` has left in `work`. A
+  model without such rows does not need it.
 * ``model_difference(values, reference, given)`` returns a suitable step of one variable for difference quotients.
 * ``model_field(values, work, k, given)`` writes field number `k` of the last ``model_outputs`` into `work` and returns where
   it begins. A model without fields does not need it.

@@ -19,8 +19,10 @@ from contact.kernels.arrays import Samples, Workspace
 from contact.kernels.damage.assess import damage_kernel
 from contact.kernels.entries.layout import fill, forget_forged, lay_out
 from contact.kernels.enumerations import LoadKind
-from contact.kernels.pipeline import solve_case
+from contact.kernels.jacobian import move
+from contact.kernels.pipeline import roll_case, solve_case
 from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, MAX_PATCHES, RESULT
+from contact.kernels.result import clear_forces
 from contact.kernels.rows import DamageField, Field, Strip
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
 from fmu_src.differences import creepage_steps
@@ -226,17 +228,6 @@ def _difference(v, at, reference):
 
 
 @compiled
-def _move(case, j, by):
-    """Add `by` to creepage j of a case."""
-    if j == 0:
-        case.vx += by
-    elif j == 1:
-        case.vy += by
-    else:
-        case.phi += by
-
-
-@compiled
 def _solve(n, a):
     """Solve the case of `a` with its first `n` samples."""
     forget_forged(a.own.space.memory)
@@ -290,14 +281,15 @@ def entries() -> dict[str, Callable[..., Any]]:
         v, rows = _values(values, given)
         at = rows[0]
         a, _, _ = arrange(v, at, work, given)
-        n, case, result = _pose(v, rows, a), a.case[0], a.result[0]
+        sep, case, result = _first(a.samples, _pose(v, rows, a)), a.case[0], a.result[0]
         for j, step in enumerate(_creepages(v, at)):
             for i in range(3):
                 v[at.creep_stiffness + 3 * i + j] = 0.0
             for sign in (1.0, -1.0):
-                _move(case, j, sign * step)
-                a.own.space.memory[0] = 0.0  # cold start, so that the result does not depend on earlier steps
-                _solve(n, a)
+                move(case, j, sign * step)
+                clear_forces(result)
+                if a.count[0] > 0:
+                    roll_case(sep, int(a.count[0]), case, a.own, result)
                 for i, force in enumerate((result.Fx, result.Fy, result.Mz)):
                     v[at.creep_stiffness + 3 * i + j] += sign * force / (2.0 * step)
                 case.vx, case.vy = v[at.creepage_longitudinal], v[at.creepage_lateral]

@@ -135,6 +135,7 @@ def case_reader(table: Table, wires: Mapping[str, str]) -> Any:
     def read_case(v, places, cases):
         read(v, places, cases)
         case, at = cases[0], places[0]
+        case.tolerance = 0.0
         case.drop = 1.0 - v[at.friction_hot_factor]
         case.warm = v[at.friction_reference_temperature] - v[at.friction_background_temperature]
         case.heating = _heating(

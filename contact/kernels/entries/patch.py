@@ -13,6 +13,7 @@ from contact.kernels import block, memory
 from contact.kernels.arrays import Samples, Workspace
 from contact.kernels.damage.assess import damage_kernel
 from contact.kernels.entries.layout import compiled, copy, fill, forget_forged, lay_out, size_of
+from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
 from contact.kernels.pipeline import solve_case
 from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, MAX_PATCHES, RESULT
 from contact.kernels.rows import DamageField
@@ -37,6 +38,27 @@ def _lay(sizes, work, constants):
     return _Laid(kept, own, damage_fields), at_strips, end
 
 
+@compiled
+def _start(sizes, work, given):
+    """Return all arrays. The next solution starts from the kept start."""
+    a, _, _ = _lay(sizes, work, given.data)
+    copy(a.kept, a.own.space.memory)
+    forget_forged(a.own.space.memory)
+    return a
+
+
+@compiled
+def _samples(n, y, g, A, x_c, tilt):
+    """Return the separation of `n` samples."""
+    return Samples(
+        block.vector(y, 0, n)[0],
+        block.vector(g, 0, n)[0],
+        block.vector(A, 0, n)[0],
+        block.vector(x_c, 0, n)[0],
+        block.vector(tilt, 0, n)[0],
+    )
+
+
 def contact_size(sizes, given):
     """Return the size of `work` in float64."""
     return _lay(sizes, sizes, given.data)[2]
@@ -58,22 +80,23 @@ def contact_init(sizes, poisson_ratio, work, given):
 
 def contact_solve(sizes, work, cold, n, y, g, A, x_c, tilt, case, result, given):
     """Solve one case from the kept start, or with `cold` from nothing. Return the number of strips."""
-    a, _, _ = _lay(sizes, work, given.data)
-    trial = a.own.space.memory
-    copy(a.kept, trial)
-    forget_forged(trial)
+    a = _start(sizes, work, given)
     if cold != 0:
-        trial[0] = 0.0
-    samples = Samples(
-        block.vector(y, 0, n)[0],
-        block.vector(g, 0, n)[0],
-        block.vector(A, 0, n)[0],
-        block.vector(x_c, 0, n)[0],
-        block.vector(tilt, 0, n)[0],
-    )
+        a.own.space.memory[0] = 0.0
+    samples = _samples(n, y, g, A, x_c, tilt)
     cases, _ = block.records(case, 0, 1, CASE)
     results, _ = block.records(result, 0, 1, RESULT)
     return solve_case(samples, cases, a.own, results)
+
+
+def contact_derivatives(sizes, work, n, y, g, A, x_c, tilt, cases, results, jacobian, given):
+    """Solve the first of two cases from the kept start, with its jacobian. The second case and result are scratch."""
+    a = _start(sizes, work, given)
+    samples = _samples(n, y, g, A, x_c, tilt)
+    two_cases, _ = block.records(cases, 0, 2, CASE)
+    two_results, _ = block.records(results, 0, 2, RESULT)
+    matrix, _ = block.matrix(jacobian, 0, ROWS, COLUMNS)
+    return solve_with_jacobian(samples, two_cases, a.own, two_results, matrix)
 
 
 def contact_accept(sizes, work, given):
@@ -108,6 +131,7 @@ ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {
     "contact_strips": (contact_strips, "i64", ("ptr",)),
     "contact_init": (contact_init, "i64", ("ptr", "f64", "ptr")),
     "contact_solve": (contact_solve, "i64", ("ptr", "ptr", "i64", "i64", *("ptr",) * 7)),
+    "contact_derivatives": (contact_derivatives, "i64", ("ptr", "ptr", "i64", *("ptr",) * 8)),
     "contact_accept": (contact_accept, "i64", ("ptr", "ptr")),
     "contact_forget": (contact_forget, "i64", ("ptr", "ptr")),
     "contact_damage": (contact_damage, "i64", ("ptr", "ptr", "i64", *("ptr",) * 4)),

@@ -256,7 +256,7 @@ def fill_strips(sep, delta, modulus, across, work, edges, strips):
         strips[Strip.A, i] = a
         strips[Strip.P0, i] = 2.0 * modulus / math.pi * a * stretched / nr  # Eq. 9.1 with d/a = a (1 + alpha) A
         strips[Strip.XC, i] = (1.0 - t) * xc[k] + t * xc[k + 1]
-        strips[Strip.ASPECT, i] = (1.0 - t) * work[Sample.LOG_ASPECT, k] + t * work[Sample.LOG_ASPECT, k + 1]
+        strips[Strip.LN_ASPECT, i] = (1.0 - t) * work[Sample.LOG_ASPECT, k] + t * work[Sample.LOG_ASPECT, k + 1]
         share = modulus * strips[Strip.DY, i] / nr
         N += d * share
         stiffness += share
@@ -307,7 +307,7 @@ def solve_load(sep, y_least, case, across, work, result):
 
 @kernel
 def analyn(sep, case, across, work, strips, result):
-    """Solve the normal problem. Fill `strips` (`Strip.ASPECT` holds ln(a/b)) and `result`. Return the number of strips.
+    """Solve the normal problem. Fill `strips` (`Strip.LN_ASPECT` holds ln(a/b)) and `result`. Return the number of strips.
 
     `across` is the rule for the positions of strips in a patch. `work` is a scratch array of the rows of `Sample`.
     """

@@ -73,7 +73,7 @@ def _load_at(case, sep, delta, point, across, work, strips, edges):
         a0 *= factor
     equivalent_aspect(strips, n_strips)
     if method == Normal.KPEC:
-        strips[Strip.ASPECT, :n_strips] = log_aspect
+        strips[Strip.LN_ASPECT, :n_strips] = log_aspect
     elif method == Normal.LINDER:
         local_ellipses(strips, n_strips, edges)
     if method == Normal.WINKLER:

@@ -45,7 +45,7 @@ def hertzian(sep, case, across, work, strips, result):
         strips[Strip.A, i] = math.sqrt(d / (point.one_alpha * point.A))
         strips[Strip.P0, i] = 2.0 * modulus / math.pi * math.sqrt(d * point.one_alpha * point.A) / point.nr
         strips[Strip.XC, i] = centre
-        strips[Strip.ASPECT, i] = point.log_aspect
+        strips[Strip.LN_ASPECT, i] = point.log_aspect
     result.N = unit * delta**1.5
     result.stiffness = 1.5 * unit * math.sqrt(delta)
     return n_strips

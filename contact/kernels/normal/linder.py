@@ -25,9 +25,9 @@ def local_ellipse(a, y, low, high):
 
 @kernel
 def local_ellipses(strips, n, edges):
-    """Set ASPECT of each strip to ln(a_loc/b)."""
+    """Set LN_ASPECT of each strip to ln(a_loc/b)."""
     for i in range(n):
         k = int(strips[Strip.PATCH, i])
         if strips[Strip.A, i] > 0.0:
             a, b = local_ellipse(strips[Strip.A, i], strips[Strip.Y, i], edges[2 * k], edges[2 * k + 1])
-            strips[Strip.ASPECT, i] = math.log(a / b)
+            strips[Strip.LN_ASPECT, i] = math.log(a / b)

@@ -92,7 +92,7 @@ def lay_ellipse(strips, k, d, curvatures, place, modulus, across, edges):
         strips[Strip.Y, j], strips[Strip.DY, j], strips[Strip.XC, j] = centre + b * nodes[i], b * weights[i], x_c
         strips[Strip.A, j] = math.sqrt(depth / (one_alpha * A))
         strips[Strip.P0, j] = 2.0 * modulus / math.pi * math.sqrt(depth * one_alpha * A) / nr
-        strips[Strip.ASPECT, j], strips[Strip.PATCH, j], strips[Strip.OFFSET, j] = log_aspect, k, 0.0
+        strips[Strip.LN_ASPECT, j], strips[Strip.PATCH, j], strips[Strip.OFFSET, j] = log_aspect, k, 0.0
     return 4.0 / 3.0 * modulus * d * b / nr
 
 

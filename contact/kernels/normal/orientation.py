@@ -44,7 +44,7 @@ def turn_back(n, strips, edges):
     if n == 0:
         return
     last = strips[Strip.PATCH, n - 1]
-    for row in (Strip.Y, Strip.DY, Strip.XC, Strip.A, Strip.P0, Strip.ASPECT, Strip.PATCH, Strip.OFFSET):
+    for row in (Strip.Y, Strip.DY, Strip.XC, Strip.A, Strip.P0, Strip.LN_ASPECT, Strip.PATCH, Strip.OFFSET):
         _reverse(strips[row], n)
     for i in range(n):
         strips[Strip.Y, i] = -strips[Strip.Y, i]

@@ -54,10 +54,12 @@ from contact.kernels.rows import Sample, Strip, Vector
 
 #: Most iterations, if the case does not say another number. They cap the time.
 MAX_ITERATIONS = 40
-#: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops.
+#: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops, if the case does
+#: not say another one.
 TOLERANCE = 1e-4
-#: Limits at which steps by the Jacobian of an ellipse stop: what mixing leaves of the step, and the residuals.
-LEFT, CLOSE = 4e-4, 4e-3
+#: Limits at which steps by the Jacobian of an ellipse stop: what mixing leaves of the step, over the tolerance, and the
+#: residuals, over its square root.
+LEFT, CLOSE = 4.0, 0.4
 #: Load-weighted mean change of ln a that counts as converged at the limit of iterations.
 ACCEPTABLE = 1e-3
 #: Iteration from which on the ends are fixed. At the corner of a punch and on rough gaps their rule has no steady solution.
@@ -132,7 +134,7 @@ def _write(sep, n_panels, panels, skewed, own, result):
             strips[Strip.XC, count] += strips[Strip.OFFSET, count]
             strips[Strip.A, count] = vectors[Vector.A, row]
             strips[Strip.P0, count] = vectors[Vector.P, row]
-            strips[Strip.ASPECT, count] = (1.0 - t) * work[Sample.LOG_ASPECT, k] + t * work[Sample.LOG_ASPECT, k + 1]
+            strips[Strip.LN_ASPECT, count] = (1.0 - t) * work[Sample.LOG_ASPECT, k] + t * work[Sample.LOG_ASPECT, k + 1]
             strips[Strip.PATCH, count] = patch
             count += 1
     return count
@@ -308,6 +310,8 @@ def _solve(sep, case, own, result):
     # a warm start that finds no rest leaves the cold one at least as many iterations, or takes all
     patience = WARM if case.max_iterations >= 2 * WARM else case.max_iterations
 
+    tolerance = case.tolerance if case.tolerance > 0.0 else TOLERANCE
+    left_limit, close = LEFT * tolerance, CLOSE * math.sqrt(tolerance)
     converged, exact, descending, searched, best = False, False, False, False, math.inf
     delta = result.approach - g_least  # ANALYN's, until the first pressures are known
     iteration, begun, known, error, load, last_error = 0, 0, 0, math.inf, 0.0, math.inf
@@ -361,8 +365,8 @@ def _solve(sep, case, own, result):
                 if skew > 0.0:
                     descend_offsets(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors)
         left = 0.0 if cut else mix(n, n_panels, panels, vectors, load, known, skew > 0.0, space.lu)
-        exact = not cut and error < TOLERANCE * load and moved < 2.0 * TOLERANCE
-        settled = exact or (descending and left < LEFT and error < CLOSE * load and moved < CLOSE)
+        exact = not cut and error < tolerance * load and moved < 2.0 * tolerance
+        settled = exact or (descending and left < left_limit and error < close * load and moved < close)
         calm = skew > 0.0 and age >= FREEZE and not cut and error < ACCEPTABLE * load  # more would be slow
         ghosts, held = False, n_panels
         if settled or calm or not (searched or cut):

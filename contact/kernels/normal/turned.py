@@ -124,7 +124,7 @@ def _turned_aspect(a, b, slope):
 
 @kernel
 def turn_aspects(n, skew, strips):
-    """Add to Strip.ASPECT what the turn of each patch makes of it, times `skew`. `n` is the number of strips."""
+    """Add to Strip.LN_ASPECT what the turn of each patch makes of it, times `skew`. `n` is the number of strips."""
     first = 0
     while first < n:
         last, longest, width = first, 0.0, 0.0
@@ -134,5 +134,5 @@ def turn_aspects(n, skew, strips):
         _, _, slope = _mean_slope(first, last - first, strips)
         change = skew * _turned_aspect(longest, 0.5 * width, slope)
         for i in range(first, last):
-            strips[Strip.ASPECT, i] += change
+            strips[Strip.LN_ASPECT, i] += change
         first = last

@@ -103,7 +103,7 @@ def set_pressures(strips, n, edges, at, a_at, delta, modulus):
 
 @kernel
 def equivalent_aspect(strips, n):
-    """Set ASPECT of each strip to ln(a/b) of its patch's equivalent ellipse.
+    """Set LN_ASPECT of each strip to ln(a/b) of its patch's equivalent ellipse.
 
     This ellipse has the longest strip as a and the area of the patch.
     """
@@ -116,5 +116,5 @@ def equivalent_aspect(strips, n):
             end += 1
         log_aspect = math.log(math.pi * a * a / area) if area > 0.0 else 0.0
         for k in range(i, end):
-            strips[Strip.ASPECT, k] = log_aspect
+            strips[Strip.LN_ASPECT, k] = log_aspect
         i = end

@@ -184,24 +184,6 @@ Status update(Instance *instance, double h, bool warm)
     return say(instance, number);
 }
 
-/* Compute the lazy outputs of the last step. */
-Status update_lazy(Instance *instance)
-{
-    double *solved = instance->other;
-    memcpy(solved, instance->solved, N(values) * sizeof(double));
-    if (!instance->is.lazy_stale || prepare(instance, solved) != OK) return OK;
-    instance->work_is_solved = false;
-    instance->kernels->lazy(solved, instance->work, instance->resources, instance->table.own);
-    for (size_t i = 0; i < N(values); i++)
-        if (instance->table.variables[i].lazy) {
-            if (!isfinite(solved[i]))
-                return report(instance, LOG_DISCARD, "%s has no finite value for these inputs", TEXT(instance->table.variables[i].name));
-            instance->values[i] = solved[i];
-        }
-    instance->is.lazy_stale = false;
-    return OK;
-}
-
 /* Restore working memory to the state of the last outputs, bit for bit, if it has been used since. */
 Status update_work(Instance *instance)
 {
@@ -213,6 +195,24 @@ Status update_work(Instance *instance)
     memcpy(instance->work, instance->memory + instance->memory_size, (size_t)instance->memory_size * sizeof(double));
     evaluate(instance, solved, 0.0);
     instance->work_is_solved = true;
+    return OK;
+}
+
+/* Compute the lazy outputs of the last step from its solution in working memory. */
+Status update_lazy(Instance *instance)
+{
+    double *solved = instance->other;
+    if (!instance->is.lazy_stale || update_work(instance) != OK) return OK;
+    memcpy(solved, instance->solved, N(values) * sizeof(double));
+    instance->work_is_solved = false;
+    instance->kernels->lazy(solved, instance->work, instance->resources, instance->table.own);
+    for (size_t i = 0; i < N(values); i++)
+        if (instance->table.variables[i].lazy) {
+            if (!isfinite(solved[i]))
+                return report(instance, LOG_DISCARD, "%s has no finite value for these inputs", TEXT(instance->table.variables[i].name));
+            instance->values[i] = solved[i];
+        }
+    instance->is.lazy_stale = false;
     return OK;
 }
 

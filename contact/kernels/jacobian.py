@@ -1,0 +1,149 @@
+"""Forces with their derivatives, d(Fx, Fy, Mz, N, approach, power)/d(creepages, load or approach, friction).
+
+The normal problem does not depend on creepages and friction. So their columns are differences of the tangential problem
+alone, on the same strips. The column of the load or approach is the difference of two solutions, both iterated until their
+own error is far below the step. The second of them is the answer, so all numbers belong together.
+
+All differences are one-sided, to the side of larger values. Where forces have a kink (a strip changes between stick and slip)
+this is the slope on that side.
+"""
+
+import math
+
+from contact.core import entry, kernel
+from contact.kernels.arrays import Cases, Matrix, Results, Samples, Workspace
+from contact.kernels.enumerations import LoadKind
+from contact.kernels.pipeline import press_case, roll_case
+
+#: Rows and columns.
+ROWS, COLUMNS = 6, 5
+AMOUNT, MU = 3, 4
+#: Step of creepages and friction, over those at which the whole patch slips. Elements hardly ever change their state within it.
+_STEP = 1e-6
+#: Step of the load, or of the penetration, over itself, and the tolerance of both solutions.
+_LOAD_STEP, _TOLERANCE = 3e-4, 1e-8
+#: Steps of creepage [-], spin [1/m] and friction [-] where there is no friction.
+_LEAST, _LEAST_SPIN, _LEAST_FRICTION = 1e-9, 1e-6, 1e-12
+
+
+@kernel
+def scale_friction(case, mu):
+    """Set the coefficient of friction; a friction law changes as a whole."""
+    case.kinetic = case.kinetic * (mu / case.mu) if case.mu > 0.0 else mu
+    case.mu = mu
+
+
+@kernel
+def creepage_step(case, result):
+    """Return a small step of the longitudinal and the lateral creepage [-], and of the spin [1/m]."""
+    bound = case.mu * result.N
+    if not (bound > 0.0 and result.area > 0.0):
+        return _LEAST, _LEAST_SPIN
+    step = _STEP * bound / (case.G * result.area)
+    return step, step / math.sqrt(result.area / math.pi)
+
+
+@kernel
+def move(case, j, step):
+    """Add `step` to what column j means: a creepage, the load or approach, or the friction. Return what was added."""
+    if j == 0:
+        before, case.vx = case.vx, case.vx + step
+        return case.vx - before
+    if j == 1:
+        before, case.vy = case.vy, case.vy + step
+        return case.vy - before
+    if j == 2:
+        before, case.phi = case.phi, case.phi + step
+        return case.phi - before
+    if j == AMOUNT:
+        before, case.amount = case.amount, case.amount + step
+        return case.amount - before
+    before = case.mu
+    scale_friction(case, before + step)
+    return case.mu - before
+
+
+@kernel
+def roll_moved(sep, n, j, step, cases, own, results):
+    """Solve the tangential problem on the same `n` strips with one creepage or the friction moved.
+
+    ``cases[0]`` and ``results[0]`` are the problem and what the normal problem has found. ``cases[1]`` and ``results[1]`` get
+    those of the moved problem.
+    """
+    cases[1], results[1] = cases[0], results[0]
+    move(cases[1], j, step)
+    roll_case(sep, n, cases[1], own, results[1])
+
+
+@kernel
+def _press_closely(sep, share, cases, own, result):
+    """Solve the normal problem of ``cases[0]`` with a small tolerance, and with its load or penetration larger by a share.
+
+    ``cases[1]`` gets this problem. Return the strip count.
+    """
+    cases[1] = cases[0]
+    cases[1].tolerance = _TOLERANCE
+    move(cases[1], AMOUNT, share)
+    return press_case(sep, cases[1], own, result)
+
+
+@kernel
+def _store(result, j, jacobian):
+    """Write the results into column j."""
+    jacobian[0, j], jacobian[1, j], jacobian[2, j] = result.Fx, result.Fy, result.Mz
+    jacobian[3, j], jacobian[4, j], jacobian[5, j] = result.N, result.approach, result.power
+
+
+@kernel
+def _subtract(result, j, step, jacobian):
+    """Make the results in column j, which are those of a problem moved by `step`, derivatives at `result`."""
+    jacobian[0, j], jacobian[1, j] = (jacobian[0, j] - result.Fx) / step, (jacobian[1, j] - result.Fy) / step
+    jacobian[2, j], jacobian[3, j] = (jacobian[2, j] - result.Mz) / step, (jacobian[3, j] - result.N) / step
+    jacobian[4, j], jacobian[5, j] = (jacobian[4, j] - result.approach) / step, (jacobian[5, j] - result.power) / step
+
+
+@kernel
+def _step(j, case, amount, result):
+    """Return the step of column j; `amount` is that of the load or approach."""
+    if j == AMOUNT:
+        return amount
+    if j == MU:
+        return max(_STEP * case.mu, _LEAST_FRICTION)
+    creepage, spin = creepage_step(case, result)
+    return spin if j == 2 else creepage
+
+
+@entry
+def solve_with_jacobian(sep: Samples, cases: Cases, own: Workspace, results: Results, jacobian: Matrix) -> int:
+    """Solve ``cases[0]`` into ``results[0]``, and fill the jacobian, shape (6, 5). Return the strip count.
+
+    ``cases[1]`` and ``results[1]`` are scratch. Without contact all derivatives are zero. The answer is iterated further than
+    that of `solve_case`; the two agree within the tolerance of the method.
+    """
+    jacobian[:, :] = 0.0
+    over = cases[0].amount
+    if cases[0].load_kind == LoadKind.APPROACH:
+        press_case(sep, cases[0], own, results[0])
+        over -= results[0].touch
+    amount = _LOAD_STEP * max(over, 0.0)
+    n = _press_closely(sep, amount, cases, own, results[1])
+    if n > 0:
+        roll_case(sep, n, cases[1], own, results[1])
+        _store(results[1], AMOUNT, jacobian)
+    n = _press_closely(sep, 0.0, cases, own, results[0])
+    if n == 0:
+        jacobian[:, :] = 0.0
+        return 0
+    for j in range(COLUMNS):
+        if j != AMOUNT:
+            roll_moved(sep, n, j, _step(j, cases[0], amount, results[0]), cases, own, results)
+            _store(results[1], j, jacobian)
+    roll_case(sep, n, cases[0], own, results[0])
+    for j in range(COLUMNS):
+        cases[1] = cases[0]
+        step = move(cases[1], j, _step(j, cases[0], amount, results[0]))
+        if step > 0.0:
+            _subtract(results[0], j, step, jacobian)
+        else:
+            jacobian[:, j] = 0.0
+    return n
