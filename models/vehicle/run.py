@@ -194,7 +194,7 @@ class VehicleRun:
         return min(max(self.distance / self.scenario.declared.length, 0.0), 1.0)
 
     def advance(self) -> None:
-        """Advance by one sample: as many steps as fit in its spacing. The last one counts for the damage of all.
+        """Advance by one sample: as many steps as fit in its spacing. Damage is counted at every solution of a contact.
 
         Raises
         ------
@@ -205,18 +205,15 @@ class VehicleRun:
         speed = self.scenario.speed(self.distance)
         many = max(round(self.scenario.declared.recording.spacing / (speed * h)), 1)
         counts = self.distance >= self.scenario.declared.recording.settling
+        settings["distance"] = h * speed if counts else 0.0
         try:
-            settings["distance"] = 0.0
-            if many > 1:
-                simulation.advance(h, many - 1)
-            settings["distance"] = many * h * speed if counts else 0.0
-            simulation.advance(h)
+            simulation.advance(h, many)
         except ContactError as error:
             raise ContactError(f"{self.scenario.name}, {speed:g} m/s: {error}") from None
         if counts:
             self._distance += many * h * speed
             on_profiles = ~simulation.on_surfaces
-            self._counted += many * h * speed * float(simulation.wheels["dissipation"][on_profiles].sum())
+            self._counted += h * speed * float(simulation.state.sums[on_profiles, Sum.DISSIPATION].sum())
         self._sample(many * h)
 
     def _sample(self, elapsed: float) -> None:
