@@ -74,7 +74,18 @@ def held(loads: Array, pace: int, tolerance: float) -> Held:
     answers, drifts, expected = (np.zeros((n, len(Load))) for _ in range(3))
     ages, paces, solutions = (np.zeros(n, np.int64) for _ in range(3))
     return Held(
-        np.zeros(n, GIVEN), answers, drifts, expected, ages, paces, np.zeros(n), loads, solutions, np.zeros(n), pace, tolerance
+        np.zeros(n, GIVEN),
+        answers,
+        drifts,
+        expected,
+        ages,
+        paces,
+        np.zeros(n),
+        loads,
+        solutions,
+        np.zeros(n),
+        pace,
+        tolerance,
     )
 
 

@@ -181,6 +181,13 @@ def count(model: Model, state: State, wheels: Wheels, most: float) -> None:
             books[Book.UNTRUSTED] += 1.0
         state.loads[w // 2, w % 2] = now
         sums, wheel = state.sums[w], wheels[w]
+        if sums[Sum.STEPS] == 0.0:
+            sums[Sum.LEAST_LATERAL], sums[Sum.LARGEST_LATERAL] = wheel.lateral, wheel.lateral
+            sums[Sum.LEAST_VERTICAL], sums[Sum.LARGEST_VERTICAL] = wheel.vertical, wheel.vertical
+        sums[Sum.LEAST_LATERAL] = min(sums[Sum.LEAST_LATERAL], wheel.lateral)
+        sums[Sum.LARGEST_LATERAL] = max(sums[Sum.LARGEST_LATERAL], wheel.lateral)
+        sums[Sum.LEAST_VERTICAL] = min(sums[Sum.LEAST_VERTICAL], wheel.vertical)
+        sums[Sum.LARGEST_VERTICAL] = max(sums[Sum.LARGEST_VERTICAL], wheel.vertical)
         sums[Sum.STEPS] += 1.0
         sums[Sum.LATERAL] += wheel.lateral
         sums[Sum.VERTICAL] += wheel.vertical
