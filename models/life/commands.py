@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -48,7 +49,8 @@ def run(
     complete(started, folder / "checkpoint.npz", fresh, every)
     _finish(started, folder)
     if as_json:
-        typer.echo(document({"scenario": started.scenario.name, **_results(folder, started.trust)}))
+        found = {"scenario": started.scenario.name, "step_error": asdict(started.step_error)}
+        typer.echo(document({**found, **_results(folder, started.trust)}))
 
 
 def complete(started: VehicleRun, path: Path, fresh: bool, every: float) -> None:
@@ -156,6 +158,7 @@ def _finish(finished: VehicleRun, folder: Path) -> None:
     _write(folder, lambda: result.dataset(finished), lambda: report.page_of(finished))
     (folder / "checkpoint.npz").unlink(missing_ok=True)
     _warn(finished.trust)
+    typer.echo(finished.step_error.sentence, err=True)
 
 
 def _warn(trust: Trust) -> None:

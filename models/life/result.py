@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 from importlib.metadata import version
 from os import PathLike
 from typing import Any
@@ -17,10 +18,10 @@ FORMAT = "wheelrail-contact run 1"
 def dataset(run: VehicleRun) -> Any:
     """Return the result as an `xarray.Dataset`: time series over `distance`, and histograms of damage.
 
-    The names of the histograms have prefixes like ``wheelset_1_right_wheel_``. The attributes contain the scenario,
-    energies with the prefix ``balance_`` (`models.vehicle.run.BALANCE`), and measures of trust
-    with the prefix ``trust_`` (`models.life.trust.TRUST`). The same scenario gives the same bytes at any time and on any
-    machine.
+    The names of the histograms have prefixes like ``wheelset_1_right_wheel_``. The attributes contain the scenario, energies
+    with the prefix ``balance_`` (`models.vehicle.run.BALANCE`), measures of trust with the prefix ``trust_``
+    (`models.life.trust.TRUST`), and the error of the step with the prefix ``step_error_`` (`models.life.trust.StepError`). The
+    same scenario gives the same bytes at any time and on any machine.
     """
     import xarray
 
@@ -41,6 +42,7 @@ def dataset(run: VehicleRun) -> Any:
         "sections_without_damage": json.dumps(run.sections_without_damage),
         **{f"balance_{name}": value for name, value in run.balance.items()},
         **{f"trust_{name}": value for name, value in run.trust.as_dict().items()},
+        **{f"step_error_{name}": value for name, value in asdict(run.step_error).items()},
         "warnings": " ".join(run.trust.warnings),
     }
     distance = series.pop("distance")

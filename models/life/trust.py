@@ -66,6 +66,32 @@ class Trust:
         return {entry.name: float(getattr(self, entry.name)) for entry in fields(self)}
 
 
+@dataclass(frozen=True, slots=True)
+class StepError:
+    """What the step of the integration changes, estimated by half the step on a piece of the run.
+
+    Attributes
+    ----------
+    energy, volume : float
+        Error of the energy dissipated in the contacts, and of the worn volume of all wheels and rails, over themselves [-];
+        negative where the step gives too little.
+    length : float
+        Length of the piece, from the start [m].
+    """
+
+    energy: float
+    volume: float
+    length: float
+
+    @property
+    def sentence(self) -> str:
+        """What it says, in plain words."""
+        return (
+            f"The step changes the energy dissipated in the contacts by {100.0 * self.energy:+.2g} % and the worn volume by "
+            f"{100.0 * self.volume:+.2g} %, estimated by half the step over the first {self.length:.0f} m."
+        )
+
+
 def worst(runs: list[Trust]) -> Trust:
     """Return the measures of several runs together: the sums of what happened, and the largest of the others."""
     return Trust(

@@ -46,6 +46,7 @@ def _parts(run: VehicleRun) -> Iterator[str]:
             draw = partial(plot.time_histories, run.series["distance"], panels, xlabel="distance [m]")
             yield illustrated(draw, heading)
     yield html_of(trusted(trust))
+    yield faint(run.step_error.sentence)
     if run.without_damage:
         yield faint(
             f"Without damage, as they are not round: {', '.join(' '.join(name) for name in run.without_damage)}."

@@ -268,7 +268,10 @@ class Simulation:
             "totals": self.benches.totals.view(np.float64),
             "wheels": self.scratch.wheels.view(np.float64),
             "asked": last.asked.view(np.float64),
-            **{name: getattr(last, name) for name in ("answers", "drifts", "ages", "paces", "noises", "solutions")},
+            **{
+                name: getattr(last, name)
+                for name in ("answers", "drifts", "ages", "paces", "noises", "solutions", "pending")
+            },
             "pool": self.benches.pool,
             "rotations": self.rotations,
             **self._uneven_memories,

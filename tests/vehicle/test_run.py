@@ -239,3 +239,34 @@ def test_a_measured_series_lies_beside_its_scenario_and_is_part_of_the_fingerpri
         (tmp_path / "t.csv").write_text("h\n" + "".join(f"{s},{value},0,0,0\n" for s in range(5)), encoding="utf-8")
         prints.append(read_scenario(tmp_path / "s.toml").fingerprint)
     assert prints[0] != prints[1]
+
+
+def test_damage_does_not_depend_on_the_spacing_of_samples():
+    """Before, one step in a quarter of a metre counted for all, and the worn volume was up to a fifth wrong."""
+
+    def worn(spacing):
+        run = completed(VehicleRun(scenario(length=12.0, recording=Recording(settling=1.0, spacing=spacing))))
+        histograms = run.damage().values()
+        distance = next(iter(histograms)).distance
+        return run.energy / distance, sum(histogram.volume for histogram in histograms) / distance
+
+    coarse, fine = worn(0.5), worn(0.05)
+    assert coarse[0] == pytest.approx(fine[0], rel=0.02)
+    assert coarse[1] == pytest.approx(fine[1], rel=0.02)
+
+
+def test_means_lie_between_the_extremes_of_their_steps(whole):
+    series = whole.series
+    for force in ("lateral_force", "vertical_force"):
+        least, mean, largest = (series[f"wheelset_right_{which}{force}"] for which in ("least_", "", "largest_"))
+        assert np.all(least <= mean)
+        assert np.all(mean <= largest)
+        assert np.any(least < largest)
+
+
+def test_the_error_of_the_step_is_that_of_halving_it(whole):
+    error = whole.step_error
+    half = completed(VehicleRun(scenario(recording=Recording(settling=1.0, spacing=0.25, step=0.5 * whole.step))))
+    assert error.length == 6.0
+    assert error.energy == pytest.approx(2.0 * (whole.energy / half.energy - 1.0), rel=1e-9)
+    assert f"{100.0 * error.energy:+.2g} %" in error.sentence

@@ -63,6 +63,7 @@ class Held(NamedTuple):
     noises: Numbers  # usual miss of a force after one step [N]
     loads: Numbers  # static load [N]
     solutions: Integers  # their number so far
+    pending: Numbers  # distance rolled since the last solution, of which the damage is not counted yet [m]
     pace: int  # the largest of `paces`; 1: every step is a solution
     tolerance: float  # of a force, over the static load
 
@@ -73,7 +74,18 @@ def held(loads: Array, pace: int, tolerance: float) -> Held:
     answers, drifts, expected = (np.zeros((n, len(Load))) for _ in range(3))
     ages, paces, solutions = (np.zeros(n, np.int64) for _ in range(3))
     return Held(
-        np.zeros(n, GIVEN), answers, drifts, expected, ages, paces, np.zeros(n), loads, solutions, pace, tolerance
+        np.zeros(n, GIVEN),
+        answers,
+        drifts,
+        expected,
+        ages,
+        paces,
+        np.zeros(n),
+        loads,
+        solutions,
+        np.zeros(n),
+        pace,
+        tolerance,
     )
 
 

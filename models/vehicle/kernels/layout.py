@@ -103,7 +103,7 @@ class Book(IntEnum):
 
 
 class Sum(IntEnum):
-    """Sums of a wheel over steps; divided by the number of steps they are means."""
+    """Sums of a wheel over steps, which divided by the number of steps are means, and extremes."""
 
     STEPS = 0
     LATERAL = 1  # [N]
@@ -111,6 +111,10 @@ class Sum(IntEnum):
     LONGITUDINAL = 3
     T_GAMMA = 4
     DISSIPATION = 5
+    LEAST_LATERAL = 6  # extremes, not sums
+    LARGEST_LATERAL = 7
+    LEAST_VERTICAL = 8
+    LARGEST_VERTICAL = 9
 
 
 BODY = np.dtype(

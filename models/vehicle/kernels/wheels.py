@@ -81,9 +81,10 @@ def press_wheel(benches, scratch, w):
 def follow_wheel(benches: Benches[Search], scratch: Scratch, w: int) -> int:
     """Fill what wheel `w` does: from the last solution of its contact if that is near enough, else by `press_wheel`.
 
-    Returns as `press_wheel`.
+    ``benches.settings[w].distance`` is the distance of this step of which the damage is counted [m]. A solution counts for all
+    steps since the one before. Returns as `press_wheel`.
     """
-    own, given, wheel = benches.held, scratch.given[w], scratch.wheels[w]
+    own, given, wheel, setting = benches.held, scratch.given[w], scratch.wheels[w], benches.settings[w]
     if own.pace <= 1:
         return press_wheel(benches, scratch, w)
     near, n_before = False, int(wheel.patches)
@@ -92,12 +93,15 @@ def follow_wheel(benches: Benches[Search], scratch: Scratch, w: int) -> int:
         for i in range(expected.size):
             expected[i] = own.answers[w, i] + own.ages[w] * own.drifts[w, i]
         near = expect(own.asked[w], given, scratch.seats[w], bench_of(benches, w), n_before, expected)
-        # damage is counted from a solution
-        if near and own.ages[w] < own.paces[w] and benches.settings[w].distance == 0.0:
+        if near and own.ages[w] < own.paces[w]:
             put(expected, wheel)
             own.ages[w] += 1
+            own.pending[w] += setting.distance
             return n_before
+    rolled = setting.distance
+    setting.distance = rolled + own.pending[w]
     n = press_wheel(benches, scratch, w)
+    setting.distance, own.pending[w] = rolled, 0.0
     if n >= 0:
         learn(own, w, wheel, near and n == n_before)
         own.asked[w] = given
@@ -177,6 +181,13 @@ def count(model: Model, state: State, wheels: Wheels, most: float) -> None:
             books[Book.UNTRUSTED] += 1.0
         state.loads[w // 2, w % 2] = now
         sums, wheel = state.sums[w], wheels[w]
+        if sums[Sum.STEPS] == 0.0:
+            sums[Sum.LEAST_LATERAL], sums[Sum.LARGEST_LATERAL] = wheel.lateral, wheel.lateral
+            sums[Sum.LEAST_VERTICAL], sums[Sum.LARGEST_VERTICAL] = wheel.vertical, wheel.vertical
+        sums[Sum.LEAST_LATERAL] = min(sums[Sum.LEAST_LATERAL], wheel.lateral)
+        sums[Sum.LARGEST_LATERAL] = max(sums[Sum.LARGEST_LATERAL], wheel.lateral)
+        sums[Sum.LEAST_VERTICAL] = min(sums[Sum.LEAST_VERTICAL], wheel.vertical)
+        sums[Sum.LARGEST_VERTICAL] = max(sums[Sum.LARGEST_VERTICAL], wheel.vertical)
         sums[Sum.STEPS] += 1.0
         sums[Sum.LATERAL] += wheel.lateral
         sums[Sum.VERTICAL] += wheel.vertical
