@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import signal
+import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
@@ -64,20 +67,39 @@ def complete(started: VehicleRun, path: Path, fresh: bool, every: float) -> None
         started.restore(saved)
         typer.echo(f"continues at {started.distance:.1f} m from {path}", err=True)
     written = shown = time.monotonic()
-    with progress_bar() as bar:
-        try:
-            while not started.done:
-                started.advance()
-                now = time.monotonic()
-                if now - shown >= _SHOWN:
-                    bar(started.share, f"{started.distance:.0f} m of {started.scenario.name}")
-                    shown = now
-                if now - written >= every:
-                    checkpoint.write(path, fingerprint, started.save())
-                    written = time.monotonic()
-        except KeyboardInterrupt:
-            # A checkpoint on disk is complete, also if a step was interrupted. Only the last seconds are lost.
-            stop(f"interrupted at {started.distance:.1f} m; {_resumable(path)}", 130)
+    with progress_bar() as bar, interrupts() as asked:
+        while not (started.done or asked()):
+            started.advance()
+            now = time.monotonic()
+            if now - shown >= _SHOWN:
+                bar(started.share, f"{started.distance:.0f} m of {started.scenario.name}")
+                shown = now
+            if now - written >= every:
+                checkpoint.write(path, fingerprint, started.save())
+                written = time.monotonic()
+        if not started.done:
+            checkpoint.write(path, fingerprint, started.save())
+            stop(f"interrupted at {started.distance:.1f} m; the same command continues from {path}", 130)
+
+
+@contextmanager
+def interrupts() -> Iterator[Callable[[], bool]]:
+    """Yield a function that tells whether Ctrl-C was pressed. So a sample is completed first. A second one stops at once."""
+    pressed: list[int] = []
+
+    def note(number: int, frame: object) -> None:
+        if pressed:
+            raise KeyboardInterrupt
+        pressed.append(number)
+
+    if threading.current_thread() is not threading.main_thread():  # only this one may set what a signal does
+        yield lambda: False
+        return
+    before = signal.signal(signal.SIGINT, note)
+    try:
+        yield lambda: bool(pressed)
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 @reported

@@ -91,7 +91,9 @@ class Steps:
         if length < LEAST_SHARE * allowed:
             raise ContactError(
                 f"a step of {1e-3 * allowed:g} km would wear off {1e6 * rate * allowed:.3g} µm at the deepest place. "
-                f"steps.depth = {1e6 * self.depth:g} µm allows {1e-3 * length:.3g} km, below {100.0 * LEAST_SHARE:g} % of it"
+                f"steps.depth = {1e6 * self.depth:g} µm allows {1e-3 * length:.3g} km, below {100.0 * LEAST_SHARE:g} % of it. "
+                "Cures: a larger steps.depth, a smaller steps.distance, or lower coefficients in damage.archard (those of the "
+                "default are for dry steel)"
             )
         return length
 
