@@ -95,13 +95,13 @@ def forces(
     surface, coefficients = (friction, friction.static) if isinstance(friction, Friction) else (None, friction)
     index = np.arange(len(separations)) if not isinstance(separation, Separation) else np.array(0)
     columns = [
-        _checked("load", load, 0.0) if load is not None else _checked("approach", approach, -np.inf),
+        checked("load", load, 0.0) if load is not None else checked("approach", approach, -np.inf),
         *(
-            _checked(f"creepage.{name}", value, -LARGEST_CREEPAGE, LARGEST_CREEPAGE)
+            checked(f"creepage.{name}", value, -LARGEST_CREEPAGE, LARGEST_CREEPAGE)
             for name, value in zip(_PARTS, creepages, strict=True)
         ),
-        _checked("friction", coefficients, 0.0, LARGEST),
-        _checked("speed", speed, 0.0),
+        checked("friction", coefficients, 0.0, LARGEST),
+        checked("speed", speed, 0.0),
         index,
     ]
     names = ("approach" if load is None else "load", *(f"creepage.{name}" for name in _PARTS), "friction", "speed")
@@ -187,7 +187,7 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _checked(name: str, values: ArrayLike | None, minimum: float, maximum: float = np.inf) -> Array:
+def checked(name: str, values: ArrayLike | None, minimum: float, maximum: float = np.inf) -> Array:
     """Return `values` as a float64 array. Raise a ContactError for the first value outside [minimum, maximum]."""
     try:
         array = np.asarray(values, dtype=np.float64)
