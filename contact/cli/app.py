@@ -21,6 +21,7 @@ from contact.cli.document import flat
 from contact.cli.geometry import conicity, list_profiles
 from contact.cli.geometry import geometry as points
 from contact.cli.in_time import in_time
+from contact.cli.lut import lut
 from contact.cli.manchester import manchester
 from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.plugins import add_plugins
@@ -188,6 +189,7 @@ app.command()(transient)
 app.command("rail")(elastic_rail)
 app.command()(in_time)
 app.command()(roller)
+app.command()(lut)
 app.command()(along)
 app.command("geometry")(points)
 app.command()(conicity)
