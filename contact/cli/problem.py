@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from contact.cli.document import in_effect
 from contact.creepage import Creepage
-from contact.errors import ContactError
+from contact.errors import ContactError, PlausibilityWarning
 from contact.geometry import wheelset
 from contact.geometry.profile import Profile
 from contact.geometry.wheelset import Patch, Pose, Velocity
@@ -88,13 +89,15 @@ def solve_position(
     for side, number, patch in find_patches(case, load, penetration):
         mirror = -1.0 if side == "left" else 1.0
         friction = options["friction"].placed(patch.on_rail[0], patch.angle, mirror)
-        solution = solve(
-            patch.separation,
-            creepage or patch.creepage,
-            speed=case.speed,
-            **amount_of(patch),
-            **options | {"friction": friction},
-        )
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "load = ", PlausibilityWarning)  # a share of the load that was judged
+            solution = solve(
+                patch.separation,
+                creepage or patch.creepage,
+                speed=case.speed,
+                **amount_of(patch),
+                **options | {"friction": friction},
+            )
         touches.append(Touch(solution, side, patch, number))
     return touches
 
