@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from contact.errors import require_number
+from contact.errors import ContactError, require_number
 
 LARGEST_CREEPAGE = 1e6  # limit of creepages [-] and spin [1/m]: beyond any application, and squares do not overflow
 
@@ -36,3 +36,12 @@ class Creepage:
     def __post_init__(self) -> None:
         for name in ("longitudinal", "lateral", "spin"):
             require_number(f"creepage.{name}", getattr(self, name), -LARGEST_CREEPAGE, LARGEST_CREEPAGE)
+
+
+def as_creepage(value: object) -> Creepage:
+    """Return `value`, a Creepage or (longitudinal, lateral, spin), as a Creepage, or raise a ContactError."""
+    if isinstance(value, Creepage):
+        return value
+    if not isinstance(value, tuple | list) or len(value) != 3:
+        raise ContactError(f"creepage = {value!r} is neither a contact.Creepage nor (longitudinal, lateral, spin)")
+    return Creepage(*value)

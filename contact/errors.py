@@ -2,6 +2,7 @@
 
 import math
 import operator
+import sys
 import warnings
 from collections.abc import Iterable
 from difflib import get_close_matches
@@ -68,16 +69,23 @@ def require_pair(name: str, value: object) -> tuple[float, float]:
     return first, second
 
 
-def doubt(name: str, value: float, limit: float, hint: str, level: int = 3, *, least: float = 0.0) -> bool:
+def doubt(name: str, value: float, limit: float, hint: str, *, least: float = 0.0) -> bool:
     """Warn of a value that is allowed, but larger than `limit` or, other than zero, smaller than `least` in magnitude.
 
-    `hint` says what is usual, or the unit. The default `level` of the stack is the caller of the function that doubts.
-    Return whether it warned.
+    `hint` says what is usual, or the unit. Return whether it warned.
     """
     doubtful = abs(value) > limit or 0.0 < abs(value) < least
     if doubtful:
-        warnings.warn(f"{name} = {value:g}: {hint}", PlausibilityWarning, stacklevel=level)
+        warn(f"{name} = {value:g}: {hint}")
     return doubtful
+
+
+def warn(text: str) -> None:
+    """Give a PlausibilityWarning at the line that called this package, however deep the call is."""
+    level, frame = 1, sys._getframe()
+    while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] == "contact":
+        level, frame = level + 1, frame.f_back
+    warnings.warn(text, PlausibilityWarning, stacklevel=level)
 
 
 def require_integer(name: str, value: object, minimum: float = -math.inf, maximum: float = math.inf) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +21,7 @@ from contact.kernels.enumerations import LoadKind
 from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import RESULT
 from contact.material import STEEL, Material
+from contact.plausibility import doubt_values
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.resultants import Forces
 from contact.separation import Separation
@@ -27,11 +29,12 @@ from contact.solver import N_ELEMENTS, N_STRIPS, require_conformal, require_reso
 
 Array = NDArray[np.float64]
 _CHUNK = 256
+_PARTS = ("longitudinal", "lateral", "spin")
 
 
 def forces(
     separation: Separation | Sequence[Separation],
-    creepage: Creepage | tuple[ArrayLike, ArrayLike, ArrayLike],
+    creepage: Creepage | Sequence[Creepage] | tuple[ArrayLike, ArrayLike, ArrayLike],
     *,
     load: ArrayLike | None = None,
     approach: ArrayLike | None = None,
@@ -53,8 +56,9 @@ def forces(
     ----------
     separation : Separation or sequence of Separation
         A sequence of length n broadcasts like an array of shape (n,).
-    creepage : Creepage or (longitudinal, lateral, spin)
-        Arrays [-], [-], [1/m]. They broadcast with all other arrays.
+    creepage : Creepage or (longitudinal, lateral, spin), or sequence of Creepage
+        Arrays [-], [-], [1/m]. They broadcast with all other arrays. A sequence of length n broadcasts like an array of
+        shape (n,).
     load, approach : array_like
         Normal force [N] or rigid approach [m]. Give exactly one of them.
     friction : array_like or contact.friction.Friction
@@ -76,28 +80,33 @@ def forces(
     ------
     ContactError
         For input outside its range or shapes that do not broadcast.
+
+    Warns
+    -----
+    PlausibilityWarning
+        As `contact.solve`, once for each argument.
     """
     separations = [separation] if isinstance(separation, Separation) else list(separation)
     if not separations or not all(isinstance(s, Separation) for s in separations):
         raise ContactError("separation is empty or holds an object that is not a contact.Separation")
-    if isinstance(creepage, Creepage):
-        creepage = (creepage.longitudinal, creepage.lateral, creepage.spin)
-    if len(creepage) != 3:
-        raise ContactError(f"creepage has {len(creepage)} parts; (longitudinal, lateral, spin) is needed")
+    creepages = _creepages(creepage)
     if (load is None) == (approach is None):
         raise ContactError("exactly one of load and approach is needed")
     surface, coefficients = (friction, friction.static) if isinstance(friction, Friction) else (None, friction)
     index = np.arange(len(separations)) if not isinstance(separation, Separation) else np.array(0)
     columns = [
-        _checked("load", load, 0.0) if load is not None else _checked("approach", approach, -np.inf),
+        checked("load", load, 0.0) if load is not None else checked("approach", approach, -np.inf),
         *(
-            _checked(f"creepage.{name}", value, -LARGEST_CREEPAGE, LARGEST_CREEPAGE)
-            for name, value in zip(("longitudinal", "lateral", "spin"), creepage, strict=True)
+            checked(f"creepage.{name}", value, -LARGEST_CREEPAGE, LARGEST_CREEPAGE)
+            for name, value in zip(_PARTS, creepages, strict=True)
         ),
-        _checked("friction", coefficients, 0.0, LARGEST),
-        _checked("speed", speed, 0.0),
+        checked("friction", coefficients, 0.0, LARGEST),
+        checked("speed", speed, 0.0),
         index,
     ]
+    names = ("approach" if load is None else "load", *(f"creepage.{name}" for name in _PARTS), "friction", "speed")
+    for name, values in zip(names, columns, strict=False):  # the last column has no values, but places of separations
+        doubt_values(name, values)
     try:
         amount, vx, vy, phi, mu, V, which = np.broadcast_arrays(*columns)
     except ValueError:
@@ -160,12 +169,25 @@ def forces(
     )
 
 
+def _creepages(given: Any) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
+    """Return longitudinal, lateral and spin creepage of any form that `forces` takes."""
+    if isinstance(given, Creepage):
+        return given.longitudinal, given.lateral, given.spin
+    if isinstance(given, Sequence) and given and all(isinstance(one, Creepage) for one in given):
+        vx, vy, phi = ([getattr(one, name) for one in given] for name in _PARTS)
+        return vx, vy, phi
+    if not isinstance(given, tuple | list | np.ndarray) or len(given) != 3:
+        raise ContactError(f"creepage = {given!r} is neither a contact.Creepage nor (longitudinal, lateral, spin)")
+    vx, vy, phi = given
+    return vx, vy, phi
+
+
 def cores() -> int:
     """Return the number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _checked(name: str, values: ArrayLike | None, minimum: float, maximum: float = np.inf) -> Array:
+def checked(name: str, values: ArrayLike | None, minimum: float, maximum: float = np.inf) -> Array:
     """Return `values` as a float64 array. Raise a ContactError for the first value outside [minimum, maximum]."""
     try:
         array = np.asarray(values, dtype=np.float64)

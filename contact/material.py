@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from contact.errors import require_number
+from contact.plausibility import doubt_value
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +54,8 @@ class Material:
         if self.pressure_limit != math.inf:
             require_number("pressure_limit", self.pressure_limit, 0.0, open_minimum=True)
         require_number("coupling", self.coupling, -0.5, 0.5)
+        doubt_value("shear_modulus", self.shear_modulus)
+        doubt_value("pressure_limit", self.pressure_limit)
 
     @property
     def contact_modulus(self) -> float:

@@ -353,6 +353,10 @@ class WheelRailPair:
             deflection=(float(self.bench.rail[0].dy), float(self.bench.rail[0].dz)),
         )
 
+    def solve_given(self, mode: int, amount: float, given: np.record) -> int:
+        """Call the kernel for the record GIVEN of a motion and return its code. The result is in `bench`."""
+        return int(self._solve(mode, amount, given, self._packed))
+
     def _set_rail(self, rail: ElasticRail) -> None:
         if rail is not self._rail:
             if not isinstance(rail, ElasticRail):

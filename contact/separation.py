@@ -12,6 +12,7 @@ from contact.errors import ContactError, require_number
 from contact.kernels.arrays import Samples
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
 from contact.notebook import Sketch
+from contact.plausibility import doubt_value
 
 #: Largest slope of the surface [-], and largest rolling [1/m], which is that of a wheel with a radius of 1 mm.
 LARGEST_TILT, LARGEST_ROLLING = 1e3, 1e3
@@ -44,6 +45,11 @@ class Separation:
     ContactError
         For wrong shapes, values that are not finite, y not increasing, A not positive, or tilt or rolling outside their
         range.
+
+    Warns
+    -----
+    PlausibilityWarning
+        For a half curvature or a width that no wheel on a rail has, as from lengths in mm.
     """
 
     __slots__ = ("A", "g", "packed", "rolling", "samples", "tilt", "x_c", "y")
@@ -85,6 +91,8 @@ class Separation:
                 f"tilt[{i}] = {self.tilt[i]:g} is outside the allowed range [{-LARGEST_TILT:g}, {LARGEST_TILT:g}]"
             )
         self.rolling = require_number("rolling", rolling, -LARGEST_ROLLING, LARGEST_ROLLING)
+        doubt_value("A", float(self.A[n // 2]))
+        doubt_value("extent of y", float(self.y[-1] - self.y[0]))
         self._lay_out()
 
     @classmethod

@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.creepage import Creepage
-from contact.errors import ContactError, doubt, require_number, require_pair
+from contact.creepage import Creepage, as_creepage
+from contact.errors import ContactError, require_number, require_pair
 from contact.friction import Friction, as_friction
 from contact.given_force import solve_for_force, wanted_force
 from contact.halfspace import linear
@@ -24,6 +24,7 @@ from contact.halfspace.third_body import ThirdBody
 from contact.kalker import constant_table
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.material import STEEL, Material
+from contact.plausibility import doubt_case
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.separation import Separation
 from contact.solution import Solution
@@ -42,7 +43,7 @@ Array = NDArray[np.float64]
 
 def solve(
     separation: Separation | Gap,
-    creepage: Creepage,
+    creepage: Creepage | tuple[float, float, float],
     *,
     load: float | None = None,
     approach: float | None = None,
@@ -69,8 +70,8 @@ def solve(
     ----------
     separation : Separation or contact.halfspace.Gap
         Undeformed gap. A `Gap` on a grid is only for the element-wise half space.
-    creepage : Creepage
-        Rigid velocity of the wheel relative to the rail, over the speed.
+    creepage : Creepage or (longitudinal, lateral, spin)
+        Rigid velocity of the wheel relative to the rail, over the speed [-], [-], [1/m].
     load, approach : float
         Normal force [N] ≥ 0, or rigid approach [m] measured from g = 0 (negative: apart). Give exactly one of them.
     force : float or (float or None, float or None)
@@ -121,13 +122,17 @@ def solve(
     ------
     ContactError
         For input outside its range. With `throw`, also for the status OUT_OF_RANGE or NOT_CONVERGED.
+
+    Warns
+    -----
+    PlausibilityWarning
+        For a load, approach, creepage, friction or speed that no wheel has, as from a wrong unit (`contact.plausibility`).
     """
     if not isinstance(separation, Separation | Gap):
         if isinstance(getattr(separation, "separation", None), Separation | Gap):
             raise ContactError(f"separation is a {type(separation).__name__}; use patch.separation")
         raise ContactError(f"separation = {separation!r} is not a contact.Separation")
-    if not isinstance(creepage, Creepage):
-        raise ContactError(f"creepage = {creepage!r} is not a contact.Creepage")
+    creepage = as_creepage(creepage)
     if (load is None) == (approach is None):
         raise ContactError(f"exactly one of load and approach is needed; load = {load}, approach = {approach}")
     if load is not None:
@@ -136,8 +141,9 @@ def solve(
         require_number("approach", approach)
     wanted = None if force is None else wanted_force(force)
     surface = as_friction(friction)
-    _doubt(surface, creepage)
     speed = require_number("speed", speed, 0.0)
+    vector = creepage.longitudinal, creepage.lateral, creepage.spin
+    doubt_case(load, approach, vector, surface.static, speed)
     n_strips, n_elements = require_resolution(n_strips, n_elements)
     max_iterations = require_max_iterations(max_iterations)
     method, rolling = lookup("normal", normal), lookup("tangential", tangential)
@@ -230,6 +236,7 @@ def _prepared(key: _Key, friction: Friction, speed: float) -> Solver:
         )
         if coefficients is not None:
             solver.calibrate(constant_table(*coefficients))
+        solver.doubted = True  # by `solve`
     solvers[key] = solver
     while len(solvers) > _MOST:
         del solvers[next(iter(solvers))]
@@ -310,17 +317,3 @@ def _patch_coefficients(problem: _StripProblem, creepage: Creepage, first: Solut
         return linear.flexibilities(coarse.solve(creepage, DEFAULT_TANGENTIAL).strips, problem.material, n)
 
     return linear.coefficients(linear.extrapolated(at), first.strips, problem.material)
-
-
-def _doubt(surface: Friction, creepage: Creepage) -> None:
-    """Warn of coefficients of friction and creepages that no wheel and rail have."""
-    doubt("friction", surface.static, 1.0, "steel on steel has 0.05 to 0.6", 4)
-    for name in ("longitudinal", "lateral"):
-        doubt(
-            f"creepage.{name}",
-            getattr(creepage, name),
-            0.1,
-            "a rolling wheel has less than 0.02 (20 per mille); is it in per mille?",
-            4,
-        )
-    doubt("creepage.spin", creepage.spin, 20.0, "a flange has about 2; the unit is 1/m", 4)

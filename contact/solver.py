@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from contact import workspace
 from contact.case import cases, set_surface
 from contact.core import pack
-from contact.creepage import Creepage
+from contact.creepage import Creepage, as_creepage
 from contact.errors import ContactError, require_integer, require_number
 from contact.friction import Friction, as_friction
 from contact.given_force import solve_for_force, wanted_force
@@ -25,6 +25,7 @@ from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import RESULT
 from contact.material import STEEL, Material
+from contact.plausibility import doubt_case
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.resultants import CaseForces
 from contact.separation import Separation
@@ -121,6 +122,7 @@ class Solver:
         )
         self._member = {name: self._case[name] for name in self._case.dtype.names or ()}
         self._result = np.zeros(1, RESULT)
+        self.doubted = False  # whether the arguments of a call were judged
         self._status = self._result["status"]
         self._bounds = np.zeros(2, np.int64)  # of the only separation
         self._problem = pack(Integers, self._bounds), pack(Integers, np.zeros(1, np.int64)), pack(Cases, self._case)
@@ -279,14 +281,17 @@ class Solver:
         """Check the arguments, fill the case and call the kernel; return the number of strips."""
         if not isinstance(separation, Separation):
             raise ContactError(f"separation = {separation!r} is not a contact.Separation")
-        if not isinstance(creepage, Creepage):
-            raise ContactError(f"creepage = {creepage!r} is not a contact.Creepage")
+        creepage = as_creepage(creepage)
         if (load is None) == (approach is None):
             raise ContactError(f"exactly one of load and approach is needed; load = {load}, approach = {approach}")
         amount = require_number("load", load, 0.0) if load is not None else require_number("approach", approach)
         friction, speed = surface
         if (friction is not None and friction is not self._friction) or (speed is not None and speed != self._speed):
             self.set_surface(self._friction if friction is None else friction, self._speed if speed is None else speed)
+        if not self.doubted:  # at the first call only, which may be one of millions
+            self.doubted = True
+            vector = creepage.longitudinal, creepage.lateral, creepage.spin
+            doubt_case(load, approach, vector, self._friction.static, self._speed)
         member = self._member
         member["load_kind"][0] = LoadKind.APPROACH if load is None else LoadKind.LOAD
         member["amount"][0] = amount

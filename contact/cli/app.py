@@ -17,10 +17,11 @@ from contact.cli import arguments, creep_table, extras, problem, report
 from contact.cli import options as opt
 from contact.cli.along import along
 from contact.cli.compare import compare
-from contact.cli.document import flat
+from contact.cli.document import flat, in_effect
 from contact.cli.geometry import conicity, list_profiles
 from contact.cli.geometry import geometry as points
 from contact.cli.in_time import in_time
+from contact.cli.lut import lut
 from contact.cli.manchester import manchester
 from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.plugins import add_plugins
@@ -34,6 +35,7 @@ from contact.cli.transient import transient
 from contact.creepage import Creepage
 from contact.errors import require_number
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, methods
+from contact.separation import Separation
 
 PICTURE_RESOLUTION = {"n_strips": 60, "n_elements": 60}
 
@@ -137,14 +139,17 @@ def patch(
 @app.command()
 @reported
 def curve(
+    context: typer.Context,
     *,
     over: opt.Over = opt.Motion.longitudinal,
     largest: opt.Largest = None,
     points: opt.Points = 41,
-    curvatures: opt.Ellipse = (1.09, 0.83),
+    curvatures: opt.Curvatures = None,
+    place: arguments.Place,
+    reading: arguments.Reading,
+    side: opt.Sides = opt.Side.right,
     creepage: opt.Creep = None,
     load: opt.Load = None,
-    speed: opt.Speed = 20.0,
     surface: arguments.SlidingFriction,
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangentials = [DEFAULT_TANGENTIAL],  # noqa: B006 (typer copies it)
@@ -153,16 +158,28 @@ def curve(
 ) -> None:
     """Compute creep curves: force over one creepage, for one or several tangential methods. The others are in --creepage.
 
-    Example:  contact curve --over lateral --tangential fastrip --tangential fastsim --out curve.png
+    Two curvatures, by default 1.09 0.83, or the patch with the largest load of a wheel on a rail: --wheel, --rail, --y, --yaw.
+    Example:  contact curve --over lateral --tangential fastrip --tangential fastsim --out curve.png   ·
+    contact curve --wheel s1002 --rail 60e1 --y 5e-3
     """
     prepare(out)
     end = largest if largest is not None else (1.0 if over is opt.Motion.spin else 0.01)
-    start = Creepage() if creepage is None else Creepage(*creepage)
+    arguments.require_use(context)
+    carried = problem.load_or_standard(load)
+    if arguments.used(context):
+        patch = problem.main_patch(place.position(reading, side), carried)
+        separation, start, normal_force = patch.separation, patch.creepage, float(patch.load or 0.0)
+        held = f"{place.wheel} on {place.rail}, y = {1e3 * place.y:g} mm, N = {1e-3 * normal_force:.3g} kN"
+    else:
+        curvatures = curvatures or (1.09, 0.83)
+        in_effect(curvatures=curvatures)
+        separation, start, normal_force = Separation.hertzian(*curvatures), Creepage(), carried
+        held = f"A = {curvatures[0]:g}, B = {curvatures[1]:g} 1/m, {1e-3 * carried:g} kN"
+    start = start if creepage is None else Creepage(*creepage)
     values = np.linspace(0.0, require_number("max", end), points).tolist()
-    options = {"friction": surface.law(), "normal": normal, "speed": speed}
-    carried = problem.STANDARD_LOAD if load is None else load
-    held = f"A = {curvatures[0]:g}, B = {curvatures[1]:g} 1/m, {1e-3 * carried:g} kN, friction {surface.friction:g}"
-    rows = problem.sweep(over.value, values, start, curvatures, load, tangential, options)
+    options = {"friction": surface.law(), "normal": normal, "speed": place.speed}
+    held = f"{held}, friction {surface.friction:g}"
+    rows = problem.sweep(over.value, values, start, separation, normal_force, tangential, options)
     force, unit = ("Fx" if over is opt.Motion.longitudinal else "Fy"), ("1/m" if over is opt.Motion.spin else "-")
     axis, ordinate = f"{over} creepage [{unit}]", f"−{force}/N"
     curves = {
@@ -188,6 +205,7 @@ app.command()(transient)
 app.command("rail")(elastic_rail)
 app.command()(in_time)
 app.command()(roller)
+app.command()(lut)
 app.command()(along)
 app.command("geometry")(points)
 app.command()(conicity)

@@ -121,13 +121,15 @@ def require_use(context: typer.Context) -> None:
     ContactError
         If a wheel, a rail or their position is given together with --curvatures.
     """
-    if context.params["curvatures"] is None:
-        return
+    if context.params["curvatures"] is not None and (idle := used(context)):
+        raise ContactError(f"{', '.join(idle)}: --curvatures replaces wheel, rail and position")
+
+
+def used(context: typer.Context) -> list[str]:
+    """Return the options of wheel, rail and position that were typed."""
     options = [option for option in context.command.params if option.name in OF_A_POSITION]
     sources = {option.opts[0]: context.get_parameter_source(str(option.name)) for option in options}
-    idle = [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
-    if idle:
-        raise ContactError(f"{', '.join(idle)}: --curvatures replaces wheel, rail and position")
+    return [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
 
 
 def material(pressure_limit: float, bodies: tuple[float, float, float, float] | None = None) -> Material:

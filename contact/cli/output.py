@@ -18,6 +18,17 @@ from contact.cli.groups import expanded
 from contact.errors import ContactError, PlausibilityWarning
 from contact.study.files import PICTURES, csv_of, require_ending, write
 
+#: Names in messages of the library → the options that set them, where the names differ.
+_OPTIONS = {
+    "nominal_radius": "radius",
+    "flange_back": "back-to-back",
+    "gauge": "gauge",
+    "pose.y": "y",
+    "pose.roll": "roll",
+    "pose.yaw": "yaw",
+    "velocity.forward": "speed",
+    "speed": "speed",
+}
 Command = TypeVar("Command", bound=Callable[..., None])
 
 
@@ -34,10 +45,10 @@ def reported(command: Command) -> Command:
         try:
             with warnings.catch_warnings(), running(name, kwargs):
                 warnings.simplefilter("default", PlausibilityWarning)  # once, though both wheels have the same load
-                warnings.showwarning = _say  # type: ignore[assignment]
+                warnings.showwarning = _teller(kwargs)
                 command(*args, **kwargs)
         except ContactError as error:
-            stop(in_options(str(error)), 2)
+            stop(in_options(str(error), kwargs), 2)
         except ImportError as error:
             if "pip install 'wheelrail-contact[" not in str(error):
                 raise
@@ -46,22 +57,39 @@ def reported(command: Command) -> Command:
     return wrapper  # type: ignore[return-value]
 
 
-def in_options(text: str) -> str:
-    """Return a message about a profile with the options of the command line in place of those of Python."""
+def in_options(text: str, given: Mapping[str, Any]) -> str:
+    """Return a message with the options of the command line in place of names of Python. `given` are the command's inputs."""
     text = re.sub(r"\brepair=True", "--profile-repair", text)
     text = re.sub(r"\b(zero|smoothing|wavelength)='?([\w.+-]+)'?", r"--profile-\1 \2", text)
     if found := re.search(r"\b(?:(?:kind|unit|side) = None(?:, )?)+: ", text):
         missing = [f"--profile-{name}" for name in re.findall(r"(\w+) = None", found[0])]
         text = text.replace(found[0], f"{', '.join(missing)} {'are' if len(missing) > 1 else 'is'} missing: ")
-    return re.sub(r"\bset (unit|side)\b", r"set --profile-\1", text)
-
-
-def _say(message: Warning | str, category: type[Warning], *place: Any) -> None:
-    """Print a warning on one line, in place of `warnings.showwarning`."""
-    typer.echo(
-        f"contact: {'warning' if issubclass(category, PlausibilityWarning) else category.__name__}: {in_options(str(message))}",
-        err=True,
+    text = re.sub(r"\bset (unit|side)\b", r"set --profile-\1", text)
+    return re.sub(
+        rf"\b({'|'.join(map(re.escape, _OPTIONS))}) = ([-+.\de]*\d)", lambda found: _typed(found, given), text
     )
+
+
+def _typed(found: re.Match[str], given: Mapping[str, Any]) -> str:
+    """Return ``--radius 460`` for ``nominal_radius = 460`` if that is the value of the option in the running command."""
+    name = _OPTIONS[found[1]]
+    value = given.get(name.replace("-", "_"))
+    same = isinstance(value, int | float) and f"{value:g}" == found[2]
+    return f"--{name} {found[2]}" if same else found[0]
+
+
+def _teller(given: Mapping[str, Any]) -> Callable[..., None]:
+    """Return a function in place of `warnings.showwarning` that prints each warning on one line, and each line once."""
+    said: set[str] = set()
+
+    def say(message: Warning | str, category: type[Warning], *place: Any) -> None:
+        kind = "warning" if issubclass(category, PlausibilityWarning) else category.__name__
+        line = f"contact: {kind}: {in_options(str(message), given)}"
+        if line not in said:
+            said.add(line)
+            typer.echo(line, err=True)
+
+    return say
 
 
 def drawing() -> Any:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from contact.cli.document import in_effect
 from contact.creepage import Creepage
-from contact.errors import ContactError
+from contact.errors import ContactError, PlausibilityWarning
 from contact.geometry import wheelset
 from contact.geometry.profile import Profile
 from contact.geometry.wheelset import Patch, Pose, Velocity
@@ -75,6 +76,15 @@ def find_patches(case: Position, load: float | None, penetration: float | None) 
             yield side, number, patch
 
 
+def main_patch(case: Position, load: float) -> Patch:
+    """Return the patch with the largest normal force of the first wheel under its vertical `load` [N]."""
+    first = case.sides[0]
+    found = [patch for side, _, patch in find_patches(case, load, None) if side == first]
+    if not found:
+        raise ContactError(f"load = {load:g}: the wheel does not touch its rail, so there is no creep curve")
+    return max(found, key=lambda patch: patch.load or 0.0)
+
+
 def amount_of(patch: Patch) -> dict[str, Any]:
     """Return the load of a patch if it was found from one, else its approach, as an argument of `solve`."""
     return {"approach": patch.approach} if patch.load is None else {"load": patch.load}
@@ -88,13 +98,15 @@ def solve_position(
     for side, number, patch in find_patches(case, load, penetration):
         mirror = -1.0 if side == "left" else 1.0
         friction = options["friction"].placed(patch.on_rail[0], patch.angle, mirror)
-        solution = solve(
-            patch.separation,
-            creepage or patch.creepage,
-            speed=case.speed,
-            **amount_of(patch),
-            **options | {"friction": friction},
-        )
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "load = ", PlausibilityWarning)  # a share of the load that was judged
+            solution = solve(
+                patch.separation,
+                creepage or patch.creepage,
+                speed=case.speed,
+                **amount_of(patch),
+                **options | {"friction": friction},
+            )
         touches.append(Touch(solution, side, patch, number))
     return touches
 
@@ -116,12 +128,12 @@ def sweep(
     over: str,
     values: Iterable[float],
     start: Creepage,
-    curvatures: tuple[float, float],
-    load: float | None,
+    separation: Separation,
+    load: float,
     tangential: Sequence[str],
     options: dict[str, Any],
 ) -> list[dict[str, Any]]:
-    """Return the forces of every tangential method for each of the `values` of the creepage named `over`.
+    """Return the forces of every tangential method under `load` [N] for each of the `values` of the creepage named `over`.
 
     The other creepages are those of `start`.
     """
@@ -129,7 +141,7 @@ def sweep(
     for method in tangential:
         for value in values:
             creepage = replace(start, **{over: float(value)})
-            s = solve_hertzian(curvatures, load, None, creepage, options | {"tangential": method}).solution
+            s = solve(separation, creepage, load=load, **options | {"tangential": method})
             forces = {"N": s.N, "Fx": s.Fx, "Fy": s.Fy, "Mz": s.Mz, "slip_ratio": s.slip_ratio}
             rows.append({"tangential": method, **asdict(creepage), **forces})
     return rows

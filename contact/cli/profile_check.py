@@ -62,7 +62,7 @@ def check(
 
     def show(console: Console) -> None:
         for text in (*map(str, found), *unread):
-            console.print(in_options(text), markup=False, highlight=False, soft_wrap=True)
+            console.print(in_options(text, {}), markup=False, highlight=False, soft_wrap=True)
 
     deliver(
         {"files": [_plain(one) for one in found], "unread": unread},

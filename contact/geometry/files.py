@@ -36,10 +36,10 @@ from contact.geometry.placing import placed, require_plausible
 from contact.geometry.shape import Kind, Profile
 from contact.geometry.smoothing import filtered, smoothed
 
-Unit = Literal["m", "mm"]
+Unit = Literal["m", "mm", "inch"]
 Side = Literal["right", "left"]
 Zero = Literal["file", "flange_back", "shape"]
-UNITS: dict[str, float] = {"m": 1.0, "mm": 1e-3}
+UNITS: dict[str, float] = inspection.UNITS
 KINDS, SIDES, ZEROS = ("wheel", "rail"), ("right", "left"), ("file", "flange_back", "shape")
 LARGEST_FILE, MOST_POINTS = 20e6, 100_000  # bytes, points
 _FARTHEST = 1e6  # of a point from the origin [m]; products of larger numbers overflow
@@ -94,7 +94,7 @@ def read(
         File; its suffix tells the format.
     kind : {"wheel", "rail"}, optional
         Required for plain columns; otherwise it must agree with the suffix.
-    unit : {"m", "mm"}, optional
+    unit : {"m", "mm", "inch"}, optional
         Unit of length. Required for plain columns; otherwise it replaces the format's own unit.
     side : {"right", "left"}, optional
         Side that the file shows, seen from behind with y to the right. A left side is mirrored. Required for plain columns.

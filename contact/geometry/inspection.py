@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Literal
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from contact.geometry.shape import Kind
-
+Kind = Literal["wheel", "rail"]
 Array = NDArray[np.float64]
 Points = NDArray[np.float64]  # shape (n, 2): y, z [m]
 
+UNITS = {"m": 1.0, "mm": 1e-3, "inch": 0.0254}  # of profile files [m]
+NARROWEST, WIDEST = 0.03, 0.2  # range of the width of a wheel or a rail's head [m]
 FLANGE_BACK = 0.070  # distance of the back of the flange from the tape circle [m] (EN 13715)
 TIP_FROM_TAPE = 0.055  # distance of the flange's tip from the tape circle [m] (EN 13715)
 FLANGE = 0.015  # a flange's tip lies at least this far below the median of a wheel's points [m]
@@ -174,23 +176,53 @@ def has_flange(points: Points) -> bool:
 
 
 def apparent_kind(points: Points) -> Kind | None:
-    """Return what points in order look like, whichever way they lie; None if they could be either.
+    """Return what points in order look like, whichever way they lie; None if they could be either."""
+    return _appearance(points)[0]
+
+
+def _appearance(points: Points) -> tuple[Kind | None, bool]:
+    """Return what points in order look like, None if they could be either, and whether their z points down.
 
     A wheel has its lowest or highest point, the tip of the flange, near one end, and its tread does not come back towards
     it. A rail has its crown in the middle, and both sides fall off. The groove of a grooved rail lies near one end like a
     flange, but beyond it the head comes back: its field side falls off.
     """
     y, z = points.T
-    for height in (z, -z):
+    for sign in (1.0, -1.0):
+        height = sign * z
         top = int(np.argmax(height))
         left, right = (height[top] - part.min() for part in (height[: top + 1], height[top:]))
         share = (y[top] - y.min()) / np.ptp(y)
         near_an_end = min(share, 1.0 - share) < _TIP_SHARE
         if near_an_end and min(left, right) > _TIP_RISE and height[top] > np.median(height) + FLANGE:
             beyond = height[top:] if share < 0.5 else height[top::-1]
-            return "rail" if beyond[-1] - beyond.min() > _HEAD_DROP else "wheel"
+            return "rail" if beyond[-1] - beyond.min() > _HEAD_DROP else "wheel", sign > 0.0
         if not near_an_end and min(left, right) > _HEAD_DROP:
-            return "rail"
+            return "rail", sign < 0.0
+    return None, True
+
+
+def misplaced(points: Points, kind: Kind) -> tuple[str, str, str] | None:
+    """Return what is wrong with unit, kind, direction or side of a profile, the cure of a file, and that of arrays; or None."""
+    y, z = points.T
+    width = float(np.ptp(y))
+    if not NARROWEST <= width <= WIDEST:
+        seen = f"the profile is {width:g} m wide, outside the range [{NARROWEST:g}, {WIDEST:g}] of wheels and rails"
+        return seen, f"set unit to {' or '.join(map(repr, UNITS))}", "the unit is m"
+    shape, down = _appearance(points)
+    if shape not in (None, kind):
+        seen = "a wheel: a flange near one end" if shape == "wheel" else "a rail: a crown in the middle"
+        cure = f"kind = {kind!r} must be {shape!r}"
+        return f"the points have the shape of {seen}", cure, cure
+    if kind == "rail" and z.mean() > np.median(z):  # the groove of a rail may look like a crown that is upside down
+        down = True
+    if shape is not None and not down:
+        seen = "its flange points upwards" if kind == "wheel" else "its crown lies lowest"
+        return f"the {kind} is upside down, {seen}", "its z must point the other way", "z points down: give -z"
+    deepest = np.argmax(z)
+    if kind == "wheel" and has_flange(points) and y[deepest] > y.mean():
+        seen = f"the flange lies on the field side, at y = {y[deepest]:g} m"
+        return seen, "set side to the other side", "y points to the field side: give -y[::-1] and z[::-1]"
     return None
 
 

@@ -15,7 +15,6 @@ from contact.geometry.formats import Content, Points
 from contact.geometry.shape import Kind
 
 NEAREST = 1e-6  # least distance of two points [m]
-NARROWEST, WIDEST = 0.03, 0.2  # range of the width of a wheel or a rail's head [m]
 
 
 def placed(points: Points, content: Content, kind: Kind, path: Path, zero: str | None) -> Points:
@@ -43,25 +42,11 @@ def placed(points: Points, content: Content, kind: Kind, path: Path, zero: str |
 
 
 def require_plausible(points: Points, kind: Kind, path: Path) -> None:
-    """Raise a ContactError for an implausible width, the shape of the other kind, or a flange on the wrong side."""
-    y, z = points.T
-    width = y.max() - y.min()
-    if not NARROWEST <= width <= WIDEST:
-        raise ContactError(
-            f"path = {str(path)!r}: the profile is {width:g} m wide, outside the range [{NARROWEST:g}, {WIDEST:g}] of wheels "
-            f"and rails; set unit to 'm' or 'mm'"
-        )
-    shape = inspection.apparent_kind(points)
-    if shape not in (None, kind):
-        seen = "a wheel: a flange near one end" if shape == "wheel" else "a rail: a crown in the middle"
-        raise ContactError(
-            f"path = {str(path)!r}: the points have the shape of {seen}; kind = {kind!r} must be {shape!r}"
-        )
-    deepest = np.argmax(z)
-    if kind == "wheel" and inspection.has_flange(points) and y[deepest] > y.mean():
-        raise ContactError(
-            f"path = {str(path)!r}: the flange lies on the field side, at y = {y[deepest]:g} m; set side to the other side"
-        )
+    """Raise a ContactError for an implausible width, the shape of the other kind, a profile upside down, or a flange on the
+    wrong side."""
+    if fault := inspection.misplaced(points, kind):
+        seen, cure, _ = fault
+        raise ContactError(f"path = {str(path)!r}: {seen}; {cure}")
 
 
 def _origin(points: Points, kind: Kind, path: Path) -> Points:

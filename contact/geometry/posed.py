@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any, Literal
 
 import numpy as np
@@ -12,11 +11,11 @@ from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import GIVEN
+from contact.plausibility import doubt_value
 
 Side = Literal["right", "left"]
 
 MAX_PENETRATION = 2e-3  # [m] that of a wheel under 10 MN; a larger value has a wrong unit
-LIGHTEST = 1e3  # [N] a smaller wheel load has a wrong unit, or is that of a model
 LARGEST_SLIP = 0.55  # of a wheel that is driven or braked; `contact.driven` searches up to 0.5
 _ROLLING, _IDEAL = Velocity(), Irregularity()
 
@@ -80,20 +79,15 @@ class Posed:
         """
         if self._doubted:
             return
-        turned = "a wheelset has less than 0.03 rad; the unit is rad"
-        found = [
-            doubt("pose.y", pose.y, 0.015, "a flange touches at about 0.007 m; the unit is m", 4),
-            doubt("pose.roll", pose.roll, 0.05, turned, 4),
-            doubt("pose.yaw", pose.yaw, 0.05, turned, 4),
-        ]
+        found = [doubt_value(f"pose.{coordinate}", getattr(pose, coordinate)) for coordinate in ("y", "roll", "yaw")]
         if load is not None:
-            found.append(doubt(name, load, math.inf, "a wheel carries 20 to 150 kN; the unit is N", 4, least=LIGHTEST))
+            found.append(doubt_value("wheel load", load, name))
+        if velocity is not None:
+            found.append(doubt_value("speed", velocity.forward, "velocity.forward"))
         if velocity is not None and velocity.spin is not None and velocity.forward > 0.0:
             slip = 1.0 + velocity.spin * self.nominal_radius / velocity.forward
             hint = "a rolling wheel has less than 0.02; spin is negative when rolling forward, about -forward/radius"
-            found.append(
-                doubt(f"velocity.spin = {velocity.spin:g}: longitudinal creepage", slip, LARGEST_SLIP, hint, 4)
-            )
+            found.append(doubt(f"velocity.spin = {velocity.spin:g}: longitudinal creepage", slip, LARGEST_SLIP, hint))
         self._doubted = any(found)
 
     @staticmethod

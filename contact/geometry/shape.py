@@ -9,16 +9,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.errors import ContactError, require_number
+from contact.errors import ContactError, require_number, warn
+from contact.geometry import inspection
+from contact.geometry.inspection import Kind as Kind
 from contact.geometry.outline import spline_slopes
 
 Array = NDArray[np.float64]
-Kind = Literal["wheel", "rail"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +39,11 @@ class Profile:
     ------
     ContactError
         For wrong shapes, values that are not finite, fewer than four points, or coincident neighbours.
+
+    Warns
+    -----
+    PlausibilityWarning
+        For points that lie upside down or mirrored, have the shape of the other kind, or the width of another unit.
     """
 
     kind: Kind
@@ -65,6 +70,10 @@ class Profile:
         for name, array in (("y", y), ("z", z), ("angle", angle)):
             array.setflags(write=False)
             object.__setattr__(self, name, array)
+        if fault := inspection.misplaced(np.column_stack((y, z)), self.kind):
+            warn(f"profile {self.name!r}: {fault[0]}; {fault[2]}" if self.name else f"profile: {fault[0]}; {fault[2]}")
+        elif y[0] > y[-1]:
+            warn("profile: y falls from the first point to the last; give the points from the flange or gauge side on")
 
     def rotated(self, roll: float) -> Profile:
         """Return the profile rotated about the x axis through its origin by `roll` [rad], positive from y towards z."""

@@ -120,6 +120,7 @@ class Pair(Posed):
         motion.most_patches = require_integer("most_patches", most_patches, 1, MAX_PATCHES)
         motion.mirror = self._mirror
         motion.origin_y, motion.origin_z = origin
+        self._widths = f"gauge = {gauge:g} and flange_back = {flange_back:g}"
         self.space.case["G"], self.space.case["nu"] = material.shear_modulus, material.poisson_ratio
         self.patches, self.separations = self.space.patches, self.space.separations
 
@@ -193,9 +194,10 @@ class Pair(Posed):
         motion = self.space.motion[0]
         wheel, rail = self.space.wheel[Curve.Y] + motion.tape, self.space.rail[Curve.Y] + motion.origin_y
         low, high = sorted((self._mirror * (rail[0] - wheel[-1]), self._mirror * (rail[-1] - wheel[0])))
+        other = "" if low < 0.0 < high else f"; {self._widths} hardly belong to one track"
         return ContactError(
             f"pose.y = {pose.y:g}: the {self.side} wheel and rail profiles do not overlap; "
-            f"they do within about ]{low:g}, {high:g}[ m{'; is it in mm?' if abs(pose.y) >= 1.0 else ''}"
+            f"they do within about ]{low:g}, {high:g}[ m{'; is it in mm?' if abs(pose.y) >= 1.0 else ''}{other}"
         )
 
 

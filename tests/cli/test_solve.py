@@ -164,3 +164,16 @@ def test_solve_on_rails_gives_the_numbers_of_the_geometry_and_the_solver():
         assert (a["N"], a["Fx"], a["Fy"], a["Mz"]) == (s.N, s.Fx, s.Fy, s.Mz)
         assert a["creepage"]["lateral"] == p.creepage.lateral
         assert a["side"] == "left"
+
+
+def test_a_creep_curve_is_that_of_two_curvatures_or_of_a_wheel_on_a_rail():
+    ellipse = json.loads(call("curve", "--points", 3, "--json").stdout)
+    assert ellipse["inputs"]["curvatures"] == [1.09, 0.83]
+    place = "--y", 3e-3, "--yaw", 1e-3
+    curve = json.loads(call("curve", *place, "--points", 3, "--max", 2e-3, "--json").stdout)["rows"]
+    creepage = curve[1]["longitudinal"], curve[1]["lateral"], curve[1]["spin"]
+    assert creepage[0] == 1e-3
+    assert creepage[1] != 0.0
+    (solved,) = json.loads(call("solve", *place, "--creepage", *creepage, "--json").stdout)["patches"]
+    assert curve[1]["Fx"] == solved["Fx"]
+    assert "--curvatures replaces" in call("curve", *place, "--curvatures", 1, 1, code=2).stderr

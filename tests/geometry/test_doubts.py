@@ -48,9 +48,93 @@ def test_a_run_with_small_loads_warns_once(solver):
     assert [len(one) for one in said] == [0, 1, 0, 0]
 
 
-def test_a_separation_alone_may_have_any_scale():
-    separation = contact.Separation.hertzian(1.1, 0.8)
-    assert not doubts(contact.solve, separation, contact.Creepage(), load=80, normal="analyn", tangential="fastrip")
+SEPARATION = contact.Separation.hertzian(1.1, 0.8)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"load": 80}, r"^load = 80: .*is it in kN\?"),
+        ({"approach": 0.1}, r"^approach = 0\.1: .*the unit is m"),
+        ({"load": 80e3, "speed": 300}, r"^speed = 300: .*km/h"),
+        ({"load": 80e3, "friction": 30}, r"^friction = 30: "),
+        ({"load": 80e3, "creepage": (2, 0, 0)}, r"^creepage\.longitudinal = 2: .*per mille"),
+    ],
+)
+@pytest.mark.parametrize("of", ["solve", "forces", "Solver"])
+def test_every_entry_doubts_the_same_arguments(of, options, said):
+    arguments = {"creepage": (1e-3, 0.0, 0.0)} | options
+    entry = contact.Solver().solve if of == "Solver" else getattr(contact, of)
+    throw = {} if entry is contact.forces else {"throw": False}
+    with pytest.warns(PlausibilityWarning, match=said) as found:
+        entry(SEPARATION, **arguments, **throw)
+    assert found[0].filename == __file__
+    assert len(found) == 1
+    if of == "Solver":
+        assert not doubts(entry, SEPARATION, **arguments, **throw)  # a run in time is told once
+    else:
+        assert not doubts(entry, SEPARATION, (1e-3, 0.0, 0.0), load=80e3)
+
+
+def test_arrays_are_doubted_once_with_the_place_and_the_number():
+    with pytest.warns(PlausibilityWarning, match=r"^load\[1, 0\] = 80: .*\(2 of 4 values\)$") as said:
+        contact.forces(SEPARATION, (1e-3, 0, 0), load=[[80e3, 90e3], [80, 90]])
+    assert len(said) == 1
+
+
+def test_lengths_in_millimetres_are_doubted_in_a_separation():
+    with pytest.warns(PlausibilityWarning, match=r"^A = 0\.001: .*the unit is 1/m"):
+        contact.Separation.hertzian(0.001, 0.0008)
+    with pytest.warns(PlausibilityWarning, match=r"^extent of y = 20: .*the unit is m"):
+        contact.Separation([-10.0, 0.0, 10.0], [1.0, 0.0, 1.0], 1.1)
+    with pytest.warns(PlausibilityWarning, match=r"^shear_modulus = 82: .*the unit is Pa"):
+        contact.Material(82.0, 0.28)
+
+
+@pytest.mark.parametrize(
+    ("kind", "change", "said"),
+    [
+        ("wheel", lambda y, z: (y, -z), "wheel is upside down, its flange points upwards; z points down: give -z"),
+        ("rail", lambda y, z: (y, -z), "rail is upside down, its crown lies lowest; z points down: give -z"),
+        ("wheel", lambda y, z: (-y[::-1], z[::-1]), r"flange lies on the field side, .*give -y\[::-1\] and z\[::-1\]"),
+        ("wheel", lambda y, z: (y[::-1], z[::-1]), "y falls from the first point to the last"),
+        ("wheel", lambda y, z: (1e3 * y, 1e3 * z), "129 m wide, .*the unit is m"),
+        ("rail", lambda y, z: (y / 0.0254, z / 0.0254), "m wide, .*the unit is m"),
+    ],
+)
+def test_arrays_that_lie_wrong_are_doubted_in_a_profile(kind, change, said):
+    shape = WHEEL if kind == "wheel" else RAIL
+    with pytest.warns(PlausibilityWarning, match=said) as found:
+        profile.Profile(kind, *change(shape.y, shape.z))
+    assert len(found) == 1
+    assert found[0].filename == __file__
+
+
+def test_a_profile_of_the_other_kind_is_doubted():
+    with pytest.warns(PlausibilityWarning, match="shape of a wheel: .*kind = 'rail' must be 'wheel'"):
+        profile.Profile("rail", WHEEL.y, WHEEL.z)
+
+
+@pytest.mark.parametrize("kind", ["wheel", "rail"])
+def test_no_standard_profile_is_doubted(kind):
+    for name in profile.names(kind):
+        found = profile.named(name, kind=kind)
+        assert not doubts(profile.Profile, kind, found.y, found.z, found.angle)
+        assert not doubts(profile.Profile, kind, found.y, found.z)
+
+
+def test_solve_and_forces_take_the_same_forms_of_creepage():
+    forms = contact.Creepage(1e-3, 2e-3, 0.1), (1e-3, 2e-3, 0.1), [1e-3, 2e-3, 0.1]
+    known = contact.solve(SEPARATION, forms[0], load=80e3)
+    for form in forms:
+        one, many = contact.solve(SEPARATION, form, load=80e3), contact.forces(SEPARATION, form, load=80e3)
+        assert (one.Fx, one.Fy, one.Mz) == (known.Fx, known.Fy, known.Mz) == (many.Fx, many.Fy, many.Mz)
+        assert contact.Solver().forces(SEPARATION, form, load=80e3).Fx == known.Fx
+    assert contact.forces(SEPARATION, [forms[0]] * 2, load=80e3).Fx.tolist() == [known.Fx] * 2
+    for entry in (contact.solve, contact.forces):
+        for wrong in (None, 1e-3, (1e-3, 0.0), "abc"):
+            with pytest.raises(ContactError, match=r"^creepage"):
+                entry(SEPARATION, wrong, load=80e3)
 
 
 def test_a_wrong_sign_of_the_axles_spin_is_doubted(solver):
@@ -73,3 +157,12 @@ def test_errors_name_the_likely_slip():
     (patch,) = contacts(WHEEL, RAIL, Pose(), load=80e3)
     with pytest.raises(ContactError, match=r"^separation is a Patch; use patch\.separation$"):
         contact.solve(patch, patch.creepage, load=80e3)
+
+
+def test_files_in_inches_are_read(tmp_path):
+    points = "\n".join(f"{y / 0.0254:.9f} {z / 0.0254:.9f}" for y, z in zip(WHEEL.y, WHEEL.z, strict=True))
+    (path := tmp_path / "wheel.txt").write_text(points)
+    read = profile.read(path, kind="wheel", unit="inch", side="right")
+    assert abs(read.z - WHEEL.z).max() < 1e-9
+    with pytest.raises(ContactError, match=r"m wide, outside the range .*set unit to 'm' or 'mm' or 'inch'"):
+        profile.read(path, kind="wheel", unit="m", side="right")

@@ -101,7 +101,7 @@ def test_plain_columns_either_side_either_way_up(tmp_path, shape, side, sign, up
         ("a.txt", "0 0", {"unit": "m", "side": "right"}, "kind = None"),
         ("a.txt", "0 0", {"kind": "rail", "side": "right"}, "unit = None"),
         ("a.txt", "0 0", {"kind": "rail", "unit": "m"}, "side = None"),
-        ("a.txt", "0 0", {"kind": "rail", "unit": "inch", "side": "right"}, "unit = 'inch'"),
+        ("a.txt", "0 0", {"kind": "rail", "unit": "ell", "side": "right"}, "unit = 'ell'"),
         ("a.txt", "0 0", {"kind": "rail", "unit": "m", "side": "top"}, "side = 'top'"),
         ("a.prw", "0 0", {"kind": "rail"}, "is a file of a wheel"),
     ],

@@ -105,7 +105,7 @@ def test_wrong_arguments_are_refused_by_name(crossing, tmp_path):
         RailSurface.read(crossing.parent / "parts")
     with pytest.raises(ContactError, match="holds the positions"):
         RailSurface.read(crossing, s=[0.0])
-    with pytest.raises(ContactError, match="unit = 'inch'"):
-        RailSurface.read(crossing, unit="inch")
+    with pytest.raises(ContactError, match="unit = 'ell'"):
+        RailSurface.read(crossing, unit="ell")
     with pytest.raises(ContactError, match="is missing"):
         WheelSurface.read(tmp_path / "absent.slcw")

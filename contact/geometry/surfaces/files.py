@@ -53,7 +53,7 @@ def read_rail(
     surface: type[Rail],
     *,
     s: ArrayLike | None = None,
-    unit: Literal["m", "mm"] = "mm",
+    unit: Literal["m", "mm", "inch"] = "mm",
     mirror_y: bool = False,
     mirror_z: bool = False,
     **options: Any,
@@ -68,7 +68,7 @@ def read_rail(
         `RailSurface`.
     s : array_like, optional
         Positions of the slices of a folder [m]. Not for a file, which has its own.
-    unit : {"m", "mm"}
+    unit : {"m", "mm", "inch"}
         Unit of files of plain columns. Simpack's files name their own.
     mirror_y, mirror_z : bool
         Reverse the sign of y or z. The result must have y to the field side of a right rail and z down.
@@ -88,7 +88,7 @@ def read_wheel(
     surface: type[Wheel],
     *,
     theta: ArrayLike | None = None,
-    unit: Literal["m", "mm"] = "mm",
+    unit: Literal["m", "mm", "inch"] = "mm",
     mirror_y: bool = False,
     mirror_z: bool = False,
     **options: Any,

@@ -1,0 +1,133 @@
+"""The command `lut`: look-up tables of a wheel on a rail."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from contact.cli import arguments
+from contact.cli import options as opt
+from contact.cli.output import deliver, reported
+from contact.cli.problem import load_or_standard
+from contact.cli.progress import progress_bar
+from contact.errors import ContactError
+from contact.geometry.wheelset import Pair
+from contact.pair import WheelRailPair
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
+from contact.study import lookup
+
+_AXES = "Axes of the tables"
+Axis = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--axis",
+        help=f"axis and its breakpoints, NAME=FROM:TO:NUMBER or NAME=A,B,C; may be repeated. Names: {', '.join(lookup.AXES)}",
+        rich_help_panel=_AXES,
+    ),
+]
+Chosen = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--table",
+        help=f"table to make; may be repeated: {', '.join(lookup.TABLES)}",
+        rich_help_panel=_AXES,
+        show_default=False,
+    ),
+]
+Checked = Annotated[int, typer.Option("--check", min=1, help="random points on which the error is measured")]
+Threads = Annotated[int | None, typer.Option(min=1, help="threads", show_default="all cores")]
+Tables = Annotated[Path, typer.Option("--out", help="write .mat, .npz or .csv", rich_help_panel=opt.OUTPUT)]
+
+
+@reported
+def lut(
+    out: Tables,
+    *,
+    axis: Axis = None,
+    table: Chosen = None,
+    wheel: opt.WheelName = "s1002",
+    rail: opt.RailName = "60e1",
+    radius: opt.Radius = 0.46,
+    gauge: opt.Gauge = 1.435,
+    back_to_back: opt.BackToBack = 1.360,
+    reading: arguments.Reading,
+    side: opt.Sides = opt.Side.right,
+    load: opt.Load = None,
+    speed: opt.Speed = 20.0,
+    surface: arguments.SlidingFriction,
+    normal: opt.Normal = DEFAULT_NORMAL,
+    tangential: opt.Tangential = DEFAULT_TANGENTIAL,
+    check: Checked = 500,
+    threads: Threads = None,
+    as_json: opt.Json = False,
+) -> None:
+    """Make look-up tables of a wheel on its rail over pose, load and creepages, for Simulink's n-D Lookup Table.
+
+    Example:  contact lut --axis y=-6e-3:6e-3:49 --axis yaw=-4e-3:4e-3:9 --axis load=40e3:120e3:5 --out tables.mat
+    """
+    lookup.require_writable(out)
+    if side is opt.Side.both:
+        raise ContactError("--side both: a table is that of one wheel; allowed: left, right")
+    axes = dict(map(_breakpoints, axis or ["y=-6e-3:6e-3:49", "yaw=-4e-3:4e-3:9"]))
+    pair = WheelRailPair(
+        Pair(
+            reading.load(wheel, "wheel"),
+            reading.load(rail, "rail"),
+            side="left" if side is opt.Side.left else "right",
+            nominal_radius=radius,
+            gauge=gauge,
+            flange_back=back_to_back,
+        ),
+        normal=normal,
+        tangential=tangential,
+    )
+    options: dict[str, Any] = {"friction": surface.law(), "threads": threads}
+    options |= {} if "load" in axes else {"load": load_or_standard(load)}
+    options |= {} if "speed" in axes else {"speed": speed}
+    names = tuple(table or lookup.DEFAULT_TABLES)
+    plan = lookup.estimate(pair, axes, tables=len(names), **options)
+    typer.echo(f"{plan.poses} poses, {1e-6 * plan.size:.2g} MB, about {plan.seconds:.2g} s", err=True)
+    with progress_bar() as bar:
+        found = lookup.lookup_table(pair, axes, tables=names, progress=bar, **options)
+    found.write(out)
+    errors = lookup.interpolation_error(pair, found, points=check, **options)
+
+    def show(console: Console) -> None:
+        shown = Table(title=f"Linear interpolation on {check} random points", header_style="bold")
+        for heading in ("table", "rms error", "largest", "largest value", "unit"):
+            shown.add_column(heading, justify="left" if heading in ("table", "unit") else "right")
+        for name, one in errors.items():
+            shown.add_row(name, f"{one.rms:.3g}", f"{one.largest:.3g}", f"{one.scale:.3g}", lookup.TABLES[name])
+        console.print(shown)
+        if found.untrusted:
+            console.print(f"{found.untrusted} of {plan.poses} points have no trustworthy solution", highlight=False)
+
+    content = {
+        "axes": found.axes,
+        "errors": {name: asdict(one) for name, one in errors.items()},
+        "untrusted": found.untrusted,
+        "estimate": asdict(plan),
+        "files": [str(out)],
+    }
+    deliver(content, show=show, as_json=as_json)
+    typer.echo(f"wrote {out}", err=True)
+
+
+def _breakpoints(text: str) -> tuple[str, np.ndarray]:
+    """Return name and breakpoints of an option --axis."""
+    name, equals, values = text.partition("=")
+    try:
+        if not equals:
+            raise ValueError
+        if ":" not in values:
+            return name, np.array([float(value) for value in values.split(",")])
+        low, high, number = values.split(":")
+        return name, np.linspace(float(low), float(high), int(number))
+    except ValueError:
+        raise ContactError(f"--axis {text}: give NAME=FROM:TO:NUMBER or NAME=A,B,C") from None

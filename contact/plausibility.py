@@ -1,0 +1,75 @@
+"""What numbers wheels and rails have. Every entry doubts its arguments here, with the same limits and the same words.
+
+A doubtful value is allowed and gives a `contact.errors.PlausibilityWarning`. Shapes of profiles are judged by
+`contact.geometry.inspection.misplaced`, for arrays as for files.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.errors import doubt
+
+
+class Usual(NamedTuple):
+    """Largest and smallest usual magnitude of a value other than zero, and what is usual or the unit."""
+
+    largest: float
+    hint: str
+    least: float = 0.0
+
+
+_CREEPAGE = Usual(0.1, "a rolling wheel has less than 0.02 (20 per mille); is it in per mille?")
+_TURNED = Usual(0.05, "a wheelset has less than 0.03 rad; the unit is rad")
+_LOAD = "a wheel carries 20 to 150 kN; the unit is N"
+#: Usual values under the names of the arguments. A patch has any share of a wheel's load, but hardly as few newtons as a wheel
+#: has kilonewtons.
+USUAL = {
+    "load": Usual(5e6, f"{_LOAD}; is it in kN?", 200.0),
+    "approach": Usual(5e-3, "a wheel and a rail approach by about 1e-4 m; the unit is m"),
+    "creepage.longitudinal": _CREEPAGE,
+    "creepage.lateral": _CREEPAGE,
+    "creepage.spin": Usual(20.0, "a flange has about 2; the unit is 1/m"),
+    "friction": Usual(1.0, "steel on steel has 0.05 to 0.6"),
+    "speed": Usual(170.0, "the fastest train ran 160 m/s; is it in km/h?"),
+    "A": Usual(200.0, "a wheel has 1/(2 radius), 1.1 for a radius of 0.46 m; the unit is 1/m", 0.02),
+    "extent of y": Usual(1.0, "a wheel or a rail's head is less than 0.2 m wide; the unit is m"),
+    "shear_modulus": Usual(1e13, "steel has 8.2e10; the unit is Pa", 1e7),
+    "pressure_limit": Usual(math.inf, "rail steel has about 1.5e9; the unit is Pa", 1e7),
+    "pose.y": Usual(0.015, "a flange touches at about 0.007 m; the unit is m"),
+    "pose.roll": _TURNED,
+    "pose.yaw": _TURNED,
+    "wheel load": Usual(5e6, _LOAD, 1e3),
+}
+
+
+def doubt_value(name: str, value: float, called: str = "") -> bool:
+    """Warn of a value that is not usual for `name`, a key of `USUAL`, under the name `called`. Return whether it warned."""
+    usual = USUAL[name]
+    return doubt(called or name, value, usual.largest, usual.hint, least=usual.least)
+
+
+def doubt_values(name: str, values: NDArray[Any]) -> bool:
+    """As `doubt_value`, of an array: one warning, of the first unusual value, with their number."""
+    size, usual = np.abs(values), USUAL[name]
+    unusual = (size > usual.largest) | ((size > 0.0) & (size < usual.least))
+    if not unusual.any():
+        return False
+    where = tuple(map(int, np.unravel_index(int(np.argmax(unusual)), values.shape)))
+    called = f"{name}[{', '.join(map(str, where))}]" if where else name
+    hint = f"{usual.hint} ({np.count_nonzero(unusual)} of {values.size} values)" if where else usual.hint
+    return doubt(called, float(values[where]), usual.largest, hint, least=usual.least)
+
+
+def doubt_case(
+    load: float | None, approach: float | None, creepage: tuple[float, float, float], friction: float, speed: float
+) -> None:
+    """Warn of arguments of `contact.solve` that no wheel on a rail has."""
+    names = ("load", "approach", "creepage.longitudinal", "creepage.lateral", "creepage.spin", "friction", "speed")
+    for name, value in zip(names, (load, approach, *creepage, friction, speed), strict=True):
+        if value is not None:
+            doubt_value(name, value)

@@ -1,0 +1,189 @@
+"""`over_poses`: solve a wheel on its rail for arrays of poses, loads and creepages, on several threads."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from contact.case import set_surface
+from contact.creepage import LARGEST_CREEPAGE
+from contact.errors import ContactError
+from contact.forces import checked, cores
+from contact.friction import LARGEST, Friction
+from contact.geometry.posed import MAX_PENETRATION
+from contact.geometry.wheelset import Pair
+from contact.kernels.enumerations import Height
+from contact.kernels.records import GIVEN, LARGEST_ANGLE, TOTAL
+from contact.pair import WheelRailPair
+from contact.plausibility import doubt_values
+from contact.solution import Status
+
+Array = NDArray[np.float64]
+_CHUNK = 64  # poses between two reports of progress
+
+
+@dataclass(frozen=True, eq=False)
+class PoseForces:
+    """Action of one rail on the wheelset at each pose. Arrays of the broadcast shape; names and units of `PairSolution`.
+
+    `Fx`, `Fy`, `Fz` and `Mx`, `My`, `Mz` are the components of its `force` and `moment`. A pose without an answer, because the
+    profiles do not overlap or no height carries the load, has NaN and the status OUT_OF_RANGE.
+    """
+
+    Fx: Array
+    Fy: Array
+    Fz: Array
+    Mx: Array
+    My: Array
+    Mz: Array
+    N: Array
+    Q: Array
+    Y: Array
+    z: Array
+    max_pressure: Array
+    area: Array
+    slip_area: Array
+    power_per_metre: Array
+    T_gamma: Array
+    used_friction: Array
+    gap_error: Array
+    n_patches: NDArray[np.int64]
+    status: NDArray[np.int64]
+
+
+_FLOATS = [name for name in TOTAL.names or () if TOTAL[name].kind == "f"]
+_OTHER_NAMES = {"max_pressure": "pmax", "power_per_metre": "power"}
+
+
+def over_poses(
+    pair: WheelRailPair,
+    *,
+    y: ArrayLike = 0.0,
+    z: ArrayLike = 0.0,
+    roll: ArrayLike = 0.0,
+    yaw: ArrayLike = 0.0,
+    load: ArrayLike | None = None,
+    penetration: ArrayLike | None = None,
+    longitudinal: ArrayLike = 0.0,
+    lateral: ArrayLike = 0.0,
+    spin: ArrayLike = 0.0,
+    speed: ArrayLike = 20.0,
+    friction: ArrayLike | Friction = 0.3,
+    threads: int | None = None,
+    progress: Callable[[float, str], None] | None = None,
+) -> PoseForces:
+    """Return forces, patches and damage of one wheel on its rail for arrays of poses.
+
+    The kernel is that of `WheelRailPair.solve`. Every pose is a cold start, so the results depend neither on the order of the
+    poses nor on the number of threads.
+
+    Parameters
+    ----------
+    pair : WheelRailPair
+        Of profiles that are constant along the way. It is copied for each thread and does not change.
+    y, z : array_like
+        Lateral and vertical displacement of the wheelset [m], in track coordinates. z is ignored if a load or a
+        penetration is given. All arrays broadcast.
+    roll, yaw : array_like
+        Roll and yaw [rad], within ±0.1.
+    load, penetration : array_like
+        Vertical load of the wheel [N], or depth below first touch [m]. Give one of them at most.
+    longitudinal, lateral, spin : array_like
+        Creepages of the wheelset [-], [-], [1/m], in addition to those of rolling at this pose: slip of the axle's rotation,
+        1 + rotation·nominal radius/speed; lateral velocity over the speed; yaw rate over the speed. Positive longitudinal
+        creepage brakes.
+    speed : array_like
+        Forward speed [m/s], positive.
+    friction : array_like or contact.friction.Friction
+        Coefficient of friction [-], or a friction law common to all poses.
+    threads : int
+        Number of threads; default all cores that the process may use. The kernels release the GIL.
+    progress : callable
+        Called with the share that is done, 0 to 1, and a description.
+
+    Returns
+    -------
+    PoseForces
+
+    Raises
+    ------
+    ContactError
+        For input outside its range or shapes that do not broadcast.
+
+    Warns
+    -----
+    PlausibilityWarning
+        For poses, loads, speeds, creepages or friction that no wheelset has, once for each argument.
+    """
+    if not isinstance(pair, WheelRailPair) or not isinstance(pair.pair, Pair):
+        raise ContactError(f"pair = {pair!r} is not a contact.pair.WheelRailPair of two profiles")
+    if load is not None and penetration is not None:
+        raise ContactError("load and penetration exclude each other")
+    surface, coefficients = (friction, friction.static) if isinstance(friction, Friction) else (None, friction)
+    mode, limited = Height.GIVEN, checked("z", z, -np.inf)
+    if load is not None:
+        mode, limited = Height.LOAD, checked("load", load, 0.0)
+        doubt_values("wheel load", limited)
+    elif penetration is not None:
+        mode, limited = Height.PENETRATION, checked("penetration", penetration, 0.0, MAX_PENETRATION)
+    columns = {
+        "pose.y": checked("y", y, -np.inf),
+        "pose.roll": checked("roll", roll, -LARGEST_ANGLE, LARGEST_ANGLE),
+        "pose.yaw": checked("yaw", yaw, -LARGEST_ANGLE, LARGEST_ANGLE),
+        "creepage.longitudinal": checked("longitudinal", longitudinal, -LARGEST_CREEPAGE, LARGEST_CREEPAGE),
+        "creepage.lateral": checked("lateral", lateral, -LARGEST_CREEPAGE, LARGEST_CREEPAGE),
+        "creepage.spin": checked("spin", spin, -LARGEST_CREEPAGE, LARGEST_CREEPAGE),
+        "speed": checked("speed", speed, np.finfo(float).tiny),
+        "friction": checked("friction", coefficients, 0.0, LARGEST),
+    }
+    for name, values in columns.items():
+        doubt_values(name, values)
+    try:
+        spread = np.broadcast_arrays(limited, *columns.values())
+    except ValueError:
+        shapes = ", ".join(str(values.shape) for values in (limited, *columns.values()))
+        raise ContactError(f"shapes of the poses, loads and creepages do not broadcast: {shapes}") from None
+    shape = spread[0].shape
+    amount, y_, roll_, yaw_, vx, vy, phi, V, mu = (np.ravel(values) for values in spread)
+    given = np.zeros(amount.size, GIVEN)
+    given["y"], given["roll"], given["yaw"] = y_, roll_, yaw_
+    given["vx"], given["vy"], given["yaw_rate"] = V, V * vy, V * phi
+    given["spin"] = (vx - 1.0) * V / pair.pair.nominal_radius
+    if mode == Height.GIVEN:
+        given["z"] = amount
+    found = np.zeros(amount.size, TOTAL)
+    count = min(threads or cores(), max(1, amount.size))
+    done = np.zeros(count, np.int64)
+
+    def work(thread: int) -> None:
+        own = copy.deepcopy(pair)
+        bench, solve = own.bench, own.solve_given
+        set_surface(bench.case, surface or Friction(0.0), 0.0)
+        case = {name: bench.case[name] for name in ("speed", "mu", "kinetic")}
+        for k in range(thread, amount.size, count):
+            case["speed"][0] = V[k]
+            if surface is None:
+                case["mu"][0] = case["kinetic"][0] = mu[k]
+            own.forget()
+            if solve(mode, amount[k], given[k]) < 0:
+                for name in _FLOATS:
+                    found[name][k] = np.nan
+                found["status"][k] = Status.OUT_OF_RANGE
+            else:
+                found[k] = bench.total[0]
+            done[thread] += 1
+            if progress is not None and thread == 0 and done[0] % _CHUNK == 0:
+                progress(float(done.sum()) / amount.size, f"{done.sum()} of {amount.size} poses")
+
+    if count == 1:
+        work(0)
+    else:
+        with ThreadPoolExecutor(count) as pool:
+            list(pool.map(work, range(count)))
+    names = {name: _OTHER_NAMES.get(name, name) for name in PoseForces.__dataclass_fields__}
+    return PoseForces(**{name: np.ascontiguousarray(found[member]).reshape(shape) for name, member in names.items()})
