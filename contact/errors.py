@@ -16,6 +16,10 @@ class PlausibilityWarning(UserWarning):
     """Input that is allowed but hardly meant: a wrong unit, a wrong sign, a wheel beside its rail."""
 
 
+class ModelWarning(UserWarning):
+    """What a method leaves out matters here. The message says what, how much it may be, and the method that has it."""
+
+
 class ProfileWarning(PlausibilityWarning):
     """A fault of a measured profile. The message says what was seen and the option that cures it."""
 
@@ -80,12 +84,12 @@ def doubt(name: str, value: float, limit: float, hint: str, *, least: float = 0.
     return doubtful
 
 
-def warn(text: str) -> None:
-    """Give a PlausibilityWarning at the line that called this package, however deep the call is."""
+def warn(text: str, kind: type[UserWarning] = PlausibilityWarning) -> None:
+    """Give a warning at the line that called this package, however deep the call is."""
     level, frame = 1, sys._getframe()
     while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] == "contact":
         level, frame = level + 1, frame.f_back
-    warnings.warn(text, PlausibilityWarning, stacklevel=level)
+    warnings.warn(text, kind, stacklevel=level)
 
 
 def require_integer(name: str, value: object, minimum: float = -math.inf, maximum: float = math.inf) -> int:

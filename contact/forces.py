@@ -21,7 +21,7 @@ from contact.kernels.enumerations import LoadKind
 from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import RESULT
 from contact.material import STEEL, Material
-from contact.plausibility import doubt_values
+from contact.plausibility import doubt_alike, doubt_values
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.resultants import Forces
 from contact.separation import Separation
@@ -123,6 +123,7 @@ def forces(
     samples = Samples(*(np.concatenate(column) for column in zip(*(s.samples for s in separations), strict=True)))
     which = np.array(which).ravel()  # a copy, because it is broadcast
 
+    doubt_alike(material.coupling)
     cases = prepared_cases(count, method, rolling, material, conformal=conformal)
     set_surface(cases, surface or Friction(0.0), V.ravel())
     cases["load_kind"] = LoadKind.LOAD if load is not None else LoadKind.APPROACH

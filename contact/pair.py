@@ -27,6 +27,7 @@ from contact.kernels.flexible import solve_on_profiles, solve_on_surfaces
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.records import LARGEST_ANGLE
 from contact.material import STEEL, Material
+from contact.plausibility import doubt_alike
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solution import Status
 from contact.solver import N_ELEMENTS, N_STRIPS, require_max_iterations, require_resolution
@@ -234,6 +235,7 @@ class WheelRailPair:
         n_strips, n_elements = require_resolution(n_strips, n_elements)
         n_samples = pair.separations.shape[2]
         size = n_strips, n_elements, n_samples
+        doubt_alike(material.coupling)
         arrays = workspace.allocate(method, rolling, material.poisson_ratio, size)
         self.bench: Bench = workspace.bench(size, pair.space, arrays, ledger or workspace.closed_ledger())
         self.bench.case[:] = cases(

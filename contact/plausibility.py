@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.errors import doubt
+from contact.errors import ModelWarning, doubt, warn
 
 
 class Usual(NamedTuple):
@@ -63,6 +63,42 @@ def doubt_values(name: str, values: NDArray[Any]) -> bool:
     called = f"{name}[{', '.join(map(str, where))}]" if where else name
     hint = f"{usual.hint} ({np.count_nonzero(unusual)} of {values.size} values)" if where else usual.hint
     return doubt(called, float(values[where]), usual.largest, hint, least=usual.least)
+
+
+#: Coupling of unlike bodies above which it is not neglected in silence [-].
+_COUPLED = 1e-3
+
+
+def doubt_alike(coupling: float) -> None:
+    """Warn of unlike bodies with this coupling (`contact.Material`), which methods on strips take as alike."""
+    if abs(coupling) > _COUPLED:
+        warn(
+            f"material.coupling = {coupling:.3g}: methods on strips take both bodies as alike. On the unlike pairs compared "
+            "with CONTACT forces were up to 0.08 of friction times load off, and the creepage of free rolling up to 1.2e-4 "
+            "(docs/unlike.md); normal = tangential = 'halfspace' takes the coupling into account",
+            ModelWarning,
+        )
+
+
+def doubt_combined(coupling: float) -> None:
+    """Warn of stresses below the surface of unlike bodies with the combined Poisson's ratio."""
+    if abs(coupling) > _COUPLED:
+        warn(
+            f"material.coupling = {coupling:.3g}: the stresses of both bodies are those for the combined Poisson's ratio; "
+            "give poisson_ratio of the body",
+            ModelWarning,
+        )
+
+
+def doubt_plane(bend: float, largest: float) -> None:
+    """Warn of a patch over which the contact angle changes by `bend` [rad], more than `largest`, solved as plane."""
+    if bend > largest:
+        warn(
+            f"the contact angle changes by {math.degrees(bend):.0f}° over the patch, which is solved as plane. Above "
+            f"{math.degrees(largest):.0f}° the pressure has a lateral force of up to 0.1 of the load that is left out, and creep "
+            "forces change by 0.03 of friction times load in the median (docs/limits.md); conformal = True has both",
+            ModelWarning,
+        )
 
 
 def doubt_case(

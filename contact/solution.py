@@ -30,6 +30,8 @@ Records = NDArray[np.void]
 
 #: A `gap_error` above this means that the largest pressure may be wrong by a fifth (docs/limits.md).
 GAP_ERROR = 0.17
+#: Change of the contact angle over a patch above which a plane contact may be wrong [rad] (docs/limits.md).
+BEND = 0.4
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -98,6 +100,8 @@ class Solution:
     normal_stiffness : dN/d(approach) [N/m]
     gap_error : the largest gap or overlap that the pressure leaves inside the patch, over the approach [-]. It estimates the
         error of the normal problem: 0 is exact, above `GAP_ERROR` the largest pressure may be wrong by a fifth
+    bend : largest change of the contact angle over a patch [rad]. The contact is taken as plane unless `conformal`; above
+        `BEND` its lateral force is up to a tenth of the load off. The half space in the plane does not tell it: 0
     length, width : extent of the patch along x and y [m]
     n_patches, iterations : int
     status : Status
@@ -117,6 +121,7 @@ class Solution:
     power_per_metre: float
     normal_stiffness: float
     gap_error: float
+    bend: float
     length: float
     width: float
     n_patches: int
@@ -212,6 +217,7 @@ class Solution:
             ("length × width", f"{1e3 * self.length:.4g} mm × {1e3 * self.width:.4g} mm"),
             ("greatest pressure", f"{1e-6 * self.max_pressure:.5g} MPa"),
             ("gap error", f"{self.gap_error:.2g}{' (not to be trusted)' if self.gap_error > GAP_ERROR else ''}"),
+            ("change of contact angle", f"{math.degrees(self.bend):.3g}°"),
             ("friction", f"{self.friction:g}"),
             ("utilisation", f"{self.utilisation:.3g}"),
             ("energy per metre", f"{self.power_per_metre:.4g} J/m"),
@@ -314,6 +320,7 @@ def _attributes(
         "tangential": prepared.tangential,
         "pressure_y": float(result.pressure_y),
         "gap_error": float(result.gap_error),
+        "bend": float(result.bend),
         "patch_edges": edges,
         "memory": memory,
     }

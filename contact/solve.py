@@ -24,7 +24,7 @@ from contact.halfspace.third_body import ThirdBody
 from contact.kalker import constant_table
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.material import STEEL, Material
-from contact.plausibility import doubt_case
+from contact.plausibility import doubt_alike, doubt_case
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.separation import Separation
 from contact.solution import Solution
@@ -147,6 +147,8 @@ def solve(
     n_strips, n_elements = require_resolution(n_strips, n_elements)
     max_iterations = require_max_iterations(max_iterations)
     method, rolling = lookup("normal", normal), lookup("tangential", tangential)
+    if not rolling.elementwise:
+        doubt_alike(material.coupling)
     division = Division(n_strips, n_elements, None if spacing is None else require_pair("spacing", spacing))
     if rolling.elementwise and (surface.slope, surface.slope_far) != (1.0, 1.0):
         raise ContactError(

@@ -25,11 +25,11 @@ from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import RESULT
 from contact.material import STEEL, Material
-from contact.plausibility import doubt_case
+from contact.plausibility import doubt_alike, doubt_case, doubt_plane
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.resultants import CaseForces
 from contact.separation import Separation
-from contact.solution import Prepared, Solution, Status
+from contact.solution import BEND, Prepared, Solution, Status
 
 #: Default resolution. On the patches of set D the normal force is then 0.06 %, the largest pressure 0.3 % off CONTACT's.
 N_STRIPS, N_ELEMENTS = 20, 20
@@ -123,7 +123,7 @@ class Solver:
         self._member = {name: self._case[name] for name in self._case.dtype.names or ()}
         self._result = np.zeros(1, RESULT)
         self.doubted = False  # whether the arguments of a call were judged
-        self._status = self._result["status"]
+        self._status, self._bend = self._result["status"], self._result["bend"]
         self._bounds = np.zeros(2, np.int64)  # of the only separation
         self._problem = pack(Integers, self._bounds), pack(Integers, np.zeros(1, np.int64)), pack(Cases, self._case)
         self._answer = pack(Results, self._result)
@@ -243,6 +243,8 @@ class Solver:
         prepared = Prepared(self.normal.name, self.tangential.name, self.material, self._speed)
         if throw:
             require_trustworthy(Status(self._status[0]), separation.y, load, approach)
+        if not self.conformal:
+            doubt_plane(float(self._bend[0]), BEND)
         return Solution.of_kernel(n, self._full, self._numbers, creepage, prepared, jacobian)
 
     def forces(
@@ -292,6 +294,7 @@ class Solver:
             self.doubted = True
             vector = creepage.longitudinal, creepage.lateral, creepage.spin
             doubt_case(load, approach, vector, self._friction.static, self._speed)
+            doubt_alike(self.material.coupling)
         member = self._member
         member["load_kind"][0] = LoadKind.APPROACH if load is None else LoadKind.LOAD
         member["amount"][0] = amount

@@ -155,6 +155,7 @@ def assemble(
         normal=normal,
         tangential=tangential,
         pressure_y=float(sideways.sum()) * force,
+        bend=float(np.ptp(np.arctan(own.tilt[rows]))) if rows.size else 0.0,
         gap_error=0.0,  # the gap closes at every element, to the tolerance of the iteration
         patch_edges=edges.reshape(-1, 2),
         memory=np.zeros(0),

@@ -255,10 +255,11 @@ typedef struct {
     double pressure_y; /* what of Fy is pressure on a bent surface, no creep force [N] */
     double touch; /* approach at which the bodies first touch [m] */
     double gap_error; /* largest gap or overlap left in the patch over the approach [-] */
+    double bend; /* largest change of the contact angle over a patch [rad] */
     double edges[8]; /* lateral edges of the patches, two each [m] */
 } wr_result;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
-_Static_assert(sizeof(wr_result) == 216, "wr_result");
+_Static_assert(sizeof(wr_result) == 224, "wr_result");
 _Static_assert(offsetof(wr_result, Fx) == 0, "wr_result.Fx");
 _Static_assert(offsetof(wr_result, Fy) == 8, "wr_result.Fy");
 _Static_assert(offsetof(wr_result, Mz) == 16, "wr_result.Mz");
@@ -278,7 +279,8 @@ _Static_assert(offsetof(wr_result, limited) == 120, "wr_result.limited");
 _Static_assert(offsetof(wr_result, pressure_y) == 128, "wr_result.pressure_y");
 _Static_assert(offsetof(wr_result, touch) == 136, "wr_result.touch");
 _Static_assert(offsetof(wr_result, gap_error) == 144, "wr_result.gap_error");
-_Static_assert(offsetof(wr_result, edges) == 152, "wr_result.edges");
+_Static_assert(offsetof(wr_result, bend) == 152, "wr_result.bend");
+_Static_assert(offsetof(wr_result, edges) == 160, "wr_result.edges");
 #endif
 
 typedef struct {

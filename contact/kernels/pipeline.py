@@ -5,7 +5,7 @@ import math
 from contact.core import entry, kernel
 from contact.kernels import cubic
 from contact.kernels.arrays import Case, Cases, Integers, Matrix, Result, Results, Samples, Workspace
-from contact.kernels.conformal import bend, project
+from contact.kernels.conformal import bend, project, surface_at
 from contact.kernels.enumerations import Status, Tangential, TangentialFamily
 from contact.kernels.friction import of_bodies, of_case, over_profile
 from contact.kernels.normal.gap_error import gap_error
@@ -176,7 +176,11 @@ def press_case(sep: Samples, case: Case, own: Workspace, result: Result) -> int:
         _limit_pressure(strips, n, case.pressure_limit, elements, fields, result.N)
     y_low, y_high = math.inf, -math.inf
     for k in range(count):
-        y_low, y_high = min(y_low, result.edges[2 * k]), max(y_high, result.edges[2 * k + 1])
+        low, high = result.edges[2 * k], result.edges[2 * k + 1]
+        y_low, y_high = min(y_low, low), max(y_high, high)
+        at_low, _ = surface_at(sep.y, sep.tilt, low)
+        at_high, _ = surface_at(sep.y, sep.tilt, high)
+        result.bend = max(result.bend, abs(math.atan(at_high) - math.atan(at_low)))
     result.length, result.width = x_high - x_low, y_high - y_low
     return n
 

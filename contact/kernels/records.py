@@ -112,6 +112,7 @@ RESULT = _record(
     pressure_y      what of Fy is pressure on a bent surface, no creep force [N]
     touch           approach at which the bodies first touch [m]
     gap_error       largest gap or overlap left in the patch over the approach [-]
+    bend            largest change of the contact angle over a patch [rad]
     edges:{2 * MAX_PATCHES}         lateral edges of the patches, two each [m]
     """,
 )

@@ -10,7 +10,7 @@ def clear(result):
     result.approach, result.pmax, result.area, result.slip_area, result.power = 0.0, 0.0, 0.0, 0.0, 0.0
     result.stiffness, result.length, result.width = 0.0, 0.0, 0.0
     result.n_patches, result.iterations, result.status, result.limited = 0, 0, 0, 0
-    result.pressure_y, result.touch, result.gap_error = 0.0, 0.0, 0.0
+    result.pressure_y, result.touch, result.gap_error, result.bend = 0.0, 0.0, 0.0, 0.0
     result.edges[:] = 0.0
 
 

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from contact.errors import ContactError, require_number
 from contact.halfspace.influence import fast_length
 from contact.material import STEEL
+from contact.plausibility import doubt_combined
 from contact.solution import Solution
 from contact.stress.corners import of_corners
 from contact.stress.field import Peak, StressField, require_criterion
@@ -198,6 +199,8 @@ def _prepared(load: Solution | SurfaceLoad, body: str, poisson_ratio: float | No
         raise ContactError(f"body = {body!r} is unknown; allowed: {', '.join(BODIES)}")
     if isinstance(load, Solution):
         surface, nu = SurfaceLoad.of(load), load.material.poisson_ratio
+        if poisson_ratio is None:
+            doubt_combined(load.material.coupling)
     elif isinstance(load, SurfaceLoad):
         surface, nu = load, STEEL.poisson_ratio
     else:

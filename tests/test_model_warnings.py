@@ -1,0 +1,74 @@
+"""What a method leaves out is said where it matters (`contact.errors.ModelWarning`)."""
+
+import math
+import warnings
+
+import numpy as np
+import pytest
+
+import contact
+from contact import Creepage, Separation, stress
+from contact.errors import ModelWarning
+from contact.geometry import profile
+from contact.geometry.wheelset import Pair
+
+HERTZ, ROLLING = Separation.hertzian(1.1, 0.8), Creepage(1e-3)
+UNLIKE = contact.Material.from_pair(60e9, 0.31, 210e9, 0.28)
+SOLVERS = {
+    "solve": lambda material: contact.solve(HERTZ, ROLLING, load=5e4, material=material),
+    "forces": lambda material: contact.forces([HERTZ], ROLLING, load=5e4, material=material),
+    "Solver": lambda material: contact.Solver(material=material).forces(HERTZ, ROLLING, load=5e4),
+    "WheelRailPair": lambda material: contact.pair.WheelRailPair(
+        Pair(profile.s1002(), profile.rail_60e1()), material=material
+    ),
+}
+
+
+def bent(slope: float) -> Separation:
+    """Return a contact whose angle changes by `slope` per metre of y."""
+    y = np.linspace(-8e-3, 8e-3, 101)
+    return Separation(y, 20.0 * y**2, 1.1, tilt=np.tan(slope * y))
+
+
+@pytest.mark.parametrize("name", SOLVERS)
+def test_methods_on_strips_say_that_they_take_unlike_bodies_as_alike(name):
+    with pytest.warns(ModelWarning, match=r"material.coupling = 0.1\d*: methods on strips take both bodies as alike"):
+        SOLVERS[name](UNLIKE)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        SOLVERS[name](contact.STEEL)
+
+
+def test_the_half_space_takes_unlike_bodies_and_says_nothing():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        contact.solve(
+            HERTZ, ROLLING, load=5e4, material=UNLIKE, normal="halfspace", tangential="halfspace", spacing=1.5e-3
+        )
+
+
+def test_stresses_of_unlike_bodies_ask_for_the_ratio_of_the_body():
+    with pytest.warns(ModelWarning):
+        solution = contact.solve(HERTZ, ROLLING, load=5e4, material=UNLIKE)
+    with pytest.warns(ModelWarning, match="give poisson_ratio of the body"):
+        stress.at(solution, 0.0, 0.0, 1e-3)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        stress.at(solution, 0.0, 0.0, 1e-3, poisson_ratio=0.31)
+
+
+def test_the_change_of_the_contact_angle_over_a_patch_is_told():
+    solution = contact.solve(bent(20.0), ROLLING, load=2e4)
+    low, high = solution.patch_edges[0]
+    assert solution.bend == pytest.approx(20.0 * (high - low), rel=1e-3)
+    assert contact.solve(HERTZ, ROLLING, load=2e4).bend == 0.0
+
+
+def test_a_wide_bent_patch_in_the_plane_gives_a_warning():
+    with pytest.warns(ModelWarning, match=r"the contact angle changes by \d+° over the patch, which is solved as plane"):
+        wide = contact.solve(bent(80.0), ROLLING, load=5e4)
+    assert wide.bend > math.radians(23.0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        contact.solve(bent(80.0), ROLLING, load=5e4, conformal=True)
+        contact.solve(bent(20.0), ROLLING, load=5e4)
