@@ -196,6 +196,6 @@ def _status(table: Table) -> str:
             lines.append(f"<p><code>{row.name}</code> has these values:</p>\n<ul>{items}</ul>\n")
     lines.append(
         "<p>A step whose inputs are outside their ranges returns Discard with a message that names the input, its value and "
-        "the range. The run then ends.</p>\n"
+        "the range. In FMI 2.0 the FMU is then terminated.</p>\n"
     )
     return "".join(lines)
