@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from html import escape
 
 from fmu_src.description import number
+from fmu_src.first_steps import first_steps
 from fmu_src.variables import Kind, Table, Variable
 
 
@@ -50,6 +51,7 @@ td:first-child {{ font-family: ui-monospace, monospace; white-space: nowrap; }}
 <body>
 <h1>{table.name}</h1>
 <p>{escape(table.description)}</p>
+{first_steps(table)}<h2>Variables</h2>
 {_rows(table.shown)}
 {fields}
 </body>

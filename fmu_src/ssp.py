@@ -2,7 +2,7 @@
 with eight.
 
 The structure is made from the tables of the FMUs, so connectors and units always agree with the FMUs. Parameters are bound in
-the structure itself. Only the step size is not part of the standard: it is in an annotation that libcosim reads.
+the structure itself. Only the step size is not part of the standard: it is in annotations that libcosim and OMSimulator read.
 
 Most masters of an SSP use the Jacobi scheme: every FMU steps with the values that were exchanged before the step. They differ
 in the first step. libcosim exchanges outputs during initialisation until the inputs have followed. fmpy starts every connector
@@ -46,6 +46,7 @@ _NAMESPACES = {
     "xmlns:ssv": "http://ssp-standard.org/SSP1/SystemStructureParameterValues",
     # declared here, since libcosim takes a declaration further down for an algorithm
     "xmlns:osp": "http://opensimulationplatform.com/SSP/OSPAnnotations",
+    "xmlns:oms": "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd",
 }
 
 
@@ -195,6 +196,7 @@ def structure(made: System, *, connected: bool = False) -> str:
         SubElement(lines, "ssd:Connection", startConnector=name, endElement=first.name, endConnector=name)
     for name in outputs:
         SubElement(lines, "ssd:Connection", startElement=first.name, startConnector=name, endConnector=name)
+    _master_of_omsimulator(system, made.step)
     _units(root, used)
     experiment = SubElement(root, "ssd:DefaultExperiment", startTime="0.0", stopTime=number(STOP))
     annotation = SubElement(
@@ -204,6 +206,15 @@ def structure(made: System, *, connected: bool = False) -> str:
     SubElement(algorithm, "osp:FixedStepAlgorithm", baseStepSize=number(made.step))
     indent(root)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
+
+
+def _master_of_omsimulator(system: Element, step: float) -> None:
+    """Add the master that OMSimulator uses with `step` [s]. Without it OMSimulator ends with an internal error."""
+    annotation = SubElement(SubElement(system, "ssd:Annotations"), "ssc:Annotation", type="org.openmodelica")
+    information = SubElement(SubElement(annotation, "oms:Annotations"), "oms:SimulationInformation")
+    size, tolerance = number(step), "0.0001"  # the tolerance that OMSimulator writes itself
+    attributes = {"stepSize": size, "absoluteTolerance": tolerance, "relativeTolerance": tolerance}
+    SubElement(information, "oms:FixedStepMaster", {"description": "oms-ma", **attributes})
 
 
 def _parameters(system: Element, made: System) -> None:

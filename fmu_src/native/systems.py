@@ -50,6 +50,7 @@ _WITHOUT = {
         "description",
         "description_fmi3",
         "documentation",
+        "first_steps",
         "icon",
         "place",
         "ssp",

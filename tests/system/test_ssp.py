@@ -5,6 +5,7 @@ import sys
 import zipfile
 from importlib.util import find_spec
 from pathlib import Path
+from xml.etree import ElementTree
 
 import fmpy
 import numpy as np
@@ -13,6 +14,7 @@ from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import read_ssd
 from pyssp_standard.ssp import SSP
 
+from fmu_src.ssp import STEP
 from models.wheelset import master
 from models.wheelset.components import direct
 from models.wheelset.parameters import WheelsetParameters
@@ -68,6 +70,14 @@ def test_structure_conforms_to_the_schema(system):
         ssd.check_compliance(ssd.schemas[ssd.identifier], ssd.namespaces)
         assert not ssd.check_connections()
         assert len(ssd.connections()) == len(SIDES) * (len(PROBLEM) + len(REACTION))
+
+
+def test_the_master_of_omsimulator_has_the_step_of_the_other_annotation(system):
+    with zipfile.ZipFile(system) as archive:
+        root = ElementTree.fromstring(archive.read("SystemStructure.ssd"))
+    (fixed,) = root.iterfind(".//{*}System/{*}Annotations/{*}Annotation[@type='org.openmodelica']//{*}FixedStepMaster")
+    (algorithm,) = root.iterfind(".//{*}FixedStepAlgorithm")
+    assert float(fixed.get("stepSize")) == float(algorithm.get("baseStepSize")) == STEP
 
 
 def test_connectors_are_variables_of_the_fmus_with_their_causality_and_unit(system, tmp_path):
