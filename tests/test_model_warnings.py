@@ -65,7 +65,9 @@ def test_the_change_of_the_contact_angle_over_a_patch_is_told():
 
 
 def test_a_wide_bent_patch_in_the_plane_gives_a_warning():
-    with pytest.warns(ModelWarning, match=r"the contact angle changes by \d+° over the patch, which is solved as plane"):
+    with pytest.warns(
+        ModelWarning, match=r"the contact angle changes by \d+° over the patch, which is solved as plane"
+    ):
         wide = contact.solve(bent(80.0), ROLLING, load=5e4)
     assert wide.bend > math.radians(23.0)
     with warnings.catch_warnings():
