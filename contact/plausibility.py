@@ -95,8 +95,8 @@ def doubt_plane(bend: float, largest: float) -> None:
     if bend > largest:
         warn(
             f"the contact angle changes by {math.degrees(bend):.0f}° over the patch, which is solved as plane. Above "
-            f"{math.degrees(largest):.0f}° a lateral force of the pressure of up to 0.1 of the load is left out, and creep forces "
-            "change by 0.03 of friction times load in the median (docs/limits.md); conformal = True has both",
+            f"{math.degrees(largest):.0f}° a lateral force of the pressure of up to 0.1 of the load is left out, and creep "
+            "forces change by 0.03 of friction times load in the median (docs/limits.md); conformal = True has both",
             ModelWarning,
         )
 

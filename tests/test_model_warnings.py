@@ -11,6 +11,7 @@ from contact import Creepage, Separation, stress
 from contact.errors import ModelWarning
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair
+from contact.pair import WheelRailPair
 
 HERTZ, ROLLING = Separation.hertzian(1.1, 0.8), Creepage(1e-3)
 UNLIKE = contact.Material.from_pair(60e9, 0.31, 210e9, 0.28)
@@ -18,16 +19,14 @@ SOLVERS = {
     "solve": lambda material: contact.solve(HERTZ, ROLLING, load=5e4, material=material),
     "forces": lambda material: contact.forces([HERTZ], ROLLING, load=5e4, material=material),
     "Solver": lambda material: contact.Solver(material=material).forces(HERTZ, ROLLING, load=5e4),
-    "WheelRailPair": lambda material: contact.pair.WheelRailPair(
-        Pair(profile.s1002(), profile.rail_60e1()), material=material
-    ),
+    "WheelRailPair": lambda material: WheelRailPair(Pair(profile.s1002(), profile.rail_60e1()), material=material),
 }
 
 
 def bent(slope: float) -> Separation:
     """Return a contact whose angle changes by `slope` per metre of y."""
     y = np.linspace(-8e-3, 8e-3, 101)
-    return Separation(y, 20.0 * y**2, 1.1, tilt=np.tan(slope * y))
+    return Separation(y, 20.0 * y**2, 1.1, tilt=np.tan(np.clip(slope * y, -1.2, 1.2)))
 
 
 @pytest.mark.parametrize("name", SOLVERS)
@@ -68,9 +67,9 @@ def test_a_wide_bent_patch_in_the_plane_gives_a_warning():
     with pytest.warns(
         ModelWarning, match=r"the contact angle changes by \d+° over the patch, which is solved as plane"
     ):
-        wide = contact.solve(bent(80.0), ROLLING, load=5e4)
+        wide = contact.solve(bent(250.0), ROLLING, load=5e4)
     assert wide.bend > math.radians(23.0)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        contact.solve(bent(80.0), ROLLING, load=5e4, conformal=True)
+        contact.solve(bent(250.0), ROLLING, load=5e4, conformal=True)
         contact.solve(bent(20.0), ROLLING, load=5e4)
