@@ -40,6 +40,9 @@ from contact.solver import (
 
 Array = NDArray[np.float64]
 
+#: Default number of rows and of columns of the half space's elements.
+_N_OF_HALF_SPACE = 60
+
 
 def solve(
     separation: Separation | Gap,
@@ -53,8 +56,8 @@ def solve(
     speed: float = 20.0,
     normal: str = DEFAULT_NORMAL,
     tangential: str = DEFAULT_TANGENTIAL,
-    n_strips: int = N_STRIPS,
-    n_elements: int = N_ELEMENTS,
+    n_strips: int | None = None,
+    n_elements: int | None = None,
     spacing: float | tuple[float, float] | None = None,
     conformal: bool = False,
     max_iterations: int = MAX_ITERATIONS,
@@ -87,8 +90,10 @@ def solve(
     normal, tangential : str
         Names from `contact.methods()`.
     n_strips, n_elements : int
-        Strips per patch, 4 to 1000, and elements per strip, 4 to 1000. With normal="halfspace" they are rows and columns
-        of elements over the undeformed overlap; the contact takes about 0.7 of it in each direction.
+        Strips per patch, 4 to 1000, and elements per strip, 4 to 1000; default 20 each. With normal="halfspace" they are
+        rows and columns of elements over the undeformed overlap; the contact takes about 0.7 of it in each direction. Their
+        default is then 60: on four patches of S1002 on 60E1 the force is .0023 of μN at most off that with 160, and the
+        pressure .4 %, where 20 give .014 and 3.4 %, and methods on strips .008 and .8 %.
     spacing : float or (float, float)
         Size (dx, dy) of the half space's elements [m], instead of their number.
     conformal : bool
@@ -144,9 +149,12 @@ def solve(
     speed = require_number("speed", speed, 0.0)
     vector = creepage.longitudinal, creepage.lateral, creepage.spin
     doubt_case(load, approach, vector, surface.static, speed)
-    n_strips, n_elements = require_resolution(n_strips, n_elements)
     max_iterations = require_max_iterations(max_iterations)
     method, rolling = lookup("normal", normal), lookup("tangential", tangential)
+    usual = (_N_OF_HALF_SPACE,) * 2 if method.elementwise else (N_STRIPS, N_ELEMENTS)
+    n_strips, n_elements = require_resolution(
+        *(default if given is None else given for given, default in zip((n_strips, n_elements), usual, strict=True))
+    )
     if not rolling.elementwise:
         doubt_alike(material.coupling)
     division = Division(n_strips, n_elements, None if spacing is None else require_pair("spacing", spacing))

@@ -64,7 +64,9 @@ _OF_PROFILES: dict[int, str] = {
     Failure.STEEP: "rail.inclination: the rail is steep at its top",
 }
 _ENDED = "the vehicle is not on the track: it ends here (fmu_src.track), or initial.distance is not on it"
-_LOST = "the motion has no finite value"
+#: Largest distance [m] and angle [rad] of a body from its place; a vehicle that is further is lost.
+FARTHEST = 5.0
+_LOST = f"a body is more than {FARTHEST:g} m or rad from its place, or has no finite motion"
 _PROFILES = (
     Resource(wheel_rail_pair.WHEEL, MAGIC["wheel"], ROWS),
     Resource(wheel_rail_pair.RAIL, MAGIC["rail"], ROWS),

@@ -16,7 +16,7 @@ from fmu_src.native.vehicle_parts import (
     constants_of,
     fill,
     has_ended,
-    is_finite,
+    is_near_track,
     kept_by,
     track_after,
     write_motion,
@@ -94,7 +94,7 @@ def model_outputs(values, work, h, given):
     if h > 0.0:
         _take_forces(v, at, parts)
         motion.move(model, state, motions, scratch, h, speed)
-        if not is_finite(parts):
+        if not is_near_track(parts):
             return _LOST
         motion.ask(model, state, motions, scratch, speed)
     _report(v, at, parts)

@@ -26,7 +26,7 @@ from fmu_src.native.vehicle_parts import (
     constants_of,
     fill,
     has_ended,
-    is_finite,
+    is_near_track,
     kept_by,
     track_after,
     write_motion,
@@ -230,7 +230,7 @@ def _advance(v, at, parts, contacts, h, given):
             return code
         if h > 0.0:
             motion.move(model, state, motions, scratch, step, speed)
-        if not is_finite(parts):
+        if not is_near_track(parts):
             return Failure.LOST
     return code
 

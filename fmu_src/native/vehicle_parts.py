@@ -9,6 +9,7 @@ from numba import carray
 
 from contact.kernels.block import ahead, cube, matrix, records, vector
 from contact.kernels.records import GIVEN, MOTION
+from fmu_src.native.components import FARTHEST
 from fmu_src.native.memory import compiled, integers_of
 from models.vehicle.course import BEYOND, SPACING
 from models.vehicle.kernels.layout import (
@@ -17,6 +18,7 @@ from models.vehicle.kernels.layout import (
     LINK,
     SEAT,
     WHEEL,
+    Axis,
     Book,
     Frame,
     Model,
@@ -146,10 +148,14 @@ def has_ended(parts):
 
 
 @compiled
-def is_finite(parts):
-    """Return whether all coordinates and velocities are finite."""
-    total = parts.state.q.sum() + parts.state.u.sum() + parts.state.rails.sum()
-    return total - total == 0.0
+def is_near_track(parts):
+    """Return whether all bodies are within `FARTHEST` of their places, with finite velocities."""
+    q, total = parts.state.q, parts.state.q.sum() + parts.state.u.sum() + parts.state.rails.sum()
+    farthest = 0.0
+    for i in range(q.shape[0]):
+        for j in (Axis.Y, Axis.Z, Axis.ROLL, Axis.YAW):
+            farthest = max(farthest, abs(q[i, j]))
+    return farthest <= FARTHEST and total - total == 0.0
 
 
 @compiled

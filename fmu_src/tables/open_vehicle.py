@@ -15,6 +15,8 @@ from models.vehicle.declared import VehicleDeclaration, read
 
 #: What a pair answers.
 ANSWER = tuple(f"{kind}.{axis}" for kind in ("force", "moment") for axis in "xyz")
+#: Unit of an output → usual size.
+_NOMINAL = {"m": 1e-3, "rad": 1e-3, "m/s": 1.0, "rad/s": 1.0, "1": 0.1}
 #: What it is asked: its inputs in the order of the record GIVEN, then the friction.
 QUESTION = (*(name for name, *_ in MOTION), "friction.coefficient")
 
@@ -64,5 +66,7 @@ def _outputs(declared: VehicleDeclaration) -> Iterable[Variable]:
     given = (*(row.name for row in _parameters(declared)), *(row.name for row in vehicle.inputs()))
     n = 2 * len(declared.wheelsets)
     for name, unit, about in (*MOTION, ("friction.coefficient", "1", "Coefficient of friction")):
-        yield output(f"wheel[].{name}", f"{about}, to each pair", unit=unit, shape=(n,), depends=given)
+        yield output(
+            f"wheel[].{name}", f"{about}, to each pair", unit=unit, shape=(n,), nominal=_NOMINAL[unit], depends=given
+        )
     yield from vehicle.motion(declared, given)

@@ -117,7 +117,9 @@ def inputs() -> Iterable[Variable]:
 def motion(declared: VehicleDeclaration, depends: tuple[str, ...]) -> Iterable[Variable]:
     """Yield the rows of the motion of all bodies."""
     n = len(names(declared))
-    yield output("distance", "Place of the vehicle's reference on the track's stations", unit="m", depends=depends)
+    yield output(
+        "distance", "Place of the vehicle's reference on the track's stations", unit="m", nominal=1e2, depends=depends
+    )
     for name, unit, meaning in COORDINATES:
         about = f"{meaning}, of each body in the frame of the ideal track"
         yield output(f"body[].{name}", about, unit=unit, shape=(n,), nominal=1e-3, depends=depends)

@@ -86,6 +86,7 @@ def test_exchanging_the_bodies_and_the_creepage_mirrors_the_force():
     np.testing.assert_allclose(forces[0], forces[1], rtol=1e-5)
 
 
+@pytest.mark.filterwarnings("ignore::contact.errors.ModelWarning")
 def test_the_pressure_of_another_method_acts_on_the_slip():
     """Fast methods neglect the coupling; the half space's traction on their pressure has most of it."""
     separation, material = contact.Separation.hertzian(1.1, 0.8), contact.Material(36e9, 0.3, coupling=-0.1)
