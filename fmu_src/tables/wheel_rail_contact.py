@@ -220,7 +220,8 @@ def _outputs() -> Iterable[Variable]:
     yield output("stiffness.normal", "dN/d(approach)", unit="N/m", minimum=0.0, nominal=1e9, depends=_NORMAL_PROBLEM)
     yield output(
         "creep_stiffness",
-        "d(force.x, force.y, moment.z)/d(longitudinal, lateral, spin creepage); computed only when it is read",
+        "d(force.x, force.y, moment.z)/d(longitudinal, lateral, spin creepage); computed only when it is read, which takes "
+        "about three steps",
         unit=("N", "N", "N.m", "N", "N", "N.m", "N.m", "N.m", "N.m2"),
         shape=(3, 3),
         nominal=1e6,

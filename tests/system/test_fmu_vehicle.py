@@ -175,7 +175,9 @@ def test_the_system_conforms_to_the_schema(folder, tmp_path):
 def test_a_vehicle_that_nothing_carries_is_lost_and_not_simulated_for_ever(folder):
     """Before, OK was the answer to the end, with coordinates of 1e34 m. It falls 5 m in one second."""
     path = str(folder / "OpenVehicle.fmu")
-    rows = fmpy.simulate_fmu(path, stop_time=5.0, step_size=1e-3, output_interval=1e-3, output=["body[1].z"], timeout=60)
+    rows = fmpy.simulate_fmu(
+        path, stop_time=5.0, step_size=1e-3, output_interval=1e-3, output=["body[1].z"], timeout=60
+    )
     assert rows["time"][-1] == pytest.approx((2.0 * 5.0 / 9.81) ** 0.5, abs=0.02)
     assert np.abs(rows["body[1].z"]).max() <= 5.0
     described = fmpy.read_model_description(path)
