@@ -56,7 +56,10 @@ _CONTACT_EXAMPLES = (
         "and slides to the right: the force points to the left",
     ),
 )
-_STIFFNESS = "Reading creep_stiffness takes about three steps more in a native FMU, seven for hosts with Python. Record it only where it is needed."
+_STIFFNESS = (
+    "Reading creep_stiffness takes about three steps more in a native FMU, seven for hosts with Python. Record it only where "
+    "it is needed."
+)
 _PAIR_DEFAULTS = (
     "The start values are a right wheel of a centred wheelset at 20 m/s under 80 kN. The height of the wheelset is found so "
     "that the contact carries this load."

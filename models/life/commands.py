@@ -68,15 +68,18 @@ def complete(started: VehicleRun, path: Path, fresh: bool, every: float) -> None
         typer.echo(f"continues at {started.distance:.1f} m from {path}", err=True)
     written = shown = time.monotonic()
     with progress_bar() as bar, interrupts() as asked:
-        while not (started.done or asked()):
-            started.advance()
-            now = time.monotonic()
-            if now - shown >= _SHOWN:
-                bar(started.share, f"{started.distance:.0f} m of {started.scenario.name}")
-                shown = now
-            if now - written >= every:
-                checkpoint.write(path, fingerprint, started.save())
-                written = time.monotonic()
+        try:
+            while not (started.done or asked()):
+                started.advance()
+                now = time.monotonic()
+                if now - shown >= _SHOWN:
+                    bar(started.share, f"{started.distance:.0f} m of {started.scenario.name}")
+                    shown = now
+                if now - written >= every:
+                    checkpoint.write(path, fingerprint, started.save())
+                    written = time.monotonic()
+        except KeyboardInterrupt:  # within a sample, so that only what is on disk is complete
+            stop(f"interrupted at {started.distance:.1f} m; {_resumable(path)}", 130)
         if not started.done:
             checkpoint.write(path, fingerprint, started.save())
             stop(f"interrupted at {started.distance:.1f} m; the same command continues from {path}", 130)

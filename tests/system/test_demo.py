@@ -53,7 +53,7 @@ def test_demo_without_fmus_says_how_to_make_them(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("--speed", -1), "speed = -1 is outside the allowed range ]0"),
+        (("--speed", -1), "--speed -1 is outside the allowed range ]0"),
         (("--step", 0), "step = 0 is outside the allowed range ]0"),
         (("--scheme", "euler"), "scheme = 'euler' is none of gauss_seidel, jacobi, iterated"),
         (("--lateral", 0.5), "do not overlap"),
