@@ -64,9 +64,11 @@ def slip(motion: Record, axes: Axes, x: float, y: float, z: float, patch: Record
 
 @kernel
 def positions(motion: Record, frame: Frame, wheel: Array, n_wheel: int, patch: Record) -> None:
-    """Fill the position of the reference point and the creepages there.
+    """Fill the position of the reference point, and the creepages of the undeformed bodies there.
 
-    The position is given on the rail and opposite on the wheel, in track coordinates and in those of the profiles [m].
+    The position is given on the rail and opposite on the wheel, in track coordinates and in those of the profiles [m]. The
+    creepages, and the forces, are those of the wheel's point at the depth `patch.approach`, as in CONTACT: where the reference
+    point lies between two lobes, the wheel overlaps the rail less there.
     """
     y0, z0, c, s = frame
     height, slope = at(wheel, advance(wheel, n_wheel, 0, 0.0), 0.0)
@@ -75,14 +77,15 @@ def positions(motion: Record, frame: Frame, wheel: Array, n_wheel: int, patch: R
     py, pz = y - motion.y, z - motion.z + motion.radius
     x, d, r = on_wheel(track_slope(frame, slope), py, pz, lx, ly, lz)
     patch.x, patch.y, patch.z = x, y0, z0
-    patch.point_y, patch.point_z = y, z
+    patch.point_y, patch.point_z = y0 - patch.approach * s, z0 + patch.approach * c
     cos_roll, sin_roll = math.cos(motion.rail_roll), math.sin(motion.rail_roll)
     rail_y, rail_z = y0 - motion.rail_y, z0 - motion.rail_z
     patch.rail_y = cos_roll * rail_y + sin_roll * rail_z
     patch.rail_z = cos_roll * rail_z - sin_roll * rail_y
     patch.wheel_y, patch.wheel_z = d - motion.tape, r - motion.radius
-    patch.radius = r
-    creepages(motion, frame, x, y, z, patch)
+    py, pz = patch.point_y - motion.y, patch.point_z - motion.z + motion.radius
+    _, _, patch.radius = on_wheel(track_slope(frame, slope), py, pz, lx, ly, lz)
+    creepages(motion, frame, x, patch.point_y, patch.point_z, patch)
 
 
 @kernel

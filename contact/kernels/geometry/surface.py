@@ -96,20 +96,31 @@ def _heights_at_origin(frame: Frame, limits: Paths, space: SurfaceSearch) -> tup
 
 
 @kernel
+def _on_wheel(motion: Record, x: float, y: float, z: float) -> tuple[float, float]:
+    """Return the distance of a point along the axle and from it [m]."""
+    lx, ly, lz = axle(motion.roll, motion.yaw)
+    px, py, pz = x, y - motion.y, z - motion.z + motion.radius
+    d = px * lx + py * ly + pz * lz
+    return d, math.sqrt(max(px * px + py * py + pz * pz - d * d, 0.0))
+
+
+@kernel
 def _positions(motion: Record, frame: Frame, depth: float, patch: Record) -> None:
-    """Fill reference point, opposite point of the wheel (`depth` [m] along the normal) and creepages of a patch."""
-    x, y, z = frame[0] + depth * frame[9], frame[1] + depth * frame[10], frame[2] + depth * frame[11]
-    patch.x, patch.y, patch.z = x, frame[1], frame[2]
-    patch.point_y, patch.point_z = y, z
+    """Fill reference point, opposite point of the wheel (`depth` [m] along the normal) and creepages of a patch.
+
+    The creepages, and the forces, are those at the depth `patch.approach`, as in `frame.positions`.
+    """
+    patch.x, patch.y, patch.z = frame[0] + depth * frame[9], frame[1], frame[2]
     cos_roll, sin_roll = math.cos(motion.rail_roll), math.sin(motion.rail_roll)
     rail_y, rail_z = frame[1] - motion.rail_y, frame[2] - motion.rail_z
     patch.rail_y = cos_roll * rail_y + sin_roll * rail_z
     patch.rail_z = cos_roll * rail_z - sin_roll * rail_y
-    lx, ly, lz = axle(motion.roll, motion.yaw)
-    px, py, pz = x, y - motion.y, z - motion.z + motion.radius
-    d = px * lx + py * ly + pz * lz
-    r = math.sqrt(max(px * px + py * py + pz * pz - d * d, 0.0))
-    patch.wheel_y, patch.wheel_z, patch.radius = d - motion.tape, r - motion.radius, r
+    d, r = _on_wheel(motion, patch.x, frame[1] + depth * frame[10], frame[2] + depth * frame[11])
+    patch.wheel_y, patch.wheel_z = d - motion.tape, r - motion.radius
+    depth = patch.approach
+    x, y, z = frame[0] + depth * frame[9], frame[1] + depth * frame[10], frame[2] + depth * frame[11]
+    patch.point_y, patch.point_z = y, z
+    _, patch.radius = _on_wheel(motion, x, y, z)
     slip(motion, frame[3:], x, y, z, patch)
 
 
