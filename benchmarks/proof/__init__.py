@@ -1,1 +1,1 @@
-"""Published cases of the field beside this library, one module a case. `python -m benchmarks.proof` writes the pages."""
+"""Published cases of the field beside this library. `python -m benchmarks.proof` writes docs/proof.md."""

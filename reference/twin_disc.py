@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 
@@ -39,18 +38,3 @@ def largest_rise(heat: float, n: int = 400) -> float:
 def rows() -> list[tuple[float, float, float, float]]:
     """Return slip [%], published heat [W], published rise [K] and our rise [K] of every case."""
     return [(slip, heat, rise, largest_rise(heat)) for slip, heat, rise in PUBLISHED]
-
-
-def draw(path: Path) -> None:
-    """Write the picture of both temperatures over the slip."""
-    import matplotlib.pyplot as plt
-
-    slip, _, published, ours = zip(*rows(), strict=True)
-    figure, axes = plt.subplots(figsize=(6.0, 3.6), layout="constrained")
-    axes.loglog(slip, published, "ko", label="published")
-    axes.loglog(slip, ours, "C0-", label="this library, from the published heat")
-    axes.set(xlabel="slip [%]", ylabel="largest flash temperature [K]")
-    axes.legend()
-    axes.grid(visible=True, alpha=0.3)
-    figure.savefig(path, dpi=100)
-    plt.close(figure)
