@@ -7,7 +7,7 @@ READY_FOR_DEMO := $(VENV)/.ready-for-demo
 READY_FOR_DOCS := $(VENV)/.ready-for-docs
 
 .DEFAULT_GOAL := help
-.PHONY: help demo docs explorer test check soak bounds traps wheels lint fmu accuracy bench coupling smoothness pictures format clean
+.PHONY: help demo docs explorer test check soak bounds traps wheels lint fmu accuracy proof bench coupling smoothness pictures format clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -70,6 +70,9 @@ accuracy: $(READY) ## write the accuracy tables, with CONTACT's own methods for 
 	PYTHONPATH=. $(BIN)/python benchmarks/halfspace.py --write docs/halfspace.md
 	$(BIN)/contact manchester --out docs/manchester.md
 	$(BIN)/contact statistics --out docs/statistics.md
+
+proof: $(READY)   ## write published cases beside ours to docs/proof.md
+	PYTHONPATH=. $(BIN)/python -m benchmarks.proof
 
 smoothness: $(READY) ## write jumps, noise and resolution of sweeps to docs/smoothness.md; try random cases
 	PYTHONPATH=. $(BIN)/python benchmarks/smoothness.py --write docs/smoothness.md

@@ -85,8 +85,8 @@ class Patch:
         Reference point (x, y, z) on the rail [m]: mean over the interpenetration of the undeformed profiles.
     wheel_position : tuple of float
         Point (x, y, z) of the wheel opposite the reference point [m], deeper by `approach`: where the reference point lies
-        between two lobes, this is the depth of the lobes, as in CONTACT. The forces act on the wheel at this point. With creepages and forces at the same point, the power of the forces on the motion is
-        force times creepage.
+        between two lobes, this is the depth of the lobes, as in CONTACT. The forces act on the wheel at this point. With
+        creepages and forces at the same point, the power of the forces on the motion is force times creepage.
     on_rail, on_wheel : tuple of float
         (y, z) of the reference point in the rail's and of the wheel's point in the wheel's profile coordinates (right-side
         convention) [m].

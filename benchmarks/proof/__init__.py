@@ -1,0 +1,1 @@
+"""Published cases of the field beside this library. `python -m benchmarks.proof` writes docs/proof.md."""
