@@ -13,7 +13,7 @@ from contact.accumulation import Histogram
 from contact.study.page import faint, html_of, picture
 from contact.study.table import Table, number
 from models.life.scenario import Scenario
-from models.life.trust import TRUST, Trust
+from models.life.trust import Trust
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -60,8 +60,7 @@ def declaration(scenario: Scenario, step: float, steps: int) -> Iterator[str]:
 
 def trusted(trust: Trust) -> Table:
     """Return the measures of trust as a table."""
-    rows = [(TRUST[name][1], number(value)) for name, value in trust.as_dict().items()]
-    return Table("How far to trust it", [("", ""), ("", "")], rows)
+    return Table("How far to trust it", [("", ""), ("", "")], trust.told())
 
 
 def damaged(both: dict[str, Histogram]) -> Table:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
+from contact.study.table import number
+
 #: A run whose energy does not close to this share of its dissipation is not to be believed.
 LARGEST_RESIDUAL = 0.02
 #: A rise of a normal force above this multiple of its static value is an impact.
@@ -60,6 +62,13 @@ class Trust:
                 "than its track."
             )
         return tuple(said)
+
+    def told(self) -> list[tuple[str, str]]:
+        """Return meaning and value of each member, as text."""
+        values = {name: number(value) for name, value in self.as_dict().items()}
+        if self.speed_ratio == 0.0:
+            values["speed_ratio"] = "none up to 150 m/s; see the conicity at 3 mm too"
+        return [(TRUST[name][1], value) for name, value in values.items()]
 
     def as_dict(self) -> dict[str, float]:
         """Return the members by name."""

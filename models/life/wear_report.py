@@ -13,7 +13,6 @@ from contact.study.page import document, faint, html_of
 from contact.study.table import Table, number
 from models.life.part import DENSITY, Part, displacement
 from models.life.report import illustrated, warned
-from models.life.trust import TRUST
 from models.life.wear import Life
 from models.wheelset.ports import SIDES
 
@@ -263,6 +262,6 @@ def _balance(life: Life) -> Table:
         ("mass worn off a wheel", number(1e3 * mass), "g"),
         ("frictional energy of a wheel", number(1e-6 * energy), "MJ"),
         ("mass for energy", number(1e9 * mass / energy) if energy > 0.0 else "", "µg/J"),
-        *((what, number(life.trust.as_dict()[name]), "") for name, (_, what) in TRUST.items()),
+        *((what, told, "") for what, told in life.trust.told()),
     ]
     return Table("Energy and worn mass, mean of all wheels", [("", ""), ("value", ""), ("", "unit")], rows)

@@ -1,5 +1,7 @@
 """Warnings of runs and of wear studies: nothing wrong passes without a word."""
 
+from dataclasses import replace
+
 import pytest
 import typer
 from typer.testing import CliRunner
@@ -8,7 +10,7 @@ from contact.errors import ContactError
 from models.life import commands, declared_set, result, scenario
 from models.life.declared_set import Steps
 from models.life.scale import Workers
-from models.life.trust import Trust, worst
+from models.life.trust import TRUST, Trust, worst
 from models.life.wear import Life
 from models.vehicle import report
 from models.vehicle.kernels.layout import Book
@@ -89,6 +91,13 @@ def test_a_study_whose_steps_become_too_short_stops_with_the_reason():
     assert steps.length(4.9e-10, 1e9) == pytest.approx(1.02e5, rel=1e-3)
     with pytest.raises(ContactError, match=r"10000 km would wear off 5.1e\+03 µm .* allows 98 km, below 1 % of it"):
         steps.length(5.1e-10, 1e9)
+
+
+def test_no_critical_speed_is_not_told_as_a_ratio_of_zero():
+    """A hollow wheel is unstable at some amplitude, though no small motion grows up to 150 m/s."""
+    told = dict(replace(GOOD, speed_ratio=0.0).told())
+    assert told[TRUST["speed_ratio"][1]].startswith("none up to 150 m/s")
+    assert dict(GOOD.told())[TRUST["speed_ratio"][1]] == "0.5000"
 
 
 def test_ctrl_c_names_a_checkpoint_only_if_there_is_one(tmp_path, monkeypatch):
