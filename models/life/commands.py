@@ -19,6 +19,7 @@ from contact.cli.output import drawing, reported, require_extra, stop
 from contact.cli.progress import progress_bar
 from contact.errors import ContactError
 from models.life import checkpoint, declared_set, scenario
+from models.life.result import ENDINGS, write_series
 from models.life.scale import Workers
 from models.life.trust import Trust
 from models.life.wear import Life
@@ -34,7 +35,13 @@ Fresh = Annotated[bool, typer.Option("--fresh", help="Start from the beginning a
 @reported
 def run(
     file: Declared,
-    out: Out = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            help="Folder for the results, or a file of the time series, .csv, .mat or .nc, beside the folder of its name; "
+            "default out/ and the file's name."
+        ),
+    ] = None,
     fresh: Fresh = False,
     every: Annotated[float, typer.Option(help="Seconds between two checkpoints.")] = 15.0,
     threads: Annotated[int, typer.Option(help="Threads that share the contacts, at most one for each wheel.")] = 1,
@@ -47,13 +54,22 @@ def run(
     """
     drawing()
     require_extra("xarray")
-    folder = out or Path("out") / file.stem
+    folder, table = _places(out or Path("out") / file.stem)
     started = VehicleRun(scenario.read(file), threads)
     complete(started, folder / "checkpoint.npz", fresh, every)
     _finish(started, folder)
+    if table is not None:
+        write_series(started, table)
+        typer.echo(f"wrote {table}", err=True)
     if as_json:
         found = {"scenario": started.scenario.name, "step_error": asdict(started.step_error)}
         typer.echo(document({**found, **_results(folder, started.trust)}))
+
+
+def _places(out: Path) -> tuple[Path, Path | None]:
+    """Return the folder of the results, and the file of the time series if `out` is one. It then lies beside the folder."""
+    is_file = out.suffix.lower() in ENDINGS
+    return (out.with_suffix(""), out) if is_file else (out, None)
 
 
 def complete(started: VehicleRun, path: Path, fresh: bool, every: float) -> None:

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import csv
 import json
 from dataclasses import asdict
 from importlib.metadata import version
 from os import PathLike
+from pathlib import Path
 from typing import Any
 
 from contact.accumulation import Histogram, from_xarray, to_xarray
 from contact.errors import ContactError
+from contact.study.files import require_ending
 from models.vehicle.run import BALANCE, VehicleRun
 
 FORMAT = "wheelrail-contact run 1"
+#: Endings of files with the time series.
+ENDINGS = (".csv", ".mat", ".nc")
 
 
 def dataset(run: VehicleRun) -> Any:
@@ -82,6 +87,34 @@ def write(whole: Any, path: str | PathLike[str]) -> None:
     whole.to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
 
 
+def write_series(run: VehicleRun, path: str | Path) -> None:
+    """Write the time series of a run: .csv with a row for each sample, or .mat with the structs `series` and `units`.
+
+    With the ending .nc the file is the whole `dataset`.
+
+    Raises
+    ------
+    ContactError
+        For another ending, or if the file cannot be written.
+    """
+    ending = require_ending(path, ENDINGS)
+    series, units = run.series, {name: unit for name, (unit, _) in run.columns.items()}
+    try:
+        if ending == ".nc":
+            write(dataset(run), path)
+        elif ending == ".mat":
+            from scipy.io import savemat
+
+            savemat(path, {"series": series, "units": units}, long_field_names=True, oned_as="column")
+        else:
+            with open(path, "w", encoding="utf-8", newline="") as file:
+                rows = csv.writer(file, lineterminator="\n")
+                rows.writerow([f"{name} [{units[name]}]" for name in series])
+                rows.writerows(zip(*(values.tolist() for values in series.values()), strict=True))
+    except OSError as error:
+        raise ContactError(f"{path} cannot be written: {error.strerror or error}") from None
+
+
 def _prefix(key: tuple[str, ...]) -> str:
     return "".join(f"{part.replace(' ', '_')}_" for part in key)
 
@@ -92,4 +125,4 @@ def _joined(whole: Any, part: Any, prefix: str) -> Any:
     return whole.merge(renamed, combine_attrs="override").assign_attrs(attributes)
 
 
-__all__ = ["BALANCE", "FORMAT", "dataset", "histogram", "write"]
+__all__ = ["BALANCE", "ENDINGS", "FORMAT", "dataset", "histogram", "write", "write_series"]

@@ -1,11 +1,14 @@
 """`contact run` from file to report, with an interruption."""
 
+import csv
 import json
 import signal
 from pathlib import Path
 
 import pytest
+import scipy.io
 import typer
+import xarray
 from typer.testing import CliRunner
 
 from models.life import commands
@@ -96,3 +99,22 @@ def test_json_of_a_run_names_its_files_and_how_far_it_can_be_trusted(call, tmp_p
     assert answer["inputs"]["file"] == str(tmp_path / "case.toml")
     assert all(Path(name).is_file() for name in answer["files"])
     assert set(answer["trust"]) == set(TRUST)
+
+
+@pytest.mark.parametrize("ending", [".csv", ".mat", ".nc"])
+def test_the_time_series_goes_to_a_file_that_other_programs_read(call, tmp_path, monkeypatch, ending):
+    monkeypatch.setattr(report, "page_of", lambda run: "")
+    path = tmp_path / f"run{ending}"
+    ended = call(path.name)
+    assert ended.exit_code == 0
+    assert (tmp_path / "run" / "report.html").exists()
+    with xarray.open_dataset(tmp_path / "run" / "result.nc", engine="scipy") as stored:
+        wanted = stored["wheelset_right_vertical_force"].values
+    if ending == ".csv":
+        header, *rows = csv.reader(path.read_text(encoding="utf-8").splitlines())
+        found = [float(row[header.index("wheelset_right_vertical_force [N]")]) for row in rows]
+    elif ending == ".mat":
+        found = scipy.io.loadmat(path, simplify_cells=True)["series"]["wheelset_right_vertical_force"]
+    else:
+        found = xarray.open_dataset(path, engine="scipy")["wheelset_right_vertical_force"].values
+    assert found == pytest.approx(wanted, rel=1e-12)
