@@ -87,12 +87,12 @@ FIRST: dict[str, First] = {
         (
             Example(
                 {},
-                {"wheel.Q": 8.008e4, "wheel.Y": 502.5, "force.x": -278.8, "wheelset.z": 2.466e-4},
+                {"wheel.Q": 8.008e4, "wheel.Y": 502.5, "force.x": -210.9, "wheelset.z": 2.466e-4},
                 "the start values",
             ),
             Example(
                 {"pose.y": 5e-3},
-                {"wheel.Q": 8.085e4, "wheel.Y": 5545.0, "force.x": 2.099e4},
+                {"wheel.Q": 8.085e4, "wheel.Y": 5556.0, "force.x": 2.105e4},
                 "5 mm to the right: the wheel rolls on a larger radius and is pushed forward",
             ),
         ),
@@ -105,10 +105,10 @@ FIRST: dict[str, First] = {
         (
             Example(
                 {},
-                {"wheel.Q": 8.008e4, "wheel.Y": 501.3, "force.x": -281.0, "wheelset.z": 2.466e-4},
+                {"wheel.Q": 8.008e4, "wheel.Y": 501.3, "force.x": -211.6, "wheelset.z": 2.466e-4},
                 "the start values",
             ),
-            Example({"pose.y": 5e-3}, {"wheel.Q": 8.085e4, "wheel.Y": 5536.0, "force.x": 2.099e4}, "5 mm to the right"),
+            Example({"pose.y": 5e-3}, {"wheel.Q": 8.085e4, "wheel.Y": 5546.0, "force.x": 2.105e4}, "5 mm to the right"),
         ),
         852.0,
         ("The numbers are for surfaces that do not change along the way, S1002 on 60E1 at 1:40.",),
@@ -172,7 +172,7 @@ def first_steps(table: Table) -> str:
 {_SKETCH}
 <p>{_SIGNS}</p>
 <h2>First steps</h2>
-<p>Connect these inputs first: {", ".join(f"<code>{name}</code>" for name in first.wire)}.</p>
+<p>Connect these inputs first: {", ".join(f"<b>{name}</b>" for name in first.wire)}.</p>
 {"".join(f"<p>{escape(text)}</p>" for text in paragraphs)}
 <p>Co-simulation, after {STEPS} steps of {number(1e3 * table.step_size)} ms:</p>
 <table class="example">
@@ -196,7 +196,7 @@ def _status(table: Table) -> str:
             items = "".join(
                 f"<li>{k} {name}: {escape(text)}</li>" for k, (name, text) in enumerate(row.enumeration.items, 1)
             )
-            lines.append(f"<p><code>{row.name}</code> has these values:</p>\n<ul>{items}</ul>\n")
+            lines.append(f"<p><b>{row.name}</b> has these values:</p>\n<ul>{items}</ul>\n")
     lines.append(
         "<p>A step whose inputs are outside their ranges returns Discard with a message that names the input, its value and "
         "the range. In FMI 2.0 the FMU is then terminated.</p>\n"

@@ -60,7 +60,7 @@ def test_inputs_to_connect_first_are_inputs_of_the_fmu(file):
         if v.causality == "input"
     }
     (named,) = re.findall(r"Connect these inputs first: (.*?)</p>", page(file))
-    assert {*re.findall(r"<code>(.*?)</code>", named)} <= inputs
+    assert {*re.findall(r"<b>(.*?)</b>", named)} <= inputs
 
 
 def test_the_page_has_the_sketch_and_the_status_values(file):
