@@ -3,16 +3,13 @@
 `python -m fmu_src.surfaces FMU [--wheel NAME|FILE] [--flat LENGTH] [--rail NAME|FILE] [--origin Y Z] …` replaces them in a
 finished FMU. This needs no compiler.
 
-A resource (`fmu_src.resources`) has one row: the numbers of slices, paths and points of the deviation, the place (y, z) of
-the origin [m], then the arrays of `contact.kernels.arrays.Sheet`, one after the other.
+A resource (`fmu_src.resources`) has one row: the numbers of `contact.geometry.surfaces.compiled.numbers`.
 """
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
-
-import numpy as np
 
 from contact.errors import ContactError
 from contact.geometry import profile
@@ -34,15 +31,7 @@ def pack(surface: WheelSurface | RailSurface, origin: tuple[float, float] = (0.0
         If the surface is larger than an FMU reads, or a rail with deviations, which have no end.
     """
     kind: Kind = "wheel" if isinstance(surface, WheelSurface) else "rail"
-    if kind == "rail" and surface.deviations:
-        raise ContactError(
-            f"rail = {surface!r}: an FMU takes slices of a rail, but no deviations; add them to the slices"
-        )
-    made = compiled.sheet(surface)
-    period = made.period if kind == "wheel" else np.zeros(2)
-    head = (made.u.size, made.nodes.shape[2], made.deviation.shape[1], *origin)
-    arrays = (np.array(head), *made._replace(period=period))
-    numbers = np.concatenate([array.ravel() for array in arrays])
+    numbers = compiled.numbers(surface, origin)
     if numbers.size > MOST_NUMBERS:
         raise ContactError(
             f"{kind} = {surface!r} takes {numbers.size} numbers: an FMU reads at most {MOST_NUMBERS}; "

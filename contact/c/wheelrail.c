@@ -53,7 +53,9 @@ static double is_wide(void) { return 0.0; }
     X(TOO_DEEP, "the wheel lies far inside the rail")                                                            \
     X(TURNED, "wheelset and offset together turn the wheel too far")                                             \
     X(ENDLESS, "the damage has no finite value")                                                                 \
-    X(PLANE, "this tangential method is only for a plane contact")
+    X(PLANE, "this tangential method is only for a plane contact")                                               \
+    X(NO_SURFACE, "the numbers are no surface as contact.geometry.surfaces.compiled.numbers writes it")          \
+    X(NO_BINS, "surfaces have no bins")
 
 enum { R_NONE,
 #define X(name, text) R_##name,
@@ -95,7 +97,9 @@ enum { R_NONE,
     X(c_gauge_factor, "case.gauge_factor") X(c_border, "case.border") X(c_border_width, "case.border_width")         \
     X(c_k_A, "case.k_A") X(c_k_S, "case.k_S") X(c_drop, "case.drop") X(c_warm, "case.warm")                          \
     X(c_warm_range, "case.warm_range") X(c_heating, "case.heating") X(c_conformal, "case.conformal")                 \
-    X(c_rolling, "case.rolling") X(c_tolerance, "case.tolerance")
+    X(c_rolling, "case.rolling") X(c_tolerance, "case.tolerance") X(reach, "options.reach")                          \
+    X(tilted, "options.tilted") X(wheel_n, "wheel.n") X(rail_n, "rail.n") X(wheel_numbers, "wheel.numbers")          \
+    X(rail_numbers, "rail.numbers") X(station, "input.station") X(rotation, "input.rotation")
 
 enum { A_none,
 #define X(name, text) A_##name,
@@ -344,7 +348,7 @@ static int check_damage(const wr_damage_parameters *p) {
 /* ---------------------------------------------------------------- the caller's memory */
 
 #define MAGIC 0x7765656c7261696cu
-enum { CONTACT = 1, PAIR = 2 };
+enum { CONTACT = 1, PAIR = 2, SURFACES = 3 }; /* PAIR: on profiles */
 
 /* Head of every block.  `sum` covers what follows it up to `answered`, so that a forged or overwritten size is noticed. */
 typedef struct {

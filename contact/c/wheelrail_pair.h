@@ -1,6 +1,17 @@
 /* The part of wheelrail.c for a wheel on a rail.  Included there once. */
 
 #define MOST_NODES 100000
+#define MOST_NUMBERS 2000000
+
+/* Call the entry for profiles or for surfaces. */
+#define CALL_PAIR(entry, head, ...)                                             \
+    ((head)->kind == SURFACES ? CALL(surfaces_##entry, (head)->sizes, __VA_ARGS__) \
+                              : CALL(pair_##entry, (head)->sizes, __VA_ARGS__))
+
+static int check_pair(const void *memory) {
+    TRY(aligned(memory, A_memory));
+    return check_memory(memory, ((const Head *)memory)->kind == SURFACES ? SURFACES : PAIR);
+}
 
 static int check_pair_options(const wr_pair_options *o) {
     TRY(aligned(o, A_options));
@@ -18,6 +29,8 @@ static int check_pair_options(const wr_pair_options *o) {
     TRY(among(o->n_bins, 0, 100000, A_n_bins));
     TRY(within(o->bin_start, -1e6, 1e6, A_bin_start));
     TRY(within(o->bin_width, 1e-9, 1e6, A_bin_width));
+    TRY(within(o->reach, 0.01, 0.3, A_reach));
+    TRY(among(o->tilted, 0, 1, A_tilted));
     return check_damage(&o->damage);
 }
 
@@ -33,7 +46,8 @@ int wr_pair_default(wr_pair_options *o) {
                            .combine_distance = 8e-3,
                            .combine_angle = 0.17453292519943295,
                            .bin_width = 1e-3,
-                           .damage = WR_DAMAGE_DEFAULTS};
+                           .damage = WR_DAMAGE_DEFAULTS,
+                           .reach = 0.06};
     TRY(wr_contact_default(&o->patch));
     o->patch.n_samples = 81;
     return 0;
@@ -122,6 +136,39 @@ static void place_profile(const wr_profile *p, double *rows, double *scratch) {
     }
 }
 
+/* A member of a record. */
+typedef union {
+    double f;
+    int64_t i;
+} Number;
+
+static void set_motion(const wr_pair_options *o, Number motion[WR_MOTION_NUMBERS]) {
+    memset(motion, 0, WR_MOTION_NUMBERS * sizeof *motion);
+    motion[WR_MOTION_RADIUS].f = o->wheel_radius;
+    motion[WR_MOTION_TAPE].f = 0.5 * o->flange_back + WR_TAPE_FROM_FLANGE_BACK;
+    motion[WR_MOTION_COMBINE_DISTANCE].f = o->combine_distance;
+    motion[WR_MOTION_COMBINE_ANGLE].f = o->combine_angle;
+    motion[WR_MOTION_MOST_PATCHES].i = o->most_patches;
+    motion[WR_MOTION_MIRROR].f = (double)o->side;
+    motion[WR_MOTION_REACH].f = o->reach;
+    motion[WR_MOTION_TILTED].i = o->tilted;
+}
+
+static Head *begin_pair(const wr_pair_options *o, int64_t kind, void *memory, size_t needed) {
+    Head *head = memory;
+    memset(memory, 0, needed);
+    head->abi = WR_ABI, head->kind = kind, head->bytes = (int64_t)needed;
+    head->patch = o->patch, head->n_bins = o->n_bins, head->at_work = head_numbers();
+    set_sizes(head->sizes, &o->patch);
+    return head;
+}
+
+/* From here on the memory holds a solver. */
+static void finish(Head *head) {
+    head->magic = MAGIC;
+    head->sum = sum_of(head);
+}
+
 int wr_pair_init(const wr_pair_options *options, const wr_profile *wheel, const wr_profile *rail, void *memory,
                  size_t bytes) {
     static const int of_wheel[] = {A_wheel, A_wheel_y, A_wheel_z, A_wheel_angle};
@@ -133,11 +180,7 @@ int wr_pair_init(const wr_pair_options *options, const wr_profile *wheel, const 
     TRY(wr_pair_size(options, wheel->n, rail->n, &needed));
     TRY(room(memory, bytes, needed));
     wr_pair_options o = *options;
-    Head *head = memory;
-    memset(memory, 0, needed);
-    head->abi = WR_ABI, head->kind = PAIR, head->bytes = (int64_t)needed;
-    head->patch = o.patch, head->n_bins = o.n_bins, head->at_work = head_numbers();
-    set_sizes(head->sizes, &o.patch);
+    Head *head = begin_pair(&o, PAIR, memory, needed);
     head->sizes[4] = head->sizes[7] = (double)wheel->n;
     head->sizes[5] = head->sizes[8] = (double)rail->n;
     head->sizes[6] = (double)o.n_bins;
@@ -150,17 +193,8 @@ int wr_pair_init(const wr_pair_options *options, const wr_profile *wheel, const 
     if (ends[3] - ends[2] < 3.0) return bad(A_rail, R_STEEP);
     head->sizes[7] = ends[1] - ends[0];
     head->sizes[8] = ends[3] - ends[2];
-    union {
-        double f;
-        int64_t i;
-    } motion[WR_MOTION_NUMBERS];
-    memset(motion, 0, sizeof motion);
-    motion[WR_MOTION_RADIUS].f = o.wheel_radius;
-    motion[WR_MOTION_TAPE].f = 0.5 * o.flange_back + WR_TAPE_FROM_FLANGE_BACK;
-    motion[WR_MOTION_COMBINE_DISTANCE].f = o.combine_distance;
-    motion[WR_MOTION_COMBINE_ANGLE].f = o.combine_angle;
-    motion[WR_MOTION_MOST_PATCHES].i = o.most_patches;
-    motion[WR_MOTION_MIRROR].f = (double)o.side;
+    Number motion[WR_MOTION_NUMBERS];
+    set_motion(&o, motion);
     wr_case problem;
     TRY(wr_contact_case(&o.patch, 0.0, 0.0, &problem));
     head->at_strips = CALL(pair_strips, head->sizes);
@@ -168,8 +202,59 @@ int wr_pair_init(const wr_pair_options *options, const wr_profile *wheel, const 
     if (CALL(pair_init, head->sizes, work_of(memory), wheel_rows, rail_rows, motion, &problem, &o.damage, o.gauge,
              o.gauge_point, o.bin_start, o.bin_width))
         return bad(A_gauge_point, R_GAUGE);
-    head->magic = MAGIC;
-    head->sum = sum_of(head);
+    finish(head);
+    return 0;
+}
+
+static int check_surface_numbers(const wr_surface *s, const int arguments[3]) {
+    double sizes[N_SIZES] = {0};
+    sizes[WIDE] = is_wide();
+    TRY(aligned(s, arguments[0]));
+    TRY(among(s->n, 6, MOST_NUMBERS, arguments[1]));
+    TRY(aligned(s->numbers, arguments[2]));
+    TRY(finite_all(s->numbers, s->n, arguments[2]));
+    return CALL(surfaces_check, sizes, (void *)s->numbers, s->n) ? 0 : bad(arguments[2], R_NO_SURFACE);
+}
+
+static int set_surface_sizes(const wr_pair_options *o, const wr_surface *wheel, const wr_surface *rail,
+                             double sizes[N_SIZES]) {
+    static const int of_wheel[] = {A_wheel, A_wheel_n, A_wheel_numbers};
+    static const int of_rail[] = {A_rail, A_rail_n, A_rail_numbers};
+    TRY(check_pair_options(o));
+    if (o->n_bins) return bad(A_n_bins, R_NO_BINS);
+    TRY(check_surface_numbers(wheel, of_wheel));
+    TRY(check_surface_numbers(rail, of_rail));
+    set_sizes(sizes, &o->patch);
+    sizes[4] = (double)wheel->n;
+    sizes[5] = (double)rail->n;
+    return 0;
+}
+
+int wr_pair_size_surfaces(const wr_pair_options *o, const wr_surface *wheel, const wr_surface *rail, size_t *bytes) {
+    double sizes[N_SIZES];
+    TRY(set_surface_sizes(o, wheel, rail, sizes));
+    TRY(aligned(bytes, A_bytes));
+    *bytes = 8 * (size_t)(head_numbers() + CALL(surfaces_size, sizes, (void *)wheel->numbers, (void *)rail->numbers));
+    return 0;
+}
+
+int wr_pair_init_surfaces(const wr_pair_options *options, const wr_surface *wheel, const wr_surface *rail, void *memory,
+                          size_t bytes) {
+    size_t needed;
+    TRY(wr_pair_size_surfaces(options, wheel, rail, &needed));
+    TRY(room(memory, bytes, needed));
+    wr_pair_options o = *options;
+    wr_surface of_wheel = *wheel, of_rail = *rail;
+    Head *head = begin_pair(&o, SURFACES, memory, needed);
+    head->sizes[4] = (double)of_wheel.n;
+    head->sizes[5] = (double)of_rail.n;
+    Number motion[WR_MOTION_NUMBERS];
+    set_motion(&o, motion);
+    wr_case problem;
+    TRY(wr_contact_case(&o.patch, 0.0, 0.0, &problem));
+    head->at_strips = CALL(surfaces_init, head->sizes, work_of(memory), (void *)of_wheel.numbers,
+                           (void *)of_rail.numbers, motion, &problem, &o.damage);
+    finish(head);
     return 0;
 }
 
@@ -208,6 +293,8 @@ static int check_input(const wr_pair_input *in, const wr_contact_options *o) {
     TRY(finite_all((const double *)d, (int64_t)(sizeof *d / sizeof(double)), A_offset));
     if (fabs(d->roll) > WR_LARGEST_ANGLE || fabs(d->pitch) > WR_LARGEST_ANGLE || fabs(d->yaw) > WR_LARGEST_ANGLE)
         return bad(A_offset, R_RANGE);
+    TRY(within(in->station, -1e7, 1e7, A_station));
+    TRY(within(in->rotation, -1e8, 1e8, A_rotation));
     return within(in->distance, 0.0, INFINITY, A_distance);
 }
 
@@ -233,8 +320,12 @@ static int solve_pair(void *memory, int cold, const wr_pair_input *in, wr_pair_a
     rail.dy = rail.dz = 0.0;
     rail.balanced = 0;
     head->answered = 0;
-    int64_t n = CALL(pair_solve, head->sizes, work_of(memory), cold, in->height, in->amount, in->distance, &motion,
-                     &surface, &rail, &offset, &made.total, made.patches, &deflected);
+    double *work = work_of(memory);
+    int64_t n = head->kind == SURFACES
+                    ? CALL(surfaces_solve, head->sizes, work, cold, in->height, in->amount, in->station, in->rotation,
+                           &motion, &surface, &rail, &offset, &made.total, made.patches, &deflected)
+                    : CALL(pair_solve, head->sizes, work, cold, in->height, in->amount, in->distance, &motion, &surface,
+                           &rail, &offset, &made.total, made.patches, &deflected);
     if (n < 0) return failure(n, in->height);
     made.deflection_y = deflected.dy, made.deflection_z = deflected.dz;
     head->answered = 1, head->n_patches = n, head->height = in->height;
@@ -248,7 +339,7 @@ static int check_answer_struct(const wr_pair_answer *answer) {
 }
 
 int wr_pair_solve(void *memory, const wr_pair_input *input, wr_pair_answer *answer) {
-    TRY(check_memory(memory, PAIR));
+    TRY(check_pair(memory));
     TRY(check_input(input, &((Head *)memory)->patch));
     TRY(check_answer_struct(answer));
     TRY(solve_pair(memory, 0, input, answer));
@@ -256,16 +347,16 @@ int wr_pair_solve(void *memory, const wr_pair_input *input, wr_pair_answer *answ
 }
 
 int wr_pair_accept(void *memory) {
-    TRY(check_memory(memory, PAIR));
+    TRY(check_pair(memory));
     TRY(check_answer(memory));
-    CALL(pair_accept, ((Head *)memory)->sizes, work_of(memory));
+    CALL_PAIR(accept, (Head *)memory, work_of(memory));
     ((Head *)memory)->answered = 0; /* its damage is booked once */
     return 0;
 }
 
 int wr_pair_forget(void *memory) {
-    TRY(check_memory(memory, PAIR));
-    CALL(pair_forget, ((Head *)memory)->sizes, work_of(memory));
+    TRY(check_pair(memory));
+    CALL_PAIR(forget, (Head *)memory, work_of(memory));
     ((Head *)memory)->answered = 0;
     return 0;
 }
@@ -273,7 +364,7 @@ int wr_pair_forget(void *memory) {
 #define N_MOTION ((int)(sizeof(wr_motion) / sizeof(double)))
 
 int wr_pair_derivatives(void *memory, const wr_pair_input *input, double *jacobian) {
-    TRY(check_memory(memory, PAIR));
+    TRY(check_pair(memory));
     Head *head = memory;
     TRY(check_input(input, &head->patch));
     TRY(aligned(jacobian, A_jacobian));
@@ -309,19 +400,19 @@ int wr_pair_derivatives(void *memory, const wr_pair_input *input, double *jacobi
 }
 
 int wr_pair_patch(void *memory, int64_t k, wr_result *result, wr_fields *fields) {
-    TRY(check_memory(memory, PAIR));
+    TRY(check_pair(memory));
     Head *head = memory;
     TRY(check_answer(head));
     TRY(among(k, 0, head->n_patches - 1, A_k));
     TRY(aligned(result, A_result));
     if (fields != NULL) TRY(check_fields(fields));
-    int64_t n = CALL(pair_patch, head->sizes, work_of(memory), k, head->height, result);
+    int64_t n = CALL_PAIR(patch, head, work_of(memory), k, head->height, result);
     if (fields != NULL) TRY(copy_fields(head, work_of(memory) + head->at_strips, n, fields));
     return code_of(result->status);
 }
 
 int wr_pair_bins(const void *memory, double *bins, int64_t count) {
-    TRY(check_memory(memory, PAIR));
+    TRY(check_pair(memory));
     const Head *head = memory;
     TRY(aligned(bins, A_bins));
     int64_t n = 2 * WR_BIN_ROWS * head->n_bins;

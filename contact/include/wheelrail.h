@@ -134,6 +134,8 @@ typedef struct {
     double bin_start;         /* arc length where the first bin begins [m] */
     double bin_width;         /* [m] */
     wr_damage_parameters damage;
+    double reach;   /* surfaces: distance before and behind the axle that is searched [m], 0.01 to 0.3 */
+    int64_t tilted; /* surfaces: 1 if the frame of a patch follows the rail's normal in all directions, 0 if it turns about x */
 } wr_pair_options;
 
 /* A profile in the convention of the right side, for either side: points from the field side of y < 0 on.
@@ -145,6 +147,13 @@ typedef struct {
     const double *angle; /* of the tangent [rad]; NULL: that of a cubic spline through the points */
 } wr_profile;
 
+/* A surface that changes along the track or around the wheel, for either side.  Python writes its numbers:
+ * contact.geometry.surfaces.compiled.numbers.  docs: c_interface.md. */
+typedef struct {
+    int64_t n; /* at most 2000000 */
+    const double *numbers;
+} wr_surface;
+
 typedef struct {
     int64_t size;   /* sizeof(wr_pair_input), set by wr_pair_input_default */
     int64_t height; /* WR_HEIGHT_GIVEN: motion.z; _PENETRATION: amount [m]; _LOAD: the normal forces carry amount [N];
@@ -155,6 +164,8 @@ typedef struct {
     wr_elastic_rail rail;  /* springs; 0: rigid */
     wr_wheel_offset offset; /* displacement of the wheel against its wheelset */
     double distance;       /* rolled in this state [m], for the bins */
+    double station;        /* surfaces: position of the axle along the slices of the rail [m] */
+    double rotation;       /* surfaces: angle by which the wheel has turned [rad]; it decreases when rolling forward */
 } wr_pair_input;
 
 typedef struct {
@@ -169,6 +180,12 @@ WR_API int wr_pair_size(const wr_pair_options *options, int64_t n_wheel, int64_t
 /* The profiles are copied. */
 WR_API int wr_pair_init(const wr_pair_options *options, const wr_profile *wheel, const wr_profile *rail, void *memory,
                         size_t bytes);
+/* The same for surfaces.  All functions below serve both.  Surfaces have no bins; gauge, gauge_point and
+ * combine_angle are not used, since a rail's surface has its place. */
+WR_API int wr_pair_size_surfaces(const wr_pair_options *options, const wr_surface *wheel, const wr_surface *rail,
+                                 size_t *bytes);
+WR_API int wr_pair_init_surfaces(const wr_pair_options *options, const wr_surface *wheel, const wr_surface *rail,
+                                 void *memory, size_t bytes);
 /* Steady rolling of a centred wheelset at this speed [m/s] under a load [N] that the normal forces carry. */
 WR_API int wr_pair_input_default(const wr_pair_options *options, double mu, double speed, double load,
                                  wr_pair_input *input);

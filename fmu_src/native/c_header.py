@@ -118,7 +118,7 @@ def _constants() -> str:
 
 
 #: Members of MOTION that an options struct sets.
-_MOTION_CONSTANTS = ("radius", "tape", "combine_distance", "combine_angle", "most_patches", "mirror")
+_MOTION_CONSTANTS = ("radius", "tape", "combine_distance", "combine_angle", "most_patches", "mirror", "reach", "tilted")
 
 
 def _damage_defaults() -> str:

@@ -16,8 +16,8 @@ ABSENT = frozenset(
 )
 #: File names of the surfaces in resources/ (`fmu_src.surfaces`). They show the right side and serve both sides.
 WHEEL, RAIL = "wheel.surface", "rail.surface"
-#: Numbers before the arrays of a resource, and most numbers of it: 16 MB, some 500 slices of 300 paths.
-HEAD, MOST_NUMBERS = 5, 2_000_000
+#: Most numbers of a resource: 16 MB, some 500 slices of 300 paths.
+MOST_NUMBERS = 2_000_000
 FRAME = Enumeration(
     "Frame",
     (

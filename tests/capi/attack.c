@@ -149,6 +149,18 @@ static void attack_pair(void) {
     WITH(rz[3], NAN, wr_pair_init(&o, &wheel, &rail, memory, bytes), "rail.z");
     WITH(o.gauge_point, 1.0, wr_pair_init(&o, &wheel, &rail, memory, bytes), "options.gauge_point");
     REFUSED(wr_pair_forget(memory), "memory");
+    double junk[64] = {2.0, 2.0, 1.0};
+    wr_surface of_wheel = {64, junk}, of_rail = {64, junk};
+    REFUSED(wr_pair_size_surfaces(NULL, &of_wheel, &of_rail, &bytes), "options");
+    REFUSED(wr_pair_size_surfaces(&o, NULL, &of_rail, &bytes), "wheel");
+    WITH(of_wheel.n, -1, wr_pair_size_surfaces(&o, &of_wheel, &of_rail, &bytes), "wheel.n");
+    WITH(of_wheel.numbers, NULL, wr_pair_size_surfaces(&o, &of_wheel, &of_rail, &bytes), "wheel.numbers");
+    REFUSED(wr_pair_size_surfaces(&o, &of_wheel, &of_rail, &bytes), "wheel.numbers");
+    WITH(junk[0], NAN, wr_pair_init_surfaces(&o, &of_wheel, &of_rail, memory, bytes), "wheel.numbers");
+    WITH(junk[0], 1e300, wr_pair_init_surfaces(&o, &of_wheel, &of_rail, memory, bytes), "wheel.numbers");
+    WITH(o.n_bins, 3, wr_pair_size_surfaces(&o, &of_wheel, &of_rail, &bytes), "options.n_bins");
+    WITH(o.reach, 1.0, wr_pair_size_surfaces(&o, &of_wheel, &of_rail, &bytes), "options.reach");
+    REFUSED(wr_pair_forget(memory), "memory");
     FINE(wr_pair_init(&o, &wheel, &rail, memory, bytes));
     REFUSED(wr_pair_input_default(&o, NAN, 20.0, 8e4, &in), "mu");
     REFUSED(wr_pair_input_default(&o, 0.3, 20.0, -1.0, &in), "load");
@@ -166,6 +178,8 @@ static void attack_pair(void) {
     WITH(in.motion.y, 1.0, wr_pair_solve(memory, &in, &a), "input.motion");
     WITH(in.rail.ky, -1.0, wr_pair_solve(memory, &in, &a), "input.rail");
     WITH(in.offset.x, INFINITY, wr_pair_solve(memory, &in, &a), "input.offset");
+    WITH(in.station, NAN, wr_pair_solve(memory, &in, &a), "input.station");
+    WITH(in.rotation, 1e9, wr_pair_solve(memory, &in, &a), "input.rotation");
     WITH(in.distance, -1.0, wr_pair_solve(memory, &in, &a), "input.distance");
     WITH(in.surface.mu, NAN, wr_pair_solve(memory, &in, &a), "case.mu");
     FINE(wr_pair_solve(memory, &in, &a));

@@ -21,6 +21,7 @@ OPTIONS = _struct(
     *((n, float) for n in ("shear_modulus", "poisson_ratio", "pressure_limit")),
 )
 SEPARATION = _struct(*((n, np.int64) for n in ("n", "y", "g", "A", "x_c", "tilt")))
+SURFACE = _struct(*((n, np.int64) for n in ("n", "numbers")))
 PROFILE = _struct(*((n, np.int64) for n in ("n", "y", "z", "angle")))
 _FIELDS = ("x", "y", "p", "qx", "qy", "sx", "sy", "stick")
 FIELDS = _struct(*((n, np.int64) for n in ("size", "n_strips_most", "n_strips", *_FIELDS)))
@@ -29,10 +30,11 @@ PAIR_OPTIONS = _struct(
     ("size", np.int64), ("patch", OPTIONS), ("side", np.int64), ("most_patches", np.int64),
     *((n, float) for n in _LENGTHS),
     ("n_bins", np.int64), ("bin_start", float), ("bin_width", float), ("damage", DAMAGE_PARAMETERS),
+    ("reach", float), ("tilted", np.int64),
 )  # fmt: skip
 INPUT = _struct(
     ("size", np.int64), ("height", np.int64), ("amount", float), ("motion", GIVEN), ("surface", CASE),
-    ("rail", ELASTIC_RAIL), ("offset", WHEEL_OFFSET), ("distance", float),
+    ("rail", ELASTIC_RAIL), ("offset", WHEEL_OFFSET), ("distance", float), ("station", float), ("rotation", float),
 )  # fmt: skip
 ANSWER = _struct(
     ("size", np.int64), ("total", TOTAL), ("patches", (CONTACT, (4,))), ("deflection_y", float), ("deflection_z", float)
@@ -89,7 +91,15 @@ class Patch:
         return made
 
 
+def _surface(numbers):
+    made = np.zeros(1, SURFACE)
+    made["n"], made["numbers"] = numbers.size, numbers.ctypes.data
+    return made
+
+
 class Pair:
+    """A pair on profiles; on surfaces if `wheel` and `rail` are arrays of numbers."""
+
     def __init__(self, library, wheel, rail, angles=True, load=80e3, **options):
         self.library, self.options, self.input = library, np.zeros(1, PAIR_OPTIONS), np.zeros(1, INPUT)
         self.answer = np.zeros(1, ANSWER)
@@ -97,19 +107,25 @@ class Pair:
         library.need("wr_pair_default", self.options)
         for name, value in options.items():
             self.options[name] = value
-        profiles = []
-        for given in (wheel, rail):
-            made = np.zeros(1, PROFILE)
-            made["n"], made["y"], made["z"] = given.y.size, given.y.ctypes.data, given.z.ctypes.data
-            made["angle"] = given.angle.ctypes.data if angles else 0
-            profiles.append(made)
         size = ctypes.c_size_t()
-        counts = (ctypes.c_int64(given.y.size) for given in (wheel, rail))
-        library.need("wr_pair_size", self.options, *counts, ctypes.byref(size))
+        if isinstance(wheel, np.ndarray):
+            bodies, end = [_surface(wheel), _surface(rail)], "_surfaces"
+            counts = bodies
+        else:
+            bodies, end = [self._profile(given, angles) for given in (wheel, rail)], ""
+            counts = [ctypes.c_int64(given.y.size) for given in (wheel, rail)]
+        library.need(f"wr_pair_size{end}", self.options, *counts, ctypes.byref(size))
         self.memory = memory_of(size.value)
-        library.need("wr_pair_init", self.options, *profiles, self.memory, size)
+        library.need(f"wr_pair_init{end}", self.options, *bodies, self.memory, size)
         values = (ctypes.c_double(value) for value in (0.3, 20.0, load))
         library.need("wr_pair_input_default", self.options, *values, self.input)
+
+    @staticmethod
+    def _profile(given, angles):
+        made = np.zeros(1, PROFILE)
+        made["n"], made["y"], made["z"] = given.y.size, given.y.ctypes.data, given.z.ctypes.data
+        made["angle"] = given.angle.ctypes.data if angles else 0
+        return made
 
     def solve(self):
         return self.library.need("wr_pair_solve", self.memory, self.input, self.answer)

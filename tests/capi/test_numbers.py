@@ -5,13 +5,24 @@ import pytest
 
 import contact
 from contact.geometry import profile
+from contact.geometry.surfaces import Flat, RailSurface, SurfacePair, WheelSurface, compiled
+from contact.geometry.surfaces.pair import SAMPLES
 from contact.geometry.wheelset import Pair as Profiles
 from contact.geometry.wheelset import Pose, Velocity
 from contact.kernels.enumerations import Height
 from contact.kernels.records import DAMAGE, RESULT
 from contact.pair import WheelRailPair
 from fmu_src.native.c_header import PATH, header
-from tests.capi.library import FIELDS, Library, Pair, Patch
+from tests.capi.library import FIELDS, OPTIONS, Library, Pair, Patch
+
+
+def _patch_options(library, **changed):
+    made = np.zeros(1, OPTIONS)
+    library.need("wr_contact_default", made)
+    for name, value in changed.items():
+        made[name] = value
+    return made
+
 
 SEPARATION = contact.Separation((y := np.linspace(-12e-3, 12e-3, 101)), 0.8 * y**2 + 3e3 * y**3 + 2e6 * y**4, 1.1)
 CREEPAGE = contact.Creepage(1e-3, 5e-4, 0.2)
@@ -128,6 +139,44 @@ def test_a_pair_has_the_bits_of_python(library, side, height):
         for k, one in enumerate(want.contacts):
             assert pair.answer["patches"][0, k]["N"] == one.N
         library.need("wr_pair_accept", pair.memory)
+
+
+@pytest.mark.parametrize(("side", "tilted"), [(1, 0), (-1, 1)])
+def test_a_pair_on_surfaces_has_the_bits_of_python(library, side, tilted):
+    wheel = WheelSurface.constant(profile.s1002()).with_deviations(Flat(0.04, 0.46))
+    upper = profile.rail_60e1()
+    slices = [np.stack((upper.y, upper.z + depth), axis=1) for depth in (0.0, 0.0, 2e-3)]
+    rail, origin = RailSurface((-0.5, 0.0, 0.5), slices), SurfacePair(profile.s1002(), upper).rail_origin
+    body = "right" if side == 1 else "left"
+    surfaces = SurfacePair(wheel, rail, side=body, tilted=bool(tilted), rail_origin=origin)
+    numbers = compiled.numbers(surfaces.wheel), compiled.numbers(surfaces.rail, surfaces.rail_origin)
+    pair = Pair(library, *numbers, side=side, tilted=tilted, patch=_patch_options(library, n_samples=SAMPLES))
+    reference = WheelRailPair(surfaces)
+    for step, station in enumerate((-0.2, 0.1, 0.3)):
+        pose, rotation = Pose(1e-3 * step, 0.0, 0.0, 2e-3), -0.03 * step
+        want = reference.solve(pose, Velocity(20.0), load=80e3, station=station, rotation=rotation)
+        pair.input["motion"]["y"], pair.input["motion"]["yaw"] = pose.y, pose.yaw
+        pair.input["station"], pair.input["rotation"] = station, rotation
+        for _ in range(2):  # trying is free
+            pair.solve()
+        total = pair.answer["total"][0]
+        assert [total[n] for n in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")] == [*want.force, *want.moment]
+        assert total["n_patches"] == len(want.contacts) > 0
+        result = np.zeros(1, RESULT)
+        library.need("wr_pair_patch", pair.memory, 0, result, None)
+        assert result["N"][0] == pytest.approx(want.contacts[0].N, rel=1e-3)
+        library.need("wr_pair_accept", pair.memory)
+
+
+def test_a_pair_on_surfaces_names_what_is_wrong(library):
+    wheel = compiled.numbers(WheelSurface.constant(profile.s1002()))
+    broken = wheel.copy()
+    broken[0] = 1e6
+    for bad in (broken, broken[:7]):
+        with pytest.raises(AssertionError, match=r"wheel\.numbers"):
+            Pair(library, bad, wheel)
+    with pytest.raises(AssertionError, match=r"options\.n_bins"):
+        Pair(library, wheel, wheel, n_bins=4)
 
 
 def test_trying_a_pair_is_free(library):

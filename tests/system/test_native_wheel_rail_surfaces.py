@@ -17,10 +17,11 @@ from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, Wave, WheelSurface
 from contact.geometry.wheelset import Irregularity, Pose, Velocity
+from contact.kernels.entries.surfaces import HEAD
 from contact.pair import WheelRailPair
 from examples.crossing.crossing import crossing
 from fmu_src import profiles, resources, surfaces
-from fmu_src.tables.wheel_rail_surfaces import HEAD, RAIL, WHEEL
+from fmu_src.tables.wheel_rail_surfaces import RAIL, WHEEL
 
 ROOT = Path(__file__).parents[2]
 NAME = "WheelRailSurfaces"
@@ -311,7 +312,7 @@ def test_a_rail_of_slices_is_read_with_its_place(native_surfaces, tmp_path):
             lambda y: RailSurface(np.arange(400.0), [np.stack((y, y**2), axis=1)] * 400, spacing=1e-4),
             "reads at most 2000000",
         ),
-        (lambda y: RailSurface.constant(UIC60, Wave(0.3, 1e-4)), "takes slices of a rail, but no deviations"),
+        (lambda y: RailSurface.constant(UIC60, Wave(0.3, 1e-4)), "has deviations, which have no end"),
     ],
 )
 def test_what_the_fmu_cannot_hold_is_refused(make, message):

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact import workspace
+from contact.errors import ContactError
 from contact.geometry.surfaces.surface import RailSurface, WheelSurface
 from contact.kernels import arrays
 from contact.kernels.geometry.regions import FARTHEST
@@ -37,6 +38,28 @@ def sheet(surface: WheelSurface | RailSurface) -> arrays.Sheet:
         fold = math.nan
         table = np.zeros((3, 1 + round(2.0 * _WINDOW / _STEP) if surface.deviations else 1))
     return workspace.sheet(s.u, np.stack(rows, axis=1), runs, (s.period or 0.0, fold), table)
+
+
+def numbers(surface: WheelSurface | RailSurface, origin: tuple[float, float] = (0.0, 0.0)) -> Array:
+    """Return a surface as one array, as wheelrail.h and the FMU `WheelRailSurfaces` read it.
+
+    Parameters
+    ----------
+    surface : WheelSurface or RailSurface
+    origin : (float, float)
+        Place (y, z) of the origin of a rail's points [m], as `SurfacePair.rail_origin`.
+
+    Raises
+    ------
+    ContactError
+        For a rail with deviations, which have no end.
+    """
+    if isinstance(surface, RailSurface) and surface.deviations:
+        raise ContactError(f"rail = {surface!r} has deviations, which have no end; add them to the slices")
+    made = sheet(surface)
+    period = made.period if isinstance(surface, WheelSurface) else np.zeros(2)
+    head = (made.u.size, made.nodes.shape[2], made.deviation.shape[1], *origin)
+    return np.concatenate([array.ravel() for array in (np.array(head), *made._replace(period=period))])
 
 
 def follow(made: arrays.Sheet, surface: RailSurface, station: float) -> None:

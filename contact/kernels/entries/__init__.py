@@ -15,6 +15,6 @@ Entries = dict[str, tuple[Any, str, tuple[str, ...]]]
 
 def all_entries() -> Entries:
     """Return the entries of all modules."""
-    from contact.kernels.entries import pair, patch
+    from contact.kernels.entries import pair, patch, surfaces
 
-    return {**patch.ENTRIES, **pair.ENTRIES}
+    return {**patch.ENTRIES, **pair.ENTRIES, **surfaces.ENTRIES}

@@ -37,36 +37,41 @@ if COMPILING:
     from numba import carray
 
 
-class _Start(NamedTuple):
-    """The first arrays in the caller's memory: warm starts, bins and whole profiles."""
+class Start(NamedTuple):
+    """Warm starts and bins in the caller's memory: those kept, and those that the last solution has left."""
 
     kept: Any
     trial: Any
     spare: Any
     kept_bins: Any
     bins: Any
-    wheel: Any
-    rail: Any
 
 
 @compiled
-def _lay(sizes, work, constants):
-    """Return the start, the bench, the index of the strips, the index of the kept bins and the total size in numbers."""
-    size, s = size_of(sizes), carray(sizes, (9,))
-    n_wheel, n_rail, n_bins, facing_wheel, facing_rail = int(s[4]), int(s[5]), int(s[6]), int(s[7]), int(s[8])
-    piece = memory.memory_size(size)
-    kept, end = block.vector(work, 0, memory.pair_memory_size(piece))
+def lay_start(work, end, piece, n_bins):
+    """Lay out `Start` from index `end` on. Return it, the index of the kept bins and the new end."""
+    kept, end = block.vector(work, end, memory.pair_memory_size(piece))
     trial, end = block.vector(work, end, memory.pair_memory_size(piece))
     spare, at_bins = block.vector(work, end, piece)
     kept_bins, end = block.cube(work, at_bins, 2, len(Bin), n_bins)
     bins, end = block.cube(work, end, 2, len(Bin), n_bins)
+    return Start(kept, trial, spare, kept_bins, bins), at_bins, end
+
+
+@compiled
+def _lay(sizes, work, constants):
+    """Return the start, the bench, the indices of the strips and of the kept bins, and the size in numbers."""
+    size, s = size_of(sizes), carray(sizes, (9,))
+    n_wheel, n_rail, n_bins, facing_wheel, facing_rail = int(s[4]), int(s[5]), int(s[6]), int(s[7]), int(s[8])
+    piece = memory.memory_size(size)
+    start, at_bins, end = lay_start(work, 0, piece, n_bins)
     wheel, end = block.matrix(work, end, N_PROFILE_ROWS, n_wheel)
     rail, end = block.matrix(work, end, N_PROFILE_ROWS, n_rail)
     search, end = memory.lay_search(work, end, facing_wheel, facing_rail, 0, size.n_samples)
-    own, at_strips, end = lay_out(work, end, trial[1 : 1 + piece], size, constants)
-    ledger, end = memory.lay_ledger(work, end, wheel, rail, bins, size.n_strips)
-    bench, end = memory.lay_bench(work, end, size, trial, search, own, ledger)
-    return _Start(kept, trial, spare, kept_bins, bins, wheel, rail), bench, at_strips, at_bins, end
+    own, at_strips, end = lay_out(work, end, start.trial[1 : 1 + piece], size, constants)
+    ledger, end = memory.lay_ledger(work, end, wheel, rail, start.bins, size.n_strips)
+    bench, end = memory.lay_bench(work, end, size, start.trial, search, own, ledger)
+    return start, bench, at_strips, at_bins, end
 
 
 @compiled
@@ -81,6 +86,78 @@ def _clear_bins(bins):
         for row in range(bins.shape[1]):
             for i in range(bins.shape[2]):
                 bins[body, row, i] = 0.0
+
+
+@compiled
+def reset(a):
+    """Forget warm starts and bins."""
+    a.kept[:] = 0.0
+    a.trial[:] = 0.0
+    _clear_bins(a.kept_bins)
+    _clear_bins(a.bins)
+
+
+@compiled
+def set_options(motion, y, z, case, parameters, bench):
+    """Copy what stays constant to the bench. (y, z) is the place of the rail's origin [m]."""
+    motions, _ = block.records(motion, 0, 1, MOTION)
+    bench.search.motion[0] = motions[0]
+    bench.search.motion[0].origin_y, bench.search.motion[0].origin_z = y, z
+    cases, _ = block.records(case, 0, 1, CASE)
+    bench.case[0] = cases[0]
+    bench.search.case[0].G, bench.search.case[0].nu = cases[0].G, cases[0].nu
+    constants, _ = block.records(parameters, 0, 1, DAMAGE_PARAMETERS)
+    bench.damage_parameters[0] = constants[0]
+    bench.ledger.settings[0].distance = 0.0
+
+
+@compiled
+def solve_from(a, bench, piece, cold, mode, amount, distance, motion, case, rail, offset, total, contacts, deflected):
+    """Solve at one instant from the kept start, or with `cold` from nothing. Return the number of patches or `NoAnswer`."""
+    copy(a.kept, a.trial)
+    _copy_bins(a.kept_bins, a.bins)
+    if cold != 0:
+        a.trial[:] = 0.0
+    for k in range(MAX_PATCHES):
+        forget_forged(a.trial[1 + k * piece : 1 + (k + 1) * piece])
+    cases, _ = block.records(case, 0, 1, CASE)
+    springs, _ = block.records(rail, 0, 1, ELASTIC_RAIL)
+    offsets, _ = block.records(offset, 0, 1, WHEEL_OFFSET)
+    givens, _ = block.records(motion, 0, 1, GIVEN)
+    bench.case[0], bench.rail[0], bench.offset[0] = cases[0], springs[0], offsets[0]
+    bench.ledger.settings[0].distance = distance
+    code = solve_flexible(mode, amount, givens[0], bench)
+    if code < 0:
+        return code
+    totals, _ = block.records(total, 0, 1, TOTAL)
+    patches, _ = block.records(contacts, 0, MAX_PATCHES, CONTACT)
+    out, _ = block.records(deflected, 0, 1, ELASTIC_RAIL)
+    totals[0], out[0] = bench.total[0], bench.rail[0]
+    for k in range(MAX_PATCHES):
+        patches[k] = bench.contacts[k]
+    return code if math.isfinite(a.bins.sum()) else -100
+
+
+@compiled
+def accept(a):
+    """Make what the last solution has left the start of the following ones, and keep its bins."""
+    copy(a.trial, a.kept)
+    _copy_bins(a.bins, a.kept_bins)
+
+
+@compiled
+def solve_again(a, bench, piece, k, mode, result):
+    """Solve patch k of the last solution once more, for its strips and fields. Return the number of strips.
+
+    It starts from what the last solution has left, which it restores.
+    """
+    of_patch = a.trial[1 + k * piece : 1 + (k + 1) * piece]
+    copy(of_patch, a.spare)
+    n = solve_patch(k, mode == Height.LOAD, bench)
+    copy(a.spare, of_patch)
+    results, _ = block.records(result, 0, 1, RESULT)
+    results[0] = bench.result[0]
+    return n
 
 
 def pair_size(sizes, given):
@@ -117,29 +194,18 @@ def pair_init(sizes, work, wheel, rail, motion, case, parameters, gauge, gauge_p
     if deepest < gauge_point:
         return 1
     a, bench, _, _, _ = _lay(sizes, work, given.data)
-    a.kept[:] = 0.0
-    a.trial[:] = 0.0
-    _clear_bins(a.kept_bins)
-    _clear_bins(a.bins)
-    copy_rows(whole_wheel, a.wheel)
-    copy_rows(whole_rail, a.rail)
+    reset(a)
     search, ledger = bench.search, bench.ledger
+    copy_rows(whole_wheel, ledger.wheel)
+    copy_rows(whole_rail, ledger.rail)
     low, high = facing(whole_wheel, True)
     take_nodes(whole_wheel, low, high, search.wheel)
     low, high = facing(whole_rail, False)
     take_nodes(whole_rail, low, high, search.rail)
     quadrature.fill_fejer(search.across.nodes, search.across.weights)
-    motions, _ = block.records(motion, 0, 1, MOTION)
-    search.motion[0] = motions[0]
-    search.motion[0].origin_y, search.motion[0].origin_z = y, z
-    cases, _ = block.records(case, 0, 1, CASE)
-    bench.case[0] = cases[0]
-    search.case[0].G, search.case[0].nu = cases[0].G, cases[0].nu
-    constants, _ = block.records(parameters, 0, 1, DAMAGE_PARAMETERS)
-    bench.damage_parameters[0] = constants[0]
-    fill(bench.own, cases[0].nu, given.data)
+    set_options(motion, y, z, case, parameters, bench)
+    fill(bench.own, bench.case[0].nu, given.data)
     ledger.settings[0].start, ledger.settings[0].width = start / width, width
-    ledger.settings[0].distance = 0.0
     arc_length(ledger.wheel, ledger.wheel_arc)
     arc_length(ledger.rail, ledger.rail_arc)
     return 0
@@ -148,38 +214,17 @@ def pair_init(sizes, work, wheel, rail, motion, case, parameters, gauge, gauge_p
 def pair_solve(
     sizes, work, cold, mode, amount, distance, motion, case, rail, offset, total, contacts, deflected, given
 ):
-    """Solve at one instant from the kept start, or with `cold` from nothing. Return the number of patches or `NoAnswer`."""
+    """As `solve_from`, on profiles."""
     a, bench, _, _, _ = _lay(sizes, work, given.data)
     piece = memory.memory_size(size_of(sizes))
-    copy(a.kept, a.trial)
-    _copy_bins(a.kept_bins, a.bins)
-    if cold != 0:
-        a.trial[:] = 0.0
-    for k in range(MAX_PATCHES):
-        forget_forged(a.trial[1 + k * piece : 1 + (k + 1) * piece])
-    cases, _ = block.records(case, 0, 1, CASE)
-    springs, _ = block.records(rail, 0, 1, ELASTIC_RAIL)
-    offsets, _ = block.records(offset, 0, 1, WHEEL_OFFSET)
-    givens, _ = block.records(motion, 0, 1, GIVEN)
-    bench.case[0], bench.rail[0], bench.offset[0] = cases[0], springs[0], offsets[0]
-    bench.ledger.settings[0].distance = distance
-    code = solve_flexible(mode, amount, givens[0], bench)
-    if code < 0:
-        return code
-    totals, _ = block.records(total, 0, 1, TOTAL)
-    patches, _ = block.records(contacts, 0, MAX_PATCHES, CONTACT)
-    out, _ = block.records(deflected, 0, 1, ELASTIC_RAIL)
-    totals[0], out[0] = bench.total[0], bench.rail[0]
-    for k in range(MAX_PATCHES):
-        patches[k] = bench.contacts[k]
-    return code if math.isfinite(a.bins.sum()) else -100
+    return solve_from(
+        a, bench, piece, cold, mode, amount, distance, motion, case, rail, offset, total, contacts, deflected
+    )  # fmt: skip
 
 
 def pair_accept(sizes, work, given):
-    """Make what the last solution has left the start of the following ones, and keep its bins."""
-    a, _, _, _, _ = _lay(sizes, work, given.data)
-    copy(a.trial, a.kept)
-    _copy_bins(a.bins, a.kept_bins)
+    """As `accept`, on profiles."""
+    accept(_lay(sizes, work, given.data)[0])
     return 0
 
 
@@ -192,19 +237,9 @@ def pair_forget(sizes, work, given):
 
 
 def pair_patch(sizes, work, k, mode, result, given):
-    """Solve patch k of the last solution once more, for its strips and fields. Return the number of strips.
-
-    It starts from what the last solution has left, which it restores.
-    """
+    """As `solve_again`, on profiles."""
     a, bench, _, _, _ = _lay(sizes, work, given.data)
-    piece = memory.memory_size(size_of(sizes))
-    of_patch = a.trial[1 + k * piece : 1 + (k + 1) * piece]
-    copy(of_patch, a.spare)
-    n = solve_patch(k, mode == Height.LOAD, bench)
-    copy(a.spare, of_patch)
-    results, _ = block.records(result, 0, 1, RESULT)
-    results[0] = bench.result[0]
-    return n
+    return solve_again(a, bench, memory.memory_size(size_of(sizes)), k, mode, result)
 
 
 ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {
