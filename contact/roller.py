@@ -4,7 +4,11 @@ The axle of the roller lies fixed at its radius R under the track plane; the rai
 profile at the height z (down) has the radius r_r = R - z. In the plane of a patch with the contact angle δ the gap gets the
 roller's curvature,
 
-    A (x - x_c)² + A_r x²,   A_r = cos δ/(2 r_r).
+    A (x - x_c)² + A_r (x_p + x)²,   A_r = cos δ/(2 r_r),
+
+where the patch lies x_p ahead of the axles, as under yaw. On the roller it then lies at x_p A/(A + A_r), which becomes the
+origin of x. There the lateral creepage is that at x_p on a rail: the wheel's surface falls less by ω_w, the roller's more by
+ω_r.
 
 The surfaces move with V_r = ω_r r_r and V_w = -ω_w r_w, and creepages refer to V = (V_r + V_w)/2. Spin of the roller's
 surface is -ω_r sin δ. If the wheelset stands x_w ahead of the roller, the line through both axles is inclined by
@@ -101,7 +105,8 @@ class RollerRig:
 
     def contacts(self, pose: Pose, velocity: Velocity, *, penetration: float | None = None) -> tuple[Patch, ...]:
         """Return the patches on the roller. `velocity.forward` is the speed of the roller's surface at `radius` [m/s]."""
-        found = self.pair.contacts(pose, velocity, penetration=penetration)
+        lower = 0.5 * self.offset**2 / (self.radius + self.pair.nominal_radius)
+        found = self.pair.contacts(replace(pose, z=pose.z - lower), velocity, penetration=penetration)
         return tuple(self._on_roller(patch, velocity) for patch in found)
 
     def solve(
@@ -166,11 +171,15 @@ class RollerRig:
             c.lateral * forward / V,
             (c.spin * forward + sine * speed) / V,
         )
-        s, own = patch.separation, 0.5 * cosine / radius
+        s, own, ahead = patch.separation, 0.5 * cosine / radius, patch.position[0]
         A = s.A + own
-        gap = Separation(s.y, s.g + s.A * own / A * s.x_c**2, A, s.A * s.x_c / A, s.tilt, s.rolling)
-        lower = 0.5 * cosine * self.offset**2 / (radius + patch.rolling_radius)
-        return replace(patch, separation=gap, creepage=creepage, approach=patch.approach - lower)
+        middle = float(np.interp(0.0, s.y, s.A))
+        moved = -own * ahead / (middle + own)
+        x_c = (s.A * (s.x_c - moved) - own * (ahead + moved)) / A
+        lower = middle * own / (middle + own) * ahead**2
+        gap = Separation(s.y, s.g + s.A * own / A * (s.x_c + ahead) ** 2 - lower, A, x_c, s.tilt, s.rolling)
+        position = (ahead + moved, *patch.position[1:])
+        return replace(patch, separation=gap, creepage=creepage, approach=patch.approach - lower, position=position)
 
     def _solved(self, patches: tuple[Patch, ...], friction: Friction) -> RigSolution:
         """Return the solution of the patches at their approach."""

@@ -13,7 +13,8 @@ from contact.pair import WheelRailPair
 from contact.roller import RollerRig
 from tests.command_line import call
 
-PAIR = Pair(profile.s1002(), profile.rail_60e1())
+WHEEL, RAIL = profile.s1002(), profile.rail_60e1()
+PAIR = Pair(WHEEL, RAIL)
 #: Set N, CONTACT 25.1: roller radius [m], y [m], yaw, wheel [rad/s]; creepages of the rail, force on the roller [N].
 RIGS = [
     (0.6, -3e-3, 0.0, -21.73913, (-0.000404706, 0.0, 0.049002), (3247.3, 134.3)),
@@ -80,10 +81,9 @@ def test_an_offset_lowers_the_wheel_and_inclines_the_line_of_the_axles():
     straight, ahead = (RollerRig(PAIR, 0.6, offset=x).solve(pose, velocity, vertical=6e4) for x in (0.0, 5e-3))
     np.testing.assert_allclose(ahead.force, straight.force, atol=2e-3 * 6e4)
     assert ahead.inclination == pytest.approx(5e-3 / 1.06)
-    at_height = RollerRig(PAIR, 0.6, offset=5e-3).contacts(pose, velocity, penetration=5e-5)[0].approach
-    assert at_height == pytest.approx(
-        RollerRig(PAIR, 0.6).contacts(pose, velocity, penetration=5e-5)[0].approach - 0.5 * 25e-6 / 1.06, rel=0.02
-    )
+    pose = Pose(y=-3e-3, z=PAIR.touch(pose) + 5e-5)
+    at_height, without = (RollerRig(PAIR, 0.6, offset=x).contacts(pose, velocity)[0].approach for x in (5e-3, 0.0))
+    assert without - at_height == pytest.approx(0.5 * 25e-6 / 1.06, rel=0.02)
 
 
 @pytest.mark.parametrize(
@@ -106,3 +106,22 @@ def test_the_command_line():
     words = ("roller", 0.6, "--y", -3e-3, "--load", 6e4, "--spin", -21.73913, "--speed", 10)
     assert "peak pressure" in call(*words).stdout
     assert "radius = 0 is outside" in call("roller", 0.0, code=2).stderr
+
+
+@pytest.mark.parametrize(("y", "yaw"), [(3e-3, 5e-3), (3e-3, -2e-2), (7.5e-3, 1e-2)])
+def test_under_yaw_the_approach_is_the_depth_of_the_two_bodies_of_revolution(y, yaw):
+    pose, radius = Pose(y=y, yaw=yaw), 0.35
+    pose = Pose(y=y, yaw=yaw, z=PAIR.touch(pose) + 1.5e-4)
+    patches = RollerRig(PAIR, radius).contacts(pose, Velocity(10.0))
+    motion, z = PAIR.space.motion[0], pose.z
+    across = np.linspace(-0.012, 0.012, 1201) + patches[0].on_wheel[0]
+    turned = np.linspace(-0.06, 0.06, 1201)[:, None]
+    r = PAIR.nominal_radius + np.interp(across, WHEEL.y, WHEEL.z)
+    t = motion.tape + across
+    forward = -math.sin(yaw) * t + math.cos(yaw) * r * np.sin(turned)
+    side = y + math.cos(yaw) * t + math.sin(yaw) * r * np.sin(turned)
+    down = z - PAIR.nominal_radius + r * np.cos(turned)
+    top = radius - motion.origin_z - np.interp(side - motion.origin_y, RAIL.y, RAIL.z)
+    depth = down - radius + np.sqrt(top**2 - forward**2)
+    found = max((p.approach - p.separation.g.min()) / math.cos(p.angle) for p in patches)
+    assert found == pytest.approx(np.nanmax(depth), rel=0.02)
