@@ -21,7 +21,7 @@ from contact.kernels.enumerations import LoadKind
 from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import RESULT
 from contact.material import STEEL, Material
-from contact.plausibility import doubt_alike, doubt_values
+from contact.plausibility import doubt_alike, doubt_gap, doubt_values
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.resultants import Forces
 from contact.separation import Separation
@@ -153,6 +153,7 @@ def forces(
     def column(name: str) -> Array:
         return np.ascontiguousarray(results[name]).reshape(shape)
 
+    doubt_gap(float(results["gap_error"].max(initial=0.0)), method.gap_limit)
     area = column("area")
     slip_ratio = np.divide(column("slip_area"), area, out=np.zeros(shape), where=area > 0.0)
     return Forces(

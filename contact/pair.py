@@ -27,8 +27,8 @@ from contact.kernels.flexible import solve_on_profiles, solve_on_surfaces
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.records import LARGEST_ANGLE
 from contact.material import STEEL, Material
-from contact.plausibility import doubt_alike
-from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
+from contact.plausibility import doubt_alike, doubt_gap
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, GAP_LIMIT, lookup
 from contact.solution import Status
 from contact.solver import N_ELEMENTS, N_STRIPS, require_max_iterations, require_resolution
 
@@ -244,6 +244,8 @@ class WheelRailPair:
         constant = isinstance(pair, Pair)
         self._solve = solve_on_profiles if constant else solve_on_surfaces
         self._packed = pack(Bench[Search] if constant else Bench[SurfaceSearch], self.bench)
+        # the parabolas along surfaces add their own error, for which the lower limit is too low
+        self._gap_limit = method.gap_limit if constant else GAP_LIMIT
         self._rail, self._offset = _RIGID, _STRAIGHT
         self.bench.damage_parameters[:] = (damage or DamageParameters()).record(material, 1.0, 1.0)
 
@@ -336,6 +338,7 @@ class WheelRailPair:
         else:
             self.pair.doubt(pose, velocity, vertical, "vertical")
         total = self.bench.total[0]
+        doubt_gap(float(total.gap_error), self._gap_limit)
         return PairSolution(
             force=np.array([total.Fx, total.Fy, total.Fz]),
             moment=np.array([total.Mx, total.My, total.Mz]),

@@ -90,13 +90,32 @@ def doubt_combined(coupling: float) -> None:
         )
 
 
-def doubt_plane(bend: float, largest: float) -> None:
-    """Warn of a patch over which the contact angle changes by `bend` [rad], more than `largest`, solved as plane."""
+def doubt_strips(bend: float, largest: float, conformal: bool) -> None:
+    """Warn of a patch over which the contact angle changes by `bend` [rad], more than `largest`, solved on strips."""
     if bend > largest:
+        limit = f"{math.degrees(largest):.0f}°"
         warn(
-            f"the contact angle changes by {math.degrees(bend):.0f}° over the patch, which is solved as plane. Above "
-            f"{math.degrees(largest):.0f}° a lateral force of the pressure of up to 0.1 of the load is left out, and creep "
-            "forces change by 0.03 of friction times load in the median (docs/limits.md); conformal = True has both",
+            f"the contact angle changes by {math.degrees(bend):.0f}° over the patch. "
+            + (
+                f"Above {limit} strips with conformal = True, which have the influence numbers of a plane, are 0.02 to 0.06 "
+                "of friction times load off in the median, 0.27 at most, and 15 % in the largest pressure (docs/limits.md); "
+                "normal = tangential = 'halfspace' has those of the bent surface"
+                if conformal
+                else f"It is solved as plane. Above {limit} a lateral force of the pressure of up to 0.1 of the load is left "
+                "out, and creep forces change by 0.03 of friction times load in the median (docs/limits.md); "
+                "conformal = True has both"
+            ),
+            ModelWarning,
+        )
+
+
+def doubt_gap(gap_error: float, limit: float) -> None:
+    """Warn of a `gap_error` above the limit of its method."""
+    if gap_error > limit:
+        warn(
+            f"gap_error = {gap_error:.2g}: the pressure leaves gaps or overlaps inside the patch. Above {limit:g} the largest "
+            "pressure is more than 5 % wrong on most patches (docs/limits.md); normal = tangential = "
+            "'halfspace' solves the patch",
             ModelWarning,
         )
 

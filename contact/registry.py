@@ -14,6 +14,10 @@ from contact.notebook import table
 DEFAULT_NORMAL, DEFAULT_TANGENTIAL = "strip_halfspace", "fastrip_mapped"
 
 
+#: Limits of `gap_error` [-] of strips that do not interact, and of those that do (benchmarks/gap_error.py).
+GAP_LIMIT, GAP_LIMIT_INTERACTING = 0.17, 0.03
+
+
 @dataclass(frozen=True, slots=True)
 class Method:
     """A registered method.
@@ -69,6 +73,11 @@ class Method:
             "load may step": not self.continuous,
         }
         return tuple(what for what, true in stated.items() if true)
+
+    @property
+    def gap_limit(self) -> float:
+        """`gap_error` above which the largest pressure is doubtful (docs/limits.md says how often it then is wrong)."""
+        return GAP_LIMIT_INTERACTING if self.interacting else GAP_LIMIT
 
     @property
     def elementwise(self) -> bool:

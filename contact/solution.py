@@ -28,8 +28,6 @@ from contact.registry import methods
 Array = NDArray[np.float64]
 Records = NDArray[np.void]
 
-#: A `gap_error` above this means that the largest pressure may be wrong by a fifth (docs/limits.md).
-GAP_ERROR = 0.17
 #: Change of the contact angle over a patch above which a plane contact may be wrong [rad] (docs/limits.md).
 BEND = 0.4
 
@@ -99,7 +97,8 @@ class Solution:
     power_per_metre : frictional energy per metre rolled, -∬ q·s dA ≥ 0 [N]
     normal_stiffness : dN/d(approach) [N/m]
     gap_error : the largest gap or overlap that the pressure leaves inside the patch, over the approach [-]. It estimates the
-        error of the normal problem: 0 is exact, above `GAP_ERROR` the largest pressure may be wrong by a fifth
+        error of the normal problem: 0 is exact, above the method's `gap_limit` (`contact.methods()`) the largest pressure
+        is doubtful
     bend : largest change of the contact angle over a patch [rad]. The contact is taken as plane unless `conformal`; above
         `BEND` its lateral force is up to a tenth of the load off. The half space in the plane does not tell it: 0
     length, width : extent of the patch along x and y [m]
@@ -201,6 +200,7 @@ class Solution:
 
     def _repr_html_(self) -> str:
         """Return HTML for a notebook: the main numbers as a table, and a sketch of the patch and its pressure."""
+        limit = methods().normal[self.normal].gap_limit
         numbers = (
             ("status", self.status.name),
             ("N", f"{self.N:.6g} N"),
@@ -216,7 +216,7 @@ class Solution:
             ("slip area / area", f"{self.slip_ratio:.3g}"),
             ("length × width", f"{1e3 * self.length:.4g} mm × {1e3 * self.width:.4g} mm"),
             ("greatest pressure", f"{1e-6 * self.max_pressure:.5g} MPa"),
-            ("gap error", f"{self.gap_error:.2g}{' (not to be trusted)' if self.gap_error > GAP_ERROR else ''}"),
+            ("gap error", f"{self.gap_error:.2g}{' (the pressure is doubtful)' if self.gap_error > limit else ''}"),
             ("change of contact angle", f"{math.degrees(self.bend):.3g}°"),
             ("friction", f"{self.friction:g}"),
             ("utilisation", f"{self.utilisation:.3g}"),

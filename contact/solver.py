@@ -25,7 +25,7 @@ from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import RESULT
 from contact.material import STEEL, Material
-from contact.plausibility import doubt_alike, doubt_case, doubt_plane
+from contact.plausibility import doubt_alike, doubt_case, doubt_gap, doubt_strips
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.resultants import CaseForces
 from contact.separation import Separation
@@ -243,8 +243,8 @@ class Solver:
         prepared = Prepared(self.normal.name, self.tangential.name, self.material, self._speed)
         if throw:
             require_trustworthy(Status(self._status[0]), separation.y, load, approach)
-        if not self.conformal:
-            doubt_plane(float(self._bend[0]), BEND)
+        doubt_strips(float(self._bend[0]), BEND, self.conformal)
+        doubt_gap(float(self._result["gap_error"][0]), self.normal.gap_limit)
         return Solution.of_kernel(n, self._full, self._numbers, creepage, prepared, jacobian)
 
     def forces(

@@ -10,7 +10,7 @@ import contact
 from contact import Creepage, Separation, stress
 from contact.errors import ModelWarning
 from contact.geometry import profile
-from contact.geometry.wheelset import Pair
+from contact.geometry.wheelset import Pair, Pose
 from contact.pair import WheelRailPair
 
 HERTZ, ROLLING = Separation.hertzian(1.1, 0.8), Creepage(1e-3)
@@ -64,12 +64,27 @@ def test_the_change_of_the_contact_angle_over_a_patch_is_told():
 
 
 def test_a_wide_bent_patch_in_the_plane_gives_a_warning():
-    with pytest.warns(
-        ModelWarning, match=r"the contact angle changes by \d+° over the patch, which is solved as plane"
-    ):
+    with pytest.warns(ModelWarning, match=r"angle changes by \d+° over the patch. It is solved as plane"):
         wide = contact.solve(bent(250.0), ROLLING, load=5e4)
     assert wide.bend > math.radians(23.0)
+    with pytest.warns(ModelWarning, match="strips with conformal = True, which have the influence numbers of a plane"):
+        contact.solve(bent(250.0), ROLLING, load=5e4, conformal=True)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        contact.solve(bent(250.0), ROLLING, load=5e4, conformal=True)
         contact.solve(bent(20.0), ROLLING, load=5e4)
+
+
+def test_a_pressure_that_leaves_gaps_is_told():
+    """Two humps along the strips: the largest pressure is 20 % low at status OK."""
+    pair, pose = Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40)), {"y": 7.5e-3, "yaw": 30e-3}
+    (patch,) = pair.contacts(Pose(**pose), load=8e4)
+    told = "gap_error = 0.0[3-9]"
+    with pytest.warns(ModelWarning, match=told):
+        contact.solve(patch.separation, ROLLING, load=patch.load)
+    with pytest.warns(ModelWarning, match=told):
+        contact.forces([patch.separation], ROLLING, load=patch.load)
+    with pytest.warns(ModelWarning, match=told):
+        WheelRailPair(pair).solve(Pose(**pose), load=8e4)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", ModelWarning)
+        WheelRailPair(pair).solve(Pose(y=4e-3, yaw=10e-3), load=8e4)

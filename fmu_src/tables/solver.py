@@ -9,7 +9,6 @@ import contact
 from contact import Status, friction, registry
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.material import THERMAL_RANGE, Thermal
-from contact.solution import GAP_ERROR
 from contact.solver import N_ELEMENTS, N_STRIPS
 from fmu_src.variables import Enumeration, Variable, output, parameter
 
@@ -17,6 +16,7 @@ NORMAL_METHOD = Enumeration("NormalMethod", tuple((m.name, m.title) for m in con
 TANGENTIAL_METHOD = Enumeration(
     "TangentialMethod", tuple((m.name, m.title) for m in contact.methods().batched.tangential.values())
 )
+_GAP_LIMITS = {m.name: m.gap_limit for m in contact.methods().normal.values()}
 FRICTION_LAW = Enumeration(
     "FrictionLaw",  # in the order of contact.friction.LAWS
     (
@@ -290,7 +290,9 @@ def gap_error(depends: tuple[str, ...] | None = None) -> Variable:
     """Return the error estimate of the normal problem."""
     return output(
         "gap_error",
-        f"Largest gap or overlap left in the patch, over the approach; above {GAP_ERROR:g} the pressure may be 20 % wrong",
+        "Largest gap or overlap left in the patch, over the approach. Above "
+        f"{_GAP_LIMITS['strip_halfspace']:g} ({_GAP_LIMITS['analyn']:g} for strips that do not interact) "
+        "the largest pressure is doubtful",
         minimum=0.0,
         maximum=1.0,
         depends=depends,
