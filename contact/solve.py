@@ -37,6 +37,7 @@ from contact.solver import (
     require_resolution,
     require_trustworthy,
 )
+from contact.trace import show, show_step
 
 Array = NDArray[np.float64]
 
@@ -64,6 +65,7 @@ def solve(
     layer: ThirdBody | None = None,
     start: Solution | None = None,
     progress: Callable[[int, float], None] | None = None,
+    trace: bool = False,
     derivatives: bool = False,
     throw: bool = True,
 ) -> Solution:
@@ -111,6 +113,9 @@ def solve(
         the computing time, and the result only within the method's tolerance.
     progress : callable
         Called with step and residual of the half space's tangential iteration.
+    trace : bool
+        Print the iterations: of interacting strips the table of `Solver.trace`, of the half space step and residual of its
+        tangential iteration. It is printed before an exception is raised.
     derivatives : bool
         Also find `Solution.jacobian`, the derivatives of forces and load or approach by creepages, load or approach, and
         friction. It works for the methods of ``contact.methods().batched``, not with `force`.
@@ -177,6 +182,8 @@ def solve(
     if derivatives and (wanted is not None or method.elementwise or rolling.calibrated or rolling.elementwise):
         what = "force" if wanted is not None else f"normal = {normal!r}, tangential = {tangential!r}"
         raise ContactError(f"derivatives = True does not work with {what}")
+    if trace and progress is None:
+        progress = show_step
     solver: Callable[[Creepage], Solution] | Pressed
     if method.elementwise:
         solver = press_gap(
@@ -196,8 +203,8 @@ def solve(
     else:
         size = n_strips, n_elements
         problem = _StripProblem(
-            separation, load, approach, surface, material, speed, method.name, size, start, conformal, max_iterations
-        )
+            separation, load, approach, surface, material, speed, method.name, size, start, conformal, max_iterations, trace
+        )  # fmt: skip
         if wanted is None and not (rolling.calibrated or rolling.elementwise):  # the solution stays lazy
             return problem.solve(creepage, rolling.name, derivatives=derivatives, throw=throw)
         solver = _rolling(problem, creepage, rolling, division, layer, progress)
@@ -267,6 +274,7 @@ class _StripProblem(NamedTuple):
     start: Solution | None
     conformal: bool
     max_iterations: int
+    trace: bool
 
     def solve(
         self,
@@ -281,17 +289,21 @@ class _StripProblem(NamedTuple):
         solver = _prepared(key, self.friction, self.speed)
         if self.start is not None:
             solver.start_from(self.start)
-        return solver.solve(
-            self.separation,
-            creepage,
-            load=self.load,
-            approach=self.approach,
-            friction=self.friction,
-            speed=self.speed,
-            warm=self.start is not None,
-            derivatives=derivatives,
-            throw=throw,
-        )
+        try:
+            return solver.solve(
+                self.separation,
+                creepage,
+                load=self.load,
+                approach=self.approach,
+                friction=self.friction,
+                speed=self.speed,
+                warm=self.start is not None,
+                derivatives=derivatives,
+                throw=throw,
+            )
+        finally:
+            if self.trace:
+                show(solver.trace())
 
 
 def _rolling(

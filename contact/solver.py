@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact import workspace
+from contact import trace, workspace
 from contact.case import cases, set_surface
 from contact.core import pack
 from contact.creepage import Creepage, as_creepage
@@ -21,6 +21,7 @@ from contact.jacobian import Jacobian
 from contact.kernels.arrays import Cases, Integers, Results, Workspace
 from contact.kernels.enumerations import LoadKind
 from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
+from contact.kernels.normal.start import MEM_IMAGE
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import RESULT
@@ -246,6 +247,20 @@ class Solver:
         doubt_strips(float(self._bend[0]), BEND, self.conformal)
         doubt_gap(float(self._result["gap_error"][0]), self.normal.gap_limit)
         return Solution.of_kernel(n, self._full, self._numbers, creepage, prepared, jacobian)
+
+    def trace(self) -> str:
+        """Return a table of the iterations of the last solution, for who must understand a status.
+
+        A row has the mean relative change of the strips' lengths that would close the gap at their ends, weighted with their
+        loads [-]; the largest move of an end over the width [-]; the approach above first touch; the ends of the panels of
+        strips; and what happened, such as a new panel on a lobe. After 64 iterations the last row stands for the last one.
+        """
+        space, made = self._full.space, int(self._result["iterations"][0])
+        of_normal = f"normal = {self.normal.name!r}: {made} iterations"
+        if self.normal.interacting:
+            of_normal += "\n" + trace.of_strips(space.iterates, made, bool(space.memory[MEM_IMAGE] > 0.0))
+        status = Status(self._status[0]).name
+        return f"{of_normal}\ntangential = {self.tangential.name!r}: no iterations; status {status}"
 
     def forces(
         self,

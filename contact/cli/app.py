@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable, Sequence
+from contextlib import redirect_stdout
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -71,6 +73,7 @@ def solve(
     tangential: opt.Tangential = DEFAULT_TANGENTIAL,
     conformal: opt.Conformal = False,
     layer: opt.Layer = None,
+    trace: opt.Trace = False,
     as_json: opt.Json = False,
     out: opt.Files = None,
 ) -> None:
@@ -83,18 +86,20 @@ def solve(
     options = {"friction": surface.law(gauge_friction), "material": arguments.material(pressure_limit, bodies)}
     options |= {"normal": normal, "tangential": tangential, **(PICTURE_RESOLUTION if out else {})}
     options |= {"force": arguments.force(fx, fy), "layer": arguments.third_body(layer)}
+    options["trace"] = trace
     arguments.require_use(context)
-    if curvatures is not None:
-        hertzian = problem.solve_hertzian(
-            curvatures, amount.load, amount.penetration, amount.given, options | {"speed": place.speed}
-        )
-        touches = [hertzian]
-        title = f"Half curvatures {curvatures[0]:g} and {curvatures[1]:g} 1/m"
-    else:
-        case = place.position(reading, side)
-        options |= {"conformal": conformal}
-        touches = problem.solve_position(case, amount.load, amount.penetration, amount.given, options)
-        title = _title(case)
+    with redirect_stdout(sys.stderr if as_json else sys.stdout):  # a trace is not part of the JSON
+        if curvatures is not None:
+            hertzian = problem.solve_hertzian(
+                curvatures, amount.load, amount.penetration, amount.given, options | {"speed": place.speed}
+            )
+            touches = [hertzian]
+            title = f"Half curvatures {curvatures[0]:g} and {curvatures[1]:g} 1/m"
+        else:
+            case = place.position(reading, side)
+            options |= {"conformal": conformal}
+            touches = problem.solve_position(case, amount.load, amount.penetration, amount.given, options)
+            title = _title(case)
     _deliver(touches, title, place.radius, as_json, out, lambda drawn: drawn.patch(*_named(touches)))
 
 

@@ -145,6 +145,10 @@ Conformal = Annotated[
     bool,
     typer.Option("--conformal", help="let the contact angle vary over the patch", rich_help_panel=METHOD),
 ]
+Trace = Annotated[
+    bool,
+    typer.Option("--trace", help="print the iterations of the normal and tangential problem", rich_help_panel=METHOD),
+]
 Creep = Annotated[
     tuple[float, float, float] | None,
     typer.Option(

@@ -91,7 +91,7 @@ class Space(NamedTuple):
     """Scratch arrays of the normal and the tangential methods.
 
     `memory` is the start for the next call. `case` is a copy that a kernel may change. `turned` is the separation in the
-    orientation in which interacting strips are solved.
+    orientation in which interacting strips are solved. `iterates` has a row for each of their iterations.
     """
 
     grid: Matrix
@@ -100,6 +100,7 @@ class Space(NamedTuple):
     logs: Matrix
     matrix: Matrix
     lu: Matrix
+    iterates: Matrix
     memory: Numbers
     lanes: Numbers
     trace: Matrix

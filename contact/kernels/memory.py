@@ -45,6 +45,7 @@ from contact.kernels.records import (
     WHEEL_OFFSET,
 )
 from contact.kernels.rows import (
+    MOST_ITERATES,
     N_LINE_ROWS,
     N_PROFILE_ROWS,
     N_VECTOR_ROWS,
@@ -54,6 +55,7 @@ from contact.kernels.rows import (
     DamageField,
     Element,
     Field,
+    Iterate,
     Node,
     Over,
     Sample,
@@ -118,10 +120,12 @@ def lay_space(block: Array, end: int, size: Size, memory: Array) -> tuple[Space,
     logs, end = matrix(block, end, MAX_PATCHES * PROBES if size.interacting else 1, capacity + MAX_PATCHES)
     influence, end = matrix(block, end, capacity, capacity)
     lu, end = matrix(block, end, capacity, capacity)
+    n_iterates = MOST_ITERATES if size.interacting else 1
+    iterates, end = matrix(block, end, n_iterates, Iterate.ENDS + 2 * MAX_PATCHES)
     lanes, end = vector(block, next_line(end), N_LANE_ROWS * LANES)
     trace, end = matrix(block, end, size.n_elements, TRACE_WIDTH)
     case, end = records(block, end, 1, CASE)
-    return Space(grid, turned, vectors, logs, influence, lu, memory, lanes, trace, case), end
+    return Space(grid, turned, vectors, logs, influence, lu, iterates, memory, lanes, trace, case), end
 
 
 @shared

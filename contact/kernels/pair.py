@@ -193,6 +193,7 @@ def _space_of_patch(space, memory):
         space.logs,
         space.matrix,
         space.lu,
+        space.iterates,
         memory,
         space.lanes,
         space.trace,

@@ -171,6 +171,28 @@ class Box(IntEnum):
     FIRST = 11  # z for which the first rough grids were laid
 
 
+class Event(IntEnum):
+    """What happened in an iteration of interacting strips; bits of `Iterate.EVENTS`."""
+
+    AGAIN = 1  # the warm start found no rest: from ANALYN's patch again
+    CUT = 2  # idle strips cut off
+    LOST = 4  # a panel without load removed
+    FIXED = 8  # the ends are fixed from here on
+    FOUND = 16  # a panel on a lobe that overlapped
+    JOINED = 32  # panels joined
+
+
+class Iterate(IntEnum):
+    """Columns of the iterations of interacting strips (`contact.trace`)."""
+
+    ERROR = 0  # load-weighted mean change of ln a that would close the gaps
+    MOVED = 1  # largest change of an end over the width
+    APPROACH = 2  # above first touch [m]
+    PANELS = 3
+    EVENTS = 4
+    ENDS = 5  # of all panels [m]
+
+
 class Vector(IntEnum):
     """Rows of the vectors of interacting strips, one number a strip of all panels."""
 
@@ -252,6 +274,8 @@ class Body(IntEnum):
 
 #: Number of rows y, z and angle of a profile, of all rows of a trace line, and of vectors.
 N_PROFILE_ROWS, N_LINE_ROWS, N_VECTOR_ROWS = 3, 5, Vector.PAIRS + len(Pair)
+#: Most iterations of which a trace is kept: the last one stands for those after it.
+MOST_ITERATES = 64
 
 
 if COMPILING:

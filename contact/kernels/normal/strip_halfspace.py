@@ -50,7 +50,7 @@ from contact.kernels.normal.strip_system import (
 )
 from contact.kernels.normal.turned import turn_aspects, turn_panels
 from contact.kernels.records import MAX_PATCHES
-from contact.kernels.rows import Sample, Strip, Vector
+from contact.kernels.rows import Event, Iterate, Sample, Strip, Vector
 
 #: Most iterations, if the case does not say another number. They cap the time.
 MAX_ITERATIONS = 40
@@ -284,6 +284,16 @@ def _report(problem, delta, panels, n_panels, result):
 
 
 @kernel
+def _note(iteration, error, moved, delta, n_panels, panels, events, iterates):
+    """Keep what an iteration found, for who wants to see it (`contact.trace`)."""
+    row = iterates[min(iteration, iterates.shape[0] - 1)]
+    row[Iterate.ERROR], row[Iterate.MOVED], row[Iterate.APPROACH] = error, moved, delta
+    row[Iterate.PANELS], row[Iterate.EVENTS] = n_panels, events
+    for k in range(2 * n_panels):
+        row[Iterate.ENDS + k] = panels[k]
+
+
+@kernel
 def _solve(sep, case, own, result):
     """Solve the normal problem in the given orientation."""
     rule, space, strips = own.rule, own.space, own.strips
@@ -316,13 +326,16 @@ def _solve(sep, case, own, result):
     delta = result.approach - g_least  # ANALYN's, until the first pressures are known
     iteration, begun, known, error, load, last_error = 0, 0, 0, math.inf, 0.0, math.inf
     for iteration in range(case.max_iterations):
+        events = 0
         if warm and iteration == patience:
+            events = Event.AGAIN.value
             n_panels = start_panels(n_strips, n, strips, result, panels, rule.cosines, vectors)
             if skew > 0.0:
                 turn_panels(sep, n_panels, n, strips, skew, by_load, panels, vectors)
             delta = result.approach - g_least
             warm, begun, descending, searched = False, iteration, False, False
             known, best, last_error = 0, math.inf, math.inf
+        _note(iteration, math.inf, 0.0, 0.0, 0, panels, events, space.iterates)
         age = iteration - begun
         delta = _find_pressures(problem, delta, panels, n_panels)
         error, load = math.inf, 0.0
@@ -342,6 +355,8 @@ def _solve(sep, case, own, result):
                 break
             patience = iteration + 1
             continue
+        events += (Event.CUT.value if cut else 0) + (Event.LOST.value if n_panels < before else 0)
+        events += Event.FIXED.value if age == FREEZE else 0
         moved = end_moves(sep.y, n, n_panels, panels, rule.cosines, vectors, age >= FREEZE)
         if not cut:
             note_sides(n, n_panels, panels, vectors, known == 0 or n_panels < before)
@@ -352,6 +367,7 @@ def _solve(sep, case, own, result):
         if anew or error > 2.0 * last_error * load or descending != by_jacobian or age >= PLAIN:
             known = 0
         last_error = error / load
+        _note(iteration, last_error, moved, delta, n_panels, panels, events, space.iterates)
         if anew:
             best = math.inf
         if age >= FREEZE and not cut and last_error < best:
@@ -389,6 +405,8 @@ def _solve(sep, case, own, result):
             advance(n, n_panels, panels, vectors, skew > 0.0)
             known += 1
         n_panels, joined = join_panels(n, n_panels, panels, rule.cosines, vectors)
+        last = space.iterates[min(iteration, space.iterates.shape[0] - 1)]
+        last[Iterate.EVENTS] += (Event.FOUND.value if ghosts else 0) + (Event.JOINED.value if joined else 0)
         if joined:
             known, best = 0, math.inf
 
