@@ -175,7 +175,8 @@ class Histogram:
         )
         is_wheel = self.profile.kind == "wheel"
         settings = np.array([(self._start, self.width, distance)], LEDGER)[0]
-        deposit.deposit(rates, edges, done.strips, n, settings, patch.share, is_wheel, values)
+        wear = 1.0 if is_wheel else self.parameters.rail_wear
+        deposit.deposit(rates, edges, done.strips, n, settings, patch.share, is_wheel, wear, values)
 
     def __add__(self, other: Histogram) -> Histogram:
         if not isinstance(other, Histogram):

@@ -84,7 +84,8 @@ enum { R_NONE,
     X(bin_width, "options.bin_width") X(height, "input.height") X(amount, "input.amount")                            \
     X(distance, "input.distance") X(motion, "input.motion") X(offset, "input.offset") X(springs, "input.rail")       \
     X(p_speed, "parameters.speed") X(p_radius, "parameters.wheel_radius") X(p_hardness, "parameters.hardness")       \
-    X(p_yield, "parameters.shear_yield") X(p_spin, "parameters.with_spin") X(p_law, "parameters.wear_law")           \
+    X(p_yield, "parameters.shear_yield") X(p_rail_wear, "parameters.rail_wear")                                      \
+    X(p_spin, "parameters.with_spin") X(p_law, "parameters.wear_law")                                                \
     X(p_constants, "parameters: constants of a law")                                                                 \
     X(n_strips_most, "fields.n_strips_most")                                                                         \
     X(c_load_kind, "case.load_kind") X(c_amount, "case.amount") X(c_normal, "case.normal")                           \
@@ -335,6 +336,7 @@ static int check_damage(const wr_damage_parameters *p) {
     TRY(above(p->wheel_radius, A_p_radius));
     TRY(above(p->hardness, A_p_hardness));
     TRY(above(p->shear_yield, A_p_yield));
+    TRY(within(p->rail_wear, 0.0, 1e3, A_p_rail_wear));
     TRY(among(p->with_spin, 0, 1, A_p_spin));
     TRY(among(p->wear_law, WR_WEAR_ARCHARD, WR_WEAR_PEARCE_SHERRATT, A_p_law));
     const double *all[] = {p->pearce_sherratt, p->burstow, p->usfd, p->archard};

@@ -45,6 +45,9 @@ class DamageParameters:
         Law for the wear of profiles in `contact.accumulation`. "usfd" takes the rate from T-gamma/A of the whole patch and
         spreads it evenly over the area. "usfd_local" takes the rate from -q·s of each element. "pearce_sherratt" spreads
         the area loss over the patch.
+    rail_wear : float
+        Wear of the rail over that of the wheel [-], 0 to 1000, for `contact.accumulation`: by Archard's law the hardness of
+        the wheel over that of the rail, if both have one wear coefficient. Default 1: both lose the same volume.
     """
 
     pearce_sherratt: PearceSherratt = field(default_factory=PearceSherratt)
@@ -53,10 +56,12 @@ class DamageParameters:
     archard: ArchardMap = field(default_factory=ArchardMap)
     with_spin: bool = False
     wear_law: WearLaw = "archard"
+    rail_wear: float = 1.0
 
     def __post_init__(self) -> None:
         if self.wear_law not in WEAR_LAWS:
             raise ContactError(f"wear_law = {self.wear_law!r} is unknown; allowed: {', '.join(WEAR_LAWS)}")
+        require_number("rail_wear", self.rail_wear, 0.0, 1e3)
 
     def record(self, material: Material, wheel_radius: float, speed: float) -> np.record:
         """Return the constants as the record DAMAGE_PARAMETERS of `contact.kernels.records`.
@@ -72,6 +77,7 @@ class DamageParameters:
         made.speed = require_number("speed", speed, 0.0)
         made.wheel_radius = require_number("wheel_radius", wheel_radius, 0.0, open_minimum=True)
         made.hardness, made.shear_yield = material.hardness, material.shear_yield
+        made.rail_wear = self.rail_wear
         made.with_spin, made.wear_law = self.with_spin, WEAR_LAWS.index(self.wear_law)
         for name in ("pearce_sherratt", "burstow", "usfd", "archard"):
             made[name] = getattr(self, name).constants()

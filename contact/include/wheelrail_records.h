@@ -526,6 +526,7 @@ typedef struct {
     double wheel_radius; /* [m] */
     double hardness; /* [Pa] */
     double shear_yield; /* [Pa] */
+    double rail_wear; /* wear of the rail over that of the wheel [-] */
     int64_t with_spin; /* 1 where laws take T_gamma_spin */
     int64_t wear_law; /* WearLaw */
     double pearce_sherratt[7];
@@ -534,17 +535,18 @@ typedef struct {
     double archard[7];
 } wr_damage_parameters;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
-_Static_assert(sizeof(wr_damage_parameters) == 256, "wr_damage_parameters");
+_Static_assert(sizeof(wr_damage_parameters) == 264, "wr_damage_parameters");
 _Static_assert(offsetof(wr_damage_parameters, speed) == 0, "wr_damage_parameters.speed");
 _Static_assert(offsetof(wr_damage_parameters, wheel_radius) == 8, "wr_damage_parameters.wheel_radius");
 _Static_assert(offsetof(wr_damage_parameters, hardness) == 16, "wr_damage_parameters.hardness");
 _Static_assert(offsetof(wr_damage_parameters, shear_yield) == 24, "wr_damage_parameters.shear_yield");
-_Static_assert(offsetof(wr_damage_parameters, with_spin) == 32, "wr_damage_parameters.with_spin");
-_Static_assert(offsetof(wr_damage_parameters, wear_law) == 40, "wr_damage_parameters.wear_law");
-_Static_assert(offsetof(wr_damage_parameters, pearce_sherratt) == 48, "wr_damage_parameters.pearce_sherratt");
-_Static_assert(offsetof(wr_damage_parameters, burstow) == 104, "wr_damage_parameters.burstow");
-_Static_assert(offsetof(wr_damage_parameters, usfd) == 144, "wr_damage_parameters.usfd");
-_Static_assert(offsetof(wr_damage_parameters, archard) == 200, "wr_damage_parameters.archard");
+_Static_assert(offsetof(wr_damage_parameters, rail_wear) == 32, "wr_damage_parameters.rail_wear");
+_Static_assert(offsetof(wr_damage_parameters, with_spin) == 40, "wr_damage_parameters.with_spin");
+_Static_assert(offsetof(wr_damage_parameters, wear_law) == 48, "wr_damage_parameters.wear_law");
+_Static_assert(offsetof(wr_damage_parameters, pearce_sherratt) == 56, "wr_damage_parameters.pearce_sherratt");
+_Static_assert(offsetof(wr_damage_parameters, burstow) == 112, "wr_damage_parameters.burstow");
+_Static_assert(offsetof(wr_damage_parameters, usfd) == 152, "wr_damage_parameters.usfd");
+_Static_assert(offsetof(wr_damage_parameters, archard) == 208, "wr_damage_parameters.archard");
 #endif
 
 /* Damage constants of `contact.damage.DamageParameters()` for steel. */
@@ -553,6 +555,7 @@ _Static_assert(offsetof(wr_damage_parameters, archard) == 200, "wr_damage_parame
     1.0, \
     2700000000.0, \
     300000000.0, \
+    1.0, \
     0, \
     0, \
     {0.25, 25.0, 1.19, 154.0, 100.0, 200.0, 0.0}, \

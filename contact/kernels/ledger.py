@@ -17,6 +17,7 @@ def enter(patch, n, damage, bench):
     strip_rates(strips, n, fields, bench.damage_parameters[0], damage, bench.damage_fields, forward, rates)
     on_wheel, on_rail = (patch.wheel_y, patch.wheel_z), (patch.rail_y, patch.rail_z)
     place(ledger.wheel, ledger.wheel_arc, on_wheel, patch.angle, 1.0, strips, n, edges)
-    deposit(rates, edges, strips, n, settings, patch.share, True, ledger.bins[Body.WHEEL])
+    deposit(rates, edges, strips, n, settings, patch.share, True, 1.0, ledger.bins[Body.WHEEL])
     place(ledger.rail, ledger.rail_arc, on_rail, patch.angle, 1.0, strips, n, edges)
-    deposit(rates, edges, strips, n, settings, patch.share, False, ledger.bins[Body.RAIL])
+    of_rail = bench.damage_parameters[0].rail_wear
+    deposit(rates, edges, strips, n, settings, patch.share, False, of_rail, ledger.bins[Body.RAIL])

@@ -292,6 +292,7 @@ DAMAGE_PARAMETERS = _record(
     wheel_radius    [m]
     hardness        [Pa]
     shear_yield     [Pa]
+    rail_wear       wear of the rail over that of the wheel [-]
     with_spin:int   1 where laws take T_gamma_spin
     wear_law:int    WearLaw
     pearce_sherratt:7

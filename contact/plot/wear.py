@@ -200,11 +200,21 @@ def _merged(histograms: Mapping[str, Histogram]) -> Histogram:
 
 
 def _stack(ax: Axes, histograms: Mapping[str, Histogram], quantity: str, scale: float, edges: Array) -> None:
-    """Draw one quantity of the histograms, stacked."""
+    """Draw one quantity of the histograms, stacked. Areas are hatched where lines would be dashed."""
     base = np.zeros(edges.size - 1)
-    for (name, histogram), (colour, _) in zip(histograms.items(), looks(histograms).values(), strict=True):
+    for (name, histogram), (colour, dashes) in zip(histograms.items(), looks(histograms).values(), strict=True):
         top = base + scale * histogram[quantity]
-        ax.stairs(top, edges, baseline=base, fill=True, color=colour, lw=0.0, label=name)
+        ax.stairs(
+            top,
+            edges,
+            baseline=base,
+            fill=True,
+            fc=colour,
+            ec="white",
+            lw=0.0,
+            label=name,
+            hatch="/////" if dashes != "-" else None,
+        )
         base = top
     ax.stairs(base, edges, color=INK, lw=0.8)
     ax.set_ylim(0.0)

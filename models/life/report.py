@@ -73,14 +73,14 @@ def damaged(both: dict[str, Histogram]) -> Table:
             (
                 side,
                 number(1e12 * h.volume / rolled),
-                number(1e12 * h.per("metre")["wear"].max()),
+                number(1e9 * h.per("metre")["wear"].max()),
                 number(float(h["T_gamma"].sum()) / rolled),
                 number(100.0 * h["stress_exceedance"].max() / rolled),
                 number(100.0 * h["fatigue_exceedance"].max() / rolled),
                 *(() if is_wheel else (number(1e6 * float(h.fatigue.max())),)),
             )
         )
-    deepest = "nm/km" if is_wheel else "µm/10⁶ passes"
+    deepest = "µm/km" if is_wheel else "µm/10³ passes"
     return Table(
         "Per kilometre rolled",
         [

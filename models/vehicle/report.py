@@ -12,11 +12,14 @@ from contact import plot
 from contact.study.page import document, faint, html_of
 from contact.study.table import Table, number
 from models.life.report import damage_of, declaration, illustrated, trusted, warned
-from models.vehicle import assess
+from models.vehicle import assess, drawing
 from models.vehicle.ledgers import BODIES
-from models.vehicle.run import BALANCE, VehicleRun
+from models.vehicle.run import BALANCE, CONICITY_AT, RIGHT_BELOW, VehicleRun
 from models.vehicle.simulation import SIDES
 from models.wheelset.ports import INWARDS
+
+#: Ratio of the conicities at two amplitudes from which on the report warns.
+UNEQUAL = 2.0
 
 
 def page_of(run: VehicleRun) -> str:
@@ -45,6 +48,8 @@ def _parts(run: VehicleRun) -> Iterator[str]:
             yield f"<h2>{heading}</h2>"
             draw = partial(plot.time_histories, run.series["distance"], panels, xlabel="distance [m]")
             yield illustrated(draw, heading)
+    yield from _vehicle(run)
+    yield "<h2>Trust</h2>"
     yield html_of(trusted(trust))
     yield faint(run.step_error.sentence)
     if run.without_damage:
@@ -63,6 +68,40 @@ def _parts(run: VehicleRun) -> Iterator[str]:
     rows = [(name, number(value), BALANCE[name]) for name, value in run.balance.items()]
     yield html_of(Table("Energies of the whole run", [("", ""), ("", "J"), ("", "")], rows))
     yield from declaration(run.scenario, run.step, run.steps)
+
+
+def _vehicle(run: VehicleRun) -> Iterator[str]:
+    """Yield what runs: drawing, numbers, frequencies and stability."""
+    vehicle = run.scenario.vehicle
+    yield "<h2>Vehicle</h2>"
+    yield faint(f"{vehicle.name}. {vehicle.source}")
+    yield f'<div class="wide">{drawing.drawing(vehicle)}</div>'
+    yield html_of(drawing.bodies(vehicle))
+    yield html_of(drawing.elements(vehicle))
+    rows = [(f"{mode.frequency:.3g} Hz", f"{100.0 * mode.damping:.3g} %", name) for name, mode in run.modes()]
+    yield html_of(
+        Table("Modes at the slowest speed, up to 50 Hz", [("", ""), ("damping", ""), ("most moved", "")], rows)
+    )
+    at = [f"{value:.3g} at {1e3 * where:g} mm" for where, value in zip(CONICITY_AT, run.conicities, strict=False)]
+    if at and max(run.conicities) > UNEQUAL * min(run.conicities):
+        yield (
+            f"<p><strong>The equivalent conicity depends on the amplitude: {' and '.join(at)}. The linear critical speed "
+            "is that of small motions and says little of larger ones.</strong></p>"
+        )
+    yield faint(
+        f"Equivalent conicity (EN 15302) {' and '.join(at) or 'not found'}. Linear critical speed "
+        f"{_speed(run.critical_speed)}: "
+        "the least speed at which motions of .1 mm grow, from the eigenvalues of the run's own kernel on straight ideal "
+        "track, to 2 m/s. Larger motions have another one (models.vehicle.hunting)."
+    )
+    yield faint(
+        f"A rail is one mass under each wheel. Its receptance is right below {RIGHT_BELOW:g} Hz: peaks at joints, flats and "
+        "corrugation beyond that are not."
+    )
+
+
+def _speed(speed: float) -> str:
+    return f"{speed:.3g} m/s" if speed < np.inf else "none up to 150 m/s"
 
 
 def _axles(run: VehicleRun) -> list[tuple[str, str]]:

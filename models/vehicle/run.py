@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from contact.accumulation import Histogram
 from contact.errors import ContactError
+from contact.geometry import conicity
 from models.life.scenario import Scenario
 from models.life.track import Track
 from models.life.trust import StepError, Trust
@@ -73,6 +74,8 @@ _LARGEST_AMPLIFICATION = 1.02
 _LONGEST_STEP, _SHORTEST_STEP = 5e-4, 5e-5  # [s]
 #: The error of the step is estimated as far as this beyond the settling and the beginning of the first circle [m].
 _PIECE = 40.0
+#: Amplitudes of the equivalent conicity in the report [m], and the frequency up to which a rail as one mass is right [Hz].
+CONICITY_AT, RIGHT_BELOW = (1e-3, 3e-3), 150.0
 #: Longest step with flats, polygons and slices [s]: the peak of an impact is then within 1.7 % of that of half the step.
 _LONGEST_UNEVEN = 1e-4
 
@@ -298,6 +301,28 @@ class VehicleRun:
     def critical_speed(self) -> float:
         """Linear critical speed on straight track [m/s]; inf above 150 m/s."""
         return linear.critical_speed(self._on_straight, tolerance=2.0)
+
+    @cached_property
+    def conicities(self) -> tuple[float, ...]:
+        """Equivalent conicity of the scenario's wheel and rail at the amplitudes `CONICITY_AT`; empty if it has none."""
+        p = self.scenario.vehicle
+        options: dict[str, Any] = {"nominal_radius": p.radius, "gauge": p.gauge, "flange_back": p.flange_back}
+        try:
+            found = conicity(self.scenario.wheel, self.scenario.rail, CONICITY_AT, gauge_point=p.gauge_point, **options)
+        except ContactError:
+            return ()
+        return tuple(found.conicity.tolist())
+
+    def modes(self, greatest: float = 50.0) -> list[tuple[str, linear.Mode]]:
+        """Return the oscillating modes at the slowest speed up to a frequency [Hz], each with what moves most in it."""
+        simulation = self._on_straight(self.scenario.slowest)
+        free = linear.coordinates(simulation)
+        found = []
+        for mode in linear.modes(simulation):
+            if 0.05 < mode.frequency <= greatest:
+                body, axis = free[int(np.argmax(np.abs(mode.shape[: len(free)])))]
+                found.append((f"{simulation.names[body]} {Axis(axis).name.lower()}", mode))
+        return found
 
     @cached_property
     def step_error(self) -> StepError:

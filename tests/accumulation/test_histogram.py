@@ -146,12 +146,13 @@ def test_a_strip_is_divided_among_bins_by_overlap_and_the_outer_bins_take_the_re
     strips = np.zeros((len(Strip), 4))
     strips[Strip.DY] = dy
     rates = np.arange(1.0, 4.0 * len(Bin) + 1.0).reshape(len(Bin), 4)
-    for is_wheel in (True, False):
+    for is_wheel, wear in ((True, 1.0), (False, 1.0), (False, 1.25)):
         bins = np.zeros((len(Bin), 3))
         settings = np.array([(start, width, distance)], LEDGER)[0]
-        deposit.deposit(rates, edges, strips, 4, settings, 1.0, is_wheel, bins)
+        deposit.deposit(rates, edges, strips, 4, settings, 1.0, is_wheel, wear, bins)
         for row in range(Bin.ENERGY_INDEX_MAX):
             rate = rates[Bin.VOLUME if row == Bin.WEAR and not is_wheel else row]
+            rate = wear * rate if row in (Bin.WEAR, Bin.VOLUME) else rate
             of_bins = distance * dy * rate @ expected
             scale = 1.0 if row in (Bin.VOLUME, Bin.T_GAMMA) else width
             np.testing.assert_allclose(bins[row], of_bins / scale, rtol=1e-14)

@@ -26,8 +26,8 @@ def ledger(n_bins=100, first=-0.06, width=1e-3):
     return workspace.ledger(*rows, 20, n_bins, first, width)
 
 
-def pair(side="right", law="archard", **options):
-    damage = DamageParameters(wear_law=law)
+def pair(side="right", law="archard", rail_wear=1.0, **options):
+    damage = DamageParameters(wear_law=law, rail_wear=rail_wear)
     return WheelRailPair(Pair(*BODIES.values(), side=side), damage=damage, **{**METHODS, **options})
 
 
@@ -39,10 +39,10 @@ def rolled(pair, mirror=1.0):
 
 @pytest.mark.parametrize("law", WEAR_LAWS)
 def test_bins_are_those_of_the_histograms(law):
-    run = pair(law=law, ledger=ledger())
+    run = pair(law=law, rail_wear=1.25, ledger=ledger())
     bins = rolled(run)
     for body, which in (("wheel", Body.WHEEL), ("rail", Body.RAIL)):
-        wanted = Histogram(BODIES[body], width=1e-3, parameters=DamageParameters(wear_law=law))
+        wanted = Histogram(BODIES[body], width=1e-3, parameters=DamageParameters(wear_law=law, rail_wear=1.25))
         for pose, distance in ROLLED.items():
             patches = run.pair.contacts(pose, VELOCITY, load=60e3)
             solutions = [
@@ -59,6 +59,17 @@ def test_bins_are_those_of_the_histograms(law):
             assert np.abs(wanted[name][~keep]).max(initial=0.0) == 0.0
             np.testing.assert_allclose(mine, theirs, rtol=1e-9, atol=1e-12 * np.abs(theirs).max(), err_msg=name)
             assert name.endswith("exceedance") or theirs.any(), name
+
+
+def test_a_softer_rail_loses_more_and_nothing_else_changes():
+    alike, softer = rolled(pair(ledger=ledger())).copy(), rolled(pair(rail_wear=1.25, ledger=ledger()))
+    np.testing.assert_array_equal(softer[Body.WHEEL], alike[Body.WHEEL])
+    worn = [Bin.WEAR, Bin.VOLUME]
+    np.testing.assert_allclose(softer[Body.RAIL][worn], 1.25 * alike[Body.RAIL][worn], rtol=1e-12)
+    others = [row for row in Bin if row not in worn]
+    np.testing.assert_array_equal(softer[Body.RAIL][others], alike[Body.RAIL][others])
+    with pytest.raises(ContactError, match="rail_wear = -1"):
+        DamageParameters(rail_wear=-1.0)
 
 
 def test_left_side_is_the_mirror_image():

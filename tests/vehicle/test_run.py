@@ -17,7 +17,7 @@ from models.life.scenario import read as read_scenario
 from models.life.spectra import Irregularities
 from models.life.track import Track
 from models.life.wear import Life
-from models.vehicle import assess, report
+from models.vehicle import assess, drawing, report
 from models.vehicle.declared import read
 from models.vehicle.kernels.layout import Axis
 from models.vehicle.run import VehicleRun
@@ -130,6 +130,18 @@ def test_report_has_no_nan_and_names_the_limits(whole):
     assert "Prud" in text
     assert "nan" not in text.split("<picture>")[0]
     assert "doctype" in text.lower()
+
+
+def test_report_draws_the_vehicle_with_a_number_for_each_force_element():
+    text = "".join(report._vehicle(VehicleRun(scenario(vehicle="manchester"))))
+    for k, joint in enumerate(drawing.joints_of(read("manchester")), 1):
+        assert f">{k}: {type(joint).__name__.lower()}<" in text
+        assert text.count(f'font-weight="600">{k}</text>') == len(joint.between)
+    assert "body, 32 t" in text
+    assert "k 160, 160, 430 kN/m; c 0, 32, 20 kN s/m" in text
+    assert "depends on the amplitude: 0.354 at 1 mm and 0.174 at 3 mm" in text
+    assert "Linear critical speed" in text
+    assert "body roll" in text
 
 
 def test_a_step_above_stability_is_refused():

@@ -174,13 +174,21 @@ def place(
 
 @entry
 def deposit(
-    rates: Matrix, edges: Matrix, strips: Matrix, n: int, settings: Setting, share: float, is_wheel: bool, bins: Matrix
+    rates: Matrix,
+    edges: Matrix,
+    strips: Matrix,
+    n: int,
+    settings: Setting,
+    share: float,
+    is_wheel: bool,
+    wear: float,
+    bins: Matrix,
 ) -> None:
     """Add the damage by `n` strips over a distance to the bins of a wheel or a rail.
 
     Each strip is shared among the bins that it overlaps. `settings` is a record LEDGER of `layout`. `share` is the
-    weight of the patch. Bin k begins at width·(start + k). The first and the last bin are open outwards, so that
-    nothing is lost.
+    weight of the patch, `wear` that of depth and volume worn off. Bin k begins at width·(start + k). The first and the
+    last bin are open outwards, so that nothing is lost.
     """
     start, width, distance = settings.start, settings.width, share * settings.distance
     greatest = bins.shape[1] - 1
@@ -196,6 +204,8 @@ def deposit(
             amount = distance * strip_width(strips, i) * share
             for row in range(Bin.ENERGY_INDEX_MAX):
                 rate = rates[Bin.VOLUME, i] if row == Bin.WEAR and not is_wheel else rates[row, i]
+                if row == Bin.WEAR or row == Bin.VOLUME:
+                    rate *= wear
                 of_the_bin = row == Bin.VOLUME or row == Bin.T_GAMMA  # the others are means over the width of the bin
                 bins[row, k] += amount * rate if of_the_bin else amount * rate / width
             if amount > 0.0:
