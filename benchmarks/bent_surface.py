@@ -22,7 +22,7 @@ from benchmarks.tables import summary, table
 from contact.geometry.profile import Profile
 from contact.geometry.records import Patch, Pose, Velocity
 from contact.geometry.wheelset import Pair
-from contact.rising_root import rising_root
+from contact.given_force import rising_root
 
 MU = 0.3
 BOTH: dict[str, Any] = {"normal": "halfspace", "tangential": "halfspace"}

@@ -21,11 +21,9 @@ import reference
 from benchmarks import bent_surface, feature_times, rail_reference, roller_polygon
 from benchmarks.patches_of_sets import BOTH, pair_of, parabolas
 from benchmarks.tables import summary, table
-from contact.driven import drive
 from contact.geometry.wheelset import Pose, Velocity
 from contact.halfspace import Gap
-from contact.pair import WheelRailPair
-from contact.roller import RollerRig
+from contact.pair import RollerRig, WheelRailPair, drive
 from contact.stress import SurfaceLoad, below
 
 Row = list[str]

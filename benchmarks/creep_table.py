@@ -14,8 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
-from contact import force_table as table
-from contact import kalker
+from contact.theory import force_table as table
+from contact.theory import kalker
 from reference.unseen import LOAD, MATERIAL, MU, C, errors, solve
 
 #: Elements of the half space across each axis.

@@ -12,17 +12,12 @@ import contact
 import reference
 from benchmarks.patches_of_sets import BOTH
 from benchmarks.timing import least
-from contact.contact_damping import ContactDamping
-from contact.elastic_rail import ElasticRail
 from contact.friction import Friction
-from contact.friction_memory import FrictionMemory
 from contact.geometry import profile
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.halfspace import Gap
-from contact.in_time import over_time
-from contact.pair import WheelRailPair
-from contact.roller import RollerRig
+from contact.pair import ContactDamping, ElasticRail, FrictionMemory, RollerRig, WheelRailPair, over_time
 from contact.stress import SurfaceLoad, below, largest
 
 Row = list[str]

@@ -17,9 +17,9 @@ import numpy as np
 
 import contact
 import reference
-from contact import kalker
 from contact.halfspace import linear
 from contact.study.ellipse import ellipse
+from contact.theory import kalker
 
 TARGET = reference.FOLDER / "linear_slopes.json"
 Array = np.ndarray

@@ -24,9 +24,8 @@ import contact
 import reference
 from benchmarks.patches_of_sets import BOTH, pair_of
 from benchmarks.tables import table
-from contact.elastic_rail import ElasticRail
 from contact.geometry.wheelset import Irregularity, Pose, Velocity
-from contact.pair import PairSolution, WheelRailPair
+from contact.pair import ElasticRail, PairSolution, WheelRailPair
 
 MU, RADIUS = 0.3, 0.46
 FORCES = "Fx_tr", "Fy_tr", "Fz_tr"

@@ -5,7 +5,7 @@
 On a rail CONTACT interpolates the profile by a spline. On a roller it turns the points of the profile about the roller's
 axle and interpolates linearly between them (grid_revolve_profile and interp_cartz2unif in m_wr_undefdist.f90 of the open
 source). The chords lie up to .2 µm under the arc, and the pressure peaks at the corners. Here the same polygon is put on the
-patches of `contact.roller`, on CONTACT's elements.
+patches of `contact.pair.RollerRig`, on CONTACT's elements.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from benchmarks.tables import summary, table
 from contact.geometry.records import Patch
 from contact.geometry.wheelset import Pose, Velocity
 from contact.halfspace import Gap
-from contact.roller import RollerRig
+from contact.pair import RollerRig
 
 _STEP = 2e-4  # [m] of CONTACT's elements
 _ROWS, _COLUMNS = 80, 40  # of elements to both sides of its reference point

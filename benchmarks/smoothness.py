@@ -18,9 +18,9 @@ import numpy as np
 
 import contact
 from benchmarks.tables import table
-from contact import kalker
 from contact.geometry import profile, wheelset
 from contact.solver import N_ELEMENTS, N_STRIPS
+from contact.theory import kalker
 
 MU, LOAD = 0.3, 80e3
 PAIRS = (("analyn", "fastrip"), ("analyn", "fastrip_mapped"), ("strip_halfspace", "fastrip_mapped"))

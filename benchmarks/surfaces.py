@@ -28,9 +28,8 @@ from contact.geometry.profile import Profile
 from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface
 from contact.geometry.surfaces.frame import Frame, PlacedWheel, heights
 from contact.geometry.wheelset import Pose, Velocity
-from contact.pair import WheelRailPair
+from contact.pair import HalfspacePair, WheelRailPair
 from contact.study.errors import mean_p95_max
-from contact.surface_pair import HalfspacePair
 from reference import STEEL
 
 Row = dict[str, str]

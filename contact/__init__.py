@@ -4,6 +4,7 @@ The methods follow M. Sh. Sichani, "On Efficient Modelling of Wheel-Rail Contact
 2016. All quantities are in SI units. Forces act on the wheel. Start with `solve`.
 """
 
+import sys
 from typing import TYPE_CHECKING, Any
 
 from contact.citation import cite
@@ -13,14 +14,14 @@ from contact.errors import ContactError
 from contact.forces import forces
 from contact.halfspace.third_body import ThirdBody
 from contact.halfspace.transient import Transient
-from contact.hertz import HertzContact, hertz
 from contact.material import STEEL, Material
+from contact.moved import Moved
 from contact.registry import Method, Methods, methods
-from contact.resultants import Forces
 from contact.separation import Separation
-from contact.solution import Solution, Status, Strips
+from contact.solution import Forces, Solution, Status, Strips
 from contact.solve import solve
 from contact.solver import THESIS, Solver
+from contact.theory.hertz import HertzContact, hertz
 from contact.version import __version__ as __version__
 
 if TYPE_CHECKING:
@@ -56,6 +57,8 @@ __all__ = [
     "methods",
     "solve",
 ]
+
+sys.meta_path.append(Moved())
 
 
 def __getattr__(name: str) -> Any:

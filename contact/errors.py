@@ -1,11 +1,14 @@
-"""The exception of the public API, and the checks that raise it."""
+"""The exception of the public API, the warnings, and the checks that raise them."""
 
 import math
 import operator
 import sys
 import warnings
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from difflib import get_close_matches
+from typing import Any, TypeVar
+
+Class = TypeVar("Class")
 
 
 class ContactError(ValueError):
@@ -143,3 +146,36 @@ def suggestion(word: object, known: Iterable[str]) -> str:
     originals = {name.casefold(): name for name in known}
     close = get_close_matches(str(word).casefold(), originals, n=1)
     return f", did you mean {originals[close[0]]!r}?" if close else ""
+
+
+class _OnlyWithFields:
+    """Descriptor of an attribute that can be read only if the record's `has_fields` is true."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def __get__(self, record: Any, owner: type | None = None) -> Any:
+        if record is None:
+            return self
+        if not record.has_fields:
+            raise ContactError(
+                f"there is no {self.name}: tangential = {record.tangential!r} gives forces only; contact.methods() lists "
+                "the methods with fields"
+            )
+        if self.name not in record.__dict__:
+            return record.__getattr__(self.name)
+        return record.__dict__[self.name]
+
+    def __set__(self, record: Any, value: Any) -> None:
+        record.__dict__[self.name] = value
+
+
+def only_with_fields(*names: str) -> Callable[[type[Class]], type[Class]]:
+    """Return a class decorator: these attributes raise a ContactError if the record's `has_fields` is false."""
+
+    def wrap(record: type[Class]) -> type[Class]:
+        for name in names:
+            setattr(record, name, _OnlyWithFields(name))
+        return record
+
+    return wrap

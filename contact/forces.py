@@ -23,8 +23,8 @@ from contact.kernels.records import RESULT
 from contact.material import STEEL, Material
 from contact.plausibility import doubt_alike, doubt_gap, doubt_values
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
-from contact.resultants import Forces
 from contact.separation import Separation
+from contact.solution import Forces
 from contact.solver import N_ELEMENTS, N_STRIPS, require_conformal, require_resolution
 
 Array = NDArray[np.float64]

@@ -10,14 +10,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
-from contact.rising_root import rising_root
+from contact.kernels.records import ROOT
+from contact.kernels.root import advance, begin
 from contact.solution import Solution, Status
 
 Array = NDArray[np.float64]
@@ -187,3 +188,42 @@ class _Search:
             moved[k] += 1e-4 * max(unit, size(u))
             columns.append((self.at(moved)[1] - residual) / (moved[k] - u[k]))
         return np.stack(columns, axis=1)
+
+
+class Root(NamedTuple):
+    """The last point `x` and the `residual` there. `beyond`: the residual does not change its sign up to that end."""
+
+    x: float
+    residual: float
+    beyond: bool
+
+
+def rising_root(
+    residual: Callable[[float], float],
+    start: float,
+    slope: float,
+    ends: tuple[float, float],
+    *,
+    shortest: float,
+    most: int = 60,
+) -> Root:
+    """Return the root by secants that are kept inside a bracket.
+
+    Parameters
+    ----------
+    residual : callable
+        A rising function; it returns 0.0 where it is small enough.
+    start, slope : float
+        Where the search starts, and the slope expected there, positive.
+    ends : (float, float)
+        Ends of the range; they are evaluated only if the search gets there.
+    shortest : float
+        A bracket shorter than this ends the search: the function jumps.
+    most : int
+        Largest number of evaluations.
+    """
+    root = np.zeros(1, ROOT)[0]
+    begin(root, start, slope, *ends)
+    while advance(root, float(residual(float(root.x))), shortest, most):
+        pass
+    return Root(float(root.x), float(root.value), bool(root.beyond))

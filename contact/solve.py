@@ -21,7 +21,6 @@ from contact.halfspace.gap import Division, Gap
 from contact.halfspace.pressed import Pressed
 from contact.halfspace.solve import press_gap, press_solution
 from contact.halfspace.third_body import ThirdBody
-from contact.kalker import constant_table
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.material import STEEL, Material
 from contact.plausibility import doubt_alike, doubt_case
@@ -37,6 +36,7 @@ from contact.solver import (
     require_resolution,
     require_trustworthy,
 )
+from contact.theory.kalker import constant_table
 from contact.trace import show, show_step
 
 Array = NDArray[np.float64]

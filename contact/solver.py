@@ -17,7 +17,6 @@ from contact.creepage import Creepage, as_creepage
 from contact.errors import ContactError, require_integer, require_number
 from contact.friction import Friction, as_friction
 from contact.given_force import solve_for_force, wanted_force
-from contact.jacobian import Jacobian
 from contact.kernels.arrays import Cases, Integers, Results, Workspace
 from contact.kernels.enumerations import LoadKind
 from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
@@ -28,9 +27,8 @@ from contact.kernels.records import RESULT
 from contact.material import STEEL, Material
 from contact.plausibility import doubt_alike, doubt_case, doubt_gap, doubt_strips
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
-from contact.resultants import CaseForces
 from contact.separation import Separation
-from contact.solution import BEND, Prepared, Solution, Status
+from contact.solution import BEND, CaseForces, Jacobian, Prepared, Solution, Status
 
 #: Default resolution. On the patches of set D the normal force is then 0.06 %, the largest pressure 0.3 % off CONTACT's.
 N_STRIPS, N_ELEMENTS = 20, 20
@@ -159,7 +157,7 @@ class Solver:
             memory[:] = solution.memory
 
     def calibrate(self, table: NDArray[np.float64]) -> None:
-        """Use `table` of creepage coefficients (`contact.kalker.constant_table`) instead of that of linear theory."""
+        """Use `table` of creepage coefficients (`contact.theory.kalker.constant_table`) instead of that of linear theory."""
         self._coefficients = table
         self._allocate(self._n_samples)
 

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact import force_table, kalker
 from contact.core import COMPILING, library
 from contact.kernels import memory, quadrature
 from contact.kernels.arrays import Bench, Ledger, Rule, Search, Sheet, Size, SurfaceSearch, Tables, Workspace
@@ -19,6 +18,7 @@ from contact.kernels.normal.between_panels import fill_probes
 from contact.kernels.normal.descent import fill_descent
 from contact.kernels.rows import Bin
 from contact.registry import Method
+from contact.theory import force_table, kalker
 
 Array = NDArray[np.float64]
 

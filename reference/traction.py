@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import contact
+from contact.damage.temperature import flash_temperature
 from contact.friction import Friction
 from contact.material import Thermal
-from contact.temperature import flash_temperature
 
 #: Slip [%] of the columns.
 SLIPS = (0.2, 4.0, 15.0, 25.0)

@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 
 import contact
-from contact import force_table as table
 from contact.study.ellipse import ellipse
+from contact.theory import force_table as table
 
 MATERIAL, LOAD, MU, C = contact.Material(82e9, table.NU), 82e3, 0.3, 6e-3
 

@@ -8,9 +8,8 @@ import pytest
 import contact
 import reference
 from contact.friction import Friction
-from contact.given_force import LARGEST
+from contact.given_force import LARGEST, rising_root
 from contact.halfspace import pressed
-from contact.rising_root import rising_root
 
 LOAD, MU = 8e4, 0.3
 SEPARATION = contact.Separation.hertzian(1.1, 0.8)

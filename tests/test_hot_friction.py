@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 import contact
+from contact.damage.temperature import flash_temperature
 from contact.friction import Friction
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose
 from contact.material import Thermal
 from contact.pair import WheelRailPair
-from contact.temperature import flash_temperature
 
 SEPARATION = contact.Separation.hertzian(1.0, 2.0)
 METHODS = contact.methods().batched.tangential

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import contact
-from contact import kalker
+from contact.theory import kalker
 
 
 @pytest.mark.parametrize(("ratio", "nu", "row"), [

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import contact
-from contact.temperature import Thermal, flash_temperature, heating
+from contact.damage.temperature import Thermal, flash_temperature, heating
 
 
 def elliptic(n, a, flux):

@@ -19,7 +19,7 @@ from contact.cli.problem import load_or_standard
 from contact.geometry.surfaces import Deviation, RailSurface, SurfacePair, WheelSurface
 from contact.geometry.surfaces.deviation import out_of_round
 from contact.geometry.wheelset import Pose, Velocity
-from contact.passage import Passage, passage, solver_for
+from contact.pair.passage import Passage, passage, solver_for
 
 _WAY = "Way"
 _HEADINGS = ("at\nmm", "z\nmm", "patch", "x\nmm", "y\nmm", "N\nkN", "Fx\nkN", "Fy\nkN", "p max\nMPa", "gap\nerror")

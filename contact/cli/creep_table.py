@@ -7,12 +7,12 @@ from typing import Annotated
 
 import typer
 
-from contact import force_table as table
 from contact.cli import options as opt
 from contact.cli.output import deliver, reported
 from contact.cli.progress import progress_bar
 from contact.study import creep_table
 from contact.study import effective as effective_creepage
+from contact.theory import force_table as table
 
 app = typer.Typer(
     name="table",

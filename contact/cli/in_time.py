@@ -15,13 +15,10 @@ from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.problem import load_or_standard
 from contact.cli.report import show_curve
-from contact.contact_damping import ContactDamping
-from contact.elastic_rail import ElasticRail
 from contact.errors import ContactError
-from contact.friction_memory import FrictionMemory
 from contact.geometry.wheelset import Pair
-from contact.in_time import LOAD, over_time
-from contact.pair import WheelRailPair
+from contact.pair import ContactDamping, ElasticRail, FrictionMemory, WheelRailPair
+from contact.pair.in_time import LOAD, over_time
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 
 _SHOWN = 25  # lines of the printed table

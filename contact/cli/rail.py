@@ -12,11 +12,9 @@ from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.output import deliver, prepare, reported
 from contact.cli.problem import standard_load
-from contact.driven import drive
-from contact.elastic_rail import ElasticRail
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Pair, Velocity
-from contact.pair import WheelRailPair
+from contact.pair import ElasticRail, WheelRailPair, drive
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.study.table import number
 

@@ -10,8 +10,8 @@ from contact.cli.document import flat
 from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.problem import Touch, standard_load
 from contact.geometry.wheelset import Pair, Velocity
+from contact.pair import RollerRig
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
-from contact.roller import RollerRig
 
 
 @reported

@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.absence import only_with_fields
 from contact.damage.archard import ArchardMap
 from contact.damage.burstow import Burstow
 from contact.damage.pearce_sherratt import PearceSherratt
 from contact.damage.usfd import Usfd
-from contact.errors import ContactError, require_number
+from contact.errors import ContactError, only_with_fields, require_number
 from contact.kernels.damage.assess import damage_kernel
 from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, RESULT
 from contact.kernels.rows import DamageField, Field, Strip

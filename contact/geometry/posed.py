@@ -16,7 +16,7 @@ from contact.plausibility import doubt_value
 Side = Literal["right", "left"]
 
 MAX_PENETRATION = 2e-3  # [m] that of a wheel under 10 MN; a larger value has a wrong unit
-LARGEST_SLIP = 0.55  # of a wheel that is driven or braked; `contact.driven` searches up to 0.5
+LARGEST_SLIP = 0.55  # of a wheel that is driven or braked; `contact.pair.drive` searches up to 0.5
 _ROLLING, _IDEAL = Velocity(), Irregularity()
 
 

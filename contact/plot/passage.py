@@ -11,7 +11,7 @@ from contact.errors import ContactError
 from contact.plot.style import DPI, INK, LINES, MM, style
 
 if TYPE_CHECKING:
-    from contact.passage import Passage
+    from contact.pair import Passage
 
 _GPA, _KN = 1e-9, 1e-3
 

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from contact.errors import ContactError, require_integer
 from contact.halfspace.gap import Division, even
 from contact.halfspace.solution import GridSolution
-from contact.pressure import pressure_of_patch
 from contact.solution import Solution
+from contact.solution.pressure import pressure_of_patch
 
 Array = NDArray[np.float64]
 

@@ -8,14 +8,14 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from contact import force_table as table
-from contact import kalker
 from contact.creepage import Creepage
 from contact.errors import ContactError
 from contact.forces import cores
 from contact.material import Material
 from contact.solve import solve
 from contact.study.ellipse import ellipse
+from contact.theory import force_table as table
+from contact.theory import kalker
 
 #: Conditions of the computation: material, load [N], friction [-] and √(ab) [m]. The results are divided by mu N or mu N c.
 MATERIAL, LOAD, FRICTION, C = Material(82e9, table.NU), 82e3, 0.3, 6e-3

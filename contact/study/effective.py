@@ -10,7 +10,6 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from contact import force_table as table
 from contact import friction, workspace
 from contact.case import cases, set_surface
 from contact.errors import ContactError
@@ -21,6 +20,7 @@ from contact.kernels.tangential.fastrip_mapped import roll_patch, set_shapes
 from contact.registry import lookup
 from contact.study import creep_table
 from contact.study.ellipse import ellipse
+from contact.theory import force_table as table
 
 Array = NDArray[np.float64]
 

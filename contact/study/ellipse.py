@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from contact.hertz import hertz
 from contact.material import STEEL, Material
 from contact.separation import Separation
+from contact.theory.hertz import hertz
 
 
 def ellipse(aspect: float, c: float, load: float, material: Material = STEEL) -> Separation:

@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError, require_integer, suggestion
-from contact.pair import WheelRailPair
-from contact.poses import over_poses
+from contact.pair import WheelRailPair, over_poses
 from contact.study.files import require_ending
 
 Array = NDArray[np.float64]
@@ -170,7 +169,7 @@ def lookup_table(
     ----------
     pair : WheelRailPair
     axes : mapping of str → array_like
-        Names from `AXES`, arguments of `contact.poses.over_poses` → increasing breakpoints, two at least. The tables'
+        Names from `AXES`, arguments of `contact.pair.over_poses` → increasing breakpoints, two at least. The tables'
         dimensions are in the order of `AXES`.
     tables : tuple of str
         Names from `TABLES`.

@@ -16,11 +16,11 @@ from matplotlib_inline.backend_inline import set_matplotlib_formats
 from myst_nb import glue
 
 import contact
-from contact import kalker
 from contact.geometry import profile, wheelset
 from contact.halfspace.influence import integrals
-from contact.hertz import local_factors
 from contact.plot.style import INK, LINES, style
+from contact.theory import kalker
+from contact.theory.hertz import local_factors
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 from contact.study.ellipse import ellipse as _ellipse

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from contact.geometry import profile
 from contact.geometry.surfaces import RailSurface, SurfacePair
 from contact.geometry.wheelset import Pose, Velocity
-from contact.passage import Passage, passage, solver_for
+from contact.pair.passage import Passage, passage, solver_for
 from contact.plot import passage as draw
 from contact.plot import patch
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from contact import force_table, kalker, workspace
+from contact import workspace
+from contact.theory import force_table, kalker
 
 
 def data() -> tuple[np.ndarray, ...]:

@@ -12,12 +12,11 @@ from pythonfmu.enums import Fmi2Status
 
 from contact import Material, Status, workspace
 from contact.damage import WEAR_LAWS, DamageParameters
-from contact.elastic_rail import ElasticRail
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.wheelset import Pair
-from contact.pair import Contact, WheelRailPair
+from contact.pair import Contact, ElasticRail, WheelRailPair
 from fmu_src import profiles
 from fmu_src.python.friction import friction
 from fmu_src.python.slave import TableSlave

@@ -8,9 +8,9 @@ import pytest
 
 import contact
 import reference
-from contact import kalker
 from contact.halfspace import influence, norm, tang
 from contact.study.ellipse import ellipse
+from contact.theory import kalker
 
 MU, STEEL = 0.3, reference.STEEL
 TANG = sys.modules["contact.halfspace.tang"]

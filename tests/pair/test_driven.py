@@ -5,10 +5,9 @@ import json
 import pytest
 
 from contact import ContactError, Status
-from contact.driven import drive
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.pair import WheelRailPair
+from contact.pair import WheelRailPair, drive
 from tests.command_line import call
 
 FREE = -2.0 / 0.46

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from contact import ContactError, Status
-from contact.elastic_rail import ElasticRail
 from contact.geometry import profile
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
-from contact.pair import WheelRailPair
+from contact.pair import ElasticRail, WheelRailPair
 from tests.command_line import call
 
 VELOCITY = Velocity(2.0, spin=-2.0 / 0.46 * 1.0003)

@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 
 from contact import ContactError
-from contact.elastic_rail import ElasticRail
 from contact.geometry import profile
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.pair import WheelRailPair
+from contact.pair import ElasticRail, WheelRailPair
 from tests.command_line import call
 
 V = 20.0

@@ -7,14 +7,11 @@ import numpy as np
 import pytest
 
 from contact import ContactError
-from contact.contact_damping import ContactDamping
 from contact.friction import Friction
-from contact.friction_memory import FrictionMemory
 from contact.geometry import profile
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.in_time import over_time
-from contact.pair import WheelRailPair
+from contact.pair import ContactDamping, FrictionMemory, WheelRailPair, over_time
 from tests.command_line import call
 
 LAW = Friction(static=0.35, law="exponential", kinetic=0.15, half_speed=0.5)

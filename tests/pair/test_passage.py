@@ -10,8 +10,7 @@ from contact import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pose, Velocity
-from contact.pair import WheelRailPair
-from contact.passage import passage
+from contact.pair import WheelRailPair, passage
 from examples.crossing import crossing
 from tests.command_line import call
 

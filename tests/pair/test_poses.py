@@ -7,8 +7,7 @@ from contact import ContactError, Status
 from contact.errors import PlausibilityWarning
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.pair import WheelRailPair
-from contact.poses import over_poses
+from contact.pair import WheelRailPair, over_poses
 
 RADIUS = 0.46
 

@@ -9,8 +9,7 @@ import contact
 from contact import ContactError
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.pair import WheelRailPair
-from contact.roller import RollerRig
+from contact.pair import RollerRig, WheelRailPair
 from tests.command_line import call
 
 WHEEL, RAIL = profile.s1002(), profile.rail_60e1()

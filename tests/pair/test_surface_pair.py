@@ -10,8 +10,7 @@ from contact.geometry import profile
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, Wave, WheelSurface
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
-from contact.pair import WheelRailPair
-from contact.surface_pair import HalfspacePair
+from contact.pair import HalfspacePair, WheelRailPair
 from examples.crossing import crossing
 
 R0 = 0.460

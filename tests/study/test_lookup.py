@@ -10,8 +10,7 @@ from scipy.io import loadmat
 from contact import ContactError
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair
-from contact.pair import WheelRailPair
-from contact.poses import over_poses
+from contact.pair import WheelRailPair, over_poses
 from contact.study.lookup import estimate, interpolation_error, lookup_table
 from tests.command_line import call
 

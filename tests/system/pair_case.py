@@ -7,11 +7,10 @@ import pytest
 from fmpy.fmi1 import FMICallException
 
 import contact
-from contact.elastic_rail import ElasticRail
 from contact.geometry import profile
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
-from contact.pair import PairSolution, WheelRailPair
+from contact.pair import ElasticRail, PairSolution, WheelRailPair
 from reference.random_cases import PARTNERS
 
 NAME = "WheelRailPair"

@@ -16,7 +16,7 @@ from fmu_instance import Instance, discarded
 from thesis_case import THESIS
 
 import contact
-from contact import kalker
+from contact.theory import kalker
 from fmu_src.catalogue import models
 from fmu_src.python.packaging import build  # imported here, since an FMU that is loaded first brings its own pythonfmu
 from models.wheelset.ports import PROBLEM, REACTION

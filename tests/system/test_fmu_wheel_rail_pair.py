@@ -16,14 +16,10 @@ from pair_case import MOTION, NAME, compare, expected, mirrored, solved
 from thesis_case import THESIS
 
 import contact
-from contact.contact_damping import ContactDamping
-from contact.elastic_rail import ElasticRail
 from contact.friction import Friction
-from contact.friction_memory import FrictionMemory
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.in_time import over_time
-from contact.pair import WheelRailPair
+from contact.pair import ContactDamping, ElasticRail, FrictionMemory, WheelRailPair, over_time
 
 ROOT = Path(__file__).parents[2]
 

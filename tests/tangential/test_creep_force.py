@@ -7,12 +7,12 @@ import pytest
 from scipy import integrate
 
 import contact
-from contact import kalker
 from contact.friction import Friction
 from contact.kernels.tangential.carter import carter, creepage_of_full_slip
 from contact.kernels.tangential.linear import smoothed
 from contact.kernels.tangential.polach import polach
 from contact.kernels.tangential.vermeulen_johnson import slopes, vermeulen_johnson
+from contact.theory import kalker
 
 LAWS = [name for name, method in contact.methods().tangential.items() if not method.fields]
 N, MU, G, NU = 8e4, 0.3, contact.STEEL.shear_modulus, contact.STEEL.poisson_ratio

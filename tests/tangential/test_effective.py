@@ -7,10 +7,10 @@ import pytest
 
 import contact
 import reference
-from contact import force_table as table
-from contact import kalker
 from contact.study import creep_table, effective
 from contact.study.ellipse import ellipse
+from contact.theory import force_table as table
+from contact.theory import kalker
 from reference import unseen
 
 LOAD, MU, C = 82e3, 0.3, 6e-3

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import contact
-from contact import kalker
+from contact.theory import kalker
 
 TANGENTIAL = [name for name, method in contact.methods().batched.tangential.items() if method.fields]
 N, MU = 8e4, 0.3

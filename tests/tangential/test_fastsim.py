@@ -7,9 +7,9 @@ import pytest
 
 import contact
 import reference
-from contact import kalker
 from contact.kernels.tangential.ellipses import flexibilities, weighted
 from contact.study.ellipse import ellipse
+from contact.theory import kalker
 
 N, MU, G, NU = 8e4, 0.3, contact.STEEL.shear_modulus, contact.STEEL.poisson_ratio
 ELLIPSES = [contact.Separation.hertzian(1.0, B) for B in (0.4, 1.0, 6.0)]

@@ -7,10 +7,10 @@ import pytest
 
 import contact
 import reference
-from contact import force_table as table
-from contact import kalker
 from contact.kernels.tangential import table as kernel
 from contact.study import creep_table
+from contact.theory import force_table as table
+from contact.theory import kalker
 from reference import unseen
 
 G, C, LIMIT, NU = 82e9, 6e-3, 24600.0, table.NU

@@ -11,10 +11,10 @@ import pytest
 
 import contact
 import reference
-from contact import kalker
 from contact.damage import evaluate
 from contact.geometry import profile, wheelset
 from contact.study.ellipse import ellipse
+from contact.theory import kalker
 from reference import accuracy
 
 LOAD, C, MU = reference.N_ELLIPSE, 5e-3, reference.MU

@@ -13,7 +13,6 @@ from contact.case import cases, set_surface
 from contact.core import pack
 from contact.creepage import Creepage
 from contact.damage import DamageParameters
-from contact.elastic_rail import ElasticRail
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry.flexible import WheelOffset
@@ -27,6 +26,7 @@ from contact.kernels.flexible import solve_on_profiles, solve_on_surfaces
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.records import LARGEST_ANGLE
 from contact.material import STEEL, Material
+from contact.pair.elastic_rail import ElasticRail
 from contact.plausibility import doubt_alike, doubt_gap
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, GAP_LIMIT, lookup
 from contact.solution import Status
@@ -289,7 +289,7 @@ class WheelRailPair:
             Coulomb's coefficient mu ≥ 0 [-], or a friction law, evaluated with the sliding velocity of each patch.
         distance : float
             Distance rolled in this state [m], not negative, for the ledger. If the solution fails, nothing is added.
-        rail : contact.elastic_rail.ElasticRail
+        rail : contact.pair.ElasticRail
             Springs under the rail. Its deflection is found, from that of the last call; `forget` resets it. If the force
             jumps and no deflection is in balance, the status is NOT_CONVERGED. It takes three to thirty times as long.
         offset : contact.geometry.flexible.WheelOffset
@@ -365,7 +365,7 @@ class WheelRailPair:
     def _set_rail(self, rail: ElasticRail) -> None:
         if rail is not self._rail:
             if not isinstance(rail, ElasticRail):
-                raise ContactError(f"rail = {rail!r} is not a contact.elastic_rail.ElasticRail")
+                raise ContactError(f"rail = {rail!r} is not a contact.pair.ElasticRail")
             springs = self.bench.rail
             springs["ky"], springs["kz"], springs["preload_y"], springs["preload_z"] = rail.record()
             self._rail = rail

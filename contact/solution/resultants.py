@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.jacobian import Jacobian
 from contact.kernels.enumerations import Status
+from contact.solution.jacobian import Jacobian
 
 Numbers = float | NDArray[np.float64]
 

@@ -29,9 +29,9 @@ from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry.records import Patch, Pose, Velocity
 from contact.geometry.wheelset import Pair
+from contact.given_force import rising_root
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
-from contact.rising_root import rising_root
 from contact.separation import Separation
 from contact.solution import Solution, Status
 from contact.solve import solve

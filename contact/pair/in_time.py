@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact.contact_damping import ContactDamping
-from contact.elastic_rail import ElasticRail
 from contact.errors import ContactError
 from contact.friction import Friction, as_friction
-from contact.friction_memory import FrictionMemory
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.records import Irregularity, Pose, Velocity
-from contact.pair import PairSolution, WheelRailPair
+from contact.pair.contact_damping import ContactDamping
+from contact.pair.elastic_rail import ElasticRail
+from contact.pair.friction_memory import FrictionMemory
+from contact.pair.wheel_rail import PairSolution, WheelRailPair
 
 Array = NDArray[np.float64]
 
@@ -56,7 +56,7 @@ def over_time(
         In place of `friction`. It follows the sliding velocity of the patch with the largest normal force.
     damping : ContactDamping
         Its forces are added to ``Fx``, ``Fy``, ``Fz``, ``Q`` and ``Y``, from the second row on.
-    rail : contact.elastic_rail.ElasticRail
+    rail : contact.pair.ElasticRail
 
     Returns
     -------

@@ -8,8 +8,8 @@ from typing import Any
 
 from contact.errors import ContactError, require_number
 from contact.geometry.records import Pose, Velocity
-from contact.pair import PairSolution, WheelRailPair
-from contact.rising_root import rising_root
+from contact.given_force import rising_root
+from contact.pair.wheel_rail import PairSolution, WheelRailPair
 from contact.solution import Status
 
 #: Largest error of the force over the vertical force; a larger one, up to `_LEFT`, is accepted if the force jumps.

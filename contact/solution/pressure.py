@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from contact.notebook import Sketch
 
 if TYPE_CHECKING:
-    from contact.solution import Solution, Strips
+    from contact.solution.solution import Solution, Strips
 
 Array = NDArray[np.float64]
 

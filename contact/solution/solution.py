@@ -11,10 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact.absence import only_with_fields
 from contact.creepage import Creepage
 from contact.damage import Damage, evaluate
-from contact.jacobian import Jacobian
+from contact.errors import only_with_fields
 from contact.kernels.arrays import Workspace
 from contact.kernels.enumerations import Status
 from contact.kernels.friction import of_case
@@ -22,8 +21,9 @@ from contact.kernels.records import CASE, RESULT
 from contact.kernels.rows import Field, Strip
 from contact.material import Material
 from contact.notebook import beside, table
-from contact.pressure import pressure_at, sketch
 from contact.registry import methods
+from contact.solution.jacobian import Jacobian
+from contact.solution.pressure import pressure_at, sketch
 
 Array = NDArray[np.float64]
 Records = NDArray[np.void]

@@ -12,13 +12,16 @@ with the slip velocity s in m/s and the rolling speed V. For elliptic heat, mu p
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError
 from contact.material import Thermal
-from contact.solution import Solution
+
+if TYPE_CHECKING:
+    from contact.solution import Solution
 
 Array = NDArray[np.float64]
 

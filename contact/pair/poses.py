@@ -19,7 +19,7 @@ from contact.geometry.posed import MAX_PENETRATION
 from contact.geometry.wheelset import Pair
 from contact.kernels.enumerations import Height
 from contact.kernels.records import GIVEN, LARGEST_ANGLE, TOTAL
-from contact.pair import WheelRailPair
+from contact.pair.wheel_rail import WheelRailPair
 from contact.plausibility import doubt_values
 from contact.solution import Status
 

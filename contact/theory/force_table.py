@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from contact import kalker
 from contact.errors import ContactError
 from contact.kernels.tangential.table import (
     LOG_ASPECT_MAX,
@@ -21,6 +20,7 @@ from contact.kernels.tangential.table import (
     R0,
     spin_weight,
 )
+from contact.theory import kalker
 
 Array = NDArray[np.float64]
 

@@ -13,9 +13,9 @@ from contact.errors import ContactError, require_number
 from contact.friction import Friction
 from contact.geometry.records import Pose, Velocity
 from contact.geometry.surfaces import SurfacePair
-from contact.pair import Contact, PairSolution, WheelRailPair
+from contact.pair.halfspace import HalfspacePair, SurfaceContact, SurfaceSolution
+from contact.pair.wheel_rail import Contact, PairSolution, WheelRailPair
 from contact.registry import DEFAULT_TANGENTIAL
-from contact.surface_pair import HalfspacePair, SurfaceContact, SurfaceSolution
 
 Array = NDArray[np.float64]
 
