@@ -26,8 +26,8 @@ Array = NDArray[np.float64]
 
 
 #: The tables in the package: creep forces (made by `contact table build`) and effective creepages (`table effective`).
-FILE = Path(__file__).parent / "data" / "creep_table.csv"
-EFFECTIVE_FILE = Path(__file__).parent / "data" / "effective_creepage.csv"
+FILE = Path(__file__).parents[1] / "data" / "creep_table.csv"
+EFFECTIVE_FILE = Path(__file__).parents[1] / "data" / "effective_creepage.csv"
 
 
 def nodes() -> tuple[Array, Array, Array, Array]:

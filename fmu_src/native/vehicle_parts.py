@@ -11,7 +11,7 @@ from contact.kernels.block import ahead, cube, matrix, records, vector
 from contact.kernels.records import GIVEN, MOTION
 from fmu_src.native.components import FARTHEST
 from fmu_src.native.memory import compiled, integers_of
-from models.vehicle.course import BEYOND, SPACING
+from models.vehicle.course import BEYOND
 from models.vehicle.kernels.layout import (
     BODY,
     ELEMENT,
@@ -101,7 +101,6 @@ def arrange(work, end, track, n_track, at, constants):
     power, end = vector(work, end, 3)
     motions, end = records(work, end, n_wheels, MOTION)
     surface, end = vector(work, end, 2)
-    places, end = vector(work, end, 2)
     model = Model(
         records(constants.bodies, 0, n_bodies, BODY)[0],
         own_links,
@@ -111,7 +110,6 @@ def arrange(work, end, track, n_track, at, constants):
         carray(track, (_N_ROW, n_track)),
         carray(constants.rail, (5,)),
         surface,
-        places,
     )
     state = State(q, u, inner, rails, loads, sums, books)
     return Parts(begun, model, state, Scratch(frames, forces, given, seats, wheels, power), motions), end
@@ -124,7 +122,6 @@ def fill(parts, constants, radius, origin_y, origin_z):
     declared = records(constants.links, 0, own.size, LINK)[0]  # without rotations and offsets
     for k in range(own.size):
         own[k].a, own[k].b = declared[k].a, declared[k].b
-    parts.model.spacing[0], parts.model.spacing[1] = SPACING, -BEYOND
     for w in range(parts.motions.size):
         here = parts.motions[w]
         here.radius, here.mirror = radius, 1.0 if w % 2 == 0 else -1.0
@@ -143,8 +140,8 @@ def track_after(resources, n_files):
 @compiled
 def has_ended(parts):
     """Return whether the vehicle has reached the end of the track, or has no finite place."""
-    s = parts.state.books[Book.DISTANCE]
-    return not 0.0 <= s + BEYOND <= SPACING * (parts.model.track.shape[1] - 1) - BEYOND
+    s, places = parts.state.books[Book.DISTANCE], parts.model.track[Row.PLACE]
+    return not places[0] <= s <= places[-1] - BEYOND
 
 
 @compiled

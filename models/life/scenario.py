@@ -21,6 +21,7 @@ from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solver import N_ELEMENTS, N_STRIPS, require_resolution
 from models.life.declared import build, read_table
 from models.life.slices import Rails
+from models.life.torque import Torque
 from models.life.track import Speed, Track
 from models.life.uneven import Wheels
 from models.vehicle.declared import VehicleDeclaration
@@ -110,8 +111,8 @@ class Recording:
     ----------
     settling : distance at the start without damage, over which the irregularities grow from zero [m]
     spacing : distance between two samples of damage and time series [m], 0.01 to 10
-    step : step of the vehicle [s], 1e-5 to 5e-3; default 0.7 of the stable step, at most 0.5 ms, with uneven wheels or
-        slices 0.1 ms (docs/vehicle.md, 5)
+    step : step of the vehicle [s], 1e-5 to 5e-3; default 0.7 of the stable step, at most 0.5 ms, with uneven wheels,
+        slices or measured tracks with stations closer than 50 mm 0.1 ms (docs/vehicle.md, 5)
     bins : width of the bins of damage along the profiles [m], 1e-4 to 5e-3
     """
 
@@ -141,6 +142,7 @@ class Declaration:
     vehicle : file of a vehicle relative to the scenario's file, or one of the included ones: `manchester`, or `wheelset`, the
         default (docs/vehicle.md)
     friction : coefficient of friction, 0.3 by default, or a table
+    torque : torques on axles, traction and braking, a table each; several on one axle add
     track, profiles, wheels, rails, methods, damage, recording : separate tables
     """
 
@@ -151,6 +153,7 @@ class Declaration:
     vehicle: str = "wheelset"
     track: Track = field(default_factory=Track)
     friction: float | Friction = 0.3
+    torque: tuple[Torque, ...] = ()
     profiles: Profiles = field(default_factory=Profiles)
     wheels: Wheels = field(default_factory=Wheels)
     rails: Rails = field(default_factory=Rails)
@@ -318,7 +321,10 @@ def from_table(table: dict[str, Any], path: Path) -> Scenario:
         raise ContactError(f"{path.name}.profiles: {error}") from None
     beside = path.parent / declared.vehicle
     vehicle = read_vehicle(beside if beside.is_file() else declared.vehicle)
-    declared.wheels.require_axles([axle.name for axle in vehicle.wheelsets], f"{path.name}.wheels")
+    axles = [axle.name for axle in vehicle.wheelsets]
+    declared.wheels.require_axles(axles, f"{path.name}.wheels")
+    for k, torque in enumerate(declared.torque):
+        torque.require_axles(axles, f"{path.name}.torque[{k}]")
     return Scenario(
         declared,
         wheel,

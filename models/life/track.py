@@ -117,6 +117,11 @@ class Track:
                     f"{before.end:g} m"
                 )
 
+    @property
+    def resolution(self) -> float:
+        """Least distance of the stations of a measured track [m]; inf for others, whose waves are .5 m long or longer."""
+        return float(np.diff(_stations(self.measured)[:, 0]).min()) if self.measured is not None else math.inf
+
     def channels(self, seed: tuple[int, ...], s: Array, settling: float) -> tuple[Array, ...]:
         """Return values and slopes of alignment, vertical, cross-level and gauge at the distances `s` [m], shape (2, n) each.
 
@@ -141,8 +146,8 @@ class Track:
         return right, left
 
 
-def _measured(path: str, s: Array) -> list[Array]:
-    """Return values and slopes of the channels of a station series at `s`, constant beyond its ends."""
+def _stations(path: str) -> Array:
+    """Return the rows of a station series: distance and channels."""
     try:
         rows = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
     except (OSError, ValueError) as error:
@@ -153,6 +158,12 @@ def _measured(path: str, s: Array) -> list[Array]:
         raise ContactError(
             f"measured = {path!r} needs the columns distance, {', '.join(CHANNELS)} and at least four rising distances"
         )
+    return rows
+
+
+def _measured(path: str, s: Array) -> list[Array]:
+    """Return values and slopes of the channels of a station series at `s`, constant beyond its ends."""
+    rows = _stations(path)
     inside = np.clip(s, rows[0, 0], rows[-1, 0])
     slopes = np.gradient(rows[:, 1:], rows[:, 0], axis=0)
     k = np.clip(np.searchsorted(rows[:, 0], inside, "right") - 1, 0, rows.shape[0] - 2)

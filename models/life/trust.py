@@ -10,12 +10,15 @@ from contact.study.table import number
 LARGEST_RESIDUAL = 0.02
 #: A rise of a normal force above this multiple of its static value is an impact.
 IMPACT = 2.0
+#: A wheel whose longitudinal creepage is larger spins or slides: its torque is more than friction bears.
+LARGEST_CREEPAGE = 0.1
 #: Member → unit and meaning.
 TRUST = {
     "residual": ("1", "energy that the integration has lost or gained, over the energy dissipated in the contacts"),
     "impacts": ("1", "rises of a wheel's normal force above twice its static value"),
     "lifted": ("1", "times that a wheel lost contact with its rail"),
     "untrusted": ("1", "contacts without a trustworthy solution"),
+    "creepage": ("1", "greatest longitudinal creepage of a wheel, of either sign, at the samples"),
     "speed_ratio": ("1", "greatest speed over the linear critical speed on straight track"),
     "unfinished": ("1", "curves of the track that the run does not reach the end of"),
 }
@@ -29,6 +32,7 @@ class Trust:
     impacts: float
     lifted: float
     untrusted: float
+    creepage: float
     speed_ratio: float
     unfinished: float
 
@@ -52,6 +56,11 @@ class Trust:
             said.append(f"A wheel lost contact with its rail {self.lifted:.0f} times.")
         if self.impacts:
             said.append(f"A normal force rose above {IMPACT:g} times its static value {self.impacts:.0f} times.")
+        if self.creepage > LARGEST_CREEPAGE:
+            said.append(
+                f"A wheel spins or slides: its longitudinal creepage is up to {self.creepage:.3g}. Its torque is more than "
+                "friction bears, or its load is low; nothing limits the spin as an anti-slip control would."
+            )
         if self.speed_ratio > 1.0:
             said.append(
                 f"The speed is {self.speed_ratio:.3g} times the linear critical speed: on straight track small motions grow."
@@ -108,6 +117,7 @@ def worst(runs: list[Trust]) -> Trust:
         impacts=sum(run.impacts for run in runs),
         lifted=sum(run.lifted for run in runs),
         untrusted=sum(run.untrusted for run in runs),
+        creepage=max(run.creepage for run in runs),
         speed_ratio=max(run.speed_ratio for run in runs),
         unfinished=max(run.unfinished for run in runs),
     )

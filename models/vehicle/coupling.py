@@ -95,7 +95,7 @@ class OpenVehicle:
     def _speed(self) -> float:
         """Speed at the present place [m/s]."""
         model = self._simulation.model
-        return float(speed_at(model.track, model.spacing, self._simulation.distance))
+        return float(speed_at(model.track, self._simulation.distance))
 
     def run(self, contacts: Sequence[Contact], h: float, steps: int, *, parallel: bool = False) -> None:
         """Advance by `steps` steps of `h` [s]: ask, let each contact answer, move.

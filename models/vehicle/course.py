@@ -8,12 +8,15 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.errors import ContactError
 from models.life.track import RAIL_DISTANCE, Track
 from models.vehicle.kernels.layout import Row
 
 Array = NDArray[np.float64]
 
-SPACING = 0.05  # distance of the places of a track [m]
+SPACING = 0.05  # largest distance of the places of a track [m]
+#: Largest number of places of a track; 17 rows of them take 136 MB.
+MOST_PLACES = 1_000_000
 #: Kinks at the ends of transitions are rounded over this distance [m], as the bending of the rails does.
 ROUNDING = 2.0
 _HALF_BASE = 0.5 * RAIL_DISTANCE
@@ -23,6 +26,8 @@ BEYOND = 40.0
 
 def lay(track: Track, length: float, speed: Callable[[float], float], seed: tuple[int, ...], settling: float) -> Array:
     """Return the rows of a track from -`BEYOND` to `length` + `BEYOND`, in the order of `Row`.
+
+    Its places are `SPACING` apart, or as far apart as the closest stations of a measured track.
 
     Parameters
     ----------
@@ -35,22 +40,35 @@ def lay(track: Track, length: float, speed: Callable[[float], float], seed: tupl
         Seed of the random irregularities. The channels are independent.
     settling : float
         Distance over which the irregularities grow from zero [m].
+
+    Raises
+    ------
+    ContactError
+        If the stations are so close that there would be more than `MOST_PLACES`.
     """
-    s = np.arange(-BEYOND, length + BEYOND + 0.5 * SPACING, SPACING)
+    whole, spacing = length + 2.0 * BEYOND, min(SPACING, track.resolution)
+    if whole / spacing > MOST_PLACES:
+        raise ContactError(
+            f"measured = {track.measured!r}: its closest stations are {spacing:.3g} m apart, which makes "
+            f"{whole / spacing:.3g} places on {whole:g} m; {MOST_PLACES} are allowed. Take stations at least "
+            f"{whole / MOST_PLACES:.3g} m apart, or a shorter length"
+        )
+    s = np.arange(-BEYOND, length + BEYOND + 0.5 * spacing, spacing)
     rows = np.zeros((len(Row), s.size))
+    rows[Row.PLACE] = s
     plan = np.zeros((2, s.size))
     for curve in track.curves:
         share = np.array([curve.share(place) for place in s])
         plan[0] += share / curve.radius
         plan[1] += share * math.asin(curve.cant / RAIL_DISTANCE)
-    curvature, cant = (_rounded(row, round(ROUNDING / SPACING)) for row in plan)
+    curvature, cant = (_rounded(row, round(ROUNDING / spacing)) for row in plan)
     rows[Row.CURVATURE], rows[Row.CANT] = curvature, cant
-    rows[Row.CANT_SLOPE] = np.gradient(cant, SPACING)
-    direction = _integral(0.5 * (curvature[1:] + curvature[:-1]))
-    middle = direction[:-1] + SPACING * (0.375 * curvature[:-1] + 0.125 * curvature[1:])
+    rows[Row.CANT_SLOPE] = np.gradient(cant, spacing)
+    direction = _integral(0.5 * (curvature[1:] + curvature[:-1]), spacing)
+    middle = direction[:-1] + spacing * (0.375 * curvature[:-1] + 0.125 * curvature[1:])
     rows[Row.DIRECTION] = direction
     for row, part in ((Row.X, np.cos), (Row.Y, np.sin)):  # Simpson's rule
-        rows[row] = _integral((part(direction[:-1]) + 4.0 * part(middle) + part(direction[1:])) / 6.0)
+        rows[row] = _integral((part(direction[:-1]) + 4.0 * part(middle) + part(direction[1:])) / 6.0, spacing)
     rows[Row.SPEED] = [speed(place) for place in s]
     lateral, vertical, roll, gauge = track.channels(seed, s, settling)
     for row, side in ((Row.RIGHT_Y, 1.0), (Row.LEFT_Y, -1.0)):
@@ -60,8 +78,8 @@ def lay(track: Track, length: float, speed: Callable[[float], float], seed: tupl
     return rows
 
 
-def _integral(means: Array) -> Array:
-    return np.concatenate(([0.0], SPACING * np.cumsum(means)))
+def _integral(means: Array, spacing: float) -> Array:
+    return np.concatenate(([0.0], spacing * np.cumsum(means)))
 
 
 def _rounded(row: Array, width: int) -> Array:

@@ -17,7 +17,7 @@ from models.life.scenario import Scenario
 from models.life.track import Track
 from models.life.trust import StepError, Trust
 from models.vehicle import linear
-from models.vehicle.course import lay
+from models.vehicle.course import SPACING, lay
 from models.vehicle.declared import VehicleDeclaration
 from models.vehicle.kernels.layout import Axis, Book, Frame, Row, Sum
 from models.vehicle.ledgers import BODIES, fill, ledger
@@ -71,12 +71,14 @@ BALANCE = {
 }
 #: Largest factor by which a small motion may grow in a step: more than any motion of a vehicle grows.
 _LARGEST_AMPLIFICATION = 1.02
+_CREEPAGE = "_longitudinal_creepage"
 _LONGEST_STEP, _SHORTEST_STEP = 5e-4, 5e-5  # [s]
 #: The error of the step is estimated as far as this beyond the settling and the beginning of the first circle [m].
 _PIECE = 40.0
 #: Amplitudes of the equivalent conicity in the report [m], and the frequency up to which a rail as one mass is right [Hz].
 CONICITY_AT, RIGHT_BELOW = (1e-3, 3e-3), 150.0
-#: Longest step with flats, polygons and slices [s]: the peak of an impact is then within 1.7 % of that of half the step.
+#: Longest step with flats, polygons, slices and closely measured tracks [s]: the peak of an impact is then within 1.7 % of
+#: that of half the step.
 _LONGEST_UNEVEN = 1e-4
 
 
@@ -142,9 +144,9 @@ class VehicleRun:
         ahead = max(axle.at for axle in vehicle.wheelsets) + 1.0  # all axles start before the irregularities
         surfaces: dict[str, Any] = {"uneven": uneven, "sections": scenario.sections}
         self.simulation = self._simulation(track, ledgers=ledgers, start=-ahead, threads=threads, **surfaces)
-        self.step = d.recording.step or min(
-            _LONGEST_UNEVEN if any(surfaces.values()) else _LONGEST_STEP, 0.7 * self._stable(vehicle)
-        )
+        impacts = any(surfaces.values()) or d.track.resolution < SPACING
+        longest = _LONGEST_UNEVEN if impacts else _LONGEST_STEP
+        self.step = d.recording.step or min(longest, 0.7 * self._stable(vehicle))
         factor = self._growth()
         while factor > _LARGEST_AMPLIFICATION and not d.recording.step and self.step > _SHORTEST_STEP:
             self.step *= 0.7  # worn profiles have larger patches, which are stiffer
@@ -216,6 +218,7 @@ class VehicleRun:
         many = max(round(self.scenario.declared.recording.spacing / (speed * h)), 1)
         counts = self.distance >= self.scenario.declared.recording.settling
         settings["distance"] = h * speed if counts else 0.0
+        self._set_torques(0.5 * many * h * speed)
         try:
             simulation.advance(h, many)
         except ContactError as error:
@@ -226,13 +229,23 @@ class VehicleRun:
             self._counted += h * speed * float(simulation.state.sums[on_profiles, Sum.DISSIPATION].sum())
         self._sample(many * h)
 
+    def _set_torques(self, ahead: float) -> None:
+        """Set the torques of the axles to those of the middle of this sample, which is `ahead` [m] of the vehicle."""
+        given = self.scenario.declared.torque
+        if given:
+            bodies = self.simulation.model.bodies
+            distance, time = self.distance + ahead, self.simulation.time + ahead / self.scenario.speed(self.distance)
+            for axle, i in zip(self.scenario.vehicle.wheelsets, self.simulation.model.wheelsets, strict=True):
+                added = sum(torque.on(axle.name, distance + axle.at, time) for torque in given)
+                bodies[i]["torque"] = axle.torque + added
+
     def _sample(self, elapsed: float) -> None:
         """Add a row to the time series and clear the sums."""
         simulation = self.simulation
         state, frames = simulation.state, simulation.scratch.frames
         s = simulation.distance
-        k = int((s - simulation.model.spacing[1]) / simulation.model.spacing[0])
-        track = simulation.model.track[:, k]
+        track = simulation.model.track
+        track = track[:, np.searchsorted(track[Row.PLACE], s, "right") - 1]
         row = [s, simulation.time, track[Row.SPEED], track[Row.CURVATURE], track[Row.CANT]]
         rates = (state.u[:, Axis.Y] - self._before[:, Axis.Y]) / elapsed
         turning = frames[:, Frame.RATE_Z] * state.u[:, Axis.X] - frames[:, Frame.RATE_X] * state.u[:, Axis.Z]
@@ -293,6 +306,10 @@ class VehicleRun:
             impacts=float(books[Book.IMPACTS]),
             lifted=float(books[Book.LIFTED]),
             untrusted=float(books[Book.UNTRUSTED]),
+            creepage=max(
+                (float(np.abs(row).max(initial=0.0)) for name, row in self.series.items() if name.endswith(_CREEPAGE)),
+                default=0.0,
+            ),
             speed_ratio=self.scenario.fastest / self.critical_speed,
             unfinished=float(sum(curve.end > declared.length for curve in declared.track.curves)),
         )

@@ -22,13 +22,13 @@ from contact.pair import WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.solver import N_ELEMENTS, N_STRIPS
 from models.vehicle.assembly import Assembly, assemble
-from models.vehicle.course import BEYOND, SPACING
 from models.vehicle.crew import Crew
 from models.vehicle.declared import VehicleDeclaration
 from models.vehicle.kernels import motion
 from models.vehicle.kernels.benches import Benches, gather
 from models.vehicle.kernels.between import held
-from models.vehicle.kernels.layout import Book, Model, Row, Scratch, State, Sum, scratch
+from models.vehicle.kernels.frames import speed_at
+from models.vehicle.kernels.layout import Book, Model, Scratch, State, Sum, scratch
 from models.vehicle.sections import RailSection, require_apart
 from models.vehicle.uneven import Stretch, Uneven
 
@@ -126,7 +126,7 @@ class Simulation:
         members = surface.members()
         self.model = Model(
             made.bodies, made.links, made.elements, made.table, made.wheelsets, track, made.rail,
-            np.array([members["mu"], members["kinetic"]]), np.array([SPACING, -BEYOND]),
+            np.array([members["mu"], members["kinetic"]]),
         )  # fmt: skip
         n = len(made.names)
         axles = made.wheelsets.size
@@ -218,8 +218,7 @@ class Simulation:
 
     def _place(self, start: float) -> None:
         """Put the vehicle on the rails at rest in its nominal place, rolling."""
-        k = int((start + BEYOND) / SPACING)
-        speed = float(self.model.track[Row.SPEED, k])
+        speed = float(speed_at(self.model.track, start))
         heights = np.zeros(self.model.wheelsets.size)
         for number, i in enumerate(self.model.wheelsets):
             load = float(self.model.bodies[i]["load"])

@@ -73,7 +73,7 @@ class Uneven:
         """Advance by `steps` steps of `h` [s]; return 0 or the code of `kernels.wheels.press`."""
         model, state, _, scratch = self._arrays
         for _ in range(steps):
-            speed = float(speed_at(model.track, model.spacing, state.books[Book.DISTANCE]))
+            speed = float(speed_at(model.track, state.books[Book.DISTANCE]))
             motion.ask(*self._moving, speed)
             for w in range(scratch.wheels.size):
                 if self._solve(w) < 0:

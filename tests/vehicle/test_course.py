@@ -1,6 +1,7 @@
 """Tracks of vehicles: plan, cant, irregularities, measured series, friction."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -82,6 +83,35 @@ def test_measured_series_passes_through_its_values(tmp_path):
     inside = slice(at(5.0), at(85.0))
     slope = np.gradient(found[Row.RIGHT_Y, inside], SPACING)
     assert slope[1:-1] == pytest.approx(found[Row.RIGHT_Y_SLOPE, inside][1:-1], abs=2e-6)
+
+
+def joint(folder: Path, closest: float) -> Track:
+    """Return a track whose rails dip to a sharp joint at 6 m, 5 mm deep, measured at stations `closest` apart around it."""
+    s = np.unique(np.concatenate((np.arange(0.0, 12.0, 0.5), np.arange(5.5, 6.5, closest).round(9))))
+    z = np.interp(s, [5.5, 6.0, 6.5], [0.0, 5e-3, 0.0])
+    table = np.stack((s, 0.0 * s, z, 0.0 * s, 0.0 * s), axis=1)
+    np.savetxt(folder / "track.csv", table, delimiter=",", header="distance,alignment,vertical,cross_level,gauge")
+    return Track(measured=str(folder / "track.csv"))
+
+
+def test_places_are_as_close_as_the_closest_stations(tmp_path):
+    """With places 50 mm apart the slope at the joint would fall from 10 to -10 mrad over 100 mm (issue 31, 2)."""
+    found = rows(joint(tmp_path, 0.005), length=10.0)
+    assert np.diff(found[Row.PLACE]) == pytest.approx(0.005, abs=1e-12)
+    near = np.abs(found[Row.PLACE] - 6.0) < 0.4
+    assert found[Row.RIGHT_Z, near].max() == pytest.approx(5e-3, abs=1e-9)
+    rounded = near & (np.abs(np.abs(found[Row.RIGHT_Z_SLOPE]) - 10e-3) > 1e-6)
+    assert np.ptp(found[Row.PLACE, rounded]) <= 0.010 + 1e-9
+    assert np.diff(rows(Track(), length=10.0)[Row.PLACE]) == pytest.approx(SPACING, abs=1e-12)
+
+
+def test_a_track_with_too_many_places_is_refused(tmp_path, monkeypatch):
+    track = joint(tmp_path, 0.005)
+    monkeypatch.setattr("models.vehicle.course.MOST_PLACES", 10_000)
+    with pytest.raises(
+        ContactError, match=r"stations are 0\.005 m apart, .* 1\.8e\+04 places .* at least 0\.009 m apart"
+    ):
+        rows(track, length=10.0)
 
 
 def test_faults_of_a_measured_series_are_named(tmp_path):

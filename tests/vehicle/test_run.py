@@ -15,6 +15,7 @@ from models.life.scale import Workers
 from models.life.scenario import Declaration, Methods, Profiles, Recording, Scenario
 from models.life.scenario import read as read_scenario
 from models.life.spectra import Irregularities
+from models.life.torque import Torque
 from models.life.track import Track
 from models.life.wear import Life
 from models.vehicle import assess, drawing, report
@@ -64,6 +65,40 @@ def test_resumed_run_equals_the_uninterrupted_one_bit_for_bit(whole, tmp_path):
     for run, name in ((second, "a.nc"), (whole, "b.nc")):
         result.write(result.dataset(run), tmp_path / name)
     assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
+
+
+def test_torque_becomes_longitudinal_force_and_wear():
+    """At rest the rails' force times the radius is the torque; the energy closes with the work of the torque."""
+    traction = Torque(at=(2.0, 10.0), values=(0.0, 8000.0), axles=("wheelset",))
+    found = {}
+    for name, torque in (
+        ("rolls", ()),
+        ("driven", (traction,)),
+        ("braked", (dataclasses.replace(traction, values=(0.0, -8e3)),)),
+    ):
+        found[name] = completed(VehicleRun(scenario(track=Track(), length=45.0, torque=torque)))
+    forces = {}
+    for name, run in found.items():
+        both = sum(run.series[f"wheelset_{side}_longitudinal_force"] for side in SIDES)
+        forces[name] = 0.46 * float(
+            both[run.series["distance"] > 31.0].mean()
+        )  # over two periods of the axle on its springs
+        assert abs(run.balance["residual"]) < 2e-3 * run.balance["dissipated"]
+        assert run.trust.creepage < 2e-3
+    assert forces["driven"] == pytest.approx(8e3, rel=0.01)
+    assert forces["braked"] == pytest.approx(-8e3, rel=0.01)
+    assert abs(forces["rolls"]) < 20.0
+    T_gamma = "wheelset_right_T_gamma"
+    assert found["driven"].series[T_gamma][-1] > 5.0
+    assert found["rolls"].series[T_gamma][-1] < 1e-3
+
+
+def test_a_torque_over_time_and_beyond_friction_is_told():
+    spins = Torque(at=(0.1, 0.2), values=(0.0, 40e3), over="time")
+    run = completed(VehicleRun(scenario(track=Track(), length=10.0, torque=(spins,))))
+    assert np.abs(run.series["wheelset_right_longitudinal_creepage"][run.series["time"] < 0.09]).max() < 1e-4
+    assert run.trust.creepage > 0.1
+    assert any("A wheel spins or slides" in sentence for sentence in run.trust.warnings)
 
 
 def test_another_seed_gives_another_run(whole):

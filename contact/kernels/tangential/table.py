@@ -132,7 +132,7 @@ def lookup(
     limit: float,
     table: FiveD,
 ) -> tuple[float, float, float, float]:
-    """Return Fx, Fy, Mz [N, N, N m] and the share of slip. `limit` is mu N, `table` is from `contact.force_table.load`."""
+    """Return Fx, Fy, Mz [N, N, N m] and the share of slip. `limit` is mu N, `table` is from `contact.theory.force_table`."""
     vx, vy, phi = creepage
     _, c22, c23, c33 = coefficients
     if limit <= 0.0 or (vx == 0.0 and vy == 0.0 and phi == 0.0):

@@ -134,7 +134,7 @@ def lead(
     """As `motion.advance`, with the helpers that `serve`. They are told to return at the end."""
     failed = 0
     for _ in range(steps):
-        speed = speed_at(model.track, model.spacing, state.books[Book.DISTANCE])
+        speed = speed_at(model.track, state.books[Book.DISTANCE])
         ask(model, state, benches.motions, scratch, speed)
         failed = _press_together(benches, scratch, counters, codes)
         if failed < 0:

@@ -18,12 +18,17 @@ def member(v, j):
 
 
 @kernel
-def place_on(track, spacing, s):
-    """Return the number of the place before `s` [m] and the distance from it [m]. Beyond the ends the last interval counts."""
+def place_on(track, s):
+    """Return the number of the place before `s` [m], the distance from it and that to the next place [m].
+
+    Beyond the ends the last interval counts.
+    """
     n = track.shape[1]
-    k = math.floor((s - spacing[1]) / spacing[0])
+    first = track[Row.PLACE, 0]
+    width = (track[Row.PLACE, n - 1] - first) / (n - 1)
+    k = math.floor((s - first) / width)
     k = min(max(k, 0), n - 2)
-    return k, s - spacing[1] - k * spacing[0]
+    return k, s - first - k * width, width
 
 
 @kernel
@@ -41,28 +46,28 @@ def smooth(track, row, k, t, width):
 
 
 @entry
-def speed_at(track: Matrix, spacing: Numbers, s: float) -> float:
+def speed_at(track: Matrix, s: float) -> float:
     """Return the speed [m/s] that is given at `s` [m]."""
-    k, d = place_on(track, spacing, s)
-    return linear(track, Row.SPEED, k, d / spacing[0])
+    k, d, width = place_on(track, s)
+    return linear(track, Row.SPEED, k, d / width)
 
 
 @entry
 def lay_frames(model: Model, s: float, speed: float, frames: Matrix) -> None:
     """Fill the frames of all bodies, of which that of the reference is at `s` [m]."""
-    track, spacing, bodies = model.track, model.spacing, model.bodies
+    track, bodies = model.track, model.bodies
     for i in range(bodies.size):
-        k, d = place_on(track, spacing, s + bodies[i].place)
-        t = d / spacing[0]
+        k, d, width = place_on(track, s + bodies[i].place)
+        t = d / width
         direction, curvature = track[Row.DIRECTION, k], track[Row.CURVATURE, k]
-        growth = (track[Row.CURVATURE, k + 1] - curvature) / spacing[0]
+        growth = (track[Row.CURVATURE, k + 1] - curvature) / width
         c, sn = math.cos(direction), math.sin(direction)
         ahead, aside = d, d * d * (0.5 * curvature + growth * d / 6.0)
         frame = frames[i]
         frame[Frame.X] = track[Row.X, k] + c * ahead - sn * aside
         frame[Frame.Y] = track[Row.Y, k] + sn * ahead + c * aside
         direction += d * (curvature + 0.5 * growth * d)
-        cant, cant_slope = smooth(track, Row.CANT, k, t, spacing[0])
+        cant, cant_slope = smooth(track, Row.CANT, k, t, width)
         turning = speed * (curvature + growth * d)
         frame[Frame.DIRECTION], frame[Frame.CANT] = direction, cant
         frame[Frame.COS], frame[Frame.SIN] = math.cos(direction), math.sin(direction)

@@ -64,6 +64,7 @@ class Row(IntEnum):
     LEFT_Z = 14
     LEFT_Z_SLOPE = 15
     LEFT_FRICTION = 16
+    PLACE = 17  # distance along the track [m], equally spaced
 
 
 #: Rows between those of the right and of the left rail.
@@ -196,7 +197,6 @@ class Model(NamedTuple):
     track: Matrix  # shape (len(Row), n)
     rail: Numbers  # mass, lateral stiffness and damping, vertical stiffness and damping; mass 0: rigid
     surface: Numbers  # coefficient of friction, at rest and kinetic
-    spacing: Numbers  # (spacing of the track's places [m], place of the first one [m])
 
 
 class State(NamedTuple):

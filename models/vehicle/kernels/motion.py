@@ -142,7 +142,7 @@ def move(model: Model, state: State, motions: Motions, scratch: Scratch, h: floa
 @kernel
 def step(model, state, benches, scratch, h):
     """Advance by `h` [s]; return 0 or the code of `press`. Forces in `scratch` are those before the step."""
-    speed = speed_at(model.track, model.spacing, state.books[Book.DISTANCE])
+    speed = speed_at(model.track, state.books[Book.DISTANCE])
     ask(model, state, benches.motions, scratch, speed)
     failed = press(benches, scratch)
     if failed < 0:

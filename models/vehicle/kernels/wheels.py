@@ -39,13 +39,13 @@ def seat(model, state, s, motions, scratch):
     for axle_number in range(model.wheelsets.size):
         i = model.wheelsets[axle_number]
         q, u = state.q[i], state.u[i]
-        k, d = place_on(track, model.spacing, s + model.bodies[i].place)
-        t, ramp = d / model.spacing[0], scratch.frames[i, Frame.RATE_X]
+        k, d, width = place_on(track, s + model.bodies[i].place)
+        t, ramp = d / width, scratch.frames[i, Frame.RATE_X]
         for side in range(2):
             w, row = 2 * axle_number + side, side * TO_LEFT
             rail, given, here, motion = state.rails[axle_number, side], scratch.given[w], scratch.seats[w], motions[w]
-            y, along_y = smooth(track, Row.RIGHT_Y + row, k, t, model.spacing[0])
-            z, along_z = smooth(track, Row.RIGHT_Z + row, k, t, model.spacing[0])
+            y, along_y = smooth(track, Row.RIGHT_Y + row, k, t, width)
+            z, along_z = smooth(track, Row.RIGHT_Z + row, k, t, width)
             here.along_y, here.along_z = along_y, along_z
             here.friction = linear(track, Row.RIGHT_FRICTION + row, k, t) * model.surface[0]
             here.kinetic = linear(track, Row.RIGHT_FRICTION + row, k, t) * model.surface[1]

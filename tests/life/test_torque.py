@@ -1,0 +1,42 @@
+"""Torques as a scenario declares them."""
+
+import pytest
+
+from contact.errors import ContactError
+from models.life.declared import build
+from models.life.scenario import read
+from models.life.torque import Torque
+
+
+def test_lines_over_the_distance_of_the_axle():
+    torque = Torque(at=(10.0, 20.0), values=(0.0, 5e3), axles=("rear",))
+    assert torque.on("rear", 15.0, 99.0) == 2.5e3
+    assert torque.on("rear", 5.0, 99.0) == 0.0
+    assert torque.on("rear", 50.0, 99.0) == 5e3
+    assert torque.on("front", 15.0, 99.0) == 0.0
+
+
+def test_lines_over_time():
+    assert Torque(at=(1.0, 2.0), values=(-4e3, 0.0), over="time").on("any", 99.0, 1.25) == -3e3
+
+
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ({"at": [0.0], "values": [1.0, 2.0]}, "at has 1 places and values 2 torques"),
+        ({"at": [1.0, 0.0], "values": [1.0, 2.0]}, r"at\[1\] = 0"),
+        ({"at": [0.0], "values": [1e7]}, r"values\[0\] = 1e\+07"),
+        ({"at": [0.0], "values": [1.0], "over": "tme"}, "over = 'tme' is neither 'distance' nor 'time'.*time"),
+    ],
+)
+def test_faults_are_named(table, said):
+    with pytest.raises(ContactError, match=said):
+        build(Torque, table, "torque")
+
+
+def test_an_axle_that_the_vehicle_lacks_is_named(tmp_path):
+    (tmp_path / "run.toml").write_text(
+        'name = "run"\nlength = 50.0\nspeed = 20.0\n[[torque]]\nat = [0.0]\nvalues = [1e3]\naxles = ["frnt"]\n'
+    )
+    with pytest.raises(ContactError, match=r"run.toml.torque\[0\].axles\[0\] = 'frnt' is no wheelset; .*'wheelset'"):
+        read(tmp_path / "run.toml")
