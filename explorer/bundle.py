@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 import contact
-from contact.geometry import profile
+from contact.geometry import files, inspection, placing, profile
 from contact.geometry.profile import Profile
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels.records import MAX_PATCHES
@@ -71,6 +71,26 @@ RESULTS = (
 )
 
 
+#: Names in `contact.geometry.inspection` of the numbers by which the page judges a profile file.
+RULES = (
+    *(
+        "NARROWEST",
+        "WIDEST",
+        "FLANGE",
+        "FLANGE_BACK",
+        "TIP_FROM_TAPE",
+        "TIP_SHARE",
+        "TIP_RISE",
+        "HEAD_DROP",
+        "JUMP",
+        "LOOPS",
+    ),
+    *("MOST_SCANS", "RETURN", "ROUGH", "TANGENT_OF_NOISE", "HEIGHT", "SIDE"),
+)
+#: Width of the parabolas by which the page smooths noisy points [m], with weights (1 - t²)², and the largest number of points.
+WINDOW, MOST_POINTS = 5e-3, 3000
+
+
 def _doubles(numbers: np.ndarray) -> str:
     return base64.b64encode(np.ascontiguousarray(numbers, "<f8").tobytes()).decode()
 
@@ -107,6 +127,18 @@ def _starts(table: Table, rows: Iterable[Variable], n_values: int) -> np.ndarray
     return values
 
 
+def rules() -> dict[str, Any]:
+    """Return the numbers by which the page reads and judges a profile file: those of the library."""
+    return {
+        **{name.lower(): float(getattr(inspection, name)) for name in RULES},
+        "units": inspection.UNITS,
+        "nearest": placing.NEAREST,
+        "largest_file": files.LARGEST_FILE,
+        "window": WINDOW,
+        "most": MOST_POINTS,
+    }
+
+
 def bundle(wasm: bytes) -> dict[str, Any]:
     """Return what the page reads as JSON. Arrays are little-endian float64 in base64, and so is the module."""
     interface = wheel_rail_pair.table()
@@ -126,7 +158,9 @@ def bundle(wasm: bytes) -> dict[str, Any]:
         "results": [list(row) for row in RESULTS],
         "failures": {int(number): text for number, text in component.failures.items()},
         "untrusted": [int(contact.Status.OUT_OF_RANGE), int(contact.Status.NOT_CONVERGED)],
+        "gapLimits": {name: method.gap_limit for name, method in contact.methods().normal.items()},
         "tape": TAPE_FROM_FLANGE_BACK,
+        "rules": rules(),
         "wheels": {name: _points(profile.load(name, "wheel")) for name in WHEELS},
         "rails": {name: _points(profile.load(name, "rail", inclination=0.0)) for name in RAILS},
     }

@@ -21,20 +21,20 @@ TIP_FROM_TAPE = 0.055  # distance of the flange's tip from the tape circle [m] (
 FLANGE = 0.015  # a flange's tip lies at least this far below the median of a wheel's points [m]
 CROWN_FROM_GAUGE = 0.036  # half the width of a rail's head [m], from its gauge face
 
-_TIP_SHARE = 0.3  # share of the width up to which an extreme point is a flange's tip, and from which a rail's crown
-_TIP_RISE, _HEAD_DROP = 3e-3, 8e-3  # least height [m] of a flange's tip over its back, of a rail's crown over both ends
+TIP_SHARE = 0.3  # share of the width up to which an extreme point is a flange's tip, and from which a rail's crown
+TIP_RISE, HEAD_DROP = 3e-3, 8e-3  # least height [m] of a flange's tip over its back, of a rail's crown over both ends
 
-_JUMP = 0.4  # of the extent: a step this long starts another scan
-_LOOPS = 4.0  # length of the path over the extent beyond which rows are not in order; S1002 has 1.5
-_MOST_SCANS = 10
-_RETURN = 0.2  # share of the points on the way back that makes a backward scan
+JUMP = 0.4  # of the extent: a step this long starts another scan
+LOOPS = 4.0  # length of the path over the extent beyond which rows are not in order; S1002 has 1.5
+MOST_SCANS = 10
+RETURN = 0.2  # share of the points on the way back that makes a backward scan
 _SPIKE, _OVER_NEIGHBOURS = 2e-5, 8.0  # least deviation of a spike [m], and over the median of the points around it
 _GAP, _OVER_SPACING = 2.5e-3, 8.0  # least length of a gap [m], and over the median spacing
 _KINK, _KINK_OVER = np.radians(8.0), 6.0  # least turn at a kink [rad], and over the median of the turns around it
 _CHAMFER = 12e-3  # corners nearer to the ends of the profile are chamfers [m]
-_ROUGH = 3e-3  # error of tangents [rad] above which noise is reported
-_TANGENT_OF_NOISE = 1.2  # error of a spline's tangents over noise/spacing (docs/profiles.md, measured)
-_HEIGHT, _SIDE = 1e-3, 6e-3  # offsets that are reported [m]
+ROUGH = 3e-3  # error of tangents [rad] above which noise is reported
+TANGENT_OF_NOISE = 1.2  # error of a spline's tangents over noise/spacing (docs/profiles.md, measured)
+HEIGHT, SIDE = 1e-3, 6e-3  # offsets that are reported [m]
 _DEEPER = 4e-3  # by how much the field side of a rail may be deeper than its gauge side [m]
 _STEEPEST = np.radians(75.0)  # steeper parts cannot touch
 
@@ -90,7 +90,7 @@ def order(points: Points) -> list[Finding]:
     parts = scans(points)
     lengths = [_length(part) / extent for part in parts]
     cure = "repair=True"
-    if len(parts) > _MOST_SCANS or max(lengths) > _LOOPS:
+    if len(parts) > MOST_SCANS or max(lengths) > LOOPS:
         path = _length(points) / extent
         seen = f"the path through the points is {path:.0f} times as long as the profile is wide"
         return [Finding(Fault.UNSORTED, seen, f"{cure} sorts them along the profile", points[:0])]
@@ -129,13 +129,13 @@ def shape(points: Points, resolution: float = 0.0) -> list[Finding]:
         seen = f"{_count(bent.size)} with a corner of up to {largest:.0f}°, the first at y = {_mm(points[bent[0], 0])}"
         found.append(Finding(Fault.KINK, seen, "if they are not real, a smoothing rounds them", points[bent]))
     sigma, h = noise(points), float(np.median(chord))
-    if _TANGENT_OF_NOISE * sigma > _ROUGH * h:
+    if TANGENT_OF_NOISE * sigma > ROUGH * h:
         rounded = 0.2 * resolution <= sigma <= 0.6 * resolution
         source = "from rounding: the" if rounded else "from the measurement, not from rounding: the"
         rounding = f" ({source} numbers are given to {1e3 * resolution:g} mm)" if resolution else ""
         seen = (
             f"points {_mm(h)} apart with a noise of {1e6 * sigma:.2g} µm{rounding} give tangents "
-            f"{1e3 * _TANGENT_OF_NOISE * sigma / h:.0f} mrad off"
+            f"{1e3 * TANGENT_OF_NOISE * sigma / h:.0f} mrad off"
         )
         found.append(Finding(Fault.NOISE, seen, f"smoothing={sigma:.1g} removes it, or wavelength=3e-3", points[:0]))
     return found
@@ -152,9 +152,9 @@ def place(points: Points, kind: Kind) -> list[Finding]:
             found.append(Finding(Fault.SIDE, seen, "if the file shows the other side, set side", points[[0, -1]]))
         return found
     tip = int(np.argmax(z)) if has_flange(points) else 0
-    if tip and abs(y[tip] + TIP_FROM_TAPE) > _SIDE:
+    if tip and abs(y[tip] + TIP_FROM_TAPE) > SIDE:
         seen = f"the flange's tip lies at y = {_mm(y[tip])}, usually at {_mm(-TIP_FROM_TAPE)}"
-        from_back = abs(y[tip] - FLANGE_BACK + TIP_FROM_TAPE) <= _SIDE
+        from_back = abs(y[tip] - FLANGE_BACK + TIP_FROM_TAPE) <= SIDE
         cure = (
             "set zero='flange_back': y seems to count from the back of the flange" if from_back else "set zero='shape'"
         )
@@ -163,7 +163,7 @@ def place(points: Points, kind: Kind) -> list[Finding]:
         seen = f"the profile lies between y = {_mm(y.min())} and {_mm(y.max())}; the tape circle at y = 0 is not on it"
         return [Finding(Fault.SIDE, seen, "move its zero to the tape circle", points[[0, -1]])]
     tread = float(np.interp(0.0, y[tip:], z[tip:]))
-    if abs(tread) > _HEIGHT:
+    if abs(tread) > HEIGHT:
         change = "larger" if tread > 0.0 else "smaller"
         seen = f"the tread at the tape circle lies at z = {_mm(tread)}; the wheel's radius becomes that much {change}"
         found.append(Finding(Fault.HEIGHT, seen, "set zero='shape'", np.array([[0.0, tread]])))
@@ -193,11 +193,11 @@ def _appearance(points: Points) -> tuple[Kind | None, bool]:
         top = int(np.argmax(height))
         left, right = (height[top] - part.min() for part in (height[: top + 1], height[top:]))
         share = (y[top] - y.min()) / np.ptp(y)
-        near_an_end = min(share, 1.0 - share) < _TIP_SHARE
-        if near_an_end and min(left, right) > _TIP_RISE and height[top] > np.median(height) + FLANGE:
+        near_an_end = min(share, 1.0 - share) < TIP_SHARE
+        if near_an_end and min(left, right) > TIP_RISE and height[top] > np.median(height) + FLANGE:
             beyond = height[top:] if share < 0.5 else height[top::-1]
-            return "rail" if beyond[-1] - beyond.min() > _HEAD_DROP else "wheel", sign > 0.0
-        if not near_an_end and min(left, right) > _HEAD_DROP:
+            return "rail" if beyond[-1] - beyond.min() > HEAD_DROP else "wheel", sign > 0.0
+        if not near_an_end and min(left, right) > HEAD_DROP:
             return "rail", sign < 0.0
     return None, True
 
@@ -229,7 +229,7 @@ def misplaced(points: Points, kind: Kind) -> tuple[str, str, str] | None:
 def scans(points: Points) -> list[Points]:
     """Return the parts of the points between long jumps, without parts of one or two points."""
     step = np.hypot(*np.diff(points, axis=0).T)
-    jumps = np.flatnonzero(step > _JUMP * np.hypot(*np.ptp(points, axis=0))) + 1
+    jumps = np.flatnonzero(step > JUMP * np.hypot(*np.ptp(points, axis=0))) + 1
     return [part for part in np.split(points, jumps) if len(part) > 2] or [points]
 
 
@@ -237,8 +237,8 @@ def turning(points: Points) -> int:
     """Return the index at which a scan turns and comes back; 0 if it does not."""
     far = int(np.argmax(np.hypot(*(points - points[0]).T)))
     back = len(points) - 1 - far
-    returned = np.hypot(*(points[-1] - points[far])) > _JUMP * np.hypot(*(points[far] - points[0]))
-    return far if returned and back > _RETURN * len(points) else 0
+    returned = np.hypot(*(points[-1] - points[far])) > JUMP * np.hypot(*(points[far] - points[0]))
+    return far if returned and back > RETURN * len(points) else 0
 
 
 def backward(points: Points) -> NDArray[np.bool_]:

@@ -158,6 +158,8 @@ function map(canvas, patches, kind, frame) {
     left += scale * (boxes[k][1] - boxes[k][0] + gap);
   });
   bar(g, 8, height - 10, scale * 5e-3, "5 mm");
+  g.fillStyle = ink("faint");
+  g.fillText("↑ rolling", 8, 14);
   legend(g, width, height, shown, frame.top);
 }
 

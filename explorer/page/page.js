@@ -97,7 +97,7 @@ function controls() {
     const show = () => { shown.textContent = `${state.values[name].toFixed(digits)} ${unit}`; };
     input.oninput = () => { state.values[name] = Number(input.value); show(); changed(); };
     show();
-    const description = row ? row.description : "The wheel turns faster (+) or slower (-) than it rolls";
+    const description = row ? row.description : "The wheel turns faster (+) or slower (-) than its nominal radius rolls. Aside of the middle it rolls on another radius, so forces remain at 0 %";
     labelled($(MORE.has(name) ? "more" : "inputs"), title, description, [shown, input]);
   }
   const choice = (parent, name, title, get, set) => {
@@ -120,18 +120,23 @@ function controls() {
   $("second").checked = state.methods.length > 1;
 }
 
+/* Whether the pressure of a method leaves larger gaps than it may (docs/limits.md). */
+const gapTooLarge = k => solvers[k].get("gap_error") > bundle.gapLimits[state.methods[k].normal];
+
 function numbers(found) {
   const names = state.methods.map(method => `${method.normal} + ${method.tangential}`);
   const head = names.map((name, k) => `<th class="${k ? "second" : "first"}">${name}</th>`).join("");
   const row = (title, cells, kind = "") => `<tr><th>${title}</th>${cells.map(cell => `<td class="${kind} ${cell[1] ?? ""}">${cell[0]}</td>`).join("")}</tr>`;
   const rows = bundle.results.map(([name, title]) => {
     const { unit, factor } = bundle.variables[name];
-    return row(title, found.map((answer, k) => [answer.failed ? "–" : `${short(factor * solvers[k].get(name), 4)} ${unit}`]));
+    return row(title, found.map((answer, k) => [answer.failed ? "–" : `${short(factor * solvers[k].get(name), 4)} ${unit}`,
+      name === "gap_error" && gapTooLarge(k) ? "bad" : ""]));
   });
   for (const [name, factor, unit] of [["longitudinal", 1e3, "‰"], ["lateral", 1e3, "‰"], ["spin", 1, "1/m"]])
     rows.push(row(`${name} creepage of patch 1`, found.map((answer, k) => [answer.failed ? "–" :
       `${(factor * solvers[k].get(`patch[].${name}`)).toFixed(3)} ${unit}`])));
-  const status = row("status", found.map(answer => [answer.text, answer.failed || answer.untrusted ? "bad" : ""]), "status");
+  const doubt = k => gapTooLarge(k) ? "; the gap error is large: the largest pressure is more than 5 % wrong on most such patches" : "";
+  const status = row("status", found.map((answer, k) => [answer.text + (answer.failed ? "" : doubt(k)), answer.failed || answer.untrusted ? "bad" : ""]), "status");
   $("numbers").innerHTML = `<table><thead><tr><th></th>${head}</tr></thead><tbody>${rows.join("")}${status}</tbody></table>`;
 }
 
@@ -207,53 +212,27 @@ function csv(id) {
   save(`${id}.csv`, new Blob([rows.join("\n") + "\n"], { type: "text/csv" }));
 }
 
-/* Read a profile: two columns y, z of the right side, z down, in m or mm, or a resource of `python -m fmu_src.profiles`. */
+/* Open a profile file. What was found in it stands beside the field. `kind` is null for a file that was dropped. */
 async function open(file, kind) {
+  const list = $("findings"), say = (text, bad) => {
+    const item = document.createElement("li");
+    item.textContent = text;
+    if (bad) item.className = "bad";
+    list.append(item);
+  };
+  list.replaceChildren();
   try {
-    const content = await file.arrayBuffer(), magic = new TextDecoder("latin1").decode(content.slice(0, 8));
-    let numbers;
-    if (magic === "wr-wheel" || magic === "wr-rail\0") {
-      kind = magic === "wr-wheel" ? "wheel" : "rail";
-      const n = Number(new DataView(content).getBigInt64(16, true));
-      numbers = new Float64Array(1 + 3 * n);
-      numbers[0] = n;
-      numbers.set(new Float64Array(content.slice(24, 24 + 24 * n)), 1);
-    } else numbers = columns(new TextDecoder().decode(content), kind);
-    const name = file.name.slice(0, 40);
-    own[kind][name] = numbers;
-    state[kind] = name;
-    if (kind === "rail") state.values["rail.inclination"] = 0; // a file shows the rail as it lies
+    const found = readProfile(await file.arrayBuffer(), kind, bundle.rules), name = file.name.slice(0, 40);
+    own[found.kind][name] = found.numbers;
+    state[found.kind] = name;
+    if (found.kind === "rail") state.values["rail.inclination"] = 0; // a file shows the rail as it lies
+    say(`${file.name}: ${found.kind}, ${found.numbers[0]} points${found.findings.length ? "" : ", nothing found"}`);
+    found.findings.forEach(text => say(text));
     controls();
     changed();
   } catch (error) {
-    alert(`${file.name}: ${error.message}`);
+    say(`${file.name}: ${error.message}`, true);
   }
-}
-
-function columns(text, kind) {
-  let nodes = text.split(/\r?\n/).map(line => line.trim().split(/[\s,;]+/).map(Number)).filter(row => row.length >= 2 && row.slice(0, 2).every(Number.isFinite));
-  if (nodes.length < 10) throw new Error("a profile needs at least ten rows with two numbers, y and z");
-  if (nodes.length > 3000) throw new Error(`a profile may have 3000 points here; this one has ${nodes.length}`);
-  const width = Math.max(...nodes.map(row => row[0])) - Math.min(...nodes.map(row => row[0])), unit = width > 1 ? 1e-3 : 1;
-  nodes = nodes.map(row => [unit * row[0], unit * row[1]]);
-  if (nodes[0][0] > nodes[nodes.length - 1][0]) nodes.reverse();
-  for (let i = 1; i < nodes.length; i++)
-    if (!(nodes[i][0] > nodes[i - 1][0])) throw new Error(`y must rise from row to row; it does not at row ${i + 1}`);
-  const n = nodes.length, found = new Float64Array(1 + 3 * n);
-  if (kind === "rail") { // the top is the origin of z
-    const top = Math.min(...nodes.map(row => row[1]));
-    nodes = nodes.map(row => [row[0], row[1] - top]);
-  }
-  found[0] = n;
-  const slope = i => (nodes[i + 1][1] - nodes[i][1]) / (nodes[i + 1][0] - nodes[i][0]);
-  for (let i = 0; i < n; i++) {
-    const before = i ? nodes[i][0] - nodes[i - 1][0] : 0, after = i < n - 1 ? nodes[i + 1][0] - nodes[i][0] : 0;
-    const steep = !i ? slope(0) : i === n - 1 ? slope(n - 2) : (slope(i - 1) * after + slope(i) * before) / (before + after);
-    found[1 + i] = nodes[i][0];
-    found[1 + n + i] = nodes[i][1];
-    found[1 + 2 * n + i] = Math.atan(steep);
-  }
-  return found;
 }
 
 function theme(name) {
@@ -305,7 +284,7 @@ async function begin() {
     event.preventDefault();
     drop.classList.remove("over");
     const file = event.dataTransfer.files[0];
-    if (file) open(file, /rail/i.test(file.name) ? "rail" : "wheel");
+    if (file) open(file, null);
   };
   requestAnimationFrame(frame);
   window.ready = true;

@@ -165,10 +165,13 @@ def test_an_own_profile_is_used_and_a_broken_one_is_refused(page, browser, tmp_p
     before = tab.evaluate("last.force[1]")
     tab.set_input_files("#file", good)
     tab.wait_for_function("state.wheel === 'mine.txt' && !dirty")
-    assert tab.evaluate("last.force[1]") == pytest.approx(before, rel=0.02)  # the angles come from three points
+    assert tab.evaluate("last.force[1]") == pytest.approx(before, rel=1e-4)  # exact tangents for those of a spline
+    assert "nothing found" in tab.inner_text("#findings")
     tab.set_input_files("#file", bad)
-    tab.wait_for_timeout(200)
-    assert "at least ten rows" in said[0]
+    tab.wait_for_function("document.querySelector('#findings .bad')")
+    assert "at least ten rows" in tab.inner_text("#findings")
+    assert tab.evaluate("state.wheel") == "mine.txt"
+    assert said == []  # no alert
 
 
 def test_every_slider_choice_and_result_is_a_variable_of_the_fmu():
