@@ -16,7 +16,7 @@ from models.life.scenario import Declaration, Methods, Profiles, Recording, Scen
 from models.life.scenario import read as read_scenario
 from models.life.spectra import Irregularities
 from models.life.torque import Torque
-from models.life.track import Track
+from models.life.track import Curve, Track
 from models.life.wear import Life
 from models.vehicle import assess, drawing, report
 from models.vehicle.declared import read
@@ -300,6 +300,18 @@ def test_damage_does_not_depend_on_the_spacing_of_samples():
     coarse, fine = worn(0.5), worn(0.05)
     assert coarse[0] == pytest.approx(fine[0], rel=0.02)
     assert coarse[1] == pytest.approx(fine[1], rel=0.02)
+
+
+def test_damage_does_not_depend_on_the_pace():
+    """A solution counts for the steps around it. Counted for those since the last solution, pace 4 lost .7 % here."""
+    curve = Curve(start=10.0, radius=500.0, length=50.0, transition=10.0, cant=0.05)
+    track = Track(curves=(curve,), alignment=Irregularities(spectrum="ERRI B176 high"))
+
+    def worn(pace):
+        run = completed(VehicleRun(scenario(length=80.0, track=track, methods=Methods(pace=pace))))
+        return sum(histogram.volume for histogram in run.damage().values())
+
+    assert worn(4) == pytest.approx(worn(1), rel=2e-3)
 
 
 def test_means_lie_between_the_extremes_of_their_steps(whole):

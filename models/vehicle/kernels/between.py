@@ -63,7 +63,7 @@ class Held(NamedTuple):
     noises: Numbers  # usual miss of a force after one step [N]
     loads: Numbers  # static load [N]
     solutions: Integers  # their number so far
-    pending: Numbers  # distance rolled since the last solution, of which the damage is not counted yet [m]
+    pending: Numbers  # distance rolled of which the damage is not counted yet [m]; negative where it is counted ahead
     pace: int  # the largest of `paces`; 1: every step is a solution
     tolerance: float  # of a force, over the static load
 

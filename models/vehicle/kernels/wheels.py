@@ -81,8 +81,8 @@ def press_wheel(benches, scratch, w):
 def follow_wheel(benches: Benches[Search], scratch: Scratch, w: int) -> int:
     """Fill what wheel `w` does: from the last solution of its contact if that is near enough, else by `press_wheel`.
 
-    ``benches.settings[w].distance`` is the distance of this step of which the damage is counted [m]. A solution counts for all
-    steps since the one before. Returns as `press_wheel`.
+    ``benches.settings[w].distance`` is the distance of this step of which the damage is counted [m]. A solution counts for the
+    steps around it. Returns as `press_wheel`.
     """
     own, given, wheel, setting = benches.held, scratch.given[w], scratch.wheels[w], benches.settings[w]
     if own.pace <= 1:
@@ -98,10 +98,13 @@ def follow_wheel(benches: Benches[Search], scratch: Scratch, w: int) -> int:
             own.ages[w] += 1
             own.pending[w] += setting.distance
             return n_before
-    rolled = setting.distance
-    setting.distance = rolled + own.pending[w]
+    # A solution counts for the steps around it: half of those since the last one, and of those until the next one, as many as
+    # the pace lets expect. What comes otherwise is made up for at the next solution.
+    rolled, due = setting.distance, setting.distance + own.pending[w]
+    setting.distance = max(due + 0.5 * (max(own.paces[w], 1) - 1) * rolled, 0.0)
+    own.pending[w] = due - setting.distance
     n = press_wheel(benches, scratch, w)
-    setting.distance, own.pending[w] = rolled, 0.0
+    setting.distance = rolled
     if n >= 0:
         learn(own, w, wheel, near and n == n_before)
         own.asked[w] = given

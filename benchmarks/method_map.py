@@ -1,0 +1,215 @@
+"""Accuracy over time of all methods on the same 1000 wheel-rail contacts: docs/method_map.md and its picture.
+
+python -m benchmarks.method_map [--contacts 1000] [--write docs]
+
+A contact is the most loaded patch of a random pose of S1002 on 60E1 (1:40), at its own spin and random creepages. The reference
+is the element-wise half space, which agrees with CONTACT to 6e-6 of friction times load (docs/halfspace.md), on a finer grid
+than any that is shown.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+from numpy.typing import NDArray
+
+import contact
+from benchmarks.tables import table
+from contact.geometry import profile
+from contact.geometry.wheelset import Pair, Pose
+
+FRICTION, FINEST, REPEATS = 0.3, 100, 3
+Array = NDArray[np.float64]
+Contact = tuple[contact.Separation, contact.Creepage, float]
+
+#: Title, normal and tangential method, strips (elements along y), elements along x, and the place of the label beside the point.
+SHOWN: list[tuple[str, str, str, int, int]] = [
+    ("default", "strip_halfspace", "fastrip_mapped", 20, 20),
+    ("default, 40 × 40", "strip_halfspace", "fastrip_mapped", 40, 40),
+    ("default, 10 × 10", "strip_halfspace", "fastrip_mapped", 10, 10),
+    ("half-space strips + FASTSIM", "strip_halfspace", "fastsim", 20, 20),
+    ("half-space strips + table", "strip_halfspace", "table", 20, 20),
+    ("thesis: ANALYN + FaStrip", "analyn", "fastrip", 30, 20),
+    ("ANALYN + mapped FaStrip", "analyn", "fastrip_mapped", 20, 20),
+    ("ANALYN + FASTSIM", "analyn", "fastsim", 20, 20),
+    ("Kik-Piotrowski + FASTSIM", "kik_piotrowski", "fastsim", 20, 20),
+    ("Kik-Piotrowski 2008 + FASTSIM", "kik_piotrowski_2008", "fastsim", 20, 20),
+    ("Linder", "linder", "fastsim_linder", 20, 20),
+    ("STRIPES", "stripes_ab", "fastsim_stripes", 20, 20),
+    ("KPEC + FASTSIM", "kpec", "fastsim", 20, 20),
+    ("equivalent ellipse + FASTSIM", "pascal_sauvage", "fastsim", 20, 20),
+    ("Hertz + FASTSIM", "hertz", "fastsim", 20, 20),
+    ("Hertz + FaStrip", "hertz", "fastrip", 20, 20),
+    ("Hertz + table", "hertz", "table", 20, 20),
+    ("Hertz + Shen-Hedrick-Elkins", "hertz", "shen_hedrick_elkins", 20, 20),
+    ("Hertz + Polach", "hertz", "polach", 20, 20),
+    ("Hertz + linear theory, limited", "hertz", "linear_saturated", 20, 20),
+    ("half space, 15 × 15", "halfspace", "halfspace", 15, 15),
+    ("half space, 30 × 30", "halfspace", "halfspace", 30, 30),
+    ("half space, 60 × 60", "halfspace", "halfspace", 60, 60),
+]
+
+PAGE = """# Accuracy and time of all methods
+
+Written by `python -m benchmarks.method_map --write docs`. {count} contacts: the most loaded patch of random poses of S1002 on
+60E1 (1:40), y from -8 to 8 mm, yaw up to 10 mrad, 20 to 160 kN a wheel, friction {friction:g}. Spin is that of the pose.
+Longitudinal and lateral creepage have random signs and sizes of .01 to 1 %, even in their logarithms. Every method gets the same
+separation, creepages and load, so that the search of the contact is not in time or error.
+
+The reference is our element-wise half space with {finest} × {finest} elements. It agrees with CONTACT on the same grid to 6e-6 of
+friction times load ([Half space](halfspace.md)). CONTACT itself cannot be run here; its time is a matter of its grid as that of
+the half space is. Time is the least of {repeats} calls from Python, each from nothing, on one core, and its median over the contacts.
+
+![Error of the force over time of one contact](pictures/method_map.png)
+
+{table}
+{missed}
+## What it says
+
+* Left of {default_us:.0f} µs no method has a mean error below {left:.1%} of friction times load. The default has {default:.2%}.
+* The normal problem bounds what a better tangential method gains: FASTSIM on the default's strips has {fastsim:.1%}, the mapped
+  FaStrip on ANALYN's strips {analyn:.1%}.
+* A half space of {coarse} needs {times:.0f} times the time of the default for an error of {coarse_error:.2%}.
+
+Not in the map, since their equations were not found in open text: KBTNH, MKP, INFCON, and neural surrogates.
+USETAB's place is taken by `table`, which holds our own half space's forces on ellipses.
+"""
+
+
+def contacts(count: int) -> list[Contact]:
+    """Return the most loaded patch of `count` random poses."""
+    rng = np.random.default_rng(35)
+    pair = Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40))
+    found: list[Contact] = []
+    while len(found) < count:
+        pose = Pose(y=rng.uniform(-8e-3, 8e-3), yaw=rng.uniform(-10e-3, 10e-3))
+        patches = [patch for patch in pair.contacts(pose, load=rng.uniform(20e3, 160e3)) if patch.load]
+        longitudinal, lateral = rng.choice([-1.0, 1.0], 2) * 10 ** rng.uniform(-4.0, -2.0, 2)
+        if patches:
+            most = max(patches, key=lambda patch: patch.load)
+            found.append((most.separation, contact.Creepage(longitudinal, lateral, most.creepage.spin), most.load))
+    return found
+
+
+def answer(solver: contact.Solver, given: Contact, repeats: int) -> tuple[float, ...]:
+    """Return Fx, Fy, Mz, largest pressure, seconds and whether the solution has no fault; NaN where it cannot be had."""
+    separation, creepage, load = given
+    least = np.inf
+    for _ in range(repeats):
+        start = time.perf_counter()
+        found = solver.forces(separation, creepage, load=load)
+        least = min(least, time.perf_counter() - start)
+    good = found.status in (contact.Status.OK, contact.Status.SATURATED)
+    return found.Fx, found.Fy, found.Mz, found.max_pressure, least, float(good)
+
+
+def reference_answer(given: Contact, n: int = FINEST) -> tuple[float, ...]:
+    """Return `answer` of the element-wise half space on `n` by `n` elements."""
+    separation, creepage, load = given
+    start = time.perf_counter()
+    found = contact.solve(
+        separation, creepage, load=load, friction=FRICTION, normal="halfspace", tangential="halfspace",
+        n_strips=n, n_elements=n, throw=False,
+    )  # fmt: skip
+    took = time.perf_counter() - start
+    return found.Fx, found.Fy, found.Mz, found.max_pressure, took, float(found.converged)
+
+
+def answers(of: tuple[str, str, str, int, int], given: list[Contact]) -> Array:
+    """Return `answer` of every contact by a method, one row each."""
+    _, normal, tangential, n_strips, n_elements = of
+    if normal == "halfspace":
+        return np.array([reference_answer(each, n_strips) for each in given])
+    solver = contact.Solver(
+        normal=normal, tangential=tangential, n_strips=n_strips, n_elements=n_elements, friction=FRICTION
+    )
+    return np.array([answer(solver, each, REPEATS) for each in given])
+
+
+def draw(path: Path, times: Array, errors: Array, interacting: list[bool]) -> None:
+    """Draw the mean error of the force over the median time."""
+    figure, axes = plt.subplots(figsize=(9.0, 5.4), layout="constrained")
+    for (title, *_), t, e, inner in zip(SHOWN, times, errors, interacting, strict=True):
+        axes.loglog(t, e, "o", color="C0" if inner else "C1")
+        axes.annotate(title, (t, e), xytext=(5, 2), textcoords="offset points", fontsize=7)
+    axes.set(xlabel="time of one contact, median [µs]", ylabel="error of the creep force over friction times load, mean")
+    axes.grid(visible=True, which="both", alpha=0.2)
+    axes.set_xlim(right=4.0 * times.max())
+    for colour, label in (("C0", "strips or elements interact"), ("C1", "each strip or ellipse for itself")):
+        axes.plot([], [], "o", color=colour, label=label)
+    axes.legend(loc="lower left")
+    figure.savefig(path, dpi=120)
+    plt.close(figure)
+
+
+def main() -> None:
+    """Print the table, or write page and picture."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--contacts", type=int, default=1000)
+    parser.add_argument("--write", type=Path, help="folder of the page")
+    parser.add_argument("--exact", type=Path, help="keep the reference's answers in this .npy file, or take them from it")
+    options = parser.parse_args()
+    given = contacts(options.contacts)
+    if options.exact and options.exact.exists():
+        exact = np.load(options.exact)
+    else:
+        with ProcessPoolExecutor() as pool:
+            exact = np.array(list(pool.map(partial(reference_answer, n=FINEST), given, chunksize=8)))
+        if options.exact:
+            np.save(options.exact, exact)
+    bound = FRICTION * np.array([load for _, _, load in given])
+    trusted = exact[:, 5] > 0.0
+    rows, times, errors = [], [], []
+    for of in SHOWN:
+        found = answers(of, given)
+        force = np.hypot(*(found[:, :2] - exact[:, :2]).T)[trusted] / bound[trusted]
+        peak = np.abs(found[:, 3] / exact[:, 3] - 1.0)[trusted]
+        times.append(1e6 * float(np.median(found[:, 4])))
+        errors.append(float(force.mean()))
+        cells = [
+            f"{force.mean():.4f} / {np.quantile(force, 0.95):.3f} / {force.max():.3f}",
+            f"{100 * peak.mean():.2f} / {100 * np.quantile(peak, 0.95):.1f} / {100 * peak.max():.0f}",
+            f"{times[-1]:.3g} / {1e6 * np.quantile(found[:, 4], 0.99):.3g}",
+            f"{int((found[:, 5] == 0.0).sum())}",
+        ]
+        rows.append([of[0], f"`{of[1]}` + `{of[2]}`", *cells])
+        print(" | ".join(rows[-1]), flush=True)
+    if options.write:
+        write(options.write, rows, np.array(times), np.array(errors), int((~trusted).sum()), len(given))
+
+
+def write(folder: Path, rows: list[list[str]], times: Array, errors: Array, untrusted: int, count: int) -> None:
+    """Write page and picture."""
+    methods = contact.methods().normal
+    draw(folder / "pictures" / "method_map.png", times, errors, [methods[of[1]].interacting for of in SHOWN])
+    at = {of[0]: i for i, of in enumerate(SHOWN)}
+    default, coarse = at["default"], at["half space, 30 × 30"]
+    head = ["what", "methods", "force over μN, mean / 95 % / max", "largest pressure [%], the same", "time [µs], median / 99 %"]
+    missed = f"{untrusted} contacts are left out, whose reference did not converge.\n" if untrusted else ""
+    text = PAGE.format(
+        count=count,
+        friction=FRICTION,
+        finest=FINEST,
+        repeats=REPEATS,
+        table=table([*head, "not converged"], rows),
+        missed=missed,
+        default_us=times[default],
+        left=errors[times < times[default]].min(),
+        default=errors[default],
+        fastsim=errors[at["half-space strips + FASTSIM"]],
+        analyn=errors[at["ANALYN + mapped FaStrip"]],
+        coarse="30 × 30",
+        times=times[coarse] / times[default],
+        coarse_error=errors[coarse],
+    )
+    (folder / "method_map.md").write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
