@@ -28,7 +28,7 @@ FRICTION, FINEST, REPEATS = 0.3, 100, 3
 Array = NDArray[np.float64]
 Contact = tuple[contact.Separation, contact.Creepage, float]
 
-#: Title, normal and tangential method, strips (elements along y), elements along x, and the place of the label beside the point.
+#: Title, normal and tangential method, strips (elements along y), elements along x.
 SHOWN: list[tuple[str, str, str, int, int]] = [
     ("default", "strip_halfspace", "fastrip_mapped", 20, 20),
     ("default, 40 × 40", "strip_halfspace", "fastrip_mapped", 40, 40),
@@ -57,14 +57,15 @@ SHOWN: list[tuple[str, str, str, int, int]] = [
 
 PAGE = """# Accuracy and time of all methods
 
-Written by `python -m benchmarks.method_map --write docs`. {count} contacts: the most loaded patch of random poses of S1002 on
-60E1 (1:40), y from -8 to 8 mm, yaw up to 10 mrad, 20 to 160 kN a wheel, friction {friction:g}. Spin is that of the pose.
-Longitudinal and lateral creepage have random signs and sizes of .01 to 1 %, even in their logarithms. Every method gets the same
-separation, creepages and load, so that the search of the contact is not in time or error.
+Written by `python -m benchmarks.method_map --write docs`. {count} contacts: the most loaded patch of random poses of S1002
+on 60E1 (1:40), y from -8 to 8 mm, yaw up to 10 mrad, 20 to 160 kN a wheel, friction {friction:g}. Spin is that of the pose.
+Longitudinal and lateral creepage have random signs and sizes of .01 to 1 %, even in their logarithms. Every method gets the
+same separation, creepages and load, so that the search of the contact is not in time or error.
 
-The reference is our element-wise half space with {finest} × {finest} elements. It agrees with CONTACT on the same grid to 6e-6 of
-friction times load ([Half space](halfspace.md)). CONTACT itself cannot be run here; its time is a matter of its grid as that of
-the half space is. Time is the least of {repeats} calls from Python, each from nothing, on one core, and its median over the contacts.
+The reference is our element-wise half space with {finest} × {finest} elements. It agrees with CONTACT on the same grid to 6e-6
+of friction times load ([Half space](halfspace.md)). CONTACT itself cannot be run here; its time depends on its grid as that
+of the half space does. Time is the least of {repeats} calls from Python, each without a start, on one core, and its median
+over the contacts.
 
 ![Error of the force over time of one contact](pictures/method_map.png)
 
@@ -138,7 +139,9 @@ def draw(path: Path, times: Array, errors: Array, interacting: list[bool]) -> No
     for (title, *_), t, e, inner in zip(SHOWN, times, errors, interacting, strict=True):
         axes.loglog(t, e, "o", color="C0" if inner else "C1")
         axes.annotate(title, (t, e), xytext=(5, 2), textcoords="offset points", fontsize=7)
-    axes.set(xlabel="time of one contact, median [µs]", ylabel="error of the creep force over friction times load, mean")
+    axes.set(
+        xlabel="time of one contact, median [µs]", ylabel="error of the creep force over friction times load, mean"
+    )
     axes.grid(visible=True, which="both", alpha=0.2)
     axes.set_xlim(right=4.0 * times.max())
     for colour, label in (("C0", "strips or elements interact"), ("C1", "each strip or ellipse for itself")):
@@ -153,7 +156,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--contacts", type=int, default=1000)
     parser.add_argument("--write", type=Path, help="folder of the page")
-    parser.add_argument("--exact", type=Path, help="keep the reference's answers in this .npy file, or take them from it")
+    parser.add_argument(
+        "--exact", type=Path, help="keep the reference's answers in this .npy file, or take them from it"
+    )
     options = parser.parse_args()
     given = contacts(options.contacts)
     if options.exact and options.exact.exists():
@@ -190,7 +195,13 @@ def write(folder: Path, rows: list[list[str]], times: Array, errors: Array, untr
     draw(folder / "pictures" / "method_map.png", times, errors, [methods[of[1]].interacting for of in SHOWN])
     at = {of[0]: i for i, of in enumerate(SHOWN)}
     default, coarse = at["default"], at["half space, 30 × 30"]
-    head = ["what", "methods", "force over μN, mean / 95 % / max", "largest pressure [%], the same", "time [µs], median / 99 %"]
+    head = [
+        "what",
+        "methods",
+        "force over μN, mean / 95 % / max",
+        "largest pressure [%], the same",
+        "time [µs], median / 99 %",
+    ]
     missed = f"{untrusted} contacts are left out, whose reference did not converge.\n" if untrusted else ""
     text = PAGE.format(
         count=count,
