@@ -23,7 +23,7 @@ from benchmarks.patches_of_sets import BOTH, pair_of, parabolas
 from benchmarks.tables import summary, table
 from contact.geometry.wheelset import Pose, Velocity
 from contact.halfspace import Gap
-from contact.pair import RollerRig, WheelRailPair, drive
+from contact.pair import RollerRig, WheelRailPair
 from contact.stress import SurfaceLoad, below
 
 Row = list[str]
@@ -172,7 +172,7 @@ def rollers(folder: Path) -> Iterator[Row]:
         s = rig.solve(Pose(y=1e-3 * v["y_ws"], yaw=v["yaw"]), velocity, vertical=v["Fz_in"])
         true = -np.array([v["Fx_tr"], v["Fy_tr"], v["Fz_tr"]])
         forces.append(np.linalg.norm(s.force - true) / np.linalg.norm(true))
-        creepages.append(s.patches[0].creepage.longitudinal + v["xi"])
+        creepages.append(s.contacts[0].creepage.longitudinal + v["xi"])
     yield summary("N: force vector, default methods", forces, "itself")
     yield summary("N: longitudinal creepage", creepages, "1")
 
@@ -184,7 +184,7 @@ def driven(folder: Path) -> Iterator[Row]:
     for row in reference.rows(folder / "H_prescribed" / "module1.csv"):
         if row["patch"] == "1":
             pose, force = Pose(y=1e-3 * float(row["y_ws"])), -float(row["Fx_ws_in"])
-            found = drive(solver, pose, Velocity(2.0), force=force, vertical=float(row["Fz_in"]))
+            found = solver.solve(pose, Velocity(2.0), force=force, vertical=float(row["Fz_in"]))
             errors.append(found.spin / float(row["VPITCH"]) - 1.0)
     yield summary("H: spin of a driven wheel, default methods", errors, "itself")
 

@@ -17,7 +17,7 @@ from contact.geometry import profile
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.halfspace import Gap
-from contact.pair import ContactDamping, ElasticRail, FrictionMemory, RollerRig, WheelRailPair, over_time
+from contact.pair import ContactDamping, ElasticRail, FrictionMemory, RollerRig, WheelRailPair
 from contact.stress import SurfaceLoad, below, largest
 
 Row = list[str]
@@ -89,7 +89,7 @@ def pairs() -> Iterator[Row]:
     memory = {"memory": FrictionMemory(law, 0.01), "damping": ContactDamping(1e-4, 1e-4)}
     yield [
         "the same with friction memory and damping",
-        _each(partial(over_time, WheelRailPair(profiles), motion, **memory), n),
+        _each(partial(WheelRailPair(profiles).run, motion, **memory), n),
     ]
     separation = profiles.contacts(poses[0], load=8e4)[0].separation
     task = partial(contact.solve, separation, contact.Creepage(), load=8e4, force=1e4)

@@ -51,7 +51,7 @@ def peaks(folder: Path) -> Iterator[Peak]:
         radius = 1e-3 * v["R_roller"]
         rig = RollerRig(pair, radius, offset=1e-3 * v["x_ws"])
         velocity = Velocity(v["RPITCH"] * radius, spin=v["VPITCH"])
-        patch = rig.solve(Pose(y=1e-3 * v["y_ws"], yaw=v["yaw"]), velocity, vertical=v["Fz_in"]).patches[0]
+        patch = rig.solve(Pose(y=1e-3 * v["y_ws"], yaw=v["yaw"]), velocity, vertical=v["Fz_in"]).contacts[0].patch
         found = []
         for corners in (None, points):
             gap = _gap(patch, 1e-3 * v["ycp_r"], v["delta_rad"], corners)

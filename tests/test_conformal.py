@@ -74,7 +74,7 @@ def test_without_friction_the_pressure_of_a_tilted_surface_pushes_sideways():
     sol = contact.solve(bent(0.1), CREEPAGE, load=8e4, friction=0.0, conformal=True)
     assert sol.N == 8e4
     assert sol.Fy == sol.pressure_y == pytest.approx(0.1 * 8e4, rel=1e-12)
-    assert sol.utilisation == 0.0
+    assert sol.used_friction == 0.0
     assert sol.Fx == 0.0
     assert sol.damage.T_gamma == 0.0
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 import typer
@@ -18,8 +18,7 @@ from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.problem import load_or_standard
 from contact.geometry.surfaces import Deviation, RailSurface, SurfacePair, WheelSurface
 from contact.geometry.surfaces.deviation import out_of_round
-from contact.geometry.wheelset import Pose, Velocity
-from contact.pair.passage import Passage, passage, solver_for
+from contact.pair import PairRun, solver_for
 
 _WAY = "Way"
 _HEADINGS = ("at\nmm", "z\nmm", "patch", "x\nmm", "y\nmm", "N\nkN", "Fx\nkN", "Fy\nkN", "p max\nMPa", "gap\nerror")
@@ -119,22 +118,19 @@ def along(
         flange_back=place.back_to_back,
         rail_origin=change.origin,
     )
-    found = passage(
-        solver_for(pair, normal, tangential),
-        np.linspace(way.begin, way.end, way.points),
-        Pose(y=place.y, roll=place.roll, yaw=place.yaw),
-        Velocity(place.speed),
-        rotation=way.turned,
-        load=load_or_standard(load) if vertical is None else load,
-        vertical=vertical,
-        friction=surface.law(),
-    )
+    motion: dict[str, Any] = {"station": np.linspace(way.begin, way.end, way.points), "velocity.x": place.speed}
+    motion |= {"pose.y": place.y, "pose.roll": place.roll, "pose.yaw": place.yaw}
+    if vertical is None:
+        motion["load"] = load_or_standard(load)
+    else:
+        motion |= {"vertical": vertical} if load is None else {"vertical": vertical, "load": load}
+    found = solver_for(pair, normal, tangential).run(motion, rotation=way.turned, friction=surface.law())
     deliver(
-        {**found.columns(), "patches_of": found.rows()},
+        {**found, "patches_of": found.patches()},
         show=lambda console: _show(found, console),
         as_json=as_json,
         out=out,
-        rows=found.rows,
+        rows=found.patches,
         figure=lambda: drawing().passage(found, f"{place.wheel} on {place.rail}"),
     )
 
@@ -146,11 +142,11 @@ def _wheel(name: str, reading: arguments.Reading) -> WheelSurface:
     return WheelSurface.constant(reading.load(name, "wheel"))
 
 
-def _show(found: Passage, console: Console) -> None:
+def _show(found: PairRun, console: Console) -> None:
     table = Table(header_style="bold", box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
     for heading in _HEADINGS:
         table.add_column(heading, justify="right", no_wrap=True)
-    for row in found.rows():
+    for row in found.patches():
         table.add_row(
             f"{1e3 * row['station']:.1f}",
             f"{1e3 * row['wheel_z']:.4f}",

@@ -18,7 +18,7 @@ from contact.cli.report import show_curve
 from contact.errors import ContactError
 from contact.geometry.wheelset import Pair
 from contact.pair import ContactDamping, ElasticRail, FrictionMemory, WheelRailPair
-from contact.pair.in_time import LOAD, over_time
+from contact.pair.motion import LOAD
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 
 _SHOWN = 25  # lines of the printed table
@@ -77,7 +77,6 @@ def in_time(
         given[LOAD] = load_or_standard(load)
     elif load is not None:
         raise ContactError(f"load = {load:g} and the column 'pose.z' exclude each other")
-    n = len(next(iter(columns.values())))
     law = surface.law()
     pair = Pair(
         reading.load(place.wheel, "wheel"),
@@ -87,16 +86,15 @@ def in_time(
         gauge=place.gauge,
         flange_back=place.back_to_back,
     )
-    found = over_time(
-        WheelRailPair(pair, normal=normal, tangential=tangential),
-        {name: np.full(n, value) for name, value in given.items()} | columns,
+    found = WheelRailPair(pair, normal=normal, tangential=tangential).run(
+        {**given, **columns},
         friction=law,
         memory=None if friction_memory is None else FrictionMemory(law, *friction_memory),
         damping=None if damping is None else ContactDamping(*damping),
         rail=ElasticRail(*springs, *preload),
     )
     rows = [dict(zip(found, row, strict=True)) for row in zip(*(x.tolist() for x in found.values()), strict=True)]
-    every = max(1, -(-n // _SHOWN))
+    every = max(1, -(-len(rows) // _SHOWN))
     time = found["time"].tolist()
     shown = {f"{name} [kN]": (1e-3 * found[name][::every]).tolist() for name in ("Fx", "Q", "Y")}
     shown |= {"friction": found["friction"][::every].tolist(), "status": found["status"][::every].tolist()}

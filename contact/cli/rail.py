@@ -14,7 +14,7 @@ from contact.cli.output import deliver, prepare, reported
 from contact.cli.problem import standard_load
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Pair, Velocity
-from contact.pair import ElasticRail, WheelRailPair, drive
+from contact.pair import ElasticRail, WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.study.table import number
 
@@ -61,12 +61,8 @@ def rail(
         velocity = Velocity(forward=place.speed, spin=spin)
         options: dict[str, Any] = {"vertical": standard_load(load, None), "friction": surface.law(), "rail": elastic}
         options["offset"] = WheelOffset(*wheel_offset) if any(wheel_offset) else None
-        turning = -place.speed / place.radius if spin is None else spin
-        if force is None and torque is None:
-            s = solver.solve(case.pose, velocity, **options)
-        else:
-            driven = drive(solver, case.pose, velocity, force=force, torque=torque, **options)
-            s, turning = driven.solution, driven.spin
+        options |= {"force": force, "torque": torque}
+        s = solver.solve(case.pose, velocity, **options)
         rows.append(
             {
                 "side": name,
@@ -74,7 +70,7 @@ def rail(
                 "deflection_z": s.deflection[1],
                 **{f"F{axis}": float(f) for axis, f in zip("xyz", s.force, strict=True)},
                 "My": float(s.moment[1]),
-                "spin": turning,
+                "spin": s.spin,
                 "z": s.z,
                 "max_pressure": s.max_pressure,
                 "status": s.status.name,

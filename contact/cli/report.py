@@ -38,7 +38,7 @@ CONTACT: Sequence[tuple[str, str, Callable[[Solution], float]]] = (
     ("Fx on the wheel", "kN", lambda s: 1e-3 * s.Fx),
     ("Fy on the wheel", "kN", lambda s: 1e-3 * s.Fy),
     ("Mz on the wheel", "N m", lambda s: s.Mz),
-    ("utilised friction", "-", lambda s: s.utilisation),
+    ("used friction", "-", lambda s: s.used_friction),
     ("slip area", "%", lambda s: 100.0 * s.slip_ratio),
 )
 DAMAGE: Sequence[tuple[str, str, Callable[[Damage], float]]] = (

@@ -9,9 +9,11 @@ from contact.cli import options as opt
 from contact.cli.document import flat
 from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.problem import Touch, standard_load
+from contact.geometry.records import Patch
 from contact.geometry.wheelset import Pair, Velocity
 from contact.pair import RollerRig
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
+from contact.solution import Solution
 
 
 @reported
@@ -46,7 +48,10 @@ def roller(
     rig = RollerRig(pair, roller_radius, offset=offset, normal=normal, tangential=tangential)
     velocity = Velocity(forward=place.speed, spin=spin)
     found = rig.solve(case.pose, velocity, vertical=standard_load(load, None), friction=surface.law())
-    touches = [Touch(s, "right", p, k) for k, (p, s) in enumerate(zip(found.patches, found.solutions, strict=True), 1)]
+    touches = [
+        Touch(cast(Solution, one.solution), "right", cast(Patch, one.patch), k)
+        for k, one in enumerate(found.contacts, 1)
+    ]
     title = f"{case.wheel.name or 'wheel'} on a roller of {roller_radius:g} m: y = {1e3 * place.y:g} mm"
     patches = [report.data(touch, place.radius) for touch in touches]
     deliver(

@@ -1,40 +1,36 @@
-"""A wheel on a rail, on a roller or between switch and crossing: pairs, motions in time and over a distance.
+"""A wheel on a rail, on a roller or between switch and crossing.
 
-`WheelRailPair` takes a pose and a velocity and returns the forces of all its patches by a strip method. `HalfspacePair`
-does so by the half space, `RollerRig` on a roller, `drive` with a given torque. `over_poses` takes arrays of poses,
-`over_time` a motion, `passage` a way over a switch or crossing.
+Three pairs have the same methods and the same result, `PairSolution`: `WheelRailPair` solves by a strip method,
+`HalfspacePair` by the half space, `RollerRig` on a roller. `solve` takes a pose, a velocity and what is given: a load, a
+penetration, a force, a torque. `run` takes a motion over time or along the way. `over_poses` takes arrays of poses.
 """
 
 from contact.pair.contact_damping import ContactDamping
-from contact.pair.driven import Driven, drive
+from contact.pair.earlier import drive as drive
+from contact.pair.earlier import over_time as over_time
+from contact.pair.earlier import passage as passage
 from contact.pair.elastic_rail import ElasticRail
 from contact.pair.friction_memory import FrictionMemory
-from contact.pair.halfspace import HalfspacePair, SurfaceContact, SurfaceSolution
-from contact.pair.in_time import over_time
-from contact.pair.passage import Passage, passage
+from contact.pair.halfspace import HalfspacePair, solver_for
+from contact.pair.motion import PairRun
 from contact.pair.poses import PoseForces, over_poses
-from contact.pair.roller import RigSolution, RollerRig
-from contact.pair.wheel_rail import Contact, PairArchard, PairDamage, PairSolution, WheelRailPair
+from contact.pair.roller import RollerRig
+from contact.pair.solution import Contact, PairArchard, PairDamage, PairSolution
+from contact.pair.wheel_rail import WheelRailPair
 
 __all__ = [
     "Contact",
     "ContactDamping",
-    "Driven",
     "ElasticRail",
     "FrictionMemory",
     "HalfspacePair",
     "PairArchard",
     "PairDamage",
+    "PairRun",
     "PairSolution",
-    "Passage",
     "PoseForces",
-    "RigSolution",
     "RollerRig",
-    "SurfaceContact",
-    "SurfaceSolution",
     "WheelRailPair",
-    "drive",
     "over_poses",
-    "over_time",
-    "passage",
+    "solver_for",
 ]

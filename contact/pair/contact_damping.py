@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import require_number
-from contact.pair.wheel_rail import Contact, PairSolution
+from contact.pair.solution import Contact, PairSolution
 
 Array = NDArray[np.float64]
 

@@ -1,15 +1,15 @@
-"""A driven or braked wheel: the spin that answers a given force or torque (given_forces.md)."""
+"""A driven or braked wheel: the rotation about the axle that gives a force or a torque (given_forces.md)."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from typing import Any
+from collections.abc import Callable
+from dataclasses import replace
 
 from contact.errors import ContactError, require_number
-from contact.geometry.records import Pose, Velocity
+from contact.geometry.records import Velocity
 from contact.given_force import rising_root
-from contact.pair.wheel_rail import PairSolution, WheelRailPair
+from contact.pair.solution import PairSolution
 from contact.solution import Status
 
 #: Largest error of the force over the vertical force; a larger one, up to `_LEFT`, is accepted if the force jumps.
@@ -20,79 +20,46 @@ _REACH = 0.5
 _C11 = 4.0
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Driven:
-    """A wheel under a given force or torque.
-
-    Attributes
-    ----------
-    solution : forces at `spin`; its status is UNREACHABLE if no spin gives the force
-    spin : rotation about the axle [rad/s], negative when rolling forward
-    """
-
-    solution: PairSolution
-    spin: float
-
-
 def drive(
-    pair: WheelRailPair,
-    pose: Pose,
+    solve: Callable[[Velocity], PairSolution],
     velocity: Velocity,
-    *,
-    force: float | None = None,
-    torque: float | None = None,
-    **options: Any,
-) -> Driven:
-    """Return the solution of a pair at the spin that gives a force or a torque.
+    radius: float,
+    shear_modulus: float,
+    force: float | None,
+    torque: float | None,
+) -> PairSolution:
+    """Return the solution at the rotation that gives a longitudinal force [N] or a torque about the axle [N m].
 
-    Parameters
-    ----------
-    pair : WheelRailPair
-    pose, velocity
-        As in `WheelRailPair.solve`. `velocity.spin` is where the search starts; `velocity.forward` must be positive.
-    force : float
-        Longitudinal force on the wheelset [N], positive when driving; instead of `torque`.
-    torque : float
-        Drive torque about the axle [N m], positive when driving: the moment of the contact about y.
-    options
-        Further arguments of `WheelRailPair.solve`: load, vertical, penetration, friction, irregularity, rail.
-
-    Returns
-    -------
-    Driven
-        With status UNREACHABLE, the solution has the largest slip that was tried, half of free rolling.
+    `solve` solves the pair at a velocity; `radius` is the nominal radius [m]. The status is UNREACHABLE if no rotation up
+    to half of free rolling gives the force; the solution is then the last that was tried.
 
     Raises
     ------
     ContactError
-        For arguments outside their range, unless exactly one of force and torque is given, and as `WheelRailPair.solve`.
+        For arguments outside their range, unless exactly one of force and torque is given, and as `solve`.
     """
     if (force is None) == (torque is None):
         raise ContactError(f"exactly one of force and torque is needed; force = {force}, torque = {torque}")
     require_number("velocity.forward", velocity.forward, 0.0, open_minimum=True)
-    radius = pair.pair.nominal_radius
     arm = 1.0 if torque is None else radius
     wanted = require_number("force", force) if torque is None else require_number("torque", torque)
     free = -velocity.forward / radius
     start = free if velocity.spin is None else velocity.spin
-    solution = pair.solve(pose, replace(velocity, spin=start), **options)
-    if not solution.contacts:
-        return Driven(solution, start)
-    spin = start
+    found = solve(replace(velocity, spin=start))
+    if not found.contacts:
+        return found
 
-    def residual(at: float) -> float:
-        nonlocal solution, spin
-        if at != spin:
-            solution, spin = pair.solve(pose, replace(velocity, spin=at), **options), at
-        made = float(solution.force[0]) if torque is None else float(solution.moment[1])
+    def residual(spin: float) -> float:
+        nonlocal found
+        if spin != found.spin:
+            found = solve(replace(velocity, spin=spin))
+        made = float(found.force[0]) if torque is None else float(found.moment[1])
         left = wanted - made  # a slower wheel, whose spin is larger, pulls less
-        return 0.0 if abs(left) <= _TOLERANCE * arm * max(abs(solution.Q), 1.0) else left
+        return 0.0 if abs(left) <= _TOLERANCE * arm * max(abs(found.Q), 1.0) else left
 
-    stiffness = _C11 * pair.bench.case[0]["G"] * solution.area / math.pi  # force per creepage
-    slope = arm * float(stiffness) * radius / velocity.forward
+    slope = arm * _C11 * shear_modulus * found.area / math.pi * radius / velocity.forward
     ends = start - _REACH * abs(free), start + _REACH * abs(free)
     root = rising_root(residual, start, slope, ends, shortest=1e-12 * abs(free))
-    if abs(root.residual) > _LEFT * arm * max(abs(solution.Q), 1.0):
-        status = Status.UNREACHABLE if root.beyond else Status.NOT_CONVERGED
-        solution = replace(solution, status=status)
-    return Driven(solution, spin)
+    if abs(root.residual) > _LEFT * arm * max(abs(found.Q), 1.0):
+        return replace(found, status=Status.UNREACHABLE if root.beyond else Status.NOT_CONVERGED)
+    return found

@@ -18,52 +18,31 @@ x_w/(r_r + r_w), and the wheel lies x_w²/(2 (r_r + r_w)) deeper.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry.records import Patch, Pose, Velocity
+from contact.geometry.surfaces.frame import Frame
 from contact.geometry.wheelset import Pair
 from contact.given_force import rising_root
 from contact.material import STEEL, Material
+from contact.pair.motion import AnyPair
+from contact.pair.solution import PairSolution, Solved, of_patches
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.separation import Separation
-from contact.solution import Solution, Status
 from contact.solve import solve
 from contact.solver import N_ELEMENTS, N_STRIPS
-
-Array = NDArray[np.float64]
 
 #: Search of the penetration under a load: where it starts, its end [m], the shortest bracket [m], and the error of the load.
 _START, _DEEPEST, _SHORTEST, _TOLERANCE = 5e-5, 2e-3, 1e-12, 1e-6
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class RigSolution:
-    """Action of the roller on the wheel, in track coordinates turned with the line through both axles.
-
-    Attributes
-    ----------
-    force : (x, y, z) on the wheel [N]
-    patches : the patches, with gap, creepages and approach on the roller
-    solutions : their solutions, in the contact frames
-    inclination : of the line through both axles [rad]; 0 without offset
-    status : the worst of the patches
-    """
-
-    force: Array
-    patches: tuple[Patch, ...]
-    solutions: tuple[Solution, ...]
-    inclination: float
-    status: Status
-
-
-class RollerRig:
+class RollerRig(AnyPair):
     """One wheel on one roller.
 
     Parameters
@@ -77,11 +56,18 @@ class RollerRig:
     material, normal, tangential, n_strips, n_elements
         As in `contact.solve`.
 
+    Attributes
+    ----------
+    inclination : float
+        Of the line through both axles [rad]; 0 without offset. Forces are in track coordinates turned with it.
+
     Raises
     ------
     ContactError
         For arguments outside their range.
     """
+
+    pair: Pair
 
     def __init__(
         self,
@@ -100,13 +86,14 @@ class RollerRig:
         self.pair = pair
         self.radius = require_number("radius", radius, 0.05, 10.0)
         self.offset = require_number("offset", offset, -0.1 * radius, 0.1 * radius)
+        between = self.radius + pair.nominal_radius
+        self.inclination, self._lower = self.offset / between, 0.5 * self.offset**2 / between
         self._options: dict[str, Any] = {"material": material, "normal": normal, "tangential": tangential}
         self._options |= {"n_strips": n_strips, "n_elements": n_elements}
 
     def contacts(self, pose: Pose, velocity: Velocity, *, penetration: float | None = None) -> tuple[Patch, ...]:
         """Return the patches on the roller. `velocity.forward` is the speed of the roller's surface at `radius` [m/s]."""
-        lower = 0.5 * self.offset**2 / (self.radius + self.pair.nominal_radius)
-        found = self.pair.contacts(replace(pose, z=pose.z - lower), velocity, penetration=penetration)
+        found = self.pair.contacts(replace(pose, z=pose.z - self._lower), velocity, penetration=penetration)
         return tuple(self._on_roller(patch, velocity) for patch in found)
 
     def solve(
@@ -116,7 +103,7 @@ class RollerRig:
         *,
         vertical: float | None = None,
         friction: float | Friction = 0.3,
-    ) -> RigSolution:
+    ) -> PairSolution:
         """Find and solve all patches.
 
         Parameters
@@ -132,7 +119,7 @@ class RollerRig:
 
         Returns
         -------
-        RigSolution
+        PairSolution
 
         Raises
         ------
@@ -142,14 +129,14 @@ class RollerRig:
         require_number("velocity.forward", velocity.forward, 0.0, open_minimum=True)
         surface = as_friction(friction)
         if vertical is None:
-            return self._solved(self.contacts(pose, velocity), surface)
+            return self._at(pose, velocity, surface)
         load = require_number("vertical", vertical, 0.0, open_minimum=True)
-        found: RigSolution | None = None
+        found: PairSolution | None = None
 
         def residual(penetration: float) -> float:
             nonlocal found
-            found = self._solved(self.contacts(pose, velocity, penetration=penetration), surface)
-            left = -float(found.force[2]) - load
+            found = self._at(pose, velocity, surface, penetration)
+            left = found.Q - load
             return 0.0 if abs(left) <= _TOLERANCE * load else left
 
         root = rising_root(residual, _START, load / _START, (0.0, _DEEPEST), shortest=_SHORTEST)
@@ -181,19 +168,17 @@ class RollerRig:
         position = (ahead + moved, *patch.position[1:])
         return replace(patch, separation=gap, creepage=creepage, approach=patch.approach - lower, position=position)
 
-    def _solved(self, patches: tuple[Patch, ...], friction: Friction) -> RigSolution:
+    def _at(self, pose: Pose, velocity: Velocity, friction: Friction, penetration: float | None = None) -> PairSolution:
         """Return the solution of the patches at their approach."""
-        force, solutions = np.zeros(3), []
         mirror = -1.0 if self.pair.side == "left" else 1.0
-        for patch in patches:
+        found = []
+        for patch in self.contacts(pose, velocity, penetration=penetration):
             own = friction.placed(patch.on_rail[0], patch.angle, mirror)
             s = solve(
                 patch.separation, patch.creepage, approach=patch.approach, friction=own, throw=False, **self._options
             )
-            cosine, sine = math.cos(patch.angle), math.sin(patch.angle)
-            local = np.array([s.Fx, cosine * s.Fy + sine * s.N, sine * s.Fy - cosine * s.N])
-            force += patch.share * local
-            solutions.append(s)
-        status = max((s.status for s in solutions if s.status is not Status.NO_CONTACT), default=Status.NO_CONTACT)
-        inclination = self.offset / (self.radius + self.pair.nominal_radius)
-        return RigSolution(force, patches, tuple(solutions), inclination, status)
+            found.append(Solved(patch, s, Frame.about_x(np.zeros(3), patch.angle).axes))
+        z = pose.z if penetration is None else self.pair.z + self._lower
+        radius = self.pair.nominal_radius
+        spin = -velocity.forward / radius if velocity.spin is None else velocity.spin
+        return of_patches(found, pose, z, self.pair.side, radius, spin)

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import NamedTuple
-
 import numpy as np
-from numpy.typing import NDArray
 
 from contact import workspace
 from contact.case import cases, set_surface
@@ -17,7 +13,7 @@ from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.posed import Posed
-from contact.geometry.records import Irregularity, Pose, Velocity, contact_angle
+from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair
 from contact.kernels.arrays import Bench, Ledger, Search, SurfaceSearch
@@ -26,153 +22,19 @@ from contact.kernels.flexible import solve_on_profiles, solve_on_surfaces
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.records import LARGEST_ANGLE
 from contact.material import STEEL, Material
+from contact.pair.driven import drive
 from contact.pair.elastic_rail import ElasticRail
+from contact.pair.motion import AnyPair
+from contact.pair.solution import Contact, PairDamage, PairSolution
 from contact.plausibility import doubt_alike, doubt_gap
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, GAP_LIMIT, lookup
 from contact.solution import Status
 from contact.solver import N_ELEMENTS, N_STRIPS, require_max_iterations, require_resolution
 
-Array = NDArray[np.float64]
-
 _RIGID, _STRAIGHT = ElasticRail(), WheelOffset()
 
 
-@dataclass(frozen=True, slots=True)
-class Contact:
-    """One patch of a pair.
-
-    Forces act on the wheel. `position` is in track coordinates; everything else is in the contact frame, which is the
-    track frame turned by `angle` about x, then by `pitch`. Forces, moments and area are multiplied by the patch's share
-    (`contact.geometry.records.Patch`).
-
-    Attributes
-    ----------
-    N, Fx, Fy : normal force and creep forces [N]
-    Mx, My : moments of the normal pressure about `position`, which is not the centre of pressure [N m]
-    Mz : spin moment about `position` [N m]
-    position : point of the wheel opposite the reference point, (x, y, z) [m]
-    angle : contact angle [rad]
-    area, max_pressure : [m²], [Pa]
-    creepage : wheel minus rail at `position`
-    approach : [m]
-    on_rail, on_wheel : position on the profiles, (y, z), as in `contact.geometry.records.Patch` [m]
-    used_friction : creep force over normal force [-]
-    status : Status
-    gap_error : as `contact.Solution.gap_error` [-]. On surfaces it is not less than the error of the parabolas along x that
-        stand for the gap of the strips, root mean square over the approach; 0 for a wheel of revolution on a straight rail
-    pitch : inclination of the frame's normal along the track [rad]; 0 except for surfaces with ``tilted=True``
-    """
-
-    N: float
-    Fx: float
-    Fy: float
-    Mx: float
-    My: float
-    Mz: float
-    position: tuple[float, float, float]
-    angle: float
-    area: float
-    max_pressure: float
-    creepage: Creepage
-    approach: float
-    on_rail: tuple[float, float]
-    on_wheel: tuple[float, float]
-    used_friction: float
-    status: Status
-    gap_error: float
-    pitch: float = 0.0
-
-    @property
-    def contact_angle(self) -> float:
-        """Contact angle [rad], positive if the rail pushes the wheel to the track's centre, on either side."""
-        return contact_angle(self.angle, self.position[1])
-
-    @property
-    def T_gamma(self) -> float:
-        """|Fx vx| + |Fy vy| of this patch [N = J/m]. The patches add up to `PairDamage.T_gamma`."""
-        return abs(self.Fx * self.creepage.longitudinal) + abs(self.Fy * self.creepage.lateral)
-
-
-class PairArchard(NamedTuple):
-    """Archard's wear of a pair, under the names of `contact.damage.ArchardWear`: [m per m rolled], [m³ per m rolled]."""
-
-    depth_max: float
-    volume: float
-
-
-class PairDamage(NamedTuple):
-    """Damage of all patches of a pair. Names and units are those of `contact.damage.Damage`.
-
-    Each patch has its own rolling radius. T-gamma, dissipation, Pearce-Sherratt and Archard's volume are sums over the
-    patches; all others are maxima. `archard_depth` [m per m rolled] and `archard_volume` [m³ per m rolled] are those of
-    `ArchardWear`. `stress_index` and `energy_index` [Pa] are the maxima of the fields.
-    """
-
-    T_gamma: float
-    T_gamma_spin: float
-    dissipation: float
-    pearce_sherratt: float
-    burstow: float
-    usfd: float
-    archard_depth: float
-    archard_volume: float
-    fatigue_index: float
-    stress_index: float
-    energy_index: float
-
-    @property
-    def archard(self) -> PairArchard:
-        """Archard's wear, as in `Solution.damage`: ``damage.archard.volume``."""
-        return PairArchard(self.archard_depth, self.archard_volume)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class PairSolution:
-    """Action of one rail on the wheelset, in track coordinates.
-
-    Attributes
-    ----------
-    force : (x, y, z) on the wheel [N]
-    moment : about the wheelset's centre (0, pose.y, z - nominal radius) [N m]
-    Q : vertical force of the wheel on the rail, positive down [N]
-    Y : lateral force of the wheel on the rail, positive outwards, as with the flange in contact [N]
-    Y_over_Q : their ratio [-]; 0 without vertical force
-    used_friction : sum of the creep forces of all patches over that of the normal forces [-]
-    z : pose.z, as given or as found for a load or a penetration [m]
-    contacts : all patches, from the field side to the flange
-    max_pressure : largest pressure of all patches [Pa]
-    area, slip_area : sums over the patches [m²]
-    power_per_metre : frictional energy per metre rolled, sum over the patches [N]
-    damage : damage of all patches
-    status : Status
-    gap_error : the greatest of the patches [-]
-    deflection : lateral and vertical deflection of an elastic rail [m], added to its irregularity; 0 for a rigid rail
-    """
-
-    force: Array
-    moment: Array
-    Q: float
-    Y: float
-    Y_over_Q: float
-    used_friction: float
-    z: float
-    contacts: tuple[Contact, ...]
-    max_pressure: float
-    area: float
-    slip_area: float
-    power_per_metre: float
-    damage: PairDamage
-    status: Status
-    gap_error: float
-    deflection: tuple[float, float] = (0.0, 0.0)
-
-    @property
-    def slip_ratio(self) -> float:
-        """Slip area over contact area [-]; 0 without contact."""
-        return self.slip_area / self.area if self.area > 0.0 else 0.0
-
-
-class WheelRailPair:
+class WheelRailPair(AnyPair):
     """One wheel rolling on one rail: contact search and solution, for use at every time step of a model.
 
     Parameters
@@ -266,6 +128,8 @@ class WheelRailPair:
         load: float | None = None,
         penetration: float | None = None,
         vertical: float | None = None,
+        force: float | None = None,
+        torque: float | None = None,
         irregularity: Irregularity | None = None,
         friction: float | Friction = 0.3,
         distance: float = 0.0,
@@ -285,6 +149,11 @@ class WheelRailPair:
         vertical : float
             Vertical force on the wheel [N] ≥ 0 that normal and friction forces carry together, by the methods of this
             pair; instead of `load` and `penetration`. It takes five to ten times as long.
+        force, torque : float
+            Longitudinal force on the wheelset [N], or drive torque about the axle [N m], the contact's moment about y; both
+            positive when driving. The rotation that gives it is found, from `velocity.spin` on; it is `PairSolution.spin`.
+            `velocity.forward` must be positive. If no rotation gives it, the status is UNREACHABLE, and the solution has the
+            largest slip that was tried, half of free rolling.
         friction : float or contact.friction.Friction
             Coulomb's coefficient mu ≥ 0 [-], or a friction law, evaluated with the sliding velocity of each patch.
         distance : float
@@ -304,13 +173,37 @@ class WheelRailPair:
         Raises
         ------
         ContactError
-            For input outside its range, if wheel and rail do not overlap laterally, or if no z gives the load.
+            For input outside its range, if wheel and rail do not overlap laterally, if no z gives the load, or if both
+            `force` and `torque` are given, or one of them and a `distance`.
 
         Warns
         -----
         PlausibilityWarning
             Once, for a pose, a spin of the axle or a load that no wheelset has, as from a wrong unit or sign.
         """
+        if force is not None or torque is not None:
+            if distance != 0.0:
+                raise ContactError(
+                    f"distance = {distance}: solve again with the rotation that was found to book damage"
+                )
+
+            def turning(velocity: Velocity) -> PairSolution:
+                return self.solve(
+                    pose,
+                    velocity,
+                    station=station,
+                    rotation=rotation,
+                    load=load,
+                    penetration=penetration,
+                    vertical=vertical,
+                    irregularity=irregularity,
+                    friction=friction,
+                    rail=rail,
+                    offset=offset,
+                )
+
+            shear_modulus = float(self.bench.case[0]["G"])
+            return drive(turning, velocity or Velocity(), self.pair.nominal_radius, shear_modulus, force, torque)
         if vertical is None:
             mode, amount = self.pair.prescribed(load, penetration)
         elif load is None and penetration is None:
@@ -356,6 +249,7 @@ class WheelRailPair:
             status=Status(total.status),
             gap_error=float(total.gap_error),
             deflection=(float(self.bench.rail[0].dy), float(self.bench.rail[0].dz)),
+            spin=float(given.spin),
         )
 
     def solve_given(self, mode: int, amount: float, given: np.record) -> int:

@@ -11,12 +11,12 @@ from contact.errors import ContactError
 from contact.plot.style import DPI, INK, LINES, MM, style
 
 if TYPE_CHECKING:
-    from contact.pair import Passage
+    from contact.pair import PairRun
 
 _GPA, _KN = 1e-9, 1e-3
 
 
-def passage(run: Passage, title: str = "") -> Figure:
+def passage(run: PairRun, title: str = "") -> Figure:
     """Draw height of the wheel, contact points, forces and largest pressure over the distance.
 
     Areas of points are proportional to the normal forces of their patches; patches are numbered from the field side.
@@ -26,14 +26,13 @@ def passage(run: Passage, title: str = "") -> Figure:
     ContactError
         If there are fewer than two stations.
     """
-    if run.station.size < 2:
-        raise ContactError(f"{run.station.size} station: a figure over the distance needs at least two")
-    rows, columns = run.rows(), run.columns()
-    at = MM * columns["station"]
+    if len(run.solutions) < 2:
+        raise ContactError(f"{len(run.solutions)} station: a figure over the distance needs at least two")
+    rows, at = run.patches(), MM * run["station"]
     with style():
         figure = Figure(figsize=(7.4, 8.4), dpi=DPI, layout="constrained")
         height, ahead, across, force, pressure = figure.subplots(5, 1, sharex=True)
-        height.plot(at, -MM * columns["z"], color=INK, lw=1.2)
+        height.plot(at, -MM * run["z"], color=INK, lw=1.2)
         height.set(ylabel="wheel rises\n[mm]", title=title)
         largest = max((row["N"] for row in rows), default=1.0)
         for k in sorted({row["patch"] for row in rows}):
@@ -47,8 +46,8 @@ def passage(run: Passage, title: str = "") -> Figure:
             pressure.plot(
                 s, _GPA * np.array([row["max_pressure"] for row in own]), ".", ms=3.0, color=LINES[k % len(LINES)]
             )
-        force.plot(at, _KN * columns["Q"], color=INK, lw=1.0, label="vertical force Q")
-        force.plot(at, _KN * columns["Y"], color=INK, lw=1.0, ls=":", label="lateral force Y")
+        force.plot(at, _KN * run["Q"], color=INK, lw=1.0, label="vertical force Q")
+        force.plot(at, _KN * run["Y"], color=INK, lw=1.0, ls=":", label="lateral force Y")
         force.legend(ncols=2)
         ahead.set(ylabel="contact ahead\nof the axle [mm]")
         across.set(ylabel="contact at y\n[mm]")

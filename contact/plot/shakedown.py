@@ -39,7 +39,7 @@ def shakedown(runs: Mapping[str, Sequence[Solution]], title: str = "") -> Figure
         If no solution has contact.
     """
     points = {
-        name: np.array([(s.utilisation, s.max_pressure / s.material.shear_yield) for s in run if s.N > 0.0])
+        name: np.array([(s.used_friction, s.max_pressure / s.material.shear_yield) for s in run if s.N > 0.0])
         for name, run in runs.items()
     }
     if not any(cloud.size for cloud in points.values()):

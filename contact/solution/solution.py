@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import math
+import warnings
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -219,7 +220,7 @@ class Solution:
             ("gap error", f"{self.gap_error:.2g}{' (the pressure is doubtful)' if self.gap_error > limit else ''}"),
             ("change of contact angle", f"{math.degrees(self.bend):.3g}°"),
             ("friction", f"{self.friction:g}"),
-            ("utilisation", f"{self.utilisation:.3g}"),
+            ("used friction", f"{self.used_friction:.3g}"),
             ("energy per metre", f"{self.power_per_metre:.4g} J/m"),
         )
         shown = table((), numbers, f"{self.normal} + {self.tangential}")
@@ -241,9 +242,15 @@ class Solution:
         return self.slip_area / self.area if self.area > 0.0 else 0.0
 
     @property
-    def utilisation(self) -> float:
-        """Utilised friction: creep force over normal force [-]; 0 without contact."""
+    def used_friction(self) -> float:
+        """Creep force over normal force [-]; 0 without contact."""
         return math.hypot(self.Fx, self.Fy - self.pressure_y) / self.N if self.N > 0.0 else 0.0
+
+    @property
+    def utilisation(self) -> float:
+        """The earlier name of `used_friction`; it goes with 1.0."""
+        warnings.warn("Solution.utilisation is now Solution.used_friction", DeprecationWarning, stacklevel=2)
+        return self.used_friction
 
     def with_status(self, status: Status) -> Solution:
         """Return a copy with another status."""

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 
 from contact.geometry import profile
 from contact.geometry.surfaces import RailSurface, SurfacePair
-from contact.geometry.wheelset import Pose, Velocity
-from contact.pair.passage import Passage, passage, solver_for
+from contact.pair import PairRun, solver_for
 from contact.plot import passage as draw
 from contact.plot import patch
 
@@ -71,10 +70,10 @@ def crossing() -> RailSurface:
     return RailSurface(s, slices, features=features, corners=[1, 2], name="made-up crossing")
 
 
-def run(stations: Array, normal: str = "strip_halfspace") -> Passage:
+def run(stations: Array, normal: str = "strip_halfspace") -> PairRun:
     """Return the passage of a wheel under 80 kN."""
     pair = SurfacePair(profile.s1002(), crossing(), rail_origin=(0.75, 0.0))
-    return passage(solver_for(pair, normal), stations, Pose(), Velocity(20.0), load=8e4)
+    return solver_for(pair, normal).run({"station": stations, "velocity.x": 20.0, "load": 8e4})
 
 
 def main() -> None:
@@ -85,16 +84,16 @@ def main() -> None:
     draw(found, "S1002 over a made-up crossing, 80 kN").savefig(folder / "crossing.png")
     both = [k for k, one in enumerate(found.solutions) if len(one.contacts) > 1]
     for k in both:
-        print(f"two patches at {found.station[k]:.3f} m")
+        print(f"two patches at {found['station'][k]:.3f} m")
     if both:
-        station = found.station[both[len(both) // 2]]
+        station = found["station"][both[len(both) // 2]]
         touching = run(np.array([station]), "halfspace").solutions[0].contacts
         titles = [
             f"{part}, y = {1e3 * c.position[1]:.1f} mm" for part, c in zip(("wing", "nose"), touching, strict=True)
         ]
         patch([c.solution for c in touching], titles).savefig(folder / "patches.png")
     print("station, patch, x, y [mm], N [kN], largest pressure [MPa], gap error")
-    for row in found.rows():
+    for row in found.patches():
         at = (1e3 * row[name] for name in ("station", "x", "y"))
         station, x, y = at
         print(

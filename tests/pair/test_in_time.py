@@ -11,7 +11,7 @@ from contact.friction import Friction
 from contact.geometry import profile
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.pair import ContactDamping, FrictionMemory, WheelRailPair, over_time
+from contact.pair import ContactDamping, FrictionMemory, RollerRig, WheelRailPair
 from tests.command_line import call
 
 LAW = Friction(static=0.35, law="exponential", kinetic=0.15, half_speed=0.5)
@@ -110,7 +110,7 @@ UNDER_LOAD = {**MOTION, "load.normal_force": [6e4, 6e4, 5e4, 7e4], "offset.yaw":
 
 def test_a_motion_is_solved_row_by_row(pair):
     pair.forget()
-    found = over_time(pair, UNDER_LOAD, friction=0.2)
+    found = pair.run(UNDER_LOAD, friction=0.2)
     pair.forget()
     for k in range(4):
         pose, velocity = Pose(y=MOTION["pose.y"][k]), Velocity(20.0, spin=SPIN[k])
@@ -122,14 +122,14 @@ def test_a_motion_is_solved_row_by_row(pair):
 
 
 def test_friction_along_the_track_is_a_column(pair):
-    found = over_time(pair, UNDER_LOAD | {"friction.coefficient": [0.1, 0.2, 0.3, 0.4]})
+    found = pair.run(UNDER_LOAD | {"friction.coefficient": [0.1, 0.2, 0.3, 0.4]})
     np.testing.assert_array_equal(found["friction"], [0.1, 0.2, 0.3, 0.4])
-    one = over_time(pair, {name: column[2:3] for name, column in UNDER_LOAD.items()}, friction=0.3)
+    one = pair.run({name: column[2:3] for name, column in UNDER_LOAD.items()}, friction=0.3)
     assert found["Fx"][2] == pytest.approx(one["Fx"][0], abs=1e-4 * 6e4)
 
 
 def test_the_memory_lets_friction_follow_the_sliding_of_the_rows_before(pair):
-    found = over_time(pair, UNDER_LOAD, memory=FrictionMemory(LAW, 1e-3))
+    found = pair.run(UNDER_LOAD, memory=FrictionMemory(LAW, 1e-3))
     memory = FrictionMemory(LAW, 1e-3)
     assert found["friction"][0] == LAW.static
     for k in range(3):
@@ -148,7 +148,7 @@ def test_the_memory_lets_friction_follow_the_sliding_of_the_rows_before(pair):
 
 
 def test_damping_is_added_from_the_second_row_on(pair):
-    plain, damped = (over_time(pair, UNDER_LOAD, damping=d) for d in (None, ContactDamping(2e-4)))
+    plain, damped = (pair.run(UNDER_LOAD, damping=d) for d in (None, ContactDamping(2e-4)))
     assert damped["Fz"][0] == pytest.approx(plain["Fz"][0], rel=1e-4)
     rate = (plain["Q"][3] - plain["Q"][2]) / 1e-3
     assert damped["Q"][3] - plain["Q"][3] == pytest.approx(2e-4 * rate, rel=0.02)  # N, nearly vertical, carries Q
@@ -157,8 +157,9 @@ def test_damping_is_added_from_the_second_row_on(pair):
 @pytest.mark.parametrize(
     ("motion", "options", "message"),
     [
-        ({"pose.y": [0.0]}, {}, "motion has no column 'time'"),
-        ({"time": [0.0], "pose.q": [0.0]}, {}, "motion has 'pose.q'; known are time, pose.y"),
+        ({"pose.y": [0.0]}, {}, "motion has no column 'time' and no column 'station'"),
+        ({"station": [0.0]}, {"memory": FrictionMemory(LAW, 1.0)}, "friction memory and contact damping need"),
+        ({"time": [0.0], "pose.q": [0.0]}, {}, "motion has 'pose.q'; known are time, station, pose.y"),
         ({"time": [0.0, 0.0]}, {}, "'time' is not a column of increasing numbers"),
         ({"time": [0.0, 1.0], "pose.y": [0.0]}, {}, r"'pose.y' has shape \(1,\), 'time' has \(2,\)"),
         ({"time": ["now"]}, {}, "not a number"),
@@ -172,7 +173,7 @@ def test_damping_is_added_from_the_second_row_on(pair):
 )
 def test_bad_motions_are_refused(pair, motion, options, message):
     with pytest.raises(ContactError, match=message):
-        over_time(pair, motion, **options)
+        pair.run(motion, **options)
 
 
 def test_the_command_line(pair, tmp_path):
@@ -184,10 +185,27 @@ def test_the_command_line(pair, tmp_path):
     assert "friction" in call(*words).stdout
     rows = json.loads(call(*words, "--json").stdout)["rows"]
     pair.forget()
-    wanted = over_time(pair, UNDER_LOAD, memory=FrictionMemory(LAW, 1e-3), damping=ContactDamping(1e-4))
+    wanted = pair.run(UNDER_LOAD, memory=FrictionMemory(LAW, 1e-3), damping=ContactDamping(1e-4))
     for name, column in wanted.items():
         assert [row[name] for row in rows] == pytest.approx(column.tolist(), rel=1e-6, abs=1e-9), name
     assert "side = 'both'" in call(*words, "--side", "both", code=2).stderr
     file.write_text("time,pose.y\n0\n")
     assert "line 2 has 1 values for 2 names" in call("in-time", file, code=2).stderr
     assert "cannot be read" in call("in-time", tmp_path / "none.csv", code=2).stderr
+
+
+def test_a_pair_refuses_columns_that_it_does_not_take():
+    rig = RollerRig(Pair(profile.s1002(), profile.rail_60e1()), 0.6)
+    with pytest.raises(ContactError, match=r"motion has 'station'; RollerRig.solve takes no station"):
+        rig.run({"station": [0.0]})
+    found = rig.run({"time": [0.0, 0.1], "pose.y": [1e-3, 2e-3], "velocity.x": 10.0, "vertical": 6e4})
+    assert found["Q"] == pytest.approx([6e4, 6e4], rel=1e-5)
+
+
+def test_a_torque_is_a_column(pair):
+    torque = np.array([1e3, 2e3])
+    found = pair.run({"time": [0.0, 0.1], "velocity.x": 20.0, "vertical": 6e4, "torque": torque})
+    made = [one.moment[1] for one in found.solutions]
+    assert made == pytest.approx(torque, abs=1e-2 * 6e4 * 0.46)
+    assert (found["spin"] == [one.spin for one in found.solutions]).all()
+    assert found["spin"][1] < found["spin"][0] < -20.0 / 0.46 * (1.0 - 1e-3)

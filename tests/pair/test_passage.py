@@ -10,7 +10,7 @@ from contact import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pose, Velocity
-from contact.pair import WheelRailPair, passage
+from contact.pair import WheelRailPair
 from examples.crossing import crossing
 from tests.command_line import call
 
@@ -26,30 +26,34 @@ def solver():
 
 @pytest.fixture(scope="module")
 def run(solver):
-    return passage(solver, [0.0, 0.02, 0.04], Pose(y=1e-3), Velocity(20.0), rotation=0.1, penetration=8e-5)
+    return solver.run(
+        {"station": [0.0, 0.02, 0.04], "pose.y": 1e-3, "velocity.x": 20.0, "penetration": 8e-5}, rotation=0.1
+    )
 
 
 def test_the_wheel_rolls_on_with_its_nominal_radius(solver, run):
-    assert run.rotation == pytest.approx([0.1, 0.1 - 0.02 / R0, 0.1 - 0.04 / R0], abs=1e-15)
-    alone = solver.solve(Pose(y=1e-3), Velocity(20.0), station=0.04, rotation=float(run.rotation[2]), penetration=8e-5)
+    assert run["rotation"] == pytest.approx([0.1, 0.1 - 0.02 / R0, 0.1 - 0.04 / R0], abs=1e-15)
+    alone = solver.solve(
+        Pose(y=1e-3), Velocity(20.0), station=0.04, rotation=float(run["rotation"][2]), penetration=8e-5
+    )
     assert run.solutions[2].force == pytest.approx(alone.force, abs=1e-3 * alone.Q)  # strips start from the last call
     assert run.solutions[2].z == alone.z
 
 
 def test_columns_and_rows_hold_what_the_solutions_say(run):
-    columns, rows = run.columns(), run.rows()
-    assert columns["Q"] == pytest.approx([-one.force[2] for one in run.solutions])
+    rows = run.patches()
+    assert run["Q"] == pytest.approx([-one.force[2] for one in run.solutions])
     assert [row["station"] for row in rows] == [0.0, 0.02, 0.04]
     contact = run.solutions[1].contacts[0]
     assert (rows[1]["N"], rows[1]["x"]) == (contact.N, contact.position[0])
-    assert columns["z"].max() - columns["z"].min() > 1e-5  # the polygon lifts the wheel
+    assert run["z"].max() - run["z"].min() > 1e-5  # the polygon lifts the wheel
 
 
 def test_an_error_names_its_station(solver):
     with pytest.raises(ContactError, match=r"at station 0\.1 m: pose\.y = 0\.5"):
-        passage(solver, [0.1], Pose(y=0.5), penetration=1e-4)
-    with pytest.raises(ContactError, match=r"stations has shape \(1, 2\)"):
-        passage(solver, [[0.1, 0.2]])
+        solver.run({"station": [0.1], "pose.y": 0.5, "penetration": 1e-4})
+    with pytest.raises(ContactError, match=r"'station' has shape \(1, 2\)"):
+        solver.run({"station": [[0.1, 0.2]]})
 
 
 @pytest.mark.slow
@@ -62,7 +66,7 @@ def test_a_picture_is_written_and_not_blank(tmp_path, run):
 
 def test_a_picture_needs_two_stations(solver):
     plot = pytest.importorskip("contact.plot")
-    apart = passage(solver, [0.0], Pose(z=-1e-3))
+    apart = solver.run({"station": [0.0], "pose.z": -1e-3})
     with pytest.raises(ContactError, match="1 station"):
         plot.passage(apart)
 
@@ -75,10 +79,10 @@ def test_the_command_gives_the_numbers_of_the_python_api(tmp_path):
     told = json.loads(result.stdout)
     wheel = WheelSurface.constant(WHEEL, Flat(0.05, R0, 4e-4))
     solver = WheelRailPair(SurfacePair(wheel, RAIL), normal="strip_halfspace")
-    wanted = passage(solver, [0.0, 0.01], Pose(), Velocity(20.0), rotation=0.02, load=80e3)
-    assert told["z"] == pytest.approx(wanted.columns()["z"], abs=1e-12)
-    assert told["patches_of"][1]["N"] == pytest.approx(wanted.rows()[1]["N"], rel=1e-9)
-    assert len(output.read_text().splitlines()) == 1 + len(wanted.rows())
+    wanted = solver.run({"station": [0.0, 0.01], "velocity.x": 20.0, "load": 80e3}, rotation=0.02)
+    assert told["z"] == pytest.approx(wanted["z"], abs=1e-12)
+    assert told["patches_of"][1]["N"] == pytest.approx(wanted.patches()[1]["N"], rel=1e-9)
+    assert len(output.read_text().splitlines()) == 1 + len(wanted.patches())
 
 
 @pytest.mark.slow
@@ -120,7 +124,7 @@ def test_a_wheel_goes_over_from_wing_rail_to_nose_without_a_jump():
     assert (np.diff(nose) > -300.0).all()  # N: only the contact angle changes at the end
     assert (np.diff(wing)[:-1] < 0.0).all()
     assert np.abs(np.diff(nose)).max() < 0.2 * 8e4
-    z = found.columns()["z"]
+    z = found["z"]
     assert np.abs(np.diff(z)).max() < 3e-5  # 1 : 70 on 2 mm
     ahead = [c.position[0] for c in contacts[-1]]
     assert ahead[0] > 4e-3  # the nose rises, so the wheel touches it ahead of the axle

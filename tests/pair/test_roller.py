@@ -30,7 +30,7 @@ def test_creepages_and_forces_are_contacts(radius, y, yaw, spin, creepages, forc
     """
     s = RollerRig(PAIR, radius).solve(Pose(y=y, yaw=yaw), Velocity(10.0, spin=spin), vertical=6e4)
     assert s.status is contact.Status.OK
-    c = s.patches[0].creepage
+    c = s.contacts[0].creepage
     assert (c.longitudinal, c.lateral) == pytest.approx([-v for v in creepages[:2]], abs=2.5e-4)
     assert c.spin == pytest.approx(-creepages[2], abs=0.02)
     assert -s.force == pytest.approx([*force, 6e4], abs=0.015 * 6e4)
@@ -54,7 +54,7 @@ def test_a_large_roller_is_a_rail():
 
 def test_a_smaller_roller_has_a_shorter_patch_and_more_pressure():
     pose, velocity = Pose(y=-3e-3), Velocity(10.0, spin=-10.0 / 0.46)
-    large, small = (RollerRig(PAIR, r).solve(pose, velocity, vertical=6e4).solutions[0] for r in (2.0, 0.35))
+    large, small = (RollerRig(PAIR, r).solve(pose, velocity, vertical=6e4).contacts[0].solution for r in (2.0, 0.35))
     assert small.length < 0.9 * large.length
     assert small.max_pressure > 1.1 * large.max_pressure
 
@@ -79,7 +79,7 @@ def test_an_offset_lowers_the_wheel_and_inclines_the_line_of_the_axles():
     pose, velocity = Pose(y=-3e-3), Velocity(10.0, spin=-21.75)
     straight, ahead = (RollerRig(PAIR, 0.6, offset=x).solve(pose, velocity, vertical=6e4) for x in (0.0, 5e-3))
     np.testing.assert_allclose(ahead.force, straight.force, atol=2e-3 * 6e4)
-    assert ahead.inclination == pytest.approx(5e-3 / 1.06)
+    assert RollerRig(PAIR, 0.6, offset=5e-3).inclination == pytest.approx(5e-3 / 1.06)
     pose = Pose(y=-3e-3, z=PAIR.touch(pose) + 5e-5)
     at_height, without = (RollerRig(PAIR, 0.6, offset=x).contacts(pose, velocity)[0].approach for x in (5e-3, 0.0))
     assert without - at_height == pytest.approx(0.5 * 25e-6 / 1.06, rel=0.02)

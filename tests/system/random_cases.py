@@ -68,7 +68,7 @@ class Case:
         magnifies the last digit of asin, so the scale is larger by 10.
         """
         wanted, s = self.expected(), self.solution
-        limit, force = s.friction * s.N, s.utilisation * s.N
+        limit, force = s.friction * s.N, s.used_friction * s.N
         scale = dict(zip(OUTPUTS, np.abs(wanted), strict=True))
         for name in scale:
             if name.startswith("damage") and force > 0.0:

@@ -19,7 +19,7 @@ import contact
 from contact.friction import Friction
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.pair import ContactDamping, ElasticRail, FrictionMemory, WheelRailPair, over_time
+from contact.pair import ContactDamping, ElasticRail, FrictionMemory, WheelRailPair
 
 ROOT = Path(__file__).parents[2]
 
@@ -105,8 +105,7 @@ def test_a_host_adds_friction_memory_and_contact_damping(open_pair):
     spin = -20.0 / 0.46 * (1.0 + 2e-3 * np.arange(n))
     motion = {"velocity.x": np.full(n, 20.0), "velocity.spin": spin, "load.normal_force": 6e4 + 2e3 * np.arange(n)}
     motion |= {"pose.y": 2e-4 * np.arange(n), "offset.yaw": 2e-4 * np.arange(n)}
-    wanted = over_time(
-        WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(1.0 / 40.0))),
+    wanted = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(1.0 / 40.0))).run(
         motion | {"time": step * np.arange(n)},
         memory=FrictionMemory(law, 1e-3),
         damping=ContactDamping(damping, damping),

@@ -1,0 +1,271 @@
+"""What a pair answers: `PairSolution`, the action of one rail on the wheelset, and `Contact`, one patch of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.creepage import Creepage
+from contact.damage import Damage, evaluate
+from contact.geometry.records import Patch, Pose, contact_angle
+from contact.geometry.surfaces import SurfacePatch
+from contact.solution import Solution, Status
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """One patch of a pair.
+
+    Forces act on the wheel. `position` is in track coordinates; everything else is in the contact frame, which is the
+    track frame turned by `angle` about x, then by `pitch`. Forces, moments and area are multiplied by the patch's share
+    (`contact.geometry.records.Patch`).
+
+    Attributes
+    ----------
+    N, Fx, Fy : normal force and creep forces [N]
+    Mx, My : moments of the normal pressure about `position`, which is not the centre of pressure [N m]
+    Mz : spin moment about `position` [N m]
+    position : point of the wheel opposite the reference point, (x, y, z) [m]
+    angle : contact angle [rad]
+    area, max_pressure : [m²], [Pa]
+    creepage : wheel minus rail at `position`
+    approach : [m]
+    on_rail, on_wheel : position on the profiles, (y, z), as in `contact.geometry.records.Patch` [m]
+    used_friction : creep force over normal force [-]
+    status : Status
+    gap_error : as `contact.Solution.gap_error` [-]. On surfaces it is not less than the error of the parabolas along x that
+        stand for the gap of the strips, root mean square over the approach; 0 for a wheel of revolution on a straight rail
+    pitch : inclination of the frame's normal along the track [rad]; 0 except for surfaces with ``tilted=True``
+    patch, solution : geometry of the patch, and its solution with all fields, by `RollerRig` and `HalfspacePair`; None by
+        `WheelRailPair`, which keeps no fields
+    """
+
+    N: float
+    Fx: float
+    Fy: float
+    Mx: float
+    My: float
+    Mz: float
+    position: tuple[float, float, float]
+    angle: float
+    area: float
+    max_pressure: float
+    creepage: Creepage
+    approach: float
+    on_rail: tuple[float, float]
+    on_wheel: tuple[float, float]
+    used_friction: float
+    status: Status
+    gap_error: float
+    pitch: float = 0.0
+    patch: Patch | SurfacePatch | None = field(default=None, repr=False)
+    solution: Solution | None = field(default=None, repr=False)
+
+    @property
+    def contact_angle(self) -> float:
+        """Contact angle [rad], positive if the rail pushes the wheel to the track's centre, on either side."""
+        return contact_angle(self.angle, self.position[1])
+
+    @property
+    def T_gamma(self) -> float:
+        """|Fx vx| + |Fy vy| of this patch [N = J/m]. The patches add up to `PairDamage.T_gamma`."""
+        return abs(self.Fx * self.creepage.longitudinal) + abs(self.Fy * self.creepage.lateral)
+
+
+class PairArchard(NamedTuple):
+    """Archard's wear of a pair, under the names of `contact.damage.ArchardWear`: [m per m rolled], [m³ per m rolled]."""
+
+    depth_max: float
+    volume: float
+
+
+class PairDamage(NamedTuple):
+    """Damage of all patches of a pair. Names and units are those of `contact.damage.Damage`.
+
+    Each patch has its own rolling radius. T-gamma, dissipation, Pearce-Sherratt and Archard's volume are sums over the
+    patches; all others are maxima. `archard_depth` [m per m rolled] and `archard_volume` [m³ per m rolled] are those of
+    `ArchardWear`. `stress_index` and `energy_index` [Pa] are the maxima of the fields.
+    """
+
+    T_gamma: float
+    T_gamma_spin: float
+    dissipation: float
+    pearce_sherratt: float
+    burstow: float
+    usfd: float
+    archard_depth: float
+    archard_volume: float
+    fatigue_index: float
+    stress_index: float
+    energy_index: float
+
+    @property
+    def archard(self) -> PairArchard:
+        """Archard's wear, as in `Solution.damage`: ``damage.archard.volume``."""
+        return PairArchard(self.archard_depth, self.archard_volume)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PairSolution:
+    """Action of one rail on the wheelset, in track coordinates.
+
+    Attributes
+    ----------
+    force : (x, y, z) on the wheel [N]
+    moment : about the wheelset's centre (0, pose.y, z - nominal radius) [N m]
+    Q : vertical force of the wheel on the rail, positive down [N]
+    Y : lateral force of the wheel on the rail, positive outwards, as with the flange in contact [N]
+    Y_over_Q : their ratio [-]; 0 without vertical force
+    used_friction : sum of the creep forces of all patches over that of the normal forces [-]
+    z : pose.z, as given or as found for a load or a penetration [m]
+    contacts : all patches, from the field side to the flange
+    max_pressure : largest pressure of all patches [Pa]
+    area, slip_area : sums over the patches [m²]
+    power_per_metre : frictional energy per metre rolled, sum over the patches [N]
+    damage : damage of all patches
+    status : Status
+    gap_error : the greatest of the patches [-]
+    deflection : lateral and vertical deflection of an elastic rail [m], added to its irregularity; 0 for a rigid rail
+    spin : rotation about the axle [rad/s], as given or as found for a force or a torque; negative when rolling forward
+    """
+
+    force: Array
+    moment: Array
+    Q: float
+    Y: float
+    Y_over_Q: float
+    used_friction: float
+    z: float
+    contacts: tuple[Contact, ...]
+    max_pressure: float
+    area: float
+    slip_area: float
+    power_per_metre: float
+    damage: PairDamage
+    status: Status
+    gap_error: float
+    deflection: tuple[float, float] = (0.0, 0.0)
+    spin: float = 0.0
+
+    @property
+    def slip_ratio(self) -> float:
+        """Slip area over contact area [-]; 0 without contact."""
+        return self.slip_area / self.area if self.area > 0.0 else 0.0
+
+
+class Solved(NamedTuple):
+    """A patch, its solution, and the axes of its frame as rows in track coordinates, shape (3, 3)."""
+
+    patch: Patch | SurfacePatch
+    solution: Solution
+    axes: Array
+
+
+def of_patches(
+    found: Sequence[Solved], pose: Pose, z: float, side: str, nominal_radius: float, spin: float
+) -> PairSolution:
+    """Return the action of all patches on the wheelset at the height `z` [m]; `spin` is the rotation of the wheel [rad/s].
+
+    Sums and maxima are those of the kernel of `WheelRailPair`.
+    """
+    centre = np.array([0.0, pose.y, z - nominal_radius])
+    force, moment = np.zeros(3), np.zeros(3)
+    contacts = [_contact(one) for one in found]
+    for contact, one in zip(contacts, found, strict=True):
+        own = np.array([contact.Fx, contact.Fy, -contact.N]) @ one.axes
+        force += own
+        moment += np.array([contact.Mx, contact.My, contact.Mz]) @ one.axes
+        moment += np.cross(np.array(contact.position) - centre, own)
+    Q, Y = -float(force[2]), -float(force[1]) if side == "right" else float(force[1])
+    shares = [_share(one.patch) for one in found]
+    N = sum(contact.N for contact in contacts)
+    return PairSolution(
+        force=force,
+        moment=moment,
+        Q=Q,
+        Y=Y,
+        Y_over_Q=Y / Q if Q > 0.0 else 0.0,
+        used_friction=sum(c.used_friction * c.N for c in contacts) / N if N > 0.0 else 0.0,
+        z=z,
+        contacts=tuple(contacts),
+        max_pressure=max((c.max_pressure for c in contacts), default=0.0),
+        area=sum(c.area for c in contacts),
+        slip_area=sum(k * one.solution.slip_area for k, one in zip(shares, found, strict=True)),
+        power_per_metre=sum(k * one.solution.power_per_metre for k, one in zip(shares, found, strict=True)),
+        damage=_damage([evaluate(one.solution, one.patch.rolling_radius) for one in found], shares),
+        status=_status([contact.status for contact in contacts]),
+        gap_error=max((c.gap_error for c in contacts), default=0.0),
+        spin=spin,
+    )
+
+
+def _share(patch: Patch | SurfacePatch) -> float:
+    return patch.share if isinstance(patch, Patch) else 1.0
+
+
+def _contact(one: Solved) -> Contact:
+    """Return the contact of a solved patch. The pressure's moments are those about the origin of its frame."""
+    patch, s, share = one.patch, one.solution, _share(one.patch)
+    pressing = s.p * s.dA
+    return Contact(
+        N=share * s.N,
+        Fx=share * s.Fx,
+        Fy=share * s.Fy,
+        Mx=-share * float((s.y * pressing).sum()),
+        My=share * float((s.x * pressing).sum()),
+        Mz=share * s.Mz,
+        position=patch.wheel_position,
+        angle=patch.angle,
+        area=share * s.area,
+        max_pressure=s.max_pressure,
+        creepage=s.creepage,
+        approach=s.approach,
+        on_rail=patch.on_rail if isinstance(patch, Patch) else (0.0, 0.0),
+        on_wheel=patch.on_wheel if isinstance(patch, Patch) else (0.0, 0.0),
+        used_friction=s.used_friction,
+        status=s.status,
+        gap_error=s.gap_error,
+        pitch=math.asin(min(max(float(one.axes[2, 0]), -1.0), 1.0)),
+        patch=patch,
+        solution=s,
+    )
+
+
+def _damage(of: Sequence[Damage], shares: Sequence[float]) -> PairDamage:
+    """Return the damage of a pair: rates are sums by `shares`, indices and the depth are maxima; 0 without a patch."""
+
+    def total(values: Sequence[float]) -> float:
+        return sum(k * value for k, value in zip(shares, values, strict=True))
+
+    def most(values: Sequence[float]) -> float:
+        return max(values, default=0.0)
+
+    return PairDamage(
+        T_gamma=total([d.T_gamma for d in of]),
+        T_gamma_spin=total([d.T_gamma_spin for d in of]),
+        dissipation=total([d.dissipation for d in of]),
+        pearce_sherratt=total([d.pearce_sherratt for d in of]),
+        burstow=most([d.burstow for d in of]),
+        usfd=most([d.usfd for d in of]),
+        archard_depth=most([d.archard.depth_max for d in of]),
+        archard_volume=total([d.archard.volume for d in of]),
+        fatigue_index=most([d.fatigue_index for d in of]),
+        stress_index=most([d.stress_index.max for d in of]),
+        energy_index=most([d.energy_index.max for d in of]),
+    )
+
+
+def _status(states: Sequence[Status]) -> Status:
+    """Return the status of all patches: the gravest that is not to be trusted, SATURATED if all slip, else OK."""
+    loaded = [state for state in states if state is not Status.NO_CONTACT]
+    if not loaded:
+        return Status.NO_CONTACT
+    gravest = max(loaded)
+    return gravest if gravest > Status.SATURATED or min(loaded) is gravest else Status.OK
