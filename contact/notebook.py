@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from html import escape
+from importlib import import_module
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +22,17 @@ COLOUR = "#3b8bd0"
 MOST = 240
 
 _CELL = "text-align:left;padding:1px 10px 1px 0;border:0;vertical-align:top"
+
+
+def figures() -> Any:
+    """Return `contact.plot`, imported when a figure is asked for, since nothing else of the library needs matplotlib.
+
+    Raises
+    ------
+    ImportError
+        If matplotlib is missing; the message names the extra.
+    """
+    return import_module("contact.plot")
 
 
 def table(headings: Sequence[str], rows: Iterable[Sequence[str]], caption: str = "") -> str:

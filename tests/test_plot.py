@@ -13,6 +13,9 @@ mpl = pytest.importorskip("matplotlib")
 
 from contact import plot  # noqa: E402
 from contact.geometry import conicity, contact_points, equivalent_conicity, profile  # noqa: E402
+from contact.geometry.surfaces import SurfacePair  # noqa: E402
+from contact.geometry.wheelset import Pair, Pose, Velocity  # noqa: E402
+from contact.pair import WheelRailPair  # noqa: E402
 from contact.plot.mesh import PatchMesh  # noqa: E402
 from contact.plot.style import nice  # noqa: E402
 
@@ -269,3 +272,24 @@ def test_a_notebook_draws_figures_without_pyplot(tmp_path):
     environment = {**os.environ, "IPYTHONDIR": str(tmp_path)}
     done = subprocess.run([sys.executable, "-c", NOTEBOOK], capture_output=True, text=True, env=environment, check=True)
     assert "image/png" in done.stdout.split()
+
+
+@pytest.mark.slow
+def test_a_pair_is_drawn_with_the_patches_that_it_finds():
+    pair = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40)))
+    figure = pair.plot(Pose(y=6.6e-3), Velocity(20.0), load=8e4)
+    found = pair.solve(Pose(y=6.6e-3), Velocity(20.0), load=8e4)
+    told = " ".join(text.get_text() for part in figure.subfigs for ax in part.axes for text in ax.texts)
+    shown = sum(1 for ax in figure.subfigs[0].axes for text in ax.texts if text.get_text().isdigit())
+    assert shown == len(found.contacts)
+    assert told
+    with pytest.raises(contact.ContactError, match="changes along the way"):
+        WheelRailPair(SurfacePair(profile.s1002(), profile.rail_60e1())).plot(Pose(), load=8e4)
+
+
+def test_profiles_are_drawn_over_one_another():
+    wheel = profile.s1002()
+    outline, *_ = wheel.plot(wheel.rotated(0.01)).axes
+    first, second = (line.get_ydata() for line in outline.lines)
+    np.testing.assert_allclose(first, 1e3 * wheel.z)
+    assert np.ptp(second - first) > 0.5

@@ -14,7 +14,9 @@ from contact.accumulation import Histogram
 from contact.errors import ContactError
 from contact.friction import Friction
 from contact.geometry import profile
+from contact.geometry.wheelset import Pair, Pose
 from contact.material import Thermal
+from contact.pair import WheelRailPair
 from contact.solution import Solution
 
 CREEPAGE = contact.Creepage(1e-3, -5e-4, 0.2)
@@ -297,3 +299,18 @@ def test_lines_and_text_take_the_colour_of_the_page(ellipse):
 def test_a_sketch_of_many_points_stays_small():
     y = np.linspace(-0.02, 0.02, 100_001)
     assert len(contact.Separation(y, y**2, 1.0)._repr_html_()) < 20_000
+
+
+def test_profiles_patches_and_pairs_are_shown_in_a_notebook():
+    wheel, rail = profile.s1002(), profile.rail_60e1()
+    (outline,) = drawn(wheel._repr_html_())
+    wide, tall = np.ptp(outline, axis=0)
+    assert wide / tall == pytest.approx(np.ptp(wheel.y) / np.ptp(wheel.z), rel=0.02)
+    pair = Pair(wheel, rail)
+    (patch,) = pair.contacts(Pose(y=1e-3), load=8e4)
+    assert f"{patch.load:.6g} N" in words(patch._repr_html_())
+    found = WheelRailPair(pair).solve(Pose(y=1e-3), load=8e4)
+    text = words(found._repr_html_())
+    assert f"{found.Q:.6g} N" in text
+    assert f"{1e-6 * found.contacts[0].max_pressure:.5g}" in text
+    assert "NO_CONTACT" in words(WheelRailPair(pair).solve(Pose(z=-1e-3))._repr_html_())

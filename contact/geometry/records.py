@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from contact.creepage import Creepage
 from contact.errors import require_number
 from contact.kernels.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL
+from contact.notebook import beside, table
 from contact.separation import Separation
 
 
@@ -124,3 +125,17 @@ class Patch:
         `angle` turns the track frame into the contact frame, so its sign differs from side to side.
         """
         return contact_angle(self.angle, self.position[1])
+
+    def _repr_html_(self) -> str:
+        """Return HTML with the main numbers and a sketch of the gap, for a notebook."""
+        c = self.creepage
+        rows = (
+            ("contact angle", f"{math.degrees(self.contact_angle):.4g}°"),
+            ("position x, y, z", ", ".join(f"{1e3 * at:.4g}" for at in self.position) + " mm"),
+            ("approach", f"{1e6 * self.approach:.4g} µm"),
+            ("rolling radius", f"{1e3 * self.rolling_radius:.6g} mm"),
+            ("creepages", f"{c.longitudinal:.3g}, {c.lateral:.3g}; spin {c.spin:.3g} 1/m"),
+            *(() if self.load is None else (("normal force", f"{self.load:.6g} N"),)),
+            *(() if self.share == 1.0 else (("share", f"{self.share:.3g}"),)),
+        )
+        return beside(table((), rows, "patch"), self.separation._repr_html_())

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from html import escape
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +19,7 @@ from contact.errors import ContactError, require_number, warn
 from contact.geometry import inspection
 from contact.geometry.inspection import Kind as Kind
 from contact.geometry.outline import spline_slopes
+from contact.notebook import Sketch, figures
 
 Array = NDArray[np.float64]
 
@@ -79,6 +82,18 @@ class Profile:
         """Return the profile rotated about the x axis through its origin by `roll` [rad], positive from y towards z."""
         c, s = math.cos(require_number("roll", roll, -1.0, 1.0)), math.sin(roll)
         return Profile(self.kind, c * self.y - s * self.z, s * self.y + c * self.z, self.angle + roll, self.name)
+
+    def plot(self, *others: Profile) -> Any:
+        """Return a figure of the outline, its tangent and its curvature, with `others` for comparison (matplotlib's Figure)."""
+        return figures().profiles(self, *others)
+
+    def _repr_html_(self) -> str:
+        """Return HTML with a sketch of the outline, for a notebook."""
+        y, up = 1e3 * self.y, -1e3 * self.z
+        labels = "y, to the field side [mm]", "−z, up [mm]"
+        drawn = Sketch((y.min(), y.max()), (up.min(), up.max()), labels, f"outline of the {self.kind}", equal=True)
+        drawn.curve(y, up)
+        return f"{drawn.svg()}<div>{escape(repr(self))}</div>"
 
     def __repr__(self) -> str:
         name = f"{self.name!r}, " if self.name else ""

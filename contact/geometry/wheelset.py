@@ -78,6 +78,8 @@ class Pair(Posed):
 
     Attributes
     ----------
+    profiles : (Profile, Profile)
+        Wheel and rail, in the right-side convention.
     patches, separations : ndarray
         Result of the last search on the right side: records PATCH, and rows `Sep` for each. Only one thread may search.
     space : contact.kernels.arrays.Search
@@ -109,6 +111,7 @@ class Pair(Posed):
             if not isinstance(given, Profile) or given.kind != name:
                 raise ContactError(f"{name} = {given!r} is not a profile of a {name}")
         super().__init__(side, nominal_radius)
+        self.profiles = wheel, rail
         grid, n = _grid(samples)
         self.space: Search = workspace.search(_facing(wheel), _facing(rail), grid, n)
         origin = place_of_rail(rail, require_number("gauge", gauge, 0.1, 3.0), gauge_point)

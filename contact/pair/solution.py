@@ -14,6 +14,7 @@ from contact.creepage import Creepage
 from contact.damage import Damage, evaluate
 from contact.geometry.records import Patch, Pose, contact_angle
 from contact.geometry.surfaces import SurfacePatch
+from contact.notebook import beside, table
 from contact.solution import Solution, Status
 
 Array = NDArray[np.float64]
@@ -153,6 +154,34 @@ class PairSolution:
     gap_error: float
     deflection: tuple[float, float] = (0.0, 0.0)
     spin: float = 0.0
+
+    def _repr_html_(self) -> str:
+        """Return HTML for a notebook: a table of the whole wheel and one of its patches."""
+        whole = (
+            ("status", self.status.name),
+            ("Q, Y", f"{self.Q:.6g} N, {self.Y:.6g} N"),
+            ("force x, y, z", ", ".join(f"{f:.6g}" for f in self.force) + " N"),
+            ("Y/Q", f"{self.Y_over_Q:.3g}"),
+            ("used friction", f"{self.used_friction:.3g}"),
+            ("wheelset z", f"{1e3 * self.z:.5g} mm"),
+            ("rotation", f"{self.spin:.6g} rad/s"),
+            ("greatest pressure", f"{1e-6 * self.max_pressure:.5g} MPa"),
+            ("energy per metre", f"{self.power_per_metre:.4g} J/m"),
+        )
+        heads = "patch", "angle [°]", "y [mm]", "N [N]", "Fx [N]", "Fy [N]", "area [mm²]", "pressure [MPa]", "status"
+        rows = [
+            (
+                str(k),
+                f"{math.degrees(c.contact_angle):.3g}",
+                f"{1e3 * c.position[1]:.5g}",
+                *(f"{force:.5g}" for force in (c.N, c.Fx, c.Fy)),
+                f"{1e6 * c.area:.4g}",
+                f"{1e-6 * c.max_pressure:.5g}",
+                c.status.name,
+            )
+            for k, c in enumerate(self.contacts, 1)
+        ]
+        return beside(table((), whole, "wheel on rail"), table(heads, rows) if rows else "")
 
     @property
     def slip_ratio(self) -> float:

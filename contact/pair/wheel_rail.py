@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 
 from contact import workspace
@@ -22,6 +25,7 @@ from contact.kernels.flexible import solve_on_profiles, solve_on_surfaces
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.records import LARGEST_ANGLE
 from contact.material import STEEL, Material
+from contact.notebook import figures
 from contact.pair.driven import drive
 from contact.pair.elastic_rail import ElasticRail
 from contact.pair.motion import AnyPair
@@ -29,6 +33,7 @@ from contact.pair.solution import Contact, PairDamage, PairSolution
 from contact.plausibility import doubt_alike, doubt_gap
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, GAP_LIMIT, lookup
 from contact.solution import Status
+from contact.solve import solve
 from contact.solver import N_ELEMENTS, N_STRIPS, require_max_iterations, require_resolution
 
 _RIGID, _STRAIGHT = ElasticRail(), WheelOffset()
@@ -93,6 +98,13 @@ class WheelRailPair(AnyPair):
             if not isinstance(given, kind | None):
                 raise ContactError(f"{name} = {given!r} is no {kind.__module__}.{kind.__name__}")
         self.pair = pair
+        self._methods: dict[str, Any] = {
+            "normal": normal,
+            "tangential": tangential,
+            "n_strips": n_strips,
+            "n_elements": n_elements,
+        }
+        self._methods |= {"conformal": conformal, "material": material}
         method, rolling = (lookup(*kind, batched=True) for kind in (("normal", normal), ("tangential", tangential)))
         n_strips, n_elements = require_resolution(n_strips, n_elements)
         n_samples = pair.separations.shape[2]
@@ -251,6 +263,39 @@ class WheelRailPair(AnyPair):
             deflection=(float(self.bench.rail[0].dy), float(self.bench.rail[0].dz)),
             spin=float(given.spin),
         )
+
+    def plot(self, pose: Pose, velocity: Velocity | None = None, **given: Any) -> Any:
+        """Return a figure of wheel, rail and all patches with pressure and traction (matplotlib's Figure).
+
+        Parameters are those of `solve`. Each patch is solved once more with its fields, at the height that `solve` finds.
+
+        Raises
+        ------
+        ContactError
+            As `solve`, if the wheel does not touch, and for surfaces, which change along the way.
+        """
+        if not isinstance(self.pair, Pair):
+            raise ContactError(f"{self.pair!r} changes along the way; contact.plot.passage draws what `run` returns")
+        found = self.solve(pose, velocity, **given)
+        velocity = replace(velocity or Velocity(), spin=found.spin)
+        rail = given.get("irregularity")
+        patches = self.pair.contacts(replace(pose, z=found.z), velocity, irregularity=rail)
+        surface = as_friction(given.get("friction", 0.3))
+        mirror = -1.0 if self.pair.side == "left" else 1.0
+        solutions = [
+            solve(
+                patch.separation,
+                patch.creepage,
+                approach=patch.approach,
+                friction=surface.placed(patch.on_rail[0], patch.angle, mirror),
+                speed=velocity.forward,
+                throw=False,
+                **self._methods,
+            )
+            for patch in patches
+        ]
+        draw = figures()
+        return draw.position([draw.Wheel(self.pair.side, *self.pair.profiles, patches, solutions)], pose.roll)
 
     def solve_given(self, mode: int, amount: float, given: np.record) -> int:
         """Call the kernel for the record GIVEN of a motion and return its code. The result is in `bench`."""

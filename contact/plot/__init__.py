@@ -15,7 +15,7 @@ from contact.plot.lines import curve, time_histories
 from contact.plot.passage import passage
 from contact.plot.patches import patch
 from contact.plot.position import Wheel, position
-from contact.plot.profiles import profile_check
+from contact.plot.profiles import profile_check, profiles
 from contact.plot.rolling import conicity, contact_points
 from contact.plot.shakedown import shakedown
 from contact.plot.stress import stress
@@ -32,6 +32,7 @@ __all__ = [
     "patch",
     "position",
     "profile_check",
+    "profiles",
     "shakedown",
     "shares",
     "stress",

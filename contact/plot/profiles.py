@@ -1,4 +1,4 @@
-"""Figure of a measured profile and what is wrong with it."""
+"""Figures of profiles: outline, tangent and curvature; a measured one with what is wrong with it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,10 @@ from matplotlib.figure import Figure
 from contact.plot.style import DPI, FAINT, GRID, INK, LINES, MM, style
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from contact.geometry.files import Inspection
+    from contact.geometry.shape import Profile
 
 _LINE = 96  # letters of a line of text below the figure
 
@@ -33,14 +36,7 @@ def profile_check(found: Inspection) -> Figure:
         top, middle, bottom = figure.subplots(3, 1, sharex=True, height_ratios=[1.4, 1.0, 1.0])
         top.plot(*(MM * found.points.T), color=FAINT, lw=0.0, marker=".", ms=2.5, label="measured points")
         if found.profile is not None:
-            y, z, angle = found.profile.y, found.profile.z, found.profile.angle
-            top.plot(MM * y, MM * z, color=LINES[0], lw=1.2, label="profile")
-            middle.plot(MM * y, np.degrees(angle), color=LINES[0], lw=1.0)
-            arc = np.hypot(np.diff(y), np.diff(z))
-            bend = np.diff(angle) / arc
-            bottom.plot(MM * 0.5 * (y[1:] + y[:-1]), bend, color=LINES[0], lw=0.8)
-            limit = 1.6 * float(np.quantile(np.abs(bend), 0.97)) or 1.0
-            bottom.set_ylim(-limit, limit)
+            _draw(found.profile, (top, middle, bottom), LINES[0], "profile")
         for k, finding in enumerate(found.findings):
             if len(finding.at):
                 colour = LINES[1 + k % (len(LINES) - 1)]
@@ -53,16 +49,44 @@ def profile_check(found: Inspection) -> Figure:
                     mfc="none",
                     label=finding.fault.value,
                 )
-        top.invert_yaxis()
-        top.set(ylabel="z, down [mm]")
         top.set_title(f"{found.name}: {found.kind}, {len(found.points)} points", loc="left", color=INK)
-        top.legend(loc="best")
-        middle.set(ylabel="tangent [°]")
-        bottom.set(ylabel="curvature [1/m]", xlabel="y, to the field side [mm]")
-        for ax in (top, middle, bottom):
-            ax.grid(visible=True, color=GRID)
+        _label(top, middle, bottom)
         figure.supxlabel("\n".join(lines), x=0.02, ha="left", fontsize=8.0, color=INK)
     return figure
+
+
+def profiles(*shown: Profile) -> Figure:
+    """Draw outlines, tangents and curvatures of one or several profiles."""
+    with style():
+        figure = Figure(figsize=(7.4, 6.4), dpi=DPI, layout="constrained")
+        axes = figure.subplots(3, 1, sharex=True, height_ratios=[1.4, 1.0, 1.0])
+        for k, one in enumerate(shown):
+            _draw(one, axes, LINES[k % len(LINES)], one.name or one.kind)
+        _label(*axes)
+    return figure
+
+
+def _draw(profile: Profile, axes: tuple[Axes, Axes, Axes], color: str, label: str) -> None:
+    """Draw outline, tangent and curvature of one profile."""
+    y, z, angle = profile.y, profile.z, profile.angle
+    top, middle, bottom = axes
+    top.plot(MM * y, MM * z, color=color, lw=1.2, label=label)
+    middle.plot(MM * y, np.degrees(angle), color=color, lw=1.0)
+    bend = np.diff(angle) / np.hypot(np.diff(y), np.diff(z))
+    bottom.plot(MM * 0.5 * (y[1:] + y[:-1]), bend, color=color, lw=0.8)
+    limit = 1.6 * float(np.quantile(np.abs(bend), 0.97)) or 1.0
+    bottom.set_ylim(-limit, limit)
+
+
+def _label(top: Axes, middle: Axes, bottom: Axes) -> None:
+    """Label the axes of outline, tangent and curvature."""
+    top.invert_yaxis()
+    top.set(ylabel="z, down [mm]")
+    top.legend(loc="best")
+    middle.set(ylabel="tangent [°]")
+    bottom.set(ylabel="curvature [1/m]", xlabel="y, to the field side [mm]")
+    for ax in (top, middle, bottom):
+        ax.grid(visible=True, color=GRID)
 
 
 def _wrapped(text: str) -> list[str]:
