@@ -78,12 +78,12 @@ def words(html):
     )
 
 
-def drawn(html):
-    """Return the corners of every polygon, in pixels."""
+def drawn(html, shape="polygon"):
+    """Return the corners of every polygon, or of every `shape`, in pixels."""
     return [
         np.array([point.split(",") for point in element.get("points").split()], dtype=np.float64)
         for element in parsed(html)
-        if element.tag.endswith("polygon")
+        if element.tag.endswith(shape)
     ]
 
 
@@ -303,7 +303,7 @@ def test_a_sketch_of_many_points_stays_small():
 
 def test_profiles_patches_and_pairs_are_shown_in_a_notebook():
     wheel, rail = profile.s1002(), profile.rail_60e1()
-    (outline,) = drawn(wheel._repr_html_())
+    (outline,) = drawn(wheel._repr_html_(), "polyline")
     wide, tall = np.ptp(outline, axis=0)
     assert wide / tall == pytest.approx(np.ptp(wheel.y) / np.ptp(wheel.z), rel=0.02)
     pair = Pair(wheel, rail)
