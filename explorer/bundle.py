@@ -33,13 +33,13 @@ UNITS = DISPLAY_UNITS | {
     "rad/m": ("1/m", 1.0),
     "1": ("", 1.0),
 }
-#: Sliders: name, title, least, greatest and step in the unit shown. `slip` is the longitudinal slip; the wheel's spin follows.
+#: Sliders: name, title, least, greatest and step in the unit shown. `creepage` is that of the wheelset [%]; the spin follows.
 SLIDERS = (
     ("pose.y", "lateral shift", -8.0, 8.0, 0.02),
     ("pose.yaw", "yaw", -20.0, 20.0, 0.1),
     ("pose.roll", "roll", -10.0, 10.0, 0.1),
     ("load.normal_force", "wheel load", 5.0, 200.0, 1.0),
-    ("slip", "longitudinal slip", -2.0, 2.0, 0.01),
+    ("creepage", "longitudinal creepage", -2.0, 2.0, 0.01),
     ("velocity.x", "speed", 1.0, 100.0, 1.0),
     ("friction.coefficient", "friction", 0.05, 0.7, 0.01),
     ("rail.inclination", "rail inclination", 0.0, 0.1, 0.0025),
@@ -55,19 +55,79 @@ CHOICES = (
     ("friction.law", "friction law"),
     ("friction.velocity", "sliding speed"),
 )
-#: Numbers shown for each method, and curves that can be chosen: name and title.
+#: Numbers shown for each method, and curves that can be chosen: name, title, explanation, and where its equations stand.
 RESULTS = (
-    ("force.x", "longitudinal force"),
-    ("force.y", "lateral force"),
-    ("force.z", "vertical force"),
-    ("wheel.Y_over_Q", "Y/Q"),
-    ("used_friction", "used friction"),
-    ("pressure.max", "greatest pressure"),
-    ("patches.area", "contact area"),
-    ("slip.ratio", "share that slips"),
-    ("damage.T_gamma", "wear number Tγ"),
-    ("damage.energy_index_max", "greatest energy index"),
-    ("gap_error", "gap error"),
+    (
+        "force.x",
+        "longitudinal force",
+        "Along the track on the wheel, positive forward: the traction qx summed over the patches. It is not 0 at creepage 0 "
+        "where the wheel rolls on another radius than its nominal one.",
+        "theory.html",
+    ),
+    (
+        "force.y",
+        "lateral force",
+        "Across the track on the wheel, positive to the right: Fy cos δ + N sin δ of every patch with its contact angle δ.",
+        "signs.html",
+    ),
+    (
+        "force.z",
+        "vertical force",
+        "On the wheel, positive down, so the rail's force is negative: Fy sin δ − N cos δ of every patch. The normal forces "
+        "alone carry the given load; friction adds to it or relieves it.",
+        "signs.html",
+    ),
+    (
+        "wheel.Y_over_Q",
+        "Y/Q",
+        "Lateral force outwards over vertical force. Nadal: a wheel climbs from (tan δ − μ)/(1 + μ tan δ) on.",
+        "signs.html",
+    ),
+    (
+        "used_friction",
+        "used friction",
+        "Creep force over normal force, √(Fx² + Fy²)/N, summed over the patches. It is at most the coefficient of friction.",
+        "theory.html",
+    ),
+    (
+        "pressure.max",
+        "greatest pressure",
+        "Of all patches. A strip of half length a carries p = p₀ √(1 − x²/a²); an ellipse has p₀ = 3N/(2π a b).",
+        "theory.html",
+    ),
+    ("patches.area", "contact area", "Sum over the patches: 2 a dy of every strip.", "theory.html"),
+    (
+        "slip.ratio",
+        "share that slips",
+        "Slip area over contact area: where the traction reaches the bound μp, the surfaces slide on one another; elsewhere "
+        "they stick. 0 % does not mean no force.",
+        "theory.html",
+    ),
+    (
+        "damage.T_gamma",
+        "wear number Tγ",
+        "|Fx υx| + |Fy υy| of every patch, the energy lost by sliding for each metre rolled [N = J/m], without spin.",
+        "damage.html",
+    ),
+    (
+        "damage.energy_index_max",
+        "greatest energy index",
+        "Largest local energy q·s of the traction q and the slip s, over the patches.",
+        "damage.html",
+    ),
+    (
+        "gap_error",
+        "gap error",
+        "The largest gap or overlap that the pressure leaves inside a patch, over the approach. 0 is exact; above the limit "
+        "of the method the largest pressure is doubtful.",
+        "limits.html",
+    ),
+)
+#: The same for the creepages.
+CREEPAGES = (
+    "Wheel minus rail over the speed, in the plane of the patch: υx = (V + ω r)/V with the rolling radius r of this patch, "
+    "υy from yaw, spin φ = ω sin δ/V. Positive longitudinal creepage brakes.",
+    "signs.html",
 )
 
 
@@ -156,6 +216,7 @@ def bundle(wasm: bytes) -> dict[str, Any]:
         "sliders": [list(row) for row in SLIDERS],
         "choices": [list(row) for row in CHOICES],
         "results": [list(row) for row in RESULTS],
+        "creepages": list(CREEPAGES),
         "failures": {int(number): text for number, text in component.failures.items()},
         "untrusted": [int(contact.Status.OUT_OF_RANGE), int(contact.Status.NOT_CONVERGED)],
         "gapLimits": {name: method.gap_limit for name, method in contact.methods().normal.items()},

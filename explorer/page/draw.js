@@ -6,12 +6,16 @@ const VIRIDIS = ["440154", "482475", "414487", "355f8d", "2a788e", "21918c", "22
   .map(text => [0, 2, 4].map(at => parseInt(text.slice(at, at + 2), 16)));
 const COLOURS = Array.from({ length: 256 }, (_, i) => {
   const t = i / 255 * (VIRIDIS.length - 1), k = Math.min(VIRIDIS.length - 2, Math.floor(t));
-  return "rgb(" + VIRIDIS[k].map((c, j) => Math.round(c + (VIRIDIS[k + 1][j] - c) * (t - k))).join(",") + ")";
+  return VIRIDIS[k].map((c, j) => Math.round(c + (VIRIDIS[k + 1][j] - c) * (t - k)));
 });
 const colour = t => COLOURS[Math.max(0, Math.min(255, Math.round(255 * t)))];
 
-/* Colours of the page, which follow light and dark. */
-const ink = name => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
+/* Colours of the page, which follow light and dark. The browser is asked once for each theme, not once for each stroke. */
+const inks = {};
+function ink(name) {
+  const key = document.documentElement.dataset.theme + name;
+  return inks[key] ??= getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
+}
 
 /* Size a canvas for the screen and clear it. Return the context, width and height in CSS pixels. */
 function fit(canvas) {
@@ -67,15 +71,27 @@ function wheelNodes(points, solver, tapeFromBack) {
   return nodes;
 }
 
-function section(canvas, solver, wheel, rail) {
-  const [g, width, height] = fit(canvas), railAt = railNodes(rail, solver);
-  const wheelAt = solver.failed ? [] : wheelNodes(wheel, solver, solver.bundle.tape);
-  const middle = railAt.reduce((sum, node) => sum + node[0], 0) / railAt.length, scale = width / 0.15;
-  const px = y => width / 2 + scale * (y - middle), pz = z => 0.45 * height + scale * z;
+/* Draw both wheels on their rails, seen from behind. `left` has solved the mirror image of the left side. */
+function section(canvas, right, left, wheel, rail) {
+  const [g, width, height] = fit(canvas);
+  half(g, left, wheel, rail, { x: 0, width: width / 2 - 4, height, side: -1, name: "left" });
+  half(g, right, wheel, rail, { x: width / 2 + 4, width: width / 2 - 4, height, side: 1, name: "right" });
+  bar(g, 8, height - 10, (width / 2 - 4) / 0.105 * 0.01, "10 mm");
+}
+
+/* Draw one wheel on its rail in `box`. The right side is drawn as it is, the left one mirrored. */
+function half(g, solver, wheel, rail, box) {
+  const railAt = railNodes(rail, solver), wheelAt = solver.failed ? [] : wheelNodes(wheel, solver, solver.bundle.tape);
+  const middle = railAt.reduce((sum, node) => sum + node[0], 0) / railAt.length, scale = box.width / 0.105, centre = box.x + box.width / 2;
+  const px = y => centre + box.side * scale * (y - middle), pz = z => 0.5 * box.height + scale * z;
   const path = nodes => { g.beginPath(); nodes.forEach(([y, z], i) => i ? g.lineTo(px(y), pz(z)) : g.moveTo(px(y), pz(z))); };
+  g.save();
+  g.beginPath();
+  g.rect(box.x, 0, box.width, box.height);
+  g.clip();
   path(railAt);
-  g.lineTo(px(railAt[railAt.length - 1][0]), height);
-  g.lineTo(px(railAt[0][0]), height);
+  g.lineTo(px(railAt[railAt.length - 1][0]), box.height);
+  g.lineTo(px(railAt[0][0]), box.height);
   g.fillStyle = ink("steel");
   g.fill();
   path(railAt);
@@ -86,6 +102,10 @@ function section(canvas, solver, wheel, rail) {
   g.strokeStyle = ink("wheel");
   g.lineWidth = 2;
   g.stroke();
+  g.fillStyle = ink("faint");
+  g.textAlign = "center";
+  g.fillText(box.name, centre, 16);
+  g.textAlign = "left";
   const count = solver.failed ? 0 : Math.min(solver.get("patches.count"), 3);
   for (let k = 0; k < count; k++) {
     const load = solver.get("patch[].n", k);
@@ -94,12 +114,12 @@ function section(canvas, solver, wheel, rail) {
     const length = 14 + 50 * load / solver.get("load.normal_force");
     g.strokeStyle = g.fillStyle = ink("mark");
     g.lineWidth = 2.5;
-    g.beginPath(); g.moveTo(y, z); g.lineTo(y + length * Math.sin(angle), z - length * Math.cos(angle)); g.stroke();
+    g.beginPath(); g.moveTo(y, z); g.lineTo(y + box.side * length * Math.sin(angle), z - length * Math.cos(angle)); g.stroke();
     g.beginPath(); g.arc(y, z, 4, 0, 7); g.fill();
     const inwards = solver.get("patch[].y", k) > 0 ? -angle : angle;  // positive: the rail pushes the wheel to the track's centre
-    g.fillText(`${k + 1}: ${(load / 1e3).toFixed(1)} kN at ${(inwards * 180 / Math.PI).toFixed(1)}°`, 8, 16 + 15 * k);
+    g.fillText(`${k + 1}: ${(load / 1e3).toFixed(1)} kN at ${(inwards * 180 / Math.PI).toFixed(1)}°`, box.x + 8, 32 + 15 * k);
   }
-  bar(g, 8, height - 10, scale * 0.01, "10 mm");
+  g.restore();
 }
 
 function bar(g, x, y, length, text) {
@@ -108,10 +128,10 @@ function bar(g, x, y, length, text) {
   g.fillText(text, x, y - 5);
 }
 
-/* What a map shows: title, unit, factor of the unit shown, and its value at an element. */
+/* What a map shows: title, unit, factor of the unit shown, its value at an element, and whether it vanishes at the edge. */
 const MAPS = {
-  pressure: { title: "pressure", unit: "MPa", factor: 1e-6, at: (p, e) => p.P[e] },
-  traction: { title: "traction", unit: "MPa", factor: 1e-6, at: (p, e) => Math.hypot(p.QX[e], p.QY[e]), sticks: true },
+  pressure: { title: "pressure", unit: "MPa", factor: 1e-6, at: (p, e) => p.P[e], vanishes: true },
+  traction: { title: "traction", unit: "MPa", factor: 1e-6, at: (p, e) => Math.hypot(p.QX[e], p.QY[e]), sticks: true, vanishes: true },
   slip: { title: "slip over speed", unit: "‰", factor: 1e3, at: (p, e) => Math.hypot(p.SX[e], p.SY[e]), sticks: true },
   energy: { title: "energy index", unit: "MPa", factor: 1e-6, at: (p, e) => Math.max(p.ENERGY[e], 0) },
 };
@@ -126,6 +146,62 @@ function extent(patches) {
     }
     return [low, high, reach];
   });
+}
+
+/* Where y lies among the strips: half length and centre there, both strips and the share of the second; null outside of all.
+   The squares of half lengths are interpolated and vanish at the edges of a row of strips, so an ellipse stays one. */
+function across(p, y) {
+  let i = 0;
+  while (i < p.n - 1 && y > p.Y[i + 1]) i++;
+  const beyond = (k, edge) => {
+    const share = (y - edge) / (p.Y[k] - edge);
+    return share > 0 && share <= 1 ? { a: p.A[k] * Math.sqrt(share), x: p.XC[k], i: k, next: k, t: 0, fall: Math.sqrt(share) } : null;
+  };
+  if (y < p.Y[0]) return beyond(0, p.Y[0] - p.DY[0] / 2);
+  const after = p.Y[i] + p.DY[i] / 2;
+  if (i === p.n - 1) return beyond(i, after);
+  const before = p.Y[i + 1] - p.DY[i + 1] / 2;
+  if (before - after > 0.2 * p.DY[i]) return beyond(i, after) ?? beyond(i + 1, before); // two rows of strips
+  const t = (y - p.Y[i]) / (p.Y[i + 1] - p.Y[i]), mix = row => row[i] + t * (row[i + 1] - row[i]);
+  return { a: Math.sqrt(p.A[i] ** 2 + t * (p.A[i + 1] ** 2 - p.A[i] ** 2)), x: mix(p.XC), i, next: i + 1, t, fall: 1 };
+}
+
+/* A canvas with the field of one patch, interpolated between strips and elements. `scale` is in pixels per m. */
+function smooth(p, box, scale, shown, top) {
+  const width = Math.max(1, Math.round(scale * (box[1] - box[0]))), height = Math.max(1, Math.round(2 * scale * box[2]));
+  const canvas = document.createElement("canvas"), places = 256, first = new Uint16Array(places + 1), share = new Float64Array(places + 1);
+  Object.assign(canvas, { width, height });
+  const g = canvas.getContext("2d"), image = g.createImageData(width, height), data = image.data, m = p.m;
+  const s = Array.from({ length: m }, (_, j) => (p.X[j] - p.XC[0]) / p.A[0]); // falls from the leading edge; the same in all strips
+  for (let q = 0, j = m - 1; q <= places; q++) {
+    const at = -1 + 2 * q / places;
+    while (j > 1 && s[j - 1] < at) j--;
+    first[q] = Math.max(1, j);
+    share[q] = m > 1 ? Math.min(1, Math.max(0, (at - s[first[q]]) / (s[first[q] - 1] - s[first[q]]))) : 0;
+  }
+  const values = Float64Array.from({ length: p.n * m }, (_, e) => shown.at(p, e));
+  const grey = /^#(..)(..)(..)$/.exec(ink("stick")).slice(1).map(text => parseInt(text, 16));
+  for (let column = 0; column < width; column++) {
+    const place = across(p, box[0] + (column + 0.5) / scale);
+    if (!place || !(place.a > 0)) continue;
+    const { i, next, t } = place, one = i * m, other = next * m;
+    for (let row = 0; row < height; row++) {
+      const at = (box[2] - (row + 0.5) / scale - place.x) / place.a;
+      if (at <= -1 || at >= 1) continue;
+      const q = Math.round((at + 1) * places / 2), j = first[q], u = share[q], back = Math.min(j, m - 1), ahead = Math.max(0, j - 1);
+      const mix = list => (1 - t) * ((1 - u) * list[one + back] + u * list[one + ahead]) + t * ((1 - u) * list[other + back] + u * list[other + ahead]);
+      let value = mix(values);
+      if (shown.vanishes) {
+        value *= place.fall;
+        const limit = at > s[0] ? s[0] : at < s[m - 1] ? s[m - 1] : null;
+        if (limit !== null) value *= Math.sqrt((1 - at * at) / (1 - limit * limit));
+      }
+      const rgb = shown.sticks && mix(p.STICK) > 0.5 ? grey : colour(top > 0 ? value / top : 0), pixel = 4 * (row * width + column);
+      data[pixel] = rgb[0]; data[pixel + 1] = rgb[1]; data[pixel + 2] = rgb[2]; data[pixel + 3] = 255 * Math.min(1, (1 - Math.abs(at)) * place.a * scale); // a smooth edge
+    }
+  }
+  g.putImageData(image, 0, 0);
+  return canvas;
 }
 
 /* Greatest value of a map over several answers, so that two methods share one scale. */
@@ -144,11 +220,8 @@ function map(canvas, patches, kind, frame) {
   let left = (width - scale * total) / 2;
   patches.forEach((p, k) => {
     const at = y => left + scale * (y - boxes[k][0]), up = x => middle - scale * x;
-    for (let i = 0; i < p.n; i++) for (let j = 0; j < p.m; j++) {
-      const e = i * p.m + j;
-      g.fillStyle = shown.sticks && p.STICK[e] > 0.5 ? ink("stick") : colour(frame.top > 0 ? shown.at(p, e) / frame.top : 0);
-      g.fillRect(at(p.Y[i] - p.DY[i] / 2) - 0.3, up(p.X[e] + p.DX[e] / 2) - 0.3, scale * p.DY[i] + 0.6, scale * p.DX[e] + 0.6);
-    }
+    const picture = smooth(p, boxes[k], scale * (window.devicePixelRatio || 1), shown, frame.top);
+    g.drawImage(picture, left, up(boxes[k][2]), scale * (boxes[k][1] - boxes[k][0]), 2 * scale * boxes[k][2]);
     if (kind === "traction") arrows(g, p, at, up, frame.top);
     if (kind === "slip") arrows(g, { ...p, QX: p.SX, QY: p.SY }, at, up, frame.top);
     g.fillStyle = ink("text");
@@ -181,7 +254,7 @@ function arrows(g, p, at, up, top) {
 
 function legend(g, width, height, shown, top) {
   const size = Math.min(170, 0.42 * width), x = width - size - 10, y = height - 16;
-  for (let i = 0; i < size; i++) { g.fillStyle = colour(i / size); g.fillRect(x + i, y, 1.5, 8); }
+  for (let i = 0; i < size; i++) { g.fillStyle = `rgb(${colour(i / size)})`; g.fillRect(x + i, y, 1.5, 8); }
   g.fillStyle = ink("text");
   const value = shown.factor * top;
   g.textAlign = "right";

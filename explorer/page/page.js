@@ -6,7 +6,7 @@ const bundle = JSON.parse($("bundle").textContent);
 const own = { wheel: {}, rail: {} }; // profiles that the user has opened
 const SWEEPS = [
   { name: "pose.y", canvas: "shift", choice: "over-shift", low: -8, high: 8, count: 81, title: "lateral shift [mm]" },
-  { name: "slip", canvas: "slip", choice: "over-slip", low: -2, high: 2, count: 81, title: "longitudinal slip [%]" },
+  { name: "creepage", canvas: "creepage", choice: "over-creepage", low: -2, high: 2, count: 81, title: "longitudinal creepage [%], positive brakes" },
 ];
 const MORE = new Set(["pose.roll", "rail.inclination", "friction.kinetic", "friction.half_speed", "resolution.n_strips",
   "resolution.n_elements", "patches.surface", "friction.law", "friction.velocity"]);
@@ -17,21 +17,22 @@ function startState() {
     const row = bundle.variables[name], start = starts[row.at];
     return row.items.length ? row.items[start - 1][0] : start * row.factor;
   };
-  for (const [name] of bundle.sliders) values[name] = name === "slip" ? 0 : value(name);
+  for (const [name] of bundle.sliders) values[name] = name === "creepage" ? 0 : value(name);
   for (const [name] of bundle.choices) if (!name.startsWith("method.")) values[name] = value(name);
   values["pose.y"] = 1;
   return { wheel: "S1002", rail: "60E1", values, methods: [{ normal: value("method.normal"), tangential: value("method.tangential") }],
-    map: "traction", shift: "force.y", slip: "force.x" };
+    map: "traction", shift: "force.y", creepage: "force.x" };
 }
 
-let state = startState(), dirty = true, lines = {}, asked = 0, answered = 0, solvers, worker, answers = [[], []];
+let state = startState(), dirty = true, lines = {}, asked = 0, answered = 0, solvers, left, worker, answers = [[], []];
 const SECOND = { normal: "analyn", tangential: "fastrip" };
 
 /* The state as a link: only what differs from the start. */
 function write() {
   const start = startState(), parts = new URLSearchParams();
-  for (const name of ["wheel", "rail", "map", "shift", "slip"])
+  for (const name of ["wheel", "rail", "map", "shift"])
     if (state[name] !== start[name] && !(own[name] && own[name][state[name]])) parts.set(name, state[name]);
+  if (state.creepage !== start.creepage) parts.set("over-creepage", state.creepage);
   for (const [name, value] of Object.entries(state.values)) if (value !== start.values[name]) parts.set(name, value);
   state.methods.forEach((method, k) => {
     if (k || JSON.stringify(method) !== JSON.stringify(start.methods[0])) parts.set(`method${k + 1}`, `${method.normal} ${method.tangential}`);
@@ -45,11 +46,12 @@ function read(text) {
   for (const [name, value] of new URLSearchParams(text)) {
     const slider = bundle.sliders.find(row => row[0] === name), row = bundle.variables[name];
     const found = /^method([12])$/.exec(name);
-    if (slider && Number.isFinite(Number(value))) made.values[name] = Math.min(Math.max(Number(value), slider[2]), slider[3]);
+    if (name === "slip" && Number.isFinite(Number(value))) made.values.creepage = -Number(value); // links of earlier versions
+    else if (slider && Number.isFinite(Number(value))) made.values[name] = Math.min(Math.max(Number(value), slider[2]), slider[3]);
     else if (row && row.items.some(item => item[0] === value) && name in made.values) made.values[name] = value;
     else if (name === "wheel" && bundle.wheels[value] || name === "rail" && bundle.rails[value]) made[name] = value;
     else if (name === "map" && MAPS[value]) made.map = value;
-    else if ((name === "shift" || name === "slip") && bundle.results.some(row => row[0] === value)) made[name] = value;
+    else if ((name === "shift" || name === "over-creepage") && bundle.results.some(row => row[0] === value)) made[name.replace("over-", "")] = value;
     else if (found) {
       const [normal, tangential] = value.split(" "), has = (name, item) => bundle.variables[name].items.some(row => row[0] === item);
       if (has("method.normal", normal) && has("method.tangential", tangential)) made.methods[found[1] - 1] = { normal, tangential };
@@ -92,12 +94,12 @@ function controls() {
   for (const id of ["inputs", "more", "method-0", "method-1"]) $(id).replaceChildren();
   for (const [name, title, low, high, by] of bundle.sliders) {
     const row = bundle.variables[name], input = document.createElement("input"), shown = document.createElement("output");
-    const unit = name === "slip" ? "%" : row.unit, digits = Math.max(0, -Math.floor(Math.log10(by) + 1e-9));
+    const unit = name === "creepage" ? "%" : row.unit, digits = Math.max(0, -Math.floor(Math.log10(by) + 1e-9));
     Object.assign(input, { type: "range", min: low, max: high, step: by, value: state.values[name], id: "input-" + name });
     const show = () => { shown.textContent = `${state.values[name].toFixed(digits)} ${unit}`; };
     input.oninput = () => { state.values[name] = Number(input.value); show(); changed(); };
     show();
-    const description = row ? row.description : "The wheel turns faster (+) or slower (-) than its nominal radius rolls. Aside of the middle it rolls on another radius, so forces remain at 0 %";
+    const description = row ? row.description : "Of the wheelset: the wheel turns slower (+, it brakes) or faster (-, it drives) than its nominal radius rolls. The creepage of a patch differs: aside of the middle the wheel rolls on another radius, so forces remain at 0 %";
     labelled($(MORE.has(name) ? "more" : "inputs"), title, description, [shown, input]);
   }
   const choice = (parent, name, title, get, set) => {
@@ -123,18 +125,27 @@ function controls() {
 /* Whether the pressure of a method leaves larger gaps than it may (docs/limits.md). */
 const gapTooLarge = k => solvers[k].get("gap_error") > bundle.gapLimits[state.methods[k].normal];
 
+/* The places in the documentation's site, which is beside the page if a server has sent it. */
+const inSite = location.protocol.startsWith("http");
+const explained = new Set();
+
+function explanation(text, page) {
+  const link = page && inSite ? ` <a href="${page}" target="_top">equations</a>` : "";
+  return `<tr class="why"><td colspan="3">${text}${link}</td></tr>`;
+}
+
 function numbers(found) {
   const names = state.methods.map(method => `${method.normal} + ${method.tangential}`);
   const head = names.map((name, k) => `<th class="${k ? "second" : "first"}">${name}</th>`).join("");
-  const row = (title, cells, kind = "") => `<tr><th>${title}</th>${cells.map(cell => `<td class="${kind} ${cell[1] ?? ""}">${cell[0]}</td>`).join("")}</tr>`;
-  const rows = bundle.results.map(([name, title]) => {
+  const row = (title, cells, kind = "", name = "") => `<tr><th>${title}${name && ` <button class="ask" data-why="${name}" type="button" aria-expanded="${explained.has(name)}" aria-label="explain ${title}">?</button>`}</th>${cells.map(cell => `<td class="${kind} ${cell[1] ?? ""}">${cell[0]}</td>`).join("")}</tr>`;
+  const rows = bundle.results.map(([name, title, text, page]) => {
     const { unit, factor } = bundle.variables[name];
     return row(title, found.map((answer, k) => [answer.failed ? "–" : `${short(factor * solvers[k].get(name), 4)} ${unit}`,
-      name === "gap_error" && gapTooLarge(k) ? "bad" : ""]));
+      name === "gap_error" && gapTooLarge(k) ? "bad" : ""]), "", name) + (explained.has(name) ? explanation(text, page) : "");
   });
   for (const [name, factor, unit] of [["longitudinal", 1e3, "‰"], ["lateral", 1e3, "‰"], ["spin", 1, "1/m"]])
     rows.push(row(`${name} creepage of patch 1`, found.map((answer, k) => [answer.failed ? "–" :
-      `${(factor * solvers[k].get(`patch[].${name}`)).toFixed(3)} ${unit}`])));
+      `${(factor * solvers[k].get(`patch[].${name}`)).toFixed(3)} ${unit}`]), "", "creepages") + (name === "spin" && explained.has("creepages") ? explanation(...bundle.creepages) : ""));
   const doubt = k => gapTooLarge(k) ? "; the gap error is large: the largest pressure is more than 5 % wrong on most such patches" : "";
   const status = row("status", found.map((answer, k) => [answer.text + (answer.failed ? "" : doubt(k)), answer.failed || answer.untrusted ? "bad" : ""]), "status");
   $("numbers").innerHTML = `<table><thead><tr><th></th>${head}</tr></thead><tbody>${rows.join("")}${status}</tbody></table>`;
@@ -145,7 +156,7 @@ function ask() {
   asked++;
   asking = write() + state.wheel + state.rail;
   worker.postMessage({ number: asked, state, wheel: points("wheel"), rail: points("rail"),
-    sweeps: SWEEPS.map(({ name, low, high, count }) => ({ name, low, high, count })) });
+    name: state.wheel + "|" + state.rail, sweeps: SWEEPS.map(({ name, low, high, count }) => ({ name, low, high, count })) });
 }
 let asking = "";
 
@@ -157,30 +168,39 @@ function drawCurves() {
   }
 }
 
+function drawConicity() {
+  const drawn = (lines.conicity ?? []).map(line => ({ x: line.x, y: line.results.conicity }));
+  curves($("conicity"), drawn, 0.5, 7, Math.abs(state.values["pose.y"]), ["amplitude [mm]", "equivalent conicity [-]"]);
+}
+
 function frame() {
   requestAnimationFrame(frame);
   if (!dirty) return;
   dirty = false;
   const wheel = points("wheel"), rail = points("rail"), key = state.wheel + "|" + state.rail;
-  const found = state.methods.map((method, k) => {
-    const solver = solvers[k];
+  const solve = (solver, state, k) => {
     if (solver.loaded !== key || own.wheel[state.wheel] || own.rail[state.rail]) { solver.profiles(wheel, rail); solver.loaded = key; }
     apply(solver, state, k);
-    const answer = solver.solve();
-    answers[k] = solver.patches();
+    return solver.solve();
+  };
+  const found = state.methods.map((method, k) => {
+    const answer = solve(solvers[k], state, k);
+    answers[k] = solvers[k].patches();
     return answer;
   });
+  solve(left, mirrored(state), 0);
   const shown = answers.slice(0, state.methods.length), boxes = shown.map(extent);
   const width = Math.max(18e-3, ...boxes.map(list => list.reduce((sum, box) => sum + box[1] - box[0] + 3e-3, 0)));
   const reach = Math.max(6e-3, ...boxes.flat().map(box => 1.08 * box[2])), scale = { width, reach, top: greatest(shown, state.map) };
   numbers(found);
-  section($("section"), solvers[0], wheel, rail);
+  section($("section"), solvers[0], left, wheel, rail);
   state.methods.forEach((method, k) => {
     $(`title-${k}`).textContent = `${method.normal} + ${method.tangential}`;
     map($(`map-${k}`), answers[k], state.map, scale);
   });
   $("figure-1").hidden = state.methods.length < 2;
   drawCurves();
+  drawConicity();
   ask();
   window.last = { found, force: ["x", "y", "z"].map(axis => solvers[0].get("force." + axis)) }; // for the tests
 }
@@ -194,6 +214,11 @@ function save(name, blob) {
 }
 
 function csv(id) {
+  if (id === "conicity") {
+    const line = (lines.conicity ?? [])[0] ?? { x: [], results: { conicity: [] } };
+    const table = ["amplitude [mm],equivalent conicity [1]", ...line.x.map((x, i) => `${x},${line.results.conicity[i]}`)];
+    return save("conicity.csv", new Blob([table.join("\n") + "\n"], { type: "text/csv" }));
+  }
   const sweep = SWEEPS.find(row => row.canvas === id), rows = [`# wheelrail-contact ${bundle.version}, ${location.hash}`];
   if (sweep) {
     const unit = name => bundle.variables[name].unit || "1";
@@ -245,6 +270,7 @@ async function begin() {
   theme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
   const module = await WebAssembly.compile(bytes(bundle.wasm));
   solvers = [0, 1].map(() => new Solver(module, bundle));
+  left = new Solver(module, bundle);
   try {
     const code = $("solver").textContent + $("worker").textContent;
     worker = new Worker(URL.createObjectURL(new Blob([code], { type: "text/javascript" })));
@@ -254,6 +280,7 @@ async function begin() {
       answered = data.number;
       lines = data.lines;
       drawCurves();
+      drawConicity();
       if (asking !== write() + state.wheel + state.rail) ask();
     };
   } catch (error) {
@@ -270,6 +297,12 @@ async function begin() {
     changed();
     try { await navigator.clipboard.writeText(location.href); $("link").textContent = "Copied"; } catch { prompt("Link:", location.href); }
     setTimeout(() => { $("link").textContent = "Copy link"; }, 1500);
+  };
+  $("numbers").onclick = event => {
+    const name = event.target.dataset.why;
+    if (!name) return;
+    if (!explained.delete(name)) explained.add(name);
+    dirty = true;
   };
   $("second").onchange = () => { state.methods = $("second").checked ? [state.methods[0], { ...SECOND }] : [state.methods[0]]; controls(); changed(); };
   for (const button of document.querySelectorAll("[data-png]")) button.onclick = () => $(button.dataset.png).toBlob(blob => save(`${button.dataset.png}.png`, blob));

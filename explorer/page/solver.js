@@ -77,11 +77,11 @@ class Solver {
   }
 }
 
-/* Inputs and parameters that follow from the state of the page. `method` is 0 or 1. */
+/* Inputs and parameters that follow from the state of the page. `method` is 0 or 1. The sign of the creepage is the library's. */
 function apply(solver, state, method) {
   const variables = solver.bundle.variables;
   for (const [name, value] of Object.entries(state.values)) {
-    if (name === "slip") continue;
+    if (name === "creepage") continue;
     const row = variables[name];
     if (row.items.length) solver.set(name, row.items.findIndex(item => item[0] === value) + 1);
     else solver.set(name, value / row.factor);
@@ -91,7 +91,14 @@ function apply(solver, state, method) {
     solver.set(name, variables[name].items.findIndex(item => item[0] === chosen) + 1);
   }
   const speed = solver.get("velocity.x");
-  solver.set("velocity.spin", -speed / solver.get("wheel.radius") * (1 + state.values.slip / 100));
+  solver.set("velocity.spin", -speed / solver.get("wheel.radius") * (1 - state.values.creepage / 100));
+}
+
+/* The state of the left wheel, as the mirror image that the kernels solve. */
+function mirrored(state) {
+  const values = { ...state.values };
+  for (const name of ["pose.y", "pose.roll", "pose.yaw"]) values[name] = -values[name];
+  return { ...state, values };
 }
 
 if (typeof module !== "undefined") module.exports = { Solver, apply, doubles, bytes };

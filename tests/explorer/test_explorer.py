@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import contact
-from contact.geometry import profile
+from contact.geometry import conicity, profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair
 from explorer.bundle import RAILS, WHEELS
@@ -39,7 +39,7 @@ def _states(count: int) -> list[dict]:
             "pose.yaw": rng.uniform(-20.0, 20.0),
             "pose.roll": rng.uniform(-5.0, 5.0),
             "load.normal_force": rng.uniform(20.0, 150.0),
-            "slip": rng.uniform(-1.0, 1.0),
+            "creepage": rng.uniform(-1.0, 1.0),
             "velocity.x": rng.uniform(5.0, 80.0),
             "friction.coefficient": rng.uniform(0.1, 0.5),
         }
@@ -61,7 +61,7 @@ def _python(state: dict) -> contact.pair.PairSolution:
     pair = Pair(profile.load(state["wheel"], "wheel"), profile.load(state["rail"], "rail"))
     solver = WheelRailPair(pair, **method)
     speed = values["velocity.x"]
-    velocity = Velocity(forward=speed, spin=-speed / pair.nominal_radius * (1.0 + values["slip"] / 100.0))
+    velocity = Velocity(forward=speed, spin=-speed / pair.nominal_radius * (1.0 - values["creepage"] / 100.0))
     pose = Pose(**{name: 1e-3 * values[f"pose.{name}"] for name in ("y", "roll", "yaw")})
     return solver.solve(pose, velocity, load=1e3 * values["load.normal_force"], friction=values["friction.coefficient"])
 
@@ -112,7 +112,7 @@ def _open(browser, page: Path, state: str, width: int = 1440):
     errors: list[str] = []
     tab.on("pageerror", lambda error: errors.append(str(error)))
     tab.goto(f"{page.as_uri()}#{state}")
-    tab.wait_for_function("window.last && lines.slip")
+    tab.wait_for_function("window.last && lines.creepage")
     return tab, errors
 
 
@@ -149,6 +149,48 @@ def test_sliders_move_by_mouse_and_keyboard_and_change_the_answer(page, browser)
     assert errors == []
 
 
+def test_conicity_is_that_of_the_library(page, browser):
+    """A contact under 1 kN instead of rigid touch: within .015 of the library's, where it does not jump."""
+    tab, errors = _open(browser, page, "")
+    line = tab.evaluate("lines.conicity[0]")
+    amplitudes = np.array(line["x"])
+    expected = conicity(profile.s1002(), profile.rail_60e1(inclination=1 / 40), 1e-3 * amplitudes).conicity
+    smooth = np.abs(np.gradient(expected, amplitudes)) < 0.1
+    assert smooth.sum() > 15
+    np.testing.assert_allclose(np.array(line["results"]["conicity"])[smooth], expected[smooth], atol=0.015)
+    assert errors == []
+
+
+def test_a_number_is_explained_where_it_is_asked_for(page, browser):
+    tab, errors = _open(browser, page, "")
+    assert "stick" not in tab.inner_text("#numbers")
+    tab.click("[data-why='slip.ratio']")
+    tab.wait_for_function("document.querySelector('.why')")
+    assert "does not mean no force" in tab.inner_text("#numbers")
+    tab.click("[data-why='slip.ratio']")
+    tab.wait_for_function("!document.querySelector('.why')")
+    assert errors == []
+
+
+def test_the_left_wheel_is_the_mirror_image(page, browser):
+    tab, _ = _open(browser, page, "pose.y=4&pose.yaw=2")
+    force = tab.evaluate("['x', 'y', 'z'].map(axis => left.get('force.' + axis))")
+    state = _states(1)[0] | {"wheel": "S1002", "rail": "60E1"}
+    state["values"] = dict.fromkeys(state["values"], 0.0) | {
+        "pose.y": -4.0, "pose.yaw": -2.0, "load.normal_force": tab.evaluate("state.values['load.normal_force']"),
+        "velocity.x": table().row["velocity.x"].start, "friction.coefficient": 0.3,
+    }  # fmt: skip
+    state["methods"] = [{"normal": "strip_halfspace", "tangential": "fastrip_mapped"}]
+    assert force == pytest.approx(_python(state).force.tolist(), rel=1e-9, abs=1e-3)
+
+
+def test_a_positive_creepage_brakes_and_links_of_earlier_versions_keep_their_state(page, browser):
+    tab, _ = _open(browser, page, "creepage=0.5")
+    assert tab.evaluate("last.force[0]") < 0.0
+    tab, _ = _open(browser, page, "slip=-0.5")
+    assert tab.evaluate("state.values.creepage") == 0.5
+
+
 def test_nothing_is_cut_off_on_a_phone(page, browser):
     tab, _ = _open(browser, page, "", width=380)
     assert tab.evaluate("document.documentElement.scrollWidth") <= 380
@@ -181,5 +223,5 @@ def test_every_slider_choice_and_result_is_a_variable_of_the_fmu():
     for name, _, low, high, step in SLIDERS:
         assert low < high
         assert 0.0 < step < high - low
-        assert name in rows or name == "slip"
+        assert name in rows or name == "creepage"
     assert all(name in rows for name, *_ in (*CHOICES, *RESULTS))
