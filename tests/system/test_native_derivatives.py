@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from contact_case import CREEPAGES, geometry, posed
 from differences import Tally, derivative, parts, quotient
+from fmpy.fmi1 import FMICallException
 from random_cases import METHODS, Case, random_case
 
 from contact import Status
@@ -104,6 +105,19 @@ def test_a_directional_derivative_adds_up_what_its_seed_says(open_native):
     seed = [2e-4, -1e-4, 0.05, 3e3]
     single = [fmu.fmu.getDirectionalDerivative(unknowns, [k], [s]) for k, s in zip(knowns, seed, strict=True)]
     np.testing.assert_allclose(fmu.fmu.getDirectionalDerivative(unknowns, knowns, seed), np.sum(single, 0), rtol=1e-4)
+
+
+def test_a_host_may_name_enumerations_with_seeds_of_zero(open_native):
+    """OMSimulator hands over every dependency of an initial unknown, whatever its type."""
+    fmu = posed(open_native("CoSimulation"))
+    fmu.fmu.setupExperiment()
+    fmu.fmu.enterInitializationMode()
+    unknowns = [fmu.variables["force.x"].valueReference]
+    real, law = (fmu.variables[name].valueReference for name in ("load.normal_force", "friction.law"))
+    alone = fmu.fmu.getDirectionalDerivative(unknowns, [real], [1.0])
+    assert fmu.fmu.getDirectionalDerivative(unknowns, [real, law], [1.0, 0.0]) == alone
+    with pytest.raises(FMICallException):
+        fmu.fmu.getDirectionalDerivative(unknowns, [law], [1.0])
 
 
 def test_a_derivative_at_the_end_of_a_range_is_one_sided(fmu):

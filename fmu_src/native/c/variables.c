@@ -135,7 +135,7 @@ Status derivative(Instance *instance, const char *function, const Reference unkn
     REQUIRE(instance, function, INITIALIZATION | RUNNING | TERMINATED);
     status = check(instance, unknowns, n_unknowns, REAL, ANY_OUTPUT | FIELD, n_result, function);
     if (status == OK)
-        status = check(instance, knowns, n_knowns, REAL, INPUT | (instance->is.phase == INITIALIZATION ? PARAMETER : STATE),
+        status = check(instance, knowns, n_knowns, REAL | INTEGER | ENUMERATION | BOOLEAN, INPUT | (instance->is.phase == INITIALIZATION ? PARAMETER : STATE),
                        n_seed, function);
     choose(instance, instance->values);
     if (status == OK) status = check_ranges(instance, instance->values, N(values));
@@ -146,6 +146,10 @@ Status derivative(Instance *instance, const char *function, const Reference unkn
     for (size_t k = 0; k < n_knowns; k++)
         for (size_t i = 0; i < extent(instance, knowns[k]); i++, seed++) {
             if (!isfinite(*seed)) return report(instance, LOG_ERROR, "a seed of a directional derivative is not finite");
+            /* OMSimulator names every dependency of an unknown, enumerations too, with seeds of 0. */
+            if (*seed != 0.0 && !(instance->table.variables[knowns[k]].kind & REAL))
+                return report(instance, LOG_ERROR, "%s is not a variable for %s now, unless its seed is 0",
+                              TEXT(instance->table.variables[knowns[k]].name), function);
             seeds[knowns[k] + i] += *seed;
         }
     if (n_result > 0) memset(result, 0, n_result * sizeof *result); /* else it may be NULL */
