@@ -64,22 +64,22 @@ lint: $(READY)   ## ruff, mypy, import-linter
 	$(BIN)/lint-imports
 
 accuracy: $(READY) ## write the accuracy tables, with CONTACT's own methods for comparison, to docs/
-	PYTHONPATH=. $(BIN)/python benchmarks/accuracy.py --write docs/accuracy.md
-	PYTHONPATH=. $(BIN)/python benchmarks/normal_methods.py --write docs/normal_methods.md
+	PYTHONPATH=. $(BIN)/python benchmarks/accuracy.py --write docs/check/accuracy.md
+	PYTHONPATH=. $(BIN)/python benchmarks/normal_methods.py --write docs/check/normal_methods.md
 	PYTHONPATH=. $(BIN)/python benchmarks/unseen_patches.py --cases 60
-	PYTHONPATH=. $(BIN)/python benchmarks/halfspace.py --write docs/halfspace.md
-	$(BIN)/contact manchester --out docs/manchester.md
-	$(BIN)/contact statistics --out docs/statistics.md
+	PYTHONPATH=. $(BIN)/python benchmarks/halfspace.py --write docs/check/halfspace.md
+	$(BIN)/contact manchester --out docs/check/manchester.md
+	$(BIN)/contact statistics --out docs/check/statistics.md
 
-proof: $(READY)   ## write published cases beside ours to docs/proof.md
+proof: $(READY)   ## write published cases beside ours to docs/check/proof.md
 	PYTHONPATH=. $(BIN)/python -m benchmarks.proof
 
-smoothness: $(READY) ## write jumps, noise and resolution of sweeps to docs/smoothness.md; try random cases
-	PYTHONPATH=. $(BIN)/python benchmarks/smoothness.py --write docs/smoothness.md
+smoothness: $(READY) ## write jumps, noise and resolution of sweeps to docs/check/smoothness.md; try random cases
+	PYTHONPATH=. $(BIN)/python benchmarks/smoothness.py --write docs/check/smoothness.md
 	PYTHONPATH=. $(BIN)/python benchmarks/robustness.py --cases 10000
 
-coupling: $(READY) ## write the largest stable steps of the coupling schemes to docs/coupling.md
-	PYTHONPATH=. $(BIN)/python benchmarks/coupling.py --write docs/coupling.md
+coupling: $(READY) ## write the largest stable steps of the coupling schemes to docs/check/coupling.md
+	PYTHONPATH=. $(BIN)/python benchmarks/coupling.py --write docs/check/coupling.md
 
 bench: $(READY)  ## print the speed tables
 	PYTHONPATH=. $(BIN)/python benchmarks/speed.py

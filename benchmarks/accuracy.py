@@ -1,6 +1,6 @@
-"""Accuracy of the fast methods against CONTACT's half-space solution: the tables of docs/accuracy.md.
+"""Accuracy of the fast methods against CONTACT's half-space solution: the tables of docs/check/accuracy.md.
 
-    python benchmarks/accuracy.py [--write docs/accuracy.md]
+    python benchmarks/accuracy.py [--write docs/check/accuracy.md]
 
 The reference numbers, and the errors against them, are in `reference`.
 """

@@ -1,6 +1,6 @@
-"""Features beside steady rolling against CONTACT 25.1: docs/contact_features.md.
+"""Features beside steady rolling against CONTACT 25.1: docs/check/contact_features.md.
 
-    python benchmarks/contact_features.py FOLDER [--write docs/contact_features.md]
+    python benchmarks/contact_features.py FOLDER [--write docs/check/contact_features.md]
 
 FOLDER has the reference sets (G_subsurface, …), which are not part of the repository. CONTACT's tractions and forces act on the
 rail, ours on the wheel. Times are process times, the least of several runs in one thread.

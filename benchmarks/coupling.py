@@ -1,6 +1,6 @@
 """Largest stable communication step of the coupled wheelset by scheme and speed, with cost and errors of each scheme.
 
-    python benchmarks/coupling.py [--write docs/coupling.md]
+    python benchmarks/coupling.py [--write docs/check/coupling.md]
 
 `reference.stability` defines when a step is stable.
 """

@@ -2,7 +2,7 @@
 
     python -m benchmarks.damage_steps
 
-A wheelset at 20 m/s over irregular track through a curve of 500 m (docs/vehicle.md, "Damage").
+A wheelset at 20 m/s over irregular track through a curve of 500 m (docs/understand/vehicle.md, "Damage").
 """
 
 from __future__ import annotations

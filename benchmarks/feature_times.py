@@ -28,7 +28,7 @@ GDSTEADY = DEFAULT * 0.46 / 3.9
 
 
 def _patch() -> tuple[Gap, contact.Separation, contact.Creepage]:
-    """Return a real patch at 0.2 mm for which CONTACT's time is known (docs/halfspace.md)."""
+    """Return a real patch at 0.2 mm for which CONTACT's time is known (docs/check/halfspace.md)."""
     case = next(case for case in reference.patches() if case["name"] == "c40_dy+0_p1")
     x, y = (np.arange(v[0], v[-1] + 0.3, 0.2) * 1e-3 for v in (case["x_p"], case["y_p"]))
     separation = reference.separation_of(case)

@@ -1,4 +1,4 @@
-"""Impacts of a flat in a vehicle: peak force, energy and its residual over the speed (docs/vehicle.md).
+"""Impacts of a flat in a vehicle: peak force, energy and its residual over the speed (docs/understand/vehicle.md).
 
 python -m benchmarks.flat_impact --lengths 0.04 0.05 --speeds 3 10 20
 python -m benchmarks.flat_impact --vehicle manchester --speeds 20 --steps 1e-4 5e-5

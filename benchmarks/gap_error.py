@@ -1,6 +1,6 @@
 """What `Solution.gap_error` promises: hits and false alarms on random patches against the element-wise half space.
 
-python benchmarks/gap_error.py [--cases 3000]: half a minute. docs/limits.md has the result.
+python benchmarks/gap_error.py [--cases 3000]: half a minute. docs/check/limits.md has the result.
 
 A case is a patch of a random pose of one of four pairs of standard profiles: lateral position -6 to 8 mm, yaw up to 30 mrad in
 every second case, load 10 to 200 kN. The separation is solved under its load by each method and by 60 × 60 elements.

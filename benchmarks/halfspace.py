@@ -1,6 +1,6 @@
-"""Accuracy of the element-wise half space against CONTACT on CONTACT's own grids, and its run time: docs/halfspace.md.
+"""Accuracy of the element-wise half space against CONTACT on CONTACT's own grids, and its run time: docs/check/halfspace.md.
 
-    python benchmarks/halfspace.py [--write docs/halfspace.md]
+    python benchmarks/halfspace.py [--write docs/check/halfspace.md]
 
 Times are process times, the least of several runs in one thread. CONTACT's times were measured on the machine that computed the
 reference numbers (issue 5).

@@ -1,4 +1,4 @@
-"""Largest force of a wheel on a sharp rail joint, over the distance of the stations around it (docs/vehicle.md).
+"""Largest force of a wheel on a sharp rail joint, over the distance of the stations around it (docs/understand/vehicle.md).
 
 python -m benchmarks.joint --stations 0.05 0.005 --steps 2e-4 1e-4
 """

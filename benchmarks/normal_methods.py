@@ -1,6 +1,6 @@
-"""Accuracy of every normal method against CONTACT's half-space solution on real patches: docs/normal_methods.md.
+"""Accuracy of every normal method against CONTACT's half-space solution on real patches: docs/check/normal_methods.md.
 
-python benchmarks/normal_methods.py [--write docs/normal_methods.md]
+python benchmarks/normal_methods.py [--write docs/check/normal_methods.md]
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Smoothness of the solver: sweeps in small steps, and doubled resolution (tables of docs/smoothness.md).
+"""Smoothness of the solver: sweeps in small steps, and doubled resolution (tables of docs/check/smoothness.md).
 
-    python benchmarks/smoothness.py [--write docs/smoothness.md]
+    python benchmarks/smoothness.py [--write docs/check/smoothness.md]
 
 The case is S1002 on 60E1 at 1:40, the right wheel without roll and yaw. The jump of a sweep is its largest difference between
 neighbours. Its noise is the size of the second differences. Approach, pressure and area are relative, forces are over mu N,
@@ -242,7 +242,7 @@ patches the load is 80 kN vertically.
 
 The table has the largest jump of each result in finer steps. If the jump shrinks with the step, the curve is continuous.
 Between 6.670 and 6.671 mm the strip half space has a jump that does not shrink: with 20 strips the end of the patch is not
-steady there ([strip half space](strip_halfspace.md), section 5).
+steady there ([strip half space](../understand/strip_halfspace.md), section 5).
 
 {zoom}
 ## Load, creepage and spin

@@ -31,7 +31,7 @@ class Material:
         3.3 k, shakedown at 4.0 k (line) to 4.7 k (circle), full indentation at about 5 k [R].
     coupling : float
         K = [(1 - 2nu_r)/G_r - (1 - 2nu_w)/G_w] G/4 of rail and wheel [-], in [-0.5, 0.5]; 0 for like bodies. Dundurs' constant
-        is K/(1 - nu). Only the element-wise half space uses it (unlike.md); all other methods neglect it.
+        is K/(1 - nu). Only the element-wise half space uses it (other_contacts.md); all other methods neglect it.
 
     Raises
     ------

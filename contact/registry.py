@@ -10,7 +10,7 @@ from contact.errors import ContactError, suggestion
 from contact.kernels.enumerations import Normal, NormalFamily, Tangential, TangentialFamily
 from contact.notebook import table
 
-#: The default methods. The strip half space starts from ANALYN, and mapped FaStrip corrects FaStrip (docs/accuracy.md).
+#: The default methods. The strip half space starts from ANALYN, and mapped FaStrip corrects FaStrip (docs/check/accuracy.md).
 DEFAULT_NORMAL, DEFAULT_TANGENTIAL = "strip_halfspace", "fastrip_mapped"
 
 
@@ -78,7 +78,7 @@ class Method:
 
     @property
     def gap_limit(self) -> float:
-        """`gap_error` above which the largest pressure is doubtful (docs/limits.md says how often it then is wrong)."""
+        """`gap_error` above which the largest pressure is doubtful (docs/check/limits.md says how often it then is wrong)."""
         return GAP_LIMIT_INTERACTING if self.interacting else GAP_LIMIT
 
     @property

@@ -13,6 +13,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT), str(ROOT / "docs")]
 
 import generated  # noqa: E402
+import moved  # noqa: E402
 
 import contact  # noqa: E402
 
@@ -73,14 +74,20 @@ def _is_alias(app: Sphinx, what: str, name: str, item: object, skip: bool, optio
 
 def _append_generated(app: Sphinx, page: str, source: list[str]) -> None:
     """Append what is made from the code: variables of the FMUs, keys of scenarios, options of the command line."""
-    if page in ("scenarios", "command_line"):
-        source[0] += getattr(generated, page)()
-    if page == "fmu":
+    if page in ("use/scenarios", "use/command_line"):
+        source[0] += getattr(generated, page.removeprefix("use/"))()
+    if page == "use/fmu/fmu":
         command = [sys.executable, ROOT / "build_fmu.py", "--surfaces", "--describe"]
         source[0] += subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def _write_stubs(app: Sphinx, error: Exception | None) -> None:
+    if error is None and app.builder.name == "html":
+        moved.stubs(Path(app.outdir))
 
 
 def setup(app: Sphinx) -> None:
     app.connect("autodoc-process-docstring", _escape_bars, priority=400)  # before numpydoc
     app.connect("autodoc-skip-member", _is_alias)
     app.connect("source-read", _append_generated)
+    app.connect("build-finished", _write_stubs)

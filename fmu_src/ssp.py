@@ -37,7 +37,7 @@ from models.wheelset.ports import ENERGY, IRREGULARITY, MOTION, POINTS, PROBLEM,
 
 NAME, VEHICLE = "coupled", "coupled_vehicle"
 CONNECTED = "Connected.ssd"
-STEP, STOP = 1e-4, 1.0  # [s]; at 28 m/s the Jacobi scheme is stable up to 0.67 ms (docs/coupling.md)
+STEP, STOP = 1e-4, 1.0  # [s]; at 28 m/s the Jacobi scheme is stable up to 0.67 ms (docs/check/coupling.md)
 STEP_OF_VEHICLE = 2e-4  # [s]
 
 _NAMESPACES = {

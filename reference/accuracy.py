@@ -1,6 +1,6 @@
 """Errors of the fast methods against the reference numbers. `make accuracy` writes them, and tests limit them.
 
-Errors are defined as in the tables of docs/accuracy.md. Forces are divided by mu N with each method's own N. Moments are
+Errors are defined as in the tables of docs/check/accuracy.md. Forces are divided by mu N with each method's own N. Moments are
 divided by mu N sqrt(ab) on ellipses and by mu N sqrt(area/pi) on other patches.
 """
 

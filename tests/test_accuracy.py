@@ -1,6 +1,6 @@
-"""Regression tests of the accuracy in docs/accuracy.md: no number may become more than 10 % worse than reached.
+"""Regression tests of the accuracy in docs/check/accuracy.md: no number may become more than 10 % worse than reached.
 
-Comments give the bars of issue "The solver". The reached values are in docs/accuracy.md.
+Comments give the bars of issue "The solver". The reached values are in docs/check/accuracy.md.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Published cases agree within the bounds that docs/proof.md states."""
+"""Published cases agree within the bounds that docs/check/proof.md states."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ import pytest
 from contact.material import Thermal
 from reference import traction, twin_disc
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "proof.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "check" / "proof.md"
 
 
 @pytest.mark.parametrize("row", twin_disc.rows())

@@ -1,1 +1,1 @@
-"""Published cases of the field beside this library. `python -m benchmarks.proof` writes docs/proof.md."""
+"""Published cases of the field beside this library. `python -m benchmarks.proof` writes docs/check/proof.md."""

@@ -1,4 +1,4 @@
-"""Write docs/proof.md and the pictures in docs/proof/ (`make proof`)."""
+"""Write docs/check/proof.md and the pictures in docs/check/proof/ (`make proof`)."""
 
 import warnings
 from pathlib import Path
@@ -9,11 +9,11 @@ from contact.errors import PlausibilityWarning
 from contact.material import Thermal
 from reference import traction, twin_disc
 
-DOCS = Path(__file__).resolve().parents[2] / "docs"
+DOCS = Path(__file__).resolve().parents[2] / "docs" / "check"
 
 
 def page() -> str:
-    """Return the text of docs/proof.md."""
+    """Return the text of docs/check/proof.md."""
     rows = twin_disc.rows()
     off = [100.0 * (ours / published - 1.0) for _, _, published, ours in rows]
     bounds = f"{min(off):+.0f} to {max(off):+.0f} %"
@@ -31,7 +31,7 @@ def page() -> str:
 | Locomotive, friction that falls when hot | CONTACT's Eurosprinter example | {largest} | Good; a thermal constant fitted |
 | Twin disc, flash temperature | Lewis and Dwyer-Joyce 2004 | {bounds} | Too hot; disc sizes recalled |
 
-The [Manchester contact benchmark](manchester.md), [creep forces on ellipses](statistics.md) and [the thesis](thesis/index.md)
+The [Manchester contact benchmark](manchester.md), [creep forces on ellipses](statistics.md) and [the thesis](../understand/thesis/index.md)
 have their own pages.
 
 ## Twin disc
@@ -40,7 +40,7 @@ The heat and the temperature are published. An earlier session of this project r
 in issue 35; they were not read again. The sizes are recalled: discs of {2e3 * twin_disc.RADIUS:g} mm diameter,
 {1e3 * twin_disc.WIDTH:g} mm wide, {1e-6 * twin_disc.PEAK:g} MPa, {60 * twin_disc.REVOLUTIONS:g} revolutions per minute.
 Ours takes the published heat, spreads it like Hertz's pressure over the line contact and uses the steel of
-[the constants](constants.md). It tests the step from heat to temperature, and neither friction nor creep forces.
+[the constants](../understand/constants.md). It tests the step from heat to temperature, and neither friction nor creep forces.
 
 | slip [%] | heat [W] | published [K] | ours [K] | difference [%] |
 | ---: | ---: | ---: | ---: | ---: |
@@ -57,7 +57,7 @@ A wheel under {1e-3 * traction.LOAD:g} kN with an elliptic patch, a/b = .5, at {
 {traction.FRICTION:g}, constant or falling linearly by .19 over 1200 or 400 K. CONTACT's numbers were read by an earlier
 session in its open test bank and noted in issue 35; load, curvature, friction and speed were read in
 `examples/tractcurv.inp` of github eve70a/CONTACT. The thermal constants of the example were not found. Ours are those of
-[the constants](constants.md), and, "fitted", a heat capacity smaller by 1.252, with which the rise at 25 % is that of
+[the constants](../understand/constants.md), and, "fitted", a heat capacity smaller by 1.252, with which the rise at 25 % is that of
 CONTACT; all other numbers then follow.
 
 {forces}

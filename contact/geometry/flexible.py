@@ -1,4 +1,4 @@
-"""The displacement of a wheel against its wheelset. `contact.kernels.flexible` applies it (in_time.md)."""
+"""The displacement of a wheel against its wheelset. `contact.kernels.flexible` applies it (other_wheels.md)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A thin layer between the bodies that shears elastically and yields, with hardening (third_body.md).
+"""A thin layer between the bodies that shears elastically and yields, with hardening (other_contacts.md).
 
 The layer's elastic shear adds flexibility·q to the tangential displacement. It yields where |q| reaches
 
@@ -66,7 +66,7 @@ class ThirdBody:
         """Return the creep stiffness with this layer over that without it [-], for `Friction(slope=…)` of fast methods.
 
         Both flexibilities are in series: that of linear theory on the patch, and that of the layer alone, ∑ 2a² dy over the
-        flexibility. On 0.15 mm elements the half space with the layer is within 3 % of this (third_body.md).
+        flexibility. On 0.15 mm elements the half space with the layer is within 3 % of this (other_contacts.md).
         """
         alone = -float(linear.slopes(strips, material, _COARSE)[0, 0])
         moment = float((2.0 * strips.a**2 * strips.dy).sum())

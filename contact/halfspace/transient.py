@@ -1,4 +1,4 @@
-"""Shift and transient rolling, step by step, on the element-wise half space (transient.md).
+"""Shift and transient rolling, step by step, on the element-wise half space (other_contacts.md).
 
 A step moves the contact by the distance D and the bodies against each other. The shift of the surfaces against each other
 in the step is, over D (Kalker 1990),

@@ -1,4 +1,4 @@
-"""Coupling of pressure and traction between bodies of unlike material (unlike.md).
+"""Coupling of pressure and traction between bodies of unlike material (other_contacts.md).
 
 With K = [(1 - 2nu_r)/G_r - (1 - 2nu_w)/G_w] G/4 of rail and wheel, a pressure p displaces the wheel's surface against the
 rail's along the plane, and a traction q opens or closes the gap (Kalker 1990; signs for traction on the wheel, checked

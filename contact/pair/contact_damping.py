@@ -1,4 +1,4 @@
-"""Damping of the contact forces of a pair over time steps (in_time.md).
+"""Damping of the contact forces of a pair over time steps (other_wheels.md).
 
     F_tot = F + C dF/dt
 

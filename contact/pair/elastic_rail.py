@@ -1,4 +1,4 @@
-"""A massless rail on springs under a wheel. `contact.kernels.elastic_rail` finds its deflection (elastic_rail.md)."""
+"""A massless rail on springs under a wheel. `contact.kernels.elastic_rail` finds its deflection (other_wheels.md)."""
 
 from __future__ import annotations
 

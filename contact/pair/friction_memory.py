@@ -1,4 +1,4 @@
-"""Friction that follows the sliding velocity with a lag (in_time.md).
+"""Friction that follows the sliding velocity with a lag (other_wheels.md).
 
     dmu/dt = max(s, s0)/d (mu_law(s) - mu)
 

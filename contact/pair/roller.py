@@ -1,4 +1,4 @@
-"""A wheel on a roller of a test rig: curvature of the roller, creepages and forces (roller.md).
+"""A wheel on a roller of a test rig: curvature of the roller, creepages and forces (other_wheels.md).
 
 The axle of the roller lies fixed at its radius R under the track plane; the rail profile is turned on it. A point of the
 profile at the height z (down) has the radius r_r = R - z. In the plane of a patch with the contact angle δ the gap gets the

@@ -29,7 +29,7 @@ from contact.solution.pressure import pressure_at, sketch
 Array = NDArray[np.float64]
 Records = NDArray[np.void]
 
-#: Change of the contact angle over a patch above which a plane contact may be wrong [rad] (docs/limits.md).
+#: Change of the contact angle over a patch above which a plane contact may be wrong [rad] (docs/check/limits.md).
 BEND = 0.4
 
 

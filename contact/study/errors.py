@@ -1,4 +1,4 @@
-"""Errors of a solution against the reference, as defined in docs/accuracy.md."""
+"""Errors of a solution against the reference, as defined in docs/check/accuracy.md."""
 
 from __future__ import annotations
 

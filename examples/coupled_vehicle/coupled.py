@@ -116,7 +116,7 @@ def difference(one: Array, other: Array) -> tuple[float, float]:
 
 
 def main() -> None:
-    """Print the table of docs/own_vehicle.md."""
+    """Print the table of docs/use/own_vehicle.md."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("fmu", type=Path)
     parser.add_argument("--seconds", type=float, default=2.0)

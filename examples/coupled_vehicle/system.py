@@ -4,7 +4,7 @@
     python -m examples.coupled_vehicle.system dist/native/coupled_vehicle.ssp
 
 In each step the pairs answer first, and then the vehicle moves with their answers. So nothing is late. The order is not part of
-an SSP; a master that steps all FMUs at the same time needs steps ten times shorter (docs/own_vehicle.md).
+an SSP; a master that steps all FMUs at the same time needs steps ten times shorter (docs/use/own_vehicle.md).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What forces and wear inherit from what is not known: friction, load, creepages, profiles (docs/uncertainty.md).
+"""What forces and wear inherit from what is not known: friction, load, creepages, profiles (docs/check/uncertainty.md).
 
 python examples/uncertainty/uncertainty.py [--samples 10000] [--out uncertainty.png]
 

@@ -122,7 +122,7 @@ function controls() {
   $("second").checked = state.methods.length > 1;
 }
 
-/* Whether the pressure of a method leaves larger gaps than it may (docs/limits.md). */
+/* Whether the pressure of a method leaves larger gaps than it may (docs/check/limits.md). */
 const gapTooLarge = k => solvers[k].get("gap_error") > bundle.gapLimits[state.methods[k].normal];
 
 /* The places in the documentation's site, which is beside the page if a server has sent it. */

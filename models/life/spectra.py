@@ -1,4 +1,4 @@
-"""Irregularities of a track in four channels: spectra by name, and seeded realisations (docs/constants.md 13)."""
+"""Irregularities of a track in four channels: spectra by name, and seeded realisations (docs/understand/constants.md 13)."""
 
 from __future__ import annotations
 
@@ -81,8 +81,8 @@ class DifferenceSpectrum:
         return self.roughness * self.corner**2 * total
 
 
-_B176 = "ERRI B176 (docs/constants.md 13.1, two sources agree{})"
-_FRA = "FRA/AAR class {} (docs/constants.md 13.2, {})"
+_B176 = "ERRI B176 (docs/understand/constants.md 13.1, two sources agree{})"
+_FRA = "FRA/AAR class {} (docs/understand/constants.md 13.2, {})"
 _HALF_BASE = 0.75  # half of the distance of the rails' centres, by which height is an angle [m]
 #: Class → A_v, A_a [cm² rad/m], Ωs [rad/m] and what is known of them.
 _CLASSES = {

@@ -37,7 +37,7 @@ def page_of(life: Life) -> str:
         f"{_ALIKE[declared.alike]} "
         + ("Rails wear by the traffic of their line. " if life.rails else "The rails do not wear. ")
         + f"The law is {life.plan.first.declared.damage.wear_law!r}, for dry steel; the amount of wear depends on its "
-        "constants (docs/damage.md), the shape less so. "
+        "constants (docs/understand/damage.md), the shape less so. "
         + (f"Pressures are limited to {1e-6 * limit:g} MPa." if np.isfinite(limit) else "Pressures are elastic."),
     ]
     return document(life.plan.name, about, _parts(life))

@@ -1,4 +1,4 @@
-"""A vehicle without contacts: whoever drives it solves the contacts, as FMUs do (docs/own_vehicle.md)."""
+"""A vehicle without contacts: whoever drives it solves the contacts, as FMUs do (docs/use/own_vehicle.md)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A vehicle as declared in a TOML file: bodies, wheelsets, springs, dampers and stops (docs/vehicle.md)."""
+"""A vehicle as declared in a TOML file: bodies, wheelsets, springs, dampers and stops (docs/understand/vehicle.md)."""
 
 from __future__ import annotations
 

@@ -174,7 +174,7 @@ class VehicleRun:
 
     def _stable(self, vehicle: VehicleDeclaration) -> float:
         """Return an estimate of the longest stable step [s]: that of the spin of the axles, I V/(f r²) at the slowest speed."""
-        creep = 12e6  # a little above Kalker's longitudinal coefficient of a wheel under 54.5 kN (docs/coupling.md) [N]
+        creep = 12e6  # a little above Kalker's longitudinal coefficient of a wheel under 54.5 kN (docs/check/coupling.md) [N]
         steps = []
         for i in self.simulation.model.wheelsets:
             body = self.simulation.model.bodies[i]

@@ -11,7 +11,7 @@ The creep forces are constant during a communication step. The schemes differ in
   the load follows the lateral force, and the height the approach, one step later. It has no stability limit and needs
   some more evaluations per step.
 
-docs/coupling.md has measured values of the largest stable steps.
+docs/check/coupling.md has measured values of the largest stable steps.
 """
 
 from __future__ import annotations

@@ -58,7 +58,7 @@ def test_the_coupling_is_antisymmetric():
 
 
 def test_free_rolling_of_cylinders_has_bentall_and_johnsons_creepage():
-    """mu → 0, no force: |xi| = |beta| a/R 0.9148 (Bentall and Johnson 1967, as derived in unlike.md)."""
+    """mu → 0, no force: |xi| = |beta| a/R 0.9148 (Bentall and Johnson 1967, as derived in other_contacts.md)."""
     a, R, n = 2e-3, 25e-3, 200
     material = contact.Material.from_pair(*ALUMINIUM, *STEEL)
     x = 1.1 * a * ((2.0 * np.arange(n) + 1.0) / n - 1.0)

@@ -181,7 +181,7 @@ def test_power_of_the_wrench_is_that_of_the_creepages(right, worn, seed):
 def test_the_power_lost_by_the_motion_is_the_frictional_dissipation(y, methods, tolerance):
     """In steady rolling -(Fx ξ + Fy η + Mz φ) is the frictional energy per metre, within the discretisation of FaStrip.
 
-    The slip of mapped FaStrip follows the given creepages, its forces the effective ones (docs/limits.md).
+    The slip of mapped FaStrip follows the given creepages, its forces the effective ones (docs/check/limits.md).
     """
     s = make(**methods).solve(Pose(y=y, yaw=3e-3), load=80e3)
     lost = -sum(c.Fx * c.creepage.longitudinal + c.Fy * c.creepage.lateral + c.Mz * c.creepage.spin for c in s.contacts)

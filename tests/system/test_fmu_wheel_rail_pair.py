@@ -99,7 +99,7 @@ def test_friction_along_the_track_is_an_input(open_pair):
 
 
 def test_a_host_adds_friction_memory_and_contact_damping(open_pair):
-    """From the outputs of the FMU, as docs/in_time.md says."""
+    """From the outputs of the FMU, as docs/understand/other_wheels.md says."""
     n, step, damping = 6, 1e-3, 2e-4
     law = Friction(static=0.35, law="exponential", kinetic=0.15, half_speed=0.5)
     spin = -20.0 / 0.46 * (1.0 + 2e-3 * np.arange(n))

@@ -1,7 +1,7 @@
 """Statements of the thesis about the methods, checked with CONTACT's own numbers (`reference`) or our half space.
 
 Numbers in the name of a test are those of the thesis. Errors are over mu N unless a test states otherwise. The pages in
-docs/thesis draw the same data.
+docs/understand/thesis draw the same data.
 """
 
 import math

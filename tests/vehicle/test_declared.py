@@ -18,7 +18,7 @@ def test_static_loads_carry_the_whole_weight(name):
 
 
 def test_axle_load_of_the_benchmark_vehicle():
-    """docs/constants.md 13.4: 109.1 kN."""
+    """docs/understand/constants.md 13.4: 109.1 kN."""
     loads = assemble(read("manchester")).bodies["load"]
     assert 2.0 * loads[loads > 0.0] == pytest.approx(np.full(4, 109.1e3), rel=1e-3)
 

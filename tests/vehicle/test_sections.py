@@ -1,4 +1,4 @@
-"""Rails of slices in the vehicle and in scenarios (docs/vehicle.md, 7)."""
+"""Rails of slices in the vehicle and in scenarios (docs/understand/vehicle.md, 7)."""
 
 import json
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Wheels with flats and polygons in the vehicle and in scenarios (docs/vehicle.md, 6)."""
+"""Wheels with flats and polygons in the vehicle and in scenarios (docs/understand/vehicle.md, 6)."""
 
 import math
 from dataclasses import replace

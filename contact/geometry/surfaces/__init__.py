@@ -1,4 +1,4 @@
-"""Surfaces that change along the track or around the wheel: crossings, wheel flats, polygons (docs/surfaces.md)."""
+"""Surfaces that change along the track or around the wheel: crossings, wheel flats, polygons (docs/use/surfaces.md)."""
 
 from contact.geometry.surfaces.deviation import Deviation, Flat, Polygon, Wave
 from contact.geometry.surfaces.pair import SurfacePair, SurfacePatch
