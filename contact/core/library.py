@@ -235,8 +235,8 @@ def _run_builder(folder: Path, *options: str) -> None:
 
 @cache
 def fingerprint() -> str:
-    """Return a hash of all that the library of this checkout is made from: sources, tools, and the processor it is for."""
-    content = hashlib.sha256(_processor().encode())
+    """Return a hash of what the library of this checkout is made from: version, sources, tools, processor."""
+    content = hashlib.sha256(f"{__version__} {_processor()}".encode())
     for tool in _TOOLS:
         with contextlib.suppress(PackageNotFoundError):
             content.update(f"{tool} {version(tool)}".encode())
