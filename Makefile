@@ -7,7 +7,7 @@ READY_FOR_DEMO := $(VENV)/.ready-for-demo
 READY_FOR_DOCS := $(VENV)/.ready-for-docs
 
 .DEFAULT_GOAL := help
-.PHONY: help demo docs explorer test check soak bounds traps wheels lint fmu accuracy proof bench coupling smoothness pictures format clean
+.PHONY: help demo docs explorer test check coverage soak bounds traps wheels lint fmu accuracy proof bench coupling smoothness pictures format clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -40,6 +40,11 @@ test: $(READY)   ## run the tests
 
 check: $(READY)  ## run the quick tests (a minute once the library is built)
 	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow"
+
+coverage: $(READY) ## run the quick tests and print which lines of the package no test runs (kernels are compiled: not seen)
+	$(BIN)/python -c 'import contact.core.library as library; library.cached()'
+	$(BIN)/python -m coverage run --source contact,fmu_src,models --omit '*/kernels/*' -m pytest -m "not slow"
+	$(BIN)/python -m coverage report --skip-covered --show-missing
 
 soak: $(READY)   ## check memory over a million steps of every native FMU, wrong calls, damaged files, vehicles under Wine (minutes)
 	SOAK=1 $(BIN)/python -m pytest tests/system/test_native_host.py tests/system/test_native_sources.py tests/test_readers.py \
