@@ -93,7 +93,8 @@ def cases_of(given: Mapping[str, Any]) -> list[Case]:
     position = place.position(reading, opt.Side(given["side"]))
     pose = position.pose
     found = list(find_patches(position, load, penetration))
-    name = name or f"y = {1e3 * pose.y:g} mm, yaw {1e3 * pose.yaw:g} mrad"
+    bodies = f"{Path(given['wheel']).name} on {Path(given['rail']).name}"
+    name = f"{name}, {bodies}" if name else f"{bodies}, y = {1e3 * pose.y:g} mm, yaw {1e3 * pose.yaw:g} mrad"
     return [
         Case(
             patch.separation,

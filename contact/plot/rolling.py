@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patheffects import Normal, Stroke
 
 from contact.errors import ContactError
 from contact.plot.style import DPI, FAINT, INK, LINES, MM, style
@@ -86,13 +88,16 @@ def conicity(curve: Conicity, marked: Conicity | None = None, title: str = "") -
         if marked is not None:
             left.plot(MM * marked.amplitude, marked.conicity, "o", color=LINES[0], ms=4.0)
             for amplitude, value in zip(marked.amplitude.tolist(), marked.conicity.tolist(), strict=True):
+                rise = np.interp(amplitude + 5e-4, curve.amplitude, curve.conicity) - value
+                aside = 0.0 if abs(rise) < 2e-3 else math.copysign(4.0, rise)  # below the curve, where it is free
                 left.annotate(
                     f"{value:.3f}",
                     (MM * amplitude, value),
-                    (0.0, -11.0),
+                    (aside, -11.0),
                     textcoords="offset points",
-                    ha="center",
+                    ha={0.0: "center", 4.0: "left", -4.0: "right"}[aside],
                     size=7.0,
+                    path_effects=[Stroke(linewidth=2.5, foreground="white"), Normal()],
                 )
         left.set(xlabel="amplitude [mm]", ylabel="tan γe [-]")
         low, high = left.get_ylim()
