@@ -1,6 +1,6 @@
 """Strips with `conformal=True` against conformal elements, by the change of the contact angle over the patch.
 
-python benchmarks/bend.py: a minute. docs/check/limits.md has the result. Patches of random poses of S1002 on 60E1, and of a ball
+python benchmarks/bend.py: a minute; result: docs/check/limits.md. Patches of random poses of S1002 on 60E1, and of a ball
 (radius 8 to 30 mm) in a groove, with random loads and creepages.
 """
 

@@ -3,7 +3,7 @@
 python -m benchmarks.method_map [--contacts 1000] [--write docs]
 
 A contact is the most loaded patch of a random pose of S1002 on 60E1 (1:40), at its own spin and random creepages. The reference
-is the element-wise half space, which agrees with CONTACT to 6e-6 of friction times load (docs/check/halfspace.md), on a finer grid
+is the element-wise half space, which agrees with CONTACT to 6e-6 of friction times load (halfspace.md), on a finer grid
 than any that is shown.
 """
 

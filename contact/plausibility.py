@@ -75,7 +75,7 @@ def doubt_alike(coupling: float) -> None:
         warn(
             f"material.coupling = {coupling:.3g}: methods on strips take both bodies as alike. On the unlike pairs compared "
             "with CONTACT forces were up to 0.08 of friction times load off, and the creepage of free rolling up to 1.2e-4 "
-            "(docs/understand/other_contacts.md); normal = tangential = 'halfspace' takes the coupling into account",
+            "(other_contacts.md); normal = tangential = 'halfspace' takes the coupling into account",
             ModelWarning,
         )
 
@@ -98,11 +98,11 @@ def doubt_strips(bend: float, largest: float, conformal: bool) -> None:
             f"the contact angle changes by {math.degrees(bend):.0f}° over the patch. "
             + (
                 f"Above {limit} strips with conformal = True, which have the influence numbers of a plane, are 0.02 to 0.06 "
-                "of friction times load off in the median, 0.27 at most, and 15 % in the largest pressure (docs/check/limits.md); "
+                "of friction times load off in the median, 0.27 at most, and 15 % in the largest pressure (limits.md); "
                 "normal = tangential = 'halfspace' has those of the bent surface"
                 if conformal
                 else f"It is solved as plane. Above {limit} a lateral force of the pressure of up to 0.1 of the load is left "
-                "out, and creep forces change by 0.03 of friction times load in the median (docs/check/limits.md); "
+                "out, and creep forces change by 0.03 of friction times load in the median (limits.md); "
                 "conformal = True has both"
             ),
             ModelWarning,
@@ -114,7 +114,7 @@ def doubt_gap(gap_error: float, limit: float) -> None:
     if gap_error > limit:
         warn(
             f"gap_error = {gap_error:.2g}: the pressure leaves gaps or overlaps inside the patch. Above {limit:g} the largest "
-            "pressure is more than 5 % wrong on most patches (docs/check/limits.md); normal = tangential = "
+            "pressure is more than 5 % wrong on most patches (limits.md); normal = tangential = "
             "'halfspace' solves the patch",
             ModelWarning,
         )

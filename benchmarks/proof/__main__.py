@@ -31,8 +31,8 @@ def page() -> str:
 | Locomotive, friction that falls when hot | CONTACT's Eurosprinter example | {largest} | Good; a thermal constant fitted |
 | Twin disc, flash temperature | Lewis and Dwyer-Joyce 2004 | {bounds} | Too hot; disc sizes recalled |
 
-The [Manchester contact benchmark](manchester.md), [creep forces on ellipses](statistics.md) and [the thesis](../understand/thesis/index.md)
-have their own pages.
+The [Manchester contact benchmark](manchester.md), [creep forces on ellipses](statistics.md) and
+[the thesis](../understand/thesis/index.md) have their own pages.
 
 ## Twin disc
 
@@ -57,8 +57,8 @@ A wheel under {1e-3 * traction.LOAD:g} kN with an elliptic patch, a/b = .5, at {
 {traction.FRICTION:g}, constant or falling linearly by .19 over 1200 or 400 K. CONTACT's numbers were read by an earlier
 session in its open test bank and noted in issue 35; load, curvature, friction and speed were read in
 `examples/tractcurv.inp` of github eve70a/CONTACT. The thermal constants of the example were not found. Ours are those of
-[the constants](../understand/constants.md), and, "fitted", a heat capacity smaller by 1.252, with which the rise at 25 % is that of
-CONTACT; all other numbers then follow.
+[the constants](../understand/constants.md), and, "fitted", a heat capacity smaller by 1.252, with which the rise at 25 % is
+that of CONTACT; all other numbers then follow.
 
 {forces}
 Verdict: with that one constant the forces are within 1.5 %, the rises within .2 % from 4 % slip on and 3 % at .2 %. With

@@ -93,7 +93,7 @@ def cases_of(given: Mapping[str, Any]) -> list[Case]:
     position = place.position(reading, opt.Side(given["side"]))
     pose = position.pose
     found = list(find_patches(position, load, penetration))
-    bodies = f"{Path(given['wheel']).name} on {Path(given['rail']).name}"
+    bodies = " on ".join(_shown(given[body]) for body in ("wheel", "rail"))
     name = f"{name}, {bodies}" if name else f"{bodies}, y = {1e3 * pose.y:g} mm, yaw {1e3 * pose.yaw:g} mrad"
     return [
         Case(
@@ -105,6 +105,12 @@ def cases_of(given: Mapping[str, Any]) -> list[Case]:
         )
         for side, number, patch in found
     ]
+
+
+def _shown(profile: str) -> str:
+    """Return the name of a standard profile in capitals, or that of a file without its folder."""
+    name = Path(profile).name
+    return name if "." in name else name.upper()
 
 
 def _toml(text: str) -> tuple[dict[str, Any], Sequence[Any]]:

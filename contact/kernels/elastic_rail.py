@@ -1,4 +1,4 @@
-"""A massless rail on springs under a wheel: its deflection balances the contact force (elastic_rail.md).
+"""A massless rail on springs under a wheel: its deflection balances the contact force (other_wheels.md).
 
     k_y dy = F_y + P_y,   k_z dz = F_z + P_z,
 

@@ -1,4 +1,4 @@
-"""A wheel that is displaced and turned against its wheelset by the flexibility of axle and web (in_time.md).
+"""A wheel that is displaced and turned against its wheelset by the flexibility of axle and web (other_wheels.md).
 
 The datum Q of a wheel lies on the axle, at its tape circle. Without flexibility Q = C + t l, with the wheelset's centre C, the
 direction l of the axle and t = ± the distance of the tape circle. The flexible wheel has Q' = Q + d and the axle direction l'

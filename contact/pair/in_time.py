@@ -1,4 +1,4 @@
-"""A wheel on a rail over time: one solution for each row of a motion, with friction memory and contact damping (other_wheels.md)."""
+"""A wheel on a rail over time: one solution for each row of a motion, with friction memory and damping (other_wheels.md)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Draw how an FMU is imported and wired in Simulink, Simpack and Modelica: `python docs/pictures/wiring.py` writes three SVGs."""
+"""Draw how an FMU is imported and wired: `python docs/pictures/wiring.py` writes SVGs for Simulink, Simpack and Modelica."""
 
 from html import escape
 from pathlib import Path
@@ -7,30 +7,42 @@ FOLDER = Path(__file__).parent
 WIDTH, HEIGHT = 640, 330
 INK, FAINT, FILL, FMU = "#22262b", "#6d747d", "#eef2f6", "#dcebf7"
 
-#: Name of the file → steps of the import, vehicle, what turns its signals into inputs, the FMU, what turns outputs into forces.
+#: File → steps of the import, vehicle, what makes inputs of its signals, the FMU, what makes forces of its outputs.
 DRAWINGS = {
     "simulink": (
-        ("Library Browser:\nSimulink Extras,\nFMU Import, FMU", "FMU name:\ndist/native/\nWheelRailPair.fmu", "mode: ME or CS;\nfmudialog.\ncreateBusType(gcb)"),
+        (
+            "Library Browser:\nSimulink Extras,\nFMU Import, FMU",
+            "FMU name:\ndist/native/\nWheelRailPair.fmu",
+            "mode: ME or CS;\nfmudialog.\ncreateBusType(gcb)",
+        ),
         ("your vehicle", "integrators, masses"),
         ("Bus Creator", "pose, velocity, load"),
         ("FMU WheelRailPair", "one for each wheel"),
         ("Bus Selector", "force.y, moment.z, …"),
     ),
     "simpack": (
-        ("native FMU for\nCS, FMI 2.0:\nWheelRailPair.fmu", "FMI slave in the\nmodel, one for\neach wheel", "communication\nstep ≤ 0.2 ms\n(10 m/s)"),
+        (
+            "native FMU for\nCS, FMI 2.0:\nWheelRailPair.fmu",
+            "FMI slave in the\nmodel, one for\neach wheel",
+            "communication\nstep ≤ 0.2 ms\n(10 m/s)",
+        ),
         ("Simpack's vehicle", "markers of the wheelset"),
         ("sensors, track frame", "y, z, roll, yaw, rates"),
         ("FMU WheelRailPair", "co-simulation"),
         ("applied force", "force, moment, turned back"),
     ),
     "modelica": (
-        ("Dymola: File, Open,\nImport FMU;\nOMEdit: FMI, Import", "choose model\nexchange,\nFMI 2.0", "drag the new\nclass into the\nmodel"),
+        (
+            "Dymola: File, Open,\nImport FMU;\nOMEdit: FMI, Import",
+            "choose model\nexchange,\nFMI 2.0",
+            "drag the new\nclass into the\nmodel",
+        ),
         ("bodies and joints", "Modelica.Mechanics"),
         ("turn the frame", "x forward, y right, z down"),
         ("FMU WheelRailPair", "model exchange"),
         ("WorldForceAndTorque", "turned back"),
     ),
-}  # fmt: skip
+}
 
 
 def box(x: float, y: float, width: float, height: float, lines: tuple[str, ...], fill: str = FILL) -> str:

@@ -79,7 +79,7 @@ class Methods:
     normal, tangential : methods
     strips, elements : their resolution
     pressure_limit : of the material [Pa] (`contact.Material`)
-    pace : steps of the vehicle from one solution of a contact to the next, at most (docs/understand/vehicle.md, 8); 1: every step is one
+    pace : steps of the vehicle from one solution of a contact to the next, at most (vehicle.md, 8); 1: every step is one
     """
 
     normal: str = DEFAULT_NORMAL
@@ -112,7 +112,7 @@ class Recording:
     settling : distance at the start without damage, over which the irregularities grow from zero [m]
     spacing : distance between two samples of damage and time series [m], 0.01 to 10
     step : step of the vehicle [s], 1e-5 to 5e-3; default 0.7 of the stable step, at most 0.5 ms, with uneven wheels,
-        slices or measured tracks with stations closer than 50 mm 0.1 ms (docs/understand/vehicle.md, 5)
+        slices or measured tracks with stations closer than 50 mm 0.1 ms (vehicle.md, 5)
     bins : width of the bins of damage along the profiles [m], 1e-4 to 5e-3
     """
 
@@ -140,7 +140,7 @@ class Declaration:
     speed : a number [m/s], 1 to 150, or a `Speed`
     seed : seed of the random irregularities, not negative
     vehicle : file of a vehicle relative to the scenario's file, or one of the included ones: `manchester`, or `wheelset`, the
-        default (docs/understand/vehicle.md)
+        default (vehicle.md)
     friction : coefficient of friction, 0.3 by default, or a table
     torque : torques on axles, traction and braking, a table each; several on one axle add
     track, profiles, wheels, rails, methods, damage, recording : separate tables

@@ -44,7 +44,7 @@ class ContactOptions:
     """Contact methods of all wheels, as for `contact.pair.WheelRailPair`, and how often they are used.
 
     With `pace` above 1 no more than `pace` steps lie between two solutions of a contact, and in between its forces change to
-    first order (docs/understand/vehicle.md, 8). A contact whose forces were not met to `tolerance` times the static load, or that has
+    first order (vehicle.md, 8). A contact whose forces were not met to `tolerance` times the static load, or that has
     moved far, is solved at every step. Wheels that are not round always are.
     """
 

@@ -38,7 +38,7 @@ def test_options_are_those_of_solve():
 
 def test_rails_and_wheels_make_a_case_a_patch():
     names = [case["name"] for case in rows("--y", 1e-3, "--side", "both")]
-    assert names == [f"s1002 on 60e1, y = 1 mm, yaw 0 mrad, {side} 1" for side in ("left", "right")]
+    assert names == [f"S1002 on 60E1, y = 1 mm, yaw 0 mrad, {side} 1" for side in ("left", "right")]
 
 
 FILES = {

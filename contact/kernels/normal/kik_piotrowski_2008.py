@@ -1,7 +1,7 @@
 """Kik and Piotrowski's virtual penetration with shape correction (2008).
 
 The patch of 1996 is stretched along x and shrunk along y at the same area, so that an ellipse has Hertz's axes
-(theory.md 0.6, 5):
+(theory.md 5; the errors of the thesis):
 
     a_c/a = b/b_c = √((m0/n0)/√(B0/A0)),   so that a_c/b_c = m0/n0 where a/b = √(B0/A0)
 

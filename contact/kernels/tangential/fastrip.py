@@ -11,7 +11,7 @@ whole strip slips, that of the rigid slip at its middle (4.25). So its force jum
 combined creepage, as published.
 
 The departures from the thesis were each measured on elliptic cases against CONTACT (mean force error over mu N;
-docs/accuracy.md; the published method has .0164):
+accuracy.md; the published method has .0164):
 
 * The longitudinal term of a strip is its C11-scaled local creepage vx - phi·y (moment error .0138 → .0122).
 * The stick zone is continued through |psi| = 1 where lateral creepage opposes spin (`strip_theory.stick_zone`; .0175 →

@@ -29,7 +29,7 @@ def stick_zone(xi, eta, psi, nu):
 
     `xi`, `eta`, `psi` are the strip's normalised creepages (thesis 4.16-4.19). Where lateral creepage opposes spin, the
     stick zone does not end at |psi| = 1, where the thesis declares full slip. The formula, written without its 0/0,
-    continues (measured on set A: mean force error .0175 → .0148, docs/accuracy.md).
+    continues (measured on set A: mean force error .0175 → .0148, accuracy.md).
 
     Beyond |psi| = 1 the equation of D also has a larger root, and the bound holds only between the two. D = 1 - nu is
     the whole strip. When the larger root reaches it, the leading edge slips. When both roots meet, or D reaches it, all

@@ -1,4 +1,4 @@
-"""Forces of a wheel between two solutions of its contact: a step of first order from the last one (docs/understand/vehicle.md, 8).
+"""Forces of a wheel between two solutions of its contact: a step of first order from the last one (vehicle.md, 8).
 
 Most steps change a contact by little. Its solution costs a hundred times as much as that change to first order: the normal
 force follows the approach with Hertz's power, and creep forces follow the creepages with Kalker's stiffness on the part that

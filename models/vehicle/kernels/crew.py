@@ -1,4 +1,4 @@
-"""Kernels that share the contacts of all wheels between threads (docs/understand/vehicle.md, 6).
+"""Kernels that share the contacts of all wheels between threads (vehicle.md, 6).
 
 One thread, the leader, advances the vehicle as in `motion`. Before the contacts it opens the list of wheels. All threads
 take the next wheel of the list until none is left. Each has scratch memory of its own, and what a wheel remembers goes with

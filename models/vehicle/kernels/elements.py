@@ -1,4 +1,4 @@
-"""Kernels of springs, dampers and stops between two bodies (docs/understand/vehicle.md, 4).
+"""Kernels of springs, dampers and stops between two bodies (vehicle.md, 4).
 
 The axes of an element are fixed in its first body, a. Place and velocity of the other end are exact for any turn of one
 track frame against the other, and linear in the angles of a body in its frame. Forces and moments are the transpose of the

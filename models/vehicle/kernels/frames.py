@@ -1,4 +1,4 @@
-"""Kernels of the track frames at the bodies, and of the motion in them (docs/understand/vehicle.md, 1 and 2)."""
+"""Kernels of the track frames at the bodies, and of the motion in them (vehicle.md, 1 and 2)."""
 
 from __future__ import annotations
 

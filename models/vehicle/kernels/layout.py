@@ -1,4 +1,4 @@
-"""Arrays of a vehicle's kernels: bodies, force elements, track, state. The equations are those of docs/understand/vehicle.md.
+"""Arrays of a vehicle's kernels: bodies, force elements, track, state. The equations are those of vehicle.md.
 
 A body has six coordinates in the frame of the track at its own place: x forward, y to the right, z down from the plane of the
 rails, all relative to its place at rest, and small angles about these axes. Its velocities are absolute, resolved along the

@@ -1,4 +1,4 @@
-"""Kernels that advance a vehicle: symplectic Euler with implicit rails, and the balance of energy (docs/understand/vehicle.md, 5)."""
+"""Kernels that advance a vehicle: symplectic Euler with implicit rails, and the balance of energy (vehicle.md, 5)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Kernel of the contacts of all wheels: from the motion of axles and rails to forces, power and energy (docs/understand/vehicle.md, 3)."""
+"""Kernel of the contacts of all wheels: from the motion of axles and rails to forces, power and energy (vehicle.md, 3)."""
 
 from __future__ import annotations
 
