@@ -27,6 +27,15 @@ class Creepage:
     ------
     ContactError
         For a creepage that is not finite or out of range.
+
+    Examples
+    --------
+    A wheel that turns .1 % too slowly is braked by the rail, so the force on it points backwards:
+
+    >>> import contact
+    >>> gap = contact.Separation.hertzian(1.1, 0.8)
+    >>> contact.solve(gap, contact.Creepage(longitudinal=1e-3), load=80e3).Fx < 0.0
+    True
     """
 
     longitudinal: float = 0.0

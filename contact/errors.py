@@ -12,7 +12,16 @@ Class = TypeVar("Class")
 
 
 class ContactError(ValueError):
-    """Invalid input. The message names the argument, its value and the allowed range."""
+    """Invalid input. The message names the argument, its value and the allowed range.
+
+    Examples
+    --------
+    >>> import contact
+    >>> contact.Creepage(float("nan"))
+    Traceback (most recent call last):
+        ...
+    contact.errors.ContactError: creepage.longitudinal = nan is outside the allowed range [-1e+06, 1e+06]
+    """
 
 
 class PlausibilityWarning(UserWarning):

@@ -37,6 +37,13 @@ class Material:
     ------
     ContactError
         For a constant outside its range.
+
+    Examples
+    --------
+    >>> import contact
+    >>> pair = contact.Material.from_pair(60e9, 0.31, 210e9, 0.28)  # aluminium rail, steel wheel
+    >>> round(pair.coupling, 3)
+    0.101
     """
 
     shear_modulus: float

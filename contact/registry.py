@@ -40,6 +40,12 @@ class Method:
     batched : has a kernel over strips, which `contact.forces` and the FMUs use too; else it is only in `contact.solve`
     continuous : the load is a continuous function of the approach on every patch (normal)
     calibrated : takes its stiffness from the half space's linear theory on the patch itself (tangential)
+
+    Examples
+    --------
+    >>> import contact
+    >>> contact.methods().tangential["polach"].fields  # a law that gives forces only
+    False
     """
 
     name: str
@@ -93,7 +99,14 @@ class Method:
 
 
 class Methods(NamedTuple):
-    """The registered normal and tangential methods by name, in order of registration."""
+    """The registered normal and tangential methods by name, in order of registration.
+
+    Examples
+    --------
+    >>> import contact
+    >>> sorted(set(contact.methods().normal) - set(contact.methods().batched.normal))
+    ['halfspace']
+    """
 
     normal: MappingProxyType[str, Method]
     tangential: MappingProxyType[str, Method]
@@ -456,7 +469,14 @@ _METHODS = Methods(
 
 
 def methods() -> Methods:
-    """Return the registered methods: ``methods().normal["analyn"]``, ``methods().tangential["fastrip"]``, …"""
+    """Return the registered methods: ``methods().normal["analyn"]``, ``methods().tangential["fastrip"]``, …
+
+    Examples
+    --------
+    >>> import contact
+    >>> contact.methods().normal["analyn"].title
+    'ANALYN, approximate surface deformation'
+    """
     return _METHODS
 
 

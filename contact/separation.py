@@ -50,6 +50,15 @@ class Separation:
     -----
     PlausibilityWarning
         For a half curvature or a width that no wheel on a rail has, as from lengths in mm.
+
+    Examples
+    --------
+    >>> import contact
+    >>> import numpy as np
+    >>> y = np.linspace(-0.02, 0.02, 81)
+    >>> gap = contact.Separation(y, 0.8 * y**2, 1.1)  # two parabolas; `hertzian` makes the same
+    >>> round(contact.solve(gap, contact.Creepage(), load=80e3).max_pressure / 1e6)
+    893
     """
 
     __slots__ = ("A", "g", "packed", "rolling", "samples", "tilt", "x_c", "y")

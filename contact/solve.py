@@ -137,6 +137,16 @@ def solve(
     -----
     PlausibilityWarning
         For a load, approach, creepage, friction or speed that no wheel has, as from a wrong unit (`contact.plausibility`).
+
+    Examples
+    --------
+    The patch of a new wheel on a new rail, as two curvatures, under 80 kN with a braking creepage:
+
+    >>> import contact
+    >>> gap = contact.Separation.hertzian(1.1, 0.8)
+    >>> solution = contact.solve(gap, contact.Creepage(1e-3), load=80e3)
+    >>> round(solution.Fx), round(solution.max_pressure / 1e6), solution.status
+    (-11889, 893, <Status.OK: 1>)
     """
     if not isinstance(separation, Separation | Gap):
         if isinstance(getattr(separation, "separation", None), Separation | Gap):

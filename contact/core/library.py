@@ -50,7 +50,14 @@ PREFIX = "wheelrail-contact-"
 
 
 def get_include() -> Path:
-    """Return the folder of wheelrail.h, for compilers of programs that call the library."""
+    """Return the folder of wheelrail.h, for compilers of programs that call the library.
+
+    Examples
+    --------
+    >>> import contact
+    >>> (contact.get_include() / "wheelrail.h").is_file()
+    True
+    """
     return _HERE / "include"
 
 
@@ -61,6 +68,12 @@ def get_library() -> Path:
     ------
     ImportError
         If this machine has none: no library fits, or a checkout has no C compiler.
+
+    Examples
+    --------
+    >>> import contact
+    >>> contact.get_library().is_file()
+    True
     """
     path = INSTALLED if INSTALLED.is_file() else _among_systems() or cached() / NAME
     if not path.is_file():

@@ -50,6 +50,14 @@ class ThirdBody:
     ------
     ContactError
         For a number outside its range.
+
+    Examples
+    --------
+    >>> import contact
+    >>> layer = contact.ThirdBody(flexibility=4e-14)
+    >>> free = contact.solve(contact.Separation.hertzian(1.1, 0.8), contact.Creepage(), load=80e3)
+    >>> 0.0 < layer.slope(free.strips, free.material) < 1.0  # creep curves start less steeply
+    True
     """
 
     flexibility: float = 0.0

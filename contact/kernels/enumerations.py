@@ -101,6 +101,12 @@ class Status(IntEnum):
     OUT_OF_RANGE : 4, the patch reaches the end of the separation: data are missing
     NOT_CONVERGED : 5, the iteration stopped at its cap; the last iterate is returned
     UNREACHABLE : 6, no creepage makes the given force
+
+    Examples
+    --------
+    >>> import contact
+    >>> print(contact.Status.SATURATED, int(contact.Status.SATURATED))
+    SATURATED 3
     """
 
     OK = 1

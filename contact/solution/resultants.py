@@ -15,7 +15,16 @@ Numbers = float | NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Forces:
-    """Results of arrays of cases. Each member is an array of the input's broadcast shape; units and signs as in `Solution`."""
+    """Results of arrays of cases. Each member is an array of the input's broadcast shape; units and signs as in `Solution`.
+
+    Examples
+    --------
+    >>> import contact
+    >>> gap = contact.Separation.hertzian(1.1, 0.8)
+    >>> found = contact.forces(gap, contact.Creepage(1e-3), load=[40e3, 80e3])
+    >>> found.N.tolist(), found.status.tolist()
+    ([40000.0, 80000.0], [1, 1])
+    """
 
     Fx: Numbers
     Fy: Numbers

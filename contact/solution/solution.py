@@ -47,6 +47,13 @@ class Strips:
     longitudinal, lateral, spin : creepages of each strip [-], [-], [1/m]; None unless `conformal`. The rigid slip of a
         strip is (longitudinal - spin·y, lateral + spin·x)
     tilt : slope of the curved contact surface against the contact plane [-]; None unless `conformal`
+
+    Examples
+    --------
+    >>> import contact
+    >>> strips = contact.solve(contact.Separation.hertzian(1.1, 0.8), contact.Creepage(), load=80e3).strips
+    >>> strips.y.size, round(1e3 * float(strips.a.max()), 1)  # half length of the longest one in mm
+    (20, 5.9)
     """
 
     y: Array
@@ -108,6 +115,14 @@ class Solution:
     x, y, p, qx, qy, sx, sy, stick, dA : fields: position [m], pressure and traction on the wheel [Pa], slip velocity
         relative to V [-], stick flag, element area [m²]
     jacobian : derivatives, if they were asked for by ``derivatives=True``; else None
+
+    Examples
+    --------
+    >>> import contact
+    >>> gap = contact.Separation.hertzian(1.1, 0.8)
+    >>> solution = contact.solve(gap, contact.Creepage(1e-3), load=80e3, speed=20.0)
+    >>> round(solution.slip_ratio, 2), round(solution.damage.T_gamma, 1)
+    (0.32, 11.9)
     """
 
     Fx: float

@@ -30,6 +30,13 @@ class Case:
     ------
     ContactError
         If `separation` or `creepage` has the wrong type, or if not exactly one of load and approach is given.
+
+    Examples
+    --------
+    >>> import contact
+    >>> case = contact.Case(contact.Separation.hertzian(1.1, 0.8), contact.Creepage(1e-3), load=80e3, name="tread")
+    >>> round(contact.solve(**case.arguments).Fx)
+    -11889
     """
 
     separation: Separation

@@ -68,6 +68,14 @@ def compare(
     ContactError
         If there is no case or no pair, two cases have the same name, or `contact.solve` refuses the input. If a method
         cannot solve a case, only the status of its row tells.
+
+    Examples
+    --------
+    >>> import contact
+    >>> case = contact.Case(contact.Separation.hertzian(1.1, 0.8), contact.Creepage(1e-3), load=80e3)
+    >>> found = contact.compare(case, ["analyn+fastrip", "hertz+fastsim"], reference=False)
+    >>> [row.tangential for row in found.rows]
+    ['fastrip', 'fastsim']
     """
     listed = _named([cases] if isinstance(cases, Case) else list(cases))
     pairs = pairs_of(methods)

@@ -35,6 +35,14 @@ class Comparison(Report):
         Results case by case, in the order of `pairs`.
     solutions : tuple of Solution
         Solutions of the rows.
+
+    Examples
+    --------
+    >>> import contact
+    >>> case = contact.Case(contact.Separation.hertzian(1.1, 0.8), contact.Creepage(1e-3), load=80e3)
+    >>> found = contact.compare(case, "analyn+fastrip", reference=False)
+    >>> found.csv().splitlines()[0][:23]
+    'case,normal,tangential,'
     """
 
     cases: tuple[Case, ...]

@@ -22,6 +22,12 @@ class HertzContact:
     approach : rigid approach of the bodies [m]
     N : normal force [N]
     p0 : peak pressure [Pa]
+
+    Examples
+    --------
+    >>> import contact
+    >>> contact.hertz(1.1, 0.8, approach=80e-6).N > 79e3
+    True
     """
 
     a: float
@@ -53,6 +59,13 @@ def hertz(
     ------
     ContactError
         If a value is outside its range, or if not exactly one of load and approach is given.
+
+    Examples
+    --------
+    >>> import contact
+    >>> ellipse = contact.hertz(1.1, 0.8, load=80e3)
+    >>> round(ellipse.p0 / 1e6), round(1e3 * ellipse.a, 2), round(1e3 * ellipse.b, 2)  # MPa, mm, mm
+    (893, 5.88, 7.27)
     """
     A = require_number("A", A, 0.0, open_minimum=True)
     B = require_number("B", B, 0.0, open_minimum=True)
