@@ -58,7 +58,9 @@ nb_execution_cache_path = str(ROOT / "build" / "docs" / "executed" / _sources())
 nb_execution_timeout = 1800  # [s] a cell; the first one may compile all kernels on a busy machine
 nb_execution_raise_on_error = True
 nb_execution_show_tb = True
-if hasattr(KernelManager, "transport_encryption"):  # without it every executed page warns of a kernel that is not encrypted
+if hasattr(
+    KernelManager, "transport_encryption"
+):  # without it every executed page warns of a kernel that is not encrypted
     KernelManager.transport_encryption.default_value = "auto"
 nb_render_markdown_format = "myst"
 nb_code_prompt_show = "How this is drawn"
