@@ -40,10 +40,11 @@ def page(table: Table) -> str:
 <html lang="en">
 <head>
 <meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
 <title>{table.name}</title>
 <style>
 body {{ font: 15px/1.5 system-ui, sans-serif; margin: 2em auto; max-width: 75em; padding: 0 1em; color: #1e2837; }}
-table {{ border-collapse: collapse; }}
+table {{ border-collapse: collapse; display: block; overflow-x: auto; }}
 td, th {{ border-bottom: 1px solid #c4cdd6; padding: .3em .8em .3em 0; text-align: left; vertical-align: top; }}
 td:first-child {{ font-family: ui-monospace, monospace; white-space: nowrap; }}
 </style>

@@ -21,7 +21,9 @@ body { font: 16px/1.5 system-ui, sans-serif; color: var(--ink); background: whit
   padding: 1rem; }
 h1 { font-size: 1.5rem; margin: .5rem 0; } h2 { font-size: 1.15rem; margin: 2rem 0 .5rem; }
 p { max-width: 50rem; } .faint { color: var(--faint); font-size: .875rem; }
-.wide { overflow-x: auto; margin: .25rem 0 .75rem; }
+.wide { overflow-x: auto; margin: .25rem 0 .75rem; background:
+  linear-gradient(to left, white 40%, transparent) right / 2rem 100% no-repeat local,
+  linear-gradient(to left, rgb(128 128 128 / 60%), transparent) right / .7rem 100% no-repeat scroll; }
 table { border-collapse: collapse; font-size: .875rem; font-variant-numeric: tabular-nums; white-space: nowrap; }
 th, td { padding: .3rem .7rem; text-align: right; border-bottom: 1px solid var(--rule); }
 th { font-weight: 600; vertical-align: bottom; } th small { display: block; font-weight: 400; color: var(--faint); }
