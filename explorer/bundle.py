@@ -62,72 +62,72 @@ RESULTS = (
         "longitudinal force",
         "Along the track on the wheel, positive forward: the traction qx summed over the patches. It is not 0 at creepage 0 "
         "where the wheel rolls on another radius than its nominal one.",
-        "theory.html",
+        "understand/theory.html",
     ),
     (
         "force.y",
         "lateral force",
         "Across the track on the wheel, positive to the right: Fy cos δ + N sin δ of every patch with its contact angle δ.",
-        "signs.html",
+        "use/signs.html",
     ),
     (
         "force.z",
         "vertical force",
         "On the wheel, positive down, so the rail's force is negative: Fy sin δ − N cos δ of every patch. The normal forces "
         "alone carry the given load; friction adds to it or relieves it.",
-        "signs.html",
+        "use/signs.html",
     ),
     (
         "wheel.Y_over_Q",
         "Y/Q",
         "Lateral force outwards over vertical force. Nadal: a wheel climbs from (tan δ − μ)/(1 + μ tan δ) on.",
-        "signs.html",
+        "use/signs.html",
     ),
     (
         "used_friction",
         "used friction",
         "Creep force over normal force, √(Fx² + Fy²)/N, summed over the patches. It is at most the coefficient of friction.",
-        "theory.html",
+        "understand/theory.html",
     ),
     (
         "pressure.max",
         "greatest pressure",
         "Of all patches. A strip of half length a carries p = p₀ √(1 − x²/a²); an ellipse has p₀ = 3N/(2π a b).",
-        "theory.html",
+        "understand/theory.html",
     ),
-    ("patches.area", "contact area", "Sum over the patches: 2 a dy of every strip.", "theory.html"),
+    ("patches.area", "contact area", "Sum over the patches: 2 a dy of every strip.", "understand/theory.html"),
     (
         "slip.ratio",
         "share that slips",
         "Slip area over contact area: where the traction reaches the bound μp, the surfaces slide on one another; elsewhere "
         "they stick. 0 % does not mean no force.",
-        "theory.html",
+        "understand/theory.html",
     ),
     (
         "damage.T_gamma",
         "wear number Tγ",
         "|Fx υx| + |Fy υy| of every patch, the energy lost by sliding for each metre rolled [N = J/m], without spin.",
-        "damage.html",
+        "understand/damage.html",
     ),
     (
         "damage.energy_index_max",
         "greatest energy index",
         "Largest local energy q·s of the traction q and the slip s, over the patches.",
-        "damage.html",
+        "understand/damage.html",
     ),
     (
         "gap_error",
         "gap error",
         "The largest gap or overlap that the pressure leaves inside a patch, over the approach. 0 is exact; above the limit "
         "of the method the largest pressure is doubtful.",
-        "limits.html",
+        "check/limits.html",
     ),
 )
 #: The same for the creepages.
 CREEPAGES = (
     "Wheel minus rail over the speed, in the plane of the patch: υx = (V + ω r)/V with the rolling radius r of this patch, "
     "υy from yaw, spin φ = ω sin δ/V. Positive longitudinal creepage brakes.",
-    "signs.html",
+    "use/signs.html",
 )
 
 
