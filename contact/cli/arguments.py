@@ -28,12 +28,14 @@ class Reading:
     profile_repair: opt.Repair = False
     profile_smoothing: opt.Smoothing = None
     profile_wavelength: opt.Wavelength = None
+    profile_rotation: opt.Rotation = (0.0, 0.0)
 
     def load(self, name: str, kind: profile.Kind) -> profile.Profile:
         """Return the profile with this name or in this file."""
         options = {
             key.removeprefix("profile_"): value for key, value in vars(self).items() if key.startswith("profile_")
         }
+        options["rotation"] = self.profile_rotation[0 if kind == "wheel" else 1]
         found = profile.load(name, kind, inclination=self.inclination, **options)
         if kind == "rail":
             in_effect(inclination=profile.default_inclination(name))

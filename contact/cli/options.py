@@ -39,7 +39,19 @@ RailName = Annotated[
 ]
 Inclination = Annotated[
     str | None,
-    typer.Option(help="inclination of a rail of EN 13674-1, like 1/40 or 0.05; default 1/40", rich_help_panel=PROFILES),
+    typer.Option(
+        help="inclination of a rail, like 1/40 or 0.05; default 1/40 for EN 13674-1, as it lies in a file",
+        rich_help_panel=PROFILES,
+    ),
+]
+Rotation = Annotated[
+    tuple[float, float],
+    typer.Option(
+        "--profile-rotation",
+        help="angles in rad by which wheel and rail are turned about x, positive from the field side down",
+        metavar="WHEEL RAIL",
+        rich_help_panel=PROFILES,
+    ),
 ]
 Unit = Annotated[
     str | None, typer.Option(help=f"unit of profile files: {', '.join(profile.UNITS)}", rich_help_panel=PROFILES)

@@ -22,7 +22,8 @@ STANDARD_LOAD = 80e3  # load [N] if neither load nor penetration is given
 OF_A_POSITION = frozenset(
     {
         *("wheel", "rail", "inclination", "profile_unit", "profile_side", "profile_zero", "profile_repair"),
-        *("profile_smoothing", "profile_wavelength", "gauge", "back_to_back", "side", "y", "roll", "yaw", "conformal"),
+        *("profile_smoothing", "profile_wavelength", "profile_rotation", "gauge", "back_to_back"),
+        *("side", "y", "roll", "yaw", "conformal"),
     }
 )
 

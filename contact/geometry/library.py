@@ -143,10 +143,14 @@ def _profile(kind: Kind, segments: Iterable[Segment], name: str) -> Profile:
     return Profile(kind, *outline.sample(segments), name)
 
 
+def angle_of(inclination: float | str) -> float:
+    """Return the angle [rad] of an inclination, 0 ... 0.1 or "1/40"."""
+    return math.atan(require_number("inclination", ratio("inclination", inclination), 0.0, 0.1))
+
+
 def _inclined(name: str, inclination: float | str) -> Profile:
     """Return a rail of EN 13674-1, inclined towards the track's centre."""
-    inclination = require_number("inclination", ratio("inclination", inclination), 0.0, 0.1)
-    return _profile("rail", standard.RAILS[name].outline(), name).rotated(-math.atan(inclination))
+    return _profile("rail", standard.RAILS[name].outline(), name).rotated(-angle_of(inclination))
 
 
 def _wheel(name: str, height: float, thickness: float) -> Profile:

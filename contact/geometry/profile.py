@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from contact.errors import ContactError
+from contact.errors import require_number
 from contact.geometry import library
 from contact.geometry.files import SIDES, UNITS, ZEROS, Inspection, check, read, read_folder
 from contact.geometry.library import ALIASES, cone, is_standard, named, names, rail_60e1, rail_arc, s1002
@@ -24,21 +24,36 @@ def default_inclination(name: str) -> float | None:
     return library.STANDARD_INCLINATION if known and library.has_inclination(name) else None
 
 
-def load(name: str, kind: Kind, *, inclination: float | str | None = None, **options: Any) -> Profile:
+def load(
+    name: str, kind: Kind, *, inclination: float | str | None = None, rotation: float = 0.0, **options: Any
+) -> Profile:
     """Return the profile in the file `name`, or the standard profile with this name.
 
-    The name of a standard profile is for `named`, with `inclination` if it is a rail; the other options are ignored. Any
-    other `name` with a point or a slash, or of an existing file, is a file for `read` with the options.
+    Parameters
+    ----------
+    name : str
+        The name of a standard profile. Any other name with a point or a slash, or of an existing file, is a file.
+    kind : {"wheel", "rail"}
+    inclination : float or str
+        Of a rail towards the track's centre, 0 ... 0.1 or "1/40". A standard rail has 1/40 by default; a rail in a file is
+        taken as it lies there, and an inclination turns it further.
+    rotation : float
+        Angle about x by which the outline is turned [rad], positive from y to the field side towards z down.
+    options
+        For files, as for `read`.
 
     Raises
     ------
     ContactError
-        As `read` and `named`. Also for an inclination of a rail from a file, which already has its inclination.
+        As `read` and `named`.
     """
     rail_inclination = inclination if kind == "rail" else None
+    rotation = require_number("rotation", rotation, -0.5, 0.5)
     is_file = Path(name).is_file() or (("." in name or "/" in name or "\\" in name) and not is_standard(name))
-    if not is_file:
-        return named(name, kind=kind, inclination=rail_inclination)
-    if rail_inclination is not None:
-        raise ContactError(f"inclination = {inclination}: the rail in the file {name!r} is taken as it lies there")
-    return read(name, kind=kind, **options)
+    if is_file:
+        found = read(name, kind=kind, **options)
+        turned = 0.0 if rail_inclination is None else library.angle_of(rail_inclination)
+        rotation -= turned
+    else:
+        found = named(name, kind=kind, inclination=rail_inclination)
+    return found.rotated(rotation) if rotation else found

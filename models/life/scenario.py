@@ -38,7 +38,8 @@ class Profiles:
     ----------
     wheel, rail : name of a standard profile, or a file
     left_rail : the left rail, mirrored to the right side, where it differs from the right one
-    inclination : of a rail of EN 13674-1, a number or "1/40"
+    inclination : of a rail, a number or "1/40"; of EN 13674-1 1/40 by default, in a file as it lies there
+    wheel_rotation, rail_rotation : angles about x by which they are turned [rad], positive from the field side down
     unit, side, zero, repair, smoothing, wavelength : for files, as for `contact.geometry.profile.read`
     """
 
@@ -46,6 +47,8 @@ class Profiles:
     rail: str = "60E1"
     left_rail: str | None = None
     inclination: float | str | None = None
+    wheel_rotation: float = 0.0
+    rail_rotation: float = 0.0
     unit: str | None = None
     side: str | None = None
     zero: str | None = None
@@ -64,8 +67,9 @@ class Profiles:
         return self._load(folder, self.rail, "rail"), self._load(folder, self.left_rail, "rail")
 
     def _load(self, folder: Path, name: str, kind: Kind) -> Profile:
-        names = ("wheel", "rail", "left_rail")
+        names = ("wheel", "rail", "left_rail", "wheel_rotation", "rail_rotation")
         given: dict[str, Any] = {key: value for key, value in vars(self).items() if key not in names}
+        given["rotation"] = self.wheel_rotation if kind == "wheel" else self.rail_rotation
         is_file = (folder / name).is_file() or ("." in name and not profile.is_standard(name))
         return profile.load(str(folder / name) if is_file else name, kind, **given)
 

@@ -39,10 +39,8 @@ from tests.command_line import call  # noqa: E402
         (("solve", "--wheel", "S1003"), "wheel = 'S1003' is no profile of the standards, did you mean 'S1002'"),
         (("solve", "--wheel", "missing.prw"), "missing.prw' is missing: there is no such file"),
         (("solve", "--rail", "rail A", "--inclination", "0.05"), "EN 15302 rail A has no inclination"),
-        (
-            ("solve", "--rail", "some.prr", "--inclination", "0.05"),
-            "the rail in the file 'some.prr' is taken as it lies",
-        ),
+        (("solve", "--rail", "some.prr", "--inclination", "0.05"), "some.prr' is missing"),
+        (("solve", "--profile-rotation", "2", "0"), "rotation = 2 is outside the allowed range [-0.5, 0.5]"),
         (("conicity", "--amplitude", "3"), "amplitudes = 3 is outside the allowed range [0.0001, 0.02]"),
         (("conicity", "--left-radius", "0.4"), "has the same sign"),
         (("geometry", "--gauge", "1435"), "--gauge 1435 is outside"),

@@ -108,3 +108,17 @@ def test_bad_parameters_of_standard_profiles_are_named():
         profile.rail_60e1(breakpoints="EN")
     with pytest.raises(ContactError, match="conicity = -1"):
         profile.cone(-1)
+
+
+def test_a_file_is_turned_by_inclination_and_rotation(tmp_path):
+    upright = profile.named("60E1", inclination=0.0)
+    file = tmp_path / "upright.txt"
+    file.write_text("\n".join(f"{1e3 * y:.9f} {1e3 * z:.9f}" for y, z in zip(upright.y, upright.z, strict=True)))
+    read = {"unit": "mm", "side": "right"}
+    expected = profile.named("60E1", inclination="1/20")
+    for turned in ({"inclination": "1/20"}, {"rotation": -math.atan(0.05)}):
+        found = profile.load(str(file), "rail", **read, **turned)
+        np.testing.assert_allclose(found.y, expected.y, atol=1e-9)
+        np.testing.assert_allclose(found.z, expected.z, atol=1e-9)
+    turned = profile.load("S1002", "wheel", rotation=0.01)
+    np.testing.assert_allclose(turned.z, profile.s1002().rotated(0.01).z)
