@@ -312,7 +312,26 @@ class VehicleRun:
             ),
             speed_ratio=self.scenario.fastest / self.critical_speed,
             unfinished=float(sum(curve.end > declared.length for curve in declared.track.curves)),
+            deepest_rate=max(
+                (
+                    float(h.depth.max()) / h.distance
+                    for (*_, body), h in self.damage().items()
+                    if body == "wheel" and h.distance > 0.0
+                ),
+                default=0.0,
+            ),
+            seizure=self._seizure,
         )
+
+    @property
+    def _seizure(self) -> float:
+        """Share of the samples at which the pressure of the worst wheel is in Archard's seizure; 0 with other laws."""
+        damage, steel = self.scenario.declared.damage, self._options.material
+        counted = self.series["distance"] >= self.scenario.declared.recording.settling
+        if damage.wear_law != "archard" or not counted.any():
+            return 0.0
+        pressures = [row[counted] for name, row in self.series.items() if name.endswith("_max_pressure")]
+        return float(max((row > damage.archard.seizure_ratio * steel.hardness).mean() for row in pressures))
 
     @cached_property
     def critical_speed(self) -> float:
