@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from contact.geometry.wheelset import Irregularity, Pose, Velocity
 from contact.pair import WheelRailPair
-from models.vehicle.coupling import QUESTION
+from contact_models.vehicle.coupling import QUESTION
 
 Array = NDArray[np.float64]
 

@@ -13,8 +13,8 @@ from fmpy.fmi2 import FMU2Model
 from numpy.typing import NDArray
 
 from contact.geometry.wheelset import Pair, Patch, Pose
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import POINTS
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import POINTS
 
 Array = NDArray[np.float64]
 

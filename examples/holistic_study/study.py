@@ -15,7 +15,7 @@ import contact
 from contact.damage import fatigue_index
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from models.life.scale import Workers
+from contact_models.life.scale import Workers
 
 Array = NDArray[np.float64]
 
