@@ -14,6 +14,11 @@ from typing import NamedTuple
 
 import exudyn as exu
 import numpy as np
+from contact_models.wheelset import master
+from contact_models.wheelset.components import direct
+from contact_models.wheelset.model import WheelsetModel
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import SIDES
 from exudyn.itemInterface import (
     CoordinateConstraint,
     MarkerBodyRigid,
@@ -25,11 +30,6 @@ from exudyn.rigidBodyUtilities import RigidBodyInertia
 from numpy.typing import NDArray
 
 from examples.exudyn_wheelset.native_contact import NativeContact
-from contact_models.wheelset import master
-from contact_models.wheelset.components import direct
-from contact_models.wheelset.model import WheelsetModel
-from contact_models.wheelset.parameters import WheelsetParameters
-from contact_models.wheelset.ports import SIDES
 
 Array = NDArray[np.float64]
 

@@ -193,7 +193,9 @@ def expect(asked, now, seat, bench, n, row):
         all_y, all_z = Fy * c + contact.N * ratio * s, Fy * s - contact.N * ratio * c
         old_y, old_z = all_y - y_force, all_z - z_force
         # the pressure has no moment about the axle, wherever this points
-        turning = contact.N * (ratio * _lever(after, x_turned, y_turned, z_turned, c, s) - _lever(before, x, y, z, c, s))
+        turning = contact.N * (
+            ratio * _lever(after, x_turned, y_turned, z_turned, c, s) - _lever(before, x, y, z, c, s)
+        )
         row[Load.MX] += y_turned * all_z - z_turned * all_y - (y * old_z - z * old_y) - turning * lx
         row[Load.MY] += z_turned * Fx - x_turned * all_z - (z * contact.Fx - x * old_z) - turning * ly
         row[Load.MZ] += x_turned * all_y - y_turned * Fx - (x * old_y - y * contact.Fx) - turning * lz
