@@ -86,8 +86,8 @@ class Trust:
             said.append(
                 f"A wheel loses {1e9 * self.deepest_rate:.3g} µm in a kilometre at its deepest place, a millimetre in "
                 f"{1e-6 / self.deepest_rate:.3g} km. No wheel in service wears so fast. Archard's map does this where sliding "
-                'is fast or pressures are high, and does not know lubrication. Cures: damage.wear_law = "usfd", or lower '
-                "coefficients of the law."
+                "is fast or pressures are high, and does not know lubrication; Sheffield's law where T-gamma over the area "
+                'exceeds 77 N/mm². Cures: damage.wear_law = "usfd", less friction, or lower coefficients of the law.'
             )
         return tuple(said)
 
