@@ -40,9 +40,11 @@ def _parts(run: VehicleRun) -> Iterator[str]:
     yield from warned(trust)
     if run.series["distance"].size:
         yield html_of(_safety(run))
+        friction = run.scenario.friction.static
+        nadal = assess.nadal(assess.flange_angle(run.scenario.wheel), friction)
         yield faint(
-            f"Low-passed at {assess.CUT_OFF:g} Hz; Y/Q and ΣY are means over {assess.WINDOW:g} m (EN 14363; the limits are "
-            "recalled, not verified)."
+            f"Low-passed at {assess.CUT_OFF:g} Hz; Y/Q and ΣY are means over {assess.WINDOW:g} m. Limits of Y/Q: "
+            f"{assess.LARGEST_QUOTIENT:g}, Nadal's {nadal:.2f} at μ = {friction:g} (EN 14363; the limits are recalled, not verified)."
         )
         if sections := _sections(run):
             yield html_of(sections)
@@ -151,13 +153,11 @@ def _safety(run: VehicleRun) -> Table:
                 f"{found.unloading:.3f}",
             )
         )
-    friction = run.scenario.friction.static
-    limit = assess.nadal(assess.flange_angle(run.scenario.wheel), friction)
     return Table(
         "Safety, greatest values",
         [
             ("", ""),
-            ("Y/Q", f"limit {assess.LARGEST_QUOTIENT:g}, Nadal {limit:.2f} at μ {friction:g}"),
+            ("Y/Q", ""),
             ("ΣY", "kN"),
             ("Prud'homme", "kN"),
             ("Q", "kN"),
