@@ -44,7 +44,8 @@ def _parts(run: VehicleRun) -> Iterator[str]:
         nadal = assess.nadal(assess.flange_angle(run.scenario.wheel), friction)
         yield faint(
             f"Low-passed at {assess.CUT_OFF:g} Hz; Y/Q and ΣY are means over {assess.WINDOW:g} m. Limits of Y/Q: "
-            f"{assess.LARGEST_QUOTIENT:g}, Nadal's {nadal:.2f} at μ = {friction:g} (EN 14363; the limits are recalled, not verified)."
+            f"{assess.LARGEST_QUOTIENT:g}, Nadal's {nadal:.2f} at μ = {friction:g} (EN 14363; the limits "
+            "are recalled, not verified)."
         )
         if sections := _sections(run):
             yield html_of(sections)
