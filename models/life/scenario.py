@@ -30,7 +30,7 @@ from models.vehicle.declared import read as read_vehicle
 from models.vehicle.sections import RailSection
 from models.vehicle.simulation import LONGEST_PACE, PACE, SIDES
 
-#: Law by which profiles wear, if a scenario names none and does not give Archard's constants (docs/understand/wear.md, Wear laws).
+#: Law by which profiles wear if a scenario gives neither a law nor constants of Archard (docs/understand/wear.md, Wear laws).
 WEAR_LAW: WearLaw = "usfd"
 
 
