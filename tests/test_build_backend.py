@@ -81,3 +81,14 @@ def test_packages_are_imported_beside_modules_of_a_user_that_have_the_old_names(
         [sys.executable, "-c", code], cwd=tmp_path, env=clean, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
+
+
+def test_the_name_of_an_installation_works_in_a_checkout(tmp_path):
+    """And it gives the same modules, so that objects of both names are of the same classes."""
+    code = (
+        "import contact_models.life.track as installed; from contact_models.life import spectra; "
+        "import models.life.track, models.life.spectra; "
+        "assert installed is models.life.track and spectra is models.life.spectra"
+    )
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env=environment, check=True)

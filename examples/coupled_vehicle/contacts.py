@@ -10,12 +10,12 @@ from typing import Self
 
 import fmpy
 import numpy as np
+from contact_models.vehicle.coupling import QUESTION
 from fmpy.fmi2 import FMU2Model, FMU2Slave
 from numpy.typing import NDArray
 
 from contact.geometry.wheelset import Irregularity, Pose, Velocity
 from contact.pair import WheelRailPair
-from models.vehicle.coupling import QUESTION
 
 Array = NDArray[np.float64]
 

@@ -14,19 +14,19 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import numpy as np
+from contact_models.life.spectra import Irregularities
+from contact_models.life.track import Curve, Track
+from contact_models.vehicle.coupling import Contact, OpenVehicle
+from contact_models.vehicle.course import lay
+from contact_models.vehicle.declared import read
+from contact_models.vehicle.kernels.layout import Axis
+from contact_models.vehicle.simulation import SIDES, ContactOptions, Simulation
 from numpy.typing import NDArray
 
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair
 from contact.pair import WheelRailPair
 from examples.coupled_vehicle.contacts import InFmu, InPython
-from models.life.spectra import Irregularities
-from models.life.track import Curve, Track
-from models.vehicle.coupling import Contact, OpenVehicle
-from models.vehicle.course import lay
-from models.vehicle.declared import read
-from models.vehicle.kernels.layout import Axis
-from models.vehicle.simulation import SIDES, ContactOptions, Simulation
 
 Array = NDArray[np.float64]
 

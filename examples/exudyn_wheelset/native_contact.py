@@ -9,12 +9,12 @@ from types import TracebackType
 
 import fmpy
 import numpy as np
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import POINTS
 from fmpy.fmi2 import FMU2Model
 from numpy.typing import NDArray
 
 from contact.geometry.wheelset import Pair, Patch, Pose
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import POINTS
 
 Array = NDArray[np.float64]
 

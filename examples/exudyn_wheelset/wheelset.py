@@ -14,6 +14,11 @@ from typing import NamedTuple
 
 import exudyn as exu
 import numpy as np
+from contact_models.wheelset import master
+from contact_models.wheelset.components import direct
+from contact_models.wheelset.model import WheelsetModel
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import SIDES
 from exudyn.itemInterface import (
     CoordinateConstraint,
     MarkerBodyRigid,
@@ -25,11 +30,6 @@ from exudyn.rigidBodyUtilities import RigidBodyInertia
 from numpy.typing import NDArray
 
 from examples.exudyn_wheelset.native_contact import NativeContact
-from models.wheelset import master
-from models.wheelset.components import direct
-from models.wheelset.model import WheelsetModel
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import SIDES
 
 Array = NDArray[np.float64]
 
@@ -118,7 +118,7 @@ def in_exudyn(fmu: Path, p: WheelsetParameters, duration: float, step: float = 5
 
 
 def our_own(p: WheelsetParameters, duration: float, step: float = 5e-4) -> Motion:
-    """Run the same case with `models.wheelset`: loads from equilibrium, four states and the spin."""
+    """Run the same case with `contact_models.wheelset`: loads from equilibrium, four states and the spin."""
     history = master.run(*direct(p), speed=p.speed, step=step, duration=duration, scheme="iterated")
     return Motion(*(history[name] for name in ("time", "lateral", "lateral_velocity", "yaw")))
 

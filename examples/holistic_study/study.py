@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from contact_models.life.scale import Workers
 from numpy.typing import NDArray
 
 import contact
 from contact.damage import fatigue_index
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from models.life.scale import Workers
 
 Array = NDArray[np.float64]
 

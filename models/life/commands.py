@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import signal
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -23,9 +25,11 @@ from models.life.result import ENDINGS, write_series
 from models.life.scale import Workers
 from models.life.trust import Trust
 from models.life.wear import Life
+from models.life.wear_log import WearLog, time_left
 from models.vehicle.run import VehicleRun
 
 _SHOWN = 0.2  # between two changes of the progress bar [s]
+_TOLD = 10.0  # between two lines of a log, where there is no bar [s]
 
 Declared = Annotated[Path, typer.Argument(help="TOML file.", show_default=False)]
 Out = Annotated[Path | None, typer.Option(help="Folder for the results; default out/ and the file's name.")]
@@ -82,7 +86,8 @@ def complete(started: VehicleRun, path: Path, fresh: bool, every: float) -> None
     if saved is not None:
         started.restore(saved)
         typer.echo(f"continues at {started.distance:.1f} m from {path}", err=True)
-    written = shown = time.monotonic()
+    begun, at_first = time.monotonic(), started.share
+    written = shown = told = begun
     with progress_bar() as bar, interrupts() as asked:
         try:
             while not (started.done or asked()):
@@ -91,6 +96,13 @@ def complete(started: VehicleRun, path: Path, fresh: bool, every: float) -> None
                 if now - shown >= _SHOWN:
                     bar(started.share, f"{started.distance:.0f} m of {started.scenario.name}")
                     shown = now
+                if now - told >= _TOLD and not sys.stderr.isatty():
+                    done = started.share - at_first
+                    left = (now - begun) * (1.0 - started.share) / done if done > 0.0 else math.inf
+                    typer.echo(
+                        f"{started.distance:.0f} m of {started.scenario.declared.length:g} m{time_left(left)}", err=True
+                    )
+                    told = now
                 if now - written >= every:
                     checkpoint.write(path, fingerprint, started.save())
                     written = time.monotonic()
@@ -133,8 +145,9 @@ def wear(
 ) -> None:
     """Compute the wear of wheels and rails over a mileage: run a set of scenarios, change the profiles, and repeat.
 
-    If the command is interrupted, call it again: it continues from the last complete step. The result does not depend on the
-    number of workers. It stops if the energy of a run does not close to 2 % of its dissipation.
+    If the command is interrupted, call it again: it continues from the last complete step. Each step prints a line, and result
+    and report are written anew. The result does not depend on the number of workers. It stops if the energy of a run does not
+    close to 2 % of its dissipation.
     """
     drawing()
     require_extra("xarray")
@@ -147,9 +160,13 @@ def wear(
         typer.echo(f"continues at {1e-3 * life.mileage:.0f} km from {path}", err=True)
     try:
         with Workers(workers, scheduler) as pool, progress_bar() as bar:
+            log = WearLog(life)
             while not life.ended:
-                _wear_on(life, pool, bar, go_on)
+                life.step(pool, lambda k, n: log.ran(bar, k, n), go_on=go_on)
                 checkpoint.write(path, fingerprint, life.save())
+                log.stepped()
+                if not life.ended and log.may_write:
+                    log.wrote(lambda: _save(life, folder))
     except ImportError as missing:
         stop(str(missing), 1)
     except KeyboardInterrupt:
@@ -163,15 +180,21 @@ def wear(
 
 def _tell(life: Life, folder: Path, as_json: bool) -> None:
     """Write result and report of a study, and say how it ended."""
-    from models.life import wear_report, wear_result
-
-    _write(folder, lambda: wear_result.dataset(life), lambda: wear_report.page_of(life))
+    _save(life, folder)
+    typer.echo(_wrote(folder), err=True)
     ended = f"ended by {life.ended}" if life.ended else "not ended"
     typer.echo(f"{1e-3 * life.mileage:.0f} km in {len(life.rows) - 1} steps, {ended}", err=True)
     _warn(life.trust)
     if as_json:
         found = {"mileage": life.mileage, "steps": len(life.rows) - 1, "ended_by": life.ended}
         typer.echo(document({"set": life.plan.name, **found, **_results(folder, life.trust)}))
+
+
+def _save(life: Life, folder: Path) -> None:
+    """Write result and report of a study, which may go on."""
+    from models.life import wear_report, wear_result
+
+    _write(folder, lambda: wear_result.dataset(life), lambda: wear_report.page_of(life))
 
 
 def _results(folder: Path, trust: Trust) -> dict[str, Any]:
@@ -185,18 +208,13 @@ def _resumable(path: Path) -> str:
     return f"the same command continues from {path}" if path.exists() else "there is no checkpoint yet"
 
 
-def _wear_on(life: Life, pool: Workers, bar: Callable[[float, str], None], go_on: bool) -> None:
-    """Compute one wear step. The bar shows the mileage and the number of runs done in this step."""
-    done, mileage = life.mileage / life.plan.declared.mileage, 1e-3 * life.mileage
-    life.step(pool, lambda k, n: bar(done, f"{mileage:.0f} km, run {k} of {n}"), go_on=go_on)
-
-
 def _finish(finished: VehicleRun, folder: Path) -> None:
     """Write result and report to the folder, and delete the checkpoint."""
     from models.life import result
     from models.vehicle import report
 
     _write(folder, lambda: result.dataset(finished), lambda: report.page_of(finished))
+    typer.echo(_wrote(folder), err=True)
     (folder / "checkpoint.npz").unlink(missing_ok=True)
     _warn(finished.trust)
     typer.echo(finished.step_error.sentence, err=True)
@@ -215,4 +233,7 @@ def _write(folder: Path, dataset: Callable[[], Any], page: Callable[[], str]) ->
     folder.mkdir(parents=True, exist_ok=True)
     write(dataset(), folder / "result.nc")
     (folder / "report.html").write_text(page(), encoding="utf-8")
-    typer.echo(f"wrote {folder / 'result.nc'}, {folder / 'report.html'}", err=True)
+
+
+def _wrote(folder: Path) -> str:
+    return f"wrote {folder / 'result.nc'}, {folder / 'report.html'}"

@@ -65,12 +65,12 @@ class Steps:
     Parameters
     ----------
     distance : largest distance of one step [m], 1e3 to 1e9
-    depth : largest smoothed wear depth of one step [m], 1e-7 to 1e-3
+    depth : largest smoothed wear depth of one step [m], 1e-7 to 1e-3; the default by docs/understand/wear.md, Steps
     smoothing : standard deviation of the Gaussian that smooths the depth of a step [m], 5e-4 to 0.02
     """
 
     distance: float = 1e7
-    depth: float = 5e-5
+    depth: float = 1e-4
     smoothing: float = 2e-3
 
     def __post_init__(self) -> None:

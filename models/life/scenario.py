@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from contact.damage import DamageParameters
+from contact.damage.assessment import WearLaw
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry import profile
@@ -28,6 +29,9 @@ from models.vehicle.declared import VehicleDeclaration
 from models.vehicle.declared import read as read_vehicle
 from models.vehicle.sections import RailSection
 from models.vehicle.simulation import LONGEST_PACE, PACE, SIDES
+
+#: Law by which profiles wear if a scenario gives neither a law nor constants of Archard (docs/understand/wear.md, Wear laws).
+WEAR_LAW: WearLaw = "usfd"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -147,7 +151,8 @@ class Declaration:
         default (vehicle.md)
     friction : coefficient of friction, 0.3 by default, or a table
     torque : torques on axles, traction and braking, a table each; several on one axle add
-    track, profiles, wheels, rails, methods, damage, recording : separate tables
+    track, profiles, wheels, rails, methods, recording : separate tables
+    damage : a table; its wear_law is "usfd" by default, "archard" where constants of Archard's law are given
     """
 
     name: str
@@ -162,7 +167,7 @@ class Declaration:
     wheels: Wheels = field(default_factory=Wheels)
     rails: Rails = field(default_factory=Rails)
     methods: Methods = field(default_factory=Methods)
-    damage: DamageParameters = field(default_factory=DamageParameters)
+    damage: DamageParameters = field(default_factory=lambda: DamageParameters(wear_law=WEAR_LAW))
     recording: Recording = field(default_factory=Recording)
 
     def __post_init__(self) -> None:
@@ -312,6 +317,9 @@ def read(path: str | PathLike[str]) -> Scenario:
 
 def from_table(table: dict[str, Any], path: Path) -> Scenario:
     """Return the scenario from the tables of the file `path`."""
+    damage = table.get("damage")
+    if isinstance(damage, dict) and not damage.keys() & {"wear_law", "archard"}:
+        table = table | {"damage": damage | {"wear_law": WEAR_LAW}}
     declared = build(Declaration, table, path.name)
     if declared.track.measured is not None:
         measured = path.parent / declared.track.measured

@@ -12,6 +12,8 @@ LARGEST_RESIDUAL = 0.02
 IMPACT = 2.0
 #: A wheel whose longitudinal creepage is larger spins or slides: its torque is more than friction bears.
 LARGEST_CREEPAGE = 0.1
+#: A wheel that loses more at its deepest place, over the distance, wears as none in service does: 1 mm in 100 km.
+FASTEST_WEAR = 1e-8
 #: Member → unit and meaning.
 TRUST = {
     "residual": ("1", "energy that the integration has lost or gained, over the energy dissipated in the contacts"),
@@ -21,6 +23,8 @@ TRUST = {
     "creepage": ("1", "greatest longitudinal creepage of a wheel, of either sign, at the samples"),
     "speed_ratio": ("1", "greatest speed over the linear critical speed on straight track"),
     "unfinished": ("1", "curves of the track that the run does not reach the end of"),
+    "deepest_rate": ("1", "greatest depth that a wheel loses per distance, before smoothing"),
+    "seizure": ("1", "share of the samples at which a wheel's pressure is in Archard's seizure; 0 with other laws"),
 }
 
 
@@ -35,6 +39,8 @@ class Trust:
     creepage: float
     speed_ratio: float
     unfinished: float
+    deepest_rate: float = 0.0
+    seizure: float = 0.0
 
     @property
     def closes(self) -> bool:
@@ -69,6 +75,19 @@ class Trust:
             said.append(
                 f"The run ends before the end of {self.unfinished:.0f} of its curves: the length of the scenario is shorter "
                 "than its track."
+            )
+        if self.seizure:
+            said.append(
+                f"Archard's law is in seizure at {100.0 * self.seizure:.2g} % of the samples of a wheel: the pressure exceeds "
+                "the share of the hardness from which the coefficient is tens of times that of mild wear. Steel yields "
+                'before. Cures: methods.pressure_limit = 1.5e9, or damage.wear_law = "usfd".'
+            )
+        if self.deepest_rate > FASTEST_WEAR:
+            said.append(
+                f"A wheel loses {1e9 * self.deepest_rate:.3g} µm in a kilometre at its deepest place, a millimetre in "
+                f"{1e-6 / self.deepest_rate:.3g} km. No wheel in service wears so fast. Archard's map does this where sliding "
+                "is fast or pressures are high, and does not know lubrication; Sheffield's law where T-gamma over the area "
+                'exceeds 77 N/mm². Cures: damage.wear_law = "usfd", less friction, or lower coefficients of the law.'
             )
         return tuple(said)
 
@@ -120,4 +139,6 @@ def worst(runs: list[Trust]) -> Trust:
         creepage=max(run.creepage for run in runs),
         speed_ratio=max(run.speed_ratio for run in runs),
         unfinished=max(run.unfinished for run in runs),
+        deepest_rate=max(run.deepest_rate for run in runs),
+        seizure=max(run.seizure for run in runs),
     )

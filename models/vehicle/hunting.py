@@ -19,7 +19,6 @@ from models.vehicle.simulation import ContactOptions, Simulation
 
 Array = NDArray[np.float64]
 
-_STEP = 2e-4  # [s]
 _WINDOW = 0.5  # over which an amplitude is taken [s]
 
 
@@ -51,6 +50,7 @@ def fall(
     threshold: float = 1e-3,
     friction: float | Friction = 0.3,
     options: ContactOptions | None = None,
+    step: float = 2e-4,
 ) -> Hunting:
     """Return the motion on straight ideal track while the speed falls.
 
@@ -67,6 +67,8 @@ def fall(
     threshold : float
         Amplitude of a limit cycle [m].
     friction, options : as for `Simulation`
+    step : float
+        Of the integration [s].
 
     Raises
     ------
@@ -88,8 +90,8 @@ def fall(
     speeds, amplitudes = [], []
     while simulation.distance < length:
         path = []
-        for _ in range(round(_WINDOW / _STEP / 25)):
-            simulation.advance(_STEP, 25)
+        for _ in range(max(round(_WINDOW / step / 25), 1)):
+            simulation.advance(step, 25)
             path.append(simulation.state.q[axles, Axis.Y].copy())
         speeds.append(speed_at(simulation.distance))
         amplitudes.append(0.5 * float(np.ptp(np.array(path), axis=0).max()))

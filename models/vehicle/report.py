@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import astuple
 from functools import partial
 from typing import Any
 
@@ -12,9 +13,9 @@ from contact import plot
 from contact.study.page import document, faint, html_of
 from contact.study.table import Table, number
 from models.life.report import damage_of, declaration, illustrated, trusted, warned
-from models.vehicle import assess, drawing
+from models.vehicle import assess, drawing, en14363
 from models.vehicle.ledgers import BODIES
-from models.vehicle.run import BALANCE, CONICITY_AT, RIGHT_BELOW, VehicleRun
+from models.vehicle.run import BALANCE, CONICITY_AT, DECELERATION, RIGHT_BELOW, VehicleRun
 from models.vehicle.simulation import SIDES
 from models.wheelset.ports import INWARDS
 
@@ -39,10 +40,21 @@ def _parts(run: VehicleRun) -> Iterator[str]:
     yield from warned(trust)
     if run.series["distance"].size:
         yield html_of(_safety(run))
+        friction = run.scenario.friction.static
+        nadal = assess.nadal(assess.flange_angle(run.scenario.wheel), friction)
         yield faint(
-            f"Low-passed at {assess.CUT_OFF:g} Hz; Y/Q and ΣY are means over {assess.WINDOW:g} m (EN 14363; the limits are "
-            "recalled, not verified)."
+            f"Low-passed at {assess.CUT_OFF:g} Hz; Y/Q and ΣY are means over {assess.WINDOW:g} m. Limits of Y/Q: "
+            f"{assess.LARGEST_QUOTIENT:g}, Nadal's {nadal:.2f} at μ = {friction:g} (EN 14363; the limits "
+            "are recalled, not verified)."
         )
+        if sections := _sections(run):
+            yield html_of(sections)
+            yield faint(
+                f"As in EN 14363:2016, which is recalled, not verified. Worst wheelset of each section; percentile "
+                f"{en14363.LARGEST:g} % of ΣY and Y/Q (means over {assess.WINDOW:g} m every half metre) and of Q, medians of "
+                "the outer wheel as quasi-static values, rms of ΣY over 100 m within 2 Hz of its strongest frequency from 1 to "
+                "10 Hz. One run is one sample of each section; the standard asks for many and their statistics."
+            )
         yield html_of(_wheels(run))
         for heading, panels in _panels(run).items():
             yield f"<h2>{heading}</h2>"
@@ -92,12 +104,28 @@ def _vehicle(run: VehicleRun) -> Iterator[str]:
         f"Equivalent conicity (EN 15302) {' and '.join(at) or 'not found'}. Linear critical speed "
         f"{_speed(run.critical_speed)}: "
         "the least speed at which motions of .1 mm grow, from the eigenvalues of the run's own kernel on straight ideal "
-        "track, to 2 m/s. Larger motions have another one (models.vehicle.hunting)."
+        f"track, to 2 m/s. Nonlinear critical speed {_cycle(run)}"
     )
     yield faint(
         f"A rail is one mass under each wheel. Its receptance is right below {RIGHT_BELOW:g} Hz: peaks at joints, flats and "
         "corrugation beyond that are not."
     )
+
+
+def _cycle(run: VehicleRun) -> str:
+    """Return the nonlinear critical speed, and how it was found."""
+    found = run.limit_cycle
+    how = (
+        f"the speed at which the limit cycle ends when the speed falls by {DECELERATION:g} m/s² after a kick of 5 mm, with the "
+        "same kernel and unworn profiles."
+    )
+    if found is None:
+        return "not found: a wheel leaves its rail at speeds above the linear one."
+    if found.critical == np.inf:
+        return f"none up to {found.speed[0]:.0f} m/s: {how}"
+    if found.critical <= found.speed[-1]:
+        return f"below {found.speed[-1]:.0f} m/s: {how}"
+    return f"{found.critical:.0f} m/s: {how}"
 
 
 def _speed(speed: float) -> str:
@@ -126,13 +154,11 @@ def _safety(run: VehicleRun) -> Table:
                 f"{found.unloading:.3f}",
             )
         )
-    friction = run.scenario.friction.static
-    limit = assess.nadal(assess.flange_angle(run.scenario.wheel), friction)
     return Table(
         "Safety, greatest values",
         [
             ("", ""),
-            ("Y/Q", f"limit {assess.LARGEST_QUOTIENT:g}, Nadal {limit:.2f} at μ {friction:g}"),
+            ("Y/Q", ""),
             ("ΣY", "kN"),
             ("Prud'homme", "kN"),
             ("Q", "kN"),
@@ -140,6 +166,44 @@ def _safety(run: VehicleRun) -> Table:
         ],
         rows,
     )
+
+
+def _sections(run: VehicleRun) -> Table | None:
+    """Return the assessment by sections, or None if the track has none that the whole vehicle has run over."""
+    s, scenario = run.series, run.scenario
+    model = run.simulation.model
+    behind = -float(model.bodies["place"][model.wheelsets].min())
+    found = en14363.sections(
+        scenario.declared.track, scenario.declared.recording.settling, float(s["distance"][-1]) - behind
+    )
+    rows = []
+    for section in found:
+        of = []
+        for (_, prefix), i in zip(_axles(run), model.wheelsets, strict=True):
+            lateral, vertical = (np.array([s[f"{prefix}_{side}_{what}"] for side in SIDES]) for what in _FORCES)
+            place = s["distance"] + float(model.bodies[i]["place"])
+            of.append(en14363.values(section, lateral, vertical, place, s["time"], float(model.bodies[i]["load"])))
+        rows.append(_told(section.name, [max(column) for column in zip(*map(astuple, of), strict=True)]))
+        radius = 1.0 / abs(section.curvature) if section.curvature else np.inf
+        least = float(model.bodies["load"][model.wheelsets].min())
+        rows.append(_told("limit", list(astuple(en14363.limits(least, radius)))))
+    heads = [
+        ("ΣY", "kN"),
+        ("Y/Q", ""),
+        ("Q", "kN"),
+        ("Y quasi-static", "kN"),
+        ("Q quasi-static", "kN"),
+        ("rms ΣY", "kN"),
+    ]
+    return Table("Sections of EN 14363", [("", ""), *heads], rows) if rows else None
+
+
+def _told(name: str, values: list[float]) -> tuple[str, ...]:
+    """Return a row of the assessment: forces in kN, the quotient as it is."""
+    told = [
+        "" if np.isnan(value) else f"{value:.3f}" if k == 1 else f"{1e-3 * value:.1f}" for k, value in enumerate(values)
+    ]
+    return name, *told
 
 
 _FORCES = ("lateral_force", "vertical_force")

@@ -19,6 +19,7 @@ from models.life.trust import StepError, Trust
 from models.vehicle import linear
 from models.vehicle.course import SPACING, lay
 from models.vehicle.declared import VehicleDeclaration
+from models.vehicle.hunting import Hunting, fall
 from models.vehicle.kernels.layout import Axis, Book, Frame, Row, Sum
 from models.vehicle.ledgers import BODIES, fill, ledger
 from models.vehicle.simulation import SIDES, ContactOptions, Simulation
@@ -77,6 +78,9 @@ _LONGEST_STEP, _SHORTEST_STEP = 5e-4, 5e-5  # [s]
 _PIECE = 40.0
 #: Amplitudes of the equivalent conicity in the report [m], and the frequency up to which a rail as one mass is right [Hz].
 CONICITY_AT, RIGHT_BELOW = (1e-3, 3e-3), 150.0
+#: The nonlinear critical speed: greatest speed [m/s], least one over the greatest, and deceleration [m/s²].
+FASTEST_CYCLE, SLOWEST_CYCLE, DECELERATION = 150.0, 0.3, 4.0
+_ABOVE_CRITICAL = 1.2
 #: Longest step with flats, polygons, slices and closely measured tracks [s]: the peak of an impact is then within 1.7 % of
 #: that of half the step.
 _LONGEST_UNEVEN = 1e-4
@@ -312,12 +316,53 @@ class VehicleRun:
             ),
             speed_ratio=self.scenario.fastest / self.critical_speed,
             unfinished=float(sum(curve.end > declared.length for curve in declared.track.curves)),
+            deepest_rate=max(
+                (
+                    float(h.depth.max()) / h.distance
+                    for (*_, body), h in self.damage().items()
+                    if body == "wheel" and h.distance > 0.0
+                ),
+                default=0.0,
+            ),
+            seizure=self._seizure,
         )
+
+    @property
+    def _seizure(self) -> float:
+        """Share of the samples at which the pressure of the worst wheel is in Archard's seizure; 0 with other laws."""
+        damage, steel = self.scenario.declared.damage, self._options.material
+        counted = self.series["distance"] >= self.scenario.declared.recording.settling
+        if damage.wear_law != "archard" or not counted.any():
+            return 0.0
+        pressures = [row[counted] for name, row in self.series.items() if name.endswith("_max_pressure")]
+        return float(max((row > damage.archard.seizure_ratio * steel.hardness).mean() for row in pressures))
 
     @cached_property
     def critical_speed(self) -> float:
         """Linear critical speed on straight track [m/s]; inf above 150 m/s."""
         return linear.critical_speed(self._on_straight, tolerance=2.0)
+
+    @cached_property
+    def limit_cycle(self) -> Hunting | None:
+        """The fall from above the linear critical speed to `SLOWEST_CYCLE` of it, on the scenario's wheel and rail.
+
+        None if a wheel leaves its rail. It is computed when it is first asked for, and takes some seconds.
+        """
+        scenario = self.scenario
+        fastest = min(_ABOVE_CRITICAL * self.critical_speed, FASTEST_CYCLE)
+        slowest = max(SLOWEST_CYCLE * fastest, 2.0)
+        try:
+            return fall(
+                scenario.vehicle,
+                (scenario.wheel, scenario.rail),
+                (slowest, fastest),
+                deceleration=DECELERATION,
+                friction=scenario.friction,
+                options=self._options,
+                step=self.step * min(slowest / scenario.slowest, 1.0),
+            )
+        except ContactError:
+            return None
 
     @cached_property
     def conicities(self) -> tuple[float, ...]:

@@ -106,6 +106,16 @@ def test_wear_law_of_a_scenario_is_that_of_its_histograms(tmp_path):
     assert parameters == {DamageParameters(usfd=Usfd(severe_branch="proportional"), wear_law="usfd")}
 
 
+@pytest.mark.parametrize(
+    ("table", "law"),
+    [("", "usfd"), ("[damage]\nwith_spin = true", "usfd"), ("[damage.archard]\nmild = 1e-4", "archard")],
+)
+def test_profiles_wear_by_sheffields_law_unless_archards_constants_are_given(tmp_path, table, law):
+    path = tmp_path / "case.toml"
+    path.write_text(LEAST + table, encoding="utf-8")
+    assert scenario.read(path).declared.damage.wear_law == law
+
+
 def test_fingerprint_follows_input_profiles_and_draw(tmp_path):
     one = scenario.read(written(tmp_path, LEAST))
     assert scenario.read(written(tmp_path, "# a comment\n" + LEAST)).fingerprint == one.fingerprint

@@ -36,6 +36,28 @@ def test_a_good_run_has_no_warning_and_a_bad_one_names_every_fault():
         assert text in said
 
 
+def test_seizure_and_wear_that_no_wheel_in_service_has_are_named_with_a_cure():
+    said = replace(GOOD, seizure=0.34, deepest_rate=1.3e-7).warnings
+    assert len(said) == 2
+    for text in ("seizure at 34 %", "130 µm in a kilometre", "a millimetre in 7.69 km"):
+        assert text in " ".join(said)
+    assert all("Cures" in sentence and "usfd" in sentence for sentence in said)
+
+
+def test_a_run_with_elastic_pressures_and_archards_law_tells_its_seizure(tmp_path):
+    """Pressures of 60 kN on a conical wheel stay below .8 of the hardness; with a hardness of 1 GPa they do not."""
+    path = written(tmp_path).parent / "straight.toml"
+    shares = []
+    for ratio in (0.8, 0.3):
+        text = path.read_text(encoding="utf-8").split("[damage.archard]")[0]
+        path.write_text(f"{text}[damage.archard]\nseizure_ratio = {ratio}\n", encoding="utf-8")
+        run = VehicleRun(scenario.read(path))
+        while not run.done:
+            run.advance()
+        shares.append(run.trust.seizure)
+    assert shares == [0.0, 1.0]
+
+
 def test_a_run_that_is_shorter_than_its_curve_says_so(tmp_path):
     folder = written(tmp_path).parent
     straight, curve = (VehicleRun(scenario.read(folder / f"{name}.toml")) for name in ("straight", "curve"))

@@ -192,12 +192,16 @@ def test_command_writes_result_and_page_and_goes_on_from_its_checkpoint(plan, tm
 
     with monkeypatch.context() as patch:
         patch.setattr(Life, "step", interrupted)
-        assert CliRunner().invoke(app, arguments).exit_code == 130
+        broken = CliRunner().invoke(app, arguments)
+    assert broken.exit_code == 130
+    assert "step 1," in broken.output
+    assert "left" in broken.output
+    assert "<h1>short</h1>" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")  # with every checkpoint
     resumed = CliRunner().invoke(app, arguments)
     assert resumed.exit_code == 0, resumed.output
     assert f"continues at {1e-3 * life['mileage'][1]:.0f} km" in resumed.output
     assert "800 km in" in resumed.output
-    assert "warning: The balance of energy does not close" in resumed.output
+    assert "warning: The run ends before the end of 1 of its curves" in resumed.output
     stored = xarray.load_dataset(tmp_path / "out" / "result.nc", engine="scipy")
     assert stored["mileage"].values[-1] == pytest.approx(8e5)
     assert stored["conicity"].shape == (stored["mileage"].size, 1, 1)

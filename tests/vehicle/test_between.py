@@ -67,8 +67,22 @@ def test_most_steps_need_no_solution(both):
 
 def test_balance_and_dissipation_stay_the_same(both):
     (exact, _), (paced, _) = both
-    assert residual(paced) == pytest.approx(residual(exact), abs=2e-4)
+    assert residual(paced) == pytest.approx(residual(exact), abs=2e-5)
     assert paced.state.books[Book.DISSIPATED] == pytest.approx(exact.state.books[Book.DISSIPATED], rel=1e-4)
+
+
+def test_the_balance_on_irregular_straight_track_is_that_of_a_solution_at_every_step():
+    """The roll of an axle moves its contacts up and down against its centre. Without that, pace 4 gained .4 %."""
+    low = Irregularities(spectrum="ERRI B176 low")
+    track = Track(alignment=low, vertical=low, cross_level=low)
+    exact, paced = (
+        simulation("manchester", track, speed=40.0, length=80.0, settling=5.0, options=options)
+        for options in (FAST, PACED)
+    )
+    for sim in (exact, paced):
+        sim.advance(STEP, 4500)
+    assert residual(paced) == pytest.approx(residual(exact), abs=3e-4)
+    assert paced.benches.held.solutions.mean() < 0.6 * 4500
 
 
 def test_left_curve_is_the_mirror_image_of_the_right_one():

@@ -144,6 +144,12 @@ def _creep_forces(contact, stiffness, bound, stick, more, ratio):
 
 
 @kernel
+def _lever(axis, x, y, z, c, s):
+    """Return the moment about the axle of a unit force along the normal at (x, y, z) from the wheelset's centre [m]."""
+    return axis[0] * (-y * c - z * s) + axis[1] * x * c + axis[2] * x * s
+
+
+@kernel
 def expect(asked, now, seat, bench, n, row):
     """Add to `row` what `n` contacts do more at `now` than at the last solution. Return whether they have hardly moved.
 
@@ -152,7 +158,8 @@ def expect(asked, now, seat, bench, n, row):
     shear = bench.case[0].G * bench.case[0].slope
     c11, c22, _, _ = kalker.coefficients(bench.own.tables.kalker, 0.0)
     dy, dz, droll, dyaw = now.y - asked.y, now.z - asked.z, now.roll - asked.roll, now.yaw - asked.yaw
-    lx, ly, lz = axle(now.roll, now.yaw)
+    before, after = axle(asked.roll, asked.yaw), axle(now.roll, now.yaw)
+    lx, ly, lz = after
     near, total = n > 0, bench.total[0]
     stick = 1.0 - total.slip_area / total.area if total.area > 0.0 else 1.0
     for k in range(n):
@@ -169,7 +176,9 @@ def expect(asked, now, seat, bench, n, row):
         near = near and abs(deeper) < _DEEPER * contact.approach and abs(aside) < _ASIDE
         ratio = max(1.0 + deeper / contact.approach, 0.0) ** 1.5
         before_x, before_y, before_z = _slip(asked, x, y, z)
-        now_x, now_y, now_z = _slip(now, x, y, z)
+        # the place on the wheel turns with the wheelset
+        x_turned, y_turned, z_turned = x - dyaw * y, y + dyaw * x - droll * z, z + droll * y
+        now_x, now_y, now_z = _slip(now, x_turned, y_turned, z_turned)
         more_x = (now_x - before_x) / now.vx
         more_y = (c * (now_y - before_y) + s * (now_z - before_z)) / now.vx
         bound, ab = seat.friction * contact.N, contact.area / math.pi
@@ -177,15 +186,19 @@ def expect(asked, now, seat, bench, n, row):
         if bound > 0.0 and ratio > 0.0:
             Fx, Fy = _creep_forces(contact, 0.5 * (c11 + c22) * shear * ab, bound, stick, (more_x, more_y), ratio)
         x_force, along, normal = Fx - contact.Fx, Fy - contact.Fy, contact.N * (ratio - 1.0)
-        # the pressure has no moment about the axle
-        turning = lx * (y * -c - z * s) + ly * (x * c) + lz * (x * s)
         y_force, z_force = along * c + normal * s, along * s - normal * c
         row[Load.X] += x_force
         row[Load.Y] += y_force
         row[Load.Z] -= z_force
-        row[Load.MX] += y * z_force - z * y_force - normal * turning * lx
-        row[Load.MY] += z * x_force - x * z_force - normal * turning * ly
-        row[Load.MZ] += x * y_force - y * x_force - normal * turning * lz
+        all_y, all_z = Fy * c + contact.N * ratio * s, Fy * s - contact.N * ratio * c
+        old_y, old_z = all_y - y_force, all_z - z_force
+        # the pressure has no moment about the axle, wherever this points
+        turning = contact.N * (
+            ratio * _lever(after, x_turned, y_turned, z_turned, c, s) - _lever(before, x, y, z, c, s)
+        )
+        row[Load.MX] += y_turned * all_z - z_turned * all_y - (y * old_z - z * old_y) - turning * lx
+        row[Load.MY] += z_turned * Fx - x_turned * all_z - (z * contact.Fx - x * old_z) - turning * ly
+        row[Load.MZ] += x_turned * all_y - y_turned * Fx - (x * old_y - y * contact.Fx) - turning * lz
         row[Load.NORMAL] += normal
         creep_x, creep_y = contact.longitudinal + more_x, contact.lateral + more_y
         row[Load.DISSIPATION] += contact.Fx * contact.longitudinal + contact.Fy * contact.lateral
