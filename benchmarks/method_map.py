@@ -66,28 +66,27 @@ The reference is our element-wise half space, which agrees with CONTACT on the s
 and {finest} × {finest} elements. Extrapolated from 160 and 240 instead, 24 of the contacts differ by .0003 in the mean and .002
 at most. Largest pressures are those of {finest} × {finest}. CONTACT itself cannot be run here; its time depends on its grid as
 that of the half space does. Time is processor time, the median over the contacts, of a call from Python that starts from
-nothing; the least of {repeats} calls for fast methods, one call for the half space. The machine was shared, which empties caches
-but is not counted otherwise.
+nothing; the least of {repeats} calls for fast methods, one call for the half space. The machine was shared, which empties
+caches but is not counted otherwise.
 
 ![Error of the force over time of one contact](pictures/method_map.png)
 
 {table}
-{missed}
-## What it says
+{missed}## What it says
 
 * Of what is faster than the default ({default_us:.0f} µs, mean error {default:.2%}), the best with other methods is {best}
   with {left:.1%}. The default on 10 × 10 takes {coarse_us:.0f} µs and has {coarse_default:.2%}.
-* More strips and elements hardly help the default: {fine_default:.2%} on 40 × 40. What is left is the error of its traction.
+* More strips and elements hardly help the default: {fine_default:.2%} on 40 × 40. Its pressures are then right, so what is left is
+  the error of its traction.
 * The normal problem bounds what a better tangential method gains: FASTSIM on the default's strips has {fastsim:.1%}, the mapped
   FaStrip on ANALYN's strips {analyn:.1%}.
 * A half space of {coarse} needs {times:.0f} times the time of the default for an error of {coarse_error:.2%}.
-
 * The default's slowest contacts lie far from its median: 1 % of them take more than {slow:.0f} µs. They start from nothing
   here; in a run each starts from the last one ([Real time](real_time.md)).
 
-Not in the map, since their equations could not be read: KBTNH, MKP, INFCON, extended Kik-Piotrowski and neural surrogates. Of
-papers on them only the first page is in the stored web pages that could be searched. USETAB's place is taken by `table`, which
-holds our own half space's forces on ellipses.
+Not in the map, since their equations could not be read: KBTNH, MKP, INFCON, extended Kik-Piotrowski and neural surrogates. Two
+searches of stored web pages found papers on some of them, of which only the first page is stored. USETAB's place is
+taken by `table`, which holds our own half space's forces on ellipses.
 """
 
 
@@ -166,7 +165,7 @@ def draw(path: Path, times: Array, errors: Array, interacting: list[bool]) -> No
         axes.plot([], [], "o", color=colour, label=label)
     axes.legend(loc="lower left")
     names = "\n".join(f"{i + 1:2d}  {of[0]}" for i, of in enumerate(SHOWN))
-    axes.text(0.99, 0.98, names, transform=axes.transAxes, va="top", ha="right", fontsize=8, linespacing=1.3, ma="left")
+    axes.text(0.83, 0.98, names, transform=axes.transAxes, va="top", ha="right", fontsize=8, linespacing=1.3, ma="left")
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=120)
     plt.close(figure)

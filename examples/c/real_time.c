@@ -1,12 +1,12 @@
 /* A wheelset in real time: replay the motion of a wheelset, both wheels at every step, and tell the times.
  *
  * gcc -O2 real_time.c -Icontact/include -L. -lwheelrail -lm
- * ./a.out MOTION WHEEL RAIL ANSWERS TIMES STEPS PERIOD_US CAP NORMAL TANGENTIAL
+ * ./a.out MOTION WHEEL RAIL ANSWERS TIMES STEPS PERIOD_US CAP NORMAL TANGENTIAL STRIPS
  *
  * MOTION holds records wr_motion, right and left wheel of each step; WHEEL and RAIL hold the rows y, z, angle of a profile.
  * PERIOD_US 0: as fast as possible.  Otherwise every step waits for its turn, and one that ends after the next turn is a miss;
  * the process then asks for the first place (SCHED_FIFO) and for pages that stay in memory.
- * CAP: max_iterations.  NORMAL, TANGENTIAL: names of methods.
+ * CAP: max_iterations.  NORMAL, TANGENTIAL: names of methods.  STRIPS: of a patch, and elements of a strip.
  * ANSWERS gets Fx, Fy, Fz, patches and status of every wheel of the first turn through MOTION.  TIMES gets two times [ns] of
  * every step: by the clock, and of the processor.  `python -m benchmarks.real_time` makes the files. */
 #define _GNU_SOURCE
@@ -47,7 +47,7 @@ static const char *urgent(void) {
 }
 
 int main(int argc, char **argv) {
-    if (argc != 11) { fprintf(stderr, "MOTION WHEEL RAIL ANSWERS TIMES STEPS PERIOD_US CAP NORMAL TANGENTIAL\n"); return 2; }
+    if (argc != 12) { fprintf(stderr, "MOTION WHEEL RAIL ANSWERS TIMES STEPS PERIOD_US CAP NORMAL TANGENTIAL STRIPS\n"); return 2; }
     size_t n_motion, n_wheel, n_rail, bytes;
     const wr_motion *motions = (const wr_motion *)read_all(argv[1], &n_motion);
     double *wheel_rows = read_all(argv[2], &n_wheel), *rail_rows = read_all(argv[3], &n_rail);
@@ -71,6 +71,7 @@ int main(int argc, char **argv) {
         options.patch.max_iterations = cap;
         options.patch.normal = normal;
         options.patch.tangential = tangential;
+        options.patch.n_strips = options.patch.n_elements = atol(argv[11]);
         TRY(wr_pair_size(&options, (int64_t)nw, (int64_t)nr, &bytes))
         memory[side] = malloc(bytes);
         TRY(wr_pair_init(&options, &wheel, &rail, memory[side], bytes))
