@@ -1,4 +1,4 @@
-"""Accuracy over time of all methods on the same 1000 wheel-rail contacts: docs/method_map.md and its picture.
+"""Accuracy over time of all methods on the same wheel-rail contacts: docs/check/method_map.md and its picture.
 
 python -m benchmarks.method_map [--contacts 500] [--write docs]
 
@@ -69,7 +69,7 @@ that of the half space does. Time is processor time, the median over the contact
 nothing; the least of {repeats} calls for fast methods, one call for the half space. The machine was shared, which empties
 caches but is not counted otherwise.
 
-![Error of the force over time of one contact](pictures/method_map.png)
+![Error of the force over time of one contact](proof/method_map.png)
 
 {table}
 {missed}## What it says
@@ -215,7 +215,7 @@ def write(folder: Path, rows: list[list[str]], measured: Array, untrusted: int, 
     """Write page and picture."""
     times, errors, slowest = measured
     methods = contact.methods().normal
-    draw(folder / "pictures" / "method_map.png", times, errors, [methods[of[1]].interacting for of in SHOWN])
+    draw(folder / "check" / "proof" / "method_map.png", times, errors, [methods[of[1]].interacting for of in SHOWN])
     at = {of[0]: i for i, of in enumerate(SHOWN)}
     default, coarse = at["default"], at["half space, 30 × 30"]
     best = min(
@@ -252,7 +252,7 @@ def write(folder: Path, rows: list[list[str]], measured: Array, untrusted: int, 
         times=times[coarse] / times[default],
         coarse_error=errors[coarse],
     )
-    (folder / "method_map.md").write_text(text, encoding="utf-8")
+    (folder / "check" / "method_map.md").write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":
