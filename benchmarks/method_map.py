@@ -76,7 +76,7 @@ caches but is not counted otherwise.
 
 * Of what is faster than the default ({default_us:.0f} µs, mean error {default:.2%}), the best with other methods is {best}
   with {left:.1%}. The default on 10 × 10 takes {coarse_us:.0f} µs and has {coarse_default:.2%}.
-* More strips and elements hardly help the default: {fine_default:.2%} on 40 × 40. Its pressures are then right, so what is left is
+* More strips and elements hardly help the default: {fine_default:.2%} on 40 × 40. Its pressures are right, so what is left is
   the error of its traction.
 * The normal problem bounds what a better tangential method gains: FASTSIM on the default's strips has {fastsim:.1%}, the mapped
   FaStrip on ANALYN's strips {analyn:.1%}.

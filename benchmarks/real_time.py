@@ -52,23 +52,23 @@ caches that other processes have emptied. The first step of a turn is left out; 
 
 * Algorithm: median / 99.9 % / largest {own} µs.
 * Machine: the largest of all steps took {worst:.0f} µs, {excess:.0f} µs more than the least time of the same step.
-* The slowest 0.1 % by the algorithm begin at {from:.0f} m. In {slipping:.0f} % of them both wheels slip as a whole (in all steps:
-  {all_slipping:.0f} %).
+* The slowest 0.1 % by the algorithm begin at {from:.0f} m. In {slipping:.0f} % of them both wheels slip as a whole (in all
+  steps: {all_slipping:.0f} %).
 * The second hump of the histogram is iterations of the pressure: {shares}.
 
 {patches}
 ## max_iterations as a cap
 
 The error is the largest difference of a force component from that with 1000 iterations, over friction times the mean load, in
-all steps and both wheels. "Not converged" is what the code of the answer tells the host, wheels and steps together. Times are the
-least of three turns. Methods without iterations are there for their times; the motion belongs to the default's stiffness.
+all steps and both wheels. "Not converged" is what the code of the answer tells the host, wheels and steps together. Times are
+the least of three turns. Methods without iterations are there for their times; the motion belongs to the default's stiffness.
 
 {caps}
 ## 1 kHz
 
 {real} steps at 1 kHz on one core, with the priority of a real-time process (`SCHED_FIFO`: {place}) and memory that is not
-swapped. A step is a miss if it ends after the next one should have begun, also if it was woken late. "Stolen" is the time that the
-host of this virtual machine gave to others meanwhile, on both cores; the processor's clock counts it as work.
+swapped. A step is a miss if it ends after the next one should have begun, also if it was woken late. "Stolen" is the time that
+the host of this virtual machine gave to others meanwhile, on both cores; the processor's clock counts it as work.
 
 {timed}
 ## In a host of your own

@@ -1,4 +1,4 @@
-"""Crossings along the way, CONTACT and ours: the section of docs/proof.md, from reference/crossing.csv.
+"""Crossings along the way, CONTACT and ours: the section of docs/check/proof.md, from reference/crossing.csv.
 
 python -m benchmarks.proof.crossing FOLDER    makes that file; FOLDER holds F_crossing/, which is not ours to pass on
 """
@@ -79,26 +79,31 @@ def section() -> tuple[str, str]:
             ours = numbers(lines, sweep, whose)
             force = np.linalg.norm((ours - true)[:, 1:4], axis=1) / np.linalg.norm(true[:, 1:4], axis=1)
             pressure, height = np.abs(ours[:, 5] / true[:, 5] - 1.0), 1e3 * np.abs(ours[:, 4] - true[:, 4])
-            largest[sweep, whose] = 100.0 * force.max(), 100.0 * np.median(pressure)
+            largest[sweep, whose] = 100.0 * force.max(), 100.0 * pressure.max()
             given = "" if sweep == "uk_v2_z" else f"{height.mean():.2f} / {height.max():.2f}"
             cells = (f"{100 * e.mean():.2f} / {100 * e.max():.2f}" for e in (force, pressure))
             rows.append([title, str(len(true)), f"`{whose}`", *cells, given])
-    measured = max(largest[sweep, "halfspace"][0] for sweep in ("nose", "uk_v2_z", "uk_v2_Fz"))
-    by_strips = max(largest[sweep, "strip_halfspace"][0] for sweep in ("nose", "uk_v2_z", "uk_v2_Fz"))
     head = ["sweep", "poses", "ours", "force [%], mean / max", "largest pressure [%]", "height [µm]"]
+    smooth = ("nose", "uk_v2_z", "uk_v2_Fz")
+    measured = max(largest[sweep, "halfspace"][0] for sweep in smooth)
+    by_strips = max(largest[sweep, "strip_halfspace"][0] for sweep in smooth)
+    pressure = max(largest[sweep, "halfspace"][1] for sweep in smooth)
+    strips = max(largest[sweep, "strip_halfspace"][1] for sweep in smooth)
     text = f"""## Crossings
 
 No numbers of the comparison of programs on switches and crossings (HAL hal-04225767) or of Bezin's benchmark were found; see
 [where was looked](#not-found). So this is CONTACT 25.1 along three crossings (our reference set F, 10 to 60 kN; friction .3,
-S1002 with 460 mm). The force is the vector in track axes; errors are over its size. Heights are compared where the force is given.
-[Surfaces](surfaces.md) has more on them. `python -m benchmarks.proof.crossing FOLDER` computes ours; the surfaces are CONTACT's
-and not in this repository.
+S1002 with 460 mm). The force is the vector in track axes; errors are over its size. Heights are compared where the force is
+given. [Surfaces](../use/surfaces.md) has more on them. `python -m benchmarks.proof.crossing FOLDER` computes ours; the surfaces
+are CONTACT's and not in this repository.
 
 {table(head, rows)}
-![Forces, pressure and height along the crossings](proof/crossing.png)
+![Forces and pressure along the crossings](proof/crossing.png)
 
-Verdict: on the nose and the measured crossing forces are within {measured:.1f} % by elements and {by_strips:.1f} % by the default
-method. Where wing rail and nose begin together, the pressure at the edge of the nose depends on the elements.
+Verdict: on the nose and the measured crossing forces are within {measured:.1f} % by elements and {by_strips:.1f} % by the
+default method. Largest pressures are another matter. By elements they are within {pressure:.1f} % there, but where wing rail and
+nose begin together they depend on the elements at the edge of the nose. By strips they are up to {strips:.0f} % off on the measured
+crossing beyond 128 mm, whose section is rough; `gap_error` and a warning say so.
 """
     return f"force within {measured:.1f} %, default method {by_strips:.1f} %", text
 

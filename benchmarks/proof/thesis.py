@@ -1,4 +1,4 @@
-"""Every number in the text of the thesis that can be computed, ours beside it: docs/thesis/agreement.md."""
+"""Every number in the text of the thesis that can be computed, ours beside it: docs/understand/thesis/agreement.md."""
 
 from __future__ import annotations
 
@@ -129,25 +129,144 @@ def pressures() -> str:
 #: Where, what the thesis says (read in its text), how ours is computed, and our verdict.
 CLAIMS: list[tuple[str, str, Callable[[], str], str]] = [
     ("4.2", "Johnson's slopes on a circle are about 20 % off Kalker's", vermeulen_johnson, "agrees"),
-    ("4.4", "strip theory, longitudinal creepage, circle: 25 %", lambda: strip_theory(0.1, 0.0, 1.0), "agrees, of strip theory's force"),
-    ("4.4", "strip theory, pure spin, a/b = .2: up to 20 %", lambda: strip_theory(0.0, 0.1, 0.2), "agrees, of strip theory's force"),
-    ("4.4", "strip theory, pure spin, circle: 40 %", lambda: strip_theory(0.0, 0.1, 1.0), "agrees, of strip theory's force"),
-    ("4.6", "FASTSIM, pure creepage: about 10 %", lambda: worst("fastsim", "xi", "eta"), "ours is better: second order, three flexibilities"),
+    (
+        "4.4",
+        "strip theory, longitudinal creepage, circle: 25 %",
+        lambda: strip_theory(0.1, 0.0, 1.0),
+        "agrees, of strip theory's force",
+    ),
+    (
+        "4.4",
+        "strip theory, pure spin, a/b = .2: up to 20 %",
+        lambda: strip_theory(0.0, 0.1, 0.2),
+        "agrees, of strip theory's force",
+    ),
+    (
+        "4.4",
+        "strip theory, pure spin, circle: 40 %",
+        lambda: strip_theory(0.0, 0.1, 1.0),
+        "agrees, of strip theory's force",
+    ),
+    (
+        "4.6",
+        "FASTSIM, pure creepage: about 10 %",
+        lambda: worst("fastsim", "xi", "eta"),
+        "ours is better: second order, three flexibilities",
+    ),
     ("4.6", "FASTSIM, longitudinal creepage and spin: about 10 %", lambda: worst("fastsim", "xi_spin"), "agrees"),
-    ("4.6", "FASTSIM, lateral creepage and spin: up to 20 %", lambda: worst("fastsim", "eta_spin_aid", "eta_spin_opp"), "agrees"),
+    (
+        "4.6",
+        "FASTSIM, lateral creepage and spin: up to 20 %",
+        lambda: worst("fastsim", "eta_spin_aid", "eta_spin_opp"),
+        "agrees",
+    ),
     ("4.6, Fig. 4.15", "FASTSIM, very large spin, circle: more than 25 %", large_spin, "agrees"),
-    ("5.2, Fig. 5.2", "cubic saturation accurate for pure creepage", lambda: worst("shen_hedrick_elkins", "xi"), "agrees"),
+    (
+        "5.2, Fig. 5.2",
+        "cubic saturation accurate for pure creepage",
+        lambda: worst("shen_hedrick_elkins", "xi"),
+        "agrees",
+    ),
     ("5.2, Fig. 5.3", "and poor with spin", lambda: worst("shen_hedrick_elkins", "phi"), "agrees"),
-    ("7.1, Fig. 7.4", "radii 200, 80 and 460 mm: the A correction is Hertz's ellipse; AB has its length and another width", figure_7_4, "agrees"),
-    ("7.2, Fig. 7.5", "FASTSIM in full slip: over 33 % too high at the contact point, 25 % in the mean", bound, "agrees; the mean is 26.4 % in closed form"),
+    (
+        "7.1, Fig. 7.4",
+        "radii 200, 80 and 460 mm: the A correction is Hertz's ellipse, AB has its length and another width",
+        figure_7_4,
+        "agrees",
+    ),
+    (
+        "7.2, Fig. 7.5",
+        "FASTSIM in full slip: over 33 % too high at the contact point, 25 % in the mean",
+        bound,
+        "agrees; the mean is 26.4 % in closed form",
+    ),
     ("9.1, 9.2", "ANALYN's pressure is closer to CONTACT than that of virtual penetration", pressures, "agrees"),
-    ("9.4, Fig. 9.8", "lateral creepage against spin, circle: FaStrip's error is smaller than FASTSIM's", lambda: f"fastrip {opposing('fastrip')}, fastsim {opposing('fastsim')}", "agrees"),
-    ("9.5, Fig. 9.11", "Hertz + FASTSIM underestimates the energy index and misses its place", energy_index, "see the numbers"),
-]  # fmt: skip
+    (
+        "9.4, Fig. 9.8",
+        "lateral creepage against spin, circle: FaStrip's error is smaller than FASTSIM's",
+        lambda: f"fastrip {opposing('fastrip')}, fastsim {opposing('fastsim')}",
+        "agrees",
+    ),
+    (
+        "9.5, Fig. 9.11",
+        "Hertz + FASTSIM underestimates the energy index and misses its place",
+        energy_index,
+        "see the numbers",
+    ),
+]
+
+
+#: The figures of the thesis, their subject as its captions say, and where we have it.
+FIGURES = [
+    [
+        "2.5, 2.6",
+        ("relative curvature of S1002 on UIC60, 1:40; its patches over the lateral position, by Knothe and Le The"),
+        "[2](chapter2.md): ours are an ellipse, and where the patch stops to be one",
+    ],
+    [
+        "4.1, 4.2, 4.4",
+        "Carter: traction, creep curve, its slope",
+        "[4](chapter4.md)",
+    ],
+    [
+        "4.8, 4.9",
+        (
+            "strip theory: creep curve and traction of the middle strip, a = .2, b = 1 mm with creepage 1.5; a = "
+            "5, b = 1 mm with .02"
+        ),
+        "[4](chapter4.md), other cases",
+    ],
+    [
+        "4.11, 4.12",
+        "FASTSIM with parabolic and elliptic bound: fields under pure spin, creep curve and error",
+        "[4](chapter4.md), Figs. 4.11 and 4.16 there",
+    ],
+    [
+        "4.13 to 4.16",
+        (
+            "FASTSIM's creep curves: no spin and pure spin; a/b = .2 with equal creepages; large spin; spin "
+            "against lateral creepage"
+        ),
+        "[4](chapter4.md)",
+    ],
+    [
+        "5.1 to 5.3",
+        "linear and cubic saturation, circle",
+        "[5](chapter5.md)",
+    ],
+    [
+        "7.4 to 7.6",
+        "patches of virtual penetration; error of the parabolic bound; stick zone at low and high creepage",
+        "[7](chapter7.md), table above",
+    ],
+    [
+        "9.1 to 9.5",
+        "S1002 on UIC60 in the middle, and 1 and 2 mm to the field side: patches and largest pressures",
+        "[9](chapter9.md)",
+    ],
+    [
+        "9.6, 9.7",
+        "ANALYN + FASTSIM at 5 mm with spin .25 1/m and creepage 2.5 ‰; creep curves in the middle",
+        "[9](chapter9.md), Fig. 9.10 there",
+    ],
+    [
+        "9.8 to 9.10",
+        (
+            "FaStrip: lateral creepage against spin; tractions and slip on strips at y = ±.4 of a circle of 1 mm,"
+            " creepages -.22 and -.2, spin -.22 and .2 1/mm"
+        ),
+        "[9](chapter9.md), Figs. 9.5 and 9.6 there",
+    ],
+    [
+        "9.11",
+        "energy index of a tread contact",
+        "[9](chapter9.md)",
+    ],
+]
 
 
 def page() -> str:
-    """Return the text of docs/thesis/agreement.md."""
+    """Return the text of docs/understand/thesis/agreement.md."""
     rows = [[where, says, ours(), verdict] for where, says, ours, verdict in CLAIMS]
     return f"""# Agreement with the thesis
 
@@ -158,27 +277,14 @@ nothing else is said; ellipses are those of set A, a/b from .2 to 5, against CON
 
 {table(["section", "the thesis says", "ours", "verdict"], rows)}
 Two claims are of time. FASTSIM is said to be about 1000 times and ANALYN about 300 times faster than CONTACT (4.6, 9.2); the
-[map of methods](../method_map.md) has our times, where they can be read for any accuracy.
+[map of methods](../../check/method_map.md) has our times, where they can be read for any accuracy.
 
 ## What the figures show
 
 The pages before this one were written without the thesis, and call their figures "in the place of". These are the subjects of
 the thesis' figures, read in its captions:
 
-| figure | subject | our page |
-| --- | --- | --- |
-| 2.5, 2.6 | relative curvature of S1002 on UIC60, 1:40; its patches over the lateral position, by Knothe and Le The | [2](chapter2.md): ours are an ellipse, and where the patch stops to be one |
-| 4.1, 4.2, 4.4 | Carter: traction, creep curve, its slope | [4](chapter4.md) |
-| 4.8, 4.9 | strip theory: creep curve and traction of the middle strip, a = .2, b = 1 mm with creepage 1.5; a = 5, b = 1 mm with .02 | [4](chapter4.md), other cases |
-| 4.11, 4.12 | FASTSIM with parabolic and elliptic bound: fields under pure spin, creep curve and error | [4](chapter4.md), Figs. 4.11 and 4.16 there |
-| 4.13 to 4.16 | FASTSIM's creep curves: no spin and pure spin; a/b = .2 with equal creepages; large spin; spin against lateral creepage | [4](chapter4.md) |
-| 5.1 to 5.3 | linear and cubic saturation, circle | [5](chapter5.md) |
-| 7.4 to 7.6 | patches of virtual penetration; error of the parabolic bound; stick zone at low and high creepage | [7](chapter7.md), table above |
-| 9.1 to 9.5 | S1002 on UIC60 in the middle, and 1 and 2 mm to the field side: patches and largest pressures | [9](chapter9.md) |
-| 9.6, 9.7 | ANALYN + FASTSIM at 5 mm with spin .25 1/m and creepage 2.5 ‰; creep curves in the middle | [9](chapter9.md), Fig. 9.10 there |
-| 9.8 to 9.10 | FaStrip: lateral creepage against spin; tractions and slip on strips at y = ±.4 of a circle of 1 mm, creepages -.22 and -.2, spin -.22 and .2 1/mm | [9](chapter9.md), Figs. 9.5 and 9.6 there |
-| 9.11 | energy index of a tread contact | [9](chapter9.md) |
-"""
+{table(["figure", "subject", "our page"], FIGURES)}"""
 
 
 if __name__ == "__main__":
