@@ -28,7 +28,7 @@ in November 2026. Numbers that were not found are not here.
 | Manchester contact benchmark (2008) by other programs | no numbers. CONTACT's are in [its page](manchester.md) |
 | finite elements against CONTACT on it (Vehicles 7(3):104, 2025) | abstract and introduction of the article, no table |
 | Manchester vehicle benchmark | masses in public code; the contents of Universal Mechanism's chapter on it |
-| creep curves in the field (Polach, Harrison, TU Berlin) | abstracts; Polach (Wear 258, 2005) up to its equations; no measured points |
+| creep curves in the field (Polach, Harrison, TU Berlin) | abstracts; Polach (Wear 258, 2005) up to its equations, no points |
 | laboratory creep curves (V-Track, Lubricants 13(7):287) | abstract |
 | switches and crossings (HAL hal-04225767), Bezin's benchmark | abstract |
 | wear regimes of R8T | nothing |
@@ -36,16 +36,14 @@ in November 2026. Numbers that were not found are not here.
 
 
 def summary() -> tuple[str, str]:
-    """Return the summary table, with links relative to docs/check, and all sections."""
+    """Return the summary table, which pages of any folder can include, and all sections."""
     rows, texts = [], []
     for title, source, module, verdict in CASES:
         agreement, text = module.section()
         rows.append([title, source, agreement, verdict])
         texts.append(text)
     claims = f"{len(thesis.CLAIMS)} claims of its text"
-    rows.append(
-        ["[The thesis](../understand/thesis/agreement.md)", "KTH 2016", claims, "Good; its curves could not be read"]
-    )
+    rows.append(["The thesis, what its text says", "KTH 2016", claims, "Good; its curves could not be read"])
     return table(["case", "source", "agreement", "verdict"], rows), "\n".join(texts)
 
 
@@ -56,8 +54,8 @@ def page(rows: str, texts: str) -> str:
 `make proof` writes this page from the numbers in `reference/`.
 
 {rows}
-The [Manchester contact benchmark](manchester.md), [creep forces on ellipses](statistics.md), the
-[map of methods](method_map.md) and [real time](real_time.md) have their own pages.
+[Agreement with the thesis](../understand/thesis/agreement.md), the [Manchester contact benchmark](manchester.md),
+[creep forces on ellipses](statistics.md), the [map of methods](method_map.md) and [real time](real_time.md) have their own pages.
 
 {texts}
 {NOT_FOUND}"""

@@ -31,8 +31,8 @@ def section() -> tuple[str, str]:
     text = f"""## Equivalent conicity
 
 EN 15302: reference wheels on rail A, tan γe at amplitudes of 1 to 7 mm, with the standard's tolerance (.05 or half of the
-value). Tables of both editions as transcribed in github rohrbecka/EN15302 and criogenox/B_ECC-Equivalent-Conicity-Calculation, kept in
-`reference/en15302.csv`. Steps of .02 mm; .1 mm for the edition of 2008, which used them.
+value). Tables of both editions as transcribed in github rohrbecka/EN15302 and criogenox/B_ECC-Equivalent-Conicity-Calculation,
+kept in `reference/en15302.csv`. Steps of .02 mm; .1 mm for the edition of 2008, which used them.
 [Profiles](../use/profiles.md) has more.
 
 {table(["edition", "right/left wheel", "values", "largest deviation", "largest share of the tolerance [%]"], rows)}
