@@ -5,8 +5,12 @@ import re
 import shutil
 import subprocess
 
+import numpy as np
 import pytest
 
+from contact.geometry import profile
+from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.pair import WheelRailPair
 from tests.capi.library import ROOT
 
 EXAMPLES, INCLUDE = ROOT / "examples", f"-I{ROOT / 'contact/include'}"
@@ -79,3 +83,28 @@ def test_an_attacking_host_is_refused_everywhere(built, tmp_path):
     sources = (ROOT / "tests/capi/attack.c", ROOT / "contact/c/wheelrail.c", *sorted(built.glob("*.o")))
     run("gcc", *flags, INCLUDE, f"-I{built}", *sources, "-lm", "-o", "attack", cwd=tmp_path, library=built)
     assert "0 failures" in run("./attack", cwd=tmp_path, library=built)
+
+
+@pytest.mark.parametrize("period", [0, 1000])
+def test_the_host_in_real_time_replays_the_forces_of_python(built, tmp_path, period):
+    """Both wheels of a centred wheelset, 40 steps, as fast as possible and at 1 kHz."""
+    wheel, rail = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
+    pair = WheelRailPair(Pair(wheel, rail))
+    wanted = pair.solve(Pose(), Velocity(20.0, spin=-20.0 / 0.46), vertical=60e3, friction=0.3)
+    motion = np.zeros((20, 2, 16))  # wr_motion: y, z, roll, yaw, vx, vy, vz, roll rate, yaw rate, spin, rail
+    motion[:, :, 1], motion[:, :, 4], motion[:, :, 9] = wanted.z, 20.0, -20.0 / 0.46
+    motion.tofile(tmp_path / "motion")
+    for name, shape in (("wheel", wheel), ("rail", rail)):
+        np.stack((shape.y, shape.z, shape.angle)).tofile(tmp_path / name)
+    source = EXAMPLES / "c/real_time.c"
+    build = ["gcc", "-Wall", "-Wextra", "-Werror", source, INCLUDE, f"-L{built}", "-lwheelrail", "-lm", "-o", "main"]
+    run(*build, cwd=tmp_path, library=built)
+    words = ["motion", "wheel", "rail", "answers", "times", 40, period, 40, "strip_halfspace", "fastrip_mapped", 20]
+    told = run("./main", *words, cwd=tmp_path, library=built)
+    assert re.match(r"\d+ misses", told)
+    answers = np.fromfile(tmp_path / "answers").reshape(20, 2, 5)
+    assert answers[:, 0, :3] == pytest.approx(np.tile(wanted.force, (20, 1)), rel=1e-4, abs=1.0)
+    assert answers[:, 1, 1] == pytest.approx(-answers[:, 0, 1], rel=1e-4)  # the left wheel mirrors the right one
+    assert (answers[:, :, 3] == 1).all()
+    times = np.fromfile(tmp_path / "times", dtype=np.int64).reshape(40, 2)
+    assert (times[:, 0] > 0).all()
