@@ -42,6 +42,7 @@ from contact.kernels.normal.panels import (
     remove_unloaded,
     start_panels,
 )
+from contact.kernels.normal.peak import peak_between_strips
 from contact.kernels.normal.start import face, forget, recall, remember
 from contact.kernels.normal.strip_system import (
     assemble,
@@ -430,6 +431,7 @@ def _solve(sep, case, own, result):
         return n_strips
     remember(n_panels if iteration - begun < FREEZE else 0, n, start_low, start_high, skew > 0.0, own)
     count = _report(problem, delta, panels, n_panels, result)
+    result.pmax = peak_between_strips(sep, count, unit, own)
     rough = error > ACCEPTABLE * load or _has_spur(n, n_panels, vectors)
     if not converged and rough and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
