@@ -1,8 +1,8 @@
 """The largest pressure between strips: strips around a sharp peak are divided, and the gap closes at every part.
 
 A pressure peaks where the curvature of a profile jumps, over less than the width of a strip. On an ellipse of n
-cosine-spaced strips every pressure is 1 - cos(pi/n) above the mean of its neighbours. Where this excess is much larger, the peak
-strip and its neighbours are divided into thirds. All other strips keep their pressures (strip_halfspace.md 8).
+cosine-spaced strips every pressure is 1 - cos(pi/n) above the mean of its neighbours. Where this excess is much larger, the
+strip at the peak and its neighbours are divided into thirds. All other strips keep their pressures (strip_halfspace.md 8).
 """
 
 import math
@@ -55,28 +55,31 @@ def _along(row, i, at, strips):
 
 
 @kernel
-def _top_of_parts(sep, i, n, unit, own):
+def _top_of_parts(sep, i, n, unit, skewed, approach, own):
     """Return the largest pressure of the parts of strip i and its neighbours, which lie in the same patch [Pa].
 
-    The gap that is left at the strips, with the influence of strips in line, is left at the parts too. This keeps what
-    skewed strips do to each other.
+    The gap closes at the `approach`. If strips are `skewed`, the gap that their pressures leave, with the influence of strips
+    in line, is left at the parts too.
     """
     strips, vectors, lu, centre = own.strips, own.space.vectors, own.space.lu, own.tables.centre
     slopes, left, squares = own.space.grid[Sample.GAP_SLOPE], vectors[Vector.U], vectors[Vector.R_OLD]
     at, pressures, unused = vectors[Vector.R], vectors[Vector.Q1], vectors[Vector.Q2]
+    patch = strips[Strip.PATCH]
+    before = i - 1 if i > 1 and patch[i - 2] == patch[i] else i  # a strip with two neighbours in the patch
+    after = i + 1 if i < n - 2 and patch[i + 2] == patch[i] else i
     m = 3 * _PARTS
     for s in range(max(i - 2, 0), min(i + 3, n)):
         y, half = strips[Strip.Y, s], 0.5 * strips[Strip.DY, s]
-        left[s] = _mean_gap(sep, slopes, y - half, y + half, 0)
-        for j in range(n):
+        squares[s] = strips[Strip.A, s] ** 2
+        left[s] = _mean_gap(sep, slopes, y - half, y + half, 0) if skewed else approach
+        for j in range(n if skewed else 0):
             scale = unit * strips[Strip.P0, j]
             left[s] += scale * _influence(y, strips[Strip.Y, j], 0.5 * strips[Strip.DY, j], strips[Strip.A, j], centre)
-        squares[s] = strips[Strip.A, s] ** 2
     for r in range(m):
         s = i - 1 + r // _PARTS
         half = 0.5 * strips[Strip.DY, s] / _PARTS
         at[r] = strips[Strip.Y, s] + (2 * (r % _PARTS) + 1 - _PARTS) * half
-        near = min(max(s, 1), n - 2)
+        near = min(max(s, before), after)
         pressures[r] = _along(left, near, at[r], strips) - _mean_gap(sep, slopes, at[r] - half, at[r] + half, 0)
         unused[r] = 0.0
         for j in range(n):
@@ -85,7 +88,7 @@ def _top_of_parts(sep, i, n, unit, own):
                 pressures[r] -= unit * strips[Strip.P0, j] * u
     for c in range(m):
         s = i - 1 + c // _PARTS
-        half, near = 0.5 * strips[Strip.DY, s] / _PARTS, min(max(s, 1), n - 2)
+        half, near = 0.5 * strips[Strip.DY, s] / _PARTS, min(max(s, before), after)
         a = math.sqrt(max(_along(squares, near, at[c], strips), 0.1 * squares[s]))
         for r in range(m):
             lu[r, c] = unit * _influence(at[r], at[c], half, a, centre)
@@ -97,8 +100,11 @@ def _top_of_parts(sep, i, n, unit, own):
 
 
 @kernel
-def peak_between_strips(sep, n, unit, own):
-    """Return the largest pressure found between `n` strips where a peak is sharp [Pa]; 0 if none is."""
+def peak_between_strips(sep, n, unit, skewed, approach, own):
+    """Return the largest pressure found between `n` strips where a peak is sharp [Pa]; 0 if none is.
+
+    If strips are `skewed`, they do not lie in line.
+    """
     strips, panel = own.strips, own.rule.cosines.size - 1
     if panel < _FEWEST:
         return 0.0
@@ -111,5 +117,6 @@ def peak_between_strips(sep, n, unit, own):
         excess = 1.0 - 0.5 * (p[i - 1] + p[i + 1]) / p[i] if within else 0.0
         share = min(max((excess / of_ellipse - _SHARP) / (_SHARPEST - _SHARP), 0.0), 1.0)
         if share > 0.0 and p[i] * (1.0 + excess) > largest:
-            top = max(top, p[i] + share * share * (3.0 - 2.0 * share) * (_top_of_parts(sep, i, n, unit, own) - p[i]))
+            found = _top_of_parts(sep, i, n, unit, skewed, approach, own)
+            top = max(top, p[i] + share * share * (3.0 - 2.0 * share) * (found - p[i]))
     return top

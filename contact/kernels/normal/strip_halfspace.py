@@ -23,7 +23,7 @@ from contact.kernels.cubic import locate
 from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.normal.analyn import analyn
 from contact.kernels.normal.between_panels import distances
-from contact.kernels.normal.brackets import damp_turns, keep_between, note_sides
+from contact.kernels.normal.brackets import damp_turns, halve_turns, keep_between, note_sides
 from contact.kernels.normal.descent import STRAIGHTEN, descend, descend_offsets, has_one_run
 from contact.kernels.normal.mixing import advance, mix
 from contact.kernels.normal.orientation import is_image, turn_back, turn_samples
@@ -377,10 +377,13 @@ def _solve(sep, case, own, result):
         if descending:
             if known > 0:
                 damp_turns(n, n_panels, panels, vectors)
+            loaded = by_load and n_panels == 1
             for p in range(n_panels):
-                descend(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors, age >= FREEZE)
+                descend(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors, age >= FREEZE, loaded)
                 if skew > 0.0:
                     descend_offsets(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors)
+        elif age > PLAIN and not cut:
+            halve_turns(n * n_panels, vectors, skew > 0.0)
         left = 0.0 if cut else mix(n, n_panels, panels, vectors, load, known, skew > 0.0, space.lu)
         exact = not cut and error < tolerance * load and moved < 2.0 * tolerance
         settled = exact or (descending and left < left_limit and error < close * load and moved < close)
@@ -431,7 +434,7 @@ def _solve(sep, case, own, result):
         return n_strips
     remember(n_panels if iteration - begun < FREEZE else 0, n, start_low, start_high, skew > 0.0, own)
     count = _report(problem, delta, panels, n_panels, result)
-    result.pmax = peak_between_strips(sep, count, unit, own)
+    result.pmax = peak_between_strips(sep, count, unit, skew > 0.0, result.approach, own)
     rough = error > ACCEPTABLE * load or _has_spur(n, n_panels, vectors)
     if not converged and rough and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
