@@ -31,12 +31,12 @@ def damp_turns(n, n_panels, panels, vectors):
 
 
 @kernel
-def halve_turns(total, vectors, skewed):
-    """Halve the steps of strips that reverse: without mixing, the approach of neighbours can swing for ever."""
+def halve_turns(total, vectors):
+    """Halve the steps of skewed strips that reverse: without mixing, lengths and approach can swing for ever."""
     for i in range(total):
         if vectors[Vector.STEP, i] * vectors[Vector.R, i] < 0.0:
             vectors[Vector.R, i] *= 0.5
-        if skewed and vectors[Vector.OFFSET_STEP, i] * vectors[Vector.OFFSET_R, i] < 0.0:
+        if vectors[Vector.OFFSET_STEP, i] * vectors[Vector.OFFSET_R, i] < 0.0:
             vectors[Vector.OFFSET_R, i] *= 0.5
 
 

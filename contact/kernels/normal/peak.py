@@ -16,6 +16,8 @@ from contact.kernels.rows import Sample, Strip, Vector
 
 #: Excess over that of an ellipse from which on a peak counts as sharp, and from which on only its parts count.
 _SHARP, _SHARPEST = 1.5, 2.5
+#: Share of the largest strip pressure from which on a peak counts.
+_HIGH = 0.8
 #: Parts of a strip.
 _PARTS = 3
 #: Least strips of a panel: the parts need room in the rows of `vectors`.
@@ -116,7 +118,7 @@ def peak_between_strips(sep, n, unit, skewed, approach, own):
         within = patch[i - 1] == patch[i + 1] and p[i - 1] <= p[i] >= p[i + 1]
         excess = 1.0 - 0.5 * (p[i - 1] + p[i + 1]) / p[i] if within else 0.0
         share = min(max((excess / of_ellipse - _SHARP) / (_SHARPEST - _SHARP), 0.0), 1.0)
-        if share > 0.0 and p[i] * (1.0 + excess) > largest:
+        if share > 0.0 and p[i] > _HIGH * largest:
             found = _top_of_parts(sep, i, n, unit, skewed, approach, own)
             top = max(top, p[i] + share * share * (3.0 - 2.0 * share) * (found - p[i]))
     return top

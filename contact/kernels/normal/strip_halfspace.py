@@ -34,6 +34,7 @@ from contact.kernels.normal.panels import (
     end_moves,
     extend_to_ghosts,
     half_lengths,
+    has_peak_at_end,
     have_idle_part,
     is_between_loaded,
     join_panels,
@@ -67,6 +68,10 @@ ACCEPTABLE = 1e-3
 FREEZE = 16
 #: Iteration from which on the residuals are the steps, without mixing, which may go round in circles on rough gaps.
 PLAIN = 22
+#: The same of skewed strips, which need longer then.
+PLAIN_SKEWED = 18
+#: Iteration from which on the Jacobian at a given load is not used. It is for patches that come to rest before.
+SIMPLE = 8
 #: Iteration from which on the ends keep between the places from which they moved outwards and inwards.
 BRACKET = 12
 #: Iterations in which a warm start has to come to rest. Then the iteration starts again from ANALYN's solution.
@@ -321,6 +326,7 @@ def _solve(sep, case, own, result):
     # a warm start that finds no rest leaves the cold one at least as many iterations, or takes all
     patience = WARM if case.max_iterations >= 2 * WARM else case.max_iterations
 
+    plain = PLAIN_SKEWED if skew > 0.0 else PLAIN
     tolerance = case.tolerance if case.tolerance > 0.0 else TOLERANCE
     left_limit, close = LEFT * tolerance, CLOSE * math.sqrt(tolerance)
     converged, exact, descending, searched, best = False, False, False, False, math.inf
@@ -362,10 +368,10 @@ def _solve(sep, case, own, result):
         if not cut:
             note_sides(n, n_panels, panels, vectors, known == 0 or n_panels < before)
         by_jacobian = descending
-        descending = rule.descent.shape[1] == n and age < PLAIN and not cut
+        descending = rule.descent.shape[1] == n and age < plain and not cut
         descending = descending and _can_descend(n, n_panels, vectors)
         anew = n_panels < before or age == FREEZE
-        if anew or error > 2.0 * last_error * load or descending != by_jacobian or age >= PLAIN:
+        if anew or error > 2.0 * last_error * load or descending != by_jacobian or age >= plain:
             known = 0
         last_error = error / load
         _note(iteration, last_error, moved, delta, n_panels, panels, events, space.iterates)
@@ -377,13 +383,13 @@ def _solve(sep, case, own, result):
         if descending:
             if known > 0:
                 damp_turns(n, n_panels, panels, vectors)
-            loaded = by_load and n_panels == 1
+            loaded = by_load and n_panels == 1 and skew == 0.0 and age < SIMPLE and not has_peak_at_end(n, vectors)
             for p in range(n_panels):
                 descend(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors, age >= FREEZE, loaded)
                 if skew > 0.0:
                     descend_offsets(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors)
-        elif age > PLAIN and not cut:
-            halve_turns(n * n_panels, vectors, skew > 0.0)
+        elif age > plain and skew > 0.0 and not cut:
+            halve_turns(n * n_panels, vectors)
         left = 0.0 if cut else mix(n, n_panels, panels, vectors, load, known, skew > 0.0, space.lu)
         exact = not cut and error < tolerance * load and moved < 2.0 * tolerance
         settled = exact or (descending and left < left_limit and error < close * load and moved < close)
