@@ -16,9 +16,8 @@ from contact.kernels.rows import Vector
 
 #: Ratios of the table: ln(a/b) of the first one, step between them, their number.
 _LOW, _STEP, N_RATIOS = -3.0, 0.7, 10
-#: Layers of the table: half lengths and ends for every ratio, then the offsets of skewed strips, then half lengths and ends of
-#: a single panel that keeps its load.
-N_LAYERS = 3 * N_RATIOS
+#: Layers of the table: half lengths and ends for every ratio, then the offsets of skewed strips.
+N_LAYERS = 2 * N_RATIOS
 #: Range of strips per panel that use the Jacobian. Otherwise the residuals are the steps.
 FEWEST, MOST = 8, 64
 #: Steps of the difference quotients: of ln a, and of an end over the width of the end strip.
@@ -60,11 +59,8 @@ def _influence(i, j, X, y, h, a, centre, plane):
 
 
 @kernel
-def _residual(low, high, delta, scratch, B, A, centre, plane, out):
-    """Fill `out` with the residuals of a Hertz contact with other half lengths and ends, `delta` beyond its approach.
-
-    Return its load.
-    """
+def _residual(low, high, scratch, B, A, centre, plane, out):
+    """Fill `out` with the residuals of a Hertz contact at its approach, but with other half lengths and ends."""
     n = scratch.shape[1]
     lu = scratch[0]
     ln_a, a, p, q = scratch[1, 0], scratch[1, 1], scratch[1, 2], scratch[1, 3]
@@ -74,7 +70,7 @@ def _residual(low, high, delta, scratch, B, A, centre, plane, out):
         a[i] = math.exp(ln_a[i])
     a[0], a[n - 1] = END_LENGTH * a[1], END_LENGTH * a[n - 2]
     for i in range(n):
-        p[i] = q[i] = delta - (g0[i] + B * (y[i] * y[i] + h[i] * h[i] / 3.0 - y0[i]))
+        p[i] = q[i] = -(g0[i] + B * (y[i] * y[i] + h[i] * h[i] / 3.0 - y0[i]))
         for j in range(n):
             lu[i, j] = _influence(i, j, 0.0, y, h, a, centre, plane)
     eliminate(lu, n, p, q)
@@ -82,15 +78,11 @@ def _residual(low, high, delta, scratch, B, A, centre, plane, out):
         u = 0.0
         for j in range(n):
             u += p[j] * _influence(i, j, a[i] / a[j], y, h, a, centre, plane)
-        overlap = delta - (g0[i] + B * (y[i] * y[i] + h[i] * h[i] / 3.0 - y0[i])) - u
+        overlap = -(g0[i] + B * (y[i] * y[i] + h[i] * h[i] / 3.0 - y0[i])) - u
         out[i] = 0.5 * math.log(max(overlap / (A * a[i] * a[i]), 1e-3))
     e = 0.5 * (1.0 - on_circle(1, n)[0])  # width of the end strip over that of the panel
     out[0] = END_STEP * e * ((p[1] / p[2]) ** 2 - END_VALUE) / END_SLOPE
     out[n - 1] = END_STEP * e * ((p[n - 2] / p[n - 3]) ** 2 - END_VALUE) / END_SLOPE
-    load = 0.0
-    for i in range(n):
-        load += p[i] * a[i] * h[i]
-    return load
 
 
 @kernel
@@ -121,9 +113,29 @@ def _hertz(aspect, scratch, centre, plane):
 
 
 @kernel
-def _invert(jacobian, lu, one, other, layer):
-    """Fill `layer` with the inverse of `jacobian`, which is its own image if both its orders are reversed."""
-    n = jacobian.shape[1]
+def _fill_layer(aspect, scratch, centre, plane, layer):
+    """Fill `layer` with minus the inverse Jacobian of the Hertz contact with a/b = `aspect`."""
+    n = scratch.shape[1]
+    B, A = _hertz(aspect, scratch, centre, plane)
+    ln_a, jacobian, r, before = scratch[1, 0], scratch[3], scratch[4, 0], scratch[4, 1]
+    for k in range((n + 1) // 2):
+        step = _END_DIFFERENCE * 0.5 * (1.0 - on_circle(1, n)[0]) if k == 0 else _DIFFERENCE
+        for side in range(-1, 2, 2):
+            move = side * step
+            if k == 0:
+                _residual(-1.0 - 2.0 * move, 1.0, scratch, B, A, centre, plane, r)
+            else:
+                kept = ln_a[k]
+                ln_a[k] = kept + move
+                _residual(-1.0, 1.0, scratch, B, A, centre, plane, r)
+                ln_a[k] = kept
+            if side < 0:
+                for i in range(n):
+                    before[i] = r[i]
+        for i in range(n):
+            jacobian[i, k] = -(r[i] - before[i]) / (2.0 * step)
+            jacobian[n - 1 - i, n - 1 - k] = jacobian[i, k]
+    lu, one, other = scratch[0], scratch[4, 0], scratch[4, 1]
     for k in range(0, n, 2):
         for i in range(n):
             one[i], other[i] = 0.0, 0.0
@@ -138,47 +150,6 @@ def _invert(jacobian, lu, one, other, layer):
         for k in range((n + 1) // 2):
             mean = 0.5 * (layer[i, k] + layer[n - 1 - i, n - 1 - k])
             layer[i, k] = layer[n - 1 - i, n - 1 - k] = mean
-
-
-@kernel
-def _fill_layers(aspect, scratch, centre, plane, layer, loaded):
-    """Fill minus the inverse Jacobians of the Hertz contact with a/b = `aspect`.
-
-    `layer` is that at a given approach, `loaded` that at a given load: then a change of half lengths changes the approach too.
-    """
-    n = scratch.shape[1]
-    B, A = _hertz(aspect, scratch, centre, plane)
-    ln_a, jacobian, r, before = scratch[1, 0], scratch[3], scratch[4, 0], scratch[4, 1]
-    by_approach, loads = scratch[4, 2], scratch[4, 3]
-    step = _DIFFERENCE * abs(scratch[2, 3, n // 2])  # of the approach
-    less = _residual(-1.0, 1.0, -step, scratch, B, A, centre, plane, before)
-    more = _residual(-1.0, 1.0, step, scratch, B, A, centre, plane, r)
-    for i in range(n):
-        by_approach[i] = (r[i] - before[i]) / (more - less)  # of the residuals, by the load
-    for k in range((n + 1) // 2):
-        step = _END_DIFFERENCE * 0.5 * (1.0 - on_circle(1, n)[0]) if k == 0 else _DIFFERENCE
-        for side in range(-1, 2, 2):
-            move = side * step
-            less = more
-            if k == 0:
-                more = _residual(-1.0 - 2.0 * move, 1.0, 0.0, scratch, B, A, centre, plane, r)
-            else:
-                kept = ln_a[k]
-                ln_a[k] = kept + move
-                more = _residual(-1.0, 1.0, 0.0, scratch, B, A, centre, plane, r)
-                ln_a[k] = kept
-            if side < 0:
-                for i in range(n):
-                    before[i] = r[i]
-        loads[k] = loads[n - 1 - k] = (more - less) / (2.0 * step)
-        for i in range(n):
-            jacobian[i, k] = -(r[i] - before[i]) / (2.0 * step)
-            jacobian[n - 1 - i, n - 1 - k] = jacobian[i, k]
-    _invert(jacobian, scratch[0], r, before, layer)
-    for i in range(n):
-        for k in range(n):
-            jacobian[i, k] += by_approach[i] * loads[k]
-    _invert(jacobian, scratch[0], r, before, loaded)
 
 
 @kernel
@@ -263,9 +234,8 @@ def fill_descent(centre: Matrix, plane: Matrix, scratch: Cube, descent: Cube) ->
     if descent.shape[1] < FEWEST:
         return
     for m in range(N_RATIOS):
-        aspect = math.exp(_LOW + m * _STEP)
-        _fill_layers(aspect, scratch, centre, plane, descent[m], descent[2 * N_RATIOS + m])
-        _fill_offset_layer(aspect, scratch, centre, plane, descent[N_RATIOS + m])
+        _fill_layer(math.exp(_LOW + m * _STEP), scratch, centre, plane, descent[m])
+        _fill_offset_layer(math.exp(_LOW + m * _STEP), scratch, centre, plane, descent[N_RATIOS + m])
 
 
 @entry
@@ -304,12 +274,12 @@ def _prescribe(low, high, t, moves, held, out):
 
 
 @entry
-def descend(first: int, n: int, width: float, descent: Cube, vectors: Matrix, frozen: bool, loaded: bool) -> None:
+def descend(first: int, n: int, width: float, descent: Cube, vectors: Matrix, frozen: bool) -> None:
     """Replace the residuals Vector.R of the panel from strip `first` on by steps of half lengths and ends.
 
     The steps are the residuals times the inverse Jacobian of the Hertz contact with the panel's a/b. The entries of the
     end strips are the moves of the ends. Ends with large moves or a pressure peak beside them, and all if they are `frozen`,
-    follow their own rule. A `loaded` panel is the only one and keeps its load.
+    follow their own rule.
     """
     r, out = vectors[Vector.Q1, first : first + n], vectors[Vector.R, first : first + n]
     last = n - 1
@@ -327,7 +297,6 @@ def descend(first: int, n: int, width: float, descent: Cube, vectors: Matrix, fr
     hold_low = hold_low or vectors[Vector.END, first] > _LOCAL
     hold_high = hold_high or vectors[Vector.END, first + last] > _LOCAL
     r[0], r[last] = 0.0 if hold_low else move_low, 0.0 if hold_high else move_high
-    m += 2 * N_RATIOS if loaded else 0
     low, high = descent[m], descent[m + 1]
     for i in range(n):
         one, other = 0.0, 0.0

@@ -280,12 +280,6 @@ def end_moves(
 
 
 @kernel
-def has_peak_at_end(n, vectors):
-    """Return whether the first or the last of `n` strips follows the rule for a pressure peak beside it, after `end_moves`."""
-    return vectors[Vector.END, 0] > 0.0 or vectors[Vector.END, n - 1] > 0.0
-
-
-@kernel
 def cut_idle(n, n_panels, panels, cosines, vectors):
     """Move the ends by Vector.R without mixing, and transfer the half lengths."""
     for p in range(n_panels):

@@ -34,7 +34,6 @@ from contact.kernels.normal.panels import (
     end_moves,
     extend_to_ghosts,
     half_lengths,
-    has_peak_at_end,
     have_idle_part,
     is_between_loaded,
     join_panels,
@@ -70,8 +69,6 @@ FREEZE = 16
 PLAIN = 22
 #: The same of skewed strips, which need longer then.
 PLAIN_SKEWED = 18
-#: Iteration from which on the Jacobian at a given load is not used. It is for patches that come to rest before.
-SIMPLE = 8
 #: Iteration from which on the ends keep between the places from which they moved outwards and inwards.
 BRACKET = 12
 #: Iterations in which a warm start has to come to rest. Then the iteration starts again from ANALYN's solution.
@@ -383,9 +380,8 @@ def _solve(sep, case, own, result):
         if descending:
             if known > 0:
                 damp_turns(n, n_panels, panels, vectors)
-            loaded = by_load and n_panels == 1 and skew == 0.0 and age < SIMPLE and not has_peak_at_end(n, vectors)
             for p in range(n_panels):
-                descend(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors, age >= FREEZE, loaded)
+                descend(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors, age >= FREEZE)
                 if skew > 0.0:
                     descend_offsets(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors)
         elif age > plain and skew > 0.0 and not cut:
@@ -440,7 +436,7 @@ def _solve(sep, case, own, result):
         return n_strips
     remember(n_panels if iteration - begun < FREEZE else 0, n, start_low, start_high, skew > 0.0, own)
     count = _report(problem, delta, panels, n_panels, result)
-    result.pmax = peak_between_strips(sep, count, unit, skew > 0.0, result.approach, own)
+    result.pmax = peak_between_strips(sep, count, unit, own)
     rough = error > ACCEPTABLE * load or _has_spur(n, n_panels, vectors)
     if not converged and rough and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
