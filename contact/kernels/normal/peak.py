@@ -78,7 +78,8 @@ def _top_of_parts(sep, i, n, unit, own):
     """Return the largest pressure of the parts of strip i and its neighbours, which lie in the same patch [Pa].
 
     What closes the gap at these strips beside the pressure of the nearest ones, approach and all distant strips, is
-    smooth: a parabola.
+    smooth: a parabola. The outer parts make up for the pressure of the strips beside them, which has a step there. They do
+    not count.
     """
     strips, vectors, lu, centre = own.strips, own.space.vectors, own.space.lu, own.tables.centre
     slopes, rest, patch = own.space.grid[Sample.GAP_SLOPE], vectors[Vector.U], strips[Strip.PATCH]
@@ -107,10 +108,12 @@ def _top_of_parts(sep, i, n, unit, own):
         for r in range(m):
             lu[r, c] = unit * _influence(at[r], at[c], half, a, centre)
     eliminate(lu, m, pressures, unused)
-    top = 0.0
-    for r in range(m):
-        top = max(top, pressures[r])
-    return top
+    best = _PARTS - 1
+    for r in range(_PARTS, 2 * _PARTS + 1):
+        best = r if pressures[r] > pressures[best] else best
+    here, left, right = pressures[best], pressures[best - 1], pressures[best + 1]
+    bend = 2.0 * here - left - right
+    return here + 0.125 * (right - left) ** 2 / bend if bend > 0.5 * abs(right - left) else here  # top of the parabola
 
 
 @kernel
