@@ -170,7 +170,7 @@ def press_case(sep: Samples, case: Case, own: Workspace, result: Result) -> int:
             fields[Field.DX, i, k] = a * elements[Element.DX, k]
             fields[Field.P, i, k] = p0 * elements[Element.SINE, k]
     count = int(strips[Strip.PATCH, n - 1]) + 1
-    result.area, result.pmax, result.n_patches = area, peak_pressure(strips, n), count
+    result.area, result.pmax, result.n_patches = area, max(result.pmax, peak_pressure(strips, n)), count
     if 0.0 < case.pressure_limit < result.pmax:
         result.pmax, result.limited = case.pressure_limit, 1
         _limit_pressure(strips, n, case.pressure_limit, elements, fields, result.N)

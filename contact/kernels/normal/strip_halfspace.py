@@ -23,7 +23,7 @@ from contact.kernels.cubic import locate
 from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.normal.analyn import analyn
 from contact.kernels.normal.between_panels import distances
-from contact.kernels.normal.brackets import damp_turns, keep_between, note_sides
+from contact.kernels.normal.brackets import damp_turns, halve_turns, keep_between, note_sides
 from contact.kernels.normal.descent import STRAIGHTEN, descend, descend_offsets, has_one_run
 from contact.kernels.normal.mixing import advance, mix
 from contact.kernels.normal.orientation import is_image, turn_back, turn_samples
@@ -42,6 +42,7 @@ from contact.kernels.normal.panels import (
     remove_unloaded,
     start_panels,
 )
+from contact.kernels.normal.peak import peak_between_strips
 from contact.kernels.normal.start import face, forget, recall, remember
 from contact.kernels.normal.strip_system import (
     assemble,
@@ -66,6 +67,8 @@ ACCEPTABLE = 1e-3
 FREEZE = 16
 #: Iteration from which on the residuals are the steps, without mixing, which may go round in circles on rough gaps.
 PLAIN = 22
+#: The same of skewed strips, which need longer then.
+PLAIN_SKEWED = 18
 #: Iteration from which on the ends keep between the places from which they moved outwards and inwards.
 BRACKET = 12
 #: Iterations in which a warm start has to come to rest. Then the iteration starts again from ANALYN's solution.
@@ -320,6 +323,7 @@ def _solve(sep, case, own, result):
     # a warm start that finds no rest leaves the cold one at least as many iterations, or takes all
     patience = WARM if case.max_iterations >= 2 * WARM else case.max_iterations
 
+    plain = PLAIN_SKEWED if skew > 0.0 else PLAIN
     tolerance = case.tolerance if case.tolerance > 0.0 else TOLERANCE
     left_limit, close = LEFT * tolerance, CLOSE * math.sqrt(tolerance)
     converged, exact, descending, searched, best = False, False, False, False, math.inf
@@ -361,10 +365,10 @@ def _solve(sep, case, own, result):
         if not cut:
             note_sides(n, n_panels, panels, vectors, known == 0 or n_panels < before)
         by_jacobian = descending
-        descending = rule.descent.shape[1] == n and age < PLAIN and not cut
+        descending = rule.descent.shape[1] == n and age < plain and not cut
         descending = descending and _can_descend(n, n_panels, vectors)
         anew = n_panels < before or age == FREEZE
-        if anew or error > 2.0 * last_error * load or descending != by_jacobian or age >= PLAIN:
+        if anew or error > 2.0 * last_error * load or descending != by_jacobian or age >= plain:
             known = 0
         last_error = error / load
         _note(iteration, last_error, moved, delta, n_panels, panels, events, space.iterates)
@@ -380,6 +384,8 @@ def _solve(sep, case, own, result):
                 descend(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors, age >= FREEZE)
                 if skew > 0.0:
                     descend_offsets(p * n, n, panels[2 * p + 1] - panels[2 * p], rule.descent, vectors)
+        elif age > plain and skew > 0.0 and not cut:
+            halve_turns(n * n_panels, vectors)
         left = 0.0 if cut else mix(n, n_panels, panels, vectors, load, known, skew > 0.0, space.lu)
         exact = not cut and error < tolerance * load and moved < 2.0 * tolerance
         settled = exact or (descending and left < left_limit and error < close * load and moved < close)
@@ -430,6 +436,7 @@ def _solve(sep, case, own, result):
         return n_strips
     remember(n_panels if iteration - begun < FREEZE else 0, n, start_low, start_high, skew > 0.0, own)
     count = _report(problem, delta, panels, n_panels, result)
+    result.pmax = peak_between_strips(sep, count, unit, own)
     rough = error > ACCEPTABLE * load or _has_spur(n, n_panels, vectors)
     if not converged and rough and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED

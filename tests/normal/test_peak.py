@@ -1,0 +1,54 @@
+"""Pressure peaks narrower than a strip: the largest pressure does not wait for more strips."""
+
+import numpy as np
+import pytest
+
+import contact
+from contact.geometry import library
+from contact.geometry.wheelset import Pair, Pose
+
+NO_CREEP = contact.Creepage()
+
+
+def kinked(at, beyond):
+    """Return a separation whose curvature across the rolling direction jumps at y = `at`."""
+    y = np.linspace(-15e-3, 15e-3, 1201)
+    return contact.Separation(y, y**2 + beyond * np.maximum(y - at, 0.0) ** 2, 1.09)
+
+
+@pytest.mark.parametrize(
+    ("at", "beyond", "before"),
+    [(-1e-3, 150.0, 0.09), (0.0, 40.0, 0.05), (0.0, 150.0, 0.12), (2e-3, 10.0, 0.035), (3e-3, 40.0, 0.07)],
+)
+def test_a_peak_between_strips_is_found(at, beyond, before):
+    """With 20 strips the largest pressure was lower than with 96 by more than `before`, because no strip lay at the peak."""
+    few, many = (contact.solve(kinked(at, beyond), NO_CREEP, load=8e4, n_strips=n) for n in (20, 96))
+    assert max(few.strips.p0) < (1.0 - before) * many.max_pressure
+    assert few.max_pressure == pytest.approx(many.max_pressure, rel=0.014)
+
+
+def test_the_largest_pressure_of_random_patches_hardly_changes_with_more_strips():
+    """Before, the mean of the difference was .0023 on these patches."""
+    rng, pairs, errors = np.random.default_rng(3), {}, []
+    while len(errors) < 60:
+        wheel, rail = rng.choice(library.names("wheel")), rng.choice(["60E1", "54E1", "50E2", "49E1"])
+        key = (str(wheel), str(rail))
+        pair = pairs.setdefault(key, Pair(library.named(wheel, kind="wheel"), library.named(rail, kind="rail")))
+        patches = pair.contacts(Pose(y=rng.uniform(-7e-3, 4e-3), yaw=rng.uniform(-20e-3, 20e-3)), load=80e3)
+        patch = max(patches, key=lambda found: found.load)
+        few, many = (
+            contact.solve(patch.separation, NO_CREEP, load=patch.load, n_strips=n, throw=False) for n in (20, 96)
+        )
+        if few.gap_error < 0.01 and many.converged:
+            errors.append(abs(few.max_pressure / many.max_pressure - 1.0))
+    assert np.mean(errors) < 0.0015
+    assert np.percentile(errors, 95) < 0.005
+    assert np.max(errors) < 0.02
+
+
+def test_an_ellipse_has_no_peak_between_strips():
+    for ratio in (0.1, 1.0, 8.0):
+        separation = contact.Separation.hertzian(1.0, ratio)
+        sol = contact.solve(separation, NO_CREEP, load=1e4)
+        exact = contact.hertz(1.0, ratio, load=1e4)
+        assert sol.max_pressure == pytest.approx(exact.p0, rel=1.5e-3)
