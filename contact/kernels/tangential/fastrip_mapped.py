@@ -151,7 +151,7 @@ def _leave(rule, s, k, elements, lanes):
     """Map the traction where a strip sticks, and add the element to the sums (mapped_strip.md 3, step 4)."""
     stick = 0
     for l in range(LANES):
-        again = lanes[Lane.NEXT + l] > -1.5 or rule.shown
+        again = lanes[Lane.NEXT + l] > -1.5 or rule.shown != 0
         stick += 1 if lanes[March.SLIPS + l] < 0.5 and again else 0
         lanes[Now.X + l], lanes[Now.Y + l] = lanes[March.EX + l], lanes[March.EY + l]
     if stick > 0:
@@ -198,7 +198,6 @@ def _apply_friction(case, factor, elements, lanes, trace):
     for l in range(LANES):
         lanes[Lane.SUM_X + l], lanes[Lane.SUM_Y + l], lanes[Lane.SUM_M + l] = 0.0, 0.0, 0.0
         lanes[Lane.POWER + l], lanes[Lane.STICK + l] = 0.0, 0.0
-    add_zone(elements, lanes)
     for k in range(elements.shape[1]):
         sine = elements[Element.SINE, k]
         weight = sine * elements[Element.DX, k]
@@ -227,6 +226,7 @@ def _apply_friction(case, factor, elements, lanes, trace):
             lanes[Lane.POWER + l] += weight * slip * share
             lanes[Lane.STICK + l] += elements[Element.STEP, k] * trace[k, Now.STICK + l]
             trace[k, _Shown.SHARE + l] = share
+    add_zone(elements, lanes)
 
 
 @kernel
@@ -281,7 +281,7 @@ def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, own: Worksp
     if falling:  # friction follows from the scaled slip, so its factor is needed first
         for block in range(first, last, LANES):
             set_block(strips, block, last, case, own.tables.kalker, of_patch, lanes)
-            march(Uneven(True), elements, lanes, trace)
+            march(Uneven(1), elements, lanes, trace)
             add_zone(elements, lanes)
             for l in range(min(LANES, last - block)):
                 more_power, more_work = _energy(strips, block + l, l, lanes)
@@ -290,7 +290,7 @@ def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, own: Worksp
         power, work = 0.0, 0.0
     for block in range(first, last, LANES):
         set_block(strips, block, last, case, own.tables.kalker, of_patch, lanes)
-        march(Uneven(shown), elements, lanes, trace)
+        march(Uneven(1 if shown else 0), elements, lanes, trace)
         if not falling:
             add_zone(elements, lanes)
         else:
