@@ -33,11 +33,11 @@ from contact.kernels.tangential.mapping import mapped, set_aspects, set_centres,
 from contact.kernels.tangential.march import (
     March,
     begin,
+    begin_to_slide,
     bound_at,
     height_at,
     leave,
     march,
-    place_start,
     slide,
     slip_at,
     stop,
@@ -64,10 +64,10 @@ class Uneven(NamedTuple):
     """Rule with two flexibilities in slip, a parabolic bound, and the map onto the elliptic pressure.
 
     Forces need the traction of the elements only where a strip does not stick for the first time (`stick_zone`). `shown` asks
-    for it everywhere.
+    for it everywhere. It is no bool: Numba takes rules whose fields have the same types, as `Even`, for one rule.
     """
 
-    shown: bool
+    shown: int
 
 
 @kernel
@@ -121,11 +121,6 @@ def _slide(rule, place, bound, slope, lanes):
         lanes[March.TY + l] = bound * ey if slides > 0.5 else trial_y
         lanes[March.SLIPS + l], lanes[March.USED + l], lanes[March.LEFT + l] = slides, used, 1.0
         lanes[Lane.ARC + l] = 1.0
-        first = used > 1.0 and slid < 0.5 and lanes[Lane.NEXT + l] < -1.5
-        next_s, next_x, next_y = lanes[Lane.NEXT + l], lanes[Lane.NEXT_X + l], lanes[Lane.NEXT_Y + l]
-        lanes[Lane.NEXT + l] = s if first else next_s
-        lanes[Lane.NEXT_X + l] = ex if first else next_x
-        lanes[Lane.NEXT_Y + l] = ey if first else next_y
         shown += lanes[Lane.TO_X + l] * ex + (lanes[Lane.TO_Y + l] + lanes[Lane.TO_SPIN + l] * s) * ey
         lanes[Now.SLIP + l], lanes[Now.SLIDES + l] = 0.5 * (shown + abs(shown)) * slides, slides
         lanes[Now.STICK + l] = (1.0 - slid) * (1.0 - left) if slides > 0.5 else 1.0
@@ -149,11 +144,16 @@ def _map(per_bound, lanes):
 @kernel
 def _leave(rule, s, k, elements, lanes):
     """Map the traction where a strip sticks, and add the element to the sums (mapped_strip.md 3, step 4)."""
-    stick = 0
+    stick, ended = 0, 0
     for l in range(LANES):
         again = lanes[Lane.NEXT + l] > -1.5 or rule.shown != 0
+        ended += 1 if lanes[Lane.NEXT + l] == s else 0
         stick += 1 if lanes[March.SLIPS + l] < 0.5 and again else 0
         lanes[Now.X + l], lanes[Now.Y + l] = lanes[March.EX + l], lanes[March.EY + l]
+    if ended > 0:
+        for l in range(LANES):
+            if lanes[Lane.NEXT + l] == s:
+                lanes[Lane.NEXT_X + l], lanes[Lane.NEXT_Y + l] = lanes[March.EX + l], lanes[March.EY + l]
     if stick > 0:
         _map(1.0 / elements[Element.SINE, k] ** 2, lanes)
     step, weight = elements[Element.STEP, k], elements[Element.SINE, k] * elements[Element.DX, k]
@@ -167,7 +167,7 @@ def _leave(rule, s, k, elements, lanes):
 
 
 @kernel
-def _place_start(rule, place, lanes):
+def _begin_to_slide(rule, place, lanes):
     end_zone(place, lanes)
 
 
@@ -182,7 +182,7 @@ for _stub, _kernel in (
     (height_at, _height_at),
     (slide, _slide),
     (slip_at, _slip_at),
-    (place_start, _place_start),
+    (begin_to_slide, _begin_to_slide),
     (stop, _stop),
     (leave, _leave),
 ):

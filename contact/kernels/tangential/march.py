@@ -5,8 +5,8 @@ the bound. The rigid slip over flexibility is W = (X, Y + Z s) with X = a vx/(L1
 g0) (theory.md 2.5; Kalker 1982).
 
 A rule completes the march: the bound of the traction, and how its direction turns in slip. The type of the rule chooses
-`begin`, `bound_at`, `height_at`, `slide`, `slip_at`, `place_start`, `stop` and `leave`. `Even`, in this file, is Kalker's rule with one
-flexibility in slip. `fastrip_mapped` has another.
+`begin`, `bound_at`, `height_at`, `begin_to_slide`, `slide`, `slip_at`, `stop` and `leave`. `Even`, in this file, is
+Kalker's rule with one flexibility in slip. `fastrip_mapped` has another.
 
 Kalker's scaling of the trial traction back onto the bound is of first order in the element length. At 30 elements it
 left 0.9 % of mu N under lateral creepage with spin. Here the direction of a sliding particle follows the same equation,
@@ -82,8 +82,8 @@ def slip_at(rule: Any, s: float, slope: float, x: float, y: float, lanes: Any, l
     raise NotImplementedError
 
 
-def place_start(rule: Any, place: Any, lanes: Any) -> None:
-    """Correct direction and share of the step of the strips that begin to slide, which `_begin_to_slide` has interpolated."""
+def begin_to_slide(rule: Any, place: Any, lanes: Any) -> None:
+    """Set the direction where a trial traction passes the bound, and the share of the step that is left."""
     raise NotImplementedError
 
 
@@ -120,8 +120,7 @@ def march(rule, elements, lanes, trace):
             sliding += 1 if lanes[March.SLIPS + l] > 0.5 else 0
             begins += 1 if used > 1.0 and lanes[March.SLIPS + l] < 0.5 else 0
         if begins > 0:
-            _begin_to_slide(s, lanes)
-            place_start(rule, (s, step, middle, stretch), lanes)
+            begin_to_slide(rule, (s, step, middle, stretch), lanes)
         if begins + sliding > 0:
             ends = slide(rule, (s, step, middle, stretch), bound, slope, lanes)
             if ends > 0:
@@ -138,8 +137,8 @@ def march(rule, elements, lanes, trace):
 
 
 @kernel
-def _begin_to_slide(s, lanes):
-    """Set the direction where a trial traction passes the bound, and the share of the step that is left."""
+def _begin_to_slide(rule, place, lanes):
+    s = place[0]
     for l in range(LANES):
         x, y, used, before = (
             lanes[March.TX + l],
@@ -258,11 +257,6 @@ def _slip_even(rule, s, slope, x, y, lanes, l):
 
 
 @kernel
-def _place_start_even(rule, place, lanes):
-    pass
-
-
-@kernel
 def _stop_even(rule, before, s, lanes):
     pass
 
@@ -278,7 +272,7 @@ for _stub, _kernel in (
     (height_at, _height_even),
     (slide, _slide_even),
     (slip_at, _slip_even),
-    (place_start, _place_start_even),
+    (begin_to_slide, _begin_to_slide),
     (stop, _stop_even),
     (leave, _leave_even),
 ):

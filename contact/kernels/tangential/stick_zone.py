@@ -1,4 +1,4 @@
-"""Force of the first stick zone of each strip, by a rule of its own, and the slip zones up to its ends (mapped_strip.md 3, step 4).
+"""Force of the first stick zone of each strip, and of the slip zones up to its ends (mapped_strip.md 3, step 4).
 
 In stick the mapped traction differs from friction by √(1 - t), which falls to 0 at the ends of the zone. A sum over fixed
 elements has a kink like a square root there whenever an end passes an element. So the traction of the zone, which is known
@@ -19,27 +19,23 @@ from contact.kernels.tangential.mapping import mapped
 from contact.kernels.tangential.march import March
 
 #: 1 + cos(phi) and sin(phi) dphi: Gauss and Legendre's rule in z from 0 to 1, phi = pi (z + .7 z (1 - z)).
-_NODES, _WEIGHTS = (
-    (
-        1.9944743965682659,
-        1.8676988606376532,
-        1.4146570759213188,
-        0.7592474328199629,
-        0.2692512953104267,
-        0.059723095533160374,
-        0.007018707272443338,
-        0.0001916802717241303,
-    ),
-    (
-        0.027913602876861565,
-        0.2704751258794731,
-        0.6133664944542098,
-        0.6239459713112344,
-        0.33896825435488503,
-        0.10603546961120941,
-        0.018274588115728154,
-        0.001020494892697782,
-    ),
+_NODES = (
+    1.9909717274555447,
+    1.793976227511992,
+    1.1773327369538231,
+    0.47750143528405115,
+    0.11028313676956125,
+    0.012539450847600239,
+    0.00032272168162099753,
+)
+_WEIGHTS = (
+    0.04538636756720337,
+    0.4057570126496589,
+    0.7579624777615576,
+    0.5597827816992204,
+    0.19601998918781852,
+    0.03335718919644785,
+    0.0017341507921020266,
 )
 
 
@@ -52,34 +48,34 @@ def _arc(z):
 
 @kernel
 def end_zone(place, lanes):
-    """Set where the strips that begin to slide leave the circle of friction: direction, and share of the step that is left."""
-    s, step, _, stretch = place
+    """Set direction and share of the step of the strips that begin to slide, in most steps one or two."""
+    s, step = place[0], place[1]
     before = s + step
-    unit = 1.0 if before >= 1.0 else stretch / _arc(step / (1.0 - s * before))
-    for l in range(lanes.size // N_LANE_ROWS):
+    whole = 1.0 if before >= 1.0 else _arc(step / (1.0 - s * before))
+    for l in range(LANES):
+        used = lanes[March.TRIAL_USED + l]
+        if not (used > 1.0 and lanes[March.SLIPS + l] < 0.5):
+            continue
         X, Y, P = lanes[March.X + l], lanes[March.Y + l], 0.5 * lanes[March.Z + l]
-        x, y, left = lanes[March.TX + l], lanes[March.TY + l], lanes[March.LEFT + l]
-        leaves = lanes[March.TRIAL_USED + l] > 1.0 and lanes[March.SLIPS + l] < 0.5
-        # one step of Newton's method, or the end that is known
-        at = s + left * step
-        over = before - at
-        tx, ty, bound = x - over * X, y - over * (Y + P * (before + at)), 1.0 - at * at
-        rise = 2.0 * (tx * X + ty * (Y + 2.0 * P * at)) + 4.0 * at * bound
-        at -= (tx * tx + ty * ty - bound * bound) / rise if rise < -1e-12 else 0.0
+        x, y, at_edge = lanes[March.TX + l], lanes[March.TY + l], lanes[Lane.FROM + l] >= 1.0
         first = lanes[Lane.NEXT + l] < -1.5
-        at = lanes[Lane.TO + l] - 1.0 if first and lanes[Lane.FROM + l] >= 1.0 else at
-        at = at if at > s else s
-        at = at if at < before else before
-        over = before - at
-        tx, ty = x - over * X, y - over * (Y + P * (before + at))
-        size = 1.0 / (math.sqrt(tx * tx + ty * ty) + 1e-300)
-        arc = _arc((at - s) / (1.0 - at * s)) * (unit if before < 1.0 else 1.0)
-        arc = arc / stretch
-        ex, ey, now = lanes[March.EX + l], lanes[March.EY + l], lanes[Lane.ARC + l]
-        to = lanes[Lane.TO + l]
-        lanes[March.EX + l], lanes[March.EY + l] = tx * size if leaves else ex, ty * size if leaves else ey
-        lanes[March.LEFT + l], lanes[Lane.ARC + l] = (at - s) / step if leaves else left, arc if leaves else now
-        lanes[Lane.TO + l] = 1.0 + at if leaves and first else to
+        if first and at_edge:
+            at = lanes[Lane.TO + l] - 1.0
+        else:  # interpolate, then one step of Newton's method
+            gap = used - lanes[March.USED + l]
+            at = before - step * (1.0 - lanes[March.USED + l]) / (gap if gap > 1e-12 else 1.0)
+            tx, ty = x - (before - at) * X, y - (before - at) * (Y + P * (before + at))
+            bound = 1.0 - at * at
+            rise = 2.0 * (tx * X + ty * (Y + 2.0 * P * at)) + 4.0 * at * bound
+            at -= (tx * tx + ty * ty - bound * bound) / rise if rise < -1e-12 else 0.0
+        at = min(max(at, s), before)
+        tx, ty = x - (before - at) * X, y - (before - at) * (Y + P * (before + at))
+        per_size = 1.0 / (math.sqrt(tx * tx + ty * ty) + 1e-300)
+        lanes[March.EX + l], lanes[March.EY + l] = tx * per_size, ty * per_size
+        lanes[March.LEFT + l] = (at - s) / step
+        lanes[Lane.ARC + l] = _arc((at - s) / (1.0 - at * s)) / whole
+        if first:
+            lanes[Lane.TO + l], lanes[Lane.NEXT + l] = 1.0 + at, s
 
 
 @kernel
@@ -170,6 +166,12 @@ def _beyond(end, h, edge_s, edge_sine, lacks):
 @kernel
 def add_zone(elements, lanes):
     """Add the first stick zone of every strip of a block to its sums, and complete the slip zones at its ends."""
+    zones, mirrored = 0, 0
+    for l in range(LANES):
+        zones += 1 if lanes[Lane.NEXT + l] < 1.5 else 0
+        mirrored += 1 if lanes[Lane.FROM + l] < 1.0 else 0
+    if zones == 0:
+        return
     n = elements.shape[1]
     h = math.pi / n
     edge_s, edge_sine = elements[Element.S, n - 1], elements[Element.SINE, n - 1]
@@ -202,12 +204,9 @@ def add_zone(elements, lanes):
         lanes[Lane.SUM_X + l] += has * (ax if slides else bx)
         lanes[Lane.SUM_Y + l] += has * (ay if slides else by)
         lanes[Lane.SUM_M + l] += has * (am if slides else bm)
-    mirrored = 0
-    for l in range(lanes.size // N_LANE_ROWS):
-        mirrored += 1 if lanes[Lane.FROM + l] < 1.0 else 0
     if mirrored > 0:
         _add_before(h, edge_s, edge_sine, lacks, lanes)
-    for k in range(8):
+    for k in range(7):
         node, weight = _NODES[k], _WEIGHTS[k]
         for l in range(lanes.size // N_LANE_ROWS):
             start, to = lanes[Lane.FROM + l], lanes[Lane.TO + l]
