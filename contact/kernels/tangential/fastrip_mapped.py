@@ -30,7 +30,19 @@ from contact.kernels.tangential.effective import set_effective
 from contact.kernels.tangential.lanes import FAR, LANES, N_LANE_ROWS, Now, Row, Varying, decay_and_lag, turned
 from contact.kernels.tangential.mapped_lanes import Lane, set_block
 from contact.kernels.tangential.mapping import mapped, set_aspects, set_centres, slid_at
-from contact.kernels.tangential.march import March, begin, bound_at, height_at, leave, march, slide, slip_at
+from contact.kernels.tangential.march import (
+    March,
+    begin,
+    begin_to_slide,
+    bound_at,
+    height_at,
+    leave,
+    march,
+    slide,
+    slip_at,
+    stop,
+)
+from contact.kernels.tangential.stick_zone import add_zone, begin_zone, end_zone
 from contact.kernels.tangential.ties import tie_strips
 from contact.kernels.tangential.varying import begin_varying, soften, varies
 
@@ -49,7 +61,13 @@ class _Shown(Row):
 
 
 class Uneven(NamedTuple):
-    """Rule with two flexibilities in slip, a parabolic bound, and the map onto the elliptic pressure."""
+    """Rule with two flexibilities in slip, a parabolic bound, and the map onto the elliptic pressure.
+
+    Forces need the traction of the elements only where a strip does not stick for the first time (`stick_zone`). `shown` asks
+    for it everywhere. It is no bool: Numba takes rules whose fields have the same types, as `Even`, for one rule.
+    """
+
+    shown: int
 
 
 @kernel
@@ -59,8 +77,8 @@ def _begin(rule, lanes):
 
 @kernel
 def _bound_at(rule, k, elements):
-    # at the edge the direction is that of the equilibrium
-    return elements[Element.SINE, k] ** 2, 2.0 * elements[Element.S, k], elements[Element.ATANH, k] if k > 0 else 0.0
+    # at the edge the direction is that of the equilibrium: ARC is 0 there
+    return elements[Element.SINE, k] ** 2, 2.0 * elements[Element.S, k], elements[Element.ATANH, k] if k > 0 else 1.0
 
 
 @kernel
@@ -77,15 +95,16 @@ def _slip_at(rule, s, slope, x, y, lanes, l):
 @kernel
 def _slide(rule, place, bound, slope, lanes):
     """Turn the direction with unequal flexibilities (mapped_strip.md 3, step 3), and set the slip of the fields."""
-    s, step, middle, stretch = place
+    s, step, _, stretch = place
     ends = 0
     for l in range(LANES):
         Xs, Ys, spin, r = lanes[Lane.XS + l], lanes[Lane.YS + l], lanes[Lane.SPIN + l], lanes[Lane.R + l]
         slid, x, y, left = lanes[March.SLIPS + l], lanes[March.EX + l], lanes[March.EY + l], lanes[March.LEFT + l]
         trial_x, trial_y, used = lanes[March.TRIAL_X + l], lanes[March.TRIAL_Y + l], lanes[March.TRIAL_USED + l]
+        middle = s + 0.5 * left * step
         c = -middle * (1.0 - r)
         wx, wy = Xs + c * x, Ys + 2.0 * spin * middle - c * y
-        rate = lanes[Lane.RATE + l] * left * stretch / (r * y * y + x * x + 1e-300)
+        rate = lanes[Lane.RATE + l] * lanes[Lane.ARC + l] * stretch / (r * y * y + x * x + 1e-300)
         far = rate * math.sqrt(wx * wx + wy * wy)
         rest, lag = decay_and_lag(far if far < FAR else FAR)
         at = s + left * step * (1.0 - lag)
@@ -101,6 +120,7 @@ def _slide(rule, place, bound, slope, lanes):
         lanes[March.TX + l] = bound * ex if slides > 0.5 else trial_x
         lanes[March.TY + l] = bound * ey if slides > 0.5 else trial_y
         lanes[March.SLIPS + l], lanes[March.USED + l], lanes[March.LEFT + l] = slides, used, 1.0
+        lanes[Lane.ARC + l] = 1.0
         shown += lanes[Lane.TO_X + l] * ex + (lanes[Lane.TO_Y + l] + lanes[Lane.TO_SPIN + l] * s) * ey
         lanes[Now.SLIP + l], lanes[Now.SLIDES + l] = 0.5 * (shown + abs(shown)) * slides, slides
         lanes[Now.STICK + l] = (1.0 - slid) * (1.0 - left) if slides > 0.5 else 1.0
@@ -124,19 +144,36 @@ def _map(per_bound, lanes):
 @kernel
 def _leave(rule, s, k, elements, lanes):
     """Map the traction where a strip sticks, and add the element to the sums (mapped_strip.md 3, step 4)."""
-    stick = 0
+    stick, ended = 0, 0
     for l in range(LANES):
-        stick += 1 if lanes[March.SLIPS + l] < 0.5 else 0
+        again = lanes[Lane.NEXT + l] > -1.5 or rule.shown != 0
+        ended += 1 if lanes[Lane.NEXT + l] == s else 0
+        stick += 1 if lanes[March.SLIPS + l] < 0.5 and again else 0
         lanes[Now.X + l], lanes[Now.Y + l] = lanes[March.EX + l], lanes[March.EY + l]
+    if ended > 0:
+        for l in range(LANES):
+            if lanes[Lane.NEXT + l] == s:
+                lanes[Lane.NEXT_X + l], lanes[Lane.NEXT_Y + l] = lanes[March.EX + l], lanes[March.EY + l]
     if stick > 0:
         _map(1.0 / elements[Element.SINE, k] ** 2, lanes)
     step, weight = elements[Element.STEP, k], elements[Element.SINE, k] * elements[Element.DX, k]
     for l in range(LANES):
-        lanes[Lane.SUM_X + l] += weight * lanes[Now.X + l]
-        lanes[Lane.SUM_Y + l] += weight * lanes[Now.Y + l]
-        lanes[Lane.SUM_M + l] += weight * s * lanes[Now.Y + l]
+        counts = weight if lanes[Lane.NEXT + l] > -1.5 else 0.0
+        lanes[Lane.SUM_X + l] += counts * lanes[Now.X + l]
+        lanes[Lane.SUM_Y + l] += counts * lanes[Now.Y + l]
+        lanes[Lane.SUM_M + l] += counts * s * lanes[Now.Y + l]
         lanes[Lane.POWER + l] += weight * lanes[Now.SLIP + l]
         lanes[Lane.STICK + l] += step * lanes[Now.STICK + l]
+
+
+@kernel
+def _begin_to_slide(rule, place, lanes):
+    end_zone(place, lanes)
+
+
+@kernel
+def _stop(rule, before, s, lanes):
+    begin_zone(before, s, lanes)
 
 
 for _stub, _kernel in (
@@ -145,6 +182,8 @@ for _stub, _kernel in (
     (height_at, _height_at),
     (slide, _slide),
     (slip_at, _slip_at),
+    (begin_to_slide, _begin_to_slide),
+    (stop, _stop),
     (leave, _leave),
 ):
     chosen_by(_stub, {Uneven: _kernel})
@@ -178,12 +217,16 @@ def _apply_friction(case, factor, elements, lanes, trace):
             if fall < 1.0 and used > fall:
                 share = fall / used
                 trace[k, Now.SLIDES + l], trace[k, Now.STICK + l] = 1.0, 0.0
-            lanes[Lane.SUM_X + l] += weight * (qx * share)
-            lanes[Lane.SUM_Y + l] += weight * (qy * share)
-            lanes[Lane.SUM_M + l] += weight * elements[Element.S, k] * (qy * share)
+            counts = weight * share
+            if elements[Element.S, k] < lanes[Lane.FROM + l] and elements[Element.S, k] > lanes[Lane.NEXT + l]:
+                counts = 0.0
+            lanes[Lane.SUM_X + l] += counts * qx
+            lanes[Lane.SUM_Y + l] += counts * qy
+            lanes[Lane.SUM_M + l] += counts * elements[Element.S, k] * qy
             lanes[Lane.POWER + l] += weight * slip * share
             lanes[Lane.STICK + l] += elements[Element.STEP, k] * trace[k, Now.STICK + l]
             trace[k, _Shown.SHARE + l] = share
+    add_zone(elements, lanes)
 
 
 @kernel
@@ -233,11 +276,13 @@ def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, own: Worksp
     lanes, trace = own.space.lanes, own.space.trace
     rest = 1.0 + elements[Element.S, -1]  # from the middle of the last element to the trailing edge
     falling = varies(case)
+    shown = falling or fields.shape[1] >= last
     factor, power, work = 1.0, 0.0, 0.0
     if falling:  # friction follows from the scaled slip, so its factor is needed first
         for block in range(first, last, LANES):
             set_block(strips, block, last, case, own.tables.kalker, of_patch, lanes)
-            march(Uneven(), elements, lanes, trace)
+            march(Uneven(1), elements, lanes, trace)
+            add_zone(elements, lanes)
             for l in range(min(LANES, last - block)):
                 more_power, more_work = _energy(strips, block + l, l, lanes)
                 power, work = power + more_power, work + more_work
@@ -245,8 +290,10 @@ def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, own: Worksp
         power, work = 0.0, 0.0
     for block in range(first, last, LANES):
         set_block(strips, block, last, case, own.tables.kalker, of_patch, lanes)
-        march(Uneven(), elements, lanes, trace)
-        if falling:
+        march(Uneven(1 if shown else 0), elements, lanes, trace)
+        if not falling:
+            add_zone(elements, lanes)
+        else:
             begin_varying(strips, block, last, case, lanes[Lane.BOUND : Lane.BOUND + LANES], lanes)
             _apply_friction(case, factor, elements, lanes, trace)
         for l in range(min(LANES, last - block)):

@@ -47,8 +47,8 @@ class Trace(Row):
     FALL = auto()  # its coefficient over that at rest
 
 
-#: Number of rows of `lanes`. The largest user needs 44 and those for friction that varies.
-N_LANE_ROWS = 50
+#: Number of rows of `lanes`. The largest user needs 50 and those for friction that varies.
+N_LANE_ROWS = 56
 TRACE_WIDTH = after(Trace)
 
 

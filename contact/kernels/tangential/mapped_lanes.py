@@ -8,7 +8,7 @@ from contact.kernels import kalker
 from contact.kernels.rows import Strip
 from contact.kernels.tangential.fastsim import NO_FRICTION
 from contact.kernels.tangential.lanes import LANES, N_LANE_ROWS, Now, Row, after, small_exp
-from contact.kernels.tangential.mapping import edge_direction
+from contact.kernels.tangential.mapping import edge_direction, end_of_stick
 from contact.kernels.tangential.march import March
 
 _LOG_ASPECT_FIT = 1.7  # ln(a/b) up to which the constants were fitted; they stay constant beyond
@@ -35,6 +35,18 @@ class Lane(Row):
     TO_X = auto()  # change of the rigid slip by effective creepages, in that unit: (TO_X, TO_Y + TO_SPIN s)
     TO_Y = auto()
     TO_SPIN = auto()
+    ARC = auto()  # share of ∫ds/g of a step in which a strip begins to slide
+    # the first stick zone (`stick_zone`)
+    FROM = auto()  # s at its leading end
+    FROM_X = auto()  # traction there
+    FROM_Y = auto()
+    TO = auto()  # 1 + s at its trailing end
+    NEXT = auto()  # s of the element behind it: 2 before the zone, -2 within it
+    NEXT_X = auto()  # direction of slip there
+    NEXT_Y = auto()
+    LAST = auto()  # s of the element ahead of it, or 2
+    LAST_X = auto()
+    LAST_Y = auto()
 
 
 class _Input(Row):
@@ -131,6 +143,8 @@ def set_block(strips, block, last, case, table, of_patch, lanes):
             used if used < 1.0 else 1.0,
         )
         lanes[March.EX + l], lanes[March.EY + l] = 0.0, 0.0
+        lanes[Lane.TO + l] = end_of_stick(X, Y, P)
+        lanes[Lane.NEXT + l] = -2.0 + 4.0 * from_edge
         per_unit, to_phi = stretch * k22, lanes[Lane.TO_SPIN + l]
         lanes[Lane.UNIT + l] = live / (per_unit + (1.0 - live))
         lanes[Lane.TO_X + l] = per_unit * (lanes[Lane.TO_X + l] - to_phi * y)
@@ -142,6 +156,9 @@ def set_block(strips, block, last, case, table, of_patch, lanes):
         lanes[March.TX + l], lanes[March.TY + l], lanes[March.LEFT + l], lanes[March.CAME + l] = 0.0, 0.0, 1.0, -2.0
         lanes[Lane.SUM_X + l], lanes[Lane.SUM_Y + l], lanes[Lane.SUM_M + l] = 0.0, 0.0, 0.0
         lanes[Lane.POWER + l], lanes[Lane.STICK + l] = 0.0, 0.0
+        lanes[Lane.FROM + l], lanes[Lane.FROM_X + l], lanes[Lane.FROM_Y + l], lanes[Lane.LAST + l] = 1.0, 0.0, 0.0, 2.0
+        lanes[Lane.NEXT_X + l], lanes[Lane.NEXT_Y + l] = 0.0, 0.0
+        lanes[Lane.LAST_X + l], lanes[Lane.LAST_Y + l], lanes[Lane.ARC + l] = 0.0, 0.0, 0.0
 
 
 @kernel

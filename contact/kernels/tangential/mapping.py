@@ -27,6 +27,21 @@ def edge_direction(r, wx, wy):
 
 
 @kernel
+def end_of_stick(X, Y, P):
+    """Return 1 + s where a strip that sticks at its leading edge begins to slide.
+
+    The utilisation is (X, Y + P (1 + s))/(1 + s). Its square is 1 at a root of a quadratic equation for 1/(1 + s).
+    """
+    square, b = X * X + Y * Y, Y * P
+    inside = b * b + square * (1.0 - P * P)
+    root = math.sqrt(0.5 * (inside + abs(inside)))
+    above, below = (b + root, 1.0 - P * P) if b > 0.0 else (square, root - b)
+    end = above / (below + 1e-300)
+    end = end if end < 2.0 else 2.0
+    return end if end > 0.0 else 0.0
+
+
+@kernel
 def mapped(ux, uy, o, n):
     """Return the traction over mu·p in stick from the utilisation u of the parabolic bound.
 

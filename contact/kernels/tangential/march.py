@@ -5,8 +5,8 @@ the bound. The rigid slip over flexibility is W = (X, Y + Z s) with X = a vx/(L1
 g0) (theory.md 2.5; Kalker 1982).
 
 A rule completes the march: the bound of the traction, and how its direction turns in slip. The type of the rule chooses
-`begin`, `bound_at`, `height_at`, `slide`, `slip_at` and `leave`. `Even`, in this file, is Kalker's rule with one
-flexibility in slip. `fastrip_mapped` has another.
+`begin`, `bound_at`, `height_at`, `begin_to_slide`, `slide`, `slip_at`, `stop` and `leave`. `Even`, in this file, is
+Kalker's rule with one flexibility in slip. `fastrip_mapped` has another.
 
 Kalker's scaling of the trial traction back onto the bound is of first order in the element length. At 30 elements it
 left 0.9 % of mu N under lateral creepage with spin. Here the direction of a sliding particle follows the same equation,
@@ -42,6 +42,7 @@ class March(Row):
     TRIAL_Y = auto()
     TRIAL_USED = auto()
     LEFT = auto()  # share of the step that is left when a strip begins to slide
+    AT = auto()  # s where the slip of a particle has ended within the step, or 2
     EX = auto()  # direction of the traction in slip
     EY = auto()
 
@@ -81,6 +82,16 @@ def slip_at(rule: Any, s: float, slope: float, x: float, y: float, lanes: Any, l
     raise NotImplementedError
 
 
+def begin_to_slide(rule: Any, place: Any, lanes: Any) -> None:
+    """Set the direction where a trial traction passes the bound, and the share of the step that is left."""
+    raise NotImplementedError
+
+
+def stop(rule: Any, before: float, s: float, lanes: Any) -> None:
+    """Take note of the strips whose slip has ended within the step, at `March.AT`."""
+    raise NotImplementedError
+
+
 def leave(rule: Any, s: float, k: int, elements: Any, lanes: Any) -> None:
     """Complete the output of element k in the rows of `Now`."""
     raise NotImplementedError
@@ -109,11 +120,12 @@ def march(rule, elements, lanes, trace):
             sliding += 1 if lanes[March.SLIPS + l] > 0.5 else 0
             begins += 1 if used > 1.0 and lanes[March.SLIPS + l] < 0.5 else 0
         if begins > 0:
-            _begin_to_slide(s, lanes)
+            begin_to_slide(rule, (s, step, middle, stretch), lanes)
         if begins + sliding > 0:
             ends = slide(rule, (s, step, middle, stretch), bound, slope, lanes)
             if ends > 0:
                 _end_slip(rule, (before, s, step), slope_before, slope, bound, lanes)
+                stop(rule, before, s, lanes)
         else:
             for l in range(LANES):
                 x, y = lanes[March.TRIAL_X + l], lanes[March.TRIAL_Y + l]
@@ -125,8 +137,8 @@ def march(rule, elements, lanes, trace):
 
 
 @kernel
-def _begin_to_slide(s, lanes):
-    """Set the direction where a trial traction passes the bound, and the share of the step that is left."""
+def _begin_to_slide(rule, place, lanes):
+    s = place[0]
     for l in range(LANES):
         x, y, used, before = (
             lanes[March.TX + l],
@@ -166,6 +178,7 @@ def _end_slip(rule, place, slope_before, slope, bound, lanes):
         stick_y = size * uy - left * (lanes[March.Y + l] + 0.5 * lanes[March.Z + l] * (at + s))
         used = (stick_x * stick_x + stick_y * stick_y) * per_bound * per_bound
         stops = slip < 0.0 and slid > 0.5 and used < 1.0
+        lanes[March.AT + l] = at if stops else 2.0
         shown = lanes[Now.SLIP + l] if lanes[Now.SLIP + l] > 0.0 else 0.0
         lanes[Now.SLIP + l] = 0.0 if stops else shown
         lanes[Now.X + l] = stick_x * per_bound if stops else lanes[Now.X + l]
@@ -244,6 +257,11 @@ def _slip_even(rule, s, slope, x, y, lanes, l):
 
 
 @kernel
+def _stop_even(rule, before, s, lanes):
+    pass
+
+
+@kernel
 def _leave_even(rule, s, k, elements, lanes):
     pass
 
@@ -254,6 +272,8 @@ for _stub, _kernel in (
     (height_at, _height_even),
     (slide, _slide_even),
     (slip_at, _slip_even),
+    (begin_to_slide, _begin_to_slide),
+    (stop, _stop_even),
     (leave, _leave_even),
 ):
     chosen_by(_stub, {Even: _kernel})
