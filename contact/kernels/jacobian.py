@@ -13,13 +13,13 @@ import math
 
 from contact.core import entry, kernel
 from contact.kernels.arrays import Cases, Matrix, Results, Samples, Workspace
-from contact.kernels.enumerations import LoadKind, NormalFamily
+from contact.kernels.enumerations import FrictionLaw, LoadKind, NormalFamily
 from contact.kernels.normal.tangent import follow, linearise
 from contact.kernels.pipeline import press_case, roll_case
 
 #: Rows and columns.
 ROWS, COLUMNS = 6, 5
-AMOUNT, MU = 3, 4
+AMOUNT, MU, POWER = 3, 4, 5
 #: Step of creepages and friction, over those at which the whole patch slips. Elements hardly ever change their state within it.
 _STEP = 1e-6
 #: Step of the load, or of the penetration, over itself, and the tolerance of both solutions.
@@ -145,6 +145,25 @@ def _step(j, case, amount, result):
     return spin if j == 2 else creepage
 
 
+@kernel
+def is_even(case):
+    """Return whether forces grow with the creepages as with the friction: no coefficient that falls, and a plane."""
+    return case.law == FrictionLaw.COULOMB and not case.drop > 0.0 and case.conformal == 0
+
+
+@kernel
+def _set_friction(case, result, jacobian):
+    """Fill the column of the friction by Euler's theorem: F(λ creepages, λ mu) = λ F, and the power grows with λ²."""
+    for i in range(ROWS):
+        along = case.vx * jacobian[i, 0] + case.vy * jacobian[i, 1] + case.phi * jacobian[i, 2]
+        value = 0.0
+        if i < 3:
+            value = result.Fx if i == 0 else (result.Fy if i == 1 else result.Mz)
+        elif i == POWER:
+            value = 2.0 * result.power
+        jacobian[i, MU] = (value - along) / case.mu if i < 3 or i == POWER else 0.0
+
+
 @entry
 def solve_with_jacobian(sep: Samples, cases: Cases, own: Workspace, results: Results, jacobian: Matrix) -> int:
     """Solve ``cases[0]`` into ``results[0]``, and fill the jacobian, shape (6, 5). Return the strip count.
@@ -175,16 +194,19 @@ def solve_with_jacobian(sep: Samples, cases: Cases, own: Workspace, results: Res
     if n == 0:
         jacobian[:, :] = 0.0
         return 0
+    even = is_even(cases[0]) and cases[0].mu > 0.0
     for j in range(COLUMNS):
-        if j != AMOUNT:
+        if j != AMOUNT and not (j == MU and even):
             roll_moved(sep, n, j, _step(j, cases[0], amount, results[0]), cases, own, results)
             _store(results[1], j, jacobian)
     roll_case(sep, n, cases[0], own, results[0])
-    for j in range(COLUMNS):
+    for j in range(MU if even else COLUMNS):
         cases[1] = cases[0]
         step = move(cases[1], j, _step(j, cases[0], amount, results[0]))
         if step > 0.0:
             _subtract(results[0], j, step, jacobian)
         else:
             jacobian[:, j] = 0.0
+    if even:
+        _set_friction(cases[0], results[0], jacobian)
     return n

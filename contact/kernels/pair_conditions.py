@@ -170,7 +170,8 @@ def derive_pair(mode, given, bench, aside):
     numbers[Moved.Z] = total.z + z
     numbers[Moved.RAIL_Y] += rail.dy
     numbers[Moved.RAIL_Z] += rail.dz
-    n = derive(bench, aside)
+    rigid = rail.ky <= 0.0 and rail.kz <= 0.0
+    n = derive(bench, mode == Height.GIVEN and rigid, aside)
     jacobian = aside.jacobian
     if n > 0:
         if mode == Height.LOAD:
@@ -181,7 +182,7 @@ def derive_pair(mode, given, bench, aside):
             _follow_touch(aside)
     if mode == Height.GIVEN:
         jacobian[HEIGHT, Moved.Z] = 1.0
-    if n > 0 and (rail.ky > 0.0 or rail.kz > 0.0):
+    if n > 0 and not rigid:
         _follow_springs(rail, aside)
     offset = bench.offset[0]
     still = offset.x == 0.0 and offset.y == 0.0 and offset.z == 0.0 and offset.roll == 0.0 and offset.yaw == 0.0

@@ -20,9 +20,9 @@ from contact.kernels.geometry.frame import slip
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.section import tilted
 from contact.kernels.geometry.settle import settle
-from contact.kernels.jacobian import TOLERANCE, creepage_step, has_tangent, scale_friction
+from contact.kernels.jacobian import TOLERANCE, creepage_step, has_tangent, is_even, scale_friction
 from contact.kernels.memory import CREEPS, PAIR_ROWS
-from contact.kernels.normal.tangent import follow
+from contact.kernels.normal.tangent import follow, loaded_strips
 from contact.kernels.pair import add_wrench, clear_contact, clear_total, pressure_wrench, report, set_case, space_of_patch
 from contact.kernels.pipeline import press_case, roll_case
 from contact.kernels.records import MAX_PATCHES, SLOWEST
@@ -36,8 +36,8 @@ HEIGHT, UPWARD, ROWS = 6, 7, PAIR_ROWS
 #: Step of the height over the approach. The others change the gap by about as much: by the slope of the contact [-], at least
 #: the first number; by the rise of a flange over its yaw, at least the second one [m]; by the lever of a rail's roll [m].
 _STEP, _LEAST_SLOPE, _LEAST_RISE, _RAIL_LEVER = 3e-4, 0.1, 0.03, 0.04
-#: A patch of the middle pose, of a neighbour with the same patches, or of one with others.
-_MIDDLE, _NEAR, _OTHER = 0, 1, 2
+#: A patch of the middle pose, of a neighbour with the same patches, of one with others, or the one of the last solution.
+_MIDDLE, _NEAR, _OTHER, _SOLVED = 0, 1, 2, 3
 #: Relative steps of the coefficient of friction and of the speed.
 _SMALL = 1e-6
 
@@ -58,6 +58,8 @@ def _own_of(k, aside):
 def _press(k, place, samples, own, aside):
     """Solve the normal problem of patch k at its approach: by its tangent, or closely. Return the number of strips."""
     case, result = aside.bench.patch_case[0], aside.bench.result[0]
+    if place == _SOLVED:
+        return loaded_strips(own)
     if place == _MIDDLE:
         case.tolerance = aside.bench.case[0].tolerance
         n = press_case(samples, case, own, result)
@@ -78,7 +80,7 @@ def _solve_patch(k, place, samples, own, aside):
     patch, case, result, contact = bench.search.patches[k], bench.patch_case[0], bench.result[0], bench.contacts[k]
     set_case(patch, False, bench.search.motion[0], bench.case[0], case)
     n = _press(k, place, samples, own, aside)
-    if n > 0:
+    if n > 0 and place != _SOLVED:
         roll_case(samples, n, case, own, result)
     pressure = pressure_wrench(own.strips, n)
     report(patch, case, result, pressure, contact)
@@ -124,26 +126,40 @@ def _step_of(c, case, result):
 
 
 @kernel
+def _add_tangential(scale, Fx, Fy, Mz, contact, bench, to):
+    """Add `scale` times the wrench of tangential forces at a contact to a column. The contact's forces are overwritten."""
+    total = bench.total[0]
+    contact.N, contact.Mx, contact.My = 0.0, 0.0, 0.0
+    contact.Fx, contact.Fy, contact.Mz = scale * Fx, scale * Fy, scale * Mz
+    clear_total(total)
+    add_wrench(contact, (0.0, 0.0, 0.0, 0.0), 0.0, bench.search.motion[0], total)
+    _add(total, 1.0, to)
+
+
+@kernel
 def _roll_moved(k, samples, n, own, aside):
     """Fill `aside.by_creep[k]`: the derivatives of the forces of patch k, which is solved."""
     bench = aside.bench
-    patch, contact, total = bench.search.patches[k], bench.contacts[k], bench.total[0]
+    patch, contact = bench.search.patches[k], bench.contacts[k]
     bench.case[1], bench.result[1] = bench.patch_case[0], bench.result[0]
     case, result, middle = bench.case[1], bench.result[1], bench.result[0]
     for c in range(CREEPS):
+        even = is_even(case) and case.mu > 0.0
         if c == SPEED and case.law == FrictionLaw.COULOMB and not case.drop > 0.0:
+            continue
+        if c == MU and even:  # by Euler's theorem, as in `jacobian`
+            _add_tangential(patch.share / case.mu, middle.Fx, middle.Fy, middle.Mz, contact, bench, aside.by_creep[k, c])
+            for i in range(ROWS):
+                along = case.vx * aside.by_creep[k, 0, i] + case.vy * aside.by_creep[k, 1, i]
+                along += case.phi * aside.by_creep[k, 2, i]
+                aside.by_creep[k, c, i] -= along / case.mu
             continue
         bench.case[1] = bench.patch_case[0]
         step = _step_of(c, case, middle)
         clear_forces(result)
         roll_case(samples, n, case, own, result)
-        scale = patch.share / step if step > 0.0 else 0.0
-        contact.N, contact.Mx, contact.My = 0.0, 0.0, 0.0
-        contact.Fx, contact.Fy = scale * (result.Fx - middle.Fx), scale * (result.Fy - middle.Fy)
-        contact.Mz = scale * (result.Mz - middle.Mz)
-        clear_total(total)
-        add_wrench(contact, (0.0, 0.0, 0.0, 0.0), 0.0, bench.search.motion[0], total)
-        _add(total, 1.0, aside.by_creep[k, c])
+        scale, Fx, Fy = patch.share / step if step > 0.0 else 0.0, result.Fx - middle.Fx, result.Fy - middle.Fy
+        _add_tangential(scale, Fx, Fy, result.Mz - middle.Mz, contact, bench, aside.by_creep[k, c])
 
 
 @kernel
@@ -155,13 +171,26 @@ def _locate(aside):
 
 
 @kernel
-def _solve_middle(n, aside):
+def _take_solved(bench, aside):
+    """Take the single patch of the last solution, whose strips are still there. Return whether it has a tangent."""
+    near = aside.bench
+    near.search.patches[0], near.result[0] = bench.search.patches[0], bench.result[0]
+    samples, own = _own_of(0, aside)
+    sep = bench.search.separations[0]
+    samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
+    fits = has_tangent(samples, bench.patch_case[0], own, near.result[0])
+    aside.linear[0] = 1.0 if fits else 0.0
+    return fits
+
+
+@kernel
+def _solve_middle(n, place, aside):
     """Solve the patches of the pose itself, with their derivatives by creepages. Return the largest approach and slope."""
     bench = aside.bench
     approach, steepest = 0.0, _LEAST_SLOPE
     for k in range(n):
         samples, own = _own_of(k, aside)
-        strips = _solve_patch(k, _MIDDLE, samples, own, aside)
+        strips = _solve_patch(k, place, samples, own, aside)
         aside.patches[k] = bench.search.patches[k]
         approach = max(approach, bench.contacts[k].approach)
         steepest = max(steepest, abs(math.tan(bench.contacts[k].angle)))
@@ -253,10 +282,10 @@ def _derive_by_velocity(j, n, aside):
 
 
 @kernel
-def derive(bench, aside):
+def derive(bench, is_there, aside):
     """Fill `aside.jacobian` at the pose `aside.given` of the rigid wheelset and rail. Return the number of patches.
 
-    `bench` holds the solution there, which is the start.
+    `bench` holds the last solution, which is the start. If it `is_there`, it is the solution of this pose itself.
     """
     near = aside.bench
     jacobian, mirror = aside.jacobian, bench.search.motion[0].mirror
@@ -271,12 +300,16 @@ def derive(bench, aside):
     near.patch_case[0] = near.case[0]
     for k in range(MAX_PATCHES):
         clear_contact(near.contacts[k])
-    n = _locate(aside)
+    for i in range(near.memory.size):
+        near.memory[i] = bench.memory[i]
+    move(aside.given[0], near.search.motion[0])
+    solved = is_there and bench.total[0].n_patches == 1 and _take_solved(bench, aside)
+    n = 1 if solved else _locate(aside)
     if n <= 0:
         return n
-    for i in range(near.memory.size):
-        near.memory[i] = bench.memory[i] if bench.memory[0] == n else 0.0
-    approach, steepest = _solve_middle(n, aside)
+    if bench.memory[0] != n:
+        near.memory[:] = 0.0
+    approach, steepest = _solve_middle(n, _SOLVED if solved else _MIDDLE, aside)
     # a loop over a tuple would leave an exception in the library
     for j in range(Moved.RAIL_ROLL_RATE + 1):
         if Moved.VX <= j <= Moved.SPIN or j == Moved.RAIL_ROLL_RATE:
@@ -293,8 +326,8 @@ def derive(bench, aside):
         for i in range(ROWS):
             jacobian[i, Moved.FRICTION] += aside.by_creep[k, MU, i]
     for i in range(ROWS):
-        jacobian[i, Moved.RAIL_Y], jacobian[i, Moved.RAIL_Z] = -jacobian[i, Moved.Y], -jacobian[i, Moved.Z]
-        jacobian[i, Moved.RAIL_VY], jacobian[i, Moved.RAIL_VZ] = -jacobian[i, Moved.VY], -jacobian[i, Moved.VZ]
+        jacobian[i, Moved.RAIL_Y], jacobian[i, Moved.RAIL_Z] = 0.0 - jacobian[i, Moved.Y], 0.0 - jacobian[i, Moved.Z]
+        jacobian[i, Moved.RAIL_VY], jacobian[i, Moved.RAIL_VZ] = 0.0 - jacobian[i, Moved.VY], 0.0 - jacobian[i, Moved.VZ]
     aside.sides[Moved.RAIL_Y], aside.sides[Moved.RAIL_Z] = aside.sides[Moved.Y], aside.sides[Moved.Z]
     for i in range(1, 6, 2):  # Fy, Mx, Mz
         aside.middle[i] *= mirror

@@ -127,8 +127,8 @@ int main(int argc, char **argv) {
     for (long step = 0; step < steps; step++) {
         if (late) {
             rates(x, f, NULL);
+            for (int i = 0; i < 4; i++) x[i] += h * x[4 + i] + 0.5 * h * h * f[4 + i];
             for (int i = 4; i < STATES; i++) x[i] += h * f[i];
-            for (int i = 0; i < 4; i++) x[i] += h * x[4 + i];
             solutions++;
         } else {
             solutions += midpoint(x, h);

@@ -134,15 +134,12 @@ def fixed_steps(wheelset: Wheelset, seconds: float, h: float) -> Array:
 
 
 def a_step_late(wheelset: Wheelset, seconds: float, h: float) -> Array:
-    """Integrate with contact forces of the begin of the step, as two coupled programs do. Return y(t), up to a derailment.
-
-    The rest, springs and dampers, is integrated exactly to the order of the semi-implicit Euler method.
-    """
+    """Integrate with the forces of the begin of the step, as two coupled programs do. Return y(t), up to a derailment."""
     x, path = wheelset.start(), []
     for step in range(round(seconds / h)):
         rates = wheelset.rates(step * h, x)
+        x[:4] += h * x[4:8] + 0.5 * h * h * rates[4:8]
         x[4:] += h * rates[4:]
-        x[:4] += h * x[4:8]
         path.append(x[0])
         if not (np.abs(x[:4]).max() < 0.02 and np.abs(x[4:8]).max() < 5.0):
             break
@@ -192,7 +189,7 @@ def main(arguments: list[str] | None = None) -> None:
             lambda h=h: fixed_steps(wheelset, seconds, h),
             lambda f, h=h: (np.arange(1, f.size + 1) * h, f),
         )
-    for h in (1e-5, 2e-5, 5e-5, 1e-4, 1e-3):
+    for h in (2e-5, 5e-5, 1e-4, 1e-3):
         report(
             f"a step late, {h * 1e3:g} ms",
             lambda h=h: a_step_late(wheelset, seconds, h),

@@ -21,7 +21,17 @@ from contact.kernels.arrays import Case, Result, Samples, Workspace
 from contact.kernels.enumerations import Status
 from contact.kernels.normal.analyn import prepare
 from contact.kernels.normal.descent import END_LENGTH
-from contact.kernels.normal.influence import column, in_row, logarithm, row_at
+from contact.kernels.normal.influence import (
+    LN_T_LOW,
+    N_T,
+    PER_T_STEP,
+    PER_X_STEP,
+    T_STEP,
+    X_MAX,
+    column,
+    logarithm,
+    row_at,
+)
 from contact.kernels.normal.lay import least_point
 from contact.kernels.normal.orientation import turn_back, turn_samples
 from contact.kernels.normal.panels import end_move, lay_panels
@@ -78,15 +88,44 @@ def _times(matrix, n, vector, out):
 
 
 @kernel
-def _edge(plane, a, of, near, far, inside):
-    """Return the displacement at the end of a strip with half length `a` by a strip with half length `of`, with pi E* = 1.
+def _add_products(n, row, matrix, out):
+    """Add the product of a row and a matrix to `out`."""
+    for m in range(n):
+        factor = row[m]
+        for s in range(n):
+            out[s] += factor * matrix[m, s]
 
-    `near` and `far` are the logarithms of the distances of its sides.
+
+@kernel
+def _with_slopes(plane, i, u, log_t):
+    """Return the value of `influence.in_row`, and its slopes by `log_t` and by `u`."""
+    v = (log_t - LN_T_LOW) * PER_T_STEP
+    before, beyond = not v > 0.0, max(v - (N_T - 1.0), 0.0)
+    v = min(0.0 if before else v, N_T - 1.000001)
+    k = int(v)
+    v -= k
+    rise, next_rise = plane[i, k + 1] - plane[i, k], plane[i + 1, k + 1] - plane[i + 1, k]
+    low, high = plane[i, k] + v * rise, plane[i + 1, k] + v * next_rise
+    by_t = 0.0 if before else PER_T_STEP * (rise + u * (next_rise - rise))
+    far = 0.5 * math.pi
+    return low + u * (high - low) + far * T_STEP * beyond, far if beyond > 0.0 else by_t, high - low
+
+
+@kernel
+def _edge(plane, X, of, near, far, inside):
+    """Return the displacement at the end of a strip by a strip with half length `of`, with pi E* = 1, and its slopes.
+
+    The end is `X` times `of` away along x, `near` and `far` are the logarithms of the distances of the sides over `of`. The
+    slopes are those by ln X and by the logarithm of both distances.
     """
-    X, ln_a = a / of, math.log(of)
     row, share, ln_X = row_at(X, logarithm(X))
-    low, high = in_row(plane, row, share, near - ln_a - ln_X), in_row(plane, row, share, far - ln_a - ln_X)
-    return of * (high + low if inside else abs(high - low))
+    low, low_t, low_u = _with_slopes(plane, row, share, near - ln_X)
+    high, high_t, high_u = _with_slopes(plane, row, share, far - ln_X)
+    sign = 1.0 if inside else -1.0
+    value, by_t, by_u = high + sign * low, high_t + sign * low_t, high_u + sign * low_u
+    by_X = by_u * X * PER_X_STEP if X < X_MAX else -2.0 * by_u / (X * X) - by_t
+    scale = of if value >= 0.0 else -of
+    return scale * value, scale * by_X, scale * by_t
 
 
 @kernel
@@ -95,7 +134,7 @@ def _fits(n, own, status):
     vectors, memory = own.space.vectors, own.space.memory
     if own.space.tangent.shape[1] != n or own.rule.columns.shape[1] != n or memory[MEM_PANELS] != 1.0:
         return False
-    if status != Status.OK:
+    if status != Status.OK and status != Status.SATURATED:
         return False
     for i in range(n):
         inner = 0 < i < n - 1
@@ -104,6 +143,15 @@ def _fits(n, own, status):
         if inner and vectors[Vector.A, i] <= vectors[Vector.FLOOR, i] * (1.0 + _AT_BOUND):
             return False
     return True
+
+
+@kernel
+def loaded_strips(own):
+    """Return the number of strips that the last solution, of a single panel, has written."""
+    count = 0
+    for i in range(own.rule.cosines.size - 1):
+        count += 1 if own.space.vectors[Vector.P, i] > 0.0 else 0
+    return count
 
 
 @kernel
@@ -166,52 +214,52 @@ def linearise(sep: Samples, case: Case, own: Workspace, result: Result) -> bool:
         tangent[tail + Tangent.A],
     )
     one, other, numbers = tangent[tail + Tangent.ONE], tangent[tail + Tangent.OTHER], tangent[tail + Tangent.NUMBERS]
+    ln_a, by_width, narrowed = vectors[Vector.STEP, :n], vectors[Vector.R_OLD, :n], vectors[Vector.U, :n]
+    changes = own.space.lu
     low, high = memory[MEM_ENDS], memory[MEM_ENDS + 1]
     delta = result.approach - result.touch
     unit = 1.0 / (math.pi * (case.G / (1.0 - case.nu)))
-    ln_half, ln_step = math.log(0.5 * (high - low)), _STEP
+    ln_half = math.log(0.5 * (high - low))
     panels = own.space.iterates[own.space.iterates.shape[0] - 1]
     panels[0], panels[1] = low, high
     lay_panels(samples, result.touch, 0.0, panels, 1, own)
     for i in range(n):
         gap[i], curvature[i] = vectors[Vector.GAP, i], vectors[Vector.CURVATURE, i]
-        a[i] = vectors[Vector.A, i]
+        a[i], ln_a[i] = vectors[Vector.A, i], math.log(vectors[Vector.A, i])
         one[i] = delta - gap[i]
         for k in range(n):
             inverse[i, k] = matrix[k, i]
     if not _invert(inverse, n, other):
         return False
     _times(inverse, n, one, p)
+    # displacements of the ends, and their responses to the half lengths at the same pressures, in `conditions`
     for i in range(n):
-        at, u = logs[i], 0.0
+        at, u, of_own, of_width = logs[i], 0.0, 0.0, 0.0
         for m in range(n):
-            edges[i, m] = unit * _edge(plane, a[i], a[m], at[m] + ln_half, at[m + 1] + ln_half, i == m)
-            edges[i, m] *= 1.0 if p[m] > 0.0 else 0.0
-            u += edges[i, m] * p[m]
-        overlap[i] = delta - gap[i] - u
-    # responses to ln a of every strip: pressures in by_x, displacements of the ends in conditions
-    more = math.exp(ln_step)
+            shift, bears = ln_half - ln_a[m], p[m] if p[m] > 0.0 else 0.0
+            value, by_X, by_Y = _edge(plane, a[i] / a[m], a[m], at[m] + shift, at[m + 1] + shift, i == m)
+            edges[i, m] = unit * value if bears > 0.0 else 0.0
+            u += edges[i, m] * bears
+            of_width += unit * by_Y * bears
+            # all lengths together scale the displacement, so its slope by ln a of the other strip follows
+            conditions[i, m] = unit * (value - by_Y - (0.0 if i == m else by_X)) * bears
+            of_own += 0.0 if i == m else unit * by_X * bears
+        conditions[i, i] += of_own
+        overlap[i], by_width[i] = delta - gap[i] - u, of_width
+        narrowed[i] = 0.0
+    # responses of the pressures
     for s in range(n):
-        column(columns, s, math.log(a[s]) + ln_step - ln_half, a[s] * more * unit, one)
+        column(columns, s, ln_a[s] + _STEP - ln_half, a[s] * math.exp(_STEP) * unit, one)
         for i in range(n):
-            one[i] = -(one[i] - matrix[s, i]) / ln_step * p[s]
-        _times(inverse, n, one, other)
-        bears = p[s] if p[s] > 0.0 else 0.0
-        for i in range(n):
-            by_x[i, s] = other[i]
-            at = logs[i]
-            length = a[i] * more if i == s else a[i]
-            moved = unit * _edge(plane, length, a[s] * more, at[s] + ln_half, at[s + 1] + ln_half, i == s)
-            u = (moved - edges[i, s]) / ln_step * bears if bears > 0.0 else 0.0
-            for m in range(n):
-                u += edges[i, m] * other[m]
-            conditions[i, s] = u
-        at, u = logs[s], 0.0
-        for m in range(n):
-            if m != s and p[m] > 0.0:
-                moved = unit * _edge(plane, a[s] * more, a[m], at[m] + ln_half, at[m + 1] + ln_half, False)
-                u += (moved - edges[s, m]) / ln_step * p[m]
-        conditions[s, s] += u
+            change = (one[i] - matrix[s, i]) / _STEP * p[s]
+            narrowed[i] += matrix[s, i] * p[s] - change
+            changes[i, s] = -change
+    for i in range(n):
+        for s in range(n):
+            by_x[i, s] = 0.0
+        _add_products(n, inverse[i], changes, by_x[i])
+    for i in range(n):
+        _add_products(n, edges[i], by_x, conditions[i])
     for i in range(n):  # the end strips follow their neighbours
         by_x[i, 1] += by_x[i, 0]
         by_x[i, n - 2] += by_x[i, n - 1]
@@ -225,23 +273,16 @@ def linearise(sep: Samples, case: Case, own: Workspace, result: Result) -> bool:
         s = 0 if end == 0 else n - 1
         panels[0], panels[1] = low + (_END_STEP * width if end == 0 else 0.0), high + (_END_STEP * width if end == 1 else 0.0)
         lay_panels(samples, result.touch, 0.0, panels, 1, own)
-        ln_moved = math.log(0.5 * (panels[1] - panels[0]))
+        wider = -1.0 if end == 0 else 1.0
         for i in range(n):
-            one[i] = -(vectors[Vector.GAP, i] - gap[i]) / _END_STEP
-        for k in range(n):
-            column(columns, k, math.log(a[k]) - ln_moved, a[k] * unit, other)
-            for i in range(n):
-                one[i] -= (other[i] - matrix[k, i]) / _END_STEP * p[k]
+            one[i] = -(vectors[Vector.GAP, i] - gap[i]) / _END_STEP - wider * narrowed[i]
         _times(inverse, n, one, other)
         for i in range(n):
             by_x[i, s] = other[i]
         for i in range(1, n - 1):
-            at, u = logs[i], 0.0
+            u = wider * by_width[i] + (vectors[Vector.GAP, i] - gap[i]) / _END_STEP
             for m in range(n):
-                if p[m] > 0.0:
-                    moved = unit * _edge(plane, a[i], a[m], at[m] + ln_moved, at[m + 1] + ln_moved, i == m)
-                    u += (moved - edges[i, m]) / _END_STEP * p[m] + edges[i, m] * other[m]
-            u += (vectors[Vector.GAP, i] - gap[i]) / _END_STEP
+                u += edges[i, m] * other[m]
             relative = (vectors[Vector.CURVATURE, i] - curvature[i]) / (_END_STEP * curvature[i])
             conditions[i, s] = -0.5 * (u / overlap[i] + relative)
     _fill_end_slopes(n, p, cosines, vectors, tangent)
