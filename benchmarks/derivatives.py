@@ -117,9 +117,7 @@ def of_patches(n: int, rng: np.random.Generator) -> list[dict[str, Any]]:
             continue
         unit = np.array([1.0, 1.0, 5e-3, 1.0, 1e-9])
         case = len(found)
-        for j, (name, step) in enumerate(
-            zip(one.jacobian.columns, (4e-9, 4e-9, 4e-6, 1e-3 * load, 4e-7), strict=True)
-        ):
+        for j, (name, step) in enumerate(zip(one.jacobian.columns, (4e-9, 4e-9, 4e-6, 1e-3 * load, 4e-7), strict=True)):
 
             def forces(h: float, j: int = j) -> Array:
                 there = at.copy()
@@ -131,13 +129,17 @@ def of_patches(n: int, rng: np.random.Generator) -> list[dict[str, Any]]:
             wanted, doubt = richardson(forces, step, unit)
             got = one.jacobian.values[:5, j]
             size = np.abs(wanted / unit).max()
-            found.append({"name": name, "error": float(np.abs((got - wanted) / unit).max() / size), "doubt": doubt, "case": case})
+            found.append(
+                {"name": name, "error": float(np.abs((got - wanted) / unit).max() / size), "doubt": doubt, "case": case}
+            )
     return found
 
 
 def table(title: str, rows: list[dict[str, Any]]) -> None:
     """Print the shares of kinks and of right columns, and the errors."""
-    print(f"\n{title}: column, cases, kink or noise within the step; error of the others: median, 95 %, largest, within {RIGHT:g}")
+    print(
+        f"\n{title}: column, cases, kink or noise within the step; error of the others: median, 95 %, largest, within {RIGHT:g}"
+    )
     for name in dict.fromkeys(row["name"] for row in rows):
         of = [row for row in rows if row["name"] == name]
         known = np.array([row["error"] for row in of if row["doubt"] <= DOUBT])

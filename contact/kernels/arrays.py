@@ -245,7 +245,8 @@ class Aside(NamedTuple, Generic[Kind]):
     `bench` solves neighbouring problems; its scratch is that of the pair's bench. `numbers` are the members of the record
     `given`. `start`, `patches` and `middle` are warm start, patches and forces of the middle one, `forces` those of the last
     one. `by_creep[patch, creep]` are derivatives of the forces by the creepages, `creeps[patch, creep]` those of the creepages
-    by the motion. `row` is a single row of fields. `tangents` are those of the patches that are `linear`, which is 1 or 0. `sides` says for each column on which side it holds.
+    by the motion. `row` is a single row of fields. `tangents` are those of the patches that are `linear`, which is 1 or 0.
+    `sides` says for each column on which side it holds.
     """
 
     bench: Bench[Kind]

@@ -269,7 +269,7 @@ def lay_bench(
 @shared
 def lay_neighbour(block: Array, end: int, size: Size, bench: Bench) -> tuple[Bench, int]:
     """Return the arrays of a pair that is solved beside that of `bench`, whose scratch it uses, and the new end."""
-    search, own = bench.search, bench.own
+    search = bench.search
     motion, end = records(block, end, 1, MOTION)
     patches, end = records(block, end, MAX_PATCHES, PATCH)
     separations, end = cube(block, end, MAX_PATCHES, len(Sep), size.n_samples)

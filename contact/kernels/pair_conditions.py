@@ -1,7 +1,7 @@
 """Derivatives of a pair under its conditions: a load, a penetration, springs under the rail, a wheel off its wheelset.
 
-`pair_jacobian` gives the columns at one height and with the rail in one place. A condition lets one of these follow: with f = 0,
-df/dz dz + df/dq dq = 0, the column of q gains the column of z times dz/dq.
+`pair_jacobian` gives the columns at one height and with the rail in one place. A condition lets one of these follow: with
+f = 0, df/dz dz + df/dq dq = 0, the column of q gains the column of z times dz/dq.
 """
 
 from contact.core import entry, kernel

@@ -23,7 +23,15 @@ from contact.kernels.geometry.settle import settle
 from contact.kernels.jacobian import TOLERANCE, creepage_step, has_tangent, is_even, scale_friction
 from contact.kernels.memory import CREEPS, PAIR_ROWS
 from contact.kernels.normal.tangent import follow, loaded_strips
-from contact.kernels.pair import add_wrench, clear_contact, clear_total, pressure_wrench, report, set_case, space_of_patch
+from contact.kernels.pair import (
+    add_wrench,
+    clear_contact,
+    clear_total,
+    pressure_wrench,
+    report,
+    set_case,
+    space_of_patch,
+)
 from contact.kernels.pipeline import press_case, roll_case
 from contact.kernels.records import MAX_PATCHES, SLOWEST
 from contact.kernels.result import clear, clear_forces
@@ -148,7 +156,9 @@ def _roll_moved(k, samples, n, own, aside):
         if c == SPEED and case.law == FrictionLaw.COULOMB and not case.drop > 0.0:
             continue
         if c == MU and even:  # by Euler's theorem, as in `jacobian`
-            _add_tangential(patch.share / case.mu, middle.Fx, middle.Fy, middle.Mz, contact, bench, aside.by_creep[k, c])
+            _add_tangential(
+                patch.share / case.mu, middle.Fx, middle.Fy, middle.Mz, contact, bench, aside.by_creep[k, c]
+            )
             for i in range(ROWS):
                 along = case.vx * aside.by_creep[k, 0, i] + case.vy * aside.by_creep[k, 1, i]
                 along += case.phi * aside.by_creep[k, 2, i]
@@ -327,7 +337,10 @@ def derive(bench, is_there, aside):
             jacobian[i, Moved.FRICTION] += aside.by_creep[k, MU, i]
     for i in range(ROWS):
         jacobian[i, Moved.RAIL_Y], jacobian[i, Moved.RAIL_Z] = 0.0 - jacobian[i, Moved.Y], 0.0 - jacobian[i, Moved.Z]
-        jacobian[i, Moved.RAIL_VY], jacobian[i, Moved.RAIL_VZ] = 0.0 - jacobian[i, Moved.VY], 0.0 - jacobian[i, Moved.VZ]
+        jacobian[i, Moved.RAIL_VY], jacobian[i, Moved.RAIL_VZ] = (
+            0.0 - jacobian[i, Moved.VY],
+            0.0 - jacobian[i, Moved.VZ],
+        )
     aside.sides[Moved.RAIL_Y], aside.sides[Moved.RAIL_Z] = aside.sides[Moved.Y], aside.sides[Moved.Z]
     for i in range(1, 6, 2):  # Fy, Mx, Mz
         aside.middle[i] *= mirror

@@ -134,14 +134,18 @@ def fixed_steps(wheelset: Wheelset, seconds: float, h: float) -> Array:
 
 
 def a_step_late(wheelset: Wheelset, seconds: float, h: float) -> Array:
-    """Integrate with the forces of the begin of the step, as two coupled programs do. Return y(t), up to a derailment."""
+    """Integrate with the forces of the begin of the step, as two coupled programs do. Return y(t), until wheels leave the rails.
+
+    They have left where the wheelset is half a millimetre off its height; the rails are compressed by a tenth.
+    """
     x, path = wheelset.start(), []
+    height = x[1]
     for step in range(round(seconds / h)):
         rates = wheelset.rates(step * h, x)
         x[:4] += h * x[4:8] + 0.5 * h * h * rates[4:8]
         x[4:] += h * rates[4:]
         path.append(x[0])
-        if not (np.abs(x[:4]).max() < 0.02 and np.abs(x[4:8]).max() < 5.0):
+        if not abs(x[1] - height) < 5e-4:
             break
     return np.array(path)
 
@@ -151,7 +155,15 @@ def by_scipy(wheelset: Wheelset, seconds: float, jac: Any, rtol: float, method: 
     start = wheelset.start()
     times = np.linspace(0.0, seconds, 501)
     return solve_ivp(
-        wheelset.rates, (0.0, seconds), start, method, t_eval=times, jac=jac, rtol=rtol, atol=rtol * UNITS, first_step=1e-4
+        wheelset.rates,
+        (0.0, seconds),
+        start,
+        method,
+        t_eval=times,
+        jac=jac,
+        rtol=rtol,
+        atol=rtol * UNITS,
+        first_step=1e-4,
     )
 
 
@@ -182,7 +194,11 @@ def main(arguments: list[str] | None = None) -> None:
     print(f"{'':42} {'forces':>7} {'jac.':>6} {'time':>9} {'error of y':>11}")
     for method in ("Radau", "BDF"):
         for name, jac in (("the derivatives", wheelset.jacobian), ("its own differences", None)):
-            report(f"{method}, {name}", lambda m=method, j=jac: by_scipy(wheelset, seconds, j, 1e-3, m), lambda f: (f.t, f.y[0]))
+            report(
+                f"{method}, {name}",
+                lambda m=method, j=jac: by_scipy(wheelset, seconds, j, 1e-3, m),
+                lambda f: (f.t, f.y[0]),
+            )
     for h in (5e-4, 1e-3, 2e-3, 5e-3):
         report(
             f"fixed steps of {h * 1e3:g} ms",

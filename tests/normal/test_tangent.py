@@ -18,7 +18,11 @@ METHODS = lookup("normal", "strip_halfspace", batched=True), lookup("tangential"
 Y = np.linspace(-12e-3, 12e-3, 101)
 ROWS = ("Y", "DY", "A", "P0", "XC", "LN_ASPECT")
 #: A gap and what is added to it: a slope, a wave, and a change of the curvature along x.
-SHAPES = {"lopsided": 0.8 * Y**2 + 3e3 * Y**3 + 2e6 * Y**4, "image": 0.8 * Y**2 - 3e3 * Y**3 + 2e6 * Y**4, "narrow": 40.0 * Y**2}
+SHAPES = {
+    "lopsided": 0.8 * Y**2 + 3e3 * Y**3 + 2e6 * Y**4,
+    "image": 0.8 * Y**2 - 3e3 * Y**3 + 2e6 * Y**4,
+    "narrow": 40.0 * Y**2,
+}
 
 
 def gap(shape, change=0.0) -> Samples:

@@ -122,7 +122,9 @@ def test_a_rail_on_springs_gives_way(right):
     soft = right.solve(**given, rail=rail, derivatives=True)
     right.forget()
     stiff = right.solve(**given, rail=ElasticRail(ky=1e15, kz=1e15), derivatives=True)
-    assert stiff.jacobian.values == pytest.approx(rigid.jacobian.values, rel=1e-3, abs=1e-3 * abs(rigid.jacobian.values).max())
+    assert stiff.jacobian.values == pytest.approx(
+        rigid.jacobian.values, rel=1e-3, abs=1e-3 * abs(rigid.jacobian.values).max()
+    )
     # one spring after the other: the contact's and the rail's
     contact, both = -rigid.jacobian["Fz", "pose.z"], -soft.jacobian["Fz", "pose.z"]
     assert both < 0.5 * contact

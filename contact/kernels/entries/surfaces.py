@@ -15,7 +15,15 @@ from contact.kernels import block, memory, quadrature
 from contact.kernels.arrays import Sheet
 from contact.kernels.block import ahead
 from contact.kernels.entries.layout import compiled, copy, fill, lay_out, size_of
-from contact.kernels.entries.pair import accept, fill_derivatives, lay_start, reset, set_options, solve_again, solve_from
+from contact.kernels.entries.pair import (
+    accept,
+    fill_derivatives,
+    lay_start,
+    reset,
+    set_options,
+    solve_again,
+    solve_from,
+)
 from contact.kernels.records import WHEEL_OFFSET
 from contact.kernels.rows import N_PROFILE_ROWS, Bin
 

@@ -1,7 +1,7 @@
 """Tangent of the strip half space: how its strips follow a small change of the gap or of the approach.
 
-Of a patch at rest the unknowns are ln a of the inner strips and both ends of the panel. Their conditions, the residuals r of the
-half lengths and the moves of the ends, depend on them, on the pressures p, and on gap g, curvature and approach:
+Of a patch at rest the unknowns are ln a of the inner strips and both ends of the panel. Their conditions, the residuals r of
+the half lengths and the moves of the ends, depend on them, on the pressures p, and on gap g, curvature and approach:
 
     M p = delta - g,    r_i = 1/2 ln[(delta - g_i - sum E_im p_m)/(C_i a_i²)] = 0,    moves(p) = 0
 
@@ -138,7 +138,11 @@ def _fits(n, own, status):
         return False
     for i in range(n):
         inner = 0 < i < n - 1
-        if vectors[Vector.XC, i] != 0.0 or vectors[Vector.ACTIVE, i] == 0.0 or (inner and not vectors[Vector.P, i] > 0.0):
+        if (
+            vectors[Vector.XC, i] != 0.0
+            or vectors[Vector.ACTIVE, i] == 0.0
+            or (inner and not vectors[Vector.P, i] > 0.0)
+        ):
             return False
         if inner and vectors[Vector.A, i] <= vectors[Vector.FLOOR, i] * (1.0 + _AT_BOUND):
             return False
@@ -271,7 +275,10 @@ def linearise(sep: Samples, case: Case, own: Workspace, result: Result) -> bool:
     width = high - low
     for end in range(2):
         s = 0 if end == 0 else n - 1
-        panels[0], panels[1] = low + (_END_STEP * width if end == 0 else 0.0), high + (_END_STEP * width if end == 1 else 0.0)
+        panels[0], panels[1] = (
+            low + (_END_STEP * width if end == 0 else 0.0),
+            high + (_END_STEP * width if end == 1 else 0.0),
+        )
         lay_panels(samples, result.touch, 0.0, panels, 1, own)
         wider = -1.0 if end == 0 else 1.0
         for i in range(n):
