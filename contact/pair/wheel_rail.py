@@ -300,10 +300,8 @@ class WheelRailPair(AnyPair):
         shown = _ALL if name else _WITHOUT_AMOUNT
         values = aside.jacobian[: len(PairJacobian.rows), shown]
         values.setflags(write=False)
-        sides, one_sided = aside.sides[shown], ()
-        if sides.any():
-            columns = columns_of_pair(name)
-            one_sided = tuple(columns[k] for k in np.flatnonzero(sides))
+        sided = np.flatnonzero(aside.sides[shown])
+        one_sided = tuple(columns_of_pair(name)[k] for k in sided) if sided.size else ()
         return PairJacobian(values, name, one_sided)
 
     def plot(self, pose: Pose, velocity: Velocity | None = None, **given: Any) -> Any:

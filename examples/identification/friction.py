@@ -3,9 +3,9 @@
 python examples/identification/friction.py [--repeats 200] [--out friction.png]
 
 A wheel is driven at 20 m/s, and its tractive force is measured over the creepage. The coefficient of friction falls with the
-sliding velocity, mu(v) = mu_0 (A + (1 - A) exp(-B v)) (Polach 2005), and the contact is softer than a clean one, which a factor on
-the creepages says. The measurement is made up: forces of known parameters with noise. Least squares by SciPy with the exact
-Jacobian finds the parameters again. Repeated with other noise, the intervals tell whether they cover what is known.
+sliding velocity, mu(v) = mu_0 (A + (1 - A) exp(-B v)) (Polach 2005), and the contact is softer than a clean one: a
+factor on the creepages. The measurement is made up: forces of known parameters with noise. Least squares by SciPy with the
+exact Jacobian finds the parameters again. Repeated with other noise, the intervals tell whether they cover what is known.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ CREEPAGES = -np.concatenate((np.linspace(2e-4, 4e-3, 12), np.linspace(6e-3, 0.08
 
 
 def friction_of(p: Array, v: Array) -> tuple[Array, Array]:
-    """Return the coefficients of friction at the sliding velocities `v`, and their derivatives by the first three parameters."""
+    """Return the coefficients at the sliding velocities `v`, and their derivatives by the first three parameters."""
     rest, far, rate = p[:3]
     fall = np.exp(-rate * v)
     share = far + (1.0 - far) * fall

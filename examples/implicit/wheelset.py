@@ -2,10 +2,10 @@
 
 python examples/implicit/wheelset.py [--seconds 0.5] [--out implicit.png]
 
-A rigid wheelset S1002 on rails 60E1 (1:40) runs at constant speed over a lateral step of the track. It has springs and dampers to
-a frame that does not move. The states are y, z, roll, yaw and their rates, and the spin. Four ways to integrate it are compared
-(docs/derivatives.md): SciPy's Radau with the exact Jacobian and with its own differences, an implicit Runge-Kutta method with
-fixed steps, and forces that are a step late, as between two programs.
+A rigid wheelset S1002 on rails 60E1 (1:40) runs at constant speed over a lateral step of the track. It has springs and dampers
+to a frame that does not move. The states are y, z, roll, yaw and their rates, and the spin. Four ways to integrate it are
+compared (docs/use/implicit.md): SciPy's methods with the exact Jacobian and with their own differences, an implicit Runge-Kutta
+method with fixed steps, and forces that are a step late, as between two programs.
 """
 
 from __future__ import annotations
@@ -134,7 +134,7 @@ def fixed_steps(wheelset: Wheelset, seconds: float, h: float) -> Array:
 
 
 def a_step_late(wheelset: Wheelset, seconds: float, h: float) -> Array:
-    """Integrate with the forces of the begin of the step, as two coupled programs do. Return y(t), until wheels leave the rails.
+    """Integrate with the forces of the begin of the step, as two programs do. Return y(t), until wheels leave the rails.
 
     They have left where the wheelset is half a millimetre off its height; the rails are compressed by a tenth.
     """
