@@ -250,6 +250,44 @@ class Pair(IntEnum):
 DEPTH = 3
 
 
+class Moved(IntEnum):
+    """Columns of the derivatives of a pair: the members of GIVEN, then what prescribes the height, and friction."""
+
+    Y = 0
+    Z = 1
+    ROLL = 2
+    YAW = 3
+    VX = 4
+    VY = 5
+    VZ = 6
+    ROLL_RATE = 7
+    YAW_RATE = 8
+    SPIN = 9
+    RAIL_Y = 10
+    RAIL_Z = 11
+    RAIL_ROLL = 12
+    RAIL_VY = 13
+    RAIL_VZ = 14
+    RAIL_ROLL_RATE = 15
+    AMOUNT = 16
+    FRICTION = 17
+
+
+class Tangent(IntEnum):
+    """Last rows of `tangent`, after four matrices (`normal.tangent`): state of the solved patch, and scratch."""
+
+    GAP = 0
+    CURVATURE = 1
+    OVERLAP = 2  # at the ends of a strip
+    P = 3  # tension included
+    A = 4
+    ONE = 5
+    OTHER = 6
+    AT_LOW = 7  # slopes of the move of an end by the four pressures beside it
+    AT_HIGH = 8
+    NUMBERS = 9  # ends of the panel, approach, factor of the pressures, whether all is mirrored
+
+
 class Bin(IntEnum):
     """Rows of `rates[row, strip]` per metre rolled and of `bins[row, bin]`; the names of `contact.accumulation`."""
 

@@ -97,7 +97,7 @@ class Problem(NamedTuple):
 
 
 @kernel
-def _write(sep, n_panels, panels, skewed, own, result):
+def write_strips(sep, n_panels, panels, skewed, own, result):
     """Fill `own.strips` with the loaded strips in ascending order of y. Return their number.
 
     Runs of neighbours are the patches.
@@ -269,7 +269,7 @@ def _has_spur(n, n_panels, vectors):
 def _report(problem, delta, panels, n_panels, result):
     """Write the strips and their resultants. `result` still has ANALYN's. Return the number of strips."""
     own, strips = problem.own, problem.own.strips
-    count = _write(problem.sep, n_panels, panels, problem.skew > 0.0, own, result)
+    count = write_strips(problem.sep, n_panels, panels, problem.skew > 0.0, own, result)
     if problem.skew > 0.0:
         turn_aspects(count, problem.skew, strips)
     N = 0.0
