@@ -14,8 +14,8 @@ from contact.kernels.pipeline import solve_case
 from contact.kernels.records import LARGEST_CREEPAGE, MAX_PATCHES
 from contact.kernels.rows import Sep, Strip
 
-#: Heights that are tried for a vertical force, of which the residual should be and may be (as under a load), and the
-#: furthest height [m].
+#: Search of the height for a vertical force: largest number of trials, target and accepted relative residual, and the
+#: largest height [m].
 _MAX_HEIGHTS, _TOLERANCE, _ACCEPTABLE, _FURTHEST = 16, 1e-9, 1e-3, 1.0
 #: The same residuals on surfaces that change along the way, the second with friction. On the edge of a fresh flat the force
 #: is not smooth in z.
