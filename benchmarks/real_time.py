@@ -76,8 +76,8 @@ the host of this virtual machine gave to others meanwhile, on both cores; the pr
 {timed}
 ## In a host of your own
 
-* The algorithm needs less than 1 ms in every step, but this shared virtual machine does not give it in every step: a run without
-  a miss was not shown here for a whole minute. Take a machine of your own, a core for the process, and run this host on it.
+* The algorithm needs less than 1 ms in every step, but this shared virtual machine does not give it in every step: a run
+  without a miss was not shown here for a whole minute. Take a machine of your own, a core for the process, and this host.
 * A cap bounds the iterations. What it costs in accuracy stands above; read the code of every answer.
 * `wr_pair_solve` allocates no memory, takes no lock and calls nothing of the system.
 """
