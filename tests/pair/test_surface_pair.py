@@ -163,7 +163,8 @@ def test_constant_profiles_as_surfaces_give_the_solution_of_the_pair(pose, given
     assert found.z == pytest.approx(wanted.z, abs=6e-7 if "load" in given else 6e-8)
     assert found.force == pytest.approx(wanted.force, abs=2e-3 * wanted.Q)
     assert found.moment == pytest.approx(wanted.moment, abs=2e-3 * wanted.Q)
-    assert found.max_pressure == pytest.approx(wanted.max_pressure, rel=1.5e-2)
+    # a pressure peak between strips feels the number of samples: 41 on surfaces, 81 on profiles
+    assert found.max_pressure == pytest.approx(wanted.max_pressure, rel=2.5e-2)
     assert found.damage.T_gamma == pytest.approx(wanted.damage.T_gamma, rel=1e-2)
     for a, b in zip(found.contacts, wanted.contacts, strict=True):
         assert a.position == pytest.approx(b.position, abs=5e-5)

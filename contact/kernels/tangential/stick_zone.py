@@ -164,6 +164,28 @@ def _beyond(end, h, edge_s, edge_sine, lacks):
 
 
 @kernel
+def _add_node(node, weight, lanes):
+    """Add one node of the rule to the sums of the stick zones."""
+    for l in range(lanes.size // N_LANE_ROWS):
+        start, to = lanes[Lane.FROM + l], lanes[Lane.TO + l]
+        has = weight if lanes[Lane.NEXT + l] < 1.5 else 0.0
+        to = to if lanes[Lane.NEXT + l] < 1.5 else 0.0
+        fx, fy = lanes[Lane.FROM_X + l], lanes[Lane.FROM_Y + l]
+        half = 0.5 * (1.0 + start - to)
+        above, below = to + half * node, (1.0 - start) + half * (2.0 - node)  # 1 + s, 1 - s
+        s, over = above - 1.0, half * (2.0 - node)
+        bound = above * below + 1e-300
+        per_bound = 1.0 / bound
+        x = fx - over * lanes[March.X + l]
+        y = fy - over * (lanes[March.Y + l] + 0.5 * lanes[March.Z + l] * (start + s))
+        qx, qy = mapped(x * per_bound, y * per_bound, lanes[Lane.POLE + l], lanes[Lane.N + l])
+        load = has * half * math.sqrt(bound)
+        lanes[Lane.SUM_X + l] += load * qx
+        lanes[Lane.SUM_Y + l] += load * qy
+        lanes[Lane.SUM_M + l] += load * s * qy
+
+
+@kernel
 def add_zone(elements, lanes):
     """Add the first stick zone of every strip of a block to its sums, and complete the slip zones at its ends."""
     zones, mirrored = 0, 0
@@ -206,25 +228,14 @@ def add_zone(elements, lanes):
         lanes[Lane.SUM_M + l] += has * (am if slides else bm)
     if mirrored > 0:
         _add_before(h, edge_s, edge_sine, lacks, lanes)
-    for k in range(7):
-        node, weight = _NODES[k], _WEIGHTS[k]
-        for l in range(lanes.size // N_LANE_ROWS):
-            start, to = lanes[Lane.FROM + l], lanes[Lane.TO + l]
-            has = weight if lanes[Lane.NEXT + l] < 1.5 else 0.0
-            to = to if lanes[Lane.NEXT + l] < 1.5 else 0.0
-            fx, fy = lanes[Lane.FROM_X + l], lanes[Lane.FROM_Y + l]
-            half = 0.5 * (1.0 + start - to)
-            above, below = to + half * node, (1.0 - start) + half * (2.0 - node)  # 1 + s, 1 - s
-            s, over = above - 1.0, half * (2.0 - node)
-            bound = above * below + 1e-300
-            per_bound = 1.0 / bound
-            x = fx - over * lanes[March.X + l]
-            y = fy - over * (lanes[March.Y + l] + 0.5 * lanes[March.Z + l] * (start + s))
-            qx, qy = mapped(x * per_bound, y * per_bound, lanes[Lane.POLE + l], lanes[Lane.N + l])
-            load = has * half * math.sqrt(bound)
-            lanes[Lane.SUM_X + l] += load * qx
-            lanes[Lane.SUM_Y + l] += load * qy
-            lanes[Lane.SUM_M + l] += load * s * qy
+    # one call a node, since an index into a tuple that is not constant could raise an exception
+    _add_node(_NODES[0], _WEIGHTS[0], lanes)
+    _add_node(_NODES[1], _WEIGHTS[1], lanes)
+    _add_node(_NODES[2], _WEIGHTS[2], lanes)
+    _add_node(_NODES[3], _WEIGHTS[3], lanes)
+    _add_node(_NODES[4], _WEIGHTS[4], lanes)
+    _add_node(_NODES[5], _WEIGHTS[5], lanes)
+    _add_node(_NODES[6], _WEIGHTS[6], lanes)
 
 
 @kernel
