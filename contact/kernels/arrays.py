@@ -40,6 +40,8 @@ Settings = Annotated[Any, Shape(records.LEDGER, 1)]
 Setting = Annotated[Any, Shape(records.LEDGER, 0)]
 Roots = Annotated[Any, Shape(records.ROOT, 1)]
 Root = Annotated[Any, Shape(records.ROOT, 0)]
+ForceSearches = Annotated[Any, Shape(records.FORCE_SEARCH, 1)]
+ForceSearch = Annotated[Any, Shape(records.FORCE_SEARCH, 0)]
 Springs = Annotated[Any, Shape(records.ELASTIC_RAIL, 1)]
 Offsets = Annotated[Any, Shape(records.WHEEL_OFFSET, 1)]
 

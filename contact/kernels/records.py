@@ -335,10 +335,7 @@ WHEEL_OFFSET = _record(
     """,
 )
 
-#: A search for the root of a rising function.
-ROOT = _record(
-    "root",
-    """
+_ROOT = """
     x               where the function is wanted
     before          where it was wanted before
     value           its last value
@@ -350,6 +347,35 @@ ROOT = _record(
     longest         step
     evaluations:int
     beyond:int      1 where the sign does not change up to an end
+    """
+
+#: A search for the root of a rising function.
+ROOT = _record("root", _ROOT)
+
+#: A search for the creepages under a given force. Residuals and their derivatives are those of `contact.kernels.given_force`.
+FORCE_SEARCH = _record(
+    "force_search",
+    _ROOT
+    + """
+    given:int       1 for the longitudinal force, 2 for the lateral one, 3 for both
+    vx              creepages at which the force is wanted [-]
+    vy              [-]
+    wanted_x        given force [N]; 0 where none is given
+    wanted_y        [N]
+    limit           friction times normal force [N]
+    unit            creepage at which the force comes near it, roughly [-]
+    bounded:int     1 where the force never exceeds it
+    status:int      0, or Status
+    stage:int       what the next force is for
+    solutions:int
+    trials:int      of this step
+    fresh:int       1 where the Jacobian is that of differences at the best creepages
+    best_x          creepages with the smallest residual [-]
+    best_y          [-]
+    rx              their residual [-]
+    ry              [-]
+    error           of their force over the limit [-]
+    jacobian:4      derivatives of the residual, row by row
     """,
 )
 
