@@ -119,6 +119,34 @@ class Workspace(NamedTuple):
     fields: Cube
 
 
+class PatchStrips(NamedTuple):
+    """Rows of `strips` of one patch."""
+
+    y: Numbers
+    x_c: Numbers
+    a: Numbers
+    p0: Numbers
+
+
+class PatchFields(NamedTuple):
+    """Rows of `fields` of one patch, shape (strips, elements)."""
+
+    x: Matrix
+    p: Matrix
+    qx: Matrix
+    qy: Matrix
+
+
+class LoadGrid(NamedTuple):
+    """Uniform pressure and traction on the wheel [Pa], shape (ny, nx), on equal rectangles with the centres x, y [m]."""
+
+    x: Numbers
+    y: Numbers
+    p: Matrix
+    qx: Matrix
+    qy: Matrix
+
+
 class Search(NamedTuple):
     """Arrays of a contact search.
 
