@@ -7,15 +7,13 @@ The reference numbers, and the errors against them, are in `reference`.
 
 from __future__ import annotations
 
-import argparse
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 import contact
 import reference
-from benchmarks.tables import table
+from benchmarks.tables import table, tell
 from contact.registry import GAP_LIMIT
 from contact.study.errors import mean_p95_max
 from reference import accuracy
@@ -158,15 +156,5 @@ furthest off, and five ordinary ones. Default methods and resolution (20 × 20; 
 {o}"""
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--write", type=Path, help="write the report also to this file")
-    arguments = parser.parse_args()
-    text = report()
-    print(text)
-    if arguments.write:
-        arguments.write.write_text(text)
-
-
 if __name__ == "__main__":
-    main()
+    tell(report, __doc__)

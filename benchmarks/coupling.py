@@ -7,14 +7,12 @@
 
 from __future__ import annotations
 
-import argparse
 import functools
 from collections.abc import Iterable
-from pathlib import Path
 
 import numpy as np
 
-from benchmarks.tables import table
+from benchmarks.tables import table, tell
 from models.wheelset import master
 from models.wheelset.parameters import WheelsetParameters
 from reference.stability import EXPLICIT, LONGEST, coupled, measured, modes
@@ -128,15 +126,5 @@ which differs slightly from 2/5 of load times approach.
 """
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--write", type=Path, help="write the report also to this file")
-    arguments = parser.parse_args()
-    text = report()
-    print(text)
-    if arguments.write:
-        arguments.write.write_text(text)
-
-
 if __name__ == "__main__":
-    main()
+    tell(report, __doc__)

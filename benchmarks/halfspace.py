@@ -8,16 +8,14 @@ reference numbers (issue 5).
 
 from __future__ import annotations
 
-import argparse
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 import contact
 import reference
-from benchmarks.tables import table
+from benchmarks.tables import table, tell
 from benchmarks.timing import least
 from contact.halfspace import Tangential, norm, tang
 from contact.study.ellipse import ellipse
@@ -220,15 +218,5 @@ taken. The default is x + dx/6, as in CONTACT.
 {order}"""
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--write", type=Path, help="write the report also to this file")
-    arguments = parser.parse_args()
-    text = report()
-    print(text)
-    if arguments.write:
-        arguments.write.write_text(text)
-
-
 if __name__ == "__main__":
-    main()
+    tell(report, __doc__)

@@ -5,14 +5,11 @@ python benchmarks/normal_methods.py [--write docs/check/normal_methods.md]
 
 from __future__ import annotations
 
-import argparse
-from pathlib import Path
-
 import numpy as np
 
 import contact
 import reference
-from benchmarks.tables import table
+from benchmarks.tables import table, tell
 from reference import accuracy
 
 TEXT = """# Comparison of normal methods
@@ -83,15 +80,5 @@ def report() -> str:
     )
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--write", type=Path, help="write the report also to this file")
-    arguments = parser.parse_args()
-    text = report()
-    print(text)
-    if arguments.write:
-        arguments.write.write_text(text)
-
-
 if __name__ == "__main__":
-    main()
+    tell(report, __doc__)

@@ -9,15 +9,13 @@ moments over mu N sqrt(area/pi).
 
 from __future__ import annotations
 
-import argparse
 import functools
 import math
-from pathlib import Path
 
 import numpy as np
 
 import contact
-from benchmarks.tables import table
+from benchmarks.tables import table, tell
 from contact.geometry import profile, wheelset
 from contact.solver import N_ELEMENTS, N_STRIPS
 from contact.theory import kalker
@@ -258,15 +256,5 @@ states each.
 {resolution}"""
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--write", type=Path, help="write the report also to this file")
-    arguments = parser.parse_args()
-    text = report()
-    print(text)
-    if arguments.write:
-        arguments.write.write_text(text)
-
-
 if __name__ == "__main__":
-    main()
+    tell(report, __doc__)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from contact.core import COMPILING, library
 from contact.kernels import memory, quadrature
-from contact.kernels.arrays import Bench, Ledger, Rule, Search, Sheet, Size, SurfaceSearch, Tables, Workspace
+from contact.kernels.arrays import Aside, Bench, Ledger, Rule, Search, Sheet, Size, SurfaceSearch, Tables, Workspace
 from contact.kernels.damage.deposit import arc_length
 from contact.kernels.normal import influence
 from contact.kernels.normal.between_panels import fill_probes
@@ -179,3 +179,14 @@ def bench(size: tuple[int, int, int], of_search: Search | SurfaceSearch, arrays:
     full = Size(*size, 0, 1)
     kept = np.zeros(memory.pair_memory_size(arrays.space.memory.size))
     return _laid(memory.lay_bench, full, kept, of_search, arrays, of_ledger)
+
+
+def aside(size: tuple[int, int, int], of_bench: Bench) -> Aside:
+    """Return the arrays that the derivatives of a wheel-rail pair need besides its bench."""
+    full, search = Size(*size, int(of_bench.own.space.tangent.size > 1), 1), of_bench.search
+    if isinstance(search, SurfaceSearch):
+        beside = surface_search(search.wheel, search.rail, search.separations.shape[2])
+        near = _laid(memory.lay_beside, beside, of_bench)
+    else:
+        near = _laid(memory.lay_neighbour, full, of_bench)
+    return _laid(memory.lay_aside, full, near)

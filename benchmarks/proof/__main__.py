@@ -55,7 +55,8 @@ def page(rows: str, texts: str) -> str:
 
 {rows}
 [Agreement with the thesis](../understand/thesis/agreement.md), the [Manchester contact benchmark](manchester.md),
-[creep forces on ellipses](statistics.md), the [map of methods](method_map.md) and [real time](real_time.md) have their own pages.
+[creep forces on ellipses](statistics.md), the [map of methods](method_map.md) and [real time](real_time.md) have their own
+pages.
 
 {texts}
 {NOT_FOUND}"""

@@ -361,42 +361,16 @@ int wr_pair_forget(void *memory) {
     return 0;
 }
 
-#define N_MOTION ((int)(sizeof(wr_motion) / sizeof(double)))
-
 int wr_pair_derivatives(void *memory, const wr_pair_input *input, double *jacobian) {
     TRY(check_pair(memory));
     Head *head = memory;
     TRY(check_input(input, &head->patch));
     TRY(aligned(jacobian, A_jacobian));
-    wr_pair_input at = *input;
-    wr_pair_answer middle, side[2];
-    double made[6 * (N_MOTION + 1)];
-    at.distance = 0.0;
-    TRY(solve_pair(memory, 1, &at, &middle));
-    double speed = fmax(at.motion.vx, 1e-3), area = middle.total.area;
-    double creepage = area > 0.0 ? 1e-6 * at.surface.mu * middle.total.N / (at.surface.G * area) : 0.0;
-    if (!(creepage > 0.0)) creepage = 1e-9;
-    for (int j = 0; j <= N_MOTION; j++) {
-        double span = 0.0, *member = j < N_MOTION ? (double *)&at.motion + j : &at.amount;
-        double before = *member;
-        int is_height = member == &at.motion.z || member == &at.motion.rail_z;
-        int is_place = member == &at.motion.y || member == &at.motion.roll || member == &at.motion.yaw ||
-                       member == &at.motion.rail_y || member == &at.motion.rail_roll;
-        double step = is_height ? 1e-8 : is_place ? 1e-7 : creepage * speed;
-        if (j == N_MOTION) step = fmax((at.height == WR_HEIGHT_PENETRATION ? 1e-6 : 1e-4) * before, 1e-12);
-        for (int sign = 1; sign >= -1; sign -= 2) {
-            *member = before + sign * step;
-            if (*member < 0.0 && (j == N_MOTION || member == &at.motion.vx)) *member = 0.0;
-            span += sign * (*member - before);
-            TRY(solve_pair(memory, 1, &at, &side[sign < 0]));
-        }
-        *member = before;
-        const double *high = &side[0].total.Fx, *low = &side[1].total.Fx; /* Fx, Fy, Fz, Mx, My, Mz lead wr_total */
-        for (int i = 0; i < 6; i++) made[(N_MOTION + 1) * i + j] = span > 0.0 ? (high[i] - low[i]) / span : 0.0;
-    }
-    memcpy(jacobian, made, sizeof made);
-    TRY(solve_pair(memory, 0, input, &middle)); /* the answer of the memory is that of solve */
-    return code_of(middle.total.status);
+    wr_pair_answer answer;
+    wr_motion motion = input->motion;
+    TRY(solve_pair(memory, 0, input, &answer));
+    CALL_PAIR(derivatives, head, work_of(memory), input->height, &motion, jacobian);
+    return code_of(answer.total.status);
 }
 
 int wr_pair_patch(void *memory, int64_t k, wr_result *result, wr_fields *fields) {

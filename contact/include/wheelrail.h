@@ -194,8 +194,9 @@ WR_API int wr_pair_solve(void *memory, const wr_pair_input *input, wr_pair_answe
 WR_API int wr_pair_accept(void *memory);
 /* The bins stay. */
 WR_API int wr_pair_forget(void *memory);
-/* d(Fx, Fy, Fz, Mx, My, Mz)/d(members of wr_motion in their order, amount) as jacobian[6][17], row by row.  Central
- * differences of 34 solutions, each from nothing; an exact derivative will have this signature. */
+/* Also a solution, as wr_pair_solve: the last answer is then that of this input.  d(Fx, Fy, Fz, Mx, My, Mz)/d(members of
+ * wr_motion in their order, amount) as jacobian[6][17], row by row.  Under a load or on springs, height and deflection
+ * follow. */
 WR_API int wr_pair_derivatives(void *memory, const wr_pair_input *input, double *jacobian);
 /* Result and fields of patch k of the last answer, on the right side.  The patch is solved once more, from the last answer,
  * so the numbers agree with it within the tolerance of the method.  fields may be NULL. */

@@ -178,26 +178,26 @@ typedef struct {
     double nu; /* Poisson's ratio [-] */
     double pressure_limit; /* [Pa]; 0 or infinite for none */
     int64_t max_iterations; /* of the strip half space */
-    double mu; /* coefficient of friction; at rest, when it falls */
+    double mu; /* coefficient of friction, at rest if friction falls with sliding */
     int64_t law; /* FrictionLaw */
     double kinetic; /* coefficient in fast sliding */
     double half_speed; /* [m/s] */
     int64_t velocity; /* SlipVelocity */
     double slope; /* factor on the creep stiffness at small creepage */
-    double slope_far; /* its limit at large creepage */
-    double slope_rate; /* its rate */
-    double gauge_factor; /* on the coefficient of friction on one side of the border */
-    double border; /* [m] */
-    double border_width; /* [m]; its sign says on which side */
+    double slope_far; /* limit of this factor at large creepage */
+    double slope_rate; /* rate at which it approaches the limit */
+    double gauge_factor; /* factor on the coefficient of friction beyond the border */
+    double border; /* position of the border along y [m] */
+    double border_width; /* width of the transition [m]; the sign says on which side friction changes */
     double k_A; /* Polach's reduction factor in the area of adhesion */
-    double k_S; /* and in that of slip */
-    double drop; /* what heat takes off the coefficient, over that of the cold surface; 0 for nothing */
-    double warm; /* rise of temperature above that of the bodies from which on it falls [K] */
-    double warm_range; /* over which it falls [K] */
+    double k_S; /* and in the area of slip */
+    double drop; /* relative loss of friction when hot [-]; 0 for none */
+    double warm; /* temperature rise at which friction begins to fall [K] */
+    double warm_range; /* range of temperature over which it falls [K] */
     double heating; /* share of heat over 2 sqrt(pi lambda rho c) [m2 K/(W sqrt(s))] */
-    int64_t conformal; /* 1 where the surface of contact is not taken as a plane */
-    double rolling; /* turn of the wheel about the plane's y axis per metre rolled [1/m]; for a bent surface */
-    double tolerance; /* at which the strip half space stops [-]; 0 for the default */
+    int64_t conformal; /* 1 for a curved contact surface, 0 for a plane */
+    double rolling; /* rotation of the wheel about the plane's y axis per metre rolled [1/m]; for curved surfaces */
+    double tolerance; /* residual at which the strip half space stops [-]; 0 for the default */
 } wr_case;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 _Static_assert(sizeof(wr_case) == 272, "wr_case");
@@ -253,10 +253,10 @@ typedef struct {
     int64_t n_patches;
     int64_t iterations;
     int64_t status; /* Status */
-    int64_t limited; /* 1 where the pressure reached its limit */
-    double pressure_y; /* what of Fy is pressure on a bent surface, no creep force [N] */
-    double touch; /* approach at which the bodies first touch [m] */
-    double gap_error; /* largest gap or overlap left in the patch over the approach [-] */
+    int64_t limited; /* 1 if the pressure reached its limit */
+    double pressure_y; /* part of Fy from pressure on a curved surface [N] */
+    double touch; /* approach at first touch [m] */
+    double gap_error; /* largest remaining gap or overlap in the patch over the approach [-] */
     double bend; /* largest change of the contact angle over a patch [rad] */
     double edges[8]; /* lateral edges of the patches, two each [m] */
 } wr_result;
@@ -330,7 +330,7 @@ typedef struct {
     double preload_z; /* [N] */
     double dy; /* lateral deflection [m] */
     double dz; /* vertical deflection [m] */
-    int64_t balanced; /* 0 where the force jumps and no deflection is in balance */
+    int64_t balanced; /* 0 if the force jumps and no deflection is in balance */
 } wr_elastic_rail;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 _Static_assert(sizeof(wr_elastic_rail) == 56, "wr_elastic_rail");

@@ -93,7 +93,8 @@ class Space(NamedTuple):
     """Scratch arrays of the normal and the tangential methods.
 
     `memory` is the start for the next call. `case` is a copy that a kernel may change. `turned` is the separation in the
-    orientation in which interacting strips are solved. `iterates` has a row for each of their iterations.
+    orientation in which interacting strips are solved. `iterates` has a row for each of their iterations. `tangent` says how
+    they follow a small change (`normal.tangent`).
     """
 
     grid: Matrix
@@ -107,6 +108,7 @@ class Space(NamedTuple):
     lanes: Numbers
     trace: Matrix
     case: Cases
+    tangent: Matrix
 
 
 class Workspace(NamedTuple):
@@ -265,6 +267,32 @@ class Bench(NamedTuple, Generic[Kind]):
     moved: Givens
     offset: Offsets
     displaced: Givens
+
+
+class Aside(NamedTuple, Generic[Kind]):
+    """What the derivatives of a pair need besides its bench (`pair_jacobian`).
+
+    `bench` solves neighbouring problems; its scratch is that of the pair's bench. `numbers` are the members of the record
+    `given`. `start`, `patches` and `middle` are warm start, patches and forces of the middle one, `forces` those of the last
+    one. `by_creep[patch, creep]` are derivatives of the forces by the creepages, `creeps[patch, creep]` those of the creepages
+    by the motion. `row` is a single row of fields. `tangents` are those of the patches that are `linear`, which is 1 or 0.
+    `sides` says for each column on which side it holds.
+    """
+
+    bench: Bench[Kind]
+    numbers: Numbers
+    given: Givens
+    start: Numbers
+    patches: Patches
+    middle: Numbers
+    forces: Numbers
+    by_creep: Cube
+    creeps: Cube
+    row: Cube
+    tangents: Cube
+    linear: Numbers
+    sides: Numbers
+    jacobian: Matrix
 
 
 class Size(NamedTuple):

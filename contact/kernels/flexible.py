@@ -26,7 +26,7 @@ def _turning(roll, yaw, roll_rate, yaw_rate):
 
 
 @kernel
-def _displace(given, offset, tape, displaced):
+def displace(given, offset, tape, displaced):
     """Fill `displaced` with the motion of the rigid wheelset that has this wheel. Return C' - C [m]."""
     displaced[0] = given
     moved = displaced[0]
@@ -52,7 +52,7 @@ def solve_flexible(mode, amount, given, bench):
     Moment and height are those of the wheelset. Without displacement the results are those of `solve_on_rail`, bit for bit.
     """
     motion, total = bench.search.motion[0], bench.total[0]
-    x, y, z = _displace(given, bench.offset[0], motion.mirror * motion.tape, bench.displaced)
+    x, y, z = displace(given, bench.offset[0], motion.mirror * motion.tape, bench.displaced)
     moved = bench.displaced[0]
     if abs(moved.roll) > LARGEST_ANGLE or abs(moved.yaw) > LARGEST_ANGLE:
         return NoAnswer.TURNED.value

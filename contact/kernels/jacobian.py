@@ -1,8 +1,9 @@
 """Forces with their derivatives, d(Fx, Fy, Mz, N, approach, power)/d(creepages, load or approach, friction).
 
 The normal problem does not depend on creepages and friction. So their columns are differences of the tangential problem
-alone, on the same strips. The column of the load or approach is the difference of two solutions, both iterated until their
-own error is far below the step. The second of them is the answer, so all numbers belong together.
+alone, on the same strips. For the column of the load or approach the strips follow their tangent (`normal.tangent`). Where
+there is none, it is the difference of two solutions, both iterated until their own error is far below the step. The second of
+them is the answer, so all numbers belong together.
 
 All differences are one-sided, to the side of larger values. Where forces have a kink (a strip changes between stick and slip)
 this is the slope on that side.
@@ -12,16 +13,17 @@ import math
 
 from contact.core import entry, kernel
 from contact.kernels.arrays import Cases, Matrix, Results, Samples, Workspace
-from contact.kernels.enumerations import LoadKind
+from contact.kernels.enumerations import FrictionLaw, LoadKind, NormalFamily
+from contact.kernels.normal.tangent import follow, linearise
 from contact.kernels.pipeline import press_case, roll_case
 
 #: Rows and columns.
 ROWS, COLUMNS = 6, 5
-AMOUNT, MU = 3, 4
+AMOUNT, MU, POWER = 3, 4, 5
 #: Step of creepages and friction, over those at which the whole patch slips. Elements hardly ever change their state within it.
 _STEP = 1e-6
 #: Step of the load, or of the penetration, over itself, and the tolerance of both solutions.
-_LOAD_STEP, _TOLERANCE = 3e-4, 1e-8
+_LOAD_STEP, TOLERANCE = 3e-4, 1e-8
 #: Steps of creepage [-], spin [1/m] and friction [-] where there is no friction.
 _LEAST, _LEAST_SPIN, _LEAST_FRICTION = 1e-9, 1e-6, 1e-12
 
@@ -82,9 +84,39 @@ def _press_closely(sep, share, cases, own, result):
     ``cases[1]`` gets this problem. Return the strip count.
     """
     cases[1] = cases[0]
-    cases[1].tolerance = _TOLERANCE
+    cases[1].tolerance = TOLERANCE
     move(cases[1], AMOUNT, share)
     return press_case(sep, cases[1], own, result)
+
+
+@kernel
+def _copy_strips(strips, n, at, to):
+    """Copy `n` strips from place `at` to place `to`. Only a solution with one patch has a tangent, so there is room."""
+    for row in range(strips.shape[0]):
+        for i in range(n):
+            strips[row, to + i] = strips[row, at + i]
+
+
+@kernel
+def _follow(sep, n, amount, cases, own, results, jacobian):
+    """Fill the column of the load or approach from the tangent of the solution in `own`, for a change `amount` of the approach.
+
+    The strips of the solution are kept.
+    """
+    cases[1], results[1] = cases[0], results[0]
+    _copy_strips(own.strips, n, 0, n)
+    follow(sep, results[0].approach + amount, own, results[1])
+    roll_case(sep, n, cases[1], own, results[1])
+    _copy_strips(own.strips, n, n, 0)
+    _store(results[1], AMOUNT, jacobian)
+
+
+@kernel
+def has_tangent(sep, case, own, result):
+    """Find the tangent of the solution, unless its strips change after the normal problem. Return whether there is one."""
+    if case.normal_family != NormalFamily.STRIP_HALFSPACE or case.conformal != 0 or result.limited != 0:
+        return False
+    return linearise(sep, case, own, result)
 
 
 @kernel
@@ -113,37 +145,68 @@ def _step(j, case, amount, result):
     return spin if j == 2 else creepage
 
 
+@kernel
+def is_even(case):
+    """Return whether forces grow with the creepages as with the friction: no coefficient that falls, and a plane."""
+    return case.law == FrictionLaw.COULOMB and not case.drop > 0.0 and case.conformal == 0
+
+
+@kernel
+def _set_friction(case, result, jacobian):
+    """Fill the column of the friction by Euler's theorem: F(λ creepages, λ mu) = λ F, and the power grows with λ²."""
+    for i in range(ROWS):
+        along = case.vx * jacobian[i, 0] + case.vy * jacobian[i, 1] + case.phi * jacobian[i, 2]
+        value = 0.0
+        if i < 3:
+            value = result.Fx if i == 0 else (result.Fy if i == 1 else result.Mz)
+        elif i == POWER:
+            value = 2.0 * result.power
+        jacobian[i, MU] = (value - along) / case.mu if i < 3 or i == POWER else 0.0
+
+
 @entry
 def solve_with_jacobian(sep: Samples, cases: Cases, own: Workspace, results: Results, jacobian: Matrix) -> int:
     """Solve ``cases[0]`` into ``results[0]``, and fill the jacobian, shape (6, 5). Return the strip count.
 
-    ``cases[1]`` and ``results[1]`` are scratch. Without contact all derivatives are zero. The answer is iterated further than
-    that of `solve_case`; the two agree within the tolerance of the method.
+    ``cases[1]`` and ``results[1]`` are scratch. Without contact all derivatives are zero. If there is a tangent, the answer is
+    that of `solve_case`. Otherwise it is iterated further; the two agree within the tolerance of the method.
     """
     jacobian[:, :] = 0.0
-    over = cases[0].amount
-    if cases[0].load_kind == LoadKind.APPROACH:
-        press_case(sep, cases[0], own, results[0])
-        over -= results[0].touch
-    amount = _LOAD_STEP * max(over, 0.0)
-    n = _press_closely(sep, amount, cases, own, results[1])
-    if n > 0:
-        roll_case(sep, n, cases[1], own, results[1])
-        _store(results[1], AMOUNT, jacobian)
-    n = _press_closely(sep, 0.0, cases, own, results[0])
+    by_load = cases[0].load_kind != LoadKind.APPROACH
+    n, over, linear = 1, cases[0].amount, False
+    iterates = cases[0].normal_family == NormalFamily.STRIP_HALFSPACE
+    if iterates or not by_load:
+        n = press_case(sep, cases[0], own, results[0])
+        over = results[0].approach - results[0].touch
+        linear = n > 0 and has_tangent(sep, cases[0], own, results[0])
+    if n == 0:
+        return 0
+    if linear:
+        _follow(sep, n, _LOAD_STEP * max(over, 0.0), cases, own, results, jacobian)
+        amount = jacobian[3, AMOUNT] - results[0].N if by_load else jacobian[4, AMOUNT] - results[0].approach
+    else:
+        amount = _LOAD_STEP * max(cases[0].amount if by_load else over, 0.0)
+        n = _press_closely(sep, amount, cases, own, results[1])
+        if n > 0:
+            roll_case(sep, n, cases[1], own, results[1])
+            _store(results[1], AMOUNT, jacobian)
+        n = _press_closely(sep, 0.0, cases, own, results[0])
     if n == 0:
         jacobian[:, :] = 0.0
         return 0
+    even = is_even(cases[0]) and cases[0].mu > 0.0
     for j in range(COLUMNS):
-        if j != AMOUNT:
+        if j != AMOUNT and not (j == MU and even):
             roll_moved(sep, n, j, _step(j, cases[0], amount, results[0]), cases, own, results)
             _store(results[1], j, jacobian)
     roll_case(sep, n, cases[0], own, results[0])
-    for j in range(COLUMNS):
+    for j in range(MU if even else COLUMNS):
         cases[1] = cases[0]
         step = move(cases[1], j, _step(j, cases[0], amount, results[0]))
         if step > 0.0:
             _subtract(results[0], j, step, jacobian)
         else:
             jacobian[:, j] = 0.0
+    if even:
+        _set_friction(cases[0], results[0], jacobian)
     return n

@@ -10,6 +10,7 @@ from contact.core import shared
 from contact.kernels.arrays import (
     Across,
     Array,
+    Aside,
     Bench,
     Ledger,
     Rule,
@@ -56,14 +57,19 @@ from contact.kernels.rows import (
     Element,
     Field,
     Iterate,
+    Moved,
     Node,
     Over,
     Sample,
     Section,
     Sep,
     Strip,
+    Tangent,
 )
 from contact.kernels.tangential.lanes import LANES, N_LANE_ROWS, TRACE_WIDTH
+
+#: Rows of the derivatives of a pair, and what the forces of a patch are derived by (`pair_jacobian`).
+PAIR_ROWS, CREEPS = 8, 5
 
 #: Number of strips of the normal problem that a search solves to find the height of a wheel under a load.
 SEARCH_STRIPS = 30
@@ -77,6 +83,14 @@ COARSE_ROWS, COARSE_COLUMNS, GRIDS, FINE_ROWS, FINE_COLUMNS, PATCH_COLUMNS = 101
 def memory_size(size: Size) -> int:
     """Return the number of float64 that a normal method keeps from one call to the next."""
     return MEM_LN_A + (2 * MAX_PATCHES * size.n_strips if size.interacting else 1)
+
+
+@shared
+def tangent_shape(n: int, interacting: int) -> tuple[int, int]:
+    """Return the shape of the tangent of a patch with `n` strips."""
+    if interacting != 0 and FEWEST <= n <= MOST:
+        return 4 * n + len(Tangent), n
+    return 1, 1
 
 
 @shared
@@ -125,7 +139,9 @@ def lay_space(block: Array, end: int, size: Size, memory: Array) -> tuple[Space,
     lanes, end = vector(block, next_line(end), N_LANE_ROWS * LANES)
     trace, end = matrix(block, end, size.n_elements, TRACE_WIDTH)
     case, end = records(block, end, 1, CASE)
-    return Space(grid, turned, vectors, logs, influence, lu, iterates, memory, lanes, trace, case), end
+    rows, columns = tangent_shape(size.n_strips, size.interacting)
+    tangent, end = matrix(block, end, rows, columns)
+    return Space(grid, turned, vectors, logs, influence, lu, iterates, memory, lanes, trace, case, tangent), end
 
 
 @shared
@@ -248,3 +264,57 @@ def lay_bench(
         rail, roots, moved, offset, displaced,
     )  # fmt: skip
     return bench, end
+
+
+@shared
+def lay_neighbour(block: Array, end: int, size: Size, bench: Bench) -> tuple[Bench, int]:
+    """Return the arrays of a pair that is solved beside that of `bench`, whose scratch it uses, and the new end."""
+    search = bench.search
+    motion, end = records(block, end, 1, MOTION)
+    patches, end = records(block, end, MAX_PATCHES, PATCH)
+    separations, end = cube(block, end, MAX_PATCHES, len(Sep), size.n_samples)
+    near = Search(
+        search.wheel, search.rail, motion, search.grid, patches, separations, search.line, search.placed, search.lobes,
+        search.wheel_plane, search.rail_plane, search.case, search.across, search.work, search.strips, search.result,
+    )  # fmt: skip
+    return lay_beside(block, end, near, bench)
+
+
+@shared
+def lay_beside(block: Array, end: int, near: Search, bench: Bench) -> tuple[Bench, int]:
+    """As `lay_neighbour`, around the search `near`."""
+    memory, end = vector(block, end, bench.memory.size)
+    case, end = records(block, end, 2, CASE)
+    patch_case, end = records(block, end, 1, CASE)
+    result, end = records(block, end, 2, RESULT)
+    contacts, end = records(block, end, MAX_PATCHES, CONTACT)
+    total, end = records(block, end, 1, TOTAL)
+    displaced, end = records(block, end, 1, GIVEN)
+    beside = Bench(
+        near, bench.own, case, patch_case, result, memory, bench.damage_parameters, bench.damage_fields, bench.damage,
+        contacts, total, bench.ledger, bench.rail, bench.roots, bench.moved, bench.offset, displaced,
+    )  # fmt: skip
+    return beside, end
+
+
+@shared
+def lay_aside(block: Array, end: int, size: Size, near: Bench) -> tuple[Aside, int]:
+    """Return the arrays for the derivatives of a pair around the bench of its neighbours, and the new end."""
+    numbers, _ = vector(block, end, Moved.RAIL_ROLL_RATE + 1)
+    given, end = records(block, end, 1, GIVEN)
+    start, end = vector(block, end, near.memory.size)
+    patches, end = records(block, end, MAX_PATCHES, PATCH)
+    middle, end = vector(block, end, PAIR_ROWS)
+    forces, end = vector(block, end, PAIR_ROWS)
+    by_creep, end = cube(block, end, MAX_PATCHES, CREEPS, PAIR_ROWS)
+    creeps, end = cube(block, end, MAX_PATCHES, CREEPS, len(Moved))
+    row, end = cube(block, end, len(Field), 1, size.n_elements)
+    rows, columns = tangent_shape(size.n_strips, size.interacting)
+    tangents, end = cube(block, end, MAX_PATCHES, rows, columns)
+    linear, end = vector(block, end, MAX_PATCHES)
+    sides, end = vector(block, end, len(Moved))
+    jacobian, end = matrix(block, end, PAIR_ROWS, len(Moved))
+    aside = Aside(
+        near, numbers, given, start, patches, middle, forces, by_creep, creeps, row, tangents, linear, sides, jacobian
+    )
+    return aside, end

@@ -14,8 +14,8 @@ from contact.kernels.pipeline import solve_case
 from contact.kernels.records import LARGEST_CREEPAGE, MAX_PATCHES
 from contact.kernels.rows import Sep, Strip
 
-#: Heights that are tried for a vertical force, of which the residual should be and may be (as under a load), and the
-#: furthest height [m].
+#: Search of the height for a vertical force: largest number of trials, target and accepted relative residual, and the
+#: largest height [m].
 _MAX_HEIGHTS, _TOLERANCE, _ACCEPTABLE, _FURTHEST = 16, 1e-9, 1e-3, 1.0
 #: The same residuals on surfaces that change along the way, the second with friction. On the edge of a fresh flat the force
 #: is not smooth in z.
@@ -31,7 +31,7 @@ def _bounded(creepage):
 
 
 @kernel
-def _pressure_wrench(strips, n):
+def pressure_wrench(strips, n):
     """Return the moments ∬ y p dA and ∬ x p dA of the pressure [N m], its lateral force [N] and the spin moment of this.
 
     The last two vanish in a plane. A strip carries π/2 p0 a per unit of width.
@@ -47,7 +47,7 @@ def _pressure_wrench(strips, n):
 
 
 @kernel
-def _report(patch, case, result, pressure, contact):
+def report(patch, case, result, pressure, contact):
     """Fill the contact of one patch on the right side. Forces, moments and area are multiplied by the patch's share."""
     by_y, by_x, _, _ = pressure
     share = patch.share
@@ -67,7 +67,7 @@ def _report(patch, case, result, pressure, contact):
 
 
 @kernel
-def _add_wrench(contact, pressure, share, motion, total):
+def add_wrench(contact, pressure, share, motion, total):
     """Add force and moment of a contact about the wheelset's centre (0, y, z - radius), in track coordinates.
 
     Before it is tilted by its pitch, the frame's axes are x, (0, c, s) and (0, -s, c); the pressure acts along -z of the
@@ -139,7 +139,7 @@ def _add_results(result, damage, share, total):
 
 
 @kernel
-def _clear_contact(contact):
+def clear_contact(contact):
     """Set every member of a contact to zero."""
     contact.N, contact.Fx, contact.Fy, contact.Mx, contact.My, contact.Mz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     contact.x, contact.y, contact.z, contact.angle = 0.0, 0.0, 0.0, 0.0
@@ -150,7 +150,7 @@ def _clear_contact(contact):
 
 
 @kernel
-def _clear_total(total):
+def clear_total(total):
     """Set every member of a total to zero, the status to no contact."""
     total.Fx, total.Fy, total.Fz, total.Mx, total.My, total.Mz, total.z = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     total.n_patches, total.status = 0, Status.NO_CONTACT
@@ -171,7 +171,7 @@ def _mirror(mirror, n, contacts, total):
 
 
 @kernel
-def _roll_patch(patch, under_load, motion, template, case):
+def set_case(patch, under_load, motion, template, case):
     """Fill the case of one patch from the `template` of the pair."""
     case.load_kind = LoadKind.LOAD if under_load else LoadKind.APPROACH
     case.amount = patch.load if under_load else patch.approach
@@ -184,8 +184,8 @@ def _roll_patch(patch, under_load, motion, template, case):
 
 
 @kernel
-def _space_of_patch(space, memory):
-    """Return the scratch arrays with the memory of one patch."""
+def space_of_patch(space, memory, tangent):
+    """Return the scratch arrays with memory and tangent of one patch."""
     return Space(
         space.grid,
         space.turned,
@@ -198,6 +198,7 @@ def _space_of_patch(space, memory):
         space.lanes,
         space.trace,
         space.case,
+        tangent,
     )
 
 
@@ -211,9 +212,9 @@ def solve_patch(k, under_load, bench):
     search, own, memory = bench.search, bench.own, bench.memory
     patch, sep, parameters = search.patches[k], search.separations[k], bench.damage_parameters[0]
     case, piece = bench.patch_case[0], (memory.size - 3) // MAX_PATCHES
-    _roll_patch(patch, under_load, search.motion[0], bench.case[0], case)
+    set_case(patch, under_load, search.motion[0], bench.case[0], case)
     samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
-    space = _space_of_patch(own.space, memory[1 + k * piece : 1 + (k + 1) * piece])
+    space = space_of_patch(own.space, memory[1 + k * piece : 1 + (k + 1) * piece], own.space.tangent)
     of_patch = Workspace(own.rule, own.tables, space, own.strips, own.fields)
     n_strips = solve_case(samples, bench.patch_case, of_patch, bench.result)
     parameters.speed, parameters.wheel_radius = search.motion[0].vx, patch.radius
@@ -244,8 +245,8 @@ def _solve_at(mode, amount, given, z, enters, bench):
     total, result, damage, case = bench.total[0], bench.result[0], bench.damage[0], bench.patch_case[0]
     motion = search.motion[0]
     for k in range(MAX_PATCHES):
-        _clear_contact(bench.contacts[k])
-    _clear_total(total)
+        clear_contact(bench.contacts[k])
+    clear_total(total)
     move(given, motion)
     motion.z = z
     n = settle(mode, amount, search)
@@ -258,11 +259,11 @@ def _solve_at(mode, amount, given, z, enters, bench):
     for k in range(n):
         patch, contact = search.patches[k], bench.contacts[k]
         n_strips = solve_patch(k, mode == Height.LOAD, bench)
-        pressure = _pressure_wrench(own.strips, n_strips)
-        _report(patch, case, result, pressure, contact)
+        pressure = pressure_wrench(own.strips, n_strips)
+        report(patch, case, result, pressure, contact)
         if n_strips > 0:
             patch.load = result.N  # for another solution of the same patch
-            _add_wrench(contact, pressure, patch.share, motion, total)
+            add_wrench(contact, pressure, patch.share, motion, total)
             _add_results(result, damage, patch.share, total)
             total.gap_error = max(total.gap_error, contact.gap_error)
             entered = enters and (mode != Height.LOAD or _is_alone(n, bench))

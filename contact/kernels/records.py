@@ -66,26 +66,26 @@ CASE = _record(
     nu              Poisson's ratio [-]
     pressure_limit  [Pa]; 0 or infinite for none
     max_iterations:int   of the strip half space
-    mu              coefficient of friction; at rest, when it falls
+    mu              coefficient of friction, at rest if friction falls with sliding
     law:int         FrictionLaw
     kinetic         coefficient in fast sliding
     half_speed      [m/s]
     velocity:int    SlipVelocity
     slope           factor on the creep stiffness at small creepage
-    slope_far       its limit at large creepage
-    slope_rate      its rate
-    gauge_factor    on the coefficient of friction on one side of the border
-    border          [m]
-    border_width    [m]; its sign says on which side
+    slope_far       limit of this factor at large creepage
+    slope_rate      rate at which it approaches the limit
+    gauge_factor    factor on the coefficient of friction beyond the border
+    border          position of the border along y [m]
+    border_width    width of the transition [m]; the sign says on which side friction changes
     k_A             Polach's reduction factor in the area of adhesion
-    k_S             and in that of slip
-    drop            what heat takes off the coefficient, over that of the cold surface; 0 for nothing
-    warm            rise of temperature above that of the bodies from which on it falls [K]
-    warm_range      over which it falls [K]
+    k_S             and in the area of slip
+    drop            relative loss of friction when hot [-]; 0 for none
+    warm            temperature rise at which friction begins to fall [K]
+    warm_range      range of temperature over which it falls [K]
     heating         share of heat over 2 sqrt(pi lambda rho c) [m2 K/(W sqrt(s))]
-    conformal:int   1 where the surface of contact is not taken as a plane
-    rolling         turn of the wheel about the plane's y axis per metre rolled [1/m]; for a bent surface
-    tolerance       at which the strip half space stops [-]; 0 for the default
+    conformal:int   1 for a curved contact surface, 0 for a plane
+    rolling         rotation of the wheel about the plane's y axis per metre rolled [1/m]; for curved surfaces
+    tolerance       residual at which the strip half space stops [-]; 0 for the default
     """,
 )
 
@@ -108,10 +108,10 @@ RESULT = _record(
     n_patches:int
     iterations:int
     status:int      Status
-    limited:int     1 where the pressure reached its limit
-    pressure_y      what of Fy is pressure on a bent surface, no creep force [N]
-    touch           approach at which the bodies first touch [m]
-    gap_error       largest gap or overlap left in the patch over the approach [-]
+    limited:int     1 if the pressure reached its limit
+    pressure_y      part of Fy from pressure on a curved surface [N]
+    touch           approach at first touch [m]
+    gap_error       largest remaining gap or overlap in the patch over the approach [-]
     bend            largest change of the contact angle over a patch [rad]
     edges:{2 * MAX_PATCHES}         lateral edges of the patches, two each [m]
     """,
@@ -146,8 +146,8 @@ MOTION = _record(
     + """
     radius          nominal rolling radius [m]
     tape            distance of the tape circle from the wheelset's centre [m]
-    combine_distance  lobes that are nearer share a plane [m]
-    combine_angle   as do those that differ by less [rad]
+    combine_distance  largest distance of lobes that share a plane [m]
+    combine_angle   largest difference of their angles [rad]
     most_patches:int
     mirror          1 for the right side, -1 for the left
     origin_y        of the rail's profile without irregularity [m]
@@ -155,9 +155,9 @@ MOTION = _record(
     station         position of the axle along the slices of a rail that changes along the track [m]
     rotation        of the wheel about its axle, which decreases when rolling forward [rad]
     reach           distance before and behind the axle in which surfaces are searched [m]
-    tilted:int      1 where frames follow the normal of a surface in all directions, 0 where they turn about x
-    changing:int    1 in a search over surfaces: the wheel is no body of revolution
-    missed          share of the load by which the last search under a load missed it
+    tilted:int      1 for frames along the normal of the surface, 0 for frames turned about x only
+    changing:int    1 in a search over surfaces, where the wheel is no body of revolution
+    missed          error of the last search under a load over the load [-]
     """,
 )
 
@@ -165,16 +165,16 @@ MOTION = _record(
 LOBE = _record(
     "lobe",
     """
-    low             where it begins, track y [m]
-    high            where it ends [m]
-    low_z           track z there [m]
-    high_z          [m]
+    low             begin of the run, track y [m]
+    high            end of the run, track y [m]
+    low_z           track z at its begin [m]
+    high_z          track z at its end [m]
     weight
     moment          weight times y
     cosine          weight times cosine of the angle
     sine            weight times its sine
-    tie             share with which it still forms one patch with the one before it
-    x_low           range along the track; of surfaces, as the following [m]
+    tie             coupling to the previous lobe, 1 for one patch, 0 for separate patches
+    x_low           range along the track [m]; only for surfaces, as the following
     x_high          [m]
     moment_x        weight times x
     slant           weight times the x component of the rail's normal
@@ -203,7 +203,7 @@ PATCH = _record(
     load            normal force [N], filled by a search for a load
     point_y         the wheel's point opposite the reference point [m]
     point_z         [m]
-    share           with which it counts; below 1 only while lobes pass into planes of their own
+    share           weight of the patch, normally 1; below 1 in the transition to separate planes
     pitch           inclination of the frame's normal along the track, forward positive [rad]
     fit_error       of the parabolas along x of a surface, root mean square over the approach [-]
     """,
@@ -312,7 +312,7 @@ ELASTIC_RAIL = _record(
     preload_z       [N]
     dy              lateral deflection [m]
     dz              vertical deflection [m]
-    balanced:int    0 where the force jumps and no deflection is in balance
+    balanced:int    0 if the force jumps and no deflection is in balance
     """,
 )
 
@@ -336,17 +336,17 @@ WHEEL_OFFSET = _record(
 )
 
 _ROOT = """
-    x               where the function is wanted
-    before          where it was wanted before
-    value           its last value
-    slope           per x
-    first           ends of the range
-    last
-    low             ends of the bracket
-    high
-    longest         step
-    evaluations:int
-    beyond:int      1 where the sign does not change up to an end
+    x               next point to evaluate
+    before          previous point
+    value           last value of the function
+    slope           slope of the last secant, at first as expected
+    first           begin of the range
+    last            end of the range
+    low             lower end of the bracket
+    high            upper end of the bracket
+    longest         largest step
+    evaluations:int number of evaluations
+    beyond:int      1 if there is no change of sign up to an end of the range
     """
 
 #: A search for the root of a rising function.
@@ -358,23 +358,23 @@ FORCE_SEARCH = _record(
     _ROOT
     + """
     given:int       1 for the longitudinal force, 2 for the lateral one, 3 for both
-    vx              creepages at which the force is wanted [-]
-    vy              [-]
-    wanted_x        given force [N]; 0 where none is given
-    wanted_y        [N]
+    vx              next longitudinal creepage to evaluate [-]
+    vy              next lateral creepage to evaluate [-]
+    wanted_x        given longitudinal force [N]; 0 where none is given
+    wanted_y        given lateral force [N]; 0 where none is given
     limit           friction times normal force [N]
-    unit            creepage at which the force comes near it, roughly [-]
-    bounded:int     1 where the force never exceeds it
+    unit            creepage at which the force comes near the limit, roughly [-]
+    bounded:int     1 where the force never exceeds the limit
     status:int      0, or Status
     stage:int       what the next force is for
-    solutions:int
-    trials:int      of this step
+    solutions:int   number of solutions
+    trials:int      number of trials of this step
     fresh:int       1 where the Jacobian is that of differences at the best creepages
-    best_x          creepages with the smallest residual [-]
-    best_y          [-]
-    rx              their residual [-]
-    ry              [-]
-    error           of their force over the limit [-]
+    best_x          longitudinal creepage with the smallest residual [-]
+    best_y          lateral creepage with the smallest residual [-]
+    rx              its longitudinal residual [-]
+    ry              its lateral residual [-]
+    error           error of its force over the limit [-]
     jacobian:4      derivatives of the residual, row by row
     """,
 )
@@ -385,6 +385,6 @@ LEDGER = _record(
     """
     start           where the first bin begins, in widths
     width           of a bin [m]
-    distance        that the next solution is for [m]
+    distance        distance rolled in the next solution [m]
     """,
 )

@@ -12,24 +12,24 @@ class Strip(IntEnum):
     DY = 1
     XC = 2
     A = 3  # half length
-    P0 = 4  # peak of the semi-elliptic pressure, or of the one with the strip's load where the pressure is limited
+    P0 = 4  # peak of the semi-elliptic pressure; where the pressure is limited, of the semi-ellipse with the same load
     ASPECT = 5  # a/b; its logarithm while the tangential problem is solved
     PATCH = 6
-    BOUND = 7  # peak over the patch's coefficient of friction of the semi-ellipse that bounds the traction
+    BOUND = 7  # peak of the traction bound over the patch's coefficient of friction
     VX = 8  # creepages: rigid slip VX - PHI·y, VY + PHI·x
     VY = 9
     PHI = 10
-    TILT = 11  # slope of the surface against the plane; 0 where it is one
-    TO_X = 12  # what effective creepages add to those of the strip, and to the exponent of mapped strip marching
+    TILT = 11  # slope of the surface against the contact plane; 0 for a plane contact
+    TO_X = 12  # corrections of the effective creepages, added to VX, VY, PHI (fastrip_mapped)
     TO_Y = 13
     TO_PHI = 14
-    TO_EXPONENT = 15
-    TIE = 16  # of mapped strip marching: with which a strip and the one before it are one shape (`tangential.ties`)
-    SHARE = 17  # of a strip in the shape of which another strip is a part
-    STIFFNESS = 18  # C11·a·dy [m²]
-    CENTRE = 19  # of the longitudinal stiffness of the strip's shape [m]
-    OFFSET = 20  # part of XC by which a skewed strip's middle lies off the line of least gap; 0 by other normal methods
-    LN_ASPECT = 21  # ln(a/b) by the normal method
+    TO_EXPONENT = 15  # correction of the map exponent
+    TIE = 16  # coupling to the previous strip, 0 to 1 (`tangential.ties`)
+    SHARE = 17  # weight of a strip in the shape that it forms with its neighbours
+    STIFFNESS = 18  # longitudinal stiffness C11·a·dy [m²]
+    CENTRE = 19  # y of the centre of stiffness of the strip's shape [m]
+    OFFSET = 20  # centre of a skewed strip minus the line of least gap [m]; 0 for other normal methods
+    LN_ASPECT = 21  # ln(a/b) from the normal method
 
 
 class Field(IntEnum):
@@ -132,7 +132,7 @@ class Over(IntEnum):
     """Rows of one column of heights over a frame, one number a row of the grid."""
 
     RAIL = 0  # height along the normal [m]
-    RAIL_X = 1  # where, as the cross-section need not be plane in the frame [m]
+    RAIL_X = 1  # x of this height [m]; cross-sections may be skew in the frame
     RAIL_SLOPE_X = 2
     RAIL_SLOPE_S = 3
     WHEEL = 4
@@ -147,45 +147,45 @@ class Cell(IntEnum):
     RAIL = 1  # height of the rail [m]
     SLOPE_X = 2  # of the rail
     SLOPE_Y = 3
-    X = 4  # where; nearly that of the column [m]
-    LABEL = 5  # number of the connected region, 0 for none; below 0 for points that do not count
+    X = 4  # x of the point [m], close to that of its column
+    LABEL = 5  # number of the connected region, 0 for none, negative for excluded points
 
 
 class Box(IntEnum):
-    """Columns of `boxes`: places of the coarse grid, of the rough ones and of the fine ones, one a row.
+    """Columns of `boxes`: one row for each grid, the coarse one first, then the rough and the fine ones.
 
-    From COLUMNS on they are notes, in the first row only.
+    The columns from COLUMNS on hold values of the search, in the first row only.
     """
 
     X = 0
     DX = 1
     Y = 2
     DY = 3
-    LABEL = 4  # that of the grid's region in the coarse grid
+    LABEL = 4  # label of the region in the coarse grid
     LEAST = 5  # least gap [m]
     COLUMNS = 6  # of the coarse grid
     GRIDS = 7  # number of rough grids, and of fine ones
-    ROUGH = 8  # z for which rough grids are laid [m]
-    LAID = 9  # z for which fine ones are
-    TOUCH = 10  # z at first touch
-    FIRST = 11  # z for which the first rough grids were laid
+    ROUGH = 8  # pose.z of the rough grids [m]
+    LAID = 9  # pose.z of the fine grids [m]
+    TOUCH = 10  # pose.z at first touch [m]
+    FIRST = 11  # pose.z of the first rough grids [m]
 
 
 class Event(IntEnum):
     """What happened in an iteration of interacting strips; bits of `Iterate.EVENTS`."""
 
-    AGAIN = 1  # the warm start found no rest: from ANALYN's patch again
-    CUT = 2  # idle strips cut off
-    LOST = 4  # a panel without load removed
-    FIXED = 8  # the ends are fixed from here on
-    FOUND = 16  # a panel on a lobe that overlapped
+    AGAIN = 1  # the warm start did not converge: restart from ANALYN's patch
+    CUT = 2  # strips without load removed at an end
+    LOST = 4  # panel without load removed
+    FIXED = 8  # ends fixed from here on
+    FOUND = 16  # panel added on a lobe that overlapped
     JOINED = 32  # panels joined
 
 
 class Iterate(IntEnum):
     """Columns of the iterations of interacting strips (`contact.trace`)."""
 
-    ERROR = 0  # load-weighted mean change of ln a that would close the gaps
+    ERROR = 0  # load-weighted mean residual of ln a
     MOVED = 1  # largest change of an end over the width
     APPROACH = 2  # above first touch [m]
     PANELS = 3
@@ -213,20 +213,20 @@ class Vector(IntEnum):
     INDEX = 14
     FLOOR = 15  # lower bound of the half length
     U = 16  # displacement at the strip's ends
-    REACH = 17  # displacement by the strip's load at unit distance
-    SPREAD = 18  # mean square of its points' distances from its middle
-    REACH_OF_PANEL = 19  # in the panel's first strip, as the next two
+    REACH = 17  # displacement at unit distance by the strip's load
+    SPREAD = 18  # mean square distance of its points from its centre
+    REACH_OF_PANEL = 19  # of the whole panel, in its first strip, as the next two rows
     SPREAD_OF_PANEL = 20
     MIDDLE_OF_PANEL = 21
-    LN_LENGTH = 22  # ln of the half length with which the pressures were found
+    LN_LENGTH = 22  # ln of the half length at the last solution of the pressures
     BEST = 23  # ln a of the best iterate; in the end strips the ends of their panel
     STEPS = 24  # first of DEPTH rows: steps of the last iterations
     CHANGES = 27  # first of DEPTH rows: changes of the residual
-    INSIDE = 30  # in the end strips: the place from which the end last moved outwards
-    OUTSIDE = 31  # the place from which it last moved inwards
-    END = 32  # in the end strips: the pressure, which may be tension; then the share of the rule for a peak at the end
-    OFFSET = 33  # middle of the strip along x minus the line of least gap [m]
-    DIFFERENCE = 34  # displacement at the leading end of the strip minus that at the trailing end [m]
+    INSIDE = 30  # in the end strips: inner end of the bracket of the panel's end
+    OUTSIDE = 31  # outer end of the bracket
+    END = 32  # in the end strips: pressure, tension negative; then the weight of the rule for a peak at the end
+    OFFSET = 33  # centre of the strip along x minus the line of least gap [m]
+    DIFFERENCE = 34  # displacement at the leading minus that at the trailing end of the strip [m]
     OFFSET_R = 35  # residual of the offset [m]
     OFFSET_R_OLD = 36
     OFFSET_STEP = 37
@@ -237,17 +237,55 @@ class Vector(IntEnum):
 
 
 class Pair(IntEnum):
-    """Rows of what `normal.many_strips` reads of every strip that displaces a point. They are overwritten."""
+    """Scratch rows of `normal.many_strips`: one strip that displaces a point per column."""
 
-    X = 0  # distance of the point along x from the strip's middle over the half length
+    X = 0  # x distance of the point from the strip's centre over the half length
     LN_X = 1  # its logarithm
-    LOW = 2  # logarithms of the distances along y from the strip's sides over the half length
-    HIGH = 3
-    ROW = 4  # of the table, found from these
+    LOW = 2  # logarithm of the y distance from the strip's lower side over the half length
+    HIGH = 3  # the same from its upper side
+    ROW = 4  # row of the table that follows from these
 
 
-#: Steps of the strip half space's iteration that are remembered.
+#: Depth of the history of Anderson mixing in the strip half space.
 DEPTH = 3
+
+
+class Moved(IntEnum):
+    """Columns of the derivatives of a pair: the members of GIVEN, then what prescribes the height, and friction."""
+
+    Y = 0
+    Z = 1
+    ROLL = 2
+    YAW = 3
+    VX = 4
+    VY = 5
+    VZ = 6
+    ROLL_RATE = 7
+    YAW_RATE = 8
+    SPIN = 9
+    RAIL_Y = 10
+    RAIL_Z = 11
+    RAIL_ROLL = 12
+    RAIL_VY = 13
+    RAIL_VZ = 14
+    RAIL_ROLL_RATE = 15
+    AMOUNT = 16
+    FRICTION = 17
+
+
+class Tangent(IntEnum):
+    """Last rows of `tangent`, after four matrices (`normal.tangent`): state of the solved patch, and scratch."""
+
+    GAP = 0
+    CURVATURE = 1
+    OVERLAP = 2  # at the ends of a strip
+    P = 3  # tension included
+    A = 4
+    ONE = 5
+    OTHER = 6
+    AT_LOW = 7  # slopes of the move of an end by the four pressures beside it
+    AT_HIGH = 8
+    NUMBERS = 9  # ends of the panel, approach, factor of the pressures, whether all is mirrored
 
 
 class Bin(IntEnum):
@@ -260,8 +298,8 @@ class Bin(IntEnum):
     ENERGY_INDEX = 4
     STRESS_EXCEEDANCE = 5
     FATIGUE_EXCEEDANCE = 6
-    RCF_FORWARD = 7  # Burstow's index where the creep force on the wheel points forward
-    RCF_BACKWARD = 8
+    RCF_FORWARD = 7  # Burstow's index for creep forces on the wheel that point forward
+    RCF_BACKWARD = 8  # and backward
     ENERGY_INDEX_MAX = 9  # a maximum; the others are sums
 
 
@@ -274,7 +312,7 @@ class Body(IntEnum):
 
 #: Number of rows y, z and angle of a profile, of all rows of a trace line, and of vectors.
 N_PROFILE_ROWS, N_LINE_ROWS, N_VECTOR_ROWS = 3, 5, Vector.PAIRS + len(Pair)
-#: Most iterations of which a trace is kept: the last one stands for those after it.
+#: Number of iterations that a trace keeps; the last row holds the last iteration.
 MOST_ITERATES = 64
 
 

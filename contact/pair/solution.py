@@ -15,7 +15,7 @@ from contact.damage import Damage, evaluate
 from contact.geometry.records import Patch, Pose, contact_angle
 from contact.geometry.surfaces import SurfacePatch
 from contact.notebook import beside, table
-from contact.solution import Solution, Status
+from contact.solution import PairJacobian, Solution, Status
 
 Array = NDArray[np.float64]
 
@@ -135,6 +135,7 @@ class PairSolution:
     gap_error : the greatest of the patches [-]
     deflection : lateral and vertical deflection of an elastic rail [m], added to its irregularity; 0 for a rigid rail
     spin : rotation about the axle [rad/s], as given or as found for a force or a torque; negative when rolling forward
+    jacobian : derivatives of force, moment and z; None unless they were asked for
     """
 
     force: Array
@@ -154,6 +155,7 @@ class PairSolution:
     gap_error: float
     deflection: tuple[float, float] = (0.0, 0.0)
     spin: float = 0.0
+    jacobian: PairJacobian | None = field(default=None, repr=False)
 
     def _repr_html_(self) -> str:
         """Return HTML for a notebook: a table of the whole wheel and one of its patches."""

@@ -19,11 +19,13 @@ from contact.geometry.posed import Posed
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair
-from contact.kernels.arrays import Bench, Ledger, Search, SurfaceSearch
+from contact.kernels.arrays import Aside, Bench, Ledger, Search, SurfaceSearch
 from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.flexible import solve_on_profiles, solve_on_surfaces
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
+from contact.kernels.pair_conditions import derive_on_profiles, derive_on_surfaces
 from contact.kernels.records import LARGEST_ANGLE
+from contact.kernels.rows import Moved
 from contact.material import STEEL, Material
 from contact.notebook import figures
 from contact.pair.driven import drive
@@ -32,11 +34,15 @@ from contact.pair.motion import AnyPair
 from contact.pair.solution import Contact, PairDamage, PairSolution
 from contact.plausibility import doubt_alike, doubt_gap
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, GAP_LIMIT, lookup
-from contact.solution import Status
+from contact.solution import PairJacobian, Status
+from contact.solution.jacobian import columns_of_pair
 from contact.solve import solve
 from contact.solver import N_ELEMENTS, N_STRIPS, require_max_iterations, require_resolution
 
 _RIGID, _STRAIGHT = ElasticRail(), WheelOffset()
+#: Columns of the derivatives, with and without the amount that prescribes the height.
+_ALL = np.arange(len(Moved))
+_WITHOUT_AMOUNT = np.delete(_ALL, Moved.AMOUNT)
 
 
 class WheelRailPair(AnyPair):
@@ -108,7 +114,9 @@ class WheelRailPair(AnyPair):
         method, rolling = (lookup(*kind, batched=True) for kind in (("normal", normal), ("tangential", tangential)))
         n_strips, n_elements = require_resolution(n_strips, n_elements)
         n_samples = pair.separations.shape[2]
-        size = n_strips, n_elements, n_samples
+        size = self._size = n_strips, n_elements, n_samples
+        self._aside: Aside | None = None  # laid out with the first derivatives
+        self._packed_aside: Any = None
         doubt_alike(material.coupling)
         arrays = workspace.allocate(method, rolling, material.poisson_ratio, size)
         self.bench: Bench = workspace.bench(size, pair.space, arrays, ledger or workspace.closed_ledger())
@@ -122,6 +130,10 @@ class WheelRailPair(AnyPair):
         self._gap_limit = method.gap_limit if constant else GAP_LIMIT
         self._rail, self._offset = _RIGID, _STRAIGHT
         self.bench.damage_parameters[:] = (damage or DamageParameters()).record(material, 1.0, 1.0)
+
+    def __getstate__(self) -> dict[str, Any]:
+        # two of its arrays share memory, which copies of arrays do not
+        return self.__dict__ | {"_aside": None, "_packed_aside": None}
 
     def forget(self) -> None:
         """Discard the last solution, so that the next call is a cold start.
@@ -147,6 +159,7 @@ class WheelRailPair(AnyPair):
         distance: float = 0.0,
         rail: ElasticRail | None = None,
         offset: WheelOffset | None = None,
+        derivatives: bool = False,
     ) -> PairSolution:
         """Find and solve all patches at one instant.
 
@@ -175,6 +188,8 @@ class WheelRailPair(AnyPair):
             jumps and no deflection is in balance, the status is NOT_CONVERGED. It takes three to thirty times as long.
         offset : contact.geometry.flexible.WheelOffset
             Displacement and rotation of this wheel against its wheelset, with their rates.
+        derivatives : bool
+            Also find `PairSolution.jacobian`, not with a force or a torque. The solution stays as it is.
 
         Returns
         -------
@@ -194,6 +209,10 @@ class WheelRailPair(AnyPair):
             Once, for a pose, a spin of the axle or a load that no wheelset has, as from a wrong unit or sign.
         """
         if force is not None or torque is not None:
+            if derivatives:
+                raise ContactError(
+                    "derivatives = True does not work with force and torque; solve again with the rotation found"
+                )
             if distance != 0.0:
                 raise ContactError(
                     f"distance = {distance}: solve again with the rotation that was found to book damage"
@@ -242,6 +261,7 @@ class WheelRailPair(AnyPair):
             self.pair.doubt(pose, velocity, load)
         else:
             self.pair.doubt(pose, velocity, vertical, "vertical")
+        jacobian = self._derive(mode, given, load, penetration, vertical) if derivatives else None
         total = self.bench.total[0]
         doubt_gap(float(total.gap_error), self._gap_limit)
         return PairSolution(
@@ -262,7 +282,27 @@ class WheelRailPair(AnyPair):
             gap_error=float(total.gap_error),
             deflection=(float(self.bench.rail[0].dy), float(self.bench.rail[0].dz)),
             spin=float(given.spin),
+            jacobian=jacobian,
         )
+
+    def _derive(
+        self, mode: int, given: np.record, load: float | None, penetration: float | None, vertical: float | None
+    ) -> PairJacobian:
+        """Return the derivatives of the last solution."""
+        constant = isinstance(self.pair, Pair)
+        if self._aside is None:
+            self._aside = workspace.aside(self._size, self.bench)
+            self._packed_aside = pack(Aside[Search] if constant else Aside[SurfaceSearch], self._aside)
+        aside = self._aside
+        (derive_on_profiles if constant else derive_on_surfaces)(mode, given, self._packed, self._packed_aside)
+        amounts = {"load": load, "penetration": penetration, "vertical": vertical}
+        name = next((name for name, amount in amounts.items() if amount is not None), None)
+        shown = _ALL if name else _WITHOUT_AMOUNT
+        values = aside.jacobian[: len(PairJacobian.rows), shown]
+        values.setflags(write=False)
+        sided = np.flatnonzero(aside.sides[shown])
+        one_sided = tuple(columns_of_pair(name)[k] for k in sided) if sided.size else ()
+        return PairJacobian(values, name, one_sided)
 
     def plot(self, pose: Pose, velocity: Velocity | None = None, **given: Any) -> Any:
         """Return a figure of wheel, rail and all patches with pressure and traction (matplotlib's Figure).

@@ -23,35 +23,42 @@ _UNITS = {
     "spin": "1/m",
     "load": "N",
     "friction": "1",
+    "Fz": "N",
+    "Mx": "N m",
+    "My": "N m",
+    "z": "m",
+    "penetration": "m",
+    "vertical": "N",
+    "pose.y": "m",
+    "pose.z": "m",
+    "pose.roll": "rad",
+    "pose.yaw": "rad",
+    "velocity.forward": "m/s",
+    "velocity.y": "m/s",
+    "velocity.z": "m/s",
+    "velocity.roll": "rad/s",
+    "velocity.yaw": "rad/s",
+    "velocity.spin": "rad/s",
+    "irregularity.y": "m",
+    "irregularity.z": "m",
+    "irregularity.roll": "rad",
+    "irregularity.y_rate": "m/s",
+    "irregularity.z_rate": "m/s",
+    "irregularity.roll_rate": "rad/s",
 }
 
 
 @dataclass(frozen=True, eq=False)
-class Jacobian:
-    """Derivatives of one contact, ``jacobian["Fx", "longitudinal"]``.
-
-    Where a force has a kink, because a strip changes between stick and slip, they hold on the side of larger values. The
-    columns of creepages and friction are exact but for about 1e-6 of themselves, that of the load or approach but for 1e-4.
-
-    Attributes
-    ----------
-    values : ndarray, shape (6, 5)
-        Derivatives in SI units, read-only.
-    given : str
-        Name of the fourth column: "load" or "approach".
-    rows, columns : tuple of str
-        What is derived, as in `Solution`, and by what: the three creepages, the load or approach, and the friction. A
-        friction law changes as a whole, by the coefficient at rest.
-    """
+class _Labelled:
+    """A matrix of derivatives whose rows and columns have names."""
 
     values: NDArray[np.float64]
-    given: str
-    rows: ClassVar[tuple[str, ...]] = ("Fx", "Fy", "Mz", "N", "approach", "power_per_metre")
+    rows: ClassVar[tuple[str, ...]]
 
     @property
     def columns(self) -> tuple[str, ...]:
         """Names of the columns."""
-        return "longitudinal", "lateral", "spin", self.given, "friction"
+        raise NotImplementedError
 
     def __getitem__(self, of: tuple[str, str]) -> float:
         """Return the derivative of the first name by the second.
@@ -72,9 +79,10 @@ class Jacobian:
         return np.array(self.values, dtype=dtype, copy=copy)  # type: ignore[call-overload]
 
     def __repr__(self) -> str:
-        lines = [" ".join((f"{'d':16}", *(f"/d {name:>12}" for name in self.columns)))]
+        width = max(12, *(len(name) for name in self.columns))
+        lines = [" ".join((f"{'d':16}", *(f"/d {name:>{width}}" for name in self.columns)))]
         for row, values in zip(self.rows, self.values, strict=True):
-            lines.append(" ".join((f"{row:16}", *(f"{value:15.6g}" for value in values))))
+            lines.append(" ".join((f"{row:16}", *(f"{value:{width + 3}.6g}" for value in values))))
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
@@ -84,3 +92,73 @@ class Jacobian:
             for row, values in zip(self.rows, self.values, strict=True)
         )
         return table(headings, rows)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Jacobian(_Labelled):
+    """Derivatives of one contact, ``jacobian["Fx", "longitudinal"]``.
+
+    Where a force has a kink, because a strip changes between stick and slip, they hold on the side of larger values. The
+    columns of creepages and friction are exact but for about 1e-6 of themselves, that of the load or approach but for 1e-3.
+
+    Attributes
+    ----------
+    values : ndarray, shape (6, 5)
+        Derivatives in SI units, read-only.
+    given : str
+        Name of the fourth column: "load" or "approach".
+    rows, columns : tuple of str
+        What is derived, as in `Solution`, and by what: the three creepages, the load or approach, and the friction. A
+        friction law changes as a whole, by the coefficient at rest.
+    """
+
+    given: str
+    rows = ("Fx", "Fy", "Mz", "N", "approach", "power_per_metre")
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the columns."""
+        return "longitudinal", "lateral", "spin", self.given, "friction"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PairJacobian(_Labelled):
+    """Derivatives of what a rail does to a wheelset, ``jacobian["Fy", "pose.yaw"]``.
+
+    Every column is a partial derivative: the other arguments stay, an angular velocity that was left out too
+    (`velocity.spin` = -forward/radius). Under a load or on springs, height and deflection follow.
+
+    Attributes
+    ----------
+    values : ndarray
+        Derivatives in SI units, read-only.
+    given : str or None
+        What prescribes the height and has a column: "load", "penetration" or "vertical".
+    one_sided : tuple of str
+        Columns in whose step a patch comes or goes. There the derivative is that on the other side or, where one comes or
+        goes on both sides, the slope of the force over the step. All columns, if the force does not rise with the depth, so
+        that the height is not determined.
+    rows, columns : tuple of str
+        What is derived, as in `PairSolution` (force, moment, z), and by what: the members of pose, velocity and irregularity,
+        the amount that is given, and the friction. A friction law changes as a whole.
+    """
+
+    given: str | None
+    one_sided: tuple[str, ...] = ()
+    rows = ("Fx", "Fy", "Fz", "Mx", "My", "Mz", "z")
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the columns."""
+        return columns_of_pair(self.given)
+
+
+def columns_of_pair(given: str | None) -> tuple[str, ...]:
+    """Return the names of the columns of a pair's jacobian."""
+    return (
+        *(f"pose.{name}" for name in ("y", "z", "roll", "yaw")),
+        *(f"velocity.{name}" for name in ("forward", "y", "z", "roll", "yaw", "spin")),
+        *(f"irregularity.{name}" for name in ("y", "z", "roll", "y_rate", "z_rate", "roll_rate")),
+        *((given,) if given else ()),
+        "friction",
+    )

@@ -115,6 +115,7 @@ class Arrays(NamedTuple):
     damage: Any
     count: Any  # number of strips
     shown: Any  # one field as the host sees it
+    row: Any  # a single row of fields, for forces alone
 
 
 @compiled
@@ -133,9 +134,10 @@ def _lay(work, size, kept, data):
     damage_fields, end = block.cube(work, end, len(DamageField), capacity, size.n_elements)
     damage, end = block.records(work, end, 1, DAMAGE)
     count, end = block.vector(work, end, 1)
+    row, end = block.cube(work, end, len(Field), 1, size.n_elements)
     shown, total = block.matrix(work, end, capacity, size.n_elements)
     samples = Samples(y, g, A, x_c, tilt)
-    return Arrays(own, samples, case, result, parameters, damage_fields, damage, count, shown), end, total
+    return Arrays(own, samples, case, result, parameters, damage_fields, damage, count, shown, row), end, total
 
 
 @compiled
@@ -281,7 +283,9 @@ def entries() -> dict[str, Callable[..., Any]]:
         v, rows = _values(values, given)
         at = rows[0]
         a, _, _ = arrange(v, at, work, given)
-        sep, case, result = _first(a.samples, _pose(v, rows, a)), a.case[0], a.result[0]
+        sep, case, result, own = _first(a.samples, _pose(v, rows, a)), a.case[0], a.result[0], a.own
+        if case.conformal == 0 and not case.pressure_limit > 0.0:  # fields would take most of the time
+            own = Workspace(own.rule, own.tables, own.space, own.strips, a.row)
         for j, step in enumerate(_creepages(v, at)):
             for i in range(3):
                 v[at.creep_stiffness + 3 * i + j] = 0.0
@@ -289,7 +293,7 @@ def entries() -> dict[str, Callable[..., Any]]:
                 move(case, j, sign * step)
                 clear_forces(result)
                 if a.count[0] > 0:
-                    roll_case(sep, int(a.count[0]), case, a.own, result)
+                    roll_case(sep, int(a.count[0]), case, own, result)
                 for i, force in enumerate((result.Fx, result.Fy, result.Mz)):
                     v[at.creep_stiffness + 3 * i + j] += sign * force / (2.0 * step)
                 case.vx, case.vy = v[at.creepage_longitudinal], v[at.creepage_lateral]

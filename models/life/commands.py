@@ -227,12 +227,15 @@ def _warn(trust: Trust) -> None:
 
 
 def _write(folder: Path, dataset: Callable[[], Any], page: Callable[[], str]) -> None:
-    """Write result.nc and report.html to the folder."""
+    """Write result.nc and report.html to the folder. A command that is interrupted leaves no broken file."""
     from models.life.result import write
 
     folder.mkdir(parents=True, exist_ok=True)
-    write(dataset(), folder / "result.nc")
-    (folder / "report.html").write_text(page(), encoding="utf-8")
+    part = folder / "written.part"
+    write(dataset(), part)
+    part.replace(folder / "result.nc")
+    part.write_text(page(), encoding="utf-8")
+    part.replace(folder / "report.html")
 
 
 def _wrote(folder: Path) -> str:

@@ -58,6 +58,27 @@ def test_the_wheel_in_c_is_pushed_up_by_its_load(in_c):
     assert in_c[2] == pytest.approx(-80e3, rel=0.05)
 
 
+@pytest.fixture(scope="module")
+def implicit(built, tmp_path_factory):
+    """Return a function that runs the implicit wheelset with a step, and returns what it prints."""
+    folder = tmp_path_factory.mktemp("implicit")
+    source = EXAMPLES / "c/implicit_wheelset.c"
+    flags = ("-O2", "-Wall", "-Wextra", INCLUDE, f"-L{built}", "-lwheelrail", "-lm", "-o", "main")
+    run("gcc", source, *flags, cwd=folder, library=built)
+    return lambda *arguments: run("./main", *arguments, cwd=folder, library=built)
+
+
+def test_a_wheelset_with_the_contact_inside_is_stable_at_long_steps(implicit):
+    ends = [float(re.search(r"y (\S+)", implicit(step, 0.2))[1]) for step in (2e-3, 1e-3, 2.5e-4)]
+    assert abs(ends[2]) < 2.5e-3
+    assert abs(ends[1] - ends[2]) < 5e-5
+    assert abs(ends[0] - ends[2]) < 2e-4
+
+
+def test_forces_that_are_a_step_late_are_not(implicit):
+    assert "gone" in implicit(1e-3, 0.2, "late")
+
+
 def test_fortran_gets_the_forces_of_c(in_c, built, tmp_path):
     need("gfortran")
     run("gcc", "-c", EXAMPLES / "fortran/wheelrail_simple.c", INCLUDE, cwd=tmp_path, library=built)

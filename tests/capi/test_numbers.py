@@ -141,6 +141,25 @@ def test_a_pair_has_the_bits_of_python(library, side, height):
         library.need("wr_pair_accept", pair.memory)
 
 
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize("height", ["load", "given"])
+def test_the_derivatives_of_a_pair_have_the_bits_of_python(library, side, height):
+    wheel, rail = profile.s1002(), profile.rail_60e1()
+    pair = Pair(library, wheel, rail, side=side)
+    reference = WheelRailPair(Profiles(wheel, rail, side="right" if side == 1 else "left"))
+    jacobian = np.zeros((6, 17))
+    for lateral in (0.0, 3e-3, 6.5e-3):
+        pose = Pose(lateral, 1e-4 if height == "given" else 0.0, 0.0, 2e-3)
+        force = {} if height == "given" else {height: 80e3}
+        want = reference.solve(pose, Velocity(20.0), **force, derivatives=True).jacobian
+        pair.input["height"] = {"load": Height.LOAD, "given": Height.GIVEN}[height]
+        pair.input["motion"]["y"], pair.input["motion"]["z"], pair.input["motion"]["yaw"] = pose.y, pose.z, pose.yaw
+        library.need("wr_pair_derivatives", pair.memory, pair.input, jacobian)
+        assert jacobian[:, : want.values.shape[1] - 1].tolist() == want.values[:6, :-1].tolist()
+        assert height == "load" or not jacobian[:, 16].any()
+        library.need("wr_pair_accept", pair.memory)
+
+
 @pytest.mark.parametrize(("side", "tilted"), [(1, 0), (-1, 1)])
 def test_a_pair_on_surfaces_has_the_bits_of_python(library, side, tilted):
     wheel = WheelSurface.constant(profile.s1002()).with_deviations(Flat(0.04, 0.46))

@@ -209,7 +209,7 @@ def test_the_forecast_follows_the_trend_to_the_nearest_limit():
 
 def test_a_worn_out_wheel_is_restored_and_the_study_goes_on(tmp_path):
     new = Flange.measured(profile.s1002())
-    limits = f"[limits]\nheight = {new.height + 5e-8}\nthickness = 0.0\nqR = 0.0\n"
+    limits = f"[limits]\nheight = {new.height + 1e-9}\nthickness = 0.0\nqR = 0.0\n"
     study = plan(tmp_path, more="reprofile = true")
     path = tmp_path / "set.toml"
     path.write_text(path.read_text(encoding="utf-8") + limits, encoding="utf-8")
@@ -218,7 +218,7 @@ def test_a_worn_out_wheel_is_restored_and_the_study_goes_on(tmp_path):
     assert life["cut"].any()
     at = int(np.flatnonzero(life["cut"])[0])
     assert life["cut"][at] > 0.0
-    worn = [wheel for wheel in life.wheels.values() if wheel["flange_height"][at] >= new.height + 5e-8]
+    worn = [wheel for wheel in life.wheels.values() if wheel["flange_height"][at] >= new.height + 1e-9]
     assert worn
     if at + 1 < len(life.rows):  # the next step began with the unworn wheel
         deepest = displacement(worn[0].new, worn[0].profiles[at + 1]).max()

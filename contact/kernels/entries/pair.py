@@ -19,6 +19,7 @@ from contact.kernels.enumerations import Height
 from contact.kernels.flexible import solve_flexible
 from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes
 from contact.kernels.pair import solve_patch
+from contact.kernels.pair_conditions import derive_pair
 from contact.kernels.records import (
     CASE,
     CONTACT,
@@ -31,7 +32,7 @@ from contact.kernels.records import (
     TOTAL,
     WHEEL_OFFSET,
 )
-from contact.kernels.rows import N_PROFILE_ROWS, Bin
+from contact.kernels.rows import N_PROFILE_ROWS, Bin, Moved
 
 if COMPILING:
     from numba import carray
@@ -160,9 +161,37 @@ def solve_again(a, bench, piece, k, mode, result):
     return n
 
 
+@compiled
+def fill_derivatives(mode, motion, bench, aside, jacobian):
+    """Fill `jacobian`, shape (6, 17), for the last solution of `bench`. Return the number of patches or `NoAnswer`."""
+    givens, _ = block.records(motion, 0, 1, GIVEN)
+    code = derive_pair(mode, givens[0], bench, aside)
+    out, _ = block.matrix(jacobian, 0, 6, Moved.FRICTION.value)
+    for i in range(6):
+        for j in range(out.shape[1]):
+            out[i, j] = aside.jacobian[i, j]
+    return code
+
+
+@compiled
+def _lay_all(sizes, work, constants):
+    """Return the bench, the arrays for its derivatives and the size in numbers."""
+    size = size_of(sizes)
+    _, bench, _, _, end = _lay(sizes, work, constants)
+    near, end = memory.lay_neighbour(work, end, size, bench)
+    aside, end = memory.lay_aside(work, end, size, near)
+    return bench, aside, end
+
+
 def pair_size(sizes, given):
     """Return the size of `work` in float64."""
-    return _lay(sizes, sizes, given.data)[4]
+    return _lay_all(sizes, sizes, given.data)[2]
+
+
+def pair_derivatives(sizes, work, mode, motion, jacobian, given):
+    """As `fill_derivatives`, on profiles."""
+    bench, aside, _ = _lay_all(sizes, work, given.data)
+    return fill_derivatives(mode, motion, bench, aside, jacobian)
 
 
 def pair_strips(sizes, given):
@@ -249,6 +278,7 @@ ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {
     "pair_facing": (pair_facing, "i64", ("ptr",) * 4),
     "pair_init": (pair_init, "i64", (*("ptr",) * 7, *("f64",) * 4)),
     "pair_solve": (pair_solve, "i64", ("ptr", "ptr", "i64", "i64", "f64", "f64", *("ptr",) * 7)),
+    "pair_derivatives": (pair_derivatives, "i64", ("ptr", "ptr", "i64", "ptr", "ptr")),
     "pair_accept": (pair_accept, "i64", ("ptr", "ptr")),
     "pair_forget": (pair_forget, "i64", ("ptr", "ptr")),
     "pair_patch": (pair_patch, "i64", ("ptr", "ptr", "i64", "i64", "ptr")),

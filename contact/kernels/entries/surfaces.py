@@ -15,7 +15,15 @@ from contact.kernels import block, memory, quadrature
 from contact.kernels.arrays import Sheet
 from contact.kernels.block import ahead
 from contact.kernels.entries.layout import compiled, copy, fill, lay_out, size_of
-from contact.kernels.entries.pair import accept, lay_start, reset, set_options, solve_again, solve_from
+from contact.kernels.entries.pair import (
+    accept,
+    fill_derivatives,
+    lay_start,
+    reset,
+    set_options,
+    solve_again,
+    solve_from,
+)
 from contact.kernels.records import WHEEL_OFFSET
 from contact.kernels.rows import N_PROFILE_ROWS, Bin
 
@@ -140,6 +148,17 @@ def _laid(sizes, work, constants):
     return _lay(sizes, work, ahead(work, int(carray(sizes, (9,))[4])), work, constants)
 
 
+@compiled
+def _lay_all(sizes, wheel, rail, work, constants):
+    """Return the bench, the arrays for its derivatives and the size in numbers. `wheel` and `rail` hold the surfaces."""
+    size = size_of(sizes)
+    _, bench, _, end = _lay(sizes, wheel, rail, work, constants)
+    search, end = memory.lay_surface_search(work, end, bench.search.wheel, bench.search.rail, size.n_samples)
+    near, end = memory.lay_beside(work, end, search, bench)
+    aside, end = memory.lay_aside(work, end, size, near)
+    return bench, aside, end
+
+
 def surfaces_check(sizes, numbers, n, given):
     """Return 1 if an array of `n` finite numbers is a surface, else 0."""
     return 1 if is_sound(numbers, n) else 0
@@ -147,7 +166,14 @@ def surfaces_check(sizes, numbers, n, given):
 
 def surfaces_size(sizes, wheel, rail, given):
     """Return the size of `work` in float64."""
-    return _lay(sizes, wheel, rail, sizes, given.data)[3]
+    return _lay_all(sizes, wheel, rail, sizes, given.data)[2]
+
+
+def surfaces_derivatives(sizes, work, mode, motion, jacobian, given):
+    """As `pair.fill_derivatives`."""
+    n_wheel = int(carray(sizes, (9,))[4])
+    bench, aside, _ = _lay_all(sizes, work, ahead(work, n_wheel), work, given.data)
+    return fill_derivatives(mode, motion, bench, aside, jacobian)
 
 
 def surfaces_init(sizes, work, wheel, rail, motion, case, parameters, given):
@@ -162,6 +188,8 @@ def surfaces_init(sizes, work, wheel, rail, motion, case, parameters, given):
     set_options(motion, y, z, case, parameters, bench)
     prepare_search(wheel, n_wheel, bench.search)
     fill(bench.own, bench.case[0].nu, given.data)
+    _, aside, _ = _lay_all(sizes, ahead(work, 0), ahead(work, n_wheel), work, given.data)
+    prepare_search(wheel, n_wheel, aside.bench.search)
     return at_strips
 
 
@@ -199,6 +227,7 @@ ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {
     "surfaces_size": (surfaces_size, "i64", ("ptr",) * 3),
     "surfaces_init": (surfaces_init, "i64", ("ptr",) * 7),
     "surfaces_solve": (surfaces_solve, "i64", ("ptr", "ptr", "i64", "i64", *("f64",) * 3, *("ptr",) * 7)),
+    "surfaces_derivatives": (surfaces_derivatives, "i64", ("ptr", "ptr", "i64", "ptr", "ptr")),
     "surfaces_accept": (surfaces_accept, "i64", ("ptr", "ptr")),
     "surfaces_forget": (surfaces_forget, "i64", ("ptr", "ptr")),
     "surfaces_patch": (surfaces_patch, "i64", ("ptr", "ptr", "i64", "i64", "ptr")),

@@ -231,7 +231,7 @@ def _from_first_two(p0, p1):
 
 
 @kernel
-def _end_move(vectors, n, first, step, cosines, frozen):
+def end_move(vectors, n, first, step, cosines, frozen):
     """Return the outward move of one end of a panel over its half width.
 
     `first` is the strip at this end, `step` the step to its neighbour. On the exact half width the squared ratio q of
@@ -271,9 +271,9 @@ def end_moves(
         first, last = p * n, p * n + n - 1
         low, high = panels[2 * p], panels[2 * p + 1]
         half = 0.5 * (high - low)
-        move = _end_move(vectors, n, first, 1, cosines, frozen)
+        move = end_move(vectors, n, first, 1, cosines, frozen)
         vectors[Vector.R, first] = max(low - half * move, y[0]) - low
-        move = _end_move(vectors, n, last, -1, cosines, frozen)
+        move = end_move(vectors, n, last, -1, cosines, frozen)
         vectors[Vector.R, last] = min(high + half * move, y[y.size - 1]) - high
         largest = max(largest, max(abs(vectors[Vector.R, first]), abs(vectors[Vector.R, last])) / (high - low))
     return largest

@@ -19,6 +19,8 @@ from contact.kernels.rows import Sample, Strip, Vector
 _SHARP, _SHARPEST = 1.25, 1.75
 #: Share of the largest strip pressure from which on a peak counts.
 _HIGH = 0.8
+#: Difference of two neighbours' pressures, over the larger one, below which the parts of both count.
+_ALIKE = 0.15
 #: Parts of a strip.
 _PARTS = 3
 #: Least strips of a panel: the parts need room in the rows of `vectors`.
@@ -117,6 +119,22 @@ def _top_of_parts(sep, i, n, unit, own):
 
 
 @kernel
+def _found(sep, i, n, unit, own):
+    """Return the largest pressure around strip i, a peak. If a neighbour has nearly its pressure, both are divided.
+
+    Otherwise the answer would jump where the peak moves from one strip to the next.
+    """
+    p, patch = own.strips[Strip.P0], own.strips[Strip.PATCH]
+    top = _top_of_parts(sep, i, n, unit, own)
+    k = i + 1 if p[i + 1] > p[i - 1] else i - 1
+    apart = min((p[i] - p[k]) / (_ALIKE * p[i]), 1.0)
+    if apart == 1.0 or not 0 < k < n - 1 or patch[k - 1] != patch[k + 1]:
+        return top
+    share = 0.5 + 0.5 * apart * apart * (3.0 - 2.0 * apart)
+    return share * top + (1.0 - share) * _top_of_parts(sep, k, n, unit, own)
+
+
+@kernel
 def _beside(i, step, n, strips):
     """Return the pressure two strips away. Beyond the end of a patch it is that which continues an ellipse."""
     k = i + 2 * step
@@ -139,6 +157,6 @@ def peak_between_strips(sep, n, unit, own):
             bend = (p[i - 1] - _beside(i, -1, n, strips) + p[i + 1] - _beside(i, 1, n, strips)) / p[i]
             share = min(max((bend / of_ellipse - _SHARP) / (_SHARPEST - _SHARP), 0.0), 1.0)
             if share > 0.0:
-                found = _top_of_parts(sep, i, n, unit, own)
+                found = _found(sep, i, n, unit, own)
                 top = max(top, p[i] + share * share * (3.0 - 2.0 * share) * (found - p[i]))
     return top

@@ -67,7 +67,7 @@ ACCEPTABLE = 1e-3
 FREEZE = 16
 #: Iteration from which on the residuals are the steps, without mixing, which may go round in circles on rough gaps.
 PLAIN = 22
-#: The same of skewed strips, which need longer then.
+#: The same of strips whose offsets count in full, which need longer then.
 PLAIN_SKEWED = 18
 #: Iteration from which on the ends keep between the places from which they moved outwards and inwards.
 BRACKET = 12
@@ -97,7 +97,7 @@ class Problem(NamedTuple):
 
 
 @kernel
-def _write(sep, n_panels, panels, skewed, own, result):
+def write_strips(sep, n_panels, panels, skewed, own, result):
     """Fill `own.strips` with the loaded strips in ascending order of y. Return their number.
 
     Runs of neighbours are the patches.
@@ -269,7 +269,7 @@ def _has_spur(n, n_panels, vectors):
 def _report(problem, delta, panels, n_panels, result):
     """Write the strips and their resultants. `result` still has ANALYN's. Return the number of strips."""
     own, strips = problem.own, problem.own.strips
-    count = _write(problem.sep, n_panels, panels, problem.skew > 0.0, own, result)
+    count = write_strips(problem.sep, n_panels, panels, problem.skew > 0.0, own, result)
     if problem.skew > 0.0:
         turn_aspects(count, problem.skew, strips)
     N = 0.0
@@ -323,7 +323,7 @@ def _solve(sep, case, own, result):
     # a warm start that finds no rest leaves the cold one at least as many iterations, or takes all
     patience = WARM if case.max_iterations >= 2 * WARM else case.max_iterations
 
-    plain = PLAIN_SKEWED if skew > 0.0 else PLAIN
+    plain = PLAIN_SKEWED if skew >= 1.0 else PLAIN
     tolerance = case.tolerance if case.tolerance > 0.0 else TOLERANCE
     left_limit, close = LEFT * tolerance, CLOSE * math.sqrt(tolerance)
     converged, exact, descending, searched, best = False, False, False, False, math.inf

@@ -1,0 +1,349 @@
+"""Derivatives of force and moment of one rail on the wheelset, by pose, velocity, irregularity, load and friction.
+
+* **Velocities** act through the creepages, which are linear in them. Their columns are those of the creepages, differences of
+  the tangential problem on the same strips (`jacobian`), times the exact slopes of the creepages.
+* **Poses.** The search describes a neighbouring pose, with its frame and its separation. The strips follow their tangent
+  (`normal.tangent`). Where a patch has none, its normal problem starts from the solved one and is iterated until its own error
+  is far below the step. The creepages are kept; what the pose changes in them counts as for the velocities.
+* **Rail.** Wheelset and rail displaced together have the same forces. So the columns of the rail's displacement and of its
+  velocity are minus those of the wheelset.
+
+All this is at one height. `pair_conditions` lets height and deflections follow their conditions.
+"""
+
+import math
+
+from contact.core import kernel
+from contact.kernels.arrays import Samples, Workspace
+from contact.kernels.enumerations import FrictionLaw, Height, NormalFamily
+from contact.kernels.geometry.frame import slip
+from contact.kernels.geometry.prepare import move
+from contact.kernels.geometry.section import tilted
+from contact.kernels.geometry.settle import settle
+from contact.kernels.jacobian import TOLERANCE, creepage_step, has_tangent, is_even, scale_friction
+from contact.kernels.memory import CREEPS, PAIR_ROWS
+from contact.kernels.normal.tangent import follow, loaded_strips
+from contact.kernels.pair import (
+    add_wrench,
+    clear_contact,
+    clear_total,
+    pressure_wrench,
+    report,
+    set_case,
+    space_of_patch,
+)
+from contact.kernels.pipeline import press_case, roll_case
+from contact.kernels.records import MAX_PATCHES, SLOWEST
+from contact.kernels.result import clear, clear_forces
+from contact.kernels.rows import Moved, Sep
+
+#: What the forces of a patch are derived by: three creepages, the coefficient of friction, the speed of a friction law.
+MU, SPEED = 3, 4
+#: Rows of a column: force and moment, the height, and the normal forces' upward part.
+HEIGHT, UPWARD, ROWS = 6, 7, PAIR_ROWS
+#: Step of the height over the approach. The others change the gap by about as much: by the slope of the contact [-], at least
+#: the first number; by the rise of a flange over its yaw, at least the second one [m]; by the lever of a rail's roll [m].
+_STEP, _LEAST_SLOPE, _LEAST_RISE, _RAIL_LEVER = 3e-4, 0.1, 0.03, 0.04
+#: A patch of the middle pose, of a neighbour with the same patches, of one with others, or the one of the last solution.
+_MIDDLE, _NEAR, _OTHER, _SOLVED = 0, 1, 2, 3
+#: Relative steps of the coefficient of friction and of the speed.
+_SMALL = 1e-6
+
+
+@kernel
+def _own_of(k, aside):
+    """Return separation and workspace of patch k. Fields are left out unless the tangential problem reads them."""
+    bench = aside.bench
+    sep, own, memory, case = bench.search.separations[k], bench.own, bench.memory, bench.case[0]
+    piece = (memory.size - 3) // MAX_PATCHES
+    samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
+    space = space_of_patch(own.space, memory[1 + k * piece : 1 + (k + 1) * piece], aside.tangents[k])
+    fields = own.fields if case.conformal != 0 or case.pressure_limit > 0.0 else aside.row
+    return samples, Workspace(own.rule, own.tables, space, own.strips, fields)
+
+
+@kernel
+def _press(k, place, samples, own, aside):
+    """Solve the normal problem of patch k at its approach: by its tangent, or closely. Return the number of strips."""
+    case, result = aside.bench.patch_case[0], aside.bench.result[0]
+    if place == _SOLVED:
+        return loaded_strips(own)
+    if place == _MIDDLE:
+        case.tolerance = aside.bench.case[0].tolerance
+        n = press_case(samples, case, own, result)
+        aside.linear[k] = 1.0 if n > 0 and has_tangent(samples, case, own, result) else 0.0
+        if n == 0 or aside.linear[k] > 0.0 or case.normal_family != NormalFamily.STRIP_HALFSPACE:
+            return n
+    elif place == _NEAR and aside.linear[k] > 0.0:
+        clear(result)
+        return follow(samples, case.amount, own, result)
+    case.tolerance = TOLERANCE
+    return press_case(samples, case, own, result)
+
+
+@kernel
+def _solve_patch(k, place, samples, own, aside):
+    """Solve patch k at its approach and add its forces to `aside.forces`. Return the number of strips."""
+    bench = aside.bench
+    patch, case, result, contact = bench.search.patches[k], bench.patch_case[0], bench.result[0], bench.contacts[k]
+    set_case(patch, False, bench.search.motion[0], bench.case[0], case)
+    n = _press(k, place, samples, own, aside)
+    if n > 0 and place != _SOLVED:
+        roll_case(samples, n, case, own, result)
+    pressure = pressure_wrench(own.strips, n)
+    report(patch, case, result, pressure, contact)
+    if n > 0:
+        total = bench.total[0]
+        clear_total(total)
+        add_wrench(contact, pressure, patch.share, bench.search.motion[0], total)
+        _add(total, 1.0, aside.forces)
+        aside.forces[UPWARD] += contact.N * math.cos(contact.angle) * math.cos(contact.pitch)
+    return n
+
+
+@kernel
+def _add(total, scale, to):
+    """Add force and moment times `scale` to a column."""
+    to[0] += scale * total.Fx
+    to[1] += scale * total.Fy
+    to[2] += scale * total.Fz
+    to[3] += scale * total.Mx
+    to[4] += scale * total.My
+    to[5] += scale * total.Mz
+
+
+@kernel
+def _step_of(c, case, result):
+    """Move creepage, friction or speed `c` of a case. Return the step."""
+    creepage, spin = creepage_step(case, result)
+    if c == 0:
+        before, case.vx = case.vx, case.vx + creepage
+        return case.vx - before
+    if c == 1:
+        before, case.vy = case.vy, case.vy + creepage
+        return case.vy - before
+    if c == 2:
+        before, case.phi = case.phi, case.phi + spin
+        return case.phi - before
+    if c == MU:
+        before = case.mu
+        scale_friction(case, before + max(_SMALL * before, 1e-12))
+        return case.mu - before
+    before, case.speed = case.speed, case.speed + max(_SMALL * case.speed, 1e-9)
+    return case.speed - before
+
+
+@kernel
+def _add_tangential(scale, Fx, Fy, Mz, contact, bench, to):
+    """Add `scale` times the wrench of tangential forces at a contact to a column. The contact's forces are overwritten."""
+    total = bench.total[0]
+    contact.N, contact.Mx, contact.My = 0.0, 0.0, 0.0
+    contact.Fx, contact.Fy, contact.Mz = scale * Fx, scale * Fy, scale * Mz
+    clear_total(total)
+    add_wrench(contact, (0.0, 0.0, 0.0, 0.0), 0.0, bench.search.motion[0], total)
+    _add(total, 1.0, to)
+
+
+@kernel
+def _roll_moved(k, samples, n, own, aside):
+    """Fill `aside.by_creep[k]`: the derivatives of the forces of patch k, which is solved."""
+    bench = aside.bench
+    patch, contact = bench.search.patches[k], bench.contacts[k]
+    bench.case[1], bench.result[1] = bench.patch_case[0], bench.result[0]
+    case, result, middle = bench.case[1], bench.result[1], bench.result[0]
+    for c in range(CREEPS):
+        even = is_even(case) and case.mu > 0.0
+        if c == SPEED and case.law == FrictionLaw.COULOMB and not case.drop > 0.0:
+            continue
+        if c == MU and even:  # by Euler's theorem, as in `jacobian`
+            _add_tangential(
+                patch.share / case.mu, middle.Fx, middle.Fy, middle.Mz, contact, bench, aside.by_creep[k, c]
+            )
+            for i in range(ROWS):
+                along = case.vx * aside.by_creep[k, 0, i] + case.vy * aside.by_creep[k, 1, i]
+                along += case.phi * aside.by_creep[k, 2, i]
+                aside.by_creep[k, c, i] -= along / case.mu
+            continue
+        bench.case[1] = bench.patch_case[0]
+        step = _step_of(c, case, middle)
+        clear_forces(result)
+        roll_case(samples, n, case, own, result)
+        scale, Fx, Fy = patch.share / step if step > 0.0 else 0.0, result.Fx - middle.Fx, result.Fy - middle.Fy
+        _add_tangential(scale, Fx, Fy, result.Mz - middle.Mz, contact, bench, aside.by_creep[k, c])
+
+
+@kernel
+def _locate(aside):
+    """Describe the patches at the pose of `aside.given`. Return their number."""
+    search = aside.bench.search
+    move(aside.given[0], search.motion[0])
+    return settle(Height.GIVEN, 0.0, search)
+
+
+@kernel
+def _take_solved(bench, aside):
+    """Take the single patch of the last solution, whose strips are still there. Return whether it has a tangent."""
+    near = aside.bench
+    near.search.patches[0], near.result[0] = bench.search.patches[0], bench.result[0]
+    samples, own = _own_of(0, aside)
+    sep = bench.search.separations[0]
+    samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
+    fits = has_tangent(samples, bench.patch_case[0], own, near.result[0])
+    aside.linear[0] = 1.0 if fits else 0.0
+    return fits
+
+
+@kernel
+def _solve_middle(n, place, aside):
+    """Solve the patches of the pose itself, with their derivatives by creepages. Return the largest approach and slope."""
+    bench = aside.bench
+    approach, steepest = 0.0, _LEAST_SLOPE
+    for k in range(n):
+        samples, own = _own_of(k, aside)
+        strips = _solve_patch(k, place, samples, own, aside)
+        aside.patches[k] = bench.search.patches[k]
+        approach = max(approach, bench.contacts[k].approach)
+        steepest = max(steepest, abs(math.tan(bench.contacts[k].angle)))
+        if strips > 0:
+            _roll_moved(k, samples, strips, own, aside)
+    for i in range(ROWS):
+        aside.middle[i] = aside.forces[i]
+    for i in range(bench.memory.size):
+        aside.start[i] = bench.memory[i]
+    return approach, steepest
+
+
+@kernel
+def _solve_neighbour(n, holds, aside):
+    """Find the forces at the pose described. If the patches are those of the middle, the creepages are too."""
+    bench = aside.bench
+    aside.forces[:] = 0.0
+    for i in range(aside.start.size):
+        bench.memory[i] = aside.start[i] if holds else 0.0
+    for k in range(n):
+        patch, middle = bench.search.patches[k], aside.patches[k]
+        if holds:
+            patch.vx, patch.vy, patch.phi = middle.vx, middle.vy, middle.phi
+        samples, own = _own_of(k, aside)
+        _solve_patch(k, _NEAR if holds else _OTHER, samples, own, aside)
+
+
+@kernel
+def _pose_step(j, approach, steepest, motion):
+    """Return the step of column j, a member of the pose or the rail's roll."""
+    height = _STEP * approach
+    if j == Moved.Z:
+        return height
+    if j == Moved.Y:
+        return height / steepest
+    if j == Moved.ROLL:
+        return height / motion.tape
+    if j == Moved.YAW:
+        return height / max(motion.radius * steepest * steepest * abs(motion.yaw), _LEAST_RISE)
+    return height / (_RAIL_LEVER * max(steepest, 1.0))
+
+
+@kernel
+def _derive_by_pose(j, width, n, aside):
+    """Fill column j of the jacobian with forces over the step `width`, or over minus it where patches come or go otherwise.
+
+    `aside.sides[j]` then is -1, and 2 where they come or go on both sides. The forces of patches that do so count.
+    """
+    numbers, patches, creeps = aside.numbers, aside.bench.search.patches, aside.creeps
+    before, step, found = numbers[j], width, n
+    for attempt in range(3):
+        numbers[j] = before + (-width if attempt == 1 else width)
+        step = numbers[j] - before
+        found = _locate(aside)
+        if found == n or attempt == 2:
+            aside.sides[j] = 2.0 if found != n else -1.0 * attempt
+            break
+    numbers[j] = before
+    if found < 0 or step == 0.0:
+        return
+    for k in range(n if found == n else 0):
+        creeps[k, 0, j] = (patches[k].vx - aside.patches[k].vx) / step
+        creeps[k, 1, j] = (patches[k].vy - aside.patches[k].vy) / step
+        creeps[k, 2, j] = (patches[k].phi - aside.patches[k].phi) / step
+    _solve_neighbour(found, found == n, aside)
+    for i in range(ROWS):
+        aside.jacobian[i, j] = (aside.forces[i] - aside.middle[i]) / step
+
+
+@kernel
+def _derive_by_velocity(j, n, aside):
+    """Fill column j of the slopes of the creepages of the middle pose."""
+    numbers, creeps, motion = aside.numbers, aside.creeps, aside.bench.search.motion[0]
+    speed = max(numbers[Moved.VX], SLOWEST)
+    before = numbers[j]
+    numbers[j] = before + 1.0
+    move(aside.given[0], motion)
+    numbers[j] = before
+    faster = max(before + 1.0, SLOWEST) if j == Moved.VX else speed
+    for k in range(n):
+        patch, moved = aside.patches[k], aside.bench.search.patches[k]
+        axes = tilted(0.0, 0.0, 0.0, patch.angle, patch.pitch)[3:]
+        slip(motion, axes, patch.x, patch.point_y, patch.point_z, moved)
+        own = 1.0 if j == Moved.VX and before > SLOWEST else 0.0  # the creepages refer to this speed
+        creeps[k, 0, j] = (moved.vx * faster - patch.vx * speed - own * patch.vx) / speed
+        creeps[k, 1, j] = (moved.vy * faster - patch.vy * speed - own * patch.vy) / speed
+        creeps[k, 2, j] = (moved.phi * faster - patch.phi * speed - own * patch.phi) / speed
+        creeps[k, SPEED, j] = 1.0 if j == Moved.VX else 0.0
+
+
+@kernel
+def derive(bench, is_there, aside):
+    """Fill `aside.jacobian` at the pose `aside.given` of the rigid wheelset and rail. Return the number of patches.
+
+    `bench` holds the last solution, which is the start. If it `is_there`, it is the solution of this pose itself.
+    """
+    near = aside.bench
+    jacobian, mirror = aside.jacobian, bench.search.motion[0].mirror
+    jacobian[:, :] = 0.0
+    aside.by_creep[:, :, :] = 0.0
+    aside.creeps[:, :, :] = 0.0
+    aside.forces[:] = 0.0
+    aside.middle[:] = 0.0
+    aside.sides[:] = 0.0
+    near.search.motion[0] = bench.search.motion[0]
+    near.case[0] = bench.case[0]
+    near.patch_case[0] = near.case[0]
+    for k in range(MAX_PATCHES):
+        clear_contact(near.contacts[k])
+    for i in range(near.memory.size):
+        near.memory[i] = bench.memory[i]
+    move(aside.given[0], near.search.motion[0])
+    solved = is_there and bench.total[0].n_patches == 1 and _take_solved(bench, aside)
+    n = 1 if solved else _locate(aside)
+    if n <= 0:
+        return n
+    if bench.memory[0] != n:
+        near.memory[:] = 0.0
+    approach, steepest = _solve_middle(n, _SOLVED if solved else _MIDDLE, aside)
+    # a loop over a tuple would leave an exception in the library
+    for j in range(Moved.RAIL_ROLL_RATE + 1):
+        if Moved.VX <= j <= Moved.SPIN or j == Moved.RAIL_ROLL_RATE:
+            _derive_by_velocity(j, n, aside)
+    for j in range(Moved.RAIL_ROLL + 1):
+        if j <= Moved.YAW or j == Moved.RAIL_ROLL:
+            _derive_by_pose(j, _pose_step(j, approach, steepest, near.search.motion[0]), n, aside)
+    for j in range(Moved.AMOUNT):
+        for k in range(n):
+            for c in range(CREEPS):
+                for i in range(ROWS):
+                    jacobian[i, j] += aside.by_creep[k, c, i] * aside.creeps[k, c, j]
+    for k in range(n):
+        for i in range(ROWS):
+            jacobian[i, Moved.FRICTION] += aside.by_creep[k, MU, i]
+    for i in range(ROWS):
+        jacobian[i, Moved.RAIL_Y], jacobian[i, Moved.RAIL_Z] = 0.0 - jacobian[i, Moved.Y], 0.0 - jacobian[i, Moved.Z]
+        jacobian[i, Moved.RAIL_VY], jacobian[i, Moved.RAIL_VZ] = (
+            0.0 - jacobian[i, Moved.VY],
+            0.0 - jacobian[i, Moved.VZ],
+        )
+    aside.sides[Moved.RAIL_Y], aside.sides[Moved.RAIL_Z] = aside.sides[Moved.Y], aside.sides[Moved.Z]
+    for i in range(1, 6, 2):  # Fy, Mx, Mz
+        aside.middle[i] *= mirror
+        for j in range(jacobian.shape[1]):
+            jacobian[i, j] *= mirror
+    return n
