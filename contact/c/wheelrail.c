@@ -100,7 +100,8 @@ enum { R_NONE,
     X(c_warm_range, "case.warm_range") X(c_heating, "case.heating") X(c_conformal, "case.conformal")                 \
     X(c_rolling, "case.rolling") X(c_tolerance, "case.tolerance") X(reach, "options.reach")                          \
     X(tilted, "options.tilted") X(wheel_n, "wheel.n") X(rail_n, "rail.n") X(wheel_numbers, "wheel.numbers")          \
-    X(rail_numbers, "rail.numbers") X(station, "input.station") X(rotation, "input.rotation")
+    X(rail_numbers, "rail.numbers") X(station, "input.station") X(rotation, "input.rotation")              \
+    X(force_x, "Fx") X(force_y, "Fy")
 
 enum { A_none,
 #define X(name, text) A_##name,
@@ -526,6 +527,27 @@ int wr_contact_solve(void *memory, const wr_separation *s, const wr_case *c, wr_
     head->n_strips = solve_contact(memory, 0, s, &head->problem, &head->result);
     head->answered = 1;
     *result = head->result;
+    return code_of(result->status);
+}
+
+int wr_contact_solve_force(void *memory, const wr_separation *s, int64_t which, double Fx, double Fy, wr_case *c,
+                           wr_result *result) {
+    TRY(check_memory(memory, CONTACT));
+    Head *head = memory;
+    TRY(check_separation(s, head->patch.n_samples));
+    TRY(among(which, WR_FORCE_X, WR_FORCE_X + WR_FORCE_Y, A_which));
+    if (which & WR_FORCE_X) TRY(within(Fx, -INFINITY, INFINITY, A_force_x));
+    if (which & WR_FORCE_Y) TRY(within(Fy, -INFINITY, INFINITY, A_force_y));
+    TRY(check_case(c, &head->patch));
+    TRY(aligned(result, A_result));
+    wr_result results[2];
+    const double *x_c, *tilt;
+    optional_samples(memory, s, &x_c, &tilt);
+    head->problem = *c;
+    head->n_strips = CALL(contact_force, head->sizes, work_of(memory), which, Fx, Fy, s->n, (void *)s->y, (void *)s->g,
+                          (void *)s->A, (void *)x_c, (void *)tilt, &head->problem, results);
+    head->result = results[0], head->answered = 1;
+    *c = head->problem, *result = head->result;
     return code_of(result->status);
 }
 

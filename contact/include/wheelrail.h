@@ -18,6 +18,7 @@
  *    0            solved
  *    2, 3         answers too: the bodies do not touch; the whole patch slips (WR_STATUS_NO_CONTACT, _SATURATED)
  *    4, 5         an answer that cannot be trusted (WR_STATUS_OUT_OF_RANGE, _NOT_CONVERGED)
+ *    6            no creepage up to 1 makes the given force (WR_STATUS_UNREACHABLE)
  *    below 0      an error.  wr_message(code) says which, wr_argument(code) names the argument.  Results are unchanged.
  */
 #ifndef WHEELRAIL_H
@@ -100,6 +101,11 @@ WR_API int wr_contact_init(const wr_contact_options *options, void *memory, size
  * (load [N] or approach [m]), vx, vy, phi; for a friction law its members too. */
 WR_API int wr_contact_case(const wr_contact_options *options, double mu, double speed, wr_case *problem);
 WR_API int wr_contact_solve(void *memory, const wr_separation *separation, const wr_case *problem, wr_result *result);
+/* The creepages under a given force on the wheel [N].  which: WR_FORCE_X for Fx, WR_FORCE_Y for Fy, their sum for both; the
+ * force that is not given is not read, and its creepage stays.  The search starts at vx, vy of the problem, which become the
+ * answer.  The forces of the result are always those at these creepages. */
+WR_API int wr_contact_solve_force(void *memory, const wr_separation *separation, int64_t which, double Fx, double Fy,
+                                  wr_case *problem, wr_result *result);
 WR_API int wr_contact_accept(void *memory);
 WR_API int wr_contact_forget(void *memory);
 /* Also a solution: the last answer is then that of this problem.  d(Fx, Fy, Mz, N, approach, power per metre)/

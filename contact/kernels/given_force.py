@@ -36,6 +36,16 @@ _C11 = 4.0
 _STEP, _COLUMN_X, _COLUMN_Y, _LAST = 0, 1, 2, 3
 
 
+@kernel
+def _length(x, y):
+    """Return the length of a vector, also where its square would overflow."""
+    most = max(abs(x), abs(y))
+    if not most > 0.0:
+        return abs(x) + abs(y)  # 0 or NaN
+    x, y = x / most, y / most
+    return most * math.sqrt(x * x + y * y)
+
+
 @entry
 def begin(
     search: ForceSearch,
@@ -71,7 +81,7 @@ def begin(
 @kernel
 def _straight(search, Fx, Fy):
     """Return minus the creepages over `unit` that give a force by Vermeulen and Johnson's law."""
-    size = math.hypot(Fx, Fy) / search.limit
+    size = _length(Fx, Fy) / search.limit
     if search.bounded == 0 or size <= 0.0:
         return Fx / (3.0 * search.limit), Fy / (3.0 * search.limit)
     share = (1.0 - (1.0 - min(size, 1.0 - 1e-12)) ** (1.0 / 3.0)) / (size * search.limit)
@@ -89,7 +99,7 @@ def _finish(search, status):
 @kernel
 def _go_beyond(search):
     """Set the largest creepage, against the force."""
-    size = max(math.hypot(search.wanted_x, search.wanted_y), 1e-300)
+    size = max(_length(search.wanted_x, search.wanted_y), 1e-300)
     if search.given & LONGITUDINAL != 0:
         search.vx = -LARGEST * search.wanted_x / size
     if search.given & LATERAL != 0:
@@ -105,10 +115,10 @@ def go_on(search: ForceSearch, Fx: float, Fy: float) -> bool:
     search.solutions += 1
     Fx = Fx if search.given & LONGITUDINAL != 0 else 0.0
     Fy = Fy if search.given & LATERAL != 0 else 0.0
-    error = math.hypot(Fx - search.wanted_x, Fy - search.wanted_y)
-    if search.limit <= 0.0:
+    error = _length(Fx - search.wanted_x, Fy - search.wanted_y)
+    if not search.limit > 0.0:  # nor NaN
         return error > 0.0 and _go_beyond(search)
-    wanted = math.hypot(search.wanted_x, search.wanted_y)
+    wanted = _length(search.wanted_x, search.wanted_y)
     if search.bounded != 0 and wanted > search.limit * (1.0 + _TOLERANCE):
         return _go_beyond(search)
     x, y = _straight(search, Fx, Fy)
@@ -147,7 +157,7 @@ def _go_on_with_two(search, rx, ry, error):
     first = search.solutions == 1
     if not first:
         _update(search, rx, ry)
-    if first or math.hypot(rx, ry) < math.hypot(search.rx, search.ry):
+    if first or _length(rx, ry) < _length(search.rx, search.ry):
         search.best_x, search.best_y, search.rx, search.ry = search.vx, search.vy, rx, ry
         search.error, search.trials, search.fresh = error, 0, 0
         if error <= _TOLERANCE or search.solutions >= _MOST:
@@ -161,7 +171,7 @@ def _go_on_with_two(search, rx, ry, error):
     search.vx, search.vy = search.best_x, search.best_y
     if search.fresh != 0 or search.solutions >= _MOST:
         return _finish(search, _judgement(search))
-    search.vx += _DIFFERENCE * max(search.unit, math.hypot(search.vx, search.vy))
+    search.vx += _DIFFERENCE * max(search.unit, _length(search.vx, search.vy))
     search.trials, search.stage = 0, _COLUMN_X
     return True
 
@@ -191,10 +201,10 @@ def _step(search):
         dx, dy = (j[1] * ry - j[3] * rx) / determinant, (j[2] * rx - j[0] * ry) / determinant
     else:
         dx, dy = -(j[0] * rx + j[2] * ry) / square, -(j[1] * rx + j[3] * ry) / square
-    longest = _GROWTH * max(math.hypot(search.best_x, search.best_y), 0.5 * search.unit)
-    shorter = min(1.0, longest / max(math.hypot(dx, dy), 1e-300))
+    longest = _GROWTH * max(_length(search.best_x, search.best_y), 0.5 * search.unit)
+    shorter = min(1.0, longest / max(_length(dx, dy), 1e-300))
     search.vx, search.vy = search.best_x + shorter * dx, search.best_y + shorter * dy
-    shorter = min(1.0, LARGEST / max(math.hypot(search.vx, search.vy), 1e-300))
+    shorter = min(1.0, LARGEST / max(_length(search.vx, search.vy), 1e-300))
     search.vx, search.vy = shorter * search.vx, shorter * search.vy
     return True
 
@@ -207,7 +217,7 @@ def _judgement(search):
     j = search.jacobian
     square = j[0] * j[0] + j[1] * j[1] + j[2] * j[2] + j[3] * j[3]
     flat = _FLAT * abs(j[0] * j[3] - j[1] * j[2]) < square
-    reached = math.hypot(search.best_x, search.best_y) >= 0.99 * LARGEST
+    reached = _length(search.best_x, search.best_y) >= 0.99 * LARGEST
     return Status.UNREACHABLE if reached or flat else Status.NOT_CONVERGED
 
 

@@ -90,6 +90,29 @@ static void attack_contact(void) {
     WITH(c.vx, 2e6, wr_contact_solve(memory, &s, &c, &r), "case.vx");
     WITH(c.nu, 0.3, wr_contact_solve(memory, &s, &c, &r), "case.nu");
     FINE(wr_contact_solve(memory, &s, &c, &r));
+    wr_case under = c;
+    REFUSED(wr_contact_solve_force(NULL, &s, 3, 1e3, 1e3, &under, &r), "memory");
+    REFUSED(wr_contact_solve_force(memory, NULL, 3, 1e3, 1e3, &under, &r), "separation");
+    REFUSED(wr_contact_solve_force(memory, &s, 0, 1e3, 1e3, &under, &r), "which");
+    REFUSED(wr_contact_solve_force(memory, &s, 4, 1e3, 1e3, &under, &r), "which");
+    REFUSED(wr_contact_solve_force(memory, &s, INT64_MIN, 1e3, 1e3, &under, &r), "which");
+    REFUSED(wr_contact_solve_force(memory, &s, WR_FORCE_X, NAN, 1e3, &under, &r), "Fx");
+    REFUSED(wr_contact_solve_force(memory, &s, 3, 1e3, -INFINITY, &under, &r), "Fy");
+    REFUSED(wr_contact_solve_force(memory, &s, 3, 1e3, 1e3, NULL, &r), "case");
+    REFUSED(wr_contact_solve_force(memory, &s, 3, 1e3, 1e3, &under, NULL), "result");
+    WITH(under.mu, NAN, wr_contact_solve_force(memory, &s, 3, 1e3, 1e3, &under, &r), "case.mu");
+    WITH(s.A, NULL, wr_contact_solve_force(memory, &s, 3, 1e3, 1e3, &under, &r), "separation.A");
+    if (memcmp(&under, &c, sizeof c)) printf("a refused case has changed\n"), failures++;
+    FINE(wr_contact_solve_force(memory, &s, WR_FORCE_Y, NAN, 1e3, &under, &r));
+    for (int64_t which = 1; which <= 3; which++) { /* extreme forces, starts and gaps end in finite time */
+        const double extreme[] = {0.0, 5e-324, 1.0, 1e300, -1.7e308};
+        for (int i = 0; i < 25; i++) {
+            under = c, under.vx = i % 2 ? WR_LARGEST_CREEPAGE : 0.0, under.mu = under.kinetic = i % 3 ? 0.3 : 0.0;
+            FINE(wr_contact_solve_force(memory, &s, which, extreme[i / 5], extreme[i % 5], &under, &r));
+            under = c, under.amount = i % 2 ? 0.0 : 1e300;
+            FINE(wr_contact_solve_force(memory, &s, which, extreme[i / 5], extreme[i % 5], &under, &r));
+        }
+    }
     REFUSED(wr_contact_derivatives(memory, &s, &c, NULL), "jacobian");
     FINE(wr_contact_derivatives(memory, &s, &c, jacobian));
     REFUSED(wr_contact_fields(memory, NULL), "fields");
@@ -115,6 +138,7 @@ static void attack_contact(void) {
     FINE(wr_contact_solve(memory, &s, &c, &r));
     for (size_t at = bytes - 8; at > bytes / 2; at -= 8) memset(memory + at, 0xFF, 8); /* scratch of NaN */
     wr_contact_solve(memory, &s, &c, &r);
+    for (int64_t which = 1; which <= 3; which++) wr_contact_solve_force(memory, &s, which, 1e3, 1e3, &under, &r);
     memset(memory, 0, bytes);
     REFUSED(wr_contact_solve(memory, &s, &c, &r), "memory");
     REFUSED(wr_contact_accept(memory), "memory");

@@ -1,5 +1,7 @@
 """The C interface gives the numbers of Python, bit for bit."""
 
+import ctypes
+
 import numpy as np
 import pytest
 
@@ -9,7 +11,7 @@ from contact.geometry.surfaces import Flat, RailSurface, SurfacePair, WheelSurfa
 from contact.geometry.surfaces.pair import SAMPLES
 from contact.geometry.wheelset import Pair as Profiles
 from contact.geometry.wheelset import Pose, Velocity
-from contact.kernels.enumerations import Height
+from contact.kernels.enumerations import Height, Status
 from contact.kernels.records import DAMAGE, RESULT
 from contact.pair import WheelRailPair
 from fmu_src.native.c_header import PATH, header
@@ -61,6 +63,35 @@ def test_a_patch_has_the_bits_of_the_solver(library, normal, tangential):
         want = solver.solve(SEPARATION, creepage, load=80e3 + 1e3 * step, warm=step > 0)
         library.need("wr_contact_solve", patch.memory, separation, patch.case, result)
         equal(result, want)
+        library.need("wr_contact_accept", patch.memory)
+
+
+@pytest.mark.parametrize(
+    ("which", "force", "status"),
+    [
+        (1, (-6e3, None), Status.OK),
+        (2, (None, 4e3), Status.OK),
+        (3, (-6e3, 4e3), Status.OK),
+        (3, (-3e4, 2e4), Status.UNREACHABLE),
+    ],
+)
+@pytest.mark.parametrize(("normal", "tangential"), [("strip_halfspace", "fastrip_mapped"), ("hertz", "polach")])
+def test_a_patch_under_a_given_force_has_the_bits_of_the_solver(library, normal, tangential, which, force, status):
+    known = contact.methods().batched
+    ids = int(known.normal[normal].id), int(known.tangential[tangential].id)
+    patch = Patch(library, normal=ids[0], tangential=ids[1])
+    solver = contact.Solver(normal=normal, tangential=tangential)
+    separation, result = patch.separation(SEPARATION), np.zeros(1, RESULT)
+    numbers = [ctypes.c_double(np.nan if f is None else f) for f in force]
+    for step in range(3):  # the first one from nothing
+        set_case(patch, CREEPAGE, 80e3 + 1e3 * step)
+        want = solver.solve(SEPARATION, CREEPAGE, load=80e3 + 1e3 * step, force=force, warm=step > 0)
+        name = "wr_contact_solve_force"
+        code = library.need(name, patch.memory, separation, ctypes.c_int64(which), *numbers, patch.case, result)
+        equal(result, want)
+        assert (patch.case["vx"][0], patch.case["vy"][0]) == (want.creepage.longitudinal, want.creepage.lateral)
+        assert want.status is status
+        assert code == (0 if status is Status.OK else status)
         library.need("wr_contact_accept", patch.memory)
 
 
