@@ -114,6 +114,22 @@ WR_API int wr_contact_forget(void *memory);
 WR_API int wr_contact_derivatives(void *memory, const wr_separation *separation, const wr_case *problem, double *jacobian);
 /* Fields of the last answer. */
 WR_API int wr_contact_fields(const void *memory, wr_fields *fields);
+/* Pressure and traction on equal rectangles, in arrays of the caller.  Element (i, j) is [i * nx + j]. */
+typedef struct {
+    int64_t size;        /* sizeof(wr_surface_load) */
+    int64_t nx, ny;      /* 4 to 1000 elements */
+    double *x, *y;       /* nx and ny centres, increasing in equal steps [m] */
+    double *p, *qx, *qy; /* pressure and traction on the wheel [Pa] */
+} wr_surface_load;
+
+enum { WR_BODY_RAIL, WR_BODY_WHEEL };
+
+/* Fill the arrays with the load of the last answer on nx * ny elements over its patches; 64 * 64 is usual. */
+WR_API int wr_contact_surface_load(const void *memory, wr_surface_load *load);
+/* Stresses xx, yy, zz, xy, xz, yz [Pa] of a half space at n points as stress[n][6]: x, y in the plane of the load, z the depth
+ * below the surface, not negative [m].  Axes are those of the patch; its z points out of the wheel, into the rail. */
+WR_API int wr_stress(const wr_surface_load *load, int64_t body, double poisson_ratio, int64_t n, const double *x,
+                     const double *y, const double *z, double *stress);
 /* Constants of the damage models for steel. */
 WR_API int wr_damage_default(wr_damage_parameters *parameters);
 /* Damage of the last answer, per metre rolled. */

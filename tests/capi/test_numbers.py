@@ -1,11 +1,14 @@
 """The C interface gives the numbers of Python, bit for bit."""
 
 import ctypes
+import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import contact
+from contact import stress
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, RailSurface, SurfacePair, WheelSurface, compiled
 from contact.geometry.surfaces.pair import SAMPLES
@@ -15,7 +18,7 @@ from contact.kernels.enumerations import Height, Status
 from contact.kernels.records import DAMAGE, RESULT
 from contact.pair import WheelRailPair
 from fmu_src.native.c_header import PATH, header
-from tests.capi.library import FIELDS, OPTIONS, Library, Pair, Patch
+from tests.capi.library import FIELDS, LOAD, OPTIONS, Library, Pair, Patch
 
 
 def _patch_options(library, **changed):
@@ -134,6 +137,33 @@ def test_fields_and_damage_are_those_of_the_solution(library):
     library.need("wr_damage_default", parameters)
     library.need("wr_contact_damage", patch.memory, parameters, damage)
     assert damage["T_gamma"][0] == abs(want.Fx * 1e-3) + abs(want.Fy * 5e-4)
+
+
+@pytest.mark.parametrize(("body", "number"), [("rail", 0), ("wheel", 1)])
+@pytest.mark.parametrize("limit", [math.inf, 8e8])
+def test_stresses_have_the_bits_of_python(library, limit, body, number):
+    patch, result = Patch(library, pressure_limit=limit), np.zeros(1, RESULT)
+    set_case(patch)
+    library.need("wr_contact_solve", patch.memory, patch.separation(SEPARATION), patch.case, result)
+    solution = contact.Solver(material=replace(contact.STEEL, pressure_limit=limit)).solve(
+        SEPARATION, CREEPAGE, load=80e3
+    )
+    want = stress.SurfaceLoad.of(solution)
+    arrays, load = {n: np.empty(64 * 64 if n in ("p", "qx", "qy") else 64) for n in LOAD.names[3:]}, np.zeros(1, LOAD)
+    load["size"], load["nx"], load["ny"] = LOAD.itemsize, 64, 64
+    for name, array in arrays.items():
+        load[name] = array.ctypes.data
+    library.need("wr_contact_surface_load", patch.memory, load)
+    for name, array in arrays.items():
+        assert np.array_equal(array, getattr(want, name).ravel()), name
+    points = np.linspace(-4e-3, 4e-3, 9), np.linspace(-2e-3, 3e-3, 9), np.linspace(0.0, 4e-3, 9)
+    found = np.empty((9, 6))
+    nu = ctypes.c_double(contact.STEEL.poisson_ratio)
+    library.need("wr_stress", load, ctypes.c_int64(number), nu, ctypes.c_int64(9), *points, found)
+    field = stress.at(solution, *points, body=body)
+    for name, values in zip(("xx", "yy", "zz", "xy", "xz", "yz"), found.T, strict=True):
+        assert np.array_equal(values, getattr(field, name)), name
+    assert found[:, 2].min() < -1e8
 
 
 def test_derivatives_are_slopes_of_the_forces(library):
