@@ -635,18 +635,22 @@ static int check_even(const double *values, int64_t n, int argument) {
     return 0;
 }
 
+/* Fill a checked load from `n` strips, which were solved with the methods and the pressure limit of head->problem. */
+static int fill_load(const Head *head, int64_t n, const wr_result *result, wr_surface_load *l) {
+    const Method *rolling = find(1, head->problem.tangential);
+    if (n <= 0) return bad(A_memory, R_NO_CONTACT);
+    if (rolling == NULL || !rolling->fields) return bad(A_memory, R_NO_FIELDS);
+    int64_t made = CALL(load_fill, (double *)head->sizes, (double *)read_numbers(head, head->at_work + head->at_strips), n,
+                        head->problem.pressure_limit, (void *)result, l->nx, l->ny, l->x, l->y, l->p, l->qx, l->qy);
+    return made ? 0 : bad(A_surface_load, R_COARSE);
+}
+
 int wr_contact_surface_load(const void *memory, wr_surface_load *l) {
     TRY(check_memory(memory, CONTACT));
     const Head *head = memory;
     TRY(check_answer(head));
     TRY(check_load(l));
-    const Method *rolling = find(1, head->problem.tangential);
-    if (head->n_strips == 0) return bad(A_memory, R_NO_CONTACT);
-    if (rolling == NULL || !rolling->fields) return bad(A_memory, R_NO_FIELDS);
-    int64_t made = CALL(load_fill, (double *)head->sizes, (double *)read_numbers(memory, head->at_work + head->at_strips),
-                        head->n_strips, head->problem.pressure_limit, (void *)&head->result, l->nx, l->ny, l->x, l->y,
-                        l->p, l->qx, l->qy);
-    return made ? 0 : bad(A_surface_load, R_COARSE);
+    return fill_load(head, head->n_strips, &head->result, l);
 }
 
 int wr_stress(const wr_surface_load *l, int64_t body, double poisson_ratio, int64_t n, const double *x, const double *y,

@@ -223,6 +223,8 @@ WR_API int wr_pair_derivatives(void *memory, const wr_pair_input *input, double 
 /* Result and fields of patch k of the last answer, on the right side.  The patch is solved once more, from the last answer,
  * so the numbers agree with it within the tolerance of the method.  fields may be NULL. */
 WR_API int wr_pair_patch(void *memory, int64_t k, wr_result *result, wr_fields *fields);
+/* As wr_contact_surface_load, for patch k of the last answer, on the right side; solved once more, as by wr_pair_patch. */
+WR_API int wr_pair_surface_load(void *memory, int64_t k, wr_surface_load *load);
 /* Copy the bins that accept has booked: bins[2][WR_BIN_ROWS][n_bins], first the wheel's. */
 WR_API int wr_pair_bins(const void *memory, double *bins, int64_t count);
 

@@ -132,6 +132,11 @@ static void attack_contact(void) {
     WITH(l.qx, NULL, wr_contact_surface_load(memory, &l), "load.qx");
     WITH(l.qy, (double *)((char *)lr + 1), wr_contact_surface_load(memory, &l), "load.qy");
     FINE(wr_contact_surface_load(memory, &l));
+    wr_case none = c;
+    none.amount = 0.0;
+    FINE(wr_contact_solve(memory, &s, &none, &r));
+    REFUSED(wr_contact_surface_load(memory, &l), "memory");
+    FINE(wr_contact_solve(memory, &s, &c, &r));
     REFUSED(wr_stress(NULL, 0, 0.28, 3, px, px, pz, t), "load");
     REFUSED(wr_stress(&l, 2, 0.28, 3, px, px, pz, t), "body");
     REFUSED(wr_stress(&l, 0, 0.51, 3, px, px, pz, t), "poisson_ratio");
@@ -239,6 +244,14 @@ static void attack_pair(void) {
     REFUSED(wr_pair_patch(memory, 4, &r, NULL), "k");
     REFUSED(wr_pair_patch(memory, -1, &r, NULL), "k");
     FINE(wr_pair_patch(memory, 0, &r, NULL));
+    static double lx[4], ly[4], lp[16], lq[16], lr[16];
+    wr_surface_load l = {sizeof l, 4, 4, lx, ly, lp, lq, lr};
+    REFUSED(wr_pair_surface_load(NULL, 0, &l), "memory");
+    REFUSED(wr_pair_surface_load(memory, 4, &l), "k");
+    REFUSED(wr_pair_surface_load(memory, INT64_MIN, &l), "k");
+    REFUSED(wr_pair_surface_load(memory, 0, NULL), "load");
+    WITH(l.ny, 1001, wr_pair_surface_load(memory, 0, &l), "load.ny");
+    FINE(wr_pair_surface_load(memory, 0, &l));
     REFUSED(wr_pair_derivatives(memory, &in, NULL), "jacobian");
     FINE(wr_pair_derivatives(memory, &in, jacobian));
     REFUSED(wr_pair_bins(memory, NULL, 0), "bins");

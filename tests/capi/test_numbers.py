@@ -139,6 +139,15 @@ def test_fields_and_damage_are_those_of_the_solution(library):
     assert damage["T_gamma"][0] == abs(want.Fx * 1e-3) + abs(want.Fy * 5e-4)
 
 
+def _surface_load():
+    """Return the arrays of a load by name, and its struct."""
+    arrays, load = {n: np.empty(64 * 64 if n in ("p", "qx", "qy") else 64) for n in LOAD.names[3:]}, np.zeros(1, LOAD)
+    load["size"], load["nx"], load["ny"] = LOAD.itemsize, 64, 64
+    for name, array in arrays.items():
+        load[name] = array.ctypes.data
+    return arrays, load
+
+
 @pytest.mark.parametrize(("body", "number"), [("rail", 0), ("wheel", 1)])
 @pytest.mark.parametrize("limit", [math.inf, 8e8])
 def test_stresses_have_the_bits_of_python(library, limit, body, number):
@@ -149,10 +158,8 @@ def test_stresses_have_the_bits_of_python(library, limit, body, number):
         SEPARATION, CREEPAGE, load=80e3
     )
     want = stress.SurfaceLoad.of(solution)
-    arrays, load = {n: np.empty(64 * 64 if n in ("p", "qx", "qy") else 64) for n in LOAD.names[3:]}, np.zeros(1, LOAD)
-    load["size"], load["nx"], load["ny"] = LOAD.itemsize, 64, 64
-    for name, array in arrays.items():
-        load[name] = array.ctypes.data
+    arrays, load = _surface_load()
+    assert result["limited"][0] == (limit < math.inf)
     library.need("wr_contact_surface_load", patch.memory, load)
     for name, array in arrays.items():
         assert np.array_equal(array, getattr(want, name).ravel()), name
@@ -164,6 +171,33 @@ def test_stresses_have_the_bits_of_python(library, limit, body, number):
     for name, values in zip(("xx", "yy", "zz", "xy", "xz", "yz"), found.T, strict=True):
         assert np.array_equal(values, getattr(field, name)), name
     assert found[:, 2].min() < -1e8
+
+
+@pytest.mark.parametrize("limit", [math.inf, 7e8])
+def test_the_load_of_a_patch_of_a_pair_carries_its_forces(library, limit):
+    options = _patch_options(library, n_samples=81, pressure_limit=limit)
+    pair = Pair(library, profile.s1002(), profile.rail_60e1(), patch=options)
+    pair.input["surface"]["pressure_limit"] = limit
+    pair.input["motion"]["y"], pair.input["motion"]["yaw"] = 2e-3, 2e-3
+    pair.solve()
+    result, (arrays, load) = np.zeros(1, RESULT), _surface_load()
+    library.need("wr_pair_patch", pair.memory, 0, result, None)
+    library.need("wr_pair_surface_load", pair.memory, 0, load)
+    cell = np.ptp(arrays["x"]) * np.ptp(arrays["y"]) / 63**2
+    assert 64 * np.ptp(arrays["x"]) / 63 == pytest.approx(result["length"][0], rel=1e-9)
+    for name, force, error in (("p", "N", 1e-9), ("qx", "Fx", 0.02), ("qy", "Fy", 0.02)):
+        assert arrays[name].sum() * cell == pytest.approx(result[force][0], rel=error), name
+    assert result["pmax"][0] == limit if limit < math.inf else result["pmax"][0] > 7e8
+    assert arrays["p"].max() == pytest.approx(result["pmax"][0], rel=0.01)
+
+
+def test_a_method_without_tractions_has_no_load_for_stresses(library):
+    known = contact.methods().batched
+    patch, result = Patch(library, tangential=int(known.tangential["polach"].id)), np.zeros(1, RESULT)
+    set_case(patch)
+    library.need("wr_contact_solve", patch.memory, patch.separation(SEPARATION), patch.case, result)
+    _, load = _surface_load()
+    assert library.about(library.call("wr_contact_surface_load", patch.memory, load)) == "memory"
 
 
 def test_derivatives_are_slopes_of_the_forces(library):
