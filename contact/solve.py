@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from contact.creepage import Creepage, as_creepage
 from contact.errors import ContactError, require_number, require_pair
 from contact.friction import Friction, as_friction
-from contact.given_force import solve_for_force, wanted_force
+from contact.given_force import Force, solve_for_force, wanted_force
 from contact.halfspace import linear
 from contact.halfspace.bent import Surface
 from contact.halfspace.gap import Division, Gap
@@ -215,9 +215,13 @@ def solve(
         problem = _StripProblem(
             separation, load, approach, surface, material, speed, method.name, size, start, conformal, max_iterations, trace
         )  # fmt: skip
-        if wanted is None and not (rolling.calibrated or rolling.elementwise):  # the solution stays lazy
-            return problem.solve(creepage, rolling.name, derivatives=derivatives, throw=throw)
-        solver = _rolling(problem, creepage, rolling, division, layer, progress)
+        if not rolling.elementwise:
+            coefficients = _patch_coefficients(problem, creepage, rolling) if rolling.calibrated else None
+            solution = problem.solve(
+                creepage, rolling.kernel, coefficients, wanted, derivatives=derivatives, throw=throw
+            )
+            return replace(solution, tangential=rolling.name) if rolling.calibrated else solution  # which stays lazy
+        solver = _rolling(problem, creepage, division, layer, progress)
     evaluate = solver.roll if isinstance(solver, Pressed) else solver
     if wanted is None:
         solution = evaluate(creepage)
@@ -291,6 +295,7 @@ class _StripProblem(NamedTuple):
         creepage: Creepage,
         tangential: str,
         coefficients: tuple[float, float, float] | None = None,
+        force: Force | None = None,
         derivatives: bool = False,
         throw: bool = False,
     ) -> Solution:
@@ -305,6 +310,7 @@ class _StripProblem(NamedTuple):
                 creepage,
                 load=self.load,
                 approach=self.approach,
+                force=force,
                 friction=self.friction,
                 speed=self.speed,
                 warm=self.start is not None,
@@ -319,30 +325,28 @@ class _StripProblem(NamedTuple):
 def _rolling(
     problem: _StripProblem,
     creepage: Creepage,
-    method: Method,
     division: Division,
     layer: ThirdBody | None,
     progress: Callable[[int, float], None] | None,
 ) -> Callable[[Creepage], Solution] | Pressed:
     """Return the function from creepage to solution, or the pressed elements that roll. The normal problem is solved now."""
-    if method.elementwise:
-        first = problem._replace(conformal=False).solve(creepage, DEFAULT_TANGENTIAL)
-        if first.N <= 0.0:
-            return lambda creepage: replace(first, tangential=method.name, creepage=creepage)
-        surface = Surface.of(problem.separation) if problem.conformal else None
-        return press_solution(first, surface, problem.load, problem.friction, division, layer, progress)
-    if not method.calibrated:
-        return lambda creepage: problem.solve(creepage, method.name)
-    first = problem.solve(creepage, method.kernel)
-    coefficients = _patch_coefficients(problem, creepage, first) if first.N > 0.0 else None
-    return lambda creepage: replace(problem.solve(creepage, method.kernel, coefficients), tangential=method.name)
+    first = problem._replace(conformal=False).solve(creepage, DEFAULT_TANGENTIAL)
+    if first.N <= 0.0:
+        return lambda creepage: replace(first, tangential="halfspace", creepage=creepage)
+    surface = Surface.of(problem.separation) if problem.conformal else None
+    return press_solution(first, surface, problem.load, problem.friction, division, layer, progress)
 
 
-def _patch_coefficients(problem: _StripProblem, creepage: Creepage, first: Solution) -> tuple[float, float, float]:
-    """Return C11, C22, C23 of linear theory on the patch of `first`.
+def _patch_coefficients(
+    problem: _StripProblem, creepage: Creepage, method: Method
+) -> tuple[float, float, float] | None:
+    """Return C11, C22, C23 of linear theory on the patch; None without contact.
 
     Linear theory is solved on coarse patches with n strips and extrapolated to n → ∞.
     """
+    first = problem.solve(creepage, method.kernel)
+    if first.N <= 0.0:
+        return None
 
     def at(n: int) -> Array:
         coarse = problem._replace(size=(n, n), start=None, conformal=False)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from types import MappingProxyType
 from typing import Any
 
@@ -16,14 +17,15 @@ from contact.core import pack
 from contact.creepage import Creepage, as_creepage
 from contact.errors import ContactError, require_integer, require_number
 from contact.friction import Friction, as_friction
-from contact.given_force import solve_for_force, wanted_force
+from contact.given_force import as_numbers, wanted_force
 from contact.kernels.arrays import Cases, Integers, Results, Workspace
 from contact.kernels.enumerations import LoadKind
+from contact.kernels.given_force import solve_under_force
 from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
 from contact.kernels.normal.start import MEM_IMAGE
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.pipeline import solve_cases
-from contact.kernels.records import RESULT
+from contact.kernels.records import FORCE_SEARCH, RESULT
 from contact.material import STEEL, Material
 from contact.plausibility import doubt_alike, doubt_case, doubt_gap, doubt_strips
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
@@ -127,6 +129,7 @@ class Solver:
         self._problem = pack(Integers, self._bounds), pack(Integers, np.zeros(1, np.int64)), pack(Cases, self._case)
         self._answer = pack(Results, self._result)
         self._two_cases, self._two_results = np.zeros(2, self._case.dtype), np.zeros(2, RESULT)
+        self._search = np.zeros(1, FORCE_SEARCH)
         self._numbers = self._case.view(np.float64), self._result.view(np.float64)  # faster to copy than records
         self.set_surface(friction, speed)
         self._coefficients: NDArray[np.float64] | None = None
@@ -221,25 +224,13 @@ class Solver:
         ContactError
             As `contact.solve`.
         """
-        if force is not None:
-            if derivatives:
-                raise ContactError("derivatives = True does not work with force; solve again with the creepage found")
-
-            def evaluate(creepage: Creepage) -> Solution:
-                return self.solve(
-                    separation,
-                    creepage,
-                    load=load,
-                    approach=approach,
-                    friction=friction,
-                    speed=speed,
-                    warm=warm,
-                    throw=throw,
-                )
-
-            return solve_for_force(wanted_force(force), creepage, evaluate, self.tangential.saturates)
+        if force is not None and derivatives:
+            raise ContactError("derivatives = True does not work with force; solve again with the creepage found")
         jacobian = _jacobian(load) if derivatives else None
-        n = self._run(True, separation, creepage, load, approach, (friction, speed), warm, jacobian)
+        n = self._run(True, separation, creepage, load, approach, (friction, speed), warm, jacobian, force)
+        if force is not None:
+            vx, vy = (float(self._member[name][0]) for name in ("vx", "vy"))
+            creepage = replace(as_creepage(creepage), longitudinal=vx, lateral=vy)
         prepared = Prepared(self.normal.name, self.tangential.name, self.material, self._speed)
         if throw:
             require_trustworthy(Status(self._status[0]), separation.y, load, approach)
@@ -293,6 +284,7 @@ class Solver:
         surface: tuple[float | Friction | None, float | None],
         warm: bool,
         jacobian: Jacobian | None,
+        force: object = None,
     ) -> int:
         """Check the arguments, fill the case and call the kernel; return the number of strips."""
         if not isinstance(separation, Separation):
@@ -301,6 +293,7 @@ class Solver:
         if (load is None) == (approach is None):
             raise ContactError(f"exactly one of load and approach is needed; load = {load}, approach = {approach}")
         amount = require_number("load", load, 0.0) if load is not None else require_number("approach", approach)
+        wanted = None if force is None else as_numbers(wanted_force(force))
         friction, speed = surface
         if (friction is not None and friction is not self._friction) or (speed is not None and speed != self._speed):
             self.set_surface(self._friction if friction is None else friction, self._speed if speed is None else speed)
@@ -324,6 +317,10 @@ class Solver:
             self._two_cases[0] = self._case[0]
             n = int(solve_with_jacobian(separation.packed, self._two_cases, arrays, self._two_results, jacobian.values))
             jacobian.values.setflags(write=False)
+            self._result[0] = self._two_results[0]
+            return n
+        if wanted is not None:
+            n = int(solve_under_force(separation.packed, self._case, arrays, self._two_results, self._search, *wanted))
             self._result[0] = self._two_results[0]
             return n
         return int(solve_cases(0, 1, separation.packed, *self._problem, arrays, self._answer))

@@ -8,8 +8,9 @@ import pytest
 import contact
 import reference
 from contact.friction import Friction
-from contact.given_force import LARGEST, rising_root
+from contact.given_force import rising_root
 from contact.halfspace import pressed
+from contact.kernels.given_force import LARGEST
 
 LOAD, MU = 8e4, 0.3
 SEPARATION = contact.Separation.hertzian(1.1, 0.8)

@@ -55,7 +55,11 @@ static double is_wide(void) { return 0.0; }
     X(ENDLESS, "the damage has no finite value")                                                                 \
     X(PLANE, "this tangential method is only for a plane contact")                                               \
     X(NO_SURFACE, "the numbers are no surface as contact.geometry.surfaces.compiled.numbers writes it")          \
-    X(NO_BINS, "surfaces have no bins")
+    X(NO_BINS, "surfaces have no bins")                                                                          \
+    X(NO_CONTACT, "there is no contact, so no stress")                                                           \
+    X(NO_FIELDS, "the tangential method gives forces only")                                                      \
+    X(COARSE, "no element lies inside a patch")                                                                  \
+    X(UNEVEN, "the steps are not equal")
 
 enum { R_NONE,
 #define X(name, text) R_##name,
@@ -100,7 +104,10 @@ enum { R_NONE,
     X(c_warm_range, "case.warm_range") X(c_heating, "case.heating") X(c_conformal, "case.conformal")                 \
     X(c_rolling, "case.rolling") X(c_tolerance, "case.tolerance") X(reach, "options.reach")                          \
     X(tilted, "options.tilted") X(wheel_n, "wheel.n") X(rail_n, "rail.n") X(wheel_numbers, "wheel.numbers")          \
-    X(rail_numbers, "rail.numbers") X(station, "input.station") X(rotation, "input.rotation")
+    X(rail_numbers, "rail.numbers") X(station, "input.station") X(rotation, "input.rotation")              \
+    X(force_x, "Fx") X(force_y, "Fy") X(surface_load, "load") X(nx, "load.nx") X(ny, "load.ny")                       \
+    X(load_x, "load.x") X(load_y, "load.y") X(load_p, "load.p") X(load_qx, "load.qx") X(load_qy, "load.qy")          \
+    X(body, "body") X(poisson, "poisson_ratio") X(x, "x") X(y, "y") X(z, "z") X(stress, "stress")
 
 enum { A_none,
 #define X(name, text) A_##name,
@@ -529,6 +536,27 @@ int wr_contact_solve(void *memory, const wr_separation *s, const wr_case *c, wr_
     return code_of(result->status);
 }
 
+int wr_contact_solve_force(void *memory, const wr_separation *s, int64_t which, double Fx, double Fy, wr_case *c,
+                           wr_result *result) {
+    TRY(check_memory(memory, CONTACT));
+    Head *head = memory;
+    TRY(check_separation(s, head->patch.n_samples));
+    TRY(among(which, WR_FORCE_X, WR_FORCE_X + WR_FORCE_Y, A_which));
+    if (which & WR_FORCE_X) TRY(within(Fx, -INFINITY, INFINITY, A_force_x));
+    if (which & WR_FORCE_Y) TRY(within(Fy, -INFINITY, INFINITY, A_force_y));
+    TRY(check_case(c, &head->patch));
+    TRY(aligned(result, A_result));
+    wr_result results[2];
+    const double *x_c, *tilt;
+    optional_samples(memory, s, &x_c, &tilt);
+    head->problem = *c;
+    head->n_strips = CALL(contact_force, head->sizes, work_of(memory), which, Fx, Fy, s->n, (void *)s->y, (void *)s->g,
+                          (void *)s->A, (void *)x_c, (void *)tilt, &head->problem, results);
+    head->result = results[0], head->answered = 1;
+    *c = head->problem, *result = head->result;
+    return code_of(result->status);
+}
+
 int wr_contact_accept(void *memory) {
     TRY(check_memory(memory, CONTACT));
     TRY(check_answer(memory));
@@ -581,6 +609,75 @@ int wr_contact_damage(void *memory, const wr_damage_parameters *parameters, wr_d
     TRY(aligned(damage, A_damage));
     CALL(contact_damage, head->sizes, work_of(memory), head->n_strips, &head->problem, &head->result, (void *)parameters,
          damage);
+    return 0;
+}
+
+static int check_load(const wr_surface_load *l) {
+    TRY(aligned(l, A_surface_load));
+    if (l->size != (int64_t)sizeof *l) return bad(A_surface_load, R_STRUCT);
+    TRY(among(l->nx, 4, 1000, A_nx));
+    TRY(among(l->ny, 4, 1000, A_ny));
+    TRY(aligned(l->x, A_load_x));
+    TRY(aligned(l->y, A_load_y));
+    TRY(aligned(l->p, A_load_p));
+    TRY(aligned(l->qx, A_load_qx));
+    return aligned(l->qy, A_load_qy);
+}
+
+static int check_even(const double *values, int64_t n, int argument) {
+    TRY(finite_all(values, n, argument));
+    double step = (values[n - 1] - values[0]) / (double)(n - 1);
+    for (int64_t i = 1; i < n; i++) {
+        double here = values[i] - values[i - 1];
+        if (!(here > 0.0)) return bad(argument, R_ORDER);
+        if (!(fabs(here - step) <= 1e-6 * step)) return bad(argument, R_UNEVEN);
+    }
+    return 0;
+}
+
+/* Fill a checked load from `n` strips, which were solved with the methods and the pressure limit of head->problem. */
+static int fill_load(const Head *head, int64_t n, const wr_result *result, wr_surface_load *l) {
+    const Method *rolling = find(1, head->problem.tangential);
+    if (n <= 0) return bad(A_memory, R_NO_CONTACT);
+    if (rolling == NULL || !rolling->fields) return bad(A_memory, R_NO_FIELDS);
+    int64_t made = CALL(load_fill, (double *)head->sizes, (double *)read_numbers(head, head->at_work + head->at_strips), n,
+                        head->problem.pressure_limit, (void *)result, l->nx, l->ny, l->x, l->y, l->p, l->qx, l->qy);
+    return made ? 0 : bad(A_surface_load, R_COARSE);
+}
+
+int wr_contact_surface_load(const void *memory, wr_surface_load *l) {
+    TRY(check_memory(memory, CONTACT));
+    const Head *head = memory;
+    TRY(check_answer(head));
+    TRY(check_load(l));
+    return fill_load(head, head->n_strips, &head->result, l);
+}
+
+int wr_stress(const wr_surface_load *l, int64_t body, double poisson_ratio, int64_t n, const double *x, const double *y,
+              const double *z, double *stress) {
+    TRY(check_load(l));
+    TRY(check_even(l->x, l->nx, A_load_x));
+    TRY(check_even(l->y, l->ny, A_load_y));
+    TRY(finite_all(l->p, l->nx * l->ny, A_load_p));
+    TRY(finite_all(l->qx, l->nx * l->ny, A_load_qx));
+    TRY(finite_all(l->qy, l->nx * l->ny, A_load_qy));
+    TRY(among(body, WR_BODY_RAIL, WR_BODY_WHEEL, A_body));
+    TRY(within(poisson_ratio, 0.0, 0.5, A_poisson));
+    TRY(among(n, 0, INT64_MAX / 64, A_n));
+    TRY(aligned(x, A_x));
+    TRY(aligned(y, A_y));
+    TRY(aligned(z, A_z));
+    TRY(aligned(stress, A_stress));
+    TRY(finite_all(x, n, A_x));
+    TRY(finite_all(y, n, A_y));
+    for (int64_t i = 0; i < n; i++) TRY(within(z[i], 0.0, INFINITY, A_z));
+    double sizes[N_SIZES] = {0}, one[18];
+    int wheel = body == WR_BODY_WHEEL;
+    sizes[WIDE] = is_wide();
+    CALL(stress_at, sizes, l->nx, l->ny, l->x, l->y, l->p, l->qx, l->qy, wheel ? 1.0 : -1.0, poisson_ratio, n, (void *)x,
+         (void *)y, (void *)z, one, stress);
+    for (int64_t i = 0; wheel && i < n; i++) /* its half space lies on the other side */
+        for (int k = 4; k < 6; k++) stress[6 * i + k] = -stress[6 * i + k];
     return 0;
 }
 

@@ -18,6 +18,7 @@
  *    0            solved
  *    2, 3         answers too: the bodies do not touch; the whole patch slips (WR_STATUS_NO_CONTACT, _SATURATED)
  *    4, 5         an answer that cannot be trusted (WR_STATUS_OUT_OF_RANGE, _NOT_CONVERGED)
+ *    6            no creepage up to 1 makes the given force (WR_STATUS_UNREACHABLE)
  *    below 0      an error.  wr_message(code) says which, wr_argument(code) names the argument.  Results are unchanged.
  */
 #ifndef WHEELRAIL_H
@@ -100,6 +101,11 @@ WR_API int wr_contact_init(const wr_contact_options *options, void *memory, size
  * (load [N] or approach [m]), vx, vy, phi; for a friction law its members too. */
 WR_API int wr_contact_case(const wr_contact_options *options, double mu, double speed, wr_case *problem);
 WR_API int wr_contact_solve(void *memory, const wr_separation *separation, const wr_case *problem, wr_result *result);
+/* The creepages under a given force on the wheel [N].  which: WR_FORCE_X for Fx, WR_FORCE_Y for Fy, their sum for both; the
+ * force that is not given is not read, and its creepage stays.  The search starts at vx, vy of the problem, which become the
+ * answer.  The forces of the result are always those at these creepages. */
+WR_API int wr_contact_solve_force(void *memory, const wr_separation *separation, int64_t which, double Fx, double Fy,
+                                  wr_case *problem, wr_result *result);
 WR_API int wr_contact_accept(void *memory);
 WR_API int wr_contact_forget(void *memory);
 /* Also a solution: the last answer is then that of this problem.  d(Fx, Fy, Mz, N, approach, power per metre)/
@@ -108,6 +114,22 @@ WR_API int wr_contact_forget(void *memory);
 WR_API int wr_contact_derivatives(void *memory, const wr_separation *separation, const wr_case *problem, double *jacobian);
 /* Fields of the last answer. */
 WR_API int wr_contact_fields(const void *memory, wr_fields *fields);
+/* Pressure and traction on equal rectangles, in arrays of the caller.  Element (i, j) is [i * nx + j]. */
+typedef struct {
+    int64_t size;        /* sizeof(wr_surface_load) */
+    int64_t nx, ny;      /* 4 to 1000 elements */
+    double *x, *y;       /* nx and ny centres, increasing in equal steps [m] */
+    double *p, *qx, *qy; /* pressure and traction on the wheel [Pa] */
+} wr_surface_load;
+
+enum { WR_BODY_RAIL, WR_BODY_WHEEL };
+
+/* Fill the arrays with the load of the last answer on nx * ny elements over its patches; 64 * 64 is usual. */
+WR_API int wr_contact_surface_load(const void *memory, wr_surface_load *load);
+/* Stresses xx, yy, zz, xy, xz, yz [Pa] of a half space at n points as stress[n][6]: x, y in the plane of the load, z the depth
+ * below the surface, not negative [m].  Axes are those of the patch; its z points out of the wheel, into the rail. */
+WR_API int wr_stress(const wr_surface_load *load, int64_t body, double poisson_ratio, int64_t n, const double *x,
+                     const double *y, const double *z, double *stress);
 /* Constants of the damage models for steel. */
 WR_API int wr_damage_default(wr_damage_parameters *parameters);
 /* Damage of the last answer, per metre rolled. */
@@ -201,6 +223,8 @@ WR_API int wr_pair_derivatives(void *memory, const wr_pair_input *input, double 
 /* Result and fields of patch k of the last answer, on the right side.  The patch is solved once more, from the last answer,
  * so the numbers agree with it within the tolerance of the method.  fields may be NULL. */
 WR_API int wr_pair_patch(void *memory, int64_t k, wr_result *result, wr_fields *fields);
+/* As wr_contact_surface_load, for patch k of the last answer, on the right side; solved once more, as by wr_pair_patch. */
+WR_API int wr_pair_surface_load(void *memory, int64_t k, wr_surface_load *load);
 /* Copy the bins that accept has booked: bins[2][WR_BIN_ROWS][n_bins], first the wheel's. */
 WR_API int wr_pair_bins(const void *memory, double *bins, int64_t count);
 

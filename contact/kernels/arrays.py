@@ -40,6 +40,8 @@ Settings = Annotated[Any, Shape(records.LEDGER, 1)]
 Setting = Annotated[Any, Shape(records.LEDGER, 0)]
 Roots = Annotated[Any, Shape(records.ROOT, 1)]
 Root = Annotated[Any, Shape(records.ROOT, 0)]
+ForceSearches = Annotated[Any, Shape(records.FORCE_SEARCH, 1)]
+ForceSearch = Annotated[Any, Shape(records.FORCE_SEARCH, 0)]
 Springs = Annotated[Any, Shape(records.ELASTIC_RAIL, 1)]
 Offsets = Annotated[Any, Shape(records.WHEEL_OFFSET, 1)]
 
@@ -117,6 +119,34 @@ class Workspace(NamedTuple):
     space: Space
     strips: Matrix
     fields: Cube
+
+
+class PatchStrips(NamedTuple):
+    """Rows of `strips` of one patch."""
+
+    y: Numbers
+    x_c: Numbers
+    a: Numbers
+    p0: Numbers
+
+
+class PatchFields(NamedTuple):
+    """Rows of `fields` of one patch, shape (strips, elements)."""
+
+    x: Matrix
+    p: Matrix
+    qx: Matrix
+    qy: Matrix
+
+
+class LoadGrid(NamedTuple):
+    """Uniform pressure and traction on the wheel [Pa], shape (ny, nx), on equal rectangles with the centres x, y [m]."""
+
+    x: Numbers
+    y: Numbers
+    p: Matrix
+    qx: Matrix
+    qy: Matrix
 
 
 class Search(NamedTuple):

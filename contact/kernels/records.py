@@ -335,10 +335,7 @@ WHEEL_OFFSET = _record(
     """,
 )
 
-#: A search for the root of a rising function.
-ROOT = _record(
-    "root",
-    """
+_ROOT = """
     x               next point to evaluate
     before          previous point
     value           last value of the function
@@ -350,6 +347,35 @@ ROOT = _record(
     longest         largest step
     evaluations:int number of evaluations
     beyond:int      1 if there is no change of sign up to an end of the range
+    """
+
+#: A search for the root of a rising function.
+ROOT = _record("root", _ROOT)
+
+#: A search for the creepages under a given force. Residuals and their derivatives are those of `contact.kernels.given_force`.
+FORCE_SEARCH = _record(
+    "force_search",
+    _ROOT
+    + """
+    given:int       1 for the longitudinal force, 2 for the lateral one, 3 for both
+    vx              next longitudinal creepage to evaluate [-]
+    vy              next lateral creepage to evaluate [-]
+    wanted_x        given longitudinal force [N]; 0 where none is given
+    wanted_y        given lateral force [N]; 0 where none is given
+    limit           friction times normal force [N]
+    unit            creepage at which the force comes near the limit, roughly [-]
+    bounded:int     1 where the force never exceeds the limit
+    status:int      0, or Status
+    stage:int       what the next force is for
+    solutions:int   number of solutions
+    trials:int      number of trials of this step
+    fresh:int       1 where the Jacobian is that of differences at the best creepages
+    best_x          longitudinal creepage with the smallest residual [-]
+    best_y          lateral creepage with the smallest residual [-]
+    rx              its longitudinal residual [-]
+    ry              its lateral residual [-]
+    error           error of its force over the limit [-]
+    jacobian:4      derivatives of the residual, row by row
     """,
 )
 

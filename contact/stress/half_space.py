@@ -10,20 +10,18 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError, require_number
 from contact.halfspace.influence import fast_length
+from contact.kernels.stress.below import N_LOADS, N_STRESSES, stresses_at
 from contact.material import STEEL
 from contact.plausibility import doubt_combined
 from contact.solution import Solution
-from contact.stress.corners import of_corners
 from contact.stress.field import Peak, StressField, require_criterion
 from contact.stress.load import SurfaceLoad
-from contact.stress.response import N_STRESSES, Grid, stresses
+from contact.stress.response import Grid, stresses
 
 Array = NDArray[np.float64]
 
 #: The bodies, and the sign of the library's traction (on the wheel) on each.
 BODIES = {"rail": -1.0, "wheel": 1.0}
-#: Products of points and corners of elements that are evaluated at a time; they take about 200 bytes each.
-_AT_A_TIME = 200_000
 #: Depths over the radius of the contact at which the largest stress is looked for first, and refinements in between.
 _DEPTHS = np.array([0.0, 0.04, 0.08, 0.13, 0.2, 0.28, 0.37, 0.47, 0.58, 0.7, 0.85, 1.05, 1.3, 1.6])
 _REFINEMENTS = 8
@@ -66,21 +64,10 @@ def at(
     """
     surface, nu, sign = _prepared(load, body, poisson_ratio)
     points = _points(x, y, z)
-    flat = [v.ravel() for v in points]
-    dx, dy = surface.steps
-    corner_x = np.append(surface.x - 0.5 * dx, surface.x[-1] + 0.5 * dx)
-    corner_y = np.append(surface.y - 0.5 * dy, surface.y[-1] + 0.5 * dy)
-    # the sum over elements of differences over corners is a sum over corners of differences over elements
-    weights = np.stack(
-        [np.diff(np.diff(np.pad(f, 1), axis=0), axis=1) for f in (surface.p, sign * surface.qx, sign * surface.qy)]
-    )
-    found = np.empty((N_STRESSES, flat[0].size))
-    step = max(1, _AT_A_TIME // (corner_x.size * corner_y.size))
-    for first in range(0, flat[0].size, step):
-        px, py, pz = (v[first : first + step, None, None] for v in flat)
-        functions = of_corners(px - corner_x, py - corner_y[:, None], pz, nu)
-        found[:, first : first + step] = np.einsum("lcpij,lij->cp", functions, weights)
-    return _field(points, found.reshape(N_STRESSES, *points[0].shape), body)
+    found = np.empty((points[0].size, N_STRESSES))
+    flat = (v.ravel() for v in points)
+    stresses_at(surface, sign, nu, *flat, np.empty((N_LOADS, N_STRESSES)), found)
+    return _field(points, found.T.reshape(N_STRESSES, *points[0].shape), body)
 
 
 def below(

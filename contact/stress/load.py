@@ -9,10 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError, require_integer
-from contact.halfspace.gap import Division, even
+from contact.halfspace.gap import even
 from contact.halfspace.solution import GridSolution
+from contact.kernels.arrays import LoadGrid, PatchFields
+from contact.kernels.stress.load import add_load, place_centres, scale_load
 from contact.solution import Solution
-from contact.solution.pressure import pressure_of_patch
+from contact.solution.pressure import limit_of, strips_of
 
 Array = NDArray[np.float64]
 
@@ -51,7 +53,7 @@ class SurfaceLoad:
         put(self, "y", even("y", y)[0])
         shape = self.y.size, self.x.size
         for name, values in (("p", p), ("qx", qx), ("qy", qy)):
-            field = np.array(values, dtype=np.float64)
+            field = np.array(values, dtype=np.float64, order="C")
             if field.ndim == 0:
                 field = np.full(shape, float(field))
             if field.shape != shape:
@@ -117,36 +119,14 @@ def _of_elements(solution: GridSolution) -> SurfaceLoad:
 
 
 def _of_strips(solution: Solution, n: int) -> SurfaceLoad:
-    strips = solution.strips
-    back, front = float((strips.x_c - strips.a).min()), float((strips.x_c + strips.a).max())
-    low, high = float(solution.patch_edges.min()), float(solution.patch_edges.max())
-    x, y = Division(n, n).centres((back, front, low, high))
-    fields = np.zeros((3, n, n))
-    for k in range(solution.n_patches):
-        p = pressure_of_patch(solution, k, x[None, :], y[:, None])
-        share = _utilisation(solution, k, x, y)
-        fields += np.stack((p, p * share[0], p * share[1]))
-    carried = fields[0].sum() * (x[1] - x[0]) * (y[1] - y[0])
-    if not carried > 0.0:
+    strips, limit = solution.strips, limit_of(solution)
+    grid = LoadGrid(np.empty(n), np.empty(n), *np.zeros((3, n, n)))
+    place_centres(float((strips.x_c - strips.a).min()), float((strips.x_c + strips.a).max()), grid.x)
+    place_centres(float(solution.patch_edges.min()), float(solution.patch_edges.max()), grid.y)
+    for k, (low, high) in enumerate(solution.patch_edges):
+        own = strips.patch == k
+        fields = PatchFields(solution.x[own], solution.p[own], solution.qx[own], solution.qy[own])
+        add_load(strips_of(solution, k), fields, low, high, limit, grid)
+    if not scale_load(grid, solution.N):
         raise ContactError(f"n = {n} leaves no element inside the patch")
-    return SurfaceLoad(x, y, *(fields * (solution.N / carried)))
-
-
-def _utilisation(solution: Solution, patch: int, x: Array, y: Array) -> Array:
-    """Return traction over pressure [-], shape (2, ny, nx), of one patch.
-
-    All strips have their elements at the same places relative to their centre and half length. So the interpolation is
-    between strips first, and then along the row.
-    """
-    own = np.flatnonzero(solution.strips.patch == patch)
-    strips_y, centre, a = solution.strips.y[own], solution.strips.x_c[own], solution.strips.a[own]
-    place = ((solution.x[own[0]] - centre[0]) / a[0])[::-1]
-    p = np.where(solution.p[own] > 0.0, solution.p[own], np.inf)
-    middle, half = np.interp(y, strips_y, centre), np.interp(y, strips_y, a)
-    shares = np.zeros((2, y.size, x.size))
-    for share, q in zip(shares, (solution.qx[own], solution.qy[own]), strict=True):
-        ratio = (q / p)[:, ::-1]
-        rows = np.stack([np.interp(y, strips_y, column) for column in ratio.T], axis=1)
-        for i, row in enumerate(rows):
-            share[i] = np.interp((x - middle[i]) / half[i], place, row)
-    return shares
+    return SurfaceLoad(*grid)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.stress.corners import of_corners
+from contact.kernels.stress.below import N_LOADS, N_STRESSES, fill_corners
 
 Array = NDArray[np.float64]
 
@@ -25,7 +25,6 @@ _SIGNS = (
 _ALL = [(load, stress) for load in range(3) for stress in range(6)]
 _REAL = [at for at in _ALL if _SIGNS[at[0]][at[1]][0] == _SIGNS[at[0]][at[1]][1]]
 _IMAGINARY = [at for at in _ALL if at not in _REAL]
-N_LOADS, N_STRESSES = 3, 6
 
 
 class Grid(NamedTuple):
@@ -44,7 +43,8 @@ def stresses(transforms: NDArray[np.complex128], grid: Grid, z: float, poisson_r
     `transforms`, shape (3, …), are those of pressure, traction along x and traction along y on the periodic grid.
     """
     X, Y = (np.asarray(np.arange(-1, n) + 0.5) * step for n, step in ((grid.nx, grid.dx), (grid.ny, grid.dy)))
-    functions = of_corners(X, Y[:, None], z, poisson_ratio)
+    functions = np.empty((N_LOADS, N_STRESSES, Y.size, X.size))
+    fill_corners(X, Y, z, poisson_ratio, np.empty((N_LOADS, N_STRESSES)), functions)
     quarter = np.diff(np.diff(functions, axis=-1), axis=-2)
     product = np.zeros((N_STRESSES, *transforms.shape[1:]), dtype=np.complex128)
     turned = 1j * transforms

@@ -17,6 +17,7 @@ from contact.friction import as_friction
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels import records
 from contact.kernels.enumerations import FrictionLaw, Height, LoadKind, SlipVelocity, Status, WearLaw
+from contact.kernels.given_force import LATERAL, LONGITUDINAL
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.records import MOTION
 from contact.kernels.rows import Bin, Field, Strip
@@ -101,6 +102,8 @@ def _constants() -> str:
         "WR_LARGEST_CREEPAGE": records.LARGEST_CREEPAGE,
         "WR_LARGEST_ANGLE": records.LARGEST_ANGLE,
         "WR_LARGEST_RAIL_ROLL": records.LARGEST_RAIL_ROLL,
+        "WR_FORCE_X": LONGITUDINAL,
+        "WR_FORCE_Y": LATERAL,
         "WR_BIN_ROWS": len(Bin),
         "WR_STRIP_ROWS": len(Strip),
         "WR_MOTION_NUMBERS": len(motion),

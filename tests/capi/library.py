@@ -25,6 +25,7 @@ SURFACE = _struct(*((n, np.int64) for n in ("n", "numbers")))
 PROFILE = _struct(*((n, np.int64) for n in ("n", "y", "z", "angle")))
 _FIELDS = ("x", "y", "p", "qx", "qy", "sx", "sy", "stick")
 FIELDS = _struct(*((n, np.int64) for n in ("size", "n_strips_most", "n_strips", *_FIELDS)))
+LOAD = _struct(*((n, np.int64) for n in ("size", "nx", "ny", "x", "y", "p", "qx", "qy")))
 _LENGTHS = ("wheel_radius", "gauge", "flange_back", "gauge_point", "combine_distance", "combine_angle")
 PAIR_OPTIONS = _struct(
     ("size", np.int64), ("patch", OPTIONS), ("side", np.int64), ("most_patches", np.int64),

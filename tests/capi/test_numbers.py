@@ -1,19 +1,24 @@
 """The C interface gives the numbers of Python, bit for bit."""
 
+import ctypes
+import math
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import contact
+from contact import stress
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, RailSurface, SurfacePair, WheelSurface, compiled
 from contact.geometry.surfaces.pair import SAMPLES
 from contact.geometry.wheelset import Pair as Profiles
 from contact.geometry.wheelset import Pose, Velocity
-from contact.kernels.enumerations import Height
+from contact.kernels.enumerations import Height, Status
 from contact.kernels.records import DAMAGE, RESULT
 from contact.pair import WheelRailPair
 from fmu_src.native.c_header import PATH, header
-from tests.capi.library import FIELDS, OPTIONS, Library, Pair, Patch
+from tests.capi.library import FIELDS, LOAD, OPTIONS, Library, Pair, Patch
 
 
 def _patch_options(library, **changed):
@@ -64,6 +69,35 @@ def test_a_patch_has_the_bits_of_the_solver(library, normal, tangential):
         library.need("wr_contact_accept", patch.memory)
 
 
+@pytest.mark.parametrize(
+    ("which", "force", "status"),
+    [
+        (1, (-6e3, None), Status.OK),
+        (2, (None, 4e3), Status.OK),
+        (3, (-6e3, 4e3), Status.OK),
+        (3, (-3e4, 2e4), Status.UNREACHABLE),
+    ],
+)
+@pytest.mark.parametrize(("normal", "tangential"), [("strip_halfspace", "fastrip_mapped"), ("hertz", "polach")])
+def test_a_patch_under_a_given_force_has_the_bits_of_the_solver(library, normal, tangential, which, force, status):
+    known = contact.methods().batched
+    ids = int(known.normal[normal].id), int(known.tangential[tangential].id)
+    patch = Patch(library, normal=ids[0], tangential=ids[1])
+    solver = contact.Solver(normal=normal, tangential=tangential)
+    separation, result = patch.separation(SEPARATION), np.zeros(1, RESULT)
+    numbers = [ctypes.c_double(np.nan if f is None else f) for f in force]
+    for step in range(3):  # the first one from nothing
+        set_case(patch, CREEPAGE, 80e3 + 1e3 * step)
+        want = solver.solve(SEPARATION, CREEPAGE, load=80e3 + 1e3 * step, force=force, warm=step > 0)
+        name = "wr_contact_solve_force"
+        code = library.need(name, patch.memory, separation, ctypes.c_int64(which), *numbers, patch.case, result)
+        equal(result, want)
+        assert (patch.case["vx"][0], patch.case["vy"][0]) == (want.creepage.longitudinal, want.creepage.lateral)
+        assert want.status is status
+        assert code == (0 if status is Status.OK else status)
+        library.need("wr_contact_accept", patch.memory)
+
+
 def test_trying_is_free_and_accept_is_not(library):
     patch, result, again = Patch(library), np.zeros(1, RESULT), np.zeros(1, RESULT)
     separation = patch.separation(SEPARATION)
@@ -103,6 +137,67 @@ def test_fields_and_damage_are_those_of_the_solution(library):
     library.need("wr_damage_default", parameters)
     library.need("wr_contact_damage", patch.memory, parameters, damage)
     assert damage["T_gamma"][0] == abs(want.Fx * 1e-3) + abs(want.Fy * 5e-4)
+
+
+def _surface_load():
+    """Return the arrays of a load by name, and its struct."""
+    arrays, load = {n: np.empty(64 * 64 if n in ("p", "qx", "qy") else 64) for n in LOAD.names[3:]}, np.zeros(1, LOAD)
+    load["size"], load["nx"], load["ny"] = LOAD.itemsize, 64, 64
+    for name, array in arrays.items():
+        load[name] = array.ctypes.data
+    return arrays, load
+
+
+@pytest.mark.parametrize(("body", "number"), [("rail", 0), ("wheel", 1)])
+@pytest.mark.parametrize("limit", [math.inf, 8e8])
+def test_stresses_have_the_bits_of_python(library, limit, body, number):
+    patch, result = Patch(library, pressure_limit=limit), np.zeros(1, RESULT)
+    set_case(patch)
+    library.need("wr_contact_solve", patch.memory, patch.separation(SEPARATION), patch.case, result)
+    solution = contact.Solver(material=replace(contact.STEEL, pressure_limit=limit)).solve(
+        SEPARATION, CREEPAGE, load=80e3
+    )
+    want = stress.SurfaceLoad.of(solution)
+    arrays, load = _surface_load()
+    assert result["limited"][0] == (limit < math.inf)
+    library.need("wr_contact_surface_load", patch.memory, load)
+    for name, array in arrays.items():
+        assert np.array_equal(array, getattr(want, name).ravel()), name
+    points = np.linspace(-4e-3, 4e-3, 9), np.linspace(-2e-3, 3e-3, 9), np.linspace(0.0, 4e-3, 9)
+    found = np.empty((9, 6))
+    nu = ctypes.c_double(contact.STEEL.poisson_ratio)
+    library.need("wr_stress", load, ctypes.c_int64(number), nu, ctypes.c_int64(9), *points, found)
+    field = stress.at(solution, *points, body=body)
+    for name, values in zip(("xx", "yy", "zz", "xy", "xz", "yz"), found.T, strict=True):
+        assert np.array_equal(values, getattr(field, name)), name
+    assert found[:, 2].min() < -1e8
+
+
+@pytest.mark.parametrize("limit", [math.inf, 7e8])
+def test_the_load_of_a_patch_of_a_pair_carries_its_forces(library, limit):
+    options = _patch_options(library, n_samples=81, pressure_limit=limit)
+    pair = Pair(library, profile.s1002(), profile.rail_60e1(), patch=options)
+    pair.input["surface"]["pressure_limit"] = limit
+    pair.input["motion"]["y"], pair.input["motion"]["yaw"] = 2e-3, 2e-3
+    pair.solve()
+    result, (arrays, load) = np.zeros(1, RESULT), _surface_load()
+    library.need("wr_pair_patch", pair.memory, 0, result, None)
+    library.need("wr_pair_surface_load", pair.memory, 0, load)
+    cell = np.ptp(arrays["x"]) * np.ptp(arrays["y"]) / 63**2
+    assert 64 * np.ptp(arrays["x"]) / 63 == pytest.approx(result["length"][0], rel=1e-9)
+    for name, force, error in (("p", "N", 1e-9), ("qx", "Fx", 0.02), ("qy", "Fy", 0.02)):
+        assert arrays[name].sum() * cell == pytest.approx(result[force][0], rel=error), name
+    assert result["pmax"][0] == limit if limit < math.inf else result["pmax"][0] > 7e8
+    assert arrays["p"].max() == pytest.approx(result["pmax"][0], rel=0.01)
+
+
+def test_a_method_without_tractions_has_no_load_for_stresses(library):
+    known = contact.methods().batched
+    patch, result = Patch(library, tangential=int(known.tangential["polach"].id)), np.zeros(1, RESULT)
+    set_case(patch)
+    library.need("wr_contact_solve", patch.memory, patch.separation(SEPARATION), patch.case, result)
+    _, load = _surface_load()
+    assert library.about(library.call("wr_contact_surface_load", patch.memory, load)) == "memory"
 
 
 def test_derivatives_are_slopes_of_the_forces(library):

@@ -15,6 +15,6 @@ Entries = dict[str, tuple[Any, str, tuple[str, ...]]]
 
 def all_entries() -> Entries:
     """Return the entries of all modules."""
-    from contact.kernels.entries import pair, patch, surfaces
+    from contact.kernels.entries import pair, patch, stress, surfaces
 
-    return {**patch.ENTRIES, **pair.ENTRIES, **surfaces.ENTRIES}
+    return {**patch.ENTRIES, **pair.ENTRIES, **surfaces.ENTRIES, **stress.ENTRIES}

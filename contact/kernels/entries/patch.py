@@ -13,9 +13,10 @@ from contact.kernels import block, memory
 from contact.kernels.arrays import Samples, Workspace
 from contact.kernels.damage.assess import damage_kernel
 from contact.kernels.entries.layout import compiled, copy, fill, forget_forged, lay_out, size_of
+from contact.kernels.given_force import solve_under_force
 from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
 from contact.kernels.pipeline import solve_case
-from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, MAX_PATCHES, RESULT
+from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, FORCE_SEARCH, MAX_PATCHES, RESULT
 from contact.kernels.rows import DamageField
 
 
@@ -25,6 +26,7 @@ class _Laid(NamedTuple):
     kept: Any
     own: Workspace
     damage_fields: Any
+    searches: Any
 
 
 @compiled
@@ -35,7 +37,8 @@ def _lay(sizes, work, constants):
     trial, end = block.vector(work, end, memory.memory_size(size))
     own, at_strips, end = lay_out(work, end, trial, size, constants)
     damage_fields, end = block.cube(work, end, len(DamageField), MAX_PATCHES * size.n_strips, size.n_elements)
-    return _Laid(kept, own, damage_fields), at_strips, end
+    searches, end = block.records(work, end, 1, FORCE_SEARCH)
+    return _Laid(kept, own, damage_fields, searches), at_strips, end
 
 
 @compiled
@@ -89,6 +92,15 @@ def contact_solve(sizes, work, cold, n, y, g, A, x_c, tilt, case, result, given)
     return solve_case(samples, cases, a.own, results)
 
 
+def contact_force(sizes, work, which, Fx, Fy, n, y, g, A, x_c, tilt, case, results, given):
+    """Solve one case under a given force from the kept start; its creepages become the answer. The second result is scratch."""
+    a = _start(sizes, work, given)
+    samples = _samples(n, y, g, A, x_c, tilt)
+    cases, _ = block.records(case, 0, 1, CASE)
+    two_results, _ = block.records(results, 0, 2, RESULT)
+    return solve_under_force(samples, cases, a.own, two_results, a.searches, which, Fx, Fy)
+
+
 def contact_derivatives(sizes, work, n, y, g, A, x_c, tilt, cases, results, jacobian, given):
     """Solve the first of two cases from the kept start, with its jacobian. The second case and result are scratch."""
     a = _start(sizes, work, given)
@@ -131,6 +143,7 @@ ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {
     "contact_strips": (contact_strips, "i64", ("ptr",)),
     "contact_init": (contact_init, "i64", ("ptr", "f64", "ptr")),
     "contact_solve": (contact_solve, "i64", ("ptr", "ptr", "i64", "i64", *("ptr",) * 7)),
+    "contact_force": (contact_force, "i64", ("ptr", "ptr", "i64", "f64", "f64", "i64", *("ptr",) * 7)),
     "contact_derivatives": (contact_derivatives, "i64", ("ptr", "ptr", "i64", *("ptr",) * 8)),
     "contact_accept": (contact_accept, "i64", ("ptr", "ptr")),
     "contact_forget": (contact_forget, "i64", ("ptr", "ptr")),
