@@ -73,8 +73,9 @@ def fmu(
         "rail": rail,
         **vars(reading),
     }
-    repair = options.pop("profile_repair")
+    repair, rotation = options.pop("profile_repair"), options.pop("profile_rotation")
     words = [f"--{name.replace('_', '-')}={value}" for name, value in options.items() if value is not None]
+    words += ["--profile-rotation", *map(str, rotation)]
     switches = {
         "--accumulation": accumulation,
         "--surfaces": surfaces,

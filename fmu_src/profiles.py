@@ -98,7 +98,17 @@ def add_options(parser: argparse.ArgumentParser) -> None:
             metavar="NAME|FILE",
             help=f"profile of the {kind}: a name of `contact profiles`, or a file (formats: contact.geometry.files)",
         )
-    parser.add_argument("--inclination", metavar="1/40", help="inclination of a rail of EN 13674-1")
+    parser.add_argument(
+        "--inclination", metavar="1/40", help="inclination of a rail; in a file it turns the rail further"
+    )
+    parser.add_argument(
+        "--profile-rotation",
+        nargs=2,
+        type=float,
+        default=(0.0, 0.0),
+        metavar=("WHEEL", "RAIL"),
+        help="angles in rad by which they are turned about x, positive from the field side down",
+    )
     parser.add_argument("--profile-unit", choices=profile.UNITS, help="unit of the profile files, for plain columns")
     parser.add_argument("--profile-side", choices=profile.SIDES, help="side that the files show, for plain columns")
     parser.add_argument("--profile-zero", choices=profile.ZEROS, help="zero of the profile files")
@@ -120,8 +130,11 @@ def chosen(arguments: argparse.Namespace) -> dict[Kind, Profile]:
     """Return the profiles that the command line names."""
     prefix = "profile_"
     reading = {key.removeprefix(prefix): value for key, value in vars(arguments).items() if key.startswith(prefix)}
+    wheel, rail = reading.pop("rotation")
     return {
-        kind: profile.load(name, kind, inclination=arguments.inclination, **reading)
+        kind: profile.load(
+            name, kind, inclination=arguments.inclination, rotation=wheel if kind == "wheel" else rail, **reading
+        )
         for kind in MAGIC
         if (name := getattr(arguments, kind))
     }
