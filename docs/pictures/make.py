@@ -61,7 +61,7 @@ def draw_explorer(chromium: str) -> None:
         browser = driver.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
         page = browser.new_page(viewport={"width": 1200, "height": 1184}, color_scheme="light")
         page.goto(f"{PAGE.as_uri()}#{STATE}")
-        page.wait_for_function("lines.slip && last")
+        page.wait_for_function("lines.creepage && last")
         page.screenshot(path=EXPLORER)
         browser.close()
     Image.open(EXPLORER).convert("RGB").resize((900, 888), Image.Resampling.LANCZOS).save(EXPLORER, optimize=True)
