@@ -174,7 +174,7 @@ def _add_node(node, weight, lanes):
         half = 0.5 * (1.0 + start - to)
         above, below = to + half * node, (1.0 - start) + half * (2.0 - node)  # 1 + s, 1 - s
         s, over = above - 1.0, half * (2.0 - node)
-        bound = above * below + 1e-300
+        bound = above * below + 1e-30
         per_bound = 1.0 / bound
         x = fx - over * lanes[March.X + l]
         y = fy - over * (lanes[March.Y + l] + 0.5 * lanes[March.Z + l] * (start + s))
