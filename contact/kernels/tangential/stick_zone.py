@@ -168,18 +168,18 @@ def _add_node(node, weight, lanes):
     """Add one node of the rule to the sums of the stick zones."""
     for l in range(lanes.size // N_LANE_ROWS):
         start, to = lanes[Lane.FROM + l], lanes[Lane.TO + l]
-        has = weight if lanes[Lane.NEXT + l] < 1.5 else 0.0
-        to = to if lanes[Lane.NEXT + l] < 1.5 else 0.0
+        zone = 1.0 if lanes[Lane.NEXT + l] < 1.5 else 0.0
+        to = zone * to
         fx, fy = lanes[Lane.FROM_X + l], lanes[Lane.FROM_Y + l]
         half = 0.5 * (1.0 + start - to)
         above, below = to + half * node, (1.0 - start) + half * (2.0 - node)  # 1 + s, 1 - s
         s, over = above - 1.0, half * (2.0 - node)
         bound = above * below + 1e-30
-        per_bound = 1.0 / bound
+        per_bound = zone / bound  # without a zone `mapped` could overflow
         x = fx - over * lanes[March.X + l]
         y = fy - over * (lanes[March.Y + l] + 0.5 * lanes[March.Z + l] * (start + s))
         qx, qy = mapped(x * per_bound, y * per_bound, lanes[Lane.POLE + l], lanes[Lane.N + l])
-        load = has * half * math.sqrt(bound)
+        load = zone * weight * half * math.sqrt(bound)
         lanes[Lane.SUM_X + l] += load * qx
         lanes[Lane.SUM_Y + l] += load * qy
         lanes[Lane.SUM_M + l] += load * s * qy
