@@ -75,6 +75,7 @@ def make_no_machine_code() -> None:
     `modules_of` then links the functions, each once, and LLVM optimises them as a whole.
     """
     from numba.core import codegen, cpu, registry
+    from numba.core.runtime.context import NRTContext
     from numba.core.types import functions
 
     def finish(library: Any) -> None:
@@ -105,6 +106,10 @@ def make_no_machine_code() -> None:
     codegen.JITCPUCodegen._add_module = lambda self, module: None
     codegen.JITCPUCodegen.set_env = lambda self, name, environment: None
     cpu.CPUContext.create_cpython_wrapper = lambda self, *arguments, **options: None
+    cpu.CPUContext.create_cfunc_wrapper = lambda self, *arguments, **options: None
+    # The kernels' arrays belong to the caller and have no reference count. ALLOWED proves that nothing else of numba's runtime
+    # is needed.
+    NRTContext.incref = NRTContext.decref = lambda self, builder, kind, value: None
 
 
 def modules_of(libraries: Iterable[Any]) -> Iterator[Any]:
@@ -134,11 +139,9 @@ class Emission:
         self.data = data
         self.names: list[str] = []
         self._libraries: list[Any] = []
-        # The kernels' arrays belong to the caller and have no reference count, so these two functions do nothing. ALLOWED
-        # proves that nothing else of numba's runtime is needed.
-        self._glue = [f"define void @NRT_{do}(ptr %0) {{ ret void }}" for do in ("incref", "decref")]
-        for i, array in enumerate(data):
-            self._glue.append(f"@{DATA}{i} = external hidden constant [{array.nbytes} x i8], align 64")
+        self._glue = [
+            f"@{DATA}{i} = external hidden constant [{array.nbytes} x i8], align 64" for i, array in enumerate(data)
+        ]
 
     def add(self, name: str, made: Any, result: str, arguments: Sequence[str]) -> None:
         """Add a C function `name` that calls what `cfunc` has `made`, with the constant arrays as further arguments.
@@ -186,9 +189,6 @@ class Emission:
         from llvmlite import binding as llvm
 
         module = _whole(self._libraries)
-        for function in module.functions:
-            if function.name in ("NRT_incref", "NRT_decref") and not function.is_declaration:
-                function.linkage = "weak_any"
         module.link_in(llvm.parse_assembly("\n".join(self._glue)))
         visible = set(self.names)
         for i, symbol in enumerate((*module.functions, *module.global_variables)):

@@ -11,6 +11,8 @@ import pytest
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair
+from fmu_src.native import systems
+from fmu_src.native.objects import objects
 from tests.capi.library import ROOT
 
 EXAMPLES, INCLUDE = ROOT / "examples", f"-I{ROOT / 'contact/include'}"
@@ -101,8 +103,10 @@ def test_octave_gets_the_forces_of_c(in_c, built, tmp_path):
 
 def test_an_attacking_host_is_refused_everywhere(built, tmp_path):
     flags = ("-std=gnu11", "-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=undefined")
-    sources = (ROOT / "tests/capi/attack.c", ROOT / "contact/c/wheelrail.c", *sorted(built.glob("*.o")))
-    run("gcc", *flags, INCLUDE, f"-I{built}", *sources, "-lm", "-o", "attack", cwd=tmp_path, library=built)
+    kernels = systems.kernels()
+    sources = (ROOT / "tests/capi/attack.c", *systems.C_SOURCES, *objects(kernels, "linux64"))
+    defined = ("-DWR_SEVERAL", *systems.flags(kernels))
+    run("gcc", *flags, *defined, *sources, "-lm", "-o", "attack", cwd=tmp_path, library=built)
     assert "0 failures" in run("./attack", cwd=tmp_path, library=built)
 
 
