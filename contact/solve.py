@@ -17,8 +17,10 @@ from contact.friction import Friction, as_friction
 from contact.given_force import Force, solve_for_force, wanted_force
 from contact.halfspace import linear
 from contact.halfspace.bent import Surface
+from contact.halfspace.derivatives import derive
 from contact.halfspace.gap import Division, Gap
 from contact.halfspace.pressed import Pressed
+from contact.halfspace.solution import GridSolution
 from contact.halfspace.solve import press_gap, press_solution
 from contact.halfspace.third_body import ThirdBody
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
@@ -118,7 +120,8 @@ def solve(
         tangential iteration. It is printed before an exception is raised.
     derivatives : bool
         Also find `Solution.jacobian`, the derivatives of forces and load or approach by creepages, load or approach, and
-        friction. It works for the methods of ``contact.methods().batched``, not with `force`.
+        friction. It works for the methods of ``contact.methods().batched`` and for normal="halfspace", there with like
+        materials, a plane, no layer and friction that does not depend on local slip; not with `force`.
     throw : bool
         Raise an exception if the solution cannot be trusted (patch beyond the separation, not converged). If False, only
         the `status` of the solution tells.
@@ -189,8 +192,8 @@ def solve(
         )
     if method.elementwise and not rolling.elementwise:
         raise ContactError(f"tangential = {tangential!r} does not work with normal = {normal!r}; allowed: halfspace")
-    if derivatives and (wanted is not None or method.elementwise or rolling.calibrated or rolling.elementwise):
-        what = "force" if wanted is not None else f"normal = {normal!r}, tangential = {tangential!r}"
+    if derivatives and (wanted is not None or rolling.calibrated or (rolling.elementwise and not method.elementwise)):
+        what = "force" if wanted is not None else f"normal = {normal!r} and tangential = {tangential!r}"
         raise ContactError(f"derivatives = True does not work with {what}")
     if trace and progress is None:
         progress = show_step
@@ -225,6 +228,8 @@ def solve(
     evaluate = solver.roll if isinstance(solver, Pressed) else solver
     if wanted is None:
         solution = evaluate(creepage)
+        if derivatives and isinstance(solver, Pressed) and isinstance(solution, GridSolution):
+            solution = replace(solution, jacobian=derive(solver, solution))
     else:
         near = solver.creepage_for(wanted, creepage) if isinstance(solver, Pressed) else creepage
         solution = solve_for_force(wanted, near, evaluate, rolling.saturates)

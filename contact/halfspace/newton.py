@@ -66,7 +66,7 @@ class Newton:
         self.operator: Operator
         self.zone, self._stiffness = np.empty_like(bound), np.empty_like(bound)
         self._step = np.empty((3, 2, *bound.shape))
-        self._tangent, self.correction, self._rhs = self._step
+        self.tangent, self.correction, self._rhs = self._step
         self._scale = size(bound)
 
     def times(self, transfer: Transfer, q: Array) -> Array:
@@ -110,7 +110,7 @@ class Newton:
 
     def restricted(self, v: Array) -> Array:
         """Restrict the field `v` in place to what the step may change, and return it."""
-        zones.restrict(v, self.zone, self._tangent)
+        zones.restrict(v, self.zone, self.tangent)
         return v
 
     def apply(self, v: Array) -> Array:

@@ -331,7 +331,12 @@ def _advance(
     return abs(step) * math.sqrt(length / size) if size > 0.0 else 0.0, pulled, entered
 
 
-def _stiffness(p: Array, ground: _Ground) -> Array:
+def rates(p: Array, dx: float, dy: float, material: Material) -> Array:
+    """Return dp/d(approach) [Pa/m] of a pressure that `norm` has found on the plane, shape (ny, nx)."""
+    return _stiffness(p, _Ground(dx, dy, material), 1e-9)
+
+
+def _stiffness(p: Array, ground: _Ground, tolerance: float = _STIFFNESS_TOLERANCE) -> Array:
     """Return r = dp/d(approach) [Pa/m] on the elements in contact, from C r = 1 there."""
     touching = p > 0.0
     rates = np.zeros_like(p)
@@ -352,7 +357,7 @@ def _stiffness(p: Array, ground: _Ground) -> Array:
         step = square / dot(direction, moved)
         r += step * direction
         residual -= step * moved
-        if abs(step) * size(direction) <= _STIFFNESS_TOLERANCE * size(r):
+        if abs(step) * size(direction) <= tolerance * size(r):
             break
     rates[window] = r
     return rates

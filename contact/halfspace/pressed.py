@@ -83,9 +83,10 @@ class Pressed:
     ) -> None:
         self.x, self.y, self.p, self.record, self.surface = x, y, p, record, surface
         self.material, self.friction, self.speed, self.progress = material, friction, speed, progress
-        self._again, self._layer, self.load = again, layer, load
+        self._again, self.layer, self.load = again, layer, load
         self._sheared: Sheared | None = None
-        self._traction: tuple[Array, Array] | None = None
+        #: Traction of the last call of `roll` [Pa].
+        self.traction: tuple[Array, Array] | None = None
 
     def roll(self, creepage: Creepage) -> GridSolution:
         """Return the solution for a creepage, by TANG. It starts from pressure and traction of the last call."""
@@ -124,7 +125,7 @@ class Pressed:
         Otherwise it is an estimate. It is `start` if none is found. Where a force is None, the creepage of `start` is kept.
         """
         unknown = [k for k in (0, 1) if force[k] is not None]
-        bound = self._coefficient(start) * self._factor() * self.p
+        bound = self._coefficient(start) * self.factor() * self.p
         area = float((self.x[1] - self.x[0]) * (self.y[1] - self.y[0]))
         wanted = np.array([f for f in force if f is not None]) / area
         if self.surface is not None or math.sqrt(float(wanted @ wanted)) >= float(bound.sum()):
@@ -132,7 +133,7 @@ class Pressed:
         known = [0.0 if k in unknown else v for k, v in enumerate((start.longitudinal, start.lateral))]
         rows = Bent.plane(Creepage(known[0], known[1], start.spin), self.y)
         added = np.sum([c.slip(self.p, bound, bound) for c in self._couplings()], axis=0) if self._couplings() else None
-        layer = 0.0 if self._layer is None else self._layer.flexibility
+        layer = 0.0 if self.layer is None else self.layer.flexibility
         ground = self.p, self.x, self.y, rows, bound, self.material
         rolling, w, window = prepare(*ground, OFFSET, added, layer, _FINE, self.progress)
         found = Driven(rolling, w, unknown, wanted).solve(np.zeros(len(unknown)))
@@ -142,7 +143,7 @@ class Pressed:
             known[k] = float(value)
         traction = np.zeros((2, *self.p.shape))
         traction[:, *window] = found[1]
-        self._traction = traction[0], traction[1]
+        self.traction = traction[0], traction[1]
         return Creepage(known[0], known[1], start.spin)
 
     def _coefficient(self, creepage: Creepage) -> float:
@@ -151,7 +152,7 @@ class Pressed:
             return self.friction.static
         return float(self.friction.coefficient(self.speed * math.hypot(creepage.longitudinal, creepage.lateral)))
 
-    def _factor(self) -> Array:
+    def factor(self) -> Array:
         """Return the factor on the coefficient of friction of each row, shape (ny, 1) or (1, 1)."""
         friction = self.friction
         y = self.y if self.surface is None else self.surface.across(self.y)
@@ -161,18 +162,18 @@ class Pressed:
         self, creepage: Creepage, rows: Bent, added: Array | None, tolerance: float
     ) -> tuple[Tangential, float]:
         """Return the tangential solution on the present pressure, and the coefficient of friction."""
-        if self._layer is None:
-            found, coefficient = _roll(self, creepage, rows, self._traction, added, tolerance)
+        if self.layer is None:
+            found, coefficient = _roll(self, creepage, rows, self.traction, added, tolerance)
         else:
-            found, coefficient = self._shear(self._layer, creepage, rows, self._traction, added)
-        self._traction = found.qx, found.qy
+            found, coefficient = self._shear(self.layer, creepage, rows, self.traction, added)
+        self.traction = found.qx, found.qy
         return found, coefficient
 
     def _shear(
         self, layer: ThirdBody, creepage: Creepage, rows: Bent, start: tuple[Array, Array] | None, added: Array | None
     ) -> tuple[Tangential, float]:
         """Return the solution with a third body and the coefficient of friction. Keep the state of the layer."""
-        mu, factor = self._coefficient(creepage), self._factor()
+        mu, factor = self._coefficient(creepage), self.factor()
         touching = np.where(self.p > 0.0, self.p, 1.0)
 
         def solve(bound: Array) -> Tangential:
@@ -205,8 +206,8 @@ class Pressed:
         couplings = self._couplings()
         last, share = math.inf, 1.0
         qx = qy = np.zeros(self.p.shape)
-        if self._traction is not None:
-            qx, qy = self._traction
+        if self.traction is not None:
+            qx, qy = self.traction
         for _ in range(_MAX_TURNS):
             before, tolerance = (qx, qy), min(max(_SHARE_OF_CHANGE * last, _FINE), _LOOSE)
             added = np.sum([c.slip(self.p, qx, qy) for c in couplings], axis=0)

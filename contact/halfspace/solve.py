@@ -76,6 +76,7 @@ def press_gap(
         progress=progress,
         layer=layer,
         again=again,
+        load=load,
     )
 
 
