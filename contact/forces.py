@@ -18,13 +18,14 @@ from contact.errors import ContactError
 from contact.friction import LARGEST, Friction
 from contact.kernels.arrays import Samples
 from contact.kernels.enumerations import LoadKind
+from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
 from contact.kernels.pipeline import solve_cases
-from contact.kernels.records import RESULT
+from contact.kernels.records import CASE, RESULT
 from contact.material import STEEL, Material
 from contact.plausibility import doubt_alike, doubt_gap, doubt_values
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.separation import Separation
-from contact.solution import Forces
+from contact.solution import Forces, Jacobian
 from contact.solver import N_ELEMENTS, N_STRIPS, require_conformal, require_resolution
 
 Array = NDArray[np.float64]
@@ -47,6 +48,7 @@ def forces(
     n_elements: int = N_ELEMENTS,
     conformal: bool = False,
     threads: int | None = None,
+    derivatives: bool = False,
 ) -> Forces:
     """Return the contact forces of arrays of cases, without a Python loop over the cases.
 
@@ -70,6 +72,8 @@ def forces(
     threads : int
         Number of threads; default all cores that the process may use. The kernels release the GIL. The results do not
         depend on the number of threads.
+    derivatives : bool
+        Also find `Forces.jacobian`, as `contact.solve` does.
 
     Returns
     -------
@@ -142,6 +146,7 @@ def forces(
         cases["kinetic"] = mu.ravel()
     longest = max(s.y.size for s in separations)
     results = np.zeros(count, RESULT)
+    slopes = np.zeros((count, ROWS, COLUMNS)) if derivatives else None
 
     def work(chunks: range) -> None:
         size = n_strips, n_elements, longest
@@ -149,7 +154,15 @@ def forces(
         arrays = workspace.allocate(method, rolling, material.poisson_ratio, size, fields=with_fields)
         for first in chunks:
             arrays.space.memory[0] = 0.0
-            solve_cases(first, min(first + _CHUNK, count), samples, bounds, which, cases, arrays, results)
+            last = min(first + _CHUNK, count)
+            if slopes is None:
+                solve_cases(first, last, samples, bounds, which, cases, arrays, results)
+                continue
+            pair, answers = np.zeros(2, CASE), np.zeros(2, RESULT)  # the case and a neighbour
+            for i in range(first, last):
+                pair[0] = cases[i]
+                solve_with_jacobian(separations[which[i]].packed, pair, arrays, answers, slopes[i])
+                results[i] = answers[0]
 
     pieces = min(threads or cores(), -(-count // _CHUNK))
     if pieces <= 1:
@@ -176,6 +189,7 @@ def forces(
         power_per_metre=column("power"),
         status=results["status"].reshape(shape),
         gap_error=column("gap_error"),
+        jacobian=None if slopes is None else Jacobian(slopes.reshape(*shape, ROWS, COLUMNS), names[0]),
     )
 
 

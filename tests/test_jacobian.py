@@ -93,6 +93,19 @@ def test_a_solver_gives_forces_with_derivatives_at_every_call():
     assert solver.forces(HERTZ, STATES[0], load=80e3) == plain
 
 
+def test_arrays_of_cases_have_the_derivatives_of_each_case():
+    load = np.array([[40e3], [80e3]])
+    found = contact.forces([HERTZ, SKEWED], (1e-3, [5e-4, 0.0], 0.2), load=load, friction=MU, derivatives=True).jacobian
+    assert found.values.shape == (2, 2, 6, 5)
+    for i, j in np.ndindex(2, 2):
+        gap, creepage = (HERTZ, SKEWED)[j], Creepage(1e-3, (5e-4, 0.0)[j], 0.2)
+        one = contact.solve(gap, creepage, load=float(load[i, 0]), friction=MU, derivatives=True).jacobian
+        assert found.values[i, j] == pytest.approx(one.values, rel=1e-3, abs=1e-3 * abs(one.values).max(axis=0).min())
+        assert found["Fx", "spin"][i, j] == found.values[i, j, 0, 2]
+    assert "shape (2, 2, 6, 5)" in repr(found)
+    assert contact.forces(HERTZ, Creepage(1e-3), load=8e4).jacobian is None
+
+
 def test_without_contact_all_derivatives_are_zero():
     found = contact.solve(HERTZ, STATES[0], approach=-1e-5, derivatives=True)
     assert found.status == contact.Status.NO_CONTACT
@@ -120,7 +133,7 @@ def test_a_jacobian_is_read_by_names_and_shown_with_units():
 
 
 @pytest.mark.parametrize(
-    "options", [{"normal": "halfspace", "tangential": "halfspace"}, {"tangential": "halfspace"}, {"force": 1e3}]
+    "options", [{"normal": "analyn", "tangential": "halfspace"}, {"tangential": "halfspace"}, {"force": 1e3}]
 )
 def test_where_there_are_no_derivatives_the_error_says_so(options):
     with pytest.raises(ContactError, match="derivatives = True does not work with"):

@@ -4,8 +4,8 @@ At the solution, a change dw of the rigid slip and dg of the friction bound move
 
     ds = dw + operator·dq,    ds = 0 in stick,    dq = dg n + v t,    t·ds + (|s|/g) v = 0 in slip,
 
-with the direction n of the traction and t across it. This is the matrix of the last Newton step (`newton`). The pressure does not
-depend on creepages and friction. Its change with the approach solves C dp = 1 on the elements in contact (`norm`).
+with the direction n of the traction and t across it. This is the matrix of the last Newton step (`newton`). The pressure does
+not depend on creepages and friction. Its change with the approach solves C dp = 1 on the elements in contact (`norm`).
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,8 +60,8 @@ class _Labelled:
         """Names of the columns."""
         raise NotImplementedError
 
-    def __getitem__(self, of: tuple[str, str]) -> float:
-        """Return the derivative of the first name by the second.
+    def __getitem__(self, of: tuple[str, str]) -> Any:
+        """Return the derivative of the first name by the second; an array of them for arrays of cases.
 
         Raises
         ------
@@ -73,12 +73,15 @@ class _Labelled:
             raise ContactError(
                 f"jacobian[{row!r}, {column!r}]: rows are {', '.join(self.rows)}; columns are {', '.join(self.columns)}"
             )
-        return float(self.values[self.rows.index(row), self.columns.index(column)])
+        found = self.values[..., self.rows.index(row), self.columns.index(column)]
+        return found if found.ndim else float(found)
 
     def __array__(self, dtype: object = None, copy: bool | None = None) -> NDArray[np.float64]:
         return np.array(self.values, dtype=dtype, copy=copy)  # type: ignore[call-overload]
 
     def __repr__(self) -> str:
+        if self.values.ndim > 2:
+            return f"derivatives of {', '.join(self.rows)} by {', '.join(self.columns)}, shape {self.values.shape}"
         width = max(12, *(len(name) for name in self.columns))
         lines = [" ".join((f"{'d':16}", *(f"/d {name:>{width}}" for name in self.columns)))]
         for row, values in zip(self.rows, self.values, strict=True):
@@ -86,6 +89,8 @@ class _Labelled:
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
+        if self.values.ndim > 2:
+            return repr(self)
         headings = ("d of / by", *(f"{name} [{_UNITS.get(name, 'm')}]" for name in self.columns))
         rows = (
             (f"{row} [{_UNITS[row]}]", *(f"{value:.6g}" for value in values))
@@ -96,14 +101,14 @@ class _Labelled:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Jacobian(_Labelled):
-    """Derivatives of one contact, ``jacobian["Fx", "longitudinal"]``.
+    """Derivatives of one contact, or of an array of contacts, ``jacobian["Fx", "longitudinal"]``.
 
     Where a force has a kink, because a strip changes between stick and slip, they hold on the side of larger values. The
     columns of creepages and friction are exact but for about 1e-6 of themselves, that of the load or approach but for 1e-3.
 
     Attributes
     ----------
-    values : ndarray, shape (6, 5)
+    values : ndarray, shape (6, 5), or (…, 6, 5) of arrays of cases
         Derivatives in SI units, read-only.
     given : str
         Name of the fourth column: "load" or "approach".

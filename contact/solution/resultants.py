@@ -17,6 +17,8 @@ Numbers = float | NDArray[np.float64]
 class Forces:
     """Results of arrays of cases. Each member is an array of the input's broadcast shape; units and signs as in `Solution`.
 
+    `jacobian` is None unless it was asked for.
+
     Examples
     --------
     >>> import contact
@@ -37,11 +39,12 @@ class Forces:
     power_per_metre: Numbers
     status: int | NDArray[np.int64]
     gap_error: Numbers
+    jacobian: Jacobian | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class CaseForces(Forces):
-    """Results of one case: `Forces` with numbers instead of arrays. `jacobian` is None unless it was asked for."""
+    """Results of one case: `Forces` with numbers instead of arrays."""
 
     Fx: float
     Fy: float
@@ -54,4 +57,3 @@ class CaseForces(Forces):
     power_per_metre: float
     status: Status
     gap_error: float
-    jacobian: Jacobian | None = None

@@ -21,7 +21,7 @@ def solve(at=AT, load=LOAD, friction=0.3, **options):
 
 @pytest.mark.parametrize("at", [AT, (4e-4, -2e-4, -0.3), (0.0, 6e-3, 0.0), (0.0, 0.0, 0.0)])
 def test_forces_grow_with_creepages_and_friction_together(at):
-    """On a given pressure twice the creepages with twice the friction give twice the forces and four times the power (Euler)."""
+    """On a given pressure, twice creepages and friction give twice the forces and four times the power (Euler)."""
     solution = solve(at, derivatives=True)
     for name, degree in zip(FORCES, (1, 1, 1, 2), strict=True):
         row = [solution.jacobian[name, column] for column in ("longitudinal", "lateral", "spin", "friction")]
