@@ -20,7 +20,7 @@ from contact.creepage import Creepage
 from contact.errors import ContactError
 from contact.halfspace.bent import Bent
 from contact.halfspace.krylov import gmres
-from contact.halfspace.norm import rates
+from contact.halfspace.norm import response
 from contact.halfspace.pressed import Pressed
 from contact.halfspace.solution import GridSolution
 from contact.halfspace.tang import OFFSET, prepare, rigid_slip
@@ -73,7 +73,7 @@ def derive(pressed: Pressed, solution: GridSolution) -> Jacobian:
     if not p.any() or traction is None:
         return _finished(values, given)
     dx, dy = float(x[1] - x[0]), float(y[1] - y[0])
-    rising = rates(p, dx, dy, pressed.material)
+    rising = response(p, np.ones_like(p), dx, dy, pressed.material)
     stiffness = float(rising.sum()) * dx * dy
     unit = 1.0 if given == "approach" else 1.0 / stiffness
     values[3, 3], values[4, 3] = unit * stiffness, unit

@@ -331,13 +331,32 @@ def _advance(
     return abs(step) * math.sqrt(length / size) if size > 0.0 else 0.0, pulled, entered
 
 
-def rates(p: Array, dx: float, dy: float, material: Material) -> Array:
-    """Return dp/d(approach) [Pa/m] of a pressure that `norm` has found on the plane, shape (ny, nx)."""
-    return _stiffness(p, _Ground(dx, dy, material), 1e-9)
+def response(p: Array, lowered: Array, dx: float, dy: float, material: Material) -> Array:
+    """Return the change r of a pressure of `norm` on the plane when the gap is lower by `lowered`, from C r = lowered.
+
+    Elements come into contact and leave it at no pressure, so the set of them stays. C is symmetric: the same function gives
+    the adjoint of any sum over the pressure.
+
+    Parameters
+    ----------
+    p : ndarray, shape (ny, nx)
+        Pressure [Pa], 0 outside the contact.
+    lowered : ndarray, shape (ny, nx)
+        [m] or, for an adjoint, the derivative of the sum by the pressure of each element.
+    dx, dy : float
+        Size of an element [m].
+    material : Material
+    """
+    return _respond(p, lowered, _Ground(dx, dy, material), 1e-9)
 
 
-def _stiffness(p: Array, ground: _Ground, tolerance: float = _STIFFNESS_TOLERANCE) -> Array:
-    """Return r = dp/d(approach) [Pa/m] on the elements in contact, from C r = 1 there."""
+def _stiffness(p: Array, ground: _Ground) -> Array:
+    """Return dp/d(approach) [Pa/m], roughly."""
+    return _respond(p, np.ones_like(p), ground, _STIFFNESS_TOLERANCE)
+
+
+def _respond(p: Array, lowered: Array, ground: _Ground, tolerance: float) -> Array:
+    """Return r on the elements in contact, from C r = lowered there."""
     touching = p > 0.0
     rates = np.zeros_like(p)
     if not touching.any():
@@ -346,7 +365,7 @@ def _stiffness(p: Array, ground: _Ground, tolerance: float = _STIFFNESS_TOLERANC
     inside = touching[window]
     influence = ground.under(inside.shape, window[0])
     # conjugate gradients as above, with a fixed set of elements in contact
-    r, residual, direction, square = np.zeros(inside.shape), inside.astype(np.float64), np.zeros(inside.shape), 1.0
+    r, residual, direction, square = np.zeros(inside.shape), lowered[window] * inside, np.zeros(inside.shape), 1.0
     for _ in range(MAX_ITERATIONS):
         z = influence.normal_inverse(residual) * inside
         before, square = square, dot(residual, z)
