@@ -21,19 +21,20 @@ from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, fromstring, indent, tostring
 from zipfile import ZipFile
 
-from fmu_src import archive
-from fmu_src.description import number
-from fmu_src.tables import open_vehicle, wheel_rail_contact, wheel_rail_pair, wheelset
-from fmu_src.tables.solver import NORMAL_METHOD, TANGENTIAL_METHOD
-from fmu_src.tables.wheel_rail_pair import LOAD_KIND, SIDE
-from fmu_src.units import BASE_UNITS, UNITS
-from fmu_src.variables import Causality, Kind, Table
-from models.life.scenario import Scenario
-from models.vehicle.course import lay
-from models.vehicle.kernels.layout import Axis
-from models.vehicle.simulation import ContactOptions, Simulation
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import ENERGY, IRREGULARITY, MOTION, POINTS, PROBLEM, REACTION, REPORT, SIDES
+from contact_models.life.scenario import Scenario
+from contact_models.vehicle.course import lay
+from contact_models.vehicle.kernels.layout import Axis
+from contact_models.vehicle.simulation import ContactOptions, Simulation
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import ENERGY, IRREGULARITY, MOTION, POINTS, PROBLEM, REACTION, REPORT, SIDES
+
+from . import archive
+from .description import number
+from .tables import open_vehicle, wheel_rail_contact, wheel_rail_pair, wheelset
+from .tables.solver import NORMAL_METHOD, TANGENTIAL_METHOD
+from .tables.wheel_rail_pair import LOAD_KIND, SIDE
+from .units import BASE_UNITS, UNITS
+from .variables import Causality, Kind, Table
 
 NAME, VEHICLE = "coupled", "coupled_vehicle"
 CONNECTED = "Connected.ssd"

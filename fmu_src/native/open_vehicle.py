@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
+from contact_models.vehicle.kernels import motion
 from numba import carray
 
 from contact.kernels.block import records
 from contact.kernels.records import GIVEN
-from fmu_src.native.component import places
-from fmu_src.native.components import OpenFailure
-from fmu_src.native.memory import compiled, numbers_of
-from fmu_src.native.vehicle_parts import (
+
+from ..tables.open_vehicle import table
+from .component import places
+from .components import OpenFailure
+from .memory import compiled, numbers_of
+from .vehicle_parts import (
     arrange,
     constants_of,
     fill,
@@ -21,8 +24,6 @@ from fmu_src.native.vehicle_parts import (
     track_after,
     write_motion,
 )
-from fmu_src.tables.open_vehicle import table
-from models.vehicle.kernels import motion
 
 _TABLE = table("manchester")  # its rows, of whatever size
 _AT = places(_TABLE)

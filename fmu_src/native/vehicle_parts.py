@@ -5,14 +5,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import carray
-
-from contact.kernels.block import ahead, cube, matrix, records, vector
-from contact.kernels.records import GIVEN, MOTION
-from fmu_src.native.components import FARTHEST
-from fmu_src.native.memory import compiled, integers_of
-from models.vehicle.course import BEYOND
-from models.vehicle.kernels.layout import (
+from contact_models.vehicle.course import BEYOND
+from contact_models.vehicle.kernels.layout import (
     BODY,
     ELEMENT,
     LINK,
@@ -27,6 +21,13 @@ from models.vehicle.kernels.layout import (
     State,
     Sum,
 )
+from numba import carray
+
+from contact.kernels.block import ahead, cube, matrix, records, vector
+from contact.kernels.records import GIVEN, MOTION
+
+from .components import FARTHEST
+from .memory import compiled, integers_of
 
 _INTEGER = np.dtype([("value", "i8")])
 _N_BODY, _N_LINK, _N_ELEMENT = BODY.itemsize // 8, LINK.itemsize // 8, ELEMENT.itemsize // 8

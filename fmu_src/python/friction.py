@@ -2,7 +2,8 @@
 
 from contact.friction import LAWS, VELOCITIES, Friction
 from contact.material import Thermal
-from fmu_src.python.values import Values
+
+from .values import Values
 
 #: Names that rows `friction.…` share with members of `Friction`.
 _NUMBERS = (

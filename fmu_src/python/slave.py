@@ -25,10 +25,11 @@ from pythonfmu.fmi2slave import Fmi2Slave
 
 from contact import __version__
 from contact.errors import ContactError, require_number
-from fmu_src.description import LOG_CATEGORIES, model_description
-from fmu_src.python.ending import release_once
-from fmu_src.python.values import Rows, Values
-from fmu_src.variables import Causality, Kind, Table
+
+from ..description import LOG_CATEGORIES, model_description
+from ..variables import Causality, Kind, Table
+from .ending import release_once
+from .values import Rows, Values
 
 #: Capabilities of this packaging: attributes of the element CoSimulation.
 INTERFACES = {

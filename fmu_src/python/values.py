@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from contact.errors import ContactError
-from fmu_src.variables import Table, Variable
+
+from ..variables import Table, Variable
 
 #: Values of some rows by name: a number, or a list for an array.
 Rows = Mapping[str, float | list[float]]

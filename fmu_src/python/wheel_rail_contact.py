@@ -12,11 +12,12 @@ from pythonfmu.enums import Fmi2Status
 import contact
 from contact import Creepage, Material, Separation, Solution, Status
 from contact.damage import evaluate
-from fmu_src.differences import creepage_steps
-from fmu_src.python.friction import friction
-from fmu_src.python.slave import TableSlave
-from fmu_src.python.values import Rows, Values
-from fmu_src.tables.wheel_rail_contact import FLATTEST, table
+
+from ..differences import creepage_steps
+from ..tables.wheel_rail_contact import FLATTEST, table
+from .friction import friction
+from .slave import TableSlave
+from .values import Rows, Values
 
 _METHODS = contact.methods().tangential
 _CREEPAGES = ("creepage.longitudinal", "creepage.lateral", "creepage.spin")

@@ -17,13 +17,14 @@ from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.wheelset import Pair
 from contact.pair import Contact, ElasticRail, WheelRailPair
-from fmu_src import profiles
-from fmu_src.python.friction import friction
-from fmu_src.python.slave import TableSlave
-from fmu_src.python.values import Rows, Values
-from fmu_src.tables.solver import DAMAGE_OUTPUTS
-from fmu_src.tables.wheel_rail_pair import ACCUMULATED, BINS, MOTION, OFFSET, PATCH, PATCHES, table
-from fmu_src.variables import Causality
+
+from .. import profiles
+from ..tables.solver import DAMAGE_OUTPUTS
+from ..tables.wheel_rail_pair import ACCUMULATED, BINS, MOTION, OFFSET, PATCH, PATCHES, table
+from ..variables import Causality
+from .friction import friction
+from .slave import TableSlave
+from .values import Rows, Values
 
 _MOTION = [name for name, *_ in MOTION]
 _NO_CONTACT = [0.0] * len(PATCH)

@@ -4,13 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from contact.geometry import profile
-from fmu_src.python.slave import TableSlave
-from fmu_src.python.values import Rows, Values
-from fmu_src.tables.wheelset import KEYWORDS, table
-from models.wheelset.model import WheelsetModel
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import (
+from contact_models.wheelset.model import WheelsetModel
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import (
     CHANGE,
     CREEPAGE,
     CURVATURE,
@@ -24,6 +20,12 @@ from models.wheelset.ports import (
     REACTION,
     SIDES,
 )
+
+from contact.geometry import profile
+
+from ..tables.wheelset import KEYWORDS, table
+from .slave import TableSlave
+from .values import Rows, Values
 
 
 class WheelsetSlave(TableSlave):

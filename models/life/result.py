@@ -13,7 +13,8 @@ from typing import Any
 from contact.accumulation import Histogram, from_xarray, to_xarray
 from contact.errors import ContactError
 from contact.study.files import require_ending
-from models.vehicle.run import BALANCE, VehicleRun
+
+from ..vehicle.run import BALANCE, VehicleRun
 
 FORMAT = "wheelrail-contact run 1"
 #: Endings of files with the time series.

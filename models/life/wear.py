@@ -15,14 +15,15 @@ from contact.accumulation import Histogram
 from contact.errors import ContactError
 from contact.geometry import conicity
 from contact.geometry.profile import Profile
-from models.life.declared_set import ScenarioSet
-from models.life.outcome import Outcome, outcome
-from models.life.part import Part, Rail, Wheel
-from models.life.reprofiling import cut, forecast
-from models.life.scale import Workers
-from models.life.scenario import Scenario
-from models.life.trust import TRUST, Trust, worst
-from models.wheelset.ports import SIDES
+
+from ..wheelset.ports import SIDES
+from .declared_set import ScenarioSet
+from .outcome import Outcome, outcome
+from .part import Part, Rail, Wheel
+from .reprofiling import cut, forecast
+from .scale import Workers
+from .scenario import Scenario
+from .trust import TRUST, Trust, worst
 
 Array = NDArray[np.float64]
 

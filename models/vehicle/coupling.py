@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from contact.core import pack
 from contact.errors import ContactError
 from contact.kernels.arrays import Motions
-from models.vehicle.kernels import motion
-from models.vehicle.kernels.frames import speed_at
-from models.vehicle.kernels.layout import Book, Model, Scratch, State
-from models.vehicle.simulation import SIDES, Simulation
+
+from .kernels import motion
+from .kernels.frames import speed_at
+from .kernels.layout import Book, Model, Scratch, State
+from .simulation import SIDES, Simulation
 
 Array = NDArray[np.float64]
 

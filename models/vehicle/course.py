@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError
-from models.life.track import RAIL_DISTANCE, Track
-from models.vehicle.kernels.layout import Row
+
+from ..life.track import RAIL_DISTANCE, Track
+from .kernels.layout import Row
 
 Array = NDArray[np.float64]
 

@@ -9,9 +9,10 @@ import numpy as np
 
 from contact.core import pack
 from contact.kernels.arrays import Bench, Search
-from models.vehicle.kernels import crew, motion
-from models.vehicle.kernels.benches import Benches
-from models.vehicle.kernels.layout import Model, Scratch, State
+
+from .kernels import crew, motion
+from .kernels.benches import Benches
+from .kernels.layout import Model, Scratch, State
 
 
 class Crew:

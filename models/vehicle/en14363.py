@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from models.life.track import Track
-from models.vehicle.assess import band_pass, low_pass, prudhomme, sliding_mean
+from ..life.track import Track
+from .assess import band_pass, low_pass, prudhomme, sliding_mean
 
 Array = NDArray[np.float64]
 

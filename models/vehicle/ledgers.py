@@ -9,7 +9,8 @@ from contact import workspace
 from contact.accumulation import MAXIMA, SUMS, Histogram
 from contact.kernels.memory import Ledger
 from contact.material import Material
-from models.vehicle.kernels.benches import Benches, bins
+
+from .kernels.benches import Benches, bins
 
 Array = NDArray[np.float64]
 

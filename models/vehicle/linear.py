@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError
-from models.vehicle.kernels.layout import Axis
-from models.vehicle.simulation import Simulation
+
+from .kernels.layout import Axis
+from .simulation import Simulation
 
 Array = NDArray[np.float64]
 

@@ -13,16 +13,17 @@ from numpy.typing import NDArray
 from contact.accumulation import Histogram
 from contact.errors import ContactError
 from contact.geometry import conicity
-from models.life.scenario import Scenario
-from models.life.track import Track
-from models.life.trust import StepError, Trust
-from models.vehicle import linear
-from models.vehicle.course import SPACING, lay
-from models.vehicle.declared import VehicleDeclaration
-from models.vehicle.hunting import Hunting, fall
-from models.vehicle.kernels.layout import Axis, Book, Frame, Row, Sum
-from models.vehicle.ledgers import BODIES, fill, ledger
-from models.vehicle.simulation import SIDES, ContactOptions, Simulation
+
+from ..life.scenario import Scenario
+from ..life.track import Track
+from ..life.trust import StepError, Trust
+from . import linear
+from .course import SPACING, lay
+from .declared import VehicleDeclaration
+from .hunting import Hunting, fall
+from .kernels.layout import Axis, Book, Frame, Row, Sum
+from .ledgers import BODIES, fill, ledger
+from .simulation import SIDES, ContactOptions, Simulation
 
 Array = NDArray[np.float64]
 

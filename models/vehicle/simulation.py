@@ -21,16 +21,17 @@ from contact.material import STEEL, Material
 from contact.pair import WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.solver import N_ELEMENTS, N_STRIPS
-from models.vehicle.assembly import Assembly, assemble
-from models.vehicle.crew import Crew
-from models.vehicle.declared import VehicleDeclaration
-from models.vehicle.kernels import motion
-from models.vehicle.kernels.benches import Benches, gather
-from models.vehicle.kernels.between import held
-from models.vehicle.kernels.frames import speed_at
-from models.vehicle.kernels.layout import Book, Model, Scratch, State, Sum, scratch
-from models.vehicle.sections import RailSection, require_apart
-from models.vehicle.uneven import Stretch, Uneven
+
+from .assembly import Assembly, assemble
+from .crew import Crew
+from .declared import VehicleDeclaration
+from .kernels import motion
+from .kernels.benches import Benches, gather
+from .kernels.between import held
+from .kernels.frames import speed_at
+from .kernels.layout import Book, Model, Scratch, State, Sum, scratch
+from .sections import RailSection, require_apart
+from .uneven import Stretch, Uneven
 
 Array = NDArray[np.float64]
 

@@ -17,10 +17,11 @@ from contact.core import pack
 from contact.geometry.surfaces import SurfacePair
 from contact.kernels.arrays import Bench, Motions, Search, SurfaceSearch
 from contact.pair import WheelRailPair
-from models.vehicle.kernels import motion, wheels
-from models.vehicle.kernels.benches import Benches
-from models.vehicle.kernels.frames import speed_at
-from models.vehicle.kernels.layout import Axis, Book, Model, Scratch, State
+
+from .kernels import motion, wheels
+from .kernels.benches import Benches
+from .kernels.frames import speed_at
+from .kernels.layout import Axis, Book, Model, Scratch, State
 
 Array = NDArray[np.float64]
 

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from contact.errors import ContactError, require_number
 from contact.geometry.wheelset import Pair
 from contact.kernels.records import GIVEN
-from models.wheelset import dynamics, motion
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import POINTS, SIDES
+
+from . import dynamics, motion
+from .parameters import WheelsetParameters
+from .ports import POINTS, SIDES
 
 Array = NDArray[np.float64]
 

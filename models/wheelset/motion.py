@@ -17,9 +17,10 @@ from contact.kernels.geometry.search import axle
 from contact.kernels.geometry.settle import first_touch, locate
 from contact.kernels.records import LARGEST_ANGLE
 from contact.kernels.rows import Sep
-from models.wheelset import dynamics
-from models.wheelset.dynamics import N_STATE, Constant, Energy, Frame, Side, State
-from models.wheelset.ports import LOAD, POINTS
+
+from . import dynamics
+from .dynamics import N_STATE, Constant, Energy, Frame, Side, State
+from .ports import LOAD, POINTS
 
 Array = NDArray[np.float64]
 

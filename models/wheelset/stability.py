@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from models.wheelset.components import Component, DirectContact, DirectWheelset
-from models.wheelset.model import WheelsetModel
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import SIDES
+from .components import Component, DirectContact, DirectWheelset
+from .model import WheelsetModel
+from .parameters import WheelsetParameters
+from .ports import SIDES
 
 _MOTION = ("lateral", "yaw", "lateral_velocity", "yaw_rate")
 _ROUNDS = 4  # exchanges of load and lateral force; they then agree to many digits

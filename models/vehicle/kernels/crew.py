@@ -15,11 +15,12 @@ from enum import IntEnum
 
 from contact.core import COMPILING, entry, kernel
 from contact.kernels.arrays import Integers, Search
-from models.vehicle.kernels.benches import Benches
-from models.vehicle.kernels.frames import speed_at
-from models.vehicle.kernels.layout import Book, Model, Scratch, State
-from models.vehicle.kernels.motion import ask, move
-from models.vehicle.kernels.wheels import follow_wheel
+
+from .benches import Benches
+from .frames import speed_at
+from .layout import Book, Model, Scratch, State
+from .motion import ask, move
+from .wheels import follow_wheel
 
 
 class Line(IntEnum):

@@ -10,8 +10,9 @@ from __future__ import annotations
 import math
 
 from contact.core import kernel
-from models.vehicle.kernels.frames import member
-from models.vehicle.kernels.layout import Axis, Frame, Kind
+
+from .frames import member
+from .layout import Axis, Frame, Kind
 
 
 @kernel

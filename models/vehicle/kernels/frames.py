@@ -6,7 +6,8 @@ import math
 
 from contact.core import entry, kernel
 from contact.kernels.arrays import Matrix, Numbers
-from models.vehicle.kernels.layout import Axis, Body, Frame, Model, Row
+
+from .layout import Axis, Body, Frame, Model, Row
 
 
 @kernel

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from contact.core import entry, kernel
 from contact.kernels.arrays import Motions, Numbers, Search
-from models.vehicle.kernels.benches import Benches
-from models.vehicle.kernels.elements import pull
-from models.vehicle.kernels.frames import carried, drift, gyrate, lay_frames, speed_at
-from models.vehicle.kernels.layout import Axis, Book, Frame, Model, Scratch, State
-from models.vehicle.kernels.wheels import act, count, press, rail_energy, seat, sink
+
+from .benches import Benches
+from .elements import pull
+from .frames import carried, drift, gyrate, lay_frames, speed_at
+from .layout import Axis, Book, Frame, Model, Scratch, State
+from .wheels import act, count, press, rail_energy, seat, sink
 
 #: A normal force above this multiple of the static one is an impact.
 _IMPACT = 2.0

@@ -9,10 +9,11 @@ from contact.kernels.arrays import Bench, Given, Search, SurfaceSearch
 from contact.kernels.enumerations import Height, Status
 from contact.kernels.geometry.search import axle
 from contact.kernels.pair import solve_pair
-from models.vehicle.kernels.benches import Benches, bench_of
-from models.vehicle.kernels.between import expect, learn, put
-from models.vehicle.kernels.frames import linear, place_on, smooth
-from models.vehicle.kernels.layout import (
+
+from .benches import Benches, bench_of
+from .between import expect, learn, put
+from .frames import linear, place_on, smooth
+from .layout import (
     ELASTIC,
     TO_LEFT,
     Axis,
