@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -76,11 +76,19 @@ def critical_speed(
 
     The result is inf if `growth` is not positive at the upper bound, and the lower bound if it is positive there.
     """
-    low, high = bounds
 
     def unstable(speed: float) -> bool:
         return growth(dataclasses.replace(parameters, speed=speed), friction, amplitude) > 0.0
 
+    return onset(unstable, bounds, tolerance)
+
+
+def onset(unstable: Callable[[float], bool], bounds: tuple[float, float], tolerance: float) -> float:
+    """Return the speed within `bounds` above which a motion is unstable, by bisection to `tolerance`; all in m/s.
+
+    The result is inf if it is stable at the upper bound, and the lower bound if it is unstable there.
+    """
+    low, high = bounds
     if not unstable(high):
         return math.inf
     if unstable(low):
