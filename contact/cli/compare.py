@@ -51,7 +51,7 @@ def compare(
     *,
     place: arguments.Place,
     reading: arguments.Reading,
-    side: opt.Sides = opt.Side.right,
+    side: opt.Sides = opt.SideOption.right,
     amount: arguments.Amount,
     friction: opt.Friction = 0.3,
     curvatures: opt.Curvatures = None,

@@ -50,7 +50,7 @@ def in_time(
     *,
     place: arguments.Place,
     reading: arguments.Reading,
-    side: opt.Sides = opt.Side.right,
+    side: opt.Sides = opt.SideOption.right,
     load: opt.Load = None,
     surface: arguments.SlidingFriction,
     friction_memory: Memory = None,
@@ -69,7 +69,7 @@ def in_time(
     Example:  contact in-time motion.csv --falling exponential 0.15 0.5 --friction-memory 0.1 0.02 --out forces.png
     """
     prepare(out)
-    if side is opt.Side.both:
+    if side is opt.SideOption.both:
         raise ContactError("side = 'both': a motion is that of one wheel")
     columns = _read(motion)
     given = {"pose.y": place.y, "pose.roll": place.roll, "pose.yaw": place.yaw, "velocity.x": place.speed}

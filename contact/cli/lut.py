@@ -57,7 +57,7 @@ def lut(
     gauge: opt.Gauge = 1.435,
     back_to_back: opt.BackToBack = 1.360,
     reading: arguments.Reading,
-    side: opt.Sides = opt.Side.right,
+    side: opt.Sides = opt.SideOption.right,
     load: opt.Load = None,
     speed: opt.Speed = 20.0,
     surface: arguments.SlidingFriction,
@@ -72,14 +72,14 @@ def lut(
     Example:  contact lut --axis y=-6e-3:6e-3:49 --axis yaw=-4e-3:4e-3:9 --axis load=40e3:120e3:5 --out tables.mat
     """
     lookup.require_writable(out)
-    if side is opt.Side.both:
+    if side is opt.SideOption.both:
         raise ContactError("--side both: a table is that of one wheel; allowed: left, right")
     axes = dict(map(_breakpoints, axis or ["y=-6e-3:6e-3:49", "yaw=-4e-3:4e-3:9"]))
     pair = WheelRailPair(
         Pair(
             reading.load(wheel, "wheel"),
             reading.load(rail, "rail"),
-            side="left" if side is opt.Side.left else "right",
+            side="left" if side is opt.SideOption.left else "right",
             nominal_radius=radius,
             gauge=gauge,
             flange_back=back_to_back,

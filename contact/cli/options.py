@@ -13,7 +13,7 @@ from contact.friction import LAWS, VELOCITIES
 from contact.geometry import profile
 
 
-class Side(StrEnum):
+class SideOption(StrEnum):
     """The wheel to solve."""
 
     left = "left"
@@ -82,7 +82,7 @@ Wavelength = Annotated[
     ),
 ]
 Radius = Annotated[float, typer.Option(help="nominal rolling radius in m", rich_help_panel=PROFILES)]
-Sides = Annotated[Side, typer.Option(help="which wheel", rich_help_panel=POSITION)]
+Sides = Annotated[SideOption, typer.Option(help="which wheel", rich_help_panel=POSITION)]
 Y = Annotated[float, typer.Option("--y", help="lateral displacement, to the right, in m", rich_help_panel=POSITION)]
 Roll = Annotated[float, typer.Option(help="roll in rad, positive lowers the right wheel", rich_help_panel=POSITION)]
 Yaw = Annotated[float, typer.Option(help="yaw in rad, positive steers to the right", rich_help_panel=POSITION)]

@@ -24,7 +24,7 @@ def rail(
     *,
     place: arguments.Place,
     reading: arguments.Reading,
-    side: opt.Sides = opt.Side.right,
+    side: opt.Sides = opt.SideOption.right,
     load: opt.Load = None,
     surface: arguments.SlidingFriction,
     springs: opt.Springs = (math.inf, math.inf),

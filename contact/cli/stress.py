@@ -31,7 +31,7 @@ def stress(
     *,
     place: arguments.Place,
     reading: arguments.Reading,
-    side: opt.Sides = opt.Side.right,
+    side: opt.Sides = opt.SideOption.right,
     amount: arguments.Amount,
     curvatures: opt.Curvatures = None,
     surface: arguments.SlidingFriction,

@@ -130,7 +130,7 @@ def _report(v, w):
         v[_AT.energy_interface + i], v[_AT.power_interface + i] = w.energy[i], w.powers[i]
     v[_AT.energy_mechanical] = motion.mechanical_energy(w)
     for i in range(3):
-        v[_AT.lateral_acceleration + i] = w.rates[dynamics.State.LATERAL_VELOCITY + i]
+        v[_AT.lateral_acceleration + i] = w.rates[dynamics.StateRow.LATERAL_VELOCITY + i]
     _report_side(
         v, w, dynamics.Side.RIGHT, (_AT.right_geometry_g, _AT.right_geometry_A, _AT.right_creepage_longitudinal,
         _AT.right_load_normal_force, _AT.right_contact_x),

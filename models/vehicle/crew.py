@@ -43,7 +43,7 @@ class Crew:
         if not self._helpers:
             return int(motion.advance(*self._arrays, h, steps))
         scratch, shared = self._arrays[-1], (self._counters, self._codes)
-        self._counters[crew.Line.NEXT], self._counters[crew.Line.ENDED] = self._n_wheels, 0  # the list is closed
+        self._counters[crew.Counter.NEXT], self._counters[crew.Counter.ENDED] = self._n_wheels, 0  # the list is closed
         helpers = [threading.Thread(target=crew.serve, args=(own, scratch, *shared)) for own in self._helpers]
         for helper in helpers:
             helper.start()

@@ -134,7 +134,7 @@ class WheelsetModel:
 
     def change(self) -> Array:
         """Return the rates of the last report in the order of `ports.CHANGE`."""
-        return np.concatenate((self._wheelset.rates[dynamics.State.LATERAL_VELOCITY :], self._wheelset.powers))
+        return np.concatenate((self._wheelset.rates[dynamics.StateRow.LATERAL_VELOCITY :], self._wheelset.powers))
 
     @property
     def mechanical_energy(self) -> float:

@@ -23,7 +23,7 @@ from .motion import ask, move
 from .wheels import follow_wheel
 
 
-class Line(IntEnum):
+class Counter(IntEnum):
     """Counters of a crew, each in a cache line of its own."""
 
     NEXT = 0  # wheel of the list; the list is closed from the number of wheels on
@@ -84,19 +84,19 @@ if COMPILING:
 def _work(benches, scratch, counters, codes):
     """Solve wheels of the list until none is left."""
     n = scratch.wheels.size
-    w = _add(counters, Line.NEXT.value, 1)
+    w = _add(counters, Counter.NEXT.value, 1)
     while w < n:
         codes[w] = follow_wheel(benches, scratch, w)
-        _add(counters, Line.SOLVED.value, 1)
-        w = _add(counters, Line.NEXT.value, 1)
+        _add(counters, Counter.SOLVED.value, 1)
+        w = _add(counters, Counter.NEXT.value, 1)
 
 
 @entry
 def serve(benches: Benches[Search], scratch: Scratch, counters: Integers, codes: Integers) -> None:
     """Solve wheels whenever a list is open, until the leader has ended."""
     n, looks = scratch.wheels.size, 0
-    while _look(counters, Line.ENDED.value) == 0:
-        if _look(counters, Line.NEXT.value) < n:
+    while _look(counters, Counter.ENDED.value) == 0:
+        if _look(counters, Counter.NEXT.value) < n:
             _work(benches, scratch, counters, codes)
             looks = 0
         looks += 1
@@ -108,10 +108,10 @@ def serve(benches: Benches[Search], scratch: Scratch, counters: Integers, codes:
 def _press_together(benches, scratch, counters, codes):
     """As `press`, with the helpers: open the list, work, and wait for the last wheel."""
     n, looks = scratch.wheels.size, 0
-    _set(counters, Line.SOLVED.value, 0)
-    _set(counters, Line.NEXT.value, 0)  # opens the list
+    _set(counters, Counter.SOLVED.value, 0)
+    _set(counters, Counter.NEXT.value, 0)  # opens the list
     _work(benches, scratch, counters, codes)
-    while _look(counters, Line.SOLVED.value) < n:
+    while _look(counters, Counter.SOLVED.value) < n:
         looks += 1
         if looks > _PATIENCE:
             _GIVE_WAY()
@@ -141,5 +141,5 @@ def lead(
         if failed < 0:
             break
         move(model, state, benches.motions, scratch, h, speed)
-    _set(counters, Line.ENDED.value, 1)
+    _set(counters, Counter.ENDED.value, 1)
     return failed
