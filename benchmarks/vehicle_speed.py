@@ -26,7 +26,7 @@ from models.life.spectra import Irregularities
 from models.life.track import Curve, Track
 from models.vehicle.course import lay
 from models.vehicle.declared import read
-from models.vehicle.kernels.motion import ask, move
+from models.vehicle.kernels.motion import move, prepare_contacts
 from models.vehicle.simulation import PACE, ContactOptions, Simulation
 
 STEP, SHORT = 4.6e-4, 200  # [s], and steps of a piece that is timed
@@ -81,11 +81,11 @@ def measured(speed: float, track: Track, options: ContactOptions, seconds: float
     solved = float((vehicle.benches.held.solutions - before).mean()) / steps if options.pace > 1 else 1.0
     arguments = vehicle.model, vehicle.state, vehicle.benches.motions, vehicle.scratch
     calls = 500
-    ask(*arguments, speed)
+    prepare_contacts(*arguments, speed)
     move(*arguments, 1e-12, speed)
     start = time.process_time()
     for _ in range(calls):  # all but the contacts, with the calls from Python
-        ask(*arguments, speed)
+        prepare_contacts(*arguments, speed)
         move(*arguments, 1e-12, speed)
     besides = (time.process_time() - start) / calls
     return STEP / spent, 1.0 - besides / spent, solved

@@ -91,13 +91,13 @@ def model_outputs(values, work, h, given):
         parts.begun[0] = 1.0
     if has_ended(parts):
         return _ENDED
-    motion.ask(model, state, motions, scratch, speed)
+    motion.prepare_contacts(model, state, motions, scratch, speed)
     if h > 0.0:
         _take_forces(v, at, parts)
         motion.move(model, state, motions, scratch, h, speed)
         if not is_near_track(parts):
             return _LOST
-        motion.ask(model, state, motions, scratch, speed)
+        motion.prepare_contacts(model, state, motions, scratch, speed)
     _report(v, at, parts)
     return 0
 

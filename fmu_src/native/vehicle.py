@@ -225,7 +225,7 @@ def _advance(v, at, parts, contacts, h, given):
     for _ in range(steps):
         if has_ended(parts):
             return Failure.ENDED
-        motion.ask(model, state, motions, scratch, speed)
+        motion.prepare_contacts(model, state, motions, scratch, speed)
         code = _press(v, parts, contacts, step, given)
         if code > _WORST_STATUS:
             return code

@@ -80,7 +80,7 @@ class OpenVehicle:
 
     def ask(self) -> Array:
         """Return the questions at the present state, shape (wheels, len(QUESTION))."""
-        motion.ask(*self._arguments, self._speed)
+        motion.prepare_contacts(*self._arguments, self._speed)
         scratch = self._simulation.scratch
         given = scratch.given.view(np.float64).reshape(scratch.given.size, -1)
         return np.column_stack((given, scratch.seats["friction"]))

@@ -75,7 +75,7 @@ class Uneven:
         model, state, _, scratch = self._arrays
         for _ in range(steps):
             speed = float(speed_at(model.track, state.books[Book.DISTANCE]))
-            motion.ask(*self._moving, speed)
+            motion.prepare_contacts(*self._moving, speed)
             for w in range(scratch.wheels.size):
                 if self._solve(w) < 0:
                     return -1 - w
@@ -85,7 +85,7 @@ class Uneven:
         return 0
 
     def _solve(self, w: int) -> int:
-        """Solve the contact of wheel `w` where it is; return as `kernels.wheels.press_one`."""
+        """Solve the contact of wheel `w` where it is; return as `kernels.wheels.solve_contact`."""
         model, state, _, _ = self._arrays
         place = float(state.books[Book.DISTANCE]) + float(model.bodies["place"][model.wheelsets[w // 2]])
         here = next((each for each in self._stretches[w] if each.begin <= place < each.end), None)
@@ -103,6 +103,6 @@ class Uneven:
         _, _, benches, scratch = self._arrays
         if here is not None:
             bench = pack(Bench[SurfaceSearch], here.pair.bench)
-            return lambda: int(wheels.press_one(bench, scratch.given[w], scratch.seats[w], scratch.wheels[w]))
+            return lambda: int(wheels.solve_contact(bench, scratch.given[w], scratch.seats[w], scratch.wheels[w]))
         every, rows = pack(Benches[Search], benches), pack(Scratch, scratch)
         return lambda: int(wheels.follow_wheel(every, rows, w))

@@ -19,7 +19,7 @@ from contact.kernels.arrays import Integers, Search
 from .benches import Benches
 from .frames import speed_at
 from .layout import Book, Model, Scratch, State
-from .motion import ask, move
+from .motion import prepare_contacts, move
 from .wheels import follow_wheel
 
 
@@ -106,7 +106,7 @@ def serve(benches: Benches[Search], scratch: Scratch, counters: Integers, codes:
 
 @kernel
 def _press_together(benches, scratch, counters, codes):
-    """As `press`, with the helpers: open the list, work, and wait for the last wheel."""
+    """As `solve_contacts`, with the helpers: open the list, work, and wait for the last wheel."""
     n, looks = scratch.wheels.size, 0
     _set(counters, Counter.SOLVED.value, 0)
     _set(counters, Counter.NEXT.value, 0)  # opens the list
@@ -136,7 +136,7 @@ def lead(
     failed = 0
     for _ in range(steps):
         speed = speed_at(model.track, state.books[Book.DISTANCE])
-        ask(model, state, benches.motions, scratch, speed)
+        prepare_contacts(model, state, benches.motions, scratch, speed)
         failed = _press_together(benches, scratch, counters, codes)
         if failed < 0:
             break

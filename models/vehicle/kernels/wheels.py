@@ -11,7 +11,7 @@ from contact.kernels.geometry.search import axle
 from contact.kernels.pair import solve_pair
 
 from .benches import Benches, bench_of
-from .between import expect, learn, put
+from .between import predict, update_prediction, set_loads
 from .frames import linear, place_on, smooth
 from .layout import (
     ELASTIC,
@@ -31,8 +31,8 @@ from .layout import (
 
 
 @kernel
-def seat(model, state, s, motions, scratch):
-    """Fill what each contact is asked: motion of axle and rail, and friction (`scratch.given`, `scratch.seats`).
+def fill_inputs(model, state, s, motions, scratch):
+    """Fill the inputs of every contact: motion of axle and rail, and friction (`scratch.given`, `scratch.seats`).
 
     `motions` are the constants of the pairs, records MOTION.
     """
@@ -62,8 +62,8 @@ def seat(model, state, s, motions, scratch):
 
 
 @entry
-def press_one(bench: Bench[SurfaceSearch], given: Given, here: Seat, wheel: Wheel) -> int:
-    """Solve the contact of one wheel for what `seat` has filled, and fill `wheel`; return as `solve_pair`."""
+def solve_contact(bench: Bench[SurfaceSearch], given: Given, here: Seat, wheel: Wheel) -> int:
+    """Solve the contact of one wheel for the inputs of `fill_inputs`. Fill `wheel`; return as `solve_pair`."""
     case = bench.case[0]
     case.mu, case.kinetic, case.speed = here.friction, here.kinetic, given.vx
     n = solve_pair(Height.GIVEN.value, 0.0, given, bench)
@@ -73,51 +73,51 @@ def press_one(bench: Bench[SurfaceSearch], given: Given, here: Seat, wheel: Whee
 
 
 @kernel
-def press_wheel(benches, scratch, w):
-    """Solve the contact of wheel `w`; see `press_one`."""
-    return press_one(bench_of(benches, w), scratch.given[w], scratch.seats[w], scratch.wheels[w])
+def solve_wheel(benches, scratch, w):
+    """Solve the contact of wheel `w`; see `solve_contact`."""
+    return solve_contact(bench_of(benches, w), scratch.given[w], scratch.seats[w], scratch.wheels[w])
 
 
 @entry
 def follow_wheel(benches: Benches[Search], scratch: Scratch, w: int) -> int:
-    """Fill what wheel `w` does: from the last solution of its contact if that is near enough, else by `press_wheel`.
+    """Fill the forces of wheel `w`: from the last solution of its contact if that is near enough, else by `solve_wheel`.
 
     ``benches.settings[w].distance`` is the distance of this step of which the damage is counted [m]. A solution counts for the
-    steps around it. Returns as `press_wheel`.
+    steps around it. Returns as `solve_wheel`.
     """
     own, given, wheel, setting = benches.held, scratch.given[w], scratch.wheels[w], benches.settings[w]
     if own.pace <= 1:
-        return press_wheel(benches, scratch, w)
+        return solve_wheel(benches, scratch, w)
     near, n_before = False, int(wheel.patches)
     if own.ages[w] > 0:
         expected = own.expected[w]
         for i in range(expected.size):
             expected[i] = own.answers[w, i] + own.ages[w] * own.drifts[w, i]
-        near = expect(own.asked[w], given, scratch.seats[w], bench_of(benches, w), n_before, expected)
+        near = predict(own.asked[w], given, scratch.seats[w], bench_of(benches, w), n_before, expected)
         if near and own.ages[w] < own.paces[w]:
-            put(expected, wheel)
+            set_loads(expected, wheel)
             own.ages[w] += 1
             own.pending[w] += setting.distance
             return n_before
-    # A solution counts for the steps around it: half of those since the last one, and of those until the next one, as many as
-    # the pace lets expect. What comes otherwise is made up for at the next solution.
+    # A solution counts for half of the steps since the last one and half of those until the next one, whose number is the
+    # present pace. If the next solution comes earlier or later, it corrects the difference.
     rolled, due = setting.distance, setting.distance + own.pending[w]
     setting.distance = max(due + 0.5 * (max(own.paces[w], 1) - 1) * rolled, 0.0)
     own.pending[w] = due - setting.distance
-    n = press_wheel(benches, scratch, w)
+    n = solve_wheel(benches, scratch, w)
     setting.distance = rolled
     if n >= 0:
-        learn(own, w, wheel, near and n == n_before)
+        update_prediction(own, w, wheel, near and n == n_before)
         own.asked[w] = given
         own.ages[w] = 1
     return n
 
 
 @kernel
-def press(benches, scratch):
-    """Find what all wheels do, each by `follow_wheel`.
+def solve_contacts(benches, scratch):
+    """Fill the forces of all wheels, each by `follow_wheel`.
 
-    Returns 0, or the number of the wheel from 1 on whose contact has no answer, negative.
+    Return 0, or minus the number, from 1 on, of the wheel whose contact has no solution.
     """
     for w in range(scratch.wheels.size):
         if follow_wheel(benches, scratch, w) < 0:
@@ -126,7 +126,7 @@ def press(benches, scratch):
 
 
 @kernel
-def act(model, state, motions, scratch):
+def add_wheel_forces(model, state, motions, scratch):
     """Add the forces of all wheels, `scratch.wheels`, to those of their axles, and their power and energy to the step's."""
     power = scratch.power
     for w in range(scratch.wheels.size):
@@ -150,7 +150,7 @@ def act(model, state, motions, scratch):
 
 @kernel
 def _report(bench, n, wheel):
-    """Fill what one wheel does."""
+    """Fill forces, power and energy of one wheel from its `n` patches."""
     total, largest = bench.total[0], 0
     wheel.longitudinal, wheel.lateral, wheel.vertical = total.Fx, total.Fy, -total.Fz
     wheel.moment_x, wheel.moment_y, wheel.moment_z = total.Mx, total.My, total.Mz
@@ -201,7 +201,7 @@ def count(model: Model, state: State, wheels: Wheels, most: float) -> None:
 
 
 @kernel
-def sink(model, state, wheels, h):
+def advance_rails(model, state, wheels, h):
     """Advance the rails by `h` [s], their dampers implicitly. Return the energy spent in them [J]."""
     m, ky, cy, kz, cz = model.rail[0], model.rail[1], model.rail[2], model.rail[3], model.rail[4]
     if m <= 0.0:
