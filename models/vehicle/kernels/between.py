@@ -75,18 +75,18 @@ def held(loads: Array, pace: int, tolerance: float) -> Held:
     answers, drifts, expected = (np.zeros((n, len(Load))) for _ in range(3))
     ages, paces, solutions = (np.zeros(n, np.int64) for _ in range(3))
     return Held(
-        np.zeros(n, GIVEN),
-        answers,
-        drifts,
-        expected,
-        ages,
-        paces,
-        np.zeros(n),
-        loads,
-        solutions,
-        np.zeros(n),
-        pace,
-        tolerance,
+        asked=np.zeros(n, GIVEN),
+        answers=answers,
+        drifts=drifts,
+        expected=expected,
+        ages=ages,
+        paces=paces,
+        noises=np.zeros(n),
+        loads=loads,
+        solutions=solutions,
+        pending=np.zeros(n),
+        pace=pace,
+        tolerance=tolerance,
     )
 
 
@@ -211,28 +211,28 @@ def predict(asked, now, seat, bench, n, row):
 
 
 @kernel
-def update_prediction(own, w, wheel, near):
+def update_prediction(last, w, wheel, near):
     """Compare the solution of wheel `w` with its prediction, and set drift and pace until the next solution.
 
     `near` says whether there was a prediction.
     """
-    answer, drift, expected = own.answers[w], own.drifts[w], own.expected[w]
+    answer, drift, expected = last.answers[w], last.drifts[w], last.expected[w]
     read_loads(wheel, answer)
-    own.solutions[w] += 1
+    last.solutions[w] += 1
     if not near:
         drift[:] = 0.0
-        own.paces[w] = 1
+        last.paces[w] = 1
         return
     missed = max(
         abs(answer[Load.X] - expected[Load.X]),
         max(abs(answer[Load.Y] - expected[Load.Y]), abs(answer[Load.Z] - expected[Load.Z])),
     )
     for i in range(drift.size):
-        drift[i] += _TAKEN * (answer[i] - expected[i]) / own.ages[w]
-    allowed = own.tolerance * own.loads[w]
-    if own.ages[w] == 1:  # no pace is better than that
-        own.noises[w] += _NEWEST * (min(missed, _LOUDEST * allowed) - own.noises[w])
-    if missed > allowed + 2.0 * own.noises[w]:
-        own.paces[w] = 1
-    elif missed < _EASY * allowed + own.noises[w]:
-        own.paces[w] = min(own.paces[w] + 1, own.pace)
+        drift[i] += _TAKEN * (answer[i] - expected[i]) / last.ages[w]
+    allowed = last.tolerance * last.loads[w]
+    if last.ages[w] == 1:  # no pace is better than that
+        last.noises[w] += _NEWEST * (min(missed, _LOUDEST * allowed) - last.noises[w])
+    if missed > allowed + 2.0 * last.noises[w]:
+        last.paces[w] = 1
+    elif missed < _EASY * allowed + last.noises[w]:
+        last.paces[w] = min(last.paces[w] + 1, last.pace)

@@ -85,31 +85,31 @@ def follow_wheel(benches: Benches[Search], scratch: Scratch, w: int) -> int:
     ``benches.settings[w].distance`` is the distance of this step of which the damage is counted [m]. A solution counts for the
     steps around it. Returns as `solve_wheel`.
     """
-    own, given, wheel, setting = benches.held, scratch.given[w], scratch.wheels[w], benches.settings[w]
-    if own.pace <= 1:
+    last, given, wheel, setting = benches.held, scratch.given[w], scratch.wheels[w], benches.settings[w]
+    if last.pace <= 1:
         return solve_wheel(benches, scratch, w)
     near, n_before = False, int(wheel.patches)
-    if own.ages[w] > 0:
-        expected = own.expected[w]
+    if last.ages[w] > 0:
+        expected = last.expected[w]
         for i in range(expected.size):
-            expected[i] = own.answers[w, i] + own.ages[w] * own.drifts[w, i]
-        near = predict(own.asked[w], given, scratch.seats[w], bench_of(benches, w), n_before, expected)
-        if near and own.ages[w] < own.paces[w]:
+            expected[i] = last.answers[w, i] + last.ages[w] * last.drifts[w, i]
+        near = predict(last.asked[w], given, scratch.seats[w], bench_of(benches, w), n_before, expected)
+        if near and last.ages[w] < last.paces[w]:
             set_loads(expected, wheel)
-            own.ages[w] += 1
-            own.pending[w] += setting.distance
+            last.ages[w] += 1
+            last.pending[w] += setting.distance
             return n_before
     # A solution counts for half of the steps since the last one and half of those until the next one, whose number is the
     # present pace. If the next solution comes earlier or later, it corrects the difference.
-    rolled, due = setting.distance, setting.distance + own.pending[w]
-    setting.distance = max(due + 0.5 * (max(own.paces[w], 1) - 1) * rolled, 0.0)
-    own.pending[w] = due - setting.distance
+    rolled, due = setting.distance, setting.distance + last.pending[w]
+    setting.distance = max(due + 0.5 * (max(last.paces[w], 1) - 1) * rolled, 0.0)
+    last.pending[w] = due - setting.distance
     n = solve_wheel(benches, scratch, w)
     setting.distance = rolled
     if n >= 0:
-        update_prediction(own, w, wheel, near and n == n_before)
-        own.asked[w] = given
-        own.ages[w] = 1
+        update_prediction(last, w, wheel, near and n == n_before)
+        last.asked[w] = given
+        last.ages[w] = 1
     return n
 
 
