@@ -19,7 +19,7 @@ from contact.kernels.arrays import Integers, Search
 from .benches import Benches
 from .frames import speed_at
 from .layout import Book, Model, Scratch, State
-from .motion import prepare_contacts, move
+from .motion import move, prepare_contacts
 from .wheels import follow_wheel
 
 

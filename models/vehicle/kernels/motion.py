@@ -9,7 +9,7 @@ from .benches import Benches
 from .elements import pull
 from .frames import carried, drift, gyrate, lay_frames, speed_at
 from .layout import Axis, Book, Frame, Model, Scratch, State
-from .wheels import add_wheel_forces, count, solve_contacts, rail_energy, fill_inputs, advance_rails
+from .wheels import add_wheel_forces, advance_rails, count, fill_inputs, rail_energy, solve_contacts
 
 #: A normal force above this multiple of the static one is an impact.
 _IMPACT = 2.0

@@ -11,7 +11,7 @@ from contact.kernels.geometry.search import axle
 from contact.kernels.pair import solve_pair
 
 from .benches import Benches, bench_of
-from .between import predict, update_prediction, set_loads
+from .between import predict, set_loads, update_prediction
 from .frames import linear, place_on, smooth
 from .layout import (
     ELASTIC,
