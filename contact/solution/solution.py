@@ -174,7 +174,7 @@ class Solution:
     def of_kernel(
         cls,
         n: int,
-        own: Workspace,
+        workspace: Workspace,
         numbers: tuple[Array, Array],
         creepage: Creepage,
         prepared: Prepared,
@@ -191,7 +191,7 @@ class Solution:
         held = solution.__dict__
         held.update({name: record[k] for name, k in _NUMBERS.items()})
         held.update(prepared._asdict(), status=Status(solution.status), creepage=creepage, jacobian=jacobian)
-        arrays = own.strips[:, :n].copy(), own.fields[:, :n].copy(), own.space.memory.copy()
+        arrays = workspace.strips[:, :n].copy(), workspace.fields[:, :n].copy(), workspace.space.memory.copy()
         held["_left"] = (case.copy(), record[-1][: 2 * solution.n_patches].copy(), *arrays)
         return solution
 
@@ -344,6 +344,6 @@ def _own(array: Any) -> Any:
     """Return a read-only array that owns its memory: `array` itself if it is one already, else a copy."""
     if not isinstance(array, np.ndarray) or (array.base is None and not array.flags.writeable):
         return array
-    own = array.copy()
-    own.setflags(write=False)
-    return own
+    copied = array.copy()
+    copied.setflags(write=False)
+    return copied

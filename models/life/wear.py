@@ -194,7 +194,7 @@ class Life:
         if share.weight > 0.0:
             wheels = tuple(self.wheels[self.plan.group(name)].present for name in scenario.wheel_names)
         worn = (self.rails.get((share.line, side)) for side in SIDES)
-        rails = tuple(own if rail is None else rail.present for rail, own in zip(worn, scenario.rails, strict=True))
+        rails = tuple(given if rail is None else rail.present for rail, given in zip(worn, scenario.rails, strict=True))
         scenario = scenario.reprofiled(self.turned_off) if share.weight > 0.0 else scenario
         return scenario.worn(wheels, rails, number)
 
@@ -208,9 +208,9 @@ class Life:
             zip(self.plan.declared.scenarios, self.plan.weights, found, strict=True)
         ):
             for group, wheel in self.wheels.items():
-                own = [h for name, h in each.wheels.items() if self.plan.group(name) == group]
+                members = [h for name, h in each.wheels.items() if self.plan.group(name) == group]
                 if weight > 0.0:
-                    together = reduce(add, own)
+                    together = reduce(add, members)
                     damage[wheel.name][k] = together.scaled(weight / together.distance)
             for side, histogram in each.rails.items():
                 rail, passes = self.rails.get((share.line, side)), self.plan.passes(k, each.axle_load)

@@ -156,8 +156,8 @@ class Simulation:
         self._uneven_memories: dict[str, Array] = {}
         if uneven or sections:
             stretches = self._stretches(wheels, rails, uneven or {}, sections)
-            for k, own in stretches.items():
-                for number, stretch in enumerate(own):
+            for k, pieces in stretches.items():
+                for number, stretch in enumerate(pieces):
                     self._uneven_memories[f"uneven.{k}.{number}"] = stretch.pair.bench.memory
                     for name, value in members.items():
                         stretch.pair.bench.case[name] = value
@@ -180,18 +180,18 @@ class Simulation:
         found: dict[int, list[Stretch]] = {}
         for k, (wheel, rail) in enumerate(zip(wheels, rails, strict=True)):
             sizes = self._sizes(SIDES[k % 2])
-            own = []
+            pieces = []
             for section in sections:
                 if section.side == sizes["side"]:
                     if k < len(SIDES):
                         section.require_continued(wheel, rail, sizes)
                     surfaces = section.pair(uneven.get(k, wheel), rail, sizes)
-                    own.append(Stretch(self._solver(surfaces), surfaces, section.begin, section.end, section.at))
+                    pieces.append(Stretch(self._solver(surfaces), surfaces, section.begin, section.end, section.at))
             if k in uneven:
                 surfaces = SurfacePair(uneven[k], rail, **sizes, tilted=True)
-                own.append(Stretch(self._solver(surfaces), surfaces))
-            if own:
-                found[k] = own
+                pieces.append(Stretch(self._solver(surfaces), surfaces))
+            if pieces:
+                found[k] = pieces
         return found
 
     def _sizes(self, side: str) -> dict[str, Any]:
