@@ -10,7 +10,6 @@ elapsed times, beside that of one thread measured in turn; they mean something o
 
 from __future__ import annotations
 
-import argparse
 import math
 import time
 from dataclasses import replace
@@ -19,7 +18,7 @@ from pathlib import Path
 import fmpy
 from fmpy.fmi2 import FMU2Slave
 
-from benchmarks.tables import table
+from benchmarks.tables import read_options, table
 from contact.geometry import profile
 from models.life import scenario
 from models.life.spectra import Irregularities
@@ -125,11 +124,7 @@ def beside_the_fmu(path: Path, seconds: float) -> list[list[str]]:
 
 def main() -> None:
     """Print the tables."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--seconds", type=float, default=2.0)
-    parser.add_argument("--threads", type=int, default=0)
-    parser.add_argument("--fmu", type=Path)
-    arguments = parser.parse_args()
+    arguments = read_options(__doc__, seconds=2.0, threads=0, fmu=Path)
     seconds = arguments.seconds
     rows = []
     for name, options in METHODS.items():
