@@ -11,7 +11,7 @@ from pathlib import Path
 from contact_models.life import scenario
 from contact_models.life.scenario import Scenario
 from contact_models.vehicle.course import lay
-from contact_models.vehicle.kernels.layout import Row
+from contact_models.vehicle.kernels.layout import TrackRow
 
 from contact.errors import ContactError
 
@@ -19,7 +19,7 @@ from . import archive, resources
 from .tables.vehicle import TRACK
 
 MAGIC = b"wr-track"
-ROWS = len(Row)
+ROWS = len(TrackRow)
 
 
 def pack(given: Scenario) -> bytes:

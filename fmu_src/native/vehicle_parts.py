@@ -14,12 +14,12 @@ from contact_models.vehicle.kernels.layout import (
     WHEEL,
     Axis,
     Book,
-    Frame,
     Model,
-    Row,
     Scratch,
     State,
     Sum,
+    TrackFrame,
+    TrackRow,
 )
 from numba import carray
 
@@ -31,7 +31,7 @@ from .memory import compiled, integers_of
 
 _INTEGER = np.dtype([("value", "i8")])
 _N_BODY, _N_LINK, _N_ELEMENT = BODY.itemsize // 8, LINK.itemsize // 8, ELEMENT.itemsize // 8
-_N_FRAME, _N_SUM, _N_BOOK, _N_ROW = len(Frame), len(Sum), len(Book), len(Row)
+_N_FRAME, _N_SUM, _N_BOOK, _N_ROW = len(TrackFrame), len(Sum), len(Book), len(TrackRow)
 
 
 class Parts(NamedTuple):
@@ -141,7 +141,7 @@ def track_after(resources, n_files):
 @compiled
 def has_ended(parts):
     """Return whether the vehicle has reached the end of the track, or has no finite place."""
-    s, places = parts.state.books[Book.DISTANCE], parts.model.track[Row.PLACE]
+    s, places = parts.state.books[Book.DISTANCE], parts.model.track[TrackRow.PLACE]
     return not places[0] <= s <= places[-1] - BEYOND
 
 

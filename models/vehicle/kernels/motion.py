@@ -8,7 +8,7 @@ from contact.kernels.arrays import Motions, Numbers, Search
 from .benches import Benches
 from .elements import pull
 from .frames import carried, drift, gyrate, lay_frames, speed_at
-from .layout import Axis, Book, Frame, Model, Scratch, State
+from .layout import Axis, Book, Model, Scratch, State, TrackFrame
 from .wheels import add_wheel_forces, advance_rails, count, fill_inputs, rail_energy, solve_contacts
 
 #: A normal force above this multiple of the static one is an impact.
@@ -44,8 +44,8 @@ def _load(model, state, motions, h, scratch):
     pull(model, state, h, scratch)
     for i in range(model.bodies.size):
         body, frame = model.bodies[i], scratch.frames[i]
-        scratch.forces[i, Axis.Y] += body.mass * 9.81 * frame[Frame.SIN_CANT]
-        scratch.forces[i, Axis.Z] += body.mass * 9.81 * frame[Frame.COS_CANT]
+        scratch.forces[i, Axis.Y] += body.mass * 9.81 * frame[TrackFrame.SIN_CANT]
+        scratch.forces[i, Axis.Z] += body.mass * 9.81 * frame[TrackFrame.COS_CANT]
         if body.wheelset != 0:
             scratch.forces[i, Axis.PITCH] -= body.torque
     add_wheel_forces(model, state, motions, scratch)
@@ -90,9 +90,9 @@ def _kick(model, state, scratch, h):
                 state.u[i, j] += h * scratch.forces[i, j] / _inertia(body, j)
             mean = 0.5 * (before + state.u[i, j])
             if j == Axis.Y:
-                books[Book.WEIGHT] += h * body.mass * 9.81 * frame[Frame.SIN_CANT] * mean
+                books[Book.WEIGHT] += h * body.mass * 9.81 * frame[TrackFrame.SIN_CANT] * mean
             elif j == Axis.Z:
-                books[Book.WEIGHT] += h * body.mass * 9.81 * frame[Frame.COS_CANT] * mean
+                books[Book.WEIGHT] += h * body.mass * 9.81 * frame[TrackFrame.COS_CANT] * mean
             elif j == Axis.PITCH and body.wheelset != 0:
                 books[Book.TORQUE] -= h * body.torque * mean
 

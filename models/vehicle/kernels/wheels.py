@@ -18,13 +18,13 @@ from .layout import (
     TO_LEFT,
     Axis,
     Book,
-    Frame,
     Model,
-    Row,
     Scratch,
     Seat,
     State,
     Sum,
+    TrackFrame,
+    TrackRow,
     Wheel,
     Wheels,
 )
@@ -41,15 +41,15 @@ def fill_inputs(model, state, s, motions, scratch):
         i = model.wheelsets[axle_number]
         q, u = state.q[i], state.u[i]
         k, d, width = place_on(track, s + model.bodies[i].place)
-        t, ramp = d / width, scratch.frames[i, Frame.RATE_X]
+        t, ramp = d / width, scratch.frames[i, TrackFrame.RATE_X]
         for side in range(2):
             w, row = 2 * axle_number + side, side * TO_LEFT
             rail, given, here, motion = state.rails[axle_number, side], scratch.given[w], scratch.seats[w], motions[w]
-            y, along_y = smooth(track, Row.RIGHT_Y + row, k, t, width)
-            z, along_z = smooth(track, Row.RIGHT_Z + row, k, t, width)
+            y, along_y = smooth(track, TrackRow.RIGHT_Y + row, k, t, width)
+            z, along_z = smooth(track, TrackRow.RIGHT_Z + row, k, t, width)
             here.along_y, here.along_z = along_y, along_z
-            here.friction = linear(track, Row.RIGHT_FRICTION + row, k, t) * model.surface[0]
-            here.kinetic = linear(track, Row.RIGHT_FRICTION + row, k, t) * model.surface[1]
+            here.friction = linear(track, TrackRow.RIGHT_FRICTION + row, k, t) * model.surface[0]
+            here.kinetic = linear(track, TrackRow.RIGHT_FRICTION + row, k, t) * model.surface[1]
             given.y, given.z, given.roll, given.yaw = q[Axis.Y], q[Axis.Z], q[Axis.ROLL], q[Axis.YAW] - along_y
             given.vx, given.vy, given.vz = u[Axis.X], u[Axis.Y], u[Axis.Z]
             given.roll_rate, given.yaw_rate, given.spin = u[Axis.ROLL], u[Axis.YAW], u[Axis.PITCH]
@@ -137,7 +137,7 @@ def add_wheel_forces(model, state, motions, scratch):
         Mx, My, Mz = wheel.moment_x, wheel.moment_y, wheel.moment_z
         lx, ly, lz = axle(q[Axis.ROLL], yaw)
         climbing = Mx + q[Axis.Y] * Fz - (q[Axis.Z] - motions[w].radius) * Fy
-        ramp = scratch.frames[i, Frame.RATE_X]
+        ramp = scratch.frames[i, TrackFrame.RATE_X]
         forces[Axis.X] += Fx - Fy * here.along_y - Fz * here.along_z - ramp / speed * climbing
         forces[Axis.Y] += Fy
         forces[Axis.Z] += Fz
