@@ -27,20 +27,15 @@ File = Annotated[
 ]
 Memory = Annotated[
     tuple[float, float] | None,
-    typer.Option(
+    opt.in_loading(
         "--friction-memory",
         help="distance in m over which friction follows --falling, and least sliding velocity in m/s",
         metavar="DISTANCE LEAST",
-        rich_help_panel=opt.LOADING,
     ),
 ]
 Damping = Annotated[
     tuple[float, float] | None,
-    typer.Option(
-        help="contact damping of the normal and the tangential forces in s",
-        metavar="NORMAL TANGENTIAL",
-        rich_help_panel=opt.LOADING,
-    ),
+    opt.in_loading(help="contact damping of the normal and the tangential forces in s", metavar="NORMAL TANGENTIAL"),
 ]
 
 
