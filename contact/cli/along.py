@@ -43,7 +43,7 @@ Vertical = Annotated[float | None, opt.in_loading(help="instead of a load: verti
 
 @dataclass
 class OutOfRound:
-    """What changes along the way."""
+    """Deviations along the way: flat, polygon, origin of a rail of slices."""
 
     origin: Origin = None
     flat: FlatLength = None

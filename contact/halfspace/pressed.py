@@ -41,7 +41,7 @@ _FINE, _LOOSE, _SHARE_OF_CHANGE = 1e-6, 0.03, 0.05
 
 
 class PressedRecord(NamedTuple):
-    """What a solution records of its normal problem; approach [m], stiffness [N/m]."""
+    """Result of the normal problem: approach [m], stiffness [N/m]."""
 
     approach: float
     stiffness: float

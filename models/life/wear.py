@@ -226,7 +226,7 @@ class Life:
 
     @property
     def trust(self) -> Trust:
-        """How far the runs of all steps can be trusted."""
+        """Measures of trust of the runs of all steps, the worst of each."""
         return worst([Trust(*(float(row[list(COLUMNS).index(name)]) for name in TRUST)) for row in self.rows])
 
     @staticmethod

@@ -120,6 +120,6 @@ class OpenVehicle:
 
     @property
     def residual(self) -> float:
-        """What the integration has lost, over the dissipation in the contacts [-]."""
+        """Residual of the energy balance over the dissipation in the contacts [-]."""
         books = self._simulation.state.books
         return float(books[Book.RESIDUAL] / books[Book.DISSIPATED]) if books[Book.DISSIPATED] > 0.0 else 0.0

@@ -45,7 +45,7 @@ class AnalysedSection:
 
     @property
     def name(self) -> str:
-        """What it is, and where."""
+        """Kind and place of the section."""
         what = f"curve of {1.0 / abs(self.curvature):.0f} m" if self.curvature else "straight"
         return f"{what}, {self.begin:.0f} to {self.end:.0f} m" + ("" if self.whole else " (short)")
 

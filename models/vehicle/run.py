@@ -303,7 +303,7 @@ class VehicleRun:
 
     @property
     def trust(self) -> Trust:
-        """How far the run can be trusted."""
+        """Measures of trust of the run: energy balance, impacts, doubtful contacts."""
         books, declared = self.simulation.state.books, self.scenario.declared
         dissipated = float(books[Book.DISSIPATED])
         return Trust(

@@ -218,7 +218,7 @@ class Simulation:
         )
 
     def _place(self, start: float) -> None:
-        """Put the vehicle on the rails at rest in its nominal place, rolling."""
+        """Place the vehicle on the rails in its nominal position, rolling without other motion."""
         speed = float(speed_at(self.model.track, start))
         heights = np.zeros(self.model.wheelsets.size)
         for number, i in enumerate(self.model.wheelsets):
@@ -246,7 +246,7 @@ class Simulation:
 
     @property
     def wheels(self) -> NDArray:
-        """What every wheel did at the last step, records WHEEL: axle by axle, the right one before the left one."""
+        """Forces, power and damage of every wheel at the last step: records WHEEL by axle, right before left."""
         return self.scratch.wheels
 
     @property

@@ -45,7 +45,7 @@ class SliceCurve:
         self._start, self._end = np.empty_like(steps), np.empty_like(steps)
 
     def connect(self, corners: Array) -> None:
-        """Lay the cubics. The tangent may jump at the points nearest to `corners` [m], and where chords turn sharply.
+        """Compute the cubics. The tangent may jump at the points nearest to `corners` [m], and where chords turn sharply.
 
         A profile keeps its own tangents.
         """
