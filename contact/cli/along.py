@@ -68,7 +68,7 @@ class Stations:
 @reported
 def along(
     *,
-    place: arguments.Place,
+    place: arguments.PlaceOptions,
     change: OutOfRound,
     reading: arguments.Reading,
     way: Stations,

@@ -58,7 +58,7 @@ app = typer.Typer(
 def solve(
     context: typer.Context,
     *,
-    place: arguments.Place,
+    place: arguments.PlaceOptions,
     reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.right,
     amount: arguments.Amount,
@@ -107,7 +107,7 @@ def solve(
 @reported
 def patch(
     *,
-    place: arguments.Place,
+    place: arguments.PlaceOptions,
     reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.both,
     amount: arguments.Amount,
@@ -150,7 +150,7 @@ def curve(
     largest: opt.Largest = None,
     points: opt.Points = 41,
     curvatures: opt.Curvatures = None,
-    place: arguments.Place,
+    place: arguments.PlaceOptions,
     reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.right,
     creepage: opt.Creep = None,

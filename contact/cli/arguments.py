@@ -74,7 +74,7 @@ class SlidingFriction:
 
 
 @dataclass
-class Place:
+class PlaceOptions:
     """A wheelset on its rails."""
 
     wheel: opt.WheelName = "s1002"

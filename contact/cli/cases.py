@@ -88,7 +88,7 @@ def cases_of(given: Mapping[str, Any]) -> list[Case]:
         ]
     if given["side"] not in list(opt.SideOption):
         raise ContactError(f"side = {given['side']!r} is none of {', '.join(opt.SideOption)}")
-    place = arguments.Place(**{entry.name: given[entry.name] for entry in fields(arguments.Place)})
+    place = arguments.PlaceOptions(**{entry.name: given[entry.name] for entry in fields(arguments.PlaceOptions)})
     reading = arguments.Reading(**{entry.name: given[entry.name] for entry in fields(arguments.Reading)})
     position = place.position(reading, opt.SideOption(given["side"]))
     pose = position.pose

@@ -41,7 +41,7 @@ def compare(
     context: typer.Context,
     file: File = None,
     *,
-    place: arguments.Place,
+    place: arguments.PlaceOptions,
     reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.right,
     amount: arguments.Amount,

@@ -43,7 +43,7 @@ Damping = Annotated[
 def in_time(
     motion: File,
     *,
-    place: arguments.Place,
+    place: arguments.PlaceOptions,
     reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.right,
     load: opt.Load = None,

@@ -22,7 +22,7 @@ from contact.study.table import number
 @reported
 def rail(
     *,
-    place: arguments.Place,
+    place: arguments.PlaceOptions,
     reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.right,
     load: opt.Load = None,

@@ -20,7 +20,7 @@ from contact.solution import Solution
 def roller(
     roller_radius: opt.RollerRadius,
     *,
-    place: arguments.Place,
+    place: arguments.PlaceOptions,
     reading: arguments.Reading,
     spin: opt.Spin = None,
     offset: opt.Offset = 0.0,

@@ -29,7 +29,7 @@ _DEPTHS = np.linspace(0.0, 1.5, 16)
 def stress(
     context: typer.Context,
     *,
-    place: arguments.Place,
+    place: arguments.PlaceOptions,
     reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.right,
     amount: arguments.Amount,

@@ -50,7 +50,7 @@ NOTES = (
 
 
 @dataclass(frozen=True, slots=True)
-class BenchmarkPlace:
+class Place:
     """A position of the benchmark and CONTACT's results, in SI units. Forces act on the wheel; creepages are wheel minus rail.
 
     Attributes
@@ -86,7 +86,7 @@ class BenchmarkPlace:
 
 
 @cache
-def places() -> tuple[BenchmarkPlace, ...]:
+def places() -> tuple[Place, ...]:
     """Return the positions for which results of CONTACT are available."""
     text = resources.files("contact.study").joinpath("manchester.csv").read_text(encoding="utf-8")
     found = []
@@ -97,7 +97,7 @@ def places() -> tuple[BenchmarkPlace, ...]:
             for method in ("kpec", "analyn")
         ]
         found.append(
-            BenchmarkPlace(
+            Place(
                 1e-3 * given["y"], given["yaw"], given["roll"], given["pitch"], row["side"], given["angle"],
                 -given["xi"], -given["eta"], -1e3 * given["phi"], given["N"], -given["Fx"], -given["Fy"],
                 1e-3 * given["approach"], 1e6 * given["pmax"], *fast,
@@ -112,7 +112,7 @@ class Manchester(Report):
 
     Attributes
     ----------
-    places : tuple of BenchmarkPlace
+    places : tuple of Place
         Positions with CONTACT's results.
     patches : tuple of Patch
         Our patches, at the height at which our half space carries the load.
@@ -122,7 +122,7 @@ class Manchester(Report):
         Method → solutions by KPEC and ANALYN with that force, in the order of the positions.
     """
 
-    places: tuple[BenchmarkPlace, ...]
+    places: tuple[Place, ...]
     patches: tuple[Patch, ...]
     comparison: Comparison
     fast: dict[str, tuple[Solution, ...]]
@@ -158,7 +158,7 @@ class Manchester(Report):
         tables.append(Table("KPEC and ANALYN, and CONTACT's", units, rows))
         return tables
 
-    def _by_place(self, k: int) -> list[tuple[BenchmarkPlace, Row]]:
+    def _by_place(self, k: int) -> list[tuple[Place, Row]]:
         """Return each position with the row of pair k."""
         return [(place, rows[k]) for place, (_, rows, _) in zip(self.places, self.comparison.by_case(), strict=True)]
 
@@ -208,7 +208,7 @@ class Manchester(Report):
 def manchester(
     methods: str | Iterable[str | tuple[str, str]] = METHODS,
     *,
-    at: Sequence[BenchmarkPlace] | None = None,
+    at: Sequence[Place] | None = None,
     n_strips: int = RESOLUTION,
     n_elements: int = RESOLUTION,
     reference_elements: int = REFERENCE_ELEMENTS,
@@ -220,7 +220,7 @@ def manchester(
     ----------
     methods, n_strips, n_elements, reference_elements, progress :
         As in `contact.compare`.
-    at : sequence of BenchmarkPlace
+    at : sequence of Place
         Some of `places`; default all.
 
     Returns
@@ -257,7 +257,7 @@ def manchester(
     return Manchester(chosen, tuple(patches), found, fast)
 
 
-def _settled(place: BenchmarkPlace, elements: int) -> tuple[Patch, float]:
+def _settled(place: Place, elements: int) -> tuple[Patch, float]:
     """Return the patch at the height at which the half space carries the load, and its normal force [N]."""
     wheel, rail = profile.s1002(), profile.rail_60e1(1 / 40, breakpoints="UIC 519")
     both = WheelOnRail(wheel, rail, side=place.side)  # type: ignore[arg-type]
@@ -280,12 +280,12 @@ def _settled(place: BenchmarkPlace, elements: int) -> tuple[Patch, float]:
     raise ContactError(f"{place.name}: the height under the load was not found in {_MAX_STEPS} steps")
 
 
-def _force_error(place: BenchmarkPlace, row: Row) -> float:
+def _force_error(place: Place, row: Row) -> float:
     limit, true_limit = FRICTION * row.N, FRICTION * place.N
     return math.hypot(row.Fx / limit - place.Fx / true_limit, row.Fy / limit - place.Fy / true_limit)
 
 
-_ERRORS: Sequence[tuple[str, Callable[[BenchmarkPlace, Row], float]]] = (
+_ERRORS: Sequence[tuple[str, Callable[[Place, Row], float]]] = (
     ("Force over µN", _force_error),
     ("Peak pressure", lambda place, row: row.max_pressure / place.max_pressure - 1.0),
     ("Approach", lambda place, row: row.approach / place.approach - 1.0),

@@ -25,7 +25,7 @@ from contact.geometry import profile
 
 from ..tables.wheelset import KEYWORDS, table
 from .slave import TableSlave
-from .values import Rows, Values
+from .values import Rows, SlaveValues
 
 
 class WheelsetSlave(TableSlave):
@@ -36,7 +36,7 @@ class WheelsetSlave(TableSlave):
         self.model: WheelsetModel | None = None
         self.built_with: dict[str, Any] = {}
 
-    def outputs(self, values: Values, step_size: float) -> Rows:
+    def outputs(self, values: SlaveValues, step_size: float) -> Rows:
         """Advance the model with constant forces. With a step size of 0, return the outputs at the start."""
         model = self._model(values)
         if step_size > 0.0:
@@ -57,7 +57,7 @@ class WheelsetSlave(TableSlave):
         else:
             self._model(self.values).restore(bytes.fromhex(memory))
 
-    def _model(self, values: Values) -> WheelsetModel:
+    def _model(self, values: SlaveValues) -> WheelsetModel:
         """Return the model with these parameters. If they have changed, it is made anew and is at its start."""
         wanted = {keyword: values[name] for name, keyword in KEYWORDS.items()}
         wanted |= {"substeps": values["resolution.substeps"], "inclination": values["rail.inclination"]}

@@ -28,7 +28,7 @@ Q_QUASI_STATIC, Q_LARGEST = 145e3, 200e3
 
 
 @dataclass(frozen=True, slots=True)
-class AnalysedSection:
+class Section:
     """A part of the track without transitions.
 
     Attributes
@@ -51,7 +51,7 @@ class AnalysedSection:
 
 
 @dataclass(frozen=True, slots=True)
-class SectionValues:
+class Values:
     """Values of one wheelset on one section.
 
     Attributes
@@ -78,7 +78,7 @@ def required_length(curvature: float) -> float:
     return 100.0 if abs(curvature) <= 1.0 / 400.0 else 70.0
 
 
-def sections(track: Track, begin: float, end: float) -> tuple[AnalysedSection, ...]:
+def sections(track: Track, begin: float, end: float) -> tuple[Section, ...]:
     """Return the sections of a track between two places [m]: straight parts and circles, in pieces of the required length."""
     parts, at = [], begin
     for curve in sorted(track.curves, key=lambda each: each.start):
@@ -94,18 +94,16 @@ def sections(track: Track, begin: float, end: float) -> tuple[AnalysedSection, .
         count = max(int((last - first) / wanted), 1)
         if last - first > _RMS_STEP:
             edges: list[float] = np.linspace(first, last, count + 1).tolist()
-            found += [AnalysedSection(a, b, curvature, last - first >= wanted) for a, b in itertools.pairwise(edges)]
+            found += [Section(a, b, curvature, last - first >= wanted) for a, b in itertools.pairwise(edges)]
     return tuple(found)
 
 
-def values(
-    section: AnalysedSection, lateral: Array, vertical: Array, distance: Array, time: Array, load: float
-) -> SectionValues:
+def values(section: Section, lateral: Array, vertical: Array, distance: Array, time: Array, load: float) -> Values:
     """Return the values of one wheelset on a section. The filters see the whole run, so that they have no ends inside of it.
 
     Parameters
     ----------
-    section : AnalysedSection
+    section : Section
     lateral, vertical : ndarray, shape (2, n)
         Y and Q of the right and the left wheel [N].
     distance, time : ndarray, shape (n,)
@@ -124,7 +122,7 @@ def values(
     outer = 1 if section.curvature > 0.0 else 0
     inwards = math.copysign(1.0, section.curvature)
     curved = section.curvature != 0.0
-    return SectionValues(
+    return Values(
         guiding=float(np.percentile(np.abs(meant(Y.sum(axis=0))), LARGEST)),
         quotient=float(max(np.percentile(np.abs(each), LARGEST) for each in quotients)),
         vertical=float(max(np.percentile(each[inside], LARGEST) for each in Q)),
@@ -134,7 +132,7 @@ def values(
     )
 
 
-def _instability(guiding: Array, distance: Array, time: Array, section: AnalysedSection) -> float:
+def _instability(guiding: Array, distance: Array, time: Array, section: Section) -> float:
     """Return the largest rms of ΣY in the band of hunting, over windows of the section [N]."""
     inside = (distance >= section.begin) & (distance <= section.end)
     even = np.linspace(time[inside][0], time[inside][-1], int(inside.sum()))
@@ -152,10 +150,10 @@ def _instability(guiding: Array, distance: Array, time: Array, section: Analysed
     return float(max(rms))
 
 
-def limits(load: float, radius: float) -> SectionValues:
+def limits(load: float, radius: float) -> Values:
     """Return the limits of a wheelset with a static wheel load [N] in a radius [m], inf on straight track."""
     guiding = prudhomme(2.0 * load)
-    return SectionValues(
+    return Values(
         guiding=guiding,
         quotient=0.8,
         vertical=min(90e3 + load, Q_LARGEST),

@@ -31,7 +31,7 @@ from .kernels.between import held
 from .kernels.frames import speed_at
 from .kernels.layout import Book, Model, Scratch, State, Sum, scratch
 from .sections import RailSection, require_apart
-from .uneven import Stretch, Uneven
+from .uneven import Stretch, UnevenWheels
 
 Array = NDArray[np.float64]
 
@@ -152,7 +152,7 @@ class Simulation:
         self._place(start)
         self.rotations = np.zeros(axles)
         arrays = self.model, self.state, self.benches, self.scratch
-        self._stepper: Crew | Uneven
+        self._stepper: Crew | UnevenWheels
         self._uneven_memories: dict[str, Array] = {}
         if uneven or sections:
             stretches = self._stretches(wheels, rails, uneven or {}, sections)
@@ -161,7 +161,7 @@ class Simulation:
                     self._uneven_memories[f"uneven.{k}.{number}"] = stretch.pair.bench.memory
                     for name, value in members.items():
                         stretch.pair.bench.case[name] = value
-            self._stepper = Uneven(*arrays, stretches, self.rotations)
+            self._stepper = UnevenWheels(*arrays, stretches, self.rotations)
         else:
             self._stepper = Crew(*arrays, [pair.bench for pair in self._pairs[:threads]])
 
@@ -252,7 +252,7 @@ class Simulation:
     @property
     def on_surfaces(self) -> NDArray[np.bool_]:
         """Whether the contact of each wheel was on surfaces at the last step, where no damage is counted."""
-        if isinstance(self._stepper, Uneven):
+        if isinstance(self._stepper, UnevenWheels):
             return self._stepper.on_surfaces
         return np.zeros(self.scratch.wheels.size, np.bool_)
 

@@ -36,7 +36,7 @@ class Stretch(NamedTuple):
     origin: float = 0.0  # place at which the station of the slices is 0 [m]
 
 
-class Uneven:
+class UnevenWheels:
     """Advances a vehicle of which some wheels, or the rails at some places, are surfaces.
 
     Parameters

@@ -7,7 +7,7 @@ import pytest
 
 from models.life.track import Curve, Track
 from models.vehicle import en14363
-from models.vehicle.en14363 import AnalysedSection
+from models.vehicle.en14363 import Section
 
 
 def test_sections_are_straight_parts_and_circles_without_transitions():
@@ -30,7 +30,7 @@ def test_quasi_static_values_are_medians_of_the_outer_wheel_and_peaks_are_percen
     wave = 5e3 * np.sin(2.0 * math.pi * 2.0 * distance / speed)  # 2 Hz
     lateral = np.array([-1e4 * np.ones_like(distance), 3e4 + wave])
     vertical = np.array([5e4, 7e4])[:, None] * np.ones_like(distance)
-    section = AnalysedSection(100.0, 300.0, 1.0 / 300.0, True)  # to the right: the left wheel is outside
+    section = Section(100.0, 300.0, 1.0 / 300.0, True)  # to the right: the left wheel is outside
     found = en14363.values(section, lateral, vertical, distance, distance / speed, 6e4)
     mean = math.sin(math.pi * 2.0 * 2.0 / speed) / (math.pi * 2.0 * 2.0 / speed)  # of a wave over 2 m
     assert found.Y_quasi_static == pytest.approx(3e4, rel=2e-3)
@@ -45,13 +45,11 @@ def test_straight_track_has_no_quasi_static_values_and_a_mirrored_curve_has_the_
     distance = np.arange(0.0, 300.0, 0.25)
     lateral, vertical = 1e4 * rng.normal(size=(2, distance.size)), 6e4 + 1e3 * rng.normal(size=(2, distance.size))
     given = distance, distance / 25.0, 6e4
-    straight = en14363.values(AnalysedSection(20.0, 280.0, 0.0, True), lateral, vertical, *given)
+    straight = en14363.values(Section(20.0, 280.0, 0.0, True), lateral, vertical, *given)
     assert math.isnan(straight.Y_quasi_static)
     assert math.isnan(straight.Q_quasi_static)
     right, left = (
-        en14363.values(
-            AnalysedSection(20.0, 280.0, sign / 500.0, True), sign * lateral[::order], vertical[::order], *given
-        )
+        en14363.values(Section(20.0, 280.0, sign / 500.0, True), sign * lateral[::order], vertical[::order], *given)
         for sign, order in ((1.0, 1), (-1.0, -1))
     )
     assert (right.guiding, right.instability) == pytest.approx((left.guiding, left.instability))
